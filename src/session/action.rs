@@ -154,7 +154,7 @@ pub enum Action {
     Undo,
     /// Repeats the last edit taken back.
     Redo,
-    /// Solves again.
+    /// Solves afresh: goes on from nothing that was there.
     Solve,
     /// Takes one further step.
     Step,

@@ -162,13 +162,13 @@ impl Session {
             return;
         }
         self.end_gesture();
-        self.history.apply(Command::ShowChart { to: number, from, chart: Some(number) }, &mut self.document);
+        self.apply(Command::ShowChart { to: number, from, chart: Some(number) });
         self.follow_chart();
     }
 
     /// Chooses how charts are packed, as an edit. No chart is solved anew for it.
     pub(super) fn set_packing(&mut self, options: PackingOptions) {
-        self.history.apply(Command::SetPacking(options), &mut self.document);
+        self.apply(Command::SetPacking(options));
     }
 
     /// Chooses how large a chart is packed, as an edit. No chart is solved anew for it.
@@ -177,7 +177,7 @@ impl Session {
         if let Some(first_face) = first_face.filter(|_| PackingOptions::SIZES.contains(&size)) {
             #[expect(clippy::float_cmp, reason = "the size without an entry")]
             let size = (size != 1.0).then_some(size);
-            self.history.apply(Command::SetSize { first_face, size }, &mut self.document);
+            self.apply(Command::SetSize { first_face, size });
         }
     }
 

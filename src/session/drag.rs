@@ -280,18 +280,8 @@ impl Session {
         }
     }
 
-    /// The embedding on the screen where it is planar, and made by the document's method: the end of a drag goes on from it.
-    pub(super) fn planar_on_screen(&self) -> Option<Arc<Embedding>> {
-        let wanted = self.document.problem();
-        let is_alike = |screen: &Screen| {
-            let Problem { settings, frame, .. } = &screen.problem;
-            screen.is_planar && settings.amounts_to(&wanted.settings) && *frame == wanted.frame
-        };
-        self.screen().filter(is_alike).map(|screen| screen.embedding)
-    }
-
     /// What the screen shows, of the mesh as given.
-    fn screen(&self) -> Option<Screen> {
+    pub(super) fn screen(&self) -> Option<Screen> {
         if let Some(preview) = self.preview() {
             let (embedding, problem) = (Arc::clone(&preview.embedding), preview.problem.clone());
             return Some(Screen { embedding, problem, is_planar: preview.live.is_some() });

@@ -28,14 +28,28 @@ impl Session {
             1 => commands.remove(0),
             _ => Command::Together(commands),
         };
-        if self.history.apply(command, &mut self.document) {
+        if self.apply(command) {
             self.solve();
         }
     }
 
+    /// Applies an edit as a step of its own. Returns whether it changed anything.
+    pub(super) fn apply(&mut self, command: Command) -> bool {
+        self.remember();
+        self.history.apply(command, &mut self.document)
+    }
+
+    /// Applies an edit that belongs to a gesture.
+    fn apply_in_gesture(&mut self, command: Command) {
+        if !self.history.is_in_gesture() {
+            self.remember();
+        }
+        self.history.apply_in_gesture(command, &mut self.document);
+    }
+
     /// The same as part of a drag of a slider.
     fn slide(&mut self, command: Command) {
-        self.history.apply_in_gesture(command, &mut self.document);
+        self.apply_in_gesture(command);
         self.solve();
     }
 
@@ -120,7 +134,7 @@ impl Session {
                 return;
             }
             let commands = adopted.into_iter().map(|(vertex, target)| pin(vertex, target)).collect();
-            self.history.apply_in_gesture(Command::Together(commands), &mut self.document);
+            self.apply_in_gesture(Command::Together(commands));
         }
         let command = |&(vertex, uv): &(VertexId, DVec2)| {
             let before = self.document.targets.get(&vertex).filter(|before| uv.is_finite() && before.uv != uv)?;
@@ -130,7 +144,7 @@ impl Session {
         if commands.is_empty() {
             return;
         }
-        self.history.apply_in_gesture(Command::Together(commands), &mut self.document);
+        self.apply_in_gesture(Command::Together(commands));
         let mut dragged: Vec<VertexId> = moves.iter().map(|(vertex, _)| *vertex).collect();
         dragged.sort_unstable();
         dragged.dedup();

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::past::Past;
 use super::{Command, Document};
 use crate::mesh::VertexId;
 
@@ -16,6 +17,8 @@ pub struct History {
     redo_before: Vec<Edit>,
     /// How far a person has taken the document's run, step by step: as far as this step of it; 0 where nobody did.
     taken_to: usize,
+    /// What was solved for the documents that it leads to.
+    pub(super) past: Past,
 }
 
 /// A step of the history.
@@ -140,6 +143,11 @@ impl History {
     /// Remembers how far. It is no edit: it is forgotten with the next one, and comes back where that is taken back.
     pub(super) fn set_taken_to(&mut self, step: usize) {
         self.taken_to = step;
+    }
+
+    /// How many steps there are to take back.
+    pub fn depth(&self) -> usize {
+        self.undo.len()
     }
 
     /// Whether there is a step to take back.

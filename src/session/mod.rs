@@ -19,6 +19,7 @@
 //! | `in_use`        | files that are open, which nothing else is written over                    |
 //! | `document`      | part: what the user edits; one edit                                        |
 //! | `history`       | part: undo and redo                                                        |
+//! | `past`          | of history: what was solved for documents that undo and redo come back to  |
 //! | `open_mesh`     | part: the open mesh, its faces one way around or the other                 |
 //! | `solving/`      | part: a run, its timeline, and where it comes to rest                      |
 //! | `timeline`      | the steps of a run                                                         |
@@ -33,6 +34,7 @@
 //! | `chart_targets` | pins of a mesh with several charts, in files and in the document           |
 //! | `charts`        | part: charts that are not on the screen, solved in the background          |
 //! | `drag`          | part: what follows the pointer                                             |
+//! | `going_on`      | what a run of an edited document goes on from                              |
 //! | `live`          | part: a planar embedding that follows the pointer, proved at every frame   |
 //! | `errands`       | part: small work for the document that takes time                          |
 //! | `target_checks` | part: conflicts among targets, and whether they look mirrored              |
@@ -67,6 +69,7 @@ mod files;
 mod filing;
 mod folder;
 mod forming;
+mod going_on;
 mod history;
 mod in_use;
 mod large;
@@ -78,6 +81,7 @@ mod morphs;
 mod open_mesh;
 mod opened;
 mod outcome;
+mod past;
 mod preferences;
 mod recent;
 mod recovery;

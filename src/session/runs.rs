@@ -1,6 +1,6 @@
 //! How the document is solved: a run takes its steps.
 
-use super::solving::{Next, Rest, Task};
+use super::solving::{Beginning, Next, Rest, Task};
 use super::stop::Goal;
 use super::{Command, Session};
 use crate::solver::{Method, Settings};
@@ -16,12 +16,18 @@ impl Session {
         Some(Task { model: self.model()?.clone(), mesh, problem: self.document.problem(), from: None })
     }
 
-    /// Begins a run of the document as it is now. While a gesture goes on it takes only its first step, which is
-    /// linear: then a pin that is dragged is followed at the pace of the solver.
+    /// Begins a run of the document as it is now, from what is there where that serves. While a gesture goes on it takes only
+    /// its first step: then what is dragged is followed at the pace of the solver.
     pub(super) fn solve(&mut self) {
+        self.solve_from(self.beginning());
+    }
+
+    fn solve_from(&mut self, from: Option<Beginning>) {
         let goal = if self.history.is_in_gesture() { Goal::Steps(1) } else { Goal::Until(self.stop_conditions()) };
         self.drag.end();
-        self.begin(goal);
+        if let Some(task) = self.task() {
+            self.solving.begin(Task { from, ..task }, goal);
+        }
     }
 
     /// Begins a run of the document as it is now. What a drag shows stays until its first step is there. Where what is on the
@@ -43,8 +49,9 @@ impl Session {
 
     /// Goes on with the run at rest, or begins one where the document has changed since.
     fn go_on(&mut self, goal: Goal) {
+        let from = self.beginning();
         if let Some(task) = self.task() {
-            self.solving.go_on(task, goal);
+            self.solving.go_on(Task { from, ..task }, goal);
         }
     }
 
@@ -89,6 +96,7 @@ impl Session {
     /// an edit: it holds for the runs that follow, and is undone and repeated with the others.
     pub(super) fn relax(&mut self) {
         self.solving.follow_newest();
+        self.remember();
         if self.relax_by(RELAX_ROUNDS) {
             let rounds = self.document.relaxed.saturating_add(RELAX_ROUNDS);
             self.history.apply(Command::SetRelaxed(rounds), &mut self.document);
@@ -98,6 +106,9 @@ impl Session {
     /// Takes up rounds of relaxing that a pause has cut short, so many at most: a wish like the first. Returns whether
     /// there are any.
     fn resume_relaxing(&mut self, most: usize) -> bool {
+        if self.is_current() {
+            self.remember();
+        }
         let rounds = if self.is_current() { self.solving.resume_rounds(most) } else { 0 };
         if rounds == 0 {
             return false;
@@ -145,7 +156,7 @@ impl Session {
         let family = before.family.filter(|family| family.power().is_some());
         let settings = Settings { method: Method::Auto, family, ..before };
         let edits = std::iter::once(Command::SetSettings(settings)).chain(self.drop_relaxing());
-        if self.history.apply(Command::Together(edits.collect()), &mut self.document) {
+        if self.apply(Command::Together(edits.collect())) {
             self.drag.end();
             self.begin(Goal::End);
         }
@@ -159,11 +170,11 @@ impl Session {
         }
     }
 
-    /// Solves anew what is asked for, without the relaxing that was asked for afterwards.
-    pub(super) fn solve_again(&mut self) {
-        self.history.apply(Command::SetRelaxed(0), &mut self.document);
+    /// Solves afresh what is asked for, whatever was there, and without the relaxing that was asked for afterwards.
+    pub(super) fn solve_afresh(&mut self) {
+        self.apply(Command::SetRelaxed(0));
         self.history.set_taken_to(0);
-        self.solve();
+        self.solve_from(None);
     }
 
     /// The end of a gesture: where only the first step was taken, or none, the others follow.
@@ -190,7 +201,7 @@ impl Session {
         if self.is_current() && !self.solving.is_outdated() {
             self.drag.end();
             self.run_further();
-        } else {
+        } else if !self.recall() {
             self.solve();
         }
     }

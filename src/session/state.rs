@@ -83,7 +83,7 @@ impl Session {
             Action::RefuseName(path) => self.refuse_name(&path),
             Action::ShowFolder(file) => self.files.show_folder(file),
             Action::Dismiss(id) => self.messages.dismiss(id),
-            Action::Solve => self.solve_again(),
+            Action::Solve => self.solve_afresh(),
             Action::Step => self.step(),
             Action::Run => self.run_on(),
             Action::Relax => self.relax(),
@@ -174,11 +174,13 @@ impl Session {
         self.travel(History::redo);
     }
 
-    /// Goes to another state of the document, and solves where it is another one for the solver.
+    /// Goes to another state of the document, and shows what was solved for it; where that is not kept, and it is another one
+    /// for the solver, solves.
     fn travel(&mut self, to: impl FnOnce(&mut History, &mut Document) -> bool) {
         let (chart, was_in_gesture) = (self.document.chart, self.history.is_in_gesture());
         let wish = |session: &Self| (session.document.problem(), session.document.relaxed, session.history.taken_to());
         let (form, before) = (self.document.form.clone(), wish(self));
+        self.remember();
         if !to(&mut self.history, &mut self.document) {
             return;
         }
@@ -186,7 +188,7 @@ impl Session {
             self.follow_chart();
         } else if was_in_gesture && self.document.form == form {
             self.give_up_drag();
-        } else if self.document.form != form || wish(self) != before {
+        } else if (self.document.form != form || wish(self) != before) && !self.recall() {
             self.solve();
         }
     }

@@ -33,7 +33,7 @@ impl Standing {
 }
 
 /// The steps of one run, in order.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Timeline {
     budget: usize,
     records: Vec<StepReport>,
@@ -75,6 +75,24 @@ impl Timeline {
     pub fn set_budget(&mut self, budget: usize) {
         self.budget = budget;
         self.thin();
+    }
+
+    /// The same with so many bytes of steps whole; where those that are needed take more, with the newest and the one on the
+    /// screen alone. Factors of linear solves are left out.
+    #[must_use]
+    pub fn condensed(&self, budget: usize) -> Self {
+        let mut condensed = self.clone();
+        condensed.set_budget(budget);
+        if condensed.bytes > budget {
+            let needed = [self.newest(), self.shown];
+            condensed.kept.retain(|index, _| needed.contains(&Some(*index)));
+            condensed.bytes = condensed.kept.values().map(|outcome| outcome.bytes()).sum();
+            condensed.compared = None;
+        }
+        for outcome in condensed.kept.values_mut().filter(|outcome| outcome.step.prepared.is_some()) {
+            Arc::make_mut(outcome).step.candidate.prepared = None;
+        }
+        condensed
     }
 
     /// A timeline without steps and with the same budget.

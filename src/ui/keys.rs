@@ -56,7 +56,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(CTRL, Key::S, "Save the project", || Request::SaveProject),
     bind(CTRL, Key::E, "Export: mesh, layout, pictures, report", || Request::ToggleExports),
     bind(CTRL, Key::Q, "Quit", || Request::Quit),
-    bind(CTRL, Key::Enter, "Solve again", || Request::Do(Action::Solve)),
+    bind(CTRL, Key::Enter, "Solve afresh: go on from nothing that was there", || Request::Do(Action::Solve)),
     bind(NONE, Key::R, "Relax: lower the distortion of a planar embedding", || Request::Do(Action::Relax)),
     bind(SHIFT, Key::D, "Previous defect", || Request::StepDefect(-1)),
     bind(NONE, Key::D, "Next defect", || Request::StepDefect(1)),

@@ -112,6 +112,7 @@ mod session_charts;
 mod session_constraints;
 mod session_documents;
 mod session_drag;
+mod session_edits;
 mod session_files;
 mod session_forms;
 mod session_fuzz;

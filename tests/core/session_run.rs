@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use freebound::examples::Example;
-use freebound::io::{OutputFit, OutputKind};
+use freebound::io::{OutputFit, OutputKind, Target};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, SaveRequest, Session, Severity, Status, Stop, StopConditions};
 use freebound::solver::{Control, Embedding, Ending, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
@@ -209,10 +209,10 @@ fn a_run_stops_where_the_boundary_crosses_itself() {
     let crossing = StopConditions { crossing: true, ..ON_AND_ON };
     settled(&mut session, Action::SetStop(crossing));
     for (vertex, Pin { target, .. }) in pins {
-        settled(&mut session, Action::Fix(vec![vertex]));
-        settled(&mut session, Action::MovePin { vertex, target });
-        settled(&mut session, Action::EndGesture);
+        session.handle(Action::Place { vertex, target: Target::hard(target) });
     }
+    // From a planar map on, no step would cross.
+    settled(&mut session, Action::Solve);
     assert_eq!(session.stopped(), Some(Stop::Crossing));
     let count = step_count(&session);
     settled(&mut session, Action::Run);

@@ -4,8 +4,10 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
+use freebound::io::Target;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Document};
+use freebound::solver::Method;
 use freebound::ui::{BINDINGS, Pane, Request, SeamClick, Shading, StepTarget, Tool};
 
 use crate::harness::{Window, sheet};
@@ -120,6 +122,31 @@ fn shortcuts_do_what_the_table_says() {
         };
         assert!(done, "{}: {:?}", binding.about, binding.shortcut);
     }
+}
+
+#[test]
+fn ctrl_and_enter_solve_afresh_what_went_on_from_the_map_before() {
+    let mut window = window();
+    pin(&mut window, &[0, 8, 72, 80]);
+    window.click("Method");
+    assert!(!window.shows("Goes on from the map before the edit"));
+    let (vertex, before) = (VertexId::new(40), window.embedding());
+    let target = Target::hard(before[vertex] + 0.1 * before.bounds().size());
+    window.editor_mut().session.handle(Action::Place { vertex, target });
+    window.settle();
+    assert!(
+        window.shows("Goes on from the map before the edit") && window.is_proved() && window.editor().session.goes_on()
+    );
+    let gone_on = window.embedding();
+    window.press(Modifiers::COMMAND, Key::Enter);
+    assert!(
+        !window.shows("Goes on from the map before the edit")
+            && window.is_proved()
+            && !window.editor().session.goes_on()
+    );
+    let first = window.editor().session.timeline().records()[0].rung;
+    assert!(first == Method::Natural && window.embedding() != gone_on);
+    assert_eq!(window.embedding()[vertex], target.uv);
 }
 
 #[test]

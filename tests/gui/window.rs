@@ -191,7 +191,7 @@ fn each_menu_has_its_entries() {
             &["Plain", "Checker", "Picture", "Angle distortion", "Area distortion", "Stretch", "Move", "See-through"],
         ),
         (&["View", "Theme"], &["As the system", "Light", "Dark"]),
-        (&["Solve"], &["Take one step", "Run on", "Play all steps", "Solve again", "Cancel", "Method and weights"]),
+        (&["Solve"], &["Take one step", "Run on", "Play all steps", "Solve afresh", "Cancel", "Method and weights"]),
         (&["Help"], &["All keys"]),
     ];
     for (path, entries) in menus {

@@ -87,7 +87,7 @@ impl Solving {
     }
 
     /// Says what went wrong; where constraints cannot be met, which.
-    fn tell(&mut self, error: &SolveError, has_new_vertices: bool, messages: &mut Messages) {
+    pub(super) fn tell(&mut self, error: &SolveError, has_new_vertices: bool, messages: &mut Messages) {
         self.forget_message(messages);
         let mut message = Message::error(Place::Embedding, error.to_string()).with_vertices(error.vertices());
         if matches!(error, SolveError::LadderExhausted { .. }) {

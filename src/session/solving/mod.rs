@@ -17,19 +17,22 @@
 //! | `running`  | what is to be solved; a run at rest and in the background, where it works |
 //! | `incoming` | takes in steps, and a run that has come to rest                           |
 //! | `rounds`   | rounds of relaxing that a person has asked for                            |
+//! | `solved`   | what a run at rest has solved, to be shown again                          |
 //! | `session`  | what a session says of the solving on the screen                          |
 
 mod incoming;
 mod rounds;
 mod running;
 mod session;
+mod solved;
 
 use std::sync::Arc;
 use std::sync::mpsc::sync_channel;
 
 use self::rounds::Rounds;
-pub(super) use self::running::{Next, Rest, Task};
+pub(super) use self::running::{Beginning, Next, Rest, Task};
 use self::running::{Resting, Running, Shared, take_steps};
+pub(super) use self::solved::Solved;
 use super::stop::Goal;
 use super::timeline::{TIMELINE_BUDGET, Timeline};
 use super::{Background, Messages, Outcome, Place, Problem, Stop, StopConditions, Wake};
@@ -177,13 +180,18 @@ impl Solving {
             running.set_goal(|_| goal);
             return;
         }
-        let run = task.problem.ladder_on(&task.model).unwrap_or_else(|_| task.problem.ladder()).with_kept(&self.kept);
+        let run = self.run_of(&task);
         let run = match &task.from {
-            Some(embedding) => run.going_on_from(embedding),
+            Some(beginning) => beginning.begin(run),
             None => run,
         };
         self.rounds = Rounds::default();
         self.spawn(task, run, goal);
+    }
+
+    /// A run that has not begun.
+    fn run_of(&self, Task { model, problem, .. }: &Task) -> Ladder {
+        problem.ladder_on(model).unwrap_or_else(|_| problem.ladder()).with_kept(&self.kept)
     }
 
     /// Goes on with the run at rest, or begins one where the problem has changed since.

@@ -15,8 +15,23 @@ pub(in crate::session) struct Task {
     pub(in crate::session) model: Arc<Model>,
     pub(in crate::session) mesh: Arc<DiskMesh>,
     pub(in crate::session) problem: Problem,
-    /// A planar embedding to go on from.
-    pub(in crate::session) from: Option<Arc<Embedding>>,
+    /// What to go on from; none where it is solved afresh.
+    pub(in crate::session) from: Option<Beginning>,
+}
+
+/// A planar embedding to go on from.
+#[derive(Clone, Debug)]
+pub(in crate::session) struct Beginning {
+    pub(in crate::session) embedding: Arc<Embedding>,
+    /// Whether it stays as it is where it meets all constraints.
+    pub(in crate::session) stays: bool,
+}
+
+impl Beginning {
+    /// A run that goes on from it.
+    pub(super) fn begin(&self, run: Ladder) -> Ladder {
+        if self.stays { run.staying_at(&self.embedding) } else { run.going_on_from(&self.embedding) }
+    }
 }
 
 /// What a poll found that concerns others.

@@ -3,10 +3,9 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::plan::PlanarStart;
 use super::rung::{Failure, Footing, Handover, Latest, Rung};
 use super::task::Task;
-use super::{Candidate, Ending, Step};
+use super::{Candidate, Ending, PlanarStart, Step};
 use crate::mesh::DiskMesh;
 use crate::solver::continuation::Continuation;
 use crate::solver::placing::Placing;
@@ -83,10 +82,31 @@ fn fitted(task: &Task, mesh: &DiskMesh, start: &Embedding, control: Control<'_>)
 #[derive(Debug, Default)]
 pub(super) struct Continue {
     stage: Stage,
+    /// Whether its latest step left the embedding as it was.
+    has_stayed: bool,
+}
+
+impl Continue {
+    /// One that leaves the embedding which it begins with as it is, where that meets all constraints.
+    pub(super) fn staying() -> Self {
+        Self { stage: Stage::Stay, has_stayed: false }
+    }
+
+    /// The embedding that it begins with, where that meets all constraints.
+    fn stay(from: Footing<'_>) -> Option<Candidate> {
+        let Footing { task, mesh, latest } = from;
+        let (began, held) = (Instant::now(), task.held());
+        let is_met = |latest: &&Latest| held.values().all(|pin| pin.hold.is_exact()) && task.are_met(&latest.embedding);
+        let embedding = latest.filter(is_met)?.embedding.clone();
+        let progress = Some(Continuation::new(mesh, embedding.clone(), &held).progress(mesh));
+        Some(Candidate { progress, ..Candidate::one_to_one(Method::Continuation, embedding, &held).since(began) })
+    }
 }
 
 #[derive(Debug, Default)]
 enum Stage {
+    /// Nothing is to be done where the constraints are met.
+    Stay,
     #[default]
     Begin,
     UnderWay(Box<Continuation>),
@@ -98,6 +118,14 @@ impl Rung for Continue {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
         let Footing { task, mesh, latest } = from;
         let (began, held) = (Instant::now(), task.held());
+        self.has_stayed = false;
+        if let Stage::Stay = self.stage {
+            self.stage = Stage::Begin;
+            if let Some(candidate) = Self::stay(from) {
+                self.has_stayed = true;
+                return Ok(candidate);
+            }
+        }
         if let Stage::Begin = self.stage {
             let start = latest.ok_or(SolveError::NotPlanar)?.embedding.clone();
             let sheet = Arc::clone(&task.sheet);
@@ -136,7 +164,7 @@ impl Rung for Continue {
     }
 
     fn relax_rounds_after(&self, task: &Task, _: &Step) -> usize {
-        rounds_after(task)
+        if self.has_stayed { 0 } else { rounds_after(task) }
     }
 
     fn ending(&self, _: &Task) -> Ending {

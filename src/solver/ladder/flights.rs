@@ -4,7 +4,7 @@ use self::Kind::{
     Again, Angles, Continuation, Fit, Given, Iterate, Lee, Matchmaker, Natural, Schnyder, Slim, Spectral, Stretch,
     VirtualBoundary,
 };
-use super::plan::Kept;
+use super::Kept;
 use super::rung::Rung;
 use super::{
     again, angles, continuation, given, iterate, lee, matchmaker, natural, schnyder, slim, spectral, stretch,

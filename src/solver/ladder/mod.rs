@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `mod.rs` | [`Ladder`]: walks the plan, proves each candidate, remembers the latest step |
 //! | `plan.rs` | the plan of every method: which rung follows which |
+//! | `kept.rs` | what ladders on a mesh have computed, for further ones |
 //! | `flights.rs` | the rungs by name, and the flights of them that plans are made of |
 //! | `proof.rs` | a candidate proved in the numbers that are written of it: a step |
 //! | `rung.rs` | what a rung is: from the latest step to a candidate, or to a reason why there is none |
@@ -11,7 +12,7 @@
 //! | `ending.rs` | why a ladder has come to its end |
 //! | `step.rs` | [`Candidate`]: what a rung gives, before it is proved; [`Step`]: a candidate with its verdict |
 //! | `given.rs` | before all rungs: the layout that it is to start from |
-//! | `going_on.rs` | before all rungs: a one-to-one embedding to go on from |
+//! | `going_on.rs` | before all rungs: a one-to-one embedding to go on from, or a step of another ladder's |
 //! | `natural.rs` | rung 1: one linear solve |
 //! | `iterate.rs` | rung 2: mean-value iterations, and when they get no better |
 //! | `again.rs` | rung 1 once more, with the default weights and pins |
@@ -39,6 +40,7 @@ mod flights;
 mod given;
 mod going_on;
 mod iterate;
+mod kept;
 mod lee;
 mod matchmaker;
 mod natural;
@@ -57,7 +59,7 @@ mod virtual_boundary;
 use std::sync::Arc;
 
 pub use self::ending::Ending;
-pub use self::plan::{Kept, PlanarStart};
+pub use self::kept::{Kept, PlanarStart};
 pub use self::step::{Candidate, Progress, Step, largest_move};
 
 use self::plan::{Aim, Plan};
@@ -106,7 +108,8 @@ impl Ladder {
 
     /// The same from an embedding on: it is the first step, as it is, and where pins leave that open, all steps lie as it
     /// does. One-to-one, it is what constraints are met from and relaxing begins with, or else what an iteration and a
-    /// virtual boundary begin with; other methods then take the way that they take without it. Where it serves poorly,
+    /// virtual boundary begin with; where it meets all constraints, nothing is done to it, and where two of them, it is not
+    /// moved to where it fits the others; other methods then take the way that they take without it. Where it serves poorly,
     /// it is relaxed only if rounds are asked for. One position per vertex, in the plane; those of vertices of no face do not
     /// count. Methods of one linear solve pass over it.
     #[must_use]

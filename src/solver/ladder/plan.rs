@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 use super::cut::Cut;
-use super::flights::Kind::{self, Continuation, Fit, Iterate, Schnyder};
+use super::flights::Kind::{self, Continuation, Fit, Given, Iterate, Schnyder};
 use super::flights::{
     ANGLES, BENT, CONTINUED, CONTINUED_OR_MATCHED, DRAWN, Flights, GIVEN, GIVEN_BENT, GIVEN_ITERATED, GOING_ON,
     ITERATED, LADDER, LESS_ENERGETIC, LESS_STRETCHED, LINEAR, MATCHED, PADDED, SPECTRAL,
@@ -16,32 +16,14 @@ use super::flights::{
 use super::relax::{Relax, Rounds};
 use super::rung::{Latest, Rung};
 use super::task::Task;
-use super::{Ending, Step};
-use crate::solver::{Embedding, GaugeSize, Method, Pins, Prepared, Settings};
+use super::{Ending, Kept, Step};
+use crate::solver::{Embedding, Method, Pins, Settings};
 
 /// The most rounds of relaxing until a planar embedding serves.
 const ROUNDS_UNTIL_IT_SERVES: usize = 60;
 
 /// Rounds of relaxing by which polygons become convex.
 const ROUNDS_TO_CONVEX: usize = 30;
-
-/// What ladders on a mesh have computed, for further ones on it.
-#[derive(Clone, Debug, Default)]
-pub struct Kept {
-    /// Equations and factors of a linear solve.
-    pub prepared: Option<Arc<Prepared>>,
-    /// The planar start of the constrained rungs.
-    pub planar_start: Option<Arc<PlanarStart>>,
-}
-
-/// A planar embedding without constraints.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlanarStart {
-    /// The size that it was computed at.
-    pub(super) size: GaugeSize,
-    /// One position per vertex, in the plane.
-    pub(super) embedding: Embedding,
-}
 
 /// What a part of a plan is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,13 +58,16 @@ impl Plan {
             let task = Task { start: Some(Arc::clone(layout)), ..Task::new(settings, Pins::new(), sheet) };
             from_layout(Part::new(&Arc::new(task), Aim::PlanarStart, GIVEN, &kept))
         };
+        let to_constraints = |flights| {
+            let as_it_lies = task.is_held_by_start().then(|| part(GOING_ON));
+            [start()].into_iter().chain(as_it_lies).chain([part(flights)]).collect()
+        };
         let parts = match task.settings.method {
             Method::Iterate => [part(GIVEN_ITERATED)].into(),
             Method::VirtualBoundary => [part(GIVEN_BENT)].into(),
             Method::Auto if !task.is_constrained() => [part(GIVEN)].into(),
-            Method::Auto => [start(), part(Self::flights_to_constraints(task))].into(),
-            Method::Matchmaker => [start(), part(MATCHED)].into(),
-            _ => [start(), part(CONTINUED)].into(),
+            _ if task.is_met_by_start() => [part(GIVEN)].into(),
+            _ => to_constraints(Self::flights_to_constraints(task)),
         };
         Self { parts }
     }
@@ -103,8 +88,9 @@ impl Plan {
             Method::Auto => {
                 [part(ITERATED)].into_iter().chain(from_start(Self::flights_to_constraints(task))).collect()
             }
-            Method::Continuation | Method::Relax | Method::Cut | Method::Given => from_start(CONTINUED).collect(),
-            Method::Matchmaker => from_start(MATCHED).collect(),
+            Method::Continuation | Method::Relax | Method::Cut | Method::Given | Method::Matchmaker => {
+                from_start(Self::flights_to_constraints(task)).collect()
+            }
             Method::Iterate => [part(ITERATED)].into(),
             Method::VirtualBoundary => [part(BENT)].into(),
             Method::Schnyder => [part(DRAWN)].into(),
@@ -125,9 +111,21 @@ impl Plan {
         Self { parts: std::iter::once(going_on).chain(afresh_after).collect() }
     }
 
-    /// For `auto`.
+    /// At rest on the way from a planar start to the constraints, or at its end.
+    pub(super) fn on_the_way(task: &Arc<Task>, kept: &Kept) -> Self {
+        let part = Part::new(task, Aim::Constraints, Self::flights_to_constraints(task), kept);
+        // Behind the fit.
+        let at = At { flight: 0, rung: 1 };
+        Self { parts: [Part { at, ..part }].into() }
+    }
+
+    /// From a planar start.
     fn flights_to_constraints(task: &Task) -> Flights {
-        if task.adds_vertices() { CONTINUED_OR_MATCHED } else { CONTINUED }
+        match task.settings.method {
+            Method::Matchmaker => MATCHED,
+            _ if task.adds_vertices() => CONTINUED_OR_MATCHED,
+            _ => CONTINUED,
+        }
     }
 
     pub(super) fn part(&self) -> &Part {
@@ -179,8 +177,8 @@ pub(super) struct Part {
     cut: Cut,
     /// Whether it goes on from a layout that was given.
     pub(super) is_from_layout: bool,
-    flights: Flights,
-    rungs: BTreeMap<Kind, Box<dyn Rung>>,
+    pub(super) flights: Flights,
+    pub(super) rungs: BTreeMap<Kind, Box<dyn Rung>>,
     /// Where the ladder stands, and whether it has taken a step there.
     at: At,
     has_stepped: bool,
@@ -284,7 +282,12 @@ impl Part {
 
     /// What goes on from the latest step, whether or not the part is at its end.
     pub(super) fn by_hand(&mut self) -> &mut dyn Rung {
-        if matches!(self.kind(At::default()), Fit | Continuation) { &mut self.relax } else { self.rung_of(Iterate) }
+        match self.kind(At::default()) {
+            Fit | Continuation => &mut self.relax,
+            // What meets constraints as it is was brought there one-to-one.
+            Given if self.task.is_constrained() => &mut self.relax,
+            _ => self.rung_of(Iterate),
+        }
     }
 
     fn rung_of(&mut self, kind: Kind) -> &mut dyn Rung {

@@ -66,7 +66,7 @@ impl Ladder {
             }
         };
         let lies_as_given = task.start.is_some();
-        let index = self.step_count;
+        let (index, goes_on) = (self.step_count, self.plan.part().goes_on());
         let step = Step {
             candidate,
             index,
@@ -77,6 +77,7 @@ impl Ladder {
             hull_seconds,
             set_aside,
             lies_as_given,
+            goes_on,
         };
         Ok(step)
     }

@@ -115,6 +115,8 @@ pub struct Step {
     pub set_aside: Pins,
     /// Whether it lies as the layout does that it started from, as far as pins leave that open.
     pub lies_as_given: bool,
+    /// Whether it goes on from an embedding that was there before its ladder began.
+    pub goes_on: bool,
 }
 
 impl Deref for Step {

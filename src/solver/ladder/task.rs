@@ -3,16 +3,19 @@
 use std::sync::Arc;
 
 use super::{Candidate, gauge_in};
-use crate::geom::Similarity;
-use crate::mesh::DiskMesh;
+use crate::geom::{Bounds, Similarity};
+use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::pins::GAUGE_PINS;
 use crate::solver::placing::{Free, Placing};
 use crate::solver::units::Units;
 use crate::solver::upright::Turns;
 use crate::solver::{
-    BoundaryShape, Choice as _, Conflict, Embedding, Method, Outside, Pins, Settings, Sheet, SolveError, check_pins,
-    conflicts,
+    BoundaryShape, Choice as _, Conflict, Embedding, Method, Outside, Pin, Pins, Settings, Sheet, SolveError,
+    check_pins, conflicts,
 };
+
+/// Numbers in 32 bits are off by less than this share of their size, and so are targets that lie about the origin.
+const ROUNDING_IN_32_BITS: f64 = 1e-6;
 
 #[derive(Debug)]
 pub(super) struct Task {
@@ -55,6 +58,31 @@ impl Task {
 
     pub(super) fn has_open_gauge(&self) -> bool {
         self.pins.len() < GAUGE_PINS
+    }
+
+    /// Whether the layout to start from meets all constraints, and none pulls.
+    pub(super) fn is_met_by_start(&self) -> bool {
+        let Some(start) = self.start.as_ref().filter(|_| self.is_constrained()) else { return false };
+        let is_met = |(vertex, pin): (&VertexId, &Pin)| {
+            self.settings.is_exact(pin.hold) && start.get(vertex.index()) == Some(&pin.target)
+        };
+        self.pins.iter().all(is_met)
+    }
+
+    /// Whether the method continues, and the layout to start from lies on two of the constraints, but for rounding to 32
+    /// bits: they hold it where it is.
+    pub(super) fn is_held_by_start(&self) -> bool {
+        let Some(start) = self.start.as_ref().filter(|_| self.continues()) else { return false };
+        let near = ROUNDING_IN_32_BITS * Bounds::of(self.pins.values().map(|pin| pin.target)).size().max_element();
+        let lies_on = |(vertex, pin): &(&VertexId, &Pin)| {
+            start.get(vertex.index()).is_some_and(|z| z.distance(pin.target) <= near)
+        };
+        self.pins.iter().filter(lies_on).count() >= GAUGE_PINS
+    }
+
+    /// Whether the method continues from an embedding to the constraints, and there are some.
+    pub(super) fn continues(&self) -> bool {
+        matches!(self.settings.method, Method::Auto | Method::Continuation) && self.is_constrained()
     }
 
     pub(super) fn held(&self) -> Pins {

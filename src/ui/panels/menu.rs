@@ -279,7 +279,7 @@ fn solve_menu(menu: &mut Menu<'_>) {
     let play = if editor.timeline.playing_since.is_some() { "Stop the play" } else { "Play all steps" };
     menu.item(has_previous || has_next, play, Request::TogglePlay);
     menu.ui.separator();
-    menu.item(editor.has_disk(), "Solve again", Action::Solve);
+    menu.item(editor.has_disk(), "Solve afresh", Action::Solve);
     menu.item(session.busy().is_some(), "Cancel", Action::Cancel);
     menu.ui.separator();
     menu.item(true, "Method and weights", Request::ShowTab(Tab::Method));

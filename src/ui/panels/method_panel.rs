@@ -89,7 +89,8 @@ fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
     let busy = editor.session.busy().is_some();
     ui.horizontal(|ui| {
         let solve = ui.add_enabled(disk && !busy, egui::Button::new("Solve"));
-        let tip = "Solve again (Ctrl+Enter). A change of method, weights or pins solves by itself.";
+        let tip = "Solve afresh (Ctrl+Enter): go on from nothing that was there. A change of method, weights or pins solves by \
+                   itself.";
         solve.on_hover_text(tip).asks(Action::Solve, requests);
         let relax = Action::Relax.into();
         let tip = "Lower the distortion of a planar embedding: one-to-one throughout, constraints exact";
@@ -100,6 +101,12 @@ fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
             ui.button("Cancel").asks(Action::Cancel, requests);
         }
     });
+    if editor.session.goes_on() {
+        remark(
+            ui,
+            "Goes on from the map before the edit. Solved afresh, as when the project opens, it may be another.",
+        );
+    }
 }
 
 fn method_list(ui: &mut egui::Ui, settings: &mut Settings) {

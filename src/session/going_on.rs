@@ -1,0 +1,81 @@
+//! What a run of the document goes on from: the planar embedding that is there.
+//!
+//! An edit of a pin, and of whether edges may be split, goes on from it. A choice of method, weights, form, chart or picture
+//! does not: what they mean shows only where the map is made by them alone. Where constraints are only added, and the map meets
+//! them already, as those of vertices that are fixed where they lie, it stays as it is.
+//!
+//! At least two pins have to stay where they are. They hold the map in its place, at its size: from there the others go
+//! their ways. Where none stays (targets that are mirrored, fitted or replaced), the map lies anywhere beside them, and the
+//! whole of it would have to be dragged there.
+
+use std::sync::Arc;
+
+use super::drag::Screen;
+use super::solving::Beginning;
+use super::{Outcome, Problem, Session};
+use crate::solver::{Method, Settings};
+
+/// Pins that hold a map: two fix place, turn and size.
+const HOLDING_PINS: usize = 2;
+
+impl Session {
+    /// The embedding that a run of the document goes on from after an edit: that on the screen, or else that of the newest
+    /// step. None where it is solved afresh.
+    pub(super) fn beginning(&self) -> Option<Beginning> {
+        if !self.has_form_as_wanted() {
+            return None;
+        }
+        let wanted = self.document.problem();
+        let newest = self.solving.newest().and_then(|newest| Screen::of(newest, self.vertex_count_of_disk()?));
+        let serves = |screen: &Screen| screen.is_planar && wanted.goes_on_from(&screen.problem);
+        let screen = [self.screen(), newest].into_iter().flatten().find(serves)?;
+        // Where constraints only came, the map is as good as it was where it meets them, too.
+        let stays = screen.problem.targets.iter().all(|(vertex, target)| wanted.targets.get(vertex) == Some(target));
+        Some(Beginning { embedding: screen.embedding, stays })
+    }
+
+    fn vertex_count_of_disk(&self) -> Option<usize> {
+        self.disk().map(|disk| disk.vertex_count())
+    }
+
+    /// The embedding on the screen where it is planar, and made by the document's method: the end of a drag goes on from it.
+    pub(super) fn planar_on_screen(&self) -> Option<Beginning> {
+        let wanted = self.document.problem();
+        let is_alike = |screen: &Screen| {
+            let Problem { settings, frame, .. } = &screen.problem;
+            screen.is_planar && settings.amounts_to(&wanted.settings) && *frame == wanted.frame
+        };
+        self.screen().filter(is_alike).map(|screen| Beginning { embedding: screen.embedding, stays: false })
+    }
+
+    /// Whether the map on the screen goes on from one that was there before an edit: solved afresh, it may be another.
+    pub fn goes_on(&self) -> bool {
+        self.outcome().is_some_and(|outcome| outcome.step.goes_on)
+    }
+}
+
+impl Screen {
+    /// A step, on a mesh of so many vertices: of new ones it has nothing to say. Whether it is one-to-one without them, the run
+    /// finds out.
+    fn of(outcome: &Outcome, vertex_count: usize) -> Option<Self> {
+        let (step, problem) = (&outcome.step, outcome.problem.clone());
+        // A planar start sets constraints aside: it is nothing to hold them where they are.
+        let is_planar = step.verdict.planar && !step.verdict.mirrored && !step.is_of_planar_start();
+        let embedding = step.solution.embedding.get(..vertex_count)?.to_vec().into();
+        Some(Self { embedding: Arc::new(embedding), problem, is_planar })
+    }
+}
+
+impl Problem {
+    /// Whether it is solved from a planar solution of another one on.
+    fn goes_on_from(&self, before: &Self) -> bool {
+        let is_continued = matches!(self.settings.method, Method::Auto | Method::Continuation);
+        let of_way = |settings: Settings| Settings { new_vertices: true, ..settings };
+        let is_alike = of_way(self.settings).amounts_to(&of_way(before.settings)) && self.frame == before.frame;
+        let stays = before
+            .targets
+            .iter()
+            .filter(|(vertex, target)| self.targets.get(vertex).is_some_and(|now| now.uv == target.uv));
+        is_continued && is_alike && self.settings.are_constraints(&self.pins()) && stays.count() >= HOLDING_PINS
+    }
+}

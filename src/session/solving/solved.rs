@@ -1,0 +1,70 @@
+//! What a run at rest has solved: kept for undo, and shown again as it was.
+
+use std::sync::Arc;
+
+use super::Solving;
+use super::rounds::Rounds;
+use super::running::{Resting, Task};
+use crate::session::timeline::TIMELINE_BUDGET;
+use crate::session::{Messages, Outcome, Problem, Timeline};
+use crate::solver::{Ending, Method, SolveError};
+
+/// Bytes of a mesh with new vertices, about, for each face: corners, halfedges with their twins and vertices, edges, lengths.
+const BYTES_A_FACE: usize = 200;
+
+/// The steps of a run at rest, and how it has ended.
+#[derive(Clone, Debug)]
+pub(in crate::session) struct Solved {
+    timeline: Timeline,
+    ending: Option<Ending>,
+    rounds: Rounds,
+}
+
+impl Solved {
+    /// Bytes of memory that it takes.
+    pub(in crate::session) fn bytes(&self) -> usize {
+        let of_new_mesh = |outcome: &Outcome| {
+            outcome.step.refinement.as_ref().map_or(0, |refinement| refinement.disk().face_count() * BYTES_A_FACE)
+        };
+        self.timeline.kept().map(|(_, outcome)| outcome.bytes() + of_new_mesh(outcome)).sum()
+    }
+
+    fn newest(&self) -> Option<&Arc<Outcome>> {
+        self.timeline.outcome(self.timeline.newest()?)
+    }
+
+    /// Whether it is the solution of a problem, or on its way there.
+    pub(in crate::session) fn is_of(&self, problem: &Problem) -> bool {
+        self.newest().is_some_and(|newest| newest.problem.has_steps_of(problem))
+    }
+}
+
+impl Solving {
+    /// What was solved of a problem, where its run has come to rest, with so many bytes of steps whole.
+    pub(in crate::session) fn solved(&self, problem: &Problem, bytes: usize) -> Option<Solved> {
+        let newest = self.newest().filter(|newest| newest.problem.has_steps_of(problem))?;
+        // On its way to a planar start it is nothing to show again.
+        let is_at_rest = self.running.is_none() && !newest.step.is_of_planar_start();
+        let solved = || Solved { timeline: self.timeline.condensed(bytes), ending: self.ending, rounds: self.rounds };
+        is_at_rest.then(solved)
+    }
+
+    /// Shows what was solved before; further steps go on from it.
+    pub(in crate::session) fn show_again(&mut self, solved: Solved, task: Task, messages: &mut Messages) {
+        self.give_up_all();
+        self.forget_message(messages);
+        messages.forget_notes();
+        self.failed = None;
+        let Some(newest) = solved.newest() else { return };
+        let rungs: Vec<Method> = solved.timeline.records().iter().map(|record| record.rung).collect();
+        let run = self.run_of(&task).resting_after(&newest.step, &rungs);
+        self.resting = Some(Resting { problem: task.problem, run });
+        (self.timeline, self.ending, self.rounds) = (solved.timeline, solved.ending, solved.rounds);
+        self.timeline.set_budget(TIMELINE_BUDGET);
+        self.outcome_revision += 1;
+        if self.ending == Some(Ending::Unmet) {
+            let has_new_vertices = self.resting.as_ref().is_some_and(|resting| resting.problem.settings.new_vertices);
+            self.tell(&SolveError::Unmet, has_new_vertices, messages);
+        }
+    }
+}
