@@ -79,6 +79,7 @@ mod numbers;
 mod obj;
 mod obj_any;
 mod obj_carried;
+mod obj_large;
 mod obj_picture;
 mod obj_refined;
 mod obj_texture;

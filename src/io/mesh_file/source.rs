@@ -39,6 +39,11 @@ impl Source {
         self.face_of.as_ref().map_or_else(|| u32::try_from(face).expect("faces fit"), |faces| faces[face])
     }
 
+    /// How many faces of the mesh are, or are parts of, so many first faces of the file.
+    pub(in crate::io) fn faces_before(&self, count: u32) -> usize {
+        self.face_of.as_ref().map_or(count as usize, |faces| faces.partition_point(|&face| face < count))
+    }
+
     /// The same file for another mesh: new vertices follow the present ones, and each of its faces is, or is a part of, a
     /// face of the present mesh, `face_of` it, in their order.
     pub(super) fn changed(&self, face_of: &[u32], new_vertices: &[NewVertex]) -> Self {

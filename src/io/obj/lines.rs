@@ -3,7 +3,7 @@
 //! A line ends with LF, with CR LF, or with CR alone, as other programs read it. It goes on in the next where it ends
 //! with a `\` that stands in no comment, where a path may end so.
 
-use memchr::memchr2;
+use memchr::{memchr, memchr2};
 
 use super::line::has_comment;
 
@@ -86,6 +86,32 @@ impl Line<'_> {
     pub(in crate::io) fn end(&self) -> &[u8] {
         &self.whole[self.length..]
     }
+}
+
+/// Cuts a text into pieces of about so many bytes where a line ends that does not go on, so that the lines of the pieces are
+/// those of the text. A text without LF is one piece.
+pub(in crate::io) fn pieces(text: &[u8], size: usize) -> Vec<&[u8]> {
+    let (mut pieces, mut rest) = (Vec::new(), text);
+    while !rest.is_empty() {
+        let (piece, behind) = rest.split_at(end_of_line_after(rest, size));
+        pieces.push(piece);
+        rest = behind;
+    }
+    pieces
+}
+
+/// The end of the first line that ends with LF behind so many bytes and surely does not go on, or that of the text. A `\`
+/// that stands in a comment is taken for one that goes on.
+fn end_of_line_after(text: &[u8], bytes: usize) -> usize {
+    let mut at = bytes;
+    while let Some(length) = text.get(at..).and_then(|rest| memchr(b'\n', rest)) {
+        let line = &text[..at + length];
+        at += length + 1;
+        if !line.strip_suffix(b"\r").unwrap_or(line).ends_with(b"\\") {
+            return at;
+        }
+    }
+    text.len()
 }
 
 /// Where the line that begins there ends, without and with its end.

@@ -1,6 +1,7 @@
 //! Takes OBJ lines one by one and puts a mesh together.
 //!
-//! Every fault is noted and the reading goes on, so that all of them are known at the end.
+//! Every fault is noted and the reading goes on, so that all of them are known at the end. Pieces of the text are read side
+//! by side and put together in their order, unless an index counts backwards or there is a fault.
 //!
 //! Understood: `v` (words behind the third number are ignored), `vt`, `f` in all its forms with positive and negative
 //! indices, `o`, `g`, `s`, `usemtl`, `mtllib`, comments, lines that go on behind a `\`. Anything else is skipped. A
@@ -9,27 +10,60 @@
 use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::line::{corner, numbers, statement, words};
-use super::lines::{Line, Lines, split_mark};
+use super::lines::{Line, Lines, pieces, split_mark};
 use crate::io::mesh_file::{
     MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, ReadError, Statement, Texture,
 };
 use crate::mesh::VertexId;
 
-/// Lines between two looks whether to go on.
-const LINES_AT_ONCE: usize = 1 << 14;
+/// Bytes of a piece of the text: enough to outweigh the handing out.
+const PIECE: usize = 256 << 10;
+
+/// Pieces read between two looks whether to go on: some hundredths of a second.
+const PIECES_AT_ONCE: usize = 16;
 
 /// Puts a mesh together from text, looking now and then whether to go on; the text itself is not kept.
 pub(in crate::io) fn parse(text: &[u8], watch: &mut dyn FnMut() -> ControlFlow<()>) -> Result<MeshFile, ReadError> {
-    let mut parser = Parser::default();
-    for (count, line) in Lines::of(split_mark(text).1).enumerate() {
-        parser.take(&line)?;
-        if count % LINES_AT_ONCE == 0 && watch().is_break() {
+    let pieces = pieces(split_mark(text).1, PIECE);
+    let whole = match side_by_side(&pieces, watch)? {
+        Some(parser) => parser,
+        None => one_after_another(&pieces, watch)?,
+    };
+    whole.finish()
+}
+
+/// Reads pieces on all threads; nothing where an index counts backwards or there is a fault: what is said of either depends
+/// on all before it.
+fn side_by_side(pieces: &[&[u8]], watch: &mut dyn FnMut() -> ControlFlow<()>) -> Result<Option<Parser>, ReadError> {
+    let mut whole = Parser::default();
+    for batch in pieces.chunks(PIECES_AT_ONCE) {
+        let parsed: Vec<Result<Parser, ReadError>> = batch.par_iter().map(|piece| Parser::of(piece)).collect();
+        for piece in parsed {
+            let piece = piece?;
+            if piece.counts_backwards || piece.fault_count > 0 {
+                return Ok(None);
+            }
+            whole.append(piece)?;
+        }
+        if watch().is_break() {
             return Err(ReadError::Cancelled);
         }
     }
-    parser.finish()
+    Ok(Some(whole))
+}
+
+fn one_after_another(pieces: &[&[u8]], watch: &mut dyn FnMut() -> ControlFlow<()>) -> Result<Parser, ReadError> {
+    let mut whole = Parser::default();
+    for piece in pieces {
+        whole.take_all(piece)?;
+        if watch().is_break() {
+            return Err(ReadError::Cancelled);
+        }
+    }
+    Ok(whole)
 }
 
 /// The mesh as far as it is read.
@@ -46,11 +80,55 @@ struct Parser {
     line: u64,
     faults: Vec<ParseFault>,
     fault_count: usize,
+    /// Whether an index counts backwards.
+    counts_backwards: bool,
     /// A line put together from continued ones.
     joined: Vec<u8>,
 }
 
 impl Parser {
+    /// What a piece of a text says by itself.
+    fn of(piece: &[u8]) -> Result<Self, ReadError> {
+        let mut parser = Self::default();
+        parser.take_all(piece)?;
+        Ok(parser)
+    }
+
+    fn take_all(&mut self, piece: &[u8]) -> Result<(), ReadError> {
+        Lines::of(piece).try_for_each(|line| self.take(&line))
+    }
+
+    /// Puts the piece behind, read by itself and free of faults, to what is there.
+    fn append(&mut self, piece: Self) -> Result<(), ReadError> {
+        let (faces, corners) = (self.face_count, self.mesh.polygons.corners.len());
+        let polygons = &mut self.mesh.polygons;
+        polygons.positions.extend(piece.mesh.polygons.positions);
+        polygons.corners.extend(piece.mesh.polygons.corners);
+        self.check_size()?;
+        let place = |corner: usize| u32::try_from(corner).expect("checked above");
+        let polygons = &mut self.mesh.polygons;
+        if polygons.starts.is_none() && piece.mesh.polygons.starts.is_some() {
+            polygons.starts = Some(starts_of_triangles(faces));
+        }
+        if let Some(starts) = &mut polygons.starts {
+            let own = piece.mesh.polygons.starts.unwrap_or_else(|| starts_of_triangles(piece.face_count));
+            starts.extend(own.into_iter().skip(1).map(|start| start + place(corners)));
+        }
+        if !piece.texture_corners.is_empty() {
+            self.texture_corners.resize(corners, NO_TEXTURE);
+            self.texture_corners.extend(piece.texture_corners);
+        }
+        self.coordinates.extend(piece.coordinates);
+        let moved = |statement: Statement| Statement { before_face: statement.before_face + faces, ..statement };
+        self.mesh.statements.extend(piece.mesh.statements.into_iter().map(moved));
+        for (first, line) in piece.line_runs {
+            self.note_line(first + faces, line + self.line);
+        }
+        self.face_count += piece.face_count;
+        self.line += piece.line;
+        Ok(())
+    }
+
     /// Takes one line.
     fn take(&mut self, line: &Line<'_>) -> Result<(), ReadError> {
         let mut joined = std::mem::take(&mut self.joined);
@@ -105,24 +183,33 @@ impl Parser {
             self.fault(kind);
             return Ok(());
         }
+        self.check_size()?;
         let polygons = &mut self.mesh.polygons;
         let end = polygons.corners.len();
-        if end >= u32::MAX as usize || polygons.positions.len() >= u32::MAX as usize {
-            return Err(ReadError::TooLarge);
-        }
         let place = |corner: usize| u32::try_from(corner).expect("checked above");
         if polygons.starts.is_none() && end - begin != 3 {
-            polygons.starts = Some((0..=self.face_count).map(|face| 3 * face).collect());
+            polygons.starts = Some(starts_of_triangles(self.face_count));
         }
         if let Some(starts) = &mut polygons.starts {
             starts.push(place(end));
         }
-        let line = self.line + 1;
-        if self.line_of_face(self.face_count) != Some(line) {
-            self.line_runs.push((self.face_count, line));
-        }
+        self.note_line(self.face_count, self.line + 1);
         self.face_count += 1;
         Ok(())
+    }
+
+    /// Refuses what 32 bits do not count.
+    fn check_size(&self) -> Result<(), ReadError> {
+        let polygons = &self.mesh.polygons;
+        let is_too_large = polygons.corners.len().max(polygons.positions.len()) >= u32::MAX as usize;
+        if is_too_large { Err(ReadError::TooLarge) } else { Ok(()) }
+    }
+
+    /// Notes the line of a face, and by it those of faces that follow on lines of their own.
+    fn note_line(&mut self, face: u32, line: u64) {
+        if self.line_of_face(face) != Some(line) {
+            self.line_runs.push((face, line));
+        }
     }
 
     fn take_corners<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) -> Result<(), ParseFaultKind> {
@@ -130,6 +217,7 @@ impl Parser {
         let vertex_count = self.mesh.polygons.positions.len();
         for word in words {
             let (vertex, texture) = corner(word)?;
+            self.counts_backwards |= vertex < 0 || texture.is_some_and(|texture| texture < 0);
             let vertex = resolve("vertex", vertex, vertex_count)?;
             if let Some(texture) = texture {
                 let texture = resolve("texture coordinate", texture, self.coordinates.len())?;
@@ -207,6 +295,11 @@ impl Parser {
         }
         self.faults.append(&mut earlier);
     }
+}
+
+/// Where the corners of so many triangles begin, and the end of the last.
+fn starts_of_triangles(count: u32) -> Vec<u32> {
+    (0..=count).map(|face| 3 * face).collect()
 }
 
 fn out_of_range(element: &'static str, resolved: u32, count: usize) -> ParseFaultKind {

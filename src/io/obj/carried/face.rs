@@ -11,13 +11,13 @@ use super::{Buffers, Writer};
 use crate::io::mesh_file::{NO_TEXTURE, Texture};
 use crate::mesh::VertexId;
 
-impl<W: Write> Writer<'_, W> {
+impl Writer<'_> {
     /// Writes the faces that stand for a face of the text: in its line if it is whole, or else in lines of their own.
     pub(super) fn face(&mut self, line: &Line<'_>, one: &[u8]) -> io::Result<()> {
         let mut buffers = std::mem::take(&mut self.buffers);
         buffers.take_corners(one, self.seen.vertices);
         let faces = self.faces_of_line();
-        let is_whole = faces.len() == 1 && buffers.find_order(self.mesh.polygons.face(faces.start));
+        let is_whole = faces.len() == 1 && buffers.find_order(self.all.mesh.polygons.face(faces.start));
         buffers.line.clear();
         if is_whole {
             self.whole_face(line, faces.start, &mut buffers);
@@ -36,8 +36,8 @@ impl<W: Write> Writer<'_, W> {
     /// The mesh's faces that stand for the present face of the text.
     fn faces_of_line(&mut self) -> Range<usize> {
         let begin = self.seen.own_faces;
-        let count = self.mesh.polygons.face_count();
-        while self.seen.own_faces < count && self.text.face_of(self.seen.own_faces) == self.seen.faces {
+        let count = self.all.mesh.polygons.face_count();
+        while self.seen.own_faces < count && self.all.text.face_of(self.seen.own_faces) == self.seen.faces {
             self.seen.own_faces += 1;
         }
         begin..self.seen.own_faces
@@ -45,7 +45,7 @@ impl<W: Write> Writer<'_, W> {
 
     /// The line as it stands, its corners in the mesh's order.
     fn whole_face(&self, line: &Line<'_>, face: usize, buffers: &mut Buffers) {
-        let coordinates = coordinates_of(self.written.texture, self.mesh.polygons.corner_range(face));
+        let coordinates = coordinates_of(self.all.written.texture, self.all.mesh.polygons.corner_range(face));
         let (indices, mut at) = (self.indices(), 0);
         for (place, &from) in buffers.order.iter().enumerate() {
             let range = &buffers.words[place];
@@ -59,8 +59,8 @@ impl<W: Write> Writer<'_, W> {
 
     /// One of the faces that a face of the text is cut into. The last has the end of its line, with what stands before.
     fn part(&self, line: &Line<'_>, face: usize, faces_end: usize, buffers: &mut Buffers) {
-        let polygons = &self.mesh.polygons;
-        let coordinates = coordinates_of(self.written.texture, polygons.corner_range(face));
+        let polygons = &self.all.mesh.polygons;
+        let coordinates = coordinates_of(self.all.written.texture, polygons.corner_range(face));
         let indices = self.indices();
         let is_negative = CornerWord::of(&line.whole[buffers.words[0].clone()]).is_negative();
         let before = if line.is_continued { b"f " } else { &line.whole[..buffers.words[0].start] };
@@ -75,7 +75,7 @@ impl<W: Write> Writer<'_, W> {
                 let word = CornerWord::of(&line.whole[buffers.words[own].clone()]);
                 indices.push(&mut buffers.line, &word, texture);
             } else {
-                let normal = self.added.normal_at(self.seen.faces, vertex);
+                let normal = self.all.added.normal_at(self.seen.faces, vertex);
                 indices.push_new(&mut buffers.line, &NewCorner { vertex, texture, normal, is_negative });
             }
         }
@@ -84,7 +84,7 @@ impl<W: Write> Writer<'_, W> {
         buffers.line.extend_from_slice(match (is_last, line.is_continued) {
             (true, false) => rest,
             (true, true) => line.end(),
-            (false, _) => &self.line_end,
+            (false, _) => &self.all.line_end,
         });
     }
 }

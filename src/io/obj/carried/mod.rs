@@ -5,6 +5,7 @@
 //! | `mod`    | the text, the lines of it that change, and the way through it                     |
 //! | `face`   | a face's line: its corners' texture coordinates, or its triangles                 |
 //! | `corner` | a corner's word with other indices                                                |
+//! | `pieces` | pieces of the text made ready side by side                                        |
 //! | `added`  | vertices and normals that the text does not have                                  |
 //!
 //! Every line is copied byte for byte, but for these.
@@ -19,11 +20,12 @@
 mod added;
 mod corner;
 mod face;
+mod pieces;
 
-use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use self::added::Added;
 use self::corner::{CornerWord, Indices};
@@ -44,7 +46,7 @@ pub(in crate::io) struct Edits {
     pub(super) before_faces: Option<Vec<u8>>,
 }
 
-/// Writes a mesh as its text, with these texture coordinates.
+/// Writes a mesh as its text, with these texture coordinates. Pieces of the text are made ready side by side.
 pub(super) fn write_carried(
     out: &mut impl Write,
     mesh: &MeshFile,
@@ -57,19 +59,29 @@ pub(super) fn write_carried(
         Some(first) if !first.end().is_empty() => first.end().to_vec(),
         _ => b"\n".to_vec(),
     };
-    let mut writer = Writer {
-        out,
-        mesh,
-        text,
-        written,
-        added: Added::find(mesh, text, lines),
-        line_end,
-        seen: Seen::default(),
-        at_vertex: OnceCell::new(),
-        buffers: Buffers::default(),
-    };
-    let mut joined = Vec::new();
-    Lines::of(lines).try_for_each(|line| writer.line(&line, &mut joined))
+    let all = All { mesh, text, written, added: Added::find(mesh, text, lines), line_end, at_vertex: OnceLock::new() };
+    let (before, behind) = lines.split_at(place_of_texture(lines));
+    let mut seen = Seen::default();
+    all.write_pieces(out, before, &mut seen)?;
+    if !seen.has_begun {
+        seen.has_begun = true;
+        out.write_all(&all.added_line(written.edits.first.as_ref()))?;
+    }
+    all.write_texture(out)?;
+    seen.has_texture = true;
+    all.write_pieces(out, behind, &mut seen)
+}
+
+/// Where the first line stands that texture coordinates come before: one of their own, or a face.
+fn place_of_texture(lines: &[u8]) -> usize {
+    let (mut at, mut joined) = (0, Vec::new());
+    for line in Lines::of(lines) {
+        if matches!(words(line.as_one(&mut joined)).next(), Some(b"vt" | b"f")) {
+            break;
+        }
+        at += line.whole.len();
+    }
+    at
 }
 
 /// What is written otherwise than the text has it.
@@ -79,22 +91,28 @@ pub(super) struct Written<'a> {
     pub(super) texture: &'a Texture,
 }
 
-struct Writer<'a, W> {
-    out: &'a mut W,
+/// What all pieces of a text have in common.
+struct All<'a> {
     mesh: &'a MeshFile,
     text: &'a Source,
     written: Written<'a>,
     added: Added,
     /// Of lines that are added.
     line_end: Vec<u8>,
-    seen: Seen,
     /// A texture coordinate of each vertex, or [`NO_TEXTURE`].
-    at_vertex: OnceCell<Vec<u32>>,
+    at_vertex: OnceLock<Vec<u32>>,
+}
+
+/// A piece of a text being written.
+struct Writer<'a> {
+    all: &'a All<'a>,
+    out: Vec<u8>,
+    seen: Seen,
     buffers: Buffers,
 }
 
 /// What has been passed so far.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 struct Seen {
     vertices: usize,
     normals: usize,
@@ -122,21 +140,21 @@ struct Buffers {
     order: Vec<usize>,
 }
 
-impl<W: Write> Writer<'_, W> {
+impl Writer<'_> {
     fn line(&mut self, line: &Line<'_>, joined: &mut Vec<u8>) -> io::Result<()> {
         let one = line.as_one(joined);
         let Some(keyword) = words(one).next() else { return self.out.write_all(line.whole) };
         if !std::mem::replace(&mut self.seen.has_begun, true) {
-            self.add_line(self.written.edits.first.as_ref())?;
+            self.add_line(self.all.written.edits.first.as_ref())?;
         }
         match keyword {
             b"v" => self.vertex(line),
             b"vn" => self.normal(line),
-            b"vt" => self.texture(),
+            // The new ones stand where the first of these was.
+            b"vt" => Ok(()),
             b"f" => {
-                self.texture()?;
                 if self.seen.faces == 0 {
-                    self.add_line(self.written.edits.before_faces.as_ref())?;
+                    self.add_line(self.all.written.edits.before_faces.as_ref())?;
                 }
                 self.face(line, one)
             }
@@ -149,50 +167,38 @@ impl<W: Write> Writer<'_, W> {
     fn add_line(&mut self, line: Option<&Vec<u8>>) -> io::Result<()> {
         let Some(line) = line else { return Ok(()) };
         self.out.write_all(line)?;
-        self.out.write_all(&self.line_end)
+        self.out.write_all(&self.all.line_end)
     }
 
     /// Copies a line that others are to follow at once.
     fn copy_with_end(&mut self, line: &Line<'_>) -> io::Result<()> {
         self.out.write_all(line.whole)?;
-        if line.end().is_empty() { self.out.write_all(&self.line_end) } else { Ok(()) }
+        if line.end().is_empty() { self.out.write_all(&self.all.line_end) } else { Ok(()) }
     }
 
     fn vertex(&mut self, line: &Line<'_>) -> io::Result<()> {
         self.seen.vertices += 1;
-        let new = &self.mesh.polygons.positions[self.text.vertex_count..];
-        if self.seen.vertices < self.text.vertex_count || new.is_empty() {
+        let new = &self.all.mesh.polygons.positions[self.all.text.vertex_count..];
+        if self.seen.vertices < self.all.text.vertex_count || new.is_empty() {
             return self.out.write_all(line.whole);
         }
         self.copy_with_end(line)?;
-        for (position, further) in new.iter().zip(&self.added.further_numbers) {
-            write_numbers(self.out, b"v", position.to_array().iter().chain(further))?;
-            self.out.write_all(&self.line_end)?;
+        for (position, further) in new.iter().zip(&self.all.added.further_numbers) {
+            write_numbers(&mut self.out, b"v", position.to_array().iter().chain(further))?;
+            self.out.write_all(&self.all.line_end)?;
         }
         Ok(())
     }
 
     fn normal(&mut self, line: &Line<'_>) -> io::Result<()> {
         self.seen.normals += 1;
-        if self.seen.normals < self.added.normal_count || self.added.normals.is_empty() {
+        if self.seen.normals < self.all.added.normal_count || self.all.added.normals.is_empty() {
             return self.out.write_all(line.whole);
         }
         self.copy_with_end(line)?;
-        for normal in &self.added.normals {
-            write_numbers(self.out, b"vn", &normal.to_array())?;
-            self.out.write_all(&self.line_end)?;
-        }
-        Ok(())
-    }
-
-    /// Writes the texture coordinates, if that is still to be done.
-    fn texture(&mut self) -> io::Result<()> {
-        if std::mem::replace(&mut self.seen.has_texture, true) {
-            return Ok(());
-        }
-        for coordinate in &self.written.texture.coordinates {
-            write_numbers(self.out, b"vt", &coordinate.to_array())?;
-            self.out.write_all(&self.line_end)?;
+        for normal in &self.all.added.normals {
+            write_numbers(&mut self.out, b"vn", &normal.to_array())?;
+            self.out.write_all(&self.all.line_end)?;
         }
         Ok(())
     }
@@ -200,7 +206,7 @@ impl<W: Write> Writer<'_, W> {
     fn statement(&mut self, line: &Line<'_>) -> io::Result<()> {
         let place = self.seen.statements;
         self.seen.statements += 1;
-        let Some(lines) = self.written.edits.statements.get(&place) else {
+        let Some(lines) = self.all.written.edits.statements.get(&place) else {
             return self.out.write_all(line.whole);
         };
         lines.iter().try_for_each(|line| self.add_line(Some(line)))
@@ -233,9 +239,9 @@ impl<W: Write> Writer<'_, W> {
 
     /// The texture coordinate of some corner at a vertex.
     fn texture_at(&self, vertex: u32) -> Option<u32> {
-        let at_vertex = self.at_vertex.get_or_init(|| {
-            let mut found = vec![NO_TEXTURE; self.mesh.polygons.positions.len()];
-            let corners = self.mesh.polygons.corners.iter().zip(&self.written.texture.corners);
+        let at_vertex = self.all.at_vertex.get_or_init(|| {
+            let mut found = vec![NO_TEXTURE; self.all.mesh.polygons.positions.len()];
+            let corners = self.all.mesh.polygons.corners.iter().zip(&self.all.written.texture.corners);
             let corners = corners.filter(|(_, texture)| **texture != NO_TEXTURE);
             corners.rev().for_each(|(corner, &texture)| found[corner.index()] = texture);
             found
@@ -245,15 +251,15 @@ impl<W: Write> Writer<'_, W> {
 
     /// How indices are written at this place.
     fn indices(&self) -> Indices {
-        let new_vertices = self.mesh.polygons.positions.len() - self.text.vertex_count;
-        let have_vertices = self.seen.vertices == self.text.vertex_count;
-        let have_normals = self.seen.normals == self.added.normal_count;
+        let new_vertices = self.all.mesh.polygons.positions.len() - self.all.text.vertex_count;
+        let have_vertices = self.seen.vertices == self.all.text.vertex_count;
+        let have_normals = self.seen.normals == self.all.added.normal_count;
         Indices {
             vertices: self.seen.vertices,
             new_vertices: if have_vertices { new_vertices } else { 0 },
             normals: self.seen.normals,
-            new_normals: if have_normals { self.added.normals.len() } else { 0 },
-            coordinates: if self.seen.has_texture { self.written.texture.coordinates.len() } else { 0 },
+            new_normals: if have_normals { self.all.added.normals.len() } else { 0 },
+            coordinates: if self.seen.has_texture { self.all.written.texture.coordinates.len() } else { 0 },
         }
     }
 }
