@@ -40,7 +40,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         ));
     }
     if solve.start.is_some() && arguments.fit == Some(OutputFit::Unit) {
-        return Err(Failure::Usage("--start uv keeps the place of the file's layout: leave out --fit unit".into()));
+        return Err(Failure::Usage("--start keeps the place of the layout: leave out --fit unit".into()));
     }
     refuse_unwritten_formats(arguments.output.as_deref())?;
     let places = Places::of_flatten(arguments);

@@ -52,7 +52,7 @@ use crate::solver::{Choice, Family, Method, Words};
 
 pub use args::{
     Arguments, Command, CompareArguments, ComparisonFile, Cut, FlattenArguments, MeshArguments, SeamKind,
-    SolveArguments, StudyArguments, ThreadArguments, TypedShape,
+    SolveArguments, StartOf, StudyArguments, ThreadArguments, TypedShape,
 };
 pub use exit::{Failure, Remedy, Status};
 pub use figures::pairs;

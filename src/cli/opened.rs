@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use super::Failure;
-use super::args::{MeshArguments, SolveArguments};
+use super::args::{MeshArguments, SolveArguments, StartOf};
 use super::exit::Remedy;
 use super::parts::with_parts;
 use super::pins::targets_on;
 use super::places::Places;
 use super::progress::Progress;
 use super::seams::formed;
-use super::standard::{Sizes, read_model};
+use super::standard::{Sizes, is_standard, name_of_input, read_model};
 use crate::io::{LayoutError, PictureFile, Targets, TextureError};
 use crate::mesh::{DiskMesh, Fault, WeldDistance};
 use crate::session::{Model, Surface};
@@ -40,6 +40,11 @@ impl Wanted<'_> {
     /// A file that cannot be used or that the run would write over, a mesh that is no disk, pins that cannot be.
     pub(super) fn open(self, places: &Places, progress: &Progress) -> Result<Opened, Failure> {
         let Self { input, solve, picture } = self;
+        let is_layout_of_stream = matches!(&solve.start, Some(StartOf::File(layout)) if is_standard(layout));
+        if is_layout_of_stream && is_standard(&input.mesh) {
+            let text = "standard input: the mesh and --start cannot both come from there: name a file for one of them";
+            return Err(Failure::Usage(text.to_owned()));
+        }
         progress.enter("reading");
         let read = read_model(&input.mesh, Sizes::typed(input.large))?;
         let model = with_parts(formed(&read, input)?, input.parts.as_ref())?;
@@ -47,22 +52,51 @@ impl Wanted<'_> {
         let picture = picture.map(PictureFile::read).transpose()?;
         disk_of(&model)?;
         let targets = targets_on(&model, &input.mesh, solve)?;
+        let model = match &solve.start {
+            Some(StartOf::File(layout)) => starting_from(model, layout, input)?,
+            Some(StartOf::Uv) | None => model,
+        };
         Ok(Opened { model, picture, targets })
     }
 }
 
-/// Why a mesh or chart cannot be started from its file's layout, and what to do.
+/// The mesh with the texture coordinates of another file to start from.
+fn starting_from(model: Model, path: &Path, input: &MeshArguments) -> Result<Model, Failure> {
+    let layout = read_model(path, Sizes::typed(input.large))?.source;
+    let path = name_of_input(path);
+    model.with_layout_of(path.clone(), &layout).map_err(|error| failure_of_other_layout(path, error))
+}
+
+/// Why a mesh or chart cannot be started from its layout, and what to do.
 pub(super) fn failure_of_layout(model: &Model, error: LayoutError) -> Failure {
+    if let Some(file) = &model.layout_file {
+        return failure_of_other_layout(file.path.clone(), error);
+    }
     let path = model.path_words();
     match error {
         LayoutError::Texture(error @ TextureError::Missing(_)) => Failure::Texture { path, error },
-        LayoutError::Texture(error) => Failure::Usage(format!("{path}: {error}: leave out --start uv")),
         LayoutError::Torn { .. } => {
             let remedy =
                 "cut the surface along the seams of its texture coordinates with --charts uv, or leave out --start uv";
             Failure::Usage(format!("{path}: {error}: {remedy}"))
         }
+        LayoutError::Texture(_) | LayoutError::NoVertex { .. } => {
+            Failure::Usage(format!("{path}: {error}: leave out --start uv"))
+        }
     }
+}
+
+/// The same of the layout of another file.
+fn failure_of_other_layout(path: String, error: LayoutError) -> Failure {
+    let remedy = match error {
+        LayoutError::Texture(error @ TextureError::Missing(_)) => return Failure::Texture { path, error },
+        LayoutError::Texture(_) => "name a file that has them, or leave out --start",
+        LayoutError::Torn { .. } => {
+            "flatten this file itself, along the seams of its texture coordinates, with --charts uv --start uv"
+        }
+        LayoutError::NoVertex { .. } => "name a layout of this very mesh, with the same numbers of vertices",
+    };
+    Failure::Usage(format!("{path}: {error}: {remedy}"))
 }
 
 /// The disk, or everything that keeps the mesh from being one.

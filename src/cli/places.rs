@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::Failure;
 use super::args::{
-    CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments, SolveArguments, StudyArguments,
+    CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments, SolveArguments, StartOf, StudyArguments,
 };
 use super::standard::is_standard;
 use crate::io::{
@@ -114,6 +114,9 @@ impl Places {
         self.spare(&input.mesh, "the mesh")?;
         if let Some(constraints) = &solve.constraints {
             self.spare(constraints, "the constraints")?;
+        }
+        if let Some(StartOf::File(layout)) = &solve.start {
+            self.spare(layout, "the layout to start from")?;
         }
         match &input.cut {
             Cut::Along(edges) => self.spare(edges, "the edges"),

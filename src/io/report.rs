@@ -29,6 +29,10 @@ pub struct Report {
     /// Family, where the method has a choice.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub family: Option<Family>,
+    /// Where the layout comes from that the run started from: `uv`, the texture coordinates of its own file, or the path of another;
+    /// absent where it started from the surface alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start: Option<String>,
     /// Pinned vertices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pins: Option<PinsReport>,

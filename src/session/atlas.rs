@@ -267,6 +267,7 @@ fn output<'a>(
     let report = Report {
         method: Some(settings.method),
         family: settings.method.uses_family().then_some(settings.family()),
+        start: model.start_words(&settings),
         shape: ShapeReport::of(&settings),
         atlas: Some(proved_together(&written)),
         charts: reports,

@@ -112,7 +112,7 @@ pub use history::History;
 pub use large::LargeFile;
 pub use messages::{Message, Place, Severity, named};
 use messages::{Messages, Written};
-pub use model::{ChartOf, Model, Surface};
+pub use model::{ChartOf, LayoutFile, Model, Surface};
 pub use morphing::MorphState;
 pub use morphs::{MORPH_FRAMES, MissingLeg, MorphLeg, MorphShortage, MorphStop, MorphStops, MorphTour, morph_end};
 pub use outcome::{Outcome, Problem};

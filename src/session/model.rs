@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use super::surface::{Found, cut_surface, is_refused_uncut, surface_of};
 use crate::examples::Example;
-use crate::io::{FileStamp, LayoutError, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
+use crate::io::{FileStamp, LayoutError, MeshFile, PictureFile, ReadError, Texture, read_mesh_with, read_stream_with};
 use crate::mesh::{Chart, Charts, Diagnosis, DiskMesh, Form, PartFaces, Repaired, TriMesh, VertexId, relative_volume};
-use crate::solver::Embedding;
+use crate::solver::{Embedding, Settings, Start};
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
 /// it is high.
@@ -38,9 +38,20 @@ pub struct Model {
     pub chart: Option<ChartOf>,
     /// Its triangles and what is known of them: those of the chart, where it is one of several.
     pub surface: Surface,
+    /// Texture coordinates of another file, for a run that starts from them in the place of its own.
+    pub layout_file: Option<Arc<LayoutFile>>,
     /// Whether the outside of its faces seems to be where a person would look for the inside. Silent where the surface
     /// is too flat to tell. Found once, for it takes a look at all faces.
     pub faces_point_inward: bool,
+}
+
+/// A file whose texture coordinates a run starts from.
+#[derive(Clone, Debug)]
+pub struct LayoutFile {
+    /// What to call it.
+    pub path: String,
+    /// Its texture coordinates, for the corners of the mesh.
+    texture: Texture,
 }
 
 /// One chart of several.
@@ -123,6 +134,7 @@ impl Model {
             remedy: None,
             chart: None,
             surface: Surface::default(),
+            layout_file: None,
             faces_point_inward: false,
         }
     }
@@ -142,7 +154,7 @@ impl Model {
             Surface::Disk(_) => None,
             Surface::Faulty(..) => Some(repaired(&form.mended())).filter(Repaired::flattens).map(Arc::new),
         };
-        Self { form, source, remedy, ..self.clone() }.with(found)
+        Self { form, source, remedy, layout_file: None, ..self.clone() }.with(found)
     }
 
     /// Its parts, those that are left out among them.
@@ -232,13 +244,33 @@ impl Model {
         polygons.positions.len()
     }
 
+    /// The same with the texture coordinates of another file to start from, which is called `path`. In another form it has its
+    /// own again.
+    ///
+    /// # Errors
+    ///
+    /// [`LayoutError`] where that has none for this mesh.
+    pub fn with_layout_of(self, path: String, file: &MeshFile) -> Result<Self, LayoutError> {
+        let texture = self.source.texture_of(file)?;
+        Ok(Self { layout_file: Some(Arc::new(LayoutFile { path, texture })), ..self })
+    }
+
     /// The texture coordinates of the file as an embedding of this mesh or chart.
     ///
     /// # Errors
     ///
     /// [`LayoutError`] where they are not all there, or a vertex has several.
     pub fn layout(&self) -> Result<Embedding, LayoutError> {
-        self.source.layout(self.repaired.as_deref(), self.mesh())
+        match &self.layout_file {
+            Some(file) => self.source.layout_by(&file.texture, self.repaired.as_deref(), self.mesh()),
+            None => self.source.layout(self.repaired.as_deref(), self.mesh()),
+        }
+    }
+
+    /// Where the layout comes from that a run with these settings starts from; none where it starts afresh.
+    pub(super) fn start_words(&self, settings: &Settings) -> Option<String> {
+        let from_file = || self.layout_file.as_ref().map_or_else(|| "uv".to_owned(), |file| file.path.clone());
+        (settings.start == Start::File && settings.method.goes_on_from_layout()).then(from_file)
     }
 
     /// The disk, where it is one.

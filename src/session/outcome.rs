@@ -257,6 +257,7 @@ impl Outcome {
         let report = Report {
             method: Some(settings.method),
             family: settings.method.uses_family().then_some(settings.family()),
+            start: model.start_words(settings),
             pins: Some(pins),
             boundary: Some(if step.has_convex_boundary() { "convex" } else { "free" }),
             shape: ShapeReport::of(settings),

@@ -132,6 +132,7 @@ mod slim;
 mod spectral;
 mod start;
 mod start_cli;
+mod start_file_cli;
 mod start_session;
 mod steps;
 mod stretch;

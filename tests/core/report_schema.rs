@@ -182,7 +182,7 @@ const FILES: [(&str, &str); 13] = [
 ];
 
 /// Runs with their exit status: all kinds of fields of a report occur in them.
-const RUNS: [(&[&str], i32); 28] = [
+const RUNS: [(&[&str], i32); 29] = [
     (&["flatten", "parts.obj", "--pin", "0:0,0", "--pin", "1:1,0"], 0),
     (&["check", "charts.obj"], 4),
     (&["flatten", "tent.obj"], 0),
@@ -198,6 +198,7 @@ const RUNS: [(&[&str], i32); 28] = [
     (&["flatten", "tent.obj", "--method", "convex", "--fit", "true", "--precision", "f32"], 0),
     (&["flatten", "tent.obj", "--method", "lee", "--boundary", "square", "--spacing", "even", "--layers", "3"], 0),
     (&["flatten", "tent.obj", "--method", "stretch", "--boundary", "polygon:0 0; 2 0; 1 2"], 0),
+    (&["flatten", "folded.obj", "--start", "uv"], 0),
     (&["flatten", "tent.obj", "--method", "spectral"], 0),
     (&["flatten", "tent.obj", "--method", "abf++"], 0),
     (&["check", "tent.obj"], 0),

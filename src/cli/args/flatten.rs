@@ -43,7 +43,7 @@ pub struct FlattenArguments {
     #[arg(long, requires = "output", conflicts_with = "picture")]
     pub copy_materials: bool,
     /// Size of an embedding without pins: fit into the unit square, or keep the area of the surface; into the unit square
-    /// without it. With `--start uv` the embedding stays as large as it was, and where it was, without it.
+    /// without it. With `--start` the embedding stays as large as it was, and where it was, without it.
     #[arg(long, value_enum)]
     pub fit: Option<OutputFit>,
     /// Size of the picture that several charts are packed into, in pixels; without it that of `--picture`, or 1024x1024.

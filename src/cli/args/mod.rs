@@ -27,7 +27,7 @@ pub use compare::{CompareArguments, ComparisonFile};
 pub use flatten::FlattenArguments;
 pub use mesh::{Cut, MeshArguments, SeamKind};
 pub use shape::TypedShape;
-pub use solve::SolveArguments;
+pub use solve::{SolveArguments, StartOf};
 pub use study::StudyArguments;
 pub use threads::ThreadArguments;
 

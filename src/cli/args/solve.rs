@@ -1,9 +1,11 @@
 //! What is solved: pins, and settings of the solver.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{OsStringValueParser, TypedValueParser as _};
 
 use super::ThreadArguments;
 use crate::cli::typed::{choice, parse_aspect, parse_pin};
@@ -17,8 +19,9 @@ pub(super) const ONLY_ON_SHAPES: &str = "only convex, stretch and lee lay a boun
 /// Pins, and settings of the solver but for the method.
 #[derive(Debug, Args)]
 pub struct SolveArguments {
-    /// What the first step is, where it is not a map of the surface alone: proved as it is, and the method goes on from it.
-    #[arg(long, value_enum)]
+    /// What the first step is, where it is not a map of the surface alone: the texture coordinates of the mesh file with `uv`, or
+    /// those of another file of the same mesh. Proved as it is, and the method goes on from it.
+    #[arg(long, value_name = "uv|FILE", value_parser = OsStringValueParser::new().map(StartOf::from))]
     pub start: Option<StartOf>,
     /// The weights: conformal, mean-value, wachspress, power:P, and for `convex` and `lee` uniform, shape-preserving;
     /// without it mean-value for `lee`, conformal for others.
@@ -49,7 +52,7 @@ pub struct SolveArguments {
     #[arg(long, value_name = "N")]
     pub max_steps: Option<usize>,
     /// After a planar end, lower the distortion in at most this many rounds, one-to-one throughout, constraints kept.
-    /// Without it `auto` does so until the map serves; a planar layout that `--start uv` goes on from stays as it is.
+    /// Without it `auto` does so until the map serves; a planar layout that `--start` goes on from stays as it is.
     #[arg(long, value_name = "N")]
     pub relax: Option<usize>,
     /// Do not split edges where the constraints cannot be met otherwise, for `auto` and `continuation`: keep the best
@@ -65,10 +68,18 @@ pub struct SolveArguments {
 }
 
 /// Where the first step comes from, as it is typed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum StartOf {
-    /// The texture coordinates of the mesh file
+    /// The texture coordinates of the mesh file.
     Uv,
+    /// Those of another file.
+    File(PathBuf),
+}
+
+impl From<OsString> for StartOf {
+    fn from(text: OsString) -> Self {
+        if text == "uv" { Self::Uv } else { Self::File(text.into()) }
+    }
 }
 
 impl SolveArguments {
