@@ -1,0 +1,174 @@
+//! How long a run goes on after it was told to stop: `cargo bench --bench cancel`.
+//!
+//! Every method that solves for something runs on a large mesh again and again, and is stopped at moments spread over its first
+//! seconds; the wait is that from the wish to stop until the call has returned. Words behind `--` choose methods by their
+//! names, and a number the faces.
+
+mod common;
+#[path = "../examples/makers/mod.rs"]
+mod makers;
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use freebound::mesh::{DiskMesh, VertexId};
+use freebound::solver::{
+    Choice as _, Control, Embedding, Family, Ladder, Method, Phase, Pins, Settings, SolveError, hard_pins,
+};
+use glam::DVec2;
+
+use common::machine::print_machine;
+use common::table::{Table, seconds, target};
+use common::{Times, arguments};
+use makers::bumpy_cap_of;
+
+const FACES: usize = 1_000_000;
+
+/// Moments at which a run is stopped.
+const MOMENTS: u32 = 16;
+
+/// The part of a run over which they are spread, where it is longer.
+const SPREAD: Duration = Duration::from_secs(24);
+
+/// The longest wait wanted, in seconds.
+const WANTED: f64 = 0.1;
+
+/// Methods, and whether their pins are constraints that lie elsewhere.
+const METHODS: [(Method, Family, bool); 11] = [
+    (Method::Natural, Family::Conformal, false),
+    (Method::Natural, Family::MeanValue, false),
+    (Method::Natural, Family::MeanValue, true),
+    (Method::Iterate, Family::Conformal, true),
+    (Method::VirtualBoundary, Family::Conformal, true),
+    (Method::Spectral, Family::Conformal, false),
+    (Method::AbfPlusPlus, Family::Conformal, false),
+    (Method::Slim, Family::Conformal, false),
+    (Method::Continuation, Family::Conformal, true),
+    (Method::Matchmaker, Family::Conformal, true),
+    (Method::Auto, Family::Conformal, true),
+];
+
+fn main() {
+    print_machine();
+    let words = arguments();
+    let faces = words.iter().find_map(|word| word.parse().ok()).unwrap_or(FACES);
+    let mesh = DiskMesh::try_from(bumpy_cap_of(faces / 2, 1)).expect("a cap is a disk");
+    let flat = flat(&mesh);
+    let heads = ["method", "weights", "pins", "stopped", "median s", "longest s", "in the phase", "at s", "target s"];
+    let mut table = Table::new(format!("stopping a run on {} faces", mesh.face_count()), &heads);
+    let names: Vec<&String> = words.iter().filter(|word| word.parse::<usize>().is_err()).collect();
+    for (method, family, is_constrained) in METHODS {
+        if !names.is_empty() && !names.iter().any(|name| *name == method.name()) {
+            continue;
+        }
+        let settings = Settings::new(method, family);
+        let pins = if is_constrained { pins(&mesh, &flat) } else { Pins::new() };
+        let waits =
+            Waits::of(|control| Ladder::new(settings.clone(), pins.clone()).finish(&mesh, control, |_| {}).map(|_| ()));
+        let worst = waits.worst.as_ref();
+        let row = [
+            method.name().to_owned(),
+            family.name().to_owned(),
+            pins.len().to_string(),
+            waits.stopped.to_string(),
+            seconds(waits.times.median()),
+            worst.map_or("–".to_owned(), |worst| seconds(worst.wait)),
+            worst.and_then(|worst| worst.phase).map_or("–", Phase::words).to_owned(),
+            worst.map_or("–".to_owned(), |worst| seconds(worst.at)),
+            worst.map_or("–".to_owned(), |worst| target(worst.wait, WANTED)),
+        ];
+        println!("{}", row.join("  "));
+        table.row(row);
+    }
+    println!();
+    table.print();
+}
+
+/// The mesh flattened without pins.
+fn flat(mesh: &DiskMesh) -> Embedding {
+    let step = Ladder::new(Settings::new(Method::Natural, Family::Conformal), Pins::new())
+        .step(mesh, Control::unattended())
+        .expect("a cap is flattened");
+    step.candidate.solution.embedding
+}
+
+/// Eight constraints on a ring halfway out, each moved by a third of the size towards the second next.
+fn pins(mesh: &DiskMesh, flat: &Embedding) -> Pins {
+    let low = flat.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    let high = flat.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    let (middle, reach) = ((low + high) / 2.0, (high - low).min_element() / 4.0);
+    let place = |k: u32| middle + reach * DVec2::from_angle(std::f64::consts::TAU * f64::from(k) / 8.0);
+    let nearest = |to: DVec2| {
+        let distance = |v: &VertexId| flat[*v].distance(to);
+        mesh.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("a mesh has vertices")
+    };
+    hard_pins((0..8).map(|k| (nearest(place(k)), place(k) + (place(k + 2) - place(k)).normalize() * reach * 4.0 / 3.0)))
+}
+
+/// What stopping came to.
+#[derive(Default)]
+struct Waits {
+    stopped: usize,
+    times: Times,
+    worst: Option<Wait>,
+}
+
+/// One wait.
+struct Wait {
+    wait: f64,
+    /// The phase that was entered last, and the seconds from the beginning.
+    phase: Option<Phase>,
+    at: f64,
+}
+
+impl Waits {
+    /// Runs the job again and again, and stops it. A run that ends before shortens the part that is looked at.
+    fn of(run: impl Fn(Control<'_>) -> Result<(), SolveError>) -> Self {
+        let mut found = Self::default();
+        let mut spread = SPREAD;
+        for moment in 0..MOMENTS {
+            // From the last moment on, so that the length of a short run is known first.
+            let until = spread * (MOMENTS - moment) / MOMENTS;
+            let start = Instant::now();
+            match stopped(&run, until) {
+                Some(wait) => found.add(wait),
+                None => spread = spread.min(start.elapsed()),
+            }
+        }
+        found
+    }
+
+    fn add(&mut self, wait: Wait) {
+        self.stopped += 1;
+        self.times.add(wait.wait);
+        if self.worst.as_ref().is_none_or(|worst| worst.wait < wait.wait) {
+            self.worst = Some(wait);
+        }
+    }
+}
+
+/// Runs a job and stops it after a while; none where it came to its end before.
+fn stopped(run: impl Fn(Control<'_>) -> Result<(), SolveError>, until: Duration) -> Option<Wait> {
+    let (flag, phase) = (AtomicBool::new(false), Mutex::new(None));
+    let raised = Mutex::new(None);
+    let (done, wait) = std::sync::mpsc::sync_channel::<()>(0);
+    let outcome = std::thread::scope(|scope| {
+        scope.spawn(|| {
+            let wait = wait;
+            if wait.recv_timeout(until).is_err_and(|error| error == std::sync::mpsc::RecvTimeoutError::Timeout) {
+                *raised.lock().expect("nobody panics") = Some((Instant::now(), *phase.lock().expect("nobody panics")));
+                flag.store(true, Ordering::Relaxed);
+            }
+        });
+        let report = |entered| *phase.lock().expect("nobody panics") = Some(entered);
+        let outcome = run(Control::new(&flag, &report));
+        let ended = Instant::now();
+        drop(done);
+        (outcome, ended)
+    });
+    let (outcome, ended) = outcome;
+    let (raised, phase) = raised.into_inner().expect("nobody panics")?;
+    let wait = ended.duration_since(raised).as_secs_f64();
+    matches!(outcome, Err(SolveError::Cancelled)).then_some(Wait { wait, phase, at: until.as_secs_f64() })
+}
