@@ -66,8 +66,9 @@ impl Job {
 
     /// Orders, factors and solves once; the answer must be the same to the last bit every time.
     fn run(&mut self) {
-        let analysis =
-            self.analyze.run(|| Analysis::new(self.kind, self.matrix.pattern()).expect("a symmetric pattern"));
+        let analysis = self.analyze.run(|| {
+            Analysis::new(self.kind, self.matrix.pattern(), &AtomicBool::new(false)).expect("a symmetric pattern")
+        });
         let before = processor_seconds();
         let factor: Factor<C> = self.factor.run(|| analysis.factor(&self.matrix, &GO_ON).expect("regular"));
         self.processor = self.processor.min(processor_seconds() - before);

@@ -76,7 +76,8 @@ fn realified(matrix: &CscMatrix<C>, coupled: impl Fn(f64) -> bool) -> CscMatrix<
 
 /// Orders, factors, and solves where there is a right-hand side.
 fn run<T: freebound::linalg::Scalar>(matrix: &CscMatrix<T>, rhs: Option<&[T]>) -> FactorStats {
-    let analysis = Analysis::new(Kind::Hermitian, matrix.pattern()).expect("a symmetric pattern");
+    let analysis =
+        Analysis::new(Kind::Hermitian, matrix.pattern(), &AtomicBool::new(false)).expect("a symmetric pattern");
     let factor = analysis.factor(matrix, &GO_ON).expect("positive definite");
     if let Some(rhs) = rhs {
         std::hint::black_box(factor.solve(matrix, rhs).expect("a good answer"));
@@ -145,7 +146,8 @@ pub(crate) fn again() {
     for (faces, rounds) in [(COMMON_FACES, ROUNDS), (LARGE_FACES, 3)] {
         let mesh = disk_of_faces(faces);
         let matrix = Systems::new(&mesh).complex;
-        let new_analysis = || Analysis::new(Kind::Hermitian, matrix.pattern()).expect("a symmetric pattern");
+        let new_analysis =
+            || Analysis::new(Kind::Hermitian, matrix.pattern(), &AtomicBool::new(false)).expect("a symmetric pattern");
         let [mut analyze, mut factor, mut fresh, mut first, mut drag] = <[Times; 5]>::default();
         let control = Control::unattended();
         let mut pins = fixed_pins(gauge_pins(&mesh));

@@ -1,7 +1,7 @@
 //! The one interface of the layer: analyse a pattern, factor a matrix, solve.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
@@ -11,7 +11,7 @@ use super::fronts::{FrontAnalysis, Sides};
 use super::ldlt::{Ldlt, LdltAnalysis};
 use super::llt::Llt;
 use super::lu::Lu;
-use super::order::{Pattern, in_order, order};
+use super::order::{Pattern, go_on_unless, in_order, order};
 use super::refine::{Accept, Solved, System, refined};
 use super::scalar::Scalar;
 use super::sparse::{Operation, check_finite};
@@ -81,19 +81,20 @@ pub struct FactorStats {
 }
 
 impl Analysis {
-    /// Orders the pattern and finds the pattern of its factors.
+    /// Orders the pattern and finds the pattern of its factors. Looks at `cancel` all the way.
     ///
     /// # Errors
     ///
-    /// [`LinalgError::NotSquare`], [`LinalgError::PatternNotSymmetric`] (which includes a missing diagonal entry) and
-    /// [`LinalgError::TooLarge`].
-    pub fn new(kind: Kind, pattern: &SparsityPattern) -> Result<Self, LinalgError> {
+    /// [`LinalgError::NotSquare`], [`LinalgError::PatternNotSymmetric`] (which includes a missing diagonal entry)
+    /// [`LinalgError::TooLarge`] and [`LinalgError::Cancelled`].
+    pub fn new(kind: Kind, pattern: &SparsityPattern, cancel: &AtomicBool) -> Result<Self, LinalgError> {
         let pattern = Pattern::checked(pattern)?;
-        let elimination = order(&pattern)?;
+        let elimination = order(&pattern, cancel)?;
+        go_on_unless(cancel)?;
         let symbolic = match kind {
-            Kind::Hermitian => Symbolic::Llt(FrontAnalysis::new(&pattern, &elimination, Sides::Lower)?),
+            Kind::Hermitian => Symbolic::Llt(FrontAnalysis::new(&pattern, &elimination, Sides::Lower, cancel)?),
             Kind::Augmented { pairs } => Symbolic::Ldlt(LdltAnalysis::new(&pattern, elimination.order(), pairs)?),
-            Kind::General => Symbolic::Lu(FrontAnalysis::new(&pattern, &elimination, Sides::Both)?),
+            Kind::General => Symbolic::Lu(FrontAnalysis::new(&pattern, &elimination, Sides::Both, cancel)?),
         };
         Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) })
     }
@@ -104,17 +105,17 @@ impl Analysis {
     /// # Errors
     ///
     /// Those of [`Analysis::new`].
-    pub fn of_similar(&self, pattern: &SparsityPattern) -> Result<Self, LinalgError> {
+    pub fn of_similar(&self, pattern: &SparsityPattern, cancel: &AtomicBool) -> Result<Self, LinalgError> {
         match &self.shared.symbolic {
             Symbolic::Llt(llt) if self.shared.pattern.order() == pattern.major_dim() => {
                 let pattern = Pattern::checked(pattern)?;
                 let elimination = in_order(&pattern, &llt.order);
-                let symbolic = Symbolic::Llt(FrontAnalysis::new(&pattern, &elimination, Sides::Lower)?);
+                let symbolic = Symbolic::Llt(FrontAnalysis::new(&pattern, &elimination, Sides::Lower, cancel)?);
                 Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) })
             }
-            Symbolic::Llt(_) => Self::new(Kind::Hermitian, pattern),
-            Symbolic::Ldlt(ldlt) => Self::new(Kind::Augmented { pairs: ldlt.pairs() }, pattern),
-            Symbolic::Lu(_) => Self::new(Kind::General, pattern),
+            Symbolic::Llt(_) => Self::new(Kind::Hermitian, pattern, cancel),
+            Symbolic::Ldlt(ldlt) => Self::new(Kind::Augmented { pairs: ldlt.pairs() }, pattern, cancel),
+            Symbolic::Lu(_) => Self::new(Kind::General, pattern, cancel),
         }
     }
 
@@ -146,8 +147,7 @@ impl Analysis {
             return Err(LinalgError::OtherPattern);
         }
         check_finite(matrix)?;
-        let cancelled = || if cancel.load(Ordering::Relaxed) { Err(LinalgError::Cancelled) } else { Ok(()) };
-        cancelled()?;
+        go_on_unless(cancel)?;
         let numeric = match symbolic {
             Symbolic::Llt(analysis) => {
                 let earlier = earlier.and_then(|factor| match factor.numeric {
@@ -159,7 +159,7 @@ impl Analysis {
             Symbolic::Ldlt(analysis) => Numeric::Ldlt(analysis.factor(pattern, matrix)?),
             Symbolic::Lu(analysis) => Numeric::Lu(Lu::new(analysis, pattern, matrix, cancel)?),
         };
-        cancelled()?;
+        go_on_unless(cancel)?;
         let factor = Factor { shared: Arc::clone(&self.shared), numeric };
         factor.check_regular(matrix)?;
         Ok(factor)

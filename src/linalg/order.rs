@@ -3,6 +3,11 @@
 //! AMD (Amestoy, Davis and Duff 1996, through faer) keeps the fill small; a postorder of the elimination tree changes
 //! neither fill nor flops but numbers every subtree contiguously, which supernodes and parallel subtrees need.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::thread::Builder;
+use std::time::Duration;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
 use faer::sparse::SymbolicSparseColMatRef;
@@ -12,6 +17,12 @@ use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::LinalgError;
+
+/// Patterns of so many unknowns take AMD some hundredths of a second.
+const WORTH_LEAVING: usize = 50_000;
+
+/// How often the wish to stop is looked at meanwhile.
+const LOOKS: Duration = Duration::from_millis(5);
 
 /// "No parent" in a tree of `u32`.
 pub(super) const NONE: u32 = u32::MAX;
@@ -184,10 +195,16 @@ pub(super) struct Elimination {
 }
 
 /// Orders a pattern by AMD and a postorder of the elimination tree.
-pub(super) fn order(pattern: &Pattern) -> Result<Elimination, LinalgError> {
+pub(super) fn order(pattern: &Pattern, cancel: &AtomicBool) -> Result<Elimination, LinalgError> {
     let pairs = pattern.of_pairs();
-    let degree = minimum_degree(pairs.as_ref().unwrap_or(pattern))?;
+    let degree = minimum_degree(pairs.as_ref().unwrap_or(pattern), cancel)?;
+    go_on_unless(cancel)?;
     Ok(Elimination::new(pattern, pairs, &degree))
+}
+
+/// [`LinalgError::Cancelled`] where the caller asked to stop.
+pub(super) fn go_on_unless(cancel: &AtomicBool) -> Result<(), LinalgError> {
+    if cancel.load(Ordering::Relaxed) { Err(LinalgError::Cancelled) } else { Ok(()) }
 }
 
 /// The same in a given order, but for its postorder. Pairs of unknowns are taken as such where they are neighbours in it.
@@ -227,7 +244,30 @@ impl Elimination {
     }
 }
 
-fn minimum_degree(pattern: &Pattern) -> Result<Order, LinalgError> {
+/// AMD cannot be stopped. For large patterns it runs on a thread of its own, which a caller who gives up leaves behind:
+/// it ends by itself, in half a second at a million faces.
+fn minimum_degree(pattern: &Pattern, cancel: &AtomicBool) -> Result<Order, LinalgError> {
+    if pattern.order() < WORTH_LEAVING {
+        return minimum_degree_to_the_end(pattern);
+    }
+    let (send, receive) = sync_channel(1);
+    let own = pattern.clone();
+    let found = || minimum_degree_to_the_end(pattern);
+    let started = Builder::new().name("order".to_owned()).spawn(move || send.send(minimum_degree_to_the_end(&own)));
+    if started.is_err() {
+        return found();
+    }
+    loop {
+        go_on_unless(cancel)?;
+        match receive.recv_timeout(LOOKS) {
+            Ok(order) => return order,
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return found(),
+        }
+    }
+}
+
+fn minimum_degree_to_the_end(pattern: &Pattern) -> Result<Order, LinalgError> {
     let n = pattern.order();
     let too_large = LinalgError::TooLarge { order: n };
     let scratch = amd::order_scratch::<u32>(n, pattern.rows.len());

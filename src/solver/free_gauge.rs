@@ -132,7 +132,7 @@ impl FreeProblem<'_> {
         seconds.assemble += start.elapsed().as_secs_f64();
         let kind = if self.is_hermitian() { Kind::Hermitian } else { Kind::General };
         let site = Site { mesh, system: &system };
-        let analysis = analyze(|| layout.analysis(site, kind), seconds, control)?;
+        let analysis = analyze(|| layout.analysis(site, kind, control), seconds, control)?;
         let unit = mean_edge_length(mesh).powf(1.0 - power);
         let setup = Setup { equations, unit, analysis: &analysis, layout: &layout, kind };
         let solve = FreeSolve::new(site, setup, seconds, control)?;

@@ -118,10 +118,10 @@ impl Layout {
     }
 
     /// Orders and analyses the system that is factored.
-    pub(super) fn analysis(&self, site: Site<'_>, kind: Kind) -> Result<Analysis, SolveError> {
+    pub(super) fn analysis(&self, site: Site<'_>, kind: Kind, control: Control<'_>) -> Result<Analysis, SolveError> {
         match self.rest(1.0).filter(|_| self.has_many) {
-            Some(rest) => ManyPins::new(site, rest).analysis(site),
-            None => site.system.analysis(kind),
+            Some(rest) => ManyPins::new(site, rest).analysis(site, control),
+            None => site.system.analysis(kind, control),
         }
     }
 

@@ -58,7 +58,7 @@ impl Iteration {
             }
         })?;
         let system = layout.system(mesh);
-        let analysis = layout.analysis(Site { mesh, system: &system }, Kind::General)?;
+        let analysis = layout.analysis(Site { mesh, system: &system }, Kind::General, control)?;
         let analyze_seconds = start.elapsed().as_secs_f64();
         Ok(Self { pins: pins.clone(), layout, system, analysis, analyze_seconds })
     }

@@ -192,7 +192,7 @@ impl<'a> Padded<'a> {
         let assemble = start.elapsed().as_secs_f64();
         control.enter(Phase::Analyze)?;
         let start = Instant::now();
-        let analysis = system.analysis(Kind::General)?;
+        let analysis = system.analysis(Kind::General, control)?;
         let analyze = start.elapsed().as_secs_f64();
         control.enter(Phase::Factor)?;
         let start = Instant::now();

@@ -48,7 +48,7 @@ pub(super) fn gauge_of(
             *value *= 1.0 + SHIFT;
         }
     }
-    let factor = system.analysis(Kind::General)?.factor(&matrix, control.cancel()).map_err(named)?;
+    let factor = system.analysis(Kind::General, control)?.factor(&matrix, control.cancel()).map_err(named)?;
     let n = system.free().len();
     // Any start that has a part in the kernel will do: an even column and an alternating one.
     let mut kernel: Vec<C64> =

@@ -18,10 +18,10 @@ use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
 use num_complex::Complex;
 
-use super::SolveError;
 use super::equations::Equations;
 use super::least_squares::{Factored, Rest, Spring};
 use super::system::Site;
+use super::{Control, SolveError};
 use crate::linalg::{Analysis, Kind, LinalgError};
 use crate::mesh::VertexId;
 
@@ -53,11 +53,11 @@ impl ManyPins {
     }
 
     /// Orders and analyses the system.
-    pub(super) fn analysis(&self, site: Site<'_>) -> Result<Analysis, SolveError> {
+    pub(super) fn analysis(&self, site: Site<'_>, control: Control<'_>) -> Result<Analysis, SolveError> {
         let coefficients = vec![C64::ZERO; site.mesh.link_count()];
         let matrix = self.matrix(site, &Equations { coefficients, bounded_corners: 0 });
         let kind = Kind::Augmented { pairs: site.system.free().len() };
-        Analysis::new(kind, matrix.pattern()).map_err(|error| self.named(site, error))
+        Analysis::new(kind, matrix.pattern(), control.cancel()).map_err(|error| self.named(site, error))
     }
 
     /// The matrix of the system. Its pattern does not depend on the values of the equations.

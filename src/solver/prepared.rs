@@ -118,7 +118,7 @@ impl Prepared {
                 let is_symmetric = matches!(family, Family::Conformal | Family::Uniform);
                 seconds.assemble = start.elapsed().as_secs_f64();
                 let kind = if is_symmetric { Kind::Hermitian } else { Kind::General };
-                let analysis = analyze(|| system.analysis(kind), &mut seconds, control)?;
+                let analysis = analyze(|| system.analysis(kind, control), &mut seconds, control)?;
                 control.enter(Phase::Factor)?;
                 let start = Instant::now();
                 let fixed = FixedSolve::new(Site { mesh, system: &system }, equations, &analysis, control)?;

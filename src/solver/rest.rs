@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::equations::length_scale;
 use super::foldover_energy::{Element, Energy};
-use super::membrane::{Membrane, Spring};
+use super::membrane::{Membrane, Planning, Spring};
 use super::outside::outside_elements;
 use super::{Embedding, Hold, Outside, Pins, Progress, SolveError};
 use crate::mesh::{DiskMesh, VertexId};
@@ -108,13 +108,13 @@ impl Rest {
     }
 
     /// Mesh, what fills its holes, and outside of an embedding with its exact pins held and the others on springs; and all points, those of the
-    /// frame last. `similar` is one made before for the same mesh and pins.
+    /// frame last. What it is similar to was made before for the same mesh and pins.
     pub(super) fn membrane(
         &self,
         mesh: &DiskMesh,
         Surrounded { embedding, outside, weight }: Surrounded<'_>,
         pins: &Pins,
-        similar: Option<&Membrane>,
+        planning: Planning<'_>,
     ) -> Result<(Membrane, Vec<DVec2>), SolveError> {
         let mut points = embedding.to_vec();
         points.extend(&outside.frame);
@@ -136,7 +136,7 @@ impl Rest {
             let vertex = VertexId::new(point);
             point >= count || is_exact(vertex) || !mesh.is_used(vertex)
         };
-        Ok((Membrane::new(points.len(), elements, springs.collect(), is_held, similar)?, points))
+        Ok((Membrane::new(points.len(), elements, springs.collect(), is_held, planning)?, points))
     }
 
     /// The triangles' energies, at rest when as large as the embedding is now.

@@ -44,7 +44,7 @@ use glam::DVec2;
 
 use super::equations::length_scale;
 use super::foldover_energy::{Element, Model, conjugate, flat};
-use super::membrane::Membrane;
+use super::membrane::{Membrane, Planning};
 use super::rest::{THINNEST, laid_flat};
 use super::{
     BoundaryShape, Control, Embedding, Family, Method, Pins, Prepared, Progress, Settings, Solution, SolveError,
@@ -168,7 +168,7 @@ impl Slim {
     /// # Errors
     ///
     /// [`SolveError::NotPlanar`] where a face of it is folded or has no area; a system that is too large.
-    pub fn new(mesh: &DiskMesh, start: &Embedding) -> Result<Self, SolveError> {
+    pub fn new(mesh: &DiskMesh, start: &Embedding, control: Control<'_>) -> Result<Self, SolveError> {
         if !is_unfolded(mesh, start) {
             return Err(SolveError::NotPlanar);
         }
@@ -188,7 +188,8 @@ impl Slim {
         };
         let elements = mesh.faces().zip(shapes).map(element).collect();
         let held = mesh.boundary_loop()[0].number();
-        let membrane = Membrane::new(z.len(), elements, Vec::new(), |point| point == held, None)?;
+        let planning = Planning { similar: None, control };
+        let membrane = Membrane::new(z.len(), elements, Vec::new(), |point| point == held, planning)?;
         Ok(Self { membrane, z, scale, real_faces, area: on_surface })
     }
 

@@ -89,7 +89,7 @@ pub fn spectral(mesh: &DiskMesh, control: Control<'_>) -> Result<Spectral, Solve
     let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
     control.enter(Phase::Analyze)?;
     let start = Instant::now();
-    let analysis = system.analysis(Kind::Hermitian)?;
+    let analysis = system.analysis(Kind::Hermitian, control)?;
     seconds.analyze = start.elapsed().as_secs_f64();
     control.enter(Phase::Factor)?;
     let start = Instant::now();

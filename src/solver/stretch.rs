@@ -96,7 +96,7 @@ impl StretchMinimising {
         let start = Instant::now();
         let places = convex_boundary(mesh, shape, spacing)?;
         let system = FreeSystem::new(mesh, |v| places.contains_key(&v));
-        let analysis = system.analysis(Kind::General)?;
+        let analysis = system.analysis(Kind::General, control)?;
         Ok(Self { places, system, analysis, analyze_seconds: start.elapsed().as_secs_f64() })
     }
 

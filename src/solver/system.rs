@@ -11,7 +11,7 @@ use num_complex::Complex;
 use rayon::prelude::*;
 
 use super::equations::Equations;
-use super::{Embedding, SolveError};
+use super::{Control, Embedding, SolveError};
 use crate::linalg::{Analysis, Kind, LinalgError, Scalar};
 use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
@@ -158,8 +158,8 @@ impl FreeSystem {
     }
 
     /// Orders and analyses its pattern.
-    pub(super) fn analysis(&self, kind: Kind) -> Result<Analysis, SolveError> {
-        Analysis::new(kind, &self.pattern).map_err(|error| self.named(error))
+    pub(super) fn analysis(&self, kind: Kind, control: Control<'_>) -> Result<Analysis, SolveError> {
+        Analysis::new(kind, &self.pattern, control.cancel()).map_err(|error| self.named(error))
     }
 
     /// Says a linear solver's error in terms of the mesh: its rows are the free vertices.

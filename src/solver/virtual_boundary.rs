@@ -145,7 +145,7 @@ impl Extended {
         };
         let residuals: Vec<DVec2> = system.free().iter().map(residual_of).map(|z| DVec2::new(z.re, z.im)).collect();
         control.enter(Phase::Analyze)?;
-        let analysis = system.analysis(Kind::General)?;
+        let analysis = system.analysis(Kind::General, control)?;
         control.enter(Phase::Factor)?;
         let solve = FixedSolve::new(site, equations, &analysis, control)?;
         control.enter(Phase::Solve)?;

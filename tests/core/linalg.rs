@@ -126,7 +126,7 @@ fn a_regular_matrix_with_a_zero_diagonal_is_solved() {
 fn a_reused_analysis_gives_the_bits_of_a_fresh_one_and_two_runs_agree() {
     let mut random = Random(17);
     let pattern = grid_pattern(60);
-    let shared = Analysis::new(Kind::General, &pattern).expect("symmetric");
+    let shared = Analysis::new(Kind::General, &pattern, &AtomicBool::new(false)).expect("symmetric");
     let rhs: Vec<_> = (0..3600).map(|_| Complex::draw(&mut random)).collect();
     for _ in 0..3 {
         let matrix: CscMatrix<Complex<f64>> = dominant(&pattern, &mut random);

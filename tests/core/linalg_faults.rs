@@ -4,6 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use freebound::linalg::{Analysis, Kind, LinalgError};
 use nalgebra_sparse::CscMatrix;
+use nalgebra_sparse::pattern::SparsityPattern;
 use num_complex::Complex;
 
 use crate::linalg_matrices::{dominant, factored, grid_pattern, hermitian, laplacian, pattern_where, scale_rows};
@@ -73,24 +74,61 @@ fn a_nan_in_the_right_hand_side_is_named_by_its_row() {
 fn a_cancelled_factorization_stops() {
     let matrix = laplacian(&grid_pattern(20), 0.1, &mut Random(1));
     for kind in [Kind::General, Kind::Hermitian] {
-        let analysis = Analysis::new(kind, matrix.pattern()).expect("symmetric");
+        let analysis = Analysis::new(kind, matrix.pattern(), &AtomicBool::new(false)).expect("symmetric");
         assert_eq!(analysis.factor(&matrix, &AtomicBool::new(true)).expect_err("cancelled"), LinalgError::Cancelled);
     }
+}
+
+/// Unknowns in a row, so many that they are ordered on a thread of their own.
+fn long_chain() -> SparsityPattern {
+    let n = 60_000;
+    let lanes: Vec<Vec<usize>> = (0..n).map(|k: usize| (k.saturating_sub(1)..(k + 2).min(n)).collect()).collect();
+    let offsets = std::iter::once(0).chain(lanes.iter().scan(0, |end, lane| {
+        *end += lane.len();
+        Some(*end)
+    }));
+    SparsityPattern::try_from_offsets_and_indices(n, n, offsets.collect(), lanes.concat()).expect("a band")
+}
+
+#[test]
+fn a_cancelled_analysis_stops() {
+    for pattern in [grid_pattern(20), long_chain()] {
+        for kind in [Kind::General, Kind::Hermitian] {
+            let stopped = Analysis::new(kind, &pattern, &AtomicBool::new(true));
+            assert_eq!(stopped.expect_err("cancelled"), LinalgError::Cancelled);
+        }
+    }
+}
+
+#[test]
+fn a_pattern_that_is_ordered_on_its_own_thread_is_solved_like_others() {
+    // −1 2 −1 with a little more on the diagonal, times 0 1 2 3 4 0 1 …
+    let pattern = long_chain();
+    let entry = |(row, column): (usize, usize)| if row == column { 2.5 } else { -1.0 };
+    let columns = |column: usize| pattern.lane(column).iter().map(move |&row| (row, column));
+    let values = (0..pattern.major_dim()).flat_map(columns).map(entry).collect();
+    let wanted: Vec<f64> = (0..pattern.major_dim()).map(|k| (k % 5) as f64).collect();
+    let at = |k: usize| wanted.get(k).copied().unwrap_or(0.0);
+    let rhs: Vec<f64> = (0..wanted.len()).map(|k| 2.5 * at(k) - at(k.wrapping_sub(1)) - at(k + 1)).collect();
+    let matrix = CscMatrix::try_from_pattern_and_values(pattern.clone(), values).expect("one value per entry");
+    let solved = factored(Kind::Hermitian, &matrix).and_then(|factor| factor.solve(&matrix, &rhs)).expect("solvable");
+    let error = solved.x.iter().zip(&wanted).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+    assert!(error < 1e-12, "{error}");
 }
 
 #[test]
 fn a_pattern_without_its_mirror_image_or_diagonal_is_refused() {
     let alone = pattern_where(3, |column, row| row == column || (column, row) == (0, 2));
-    let error = Analysis::new(Kind::General, &alone).expect_err("(2, 0) stands alone");
+    let error = Analysis::new(Kind::General, &alone, &AtomicBool::new(false)).expect_err("(2, 0) stands alone");
     assert_eq!(error, LinalgError::PatternNotSymmetric { row: 2, column: 0 });
     let hollow = pattern_where(3, |column, row| row == column && row != 1);
-    let error = Analysis::new(Kind::General, &hollow).expect_err("(1, 1) is missing");
+    let error = Analysis::new(Kind::General, &hollow, &AtomicBool::new(false)).expect_err("(1, 1) is missing");
     assert_eq!(error, LinalgError::PatternNotSymmetric { row: 1, column: 1 });
 }
 
 #[test]
 fn a_matrix_of_another_pattern_is_refused() {
-    let analysis = Analysis::new(Kind::General, &grid_pattern(4)).expect("symmetric");
+    let analysis = Analysis::new(Kind::General, &grid_pattern(4), &AtomicBool::new(false)).expect("symmetric");
     let other = CscMatrix::<f64>::identity(16);
     assert_eq!(analysis.factor(&other, &AtomicBool::new(false)).expect_err("other"), LinalgError::OtherPattern);
 }

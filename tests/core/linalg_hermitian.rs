@@ -134,8 +134,8 @@ fn a_similar_pattern_is_factored_in_the_order_of_the_first() {
             let (low, high) = (i.min(j), i.max(j));
             joined.contains(&(i, j)) || (low < 2 && high >= n - 2) || n == 12
         });
-        let analysis = Analysis::new(Kind::Hermitian, &first).expect("symmetric");
-        let similar = analysis.of_similar(&other).expect("symmetric");
+        let analysis = Analysis::new(Kind::Hermitian, &first, &AtomicBool::new(false)).expect("symmetric");
+        let similar = analysis.of_similar(&other, &AtomicBool::new(false)).expect("symmetric");
         let matrix: CscMatrix<f64> = hermitian(&other, 1.0, &mut random);
         let rhs: Vec<f64> = (0..n).map(|_| f64::draw(&mut random)).collect();
         let solved = similar.factor(&matrix, &GO_ON).and_then(|f| f.solve(&matrix, &rhs)).expect("definite");

@@ -90,5 +90,5 @@ pub(crate) fn scale_rows(matrix: &mut CscMatrix<f64>, scale: impl Fn(usize) -> f
 }
 
 pub(crate) fn factored<T: Scalar>(kind: Kind, matrix: &CscMatrix<T>) -> Result<Factor<T>, LinalgError> {
-    Analysis::new(kind, matrix.pattern())?.factor(matrix, &AtomicBool::new(false))
+    Analysis::new(kind, matrix.pattern(), &AtomicBool::new(false))?.factor(matrix, &AtomicBool::new(false))
 }

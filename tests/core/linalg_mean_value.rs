@@ -79,7 +79,7 @@ fn system(disk: &Disk) -> (CscMatrix<C>, Vec<C>, Vec<C>) {
 }
 
 fn factored(matrix: &CscMatrix<C>) -> Factor<C> {
-    let analysis = Analysis::new(Kind::General, matrix.pattern()).expect("symmetric");
+    let analysis = Analysis::new(Kind::General, matrix.pattern(), &AtomicBool::new(false)).expect("symmetric");
     analysis.factor(matrix, &AtomicBool::new(false)).expect("regular")
 }
 

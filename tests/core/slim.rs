@@ -150,7 +150,7 @@ fn no_face_folds_and_the_last_step_says_why_it_is_the_last() {
     for (name, mesh) in meshes() {
         let (steps, _) = run(&mesh, slim());
         assert_eq!(steps[0].rung, Method::Convex(BoundaryShape::Circle), "{name}: it begins with Tutte's map");
-        let start = Slim::new(&mesh, &tutte(&mesh)).expect("planar").progress().energy;
+        let start = Slim::new(&mesh, &tutte(&mesh), Control::unattended()).expect("planar").progress().energy;
         let said = steps[0].progress.expect("an energy").energy;
         assert!((said / start - 1.0).abs() < 1e-12, "{name}: {said} {start}");
         assert!((2..=21).contains(&steps.len()), "{name}: {}", steps.len());
@@ -171,7 +171,7 @@ fn no_face_folds_and_the_last_step_says_why_it_is_the_last() {
 fn energy_and_determinant_that_are_said_are_those_at_equal_total_areas() {
     for (name, mesh) in meshes() {
         let start = tutte(&mesh);
-        let mut slim = Slim::new(&mesh, &start).expect("planar");
+        let mut slim = Slim::new(&mesh, &start, Control::unattended()).expect("planar");
         for _ in 0..3 {
             let embedding = slim.embedding();
             let before = energy(&mesh, &embedding);
@@ -213,7 +213,11 @@ fn a_limit_of_iterations_ends_it() {
 fn where_rounding_folds_tuttes_map_it_begins_with_the_first_planar_map_of_the_ladder() {
     // Each ring of the tube is a third of the one before: the innermost are beyond 64 bits.
     let mesh = disk(tube(3, 80));
-    assert_eq!(Slim::new(&mesh, &tutte(&mesh)).err(), Some(SolveError::NotPlanar), "nothing to test");
+    assert_eq!(
+        Slim::new(&mesh, &tutte(&mesh), Control::unattended()).err(),
+        Some(SolveError::NotPlanar),
+        "nothing to test"
+    );
     let (steps, ending) = run(&mesh, Settings { max_steps: Some(3), ..slim() });
     let note = steps[0].note.as_deref().expect("a reason");
     assert!(note.contains("rounding leaves faces of Tutte's map without area"), "{note}");

@@ -4,12 +4,14 @@
 //! nor sorts: `relative` says where the rows of an update lie in the parent's front, `entries` where the entries of A
 //! lie in theirs.
 
+use std::sync::atomic::AtomicBool;
+
 use faer::Par;
 
 use super::supernodes::{Supernodes, supernodes};
 use super::units::{Unit, units};
 use crate::linalg::LinalgError;
-use crate::linalg::order::{Elimination, NONE, Order, Pattern, children, in_pairs, narrow, running_sum};
+use crate::linalg::order::{Elimination, NONE, Order, Pattern, children, go_on_unless, in_pairs, narrow, running_sum};
 
 /// Fronts with less work than this, in multiplications, are not worth more than one thread.
 const PARALLEL_WORK: f64 = 2e6;
@@ -88,11 +90,13 @@ impl FrontAnalysis {
         pattern: &Pattern,
         elimination: &Elimination,
         sides: Sides,
+        cancel: &AtomicBool,
     ) -> Result<Self, LinalgError> {
         let Plan { order, begin, parent, rows } = match &elimination.pairs {
             Some(pairs) => Plan::new(pairs, elimination).of_pairs(),
             None => Plan::new(pattern, elimination),
         };
+        go_on_unless(cancel)?;
         let children = children(&parent);
         let mut this = Self {
             sides,
@@ -113,6 +117,7 @@ impl FrontAnalysis {
             return Err(LinalgError::TooLarge { order: pattern.order() });
         }
         this.relative = this.relative_rows();
+        go_on_unless(cancel)?;
         this.place_entries(pattern);
         let work: Vec<f64> = (0..this.count()).map(|s| this.shape(s).work()).collect();
         (this.units, this.unit_of) = units(&this.parent, &work);

@@ -123,7 +123,7 @@ impl Rows {
 }
 
 impl Full {
-    pub(super) fn new(net: &Net<'_>) -> Result<Self, SolveError> {
+    pub(super) fn new(net: &Net<'_>, control: Control<'_>) -> Result<Self, SolveError> {
         let rows = Rows::new(net);
         let pattern = rows.pattern(net);
         let slot = |row: usize, column: usize| {
@@ -139,7 +139,7 @@ impl Full {
             })
         };
         let slots = net.targets.iter().enumerate().flat_map(of_face).collect();
-        let analysis = Analysis::new(Kind::Augmented { pairs: rows.pairs }, &pattern)?;
+        let analysis = Analysis::new(Kind::Augmented { pairs: rows.pairs }, &pattern, control.cancel())?;
         Ok(Self { rows, pattern, analysis, diagonal, slots })
     }
 

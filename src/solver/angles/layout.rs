@@ -46,7 +46,7 @@ pub(super) fn laid_out(mesh: &DiskMesh, angles: &[[f64; 3]], control: Control<'_
     let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
     control.enter(Phase::Analyze)?;
     let start = Instant::now();
-    let analysis = layout.analysis(site, Kind::Hermitian)?;
+    let analysis = layout.analysis(site, Kind::Hermitian, control)?;
     seconds.analyze = start.elapsed().as_secs_f64();
     let setup = Setup { equations, unit: 1.0, analysis: &analysis, layout: &layout, kind: Kind::Hermitian };
     let solve = FreeSolve::new(site, setup, &mut seconds, control)?;

@@ -95,7 +95,7 @@ pub fn angle_based(mesh: &DiskMesh, system: AngleSystem, control: Control<'_>) -
     let net = Net::new(mesh)?;
     let assembled = start.elapsed().as_secs_f64();
     control.enter(Phase::Analyze)?;
-    let newton = Newton::new(&net, system)?;
+    let newton = Newton::new(&net, system, control)?;
     let analyzed = start.elapsed().as_secs_f64();
     let found = newton.run(control)?;
     let seconds = start.elapsed().as_secs_f64();

@@ -143,10 +143,10 @@ pub(super) struct Newton<'a> {
 }
 
 impl<'a> Newton<'a> {
-    pub(super) fn new(net: &'a Net<'a>, system: AngleSystem) -> Result<Self, SolveError> {
+    pub(super) fn new(net: &'a Net<'a>, system: AngleSystem, control: Control<'_>) -> Result<Self, SolveError> {
         let system = match system {
-            AngleSystem::Full => System::Full(Box::new(Full::new(net)?)),
-            AngleSystem::Reduced => System::Reduced(Reduced::new(net)?),
+            AngleSystem::Full => System::Full(Box::new(Full::new(net, control)?)),
+            AngleSystem::Reduced => System::Reduced(Reduced::new(net, control)?),
         };
         let none = vec![[0.0; 2]; net.inner.len()];
         let (angles, multipliers, penalties) = (net.first_angles(), none.clone(), none);

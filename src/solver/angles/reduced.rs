@@ -75,7 +75,7 @@ fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 }
 
 impl Reduced {
-    pub(super) fn new(net: &Net<'_>) -> Result<Self, SolveError> {
+    pub(super) fn new(net: &Net<'_>, control: Control<'_>) -> Result<Self, SolveError> {
         let neighbours = Neighbours::new(&net.corners, net.inner.len());
         let pattern = neighbours.block_pattern();
         let slot = |row: u32, column: u32| {
@@ -83,7 +83,8 @@ impl Reduced {
         };
         let slots =
             net.corners.iter().map(|corners| corners.map(|row| corners.map(|column| slot(row, column)))).collect();
-        let analysis = if net.inner.is_empty() { None } else { Some(Analysis::new(Kind::Hermitian, &pattern)?) };
+        let is_empty = net.inner.is_empty();
+        let analysis = if is_empty { None } else { Some(Analysis::new(Kind::Hermitian, &pattern, control.cancel())?) };
         Ok(Self { pattern, analysis, column_lengths: neighbours.column_lengths(), slots })
     }
 

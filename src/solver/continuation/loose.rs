@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::super::{Candidate, Control, Embedding, Hold, Pin, SolveError};
 use super::{Continuation, Settled, downhill};
 use crate::mesh::DiskMesh;
+use crate::solver::membrane::Planning;
 
 /// Where less of the response than this folds no face, pins are let loose: springs draw them to their
 /// targets, by a greater weight each time, and they pass around each other.
@@ -63,7 +64,7 @@ impl Continuation {
             _ => (v, Pin::weighted(pin.target, weight)),
         });
         let Some(Settled { membrane, mut points, .. }) =
-            self.surround(mesh, &self.embedding, &loose.collect(), None)?
+            self.surround(mesh, &self.embedding, &loose.collect(), Planning { similar: None, control })?
         else {
             return Ok(false);
         };

@@ -31,7 +31,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::foldover_energy::Energy;
-use super::membrane::{Limits, Membrane, Unfolding};
+use super::membrane::{Limits, Membrane, Planning, Unfolding};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::{Rest, Surrounded};
 use super::{Candidate, Control, Embedding, Method, Outside, PinPositions, Pins, Progress, Sheet, SolveError};
@@ -162,7 +162,9 @@ impl Continuation {
     fn go_on(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
         let settled = match self.settled.take() {
             Some(settled) => settled,
-            None => self.surround(mesh, &self.embedding, &self.pins, None)?.ok_or(SolveError::Unmet)?,
+            None => self
+                .surround(mesh, &self.embedding, &self.pins, Planning { similar: None, control })?
+                .ok_or(SolveError::Unmet)?,
         };
         let mut shift = vec![DVec2::ZERO; settled.points.len()];
         for (v, target) in &self.targets {
@@ -213,11 +215,11 @@ impl Continuation {
         mesh: &DiskMesh,
         embedding: &Embedding,
         pins: &Pins,
-        similar: Option<&Membrane>,
+        planning: Planning<'_>,
     ) -> Result<Option<Settled>, SolveError> {
         let Some(outside) = self.outside_of(mesh, embedding) else { return Ok(None) };
         let surrounded = Surrounded { embedding, outside: &outside, weight: OUTSIDE_WEIGHT };
-        let (membrane, points) = self.rest.membrane(mesh, surrounded, pins, similar)?;
+        let (membrane, points) = self.rest.membrane(mesh, surrounded, pins, planning)?;
         Ok(Some(Settled { membrane, points, outside: Arc::new(outside) }))
     }
 
@@ -266,7 +268,9 @@ impl Continuation {
         similar: &Membrane,
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
-        let Some(mut settled) = self.surround(mesh, &embedding, &self.pins, Some(similar))? else {
+        let Some(mut settled) =
+            self.surround(mesh, &embedding, &self.pins, Planning { similar: Some(similar), control })?
+        else {
             return Ok(false);
         };
         let mut z = settled.points.clone();

@@ -55,7 +55,7 @@ impl Run {
         let why = match tutte {
             Err(why) => why,
             Ok((solution, family)) => {
-                run.look_for_start(from.mesh, &solution.embedding)?;
+                run.look_for_start(from.mesh, &solution.embedding, control)?;
                 if matches!(run.stage, Stage::Start(_)) {
                     run.notes.say("rounding leaves faces of Tutte's map without area, or folded".to_owned());
                 }
@@ -70,8 +70,13 @@ impl Run {
     }
 
     /// Begins with the iterations where an embedding can be their start.
-    fn look_for_start(&mut self, mesh: &DiskMesh, embedding: &Embedding) -> Result<(), SolveError> {
-        match Slim::new(mesh, embedding) {
+    fn look_for_start(
+        &mut self,
+        mesh: &DiskMesh,
+        embedding: &Embedding,
+        control: Control<'_>,
+    ) -> Result<(), SolveError> {
+        match Slim::new(mesh, embedding, control) {
             Ok(slim) => self.stage = Stage::Iterations(Box::new(slim)),
             Err(SolveError::NotPlanar) => {}
             Err(error) => return Err(error),
@@ -85,7 +90,7 @@ impl Run {
                 let step = ladder.step(from.mesh, control)?;
                 let is_end = ladder.ending().is_some();
                 if step.verdict.is_one_to_one() {
-                    self.look_for_start(from.mesh, &step.solution.embedding)?;
+                    self.look_for_start(from.mesh, &step.solution.embedding, control)?;
                 }
                 if is_end && matches!(self.stage, Stage::Start(_)) {
                     self.end = Some(End::Done);

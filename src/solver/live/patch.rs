@@ -9,10 +9,10 @@ use super::around::{Around, double_area};
 use super::proof::Moved;
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::solver::foldover_energy::Element;
-use crate::solver::membrane::{Membrane, Spring};
+use crate::solver::membrane::{Membrane, Planning, Spring};
 use crate::solver::outside::THINNEST as THINNEST_OUTSIDE;
 use crate::solver::rest::THINNEST;
-use crate::solver::{Embedding, Hold, Pins, Sheet, SolveError};
+use crate::solver::{Control, Embedding, Hold, Pins, Sheet, SolveError};
 
 /// Weight of the whole outside, that of the sheet being 1.
 const OUTSIDE_WEIGHT: f64 = 0.02;
@@ -157,8 +157,9 @@ impl Patch {
         let (elements, floors) = elements(ground, &gathered, &triangles);
         let springs = springs(ground, &points[..free_count]);
         let is_held = |point: u32| point as usize >= free_count;
-        let similar = similar.map(|similar| &similar.membrane);
-        let membrane = Membrane::new(points.len(), elements, springs, is_held, similar)?;
+        // A neighbourhood is small: nobody waits for it.
+        let planning = Planning { similar: similar.map(|similar| &similar.membrane), control: Control::unattended() };
+        let membrane = Membrane::new(points.len(), elements, springs, is_held, planning)?;
         let z = points.iter().map(|&point| ground.place(point)).collect();
         let has_boundary = points[..moving_count].iter().any(|&v| ground.mesh.boundary_place(v).is_some());
         let Gathered { face_count, inside_count, .. } = gathered;

@@ -61,15 +61,22 @@ pub(super) struct Membrane {
     analysis: Analysis,
 }
 
+/// How a membrane is planned.
+#[derive(Clone, Copy)]
+pub(super) struct Planning<'a> {
+    /// One over the same points, most of whose elements are the same: its order of elimination is kept.
+    pub(super) similar: Option<&'a Membrane>,
+    pub(super) control: Control<'a>,
+}
+
 impl Membrane {
-    /// Plans the energy of `elements` over points of which some are held. `similar` is one over the same points, most of
-    /// whose elements are the same: its order of elimination is kept.
+    /// Plans the energy of `elements` over points of which some are held.
     pub(super) fn new(
         point_count: usize,
         elements: Vec<Element>,
         springs: Vec<Spring>,
         is_held: impl Fn(u32) -> bool,
-        similar: Option<&Self>,
+        planning: Planning<'_>,
     ) -> Result<Self, SolveError> {
         let mut unknown_of = vec![HELD; point_count];
         let mut unknowns = Vec::new();
@@ -95,9 +102,10 @@ impl Membrane {
         let column_length = neighbours.column_lengths();
         let diagonal = (0..number(unknowns.len())).map(|unknown| neighbours.slot(unknown, unknown)).collect();
         let pattern = neighbours.block_pattern();
-        let analysis = match similar {
-            Some(similar) => similar.analysis.of_similar(&pattern)?,
-            None => Analysis::new(Kind::Hermitian, &pattern)?,
+        let cancel = planning.control.cancel();
+        let analysis = match planning.similar {
+            Some(similar) => similar.analysis.of_similar(&pattern, cancel)?,
+            None => Analysis::new(Kind::Hermitian, &pattern, cancel)?,
         };
         Ok(Self { elements, springs, unknown_of, unknowns, pattern, slots, column_length, diagonal, analysis })
     }

@@ -48,7 +48,7 @@ impl Held {
     ) -> Result<Self, SolveError> {
         control.enter(Phase::Analyze)?;
         let system = FreeSystem::new(disk, is_held);
-        let analysis = system.analysis(Kind::General)?;
+        let analysis = system.analysis(Kind::General, control)?;
         Ok(Self { system, analysis })
     }
 

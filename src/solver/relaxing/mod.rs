@@ -19,7 +19,7 @@ use std::sync::Arc;
 pub(super) use coarse::Relaxed;
 
 use super::foldover_energy::Energy;
-use super::membrane::{Limits, Membrane, Unfolding};
+use super::membrane::{Limits, Membrane, Planning, Unfolding};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::{Rest, Surrounded};
 use super::{Candidate, Control, Embedding, Method, Outside, Pins, Progress, Sheet, SolveError};
@@ -113,7 +113,8 @@ impl Relaxing {
     fn descend(&mut self, mesh: &DiskMesh, outside: &Outside, control: Control<'_>) -> Result<(), SolveError> {
         let surrounded = Surrounded { embedding: &self.embedding, outside, weight: OUTSIDE_WEIGHT };
         let all = self.with_ears.as_ref().unwrap_or(&self.rest);
-        let (membrane, mut z) = all.membrane(mesh, surrounded, &self.pins, self.membrane.as_ref())?;
+        let planning = Planning { similar: self.membrane.as_ref(), control };
+        let (membrane, mut z) = all.membrane(mesh, surrounded, &self.pins, planning)?;
         let before = self.inner;
         let folded = if before.least_determinant > 0.0 { 0 } else { all.folded_count(mesh, &self.embedding) };
         let is_steep = before.least_determinant < STEEP;
