@@ -25,6 +25,16 @@ impl Sheet {
         Self { frame, targets }
     }
 
+    /// The picture.
+    pub(super) fn frame(&self) -> PictureFrame {
+        self.frame
+    }
+
+    /// The same sheet without pins.
+    pub(super) fn without_pins(&self) -> Self {
+        Self::new(self.frame, PinPositions::new())
+    }
+
     /// The texture coordinates of an embedding as they are written, v up. Pins that lie on their targets have the numbers
     /// that they were given.
     pub fn written<'a>(&self, embedding: &'a Embedding) -> Cow<'a, Embedding> {

@@ -174,6 +174,34 @@ fn the_planar_start_is_among_the_steps_and_serves_other_targets_on_the_mesh() {
 }
 
 #[test]
+fn a_ladder_without_constraints_finds_the_planar_start_of_those_with_some_to_the_last_bit() {
+    let of = |example: Example| DiskMesh::try_from(example.mesh()).unwrap();
+    let mut random = Random(5);
+    let fingers = [4, 12].map(|rings| finger(rings, 6, &mut random));
+    let meshes = fingers.into_iter().chain([of(Example::Dome), of(Example::Spiral), irregular_cube(3, &mut random)]);
+    let mut is_followed = false;
+    for mesh in &meshes.collect::<Vec<_>>() {
+        let (alone, _) = steps_of(mesh, Settings::default(), &Pins::new()).unwrap();
+        let found: Vec<&Step> = alone.iter().filter(|step| step.planar_start.is_some()).collect();
+        assert_eq!(found.len(), 1, "found once");
+        is_followed |= found[0].index + 1 < alone.len();
+        let boundary = mesh.boundary_loop();
+        let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].into_iter().enumerate();
+        let pins: Pins = corners.map(|(k, at)| (boundary[k * boundary.len() / 4], Pin::hard(at))).collect();
+        let fitted = |kept: &Kept| {
+            let mut run = Ladder::new(one_to_one(Method::Continuation), pins.clone()).with_kept(kept);
+            let mut steps = std::iter::repeat_with(|| run.step(mesh, Control::unattended()).unwrap());
+            let step = steps.by_ref().find(|step| step.planar_start.is_some()).unwrap();
+            (step.index, step.solution.embedding.clone())
+        };
+        let kept = Kept { planar_start: found[0].planar_start.clone(), prepared: None };
+        let [(at_once, with_it), (later, afresh)] = [&kept, &Kept::default()].map(fitted);
+        assert!(at_once == 0 && later > 0 && with_it == afresh);
+    }
+    assert!(is_followed, "where only energy is lowered the start is before the end");
+}
+
+#[test]
 fn a_ladder_goes_on_from_an_embedding_that_is_one_to_one_and_begins_afresh_where_it_is_not() {
     let (mesh, mut pins) = swirl();
     let (steps, _) = steps_of(&mesh, Settings::default(), &pins).unwrap();

@@ -37,7 +37,7 @@ impl Rung for Fit {
         let began = Instant::now();
         let of_latest = || {
             let embedding = latest?.embedding.clone();
-            Some(Arc::new(PlanarStart { size: task.settings.size, embedding }))
+            Some(Arc::new(PlanarStart::new(task, embedding)))
         };
         let start = self.start.clone().or_else(of_latest).ok_or(SolveError::NotPlanar)?;
         let held = task.held();

@@ -197,8 +197,9 @@ impl Ladder {
         if matches!(candidate, Err(SolveError::Unmet)) {
             self.ending = Some(Ending::Unmet);
         }
-        let step = self.proved(candidate?, mesh, control)?;
+        let mut step = self.proved(candidate?, mesh, control)?;
         self.take_in(&step);
+        self.keep_start(&mut step, mesh);
         Ok(step)
     }
 

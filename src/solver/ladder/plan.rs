@@ -74,12 +74,12 @@ impl Plan {
 
     /// From the surface alone.
     pub(super) fn afresh(task: &Arc<Task>, kept: &Kept) -> Self {
-        let planar_start = kept.planar_start.clone().filter(|start| start.size == task.settings.size);
+        let planar_start = kept.planar_start.clone().filter(|start| start.serves(task));
         let kept = Kept { planar_start, ..kept.clone() };
         let part = |flights| Part::new(task, Aim::Constraints, flights, &kept);
         let unconstrained = Settings { size: task.settings.size, ..Settings::default() };
         let start = || {
-            let task = Task::new(unconstrained, Pins::new(), Arc::clone(&task.sheet));
+            let task = Task::new(unconstrained, Pins::new(), Arc::new(task.sheet.without_pins()));
             Part::new(&Arc::new(task), Aim::PlanarStart, LADDER, &kept)
         };
         let from_start = |flights| kept.planar_start.is_none().then(start).into_iter().chain([part(flights)]);

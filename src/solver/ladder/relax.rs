@@ -78,6 +78,11 @@ impl Relax {
         self.lack = Lack::of(step);
     }
 
+    /// Whether rounds follow that do not only lower the energy until it serves.
+    pub(super) fn goes_on_for_digits(&self) -> bool {
+        self.left.always > 0 || matches!(self.lack, Some(Lack::Digits { .. }))
+    }
+
     /// Whether the latest embedding is finer than 32 bits, wherever it lies.
     pub(super) fn is_too_fine(&self) -> bool {
         self.lack == Some(Lack::Digits { is_far: false })
