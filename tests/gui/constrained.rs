@@ -66,7 +66,11 @@ fn a_planar_step_with_constraints_not_met_says_so_and_marks_them() {
     let at_step = |index| Action::SetStop(StopConditions { at_step: Some(index), ..StopConditions::default() });
     window.editor_mut().session.handle(at_step(0));
     let settings = Settings::new(Method::Continuation, Family::Conformal);
-    window.editor_mut().session.handle(Action::SetSettings(settings));
+    // Turned twice, the mesh has no planar start from before.
+    for action in [Action::SetSettings(settings), Action::TurnFaces, Action::TurnFaces] {
+        window.editor_mut().session.handle(action);
+        window.settle();
+    }
     place(&mut window, &TWIST);
     assert_eq!(window.outcome().step.unmet().len(), TWIST.len(), "without the constraints first");
     window.editor_mut().session.handle(at_step(1));
