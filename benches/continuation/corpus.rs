@@ -55,7 +55,7 @@ pub(crate) fn run(is_quick: bool) {
 }
 
 /// The constraint files, in the order of their names.
-fn sets() -> Vec<PathBuf> {
+pub(crate) fn sets() -> Vec<PathBuf> {
     let Some(entries) = corpus().and_then(|folder| fs::read_dir(folder.join("constrained")).ok()) else {
         return Vec::new();
     };
@@ -65,7 +65,7 @@ fn sets() -> Vec<PathBuf> {
     paths
 }
 
-fn name_of(set: &Path) -> String {
+pub(crate) fn name_of(set: &Path) -> String {
     set.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
@@ -79,11 +79,16 @@ fn mesh_of(set: &Path) -> PathBuf {
     set.with_file_name("..").join(format!("{}.obj", stem_of(set)))
 }
 
-fn row(path: &Path) -> Result<[String; 13], String> {
+/// A set's mesh and pins.
+pub(crate) fn read_set(path: &Path) -> Result<(DiskMesh, Pins), String> {
     let file = read_mesh(&mesh_of(path)).map_err(|error| error.to_string())?;
     let mesh = DiskMesh::try_from(file.polygons.triangulate()).map_err(|error| error.to_string())?;
     let targets = Constraints::read(path, mesh.vertex_count()).map_err(|error| error.to_string())?.targets;
-    let pins = pins_in_plane(&targets, PictureFrame::default());
+    Ok((mesh, pins_in_plane(&targets, PictureFrame::default())))
+}
+
+fn row(path: &Path) -> Result<[String; 13], String> {
+    let (mesh, pins) = read_set(path)?;
     let settings = Settings { relax_rounds: Some(RELAX_ROUNDS), ..Settings::default() };
     let found = Outcome::of(&mesh, settings, &pins);
     let shown = found.solved.as_ref().map(|(_, step)| step).or(found.last.as_ref());

@@ -1,8 +1,8 @@
 //! How the ladder meets constraints: `cargo bench --bench continuation`.
 //!
 //! Words behind `--` choose the parts: `corpus` (the constrained problems of `../shared/corpus`), `synthetic` (bumpy caps
-//! with displaced, swirled, stretched and permuted pins), `size` (time and memory by the number of faces); all of them
-//! without any. `quick` takes few and small cases; `steps` shows every step.
+//! with displaced, swirled, stretched and permuted pins), `size` (time and memory by the number of faces), `matchmaker`
+//! (new vertices where pins are in each other's way); all of them without any. `quick` takes few and small cases; `steps` shows every step.
 //!
 //! A run that takes longer than two minutes is stopped and says so; one that fails is a row like any other.
 
@@ -12,6 +12,7 @@ mod common;
 mod corpus;
 #[path = "../../examples/makers/mod.rs"]
 mod makers;
+mod matchmaker;
 mod outcome;
 mod size;
 mod synthetic;
@@ -29,7 +30,9 @@ fn main() {
     SHOWS_STEPS.store(arguments.iter().any(|word| word == "steps"), Ordering::Relaxed);
     let words = arguments.iter().map(String::as_str);
     let chosen: Vec<&str> = words.filter(|word| !["quick", "steps"].contains(word)).collect();
-    for (name, run) in [("corpus", corpus::run as fn(bool)), ("synthetic", synthetic::run), ("size", size::run)] {
+    let parts: [(&str, fn(bool)); 4] =
+        [("corpus", corpus::run), ("synthetic", synthetic::run), ("size", size::run), ("matchmaker", matchmaker::run)];
+    for (name, run) in parts {
         if chosen.is_empty() || chosen.contains(&name) {
             run(is_quick);
         }

@@ -128,7 +128,7 @@ impl Cap {
 }
 
 /// A whole number below a limit.
-fn below(random: &mut Random, limit: usize) -> usize {
+pub(crate) fn below(random: &mut Random, limit: usize) -> usize {
     usize::try_from(random.bits() >> 32).unwrap_or_default() % limit
 }
 

@@ -48,4 +48,4 @@ pub use polygon::{is_down, turning_number, winding_number};
 pub use power::power_of_two_near;
 pub use rectangle::least_box_turn;
 pub use similarity::{Similarity, look_mirrored};
-pub use triangulation::{delaunay_triangles, outside_triangles};
+pub use triangulation::{constrained_triangles, delaunay_triangles, outside_triangles};

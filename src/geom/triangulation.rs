@@ -18,6 +18,19 @@ pub fn delaunay_triangles(points: &[DVec2]) -> Option<Vec<[u32; 3]>> {
     (triangulation.num_vertices() == points.len()).then(|| triangles_where(&triangulation, |_| true))
 }
 
+/// The same with some sides that are to be edges of the triangulation, two corners each: a constrained Delaunay
+/// triangulation.
+///
+/// `None` also where sides cross or go through points.
+///
+/// # Panics
+///
+/// If there are 2³² points or more, or where a corner is none of the points.
+pub fn constrained_triangles(points: &[DVec2], sides: &[[u32; 2]]) -> Option<Vec<[u32; 3]>> {
+    let sides = sides.iter().map(|side| side.map(|corner| corner as usize)).collect();
+    triangles_with(spade_points(points.iter()), sides, |_| true)
+}
+
 /// Triangulates the region between a simple polygon, counter-clockwise, and the convex hull of polygon and frame, without
 /// new points: a constrained Delaunay triangulation, whose triangles lie either inside the polygon or outside.
 ///
@@ -32,11 +45,20 @@ pub fn outside_triangles(polygon: &[DVec2], frame: &[DVec2]) -> Option<Vec<[u32;
     let count = polygon.len();
     let points = spade_points(polygon.iter().chain(frame));
     let sides = (0..count).map(|k| [k, (k + 1) % count]).collect();
+    triangles_with(points, sides, |corners| !is_inside(corners, count))
+}
+
+/// Some triangles of the triangulation with these sides.
+fn triangles_with(
+    points: Vec<Point2<f64>>,
+    sides: Vec<[usize; 2]>,
+    is_wanted: impl Fn([usize; 3]) -> bool,
+) -> Option<Vec<[u32; 3]>> {
     let (mut conflicts, total) = (0, points.len());
     let triangulation =
         ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(points, sides, |_| conflicts += 1).ok()?;
     let is_sound = conflicts == 0 && triangulation.num_vertices() == total;
-    is_sound.then(|| triangles_where(&triangulation, |corners| !is_inside(corners, count)))
+    is_sound.then(|| triangles_where(&triangulation, is_wanted))
 }
 
 /// Some of the triangles, in the same order however the triangulation came about, each from its lowest corner.

@@ -107,7 +107,7 @@ pub use iterate::Iteration;
 pub use ladder::{Candidate, Ending, Kept, Ladder, PlanarStart, Progress, Step, largest_move};
 pub use lee::Padded;
 pub use live::{Aim, Live, Moved, Obstacle};
-pub use matchmaker::{Matched, matched, without_needless_vertices};
+pub use matchmaker::{Matched, matched, with_room_made, without_needless_vertices};
 pub use method::Method;
 pub use morph::{Morph, MorphOptions, NoMorph, Route, morph};
 pub use one_form::{OneFormIndices, index_range};

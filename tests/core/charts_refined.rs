@@ -40,8 +40,9 @@ fn text() -> String {
     text + "l 1 2 3\r\nunknown line\r\n"
 }
 
-/// Pins of the first sheet: its corners, and two vertices inside that change places.
-const PINS: [&str; 12] = [
+/// Pins of the first sheet: its corners, and those of its middle quad, of which two opposite ones change places. However
+/// the quad is cut, a face of three pinned corners is turned over: that takes new vertices.
+const PINS: [&str; 16] = [
     "--pin",
     "0:0,0",
     "--pin",
@@ -52,6 +53,10 @@ const PINS: [&str; 12] = [
     "12:0,1",
     "--pin",
     "5:0.7,0.7",
+    "--pin",
+    "6:0.7,0.3",
+    "--pin",
+    "9:0.3,0.7",
     "--pin",
     "10:0.3,0.3",
 ];

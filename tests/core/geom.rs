@@ -1,8 +1,8 @@
 //! The plane: orientation, hulls, triangulations, similarities and the picture's frame.
 
 use freebound::geom::{
-    Bounds, Orientation, PictureFrame, Similarity, VAxis, clip_polygon, clip_segment, convex_hull, delaunay_triangles,
-    look_mirrored, orientation, outside_triangles,
+    Bounds, Orientation, PictureFrame, Similarity, VAxis, clip_polygon, clip_segment, constrained_triangles,
+    convex_hull, delaunay_triangles, look_mirrored, orientation, outside_triangles,
 };
 use glam::DVec2;
 
@@ -242,4 +242,16 @@ fn a_similarity_goes_back_and_in_parts_that_make_up_the_whole() {
     let arm = half.apply(DVec2::new(2.0, -2.0)) - half.apply(DVec2::new(1.0, -2.0));
     assert!(arm.distance(DVec2::from_angle(1.25) * 3_f64.sqrt()) < 1e-14);
     assert!(half.apply(DVec2::new(1.0, -2.0)).distance(DVec2::new(-1.5, 2.5)) < 1e-14);
+}
+
+#[test]
+fn a_triangulation_has_the_sides_that_are_asked_for() {
+    // The longer diagonal, which Delaunay's has not.
+    let kite = points(&[[0, 0], [4, -1], [8, 0], [4, 1]]);
+    let has = |triangles: &[[u32; 3]], [a, b]: [u32; 2]| triangles.iter().any(|t| t.contains(&a) && t.contains(&b));
+    let free = constrained_triangles(&kite, &[]).unwrap();
+    assert_eq!((free.len(), has(&free, [1, 3]), has(&free, [0, 2])), (2, true, false));
+    let with_side = constrained_triangles(&kite, &[[2, 0]]).unwrap();
+    assert_eq!((with_side.len(), has(&with_side, [1, 3]), has(&with_side, [0, 2])), (2, false, true));
+    assert_eq!(constrained_triangles(&kite, &[[0, 2], [1, 3]]), None, "sides that cross");
 }

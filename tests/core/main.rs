@@ -102,6 +102,7 @@ mod repair;
 mod repair_cli;
 mod report_schema;
 mod reproduction;
+mod room;
 mod rounding;
 mod schnyder;
 mod seam_paths;

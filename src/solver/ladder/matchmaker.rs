@@ -7,13 +7,13 @@ use super::rung::{Failure, Footing, Latest, Rung};
 use super::task::Task;
 use super::{Candidate, Ending, Step};
 use crate::mesh::DiskMesh;
-use crate::solver::matchmaker::{Matched, matched, without_needless_vertices};
+use crate::solver::matchmaker::{Matched, matched, with_room_made, without_needless_vertices};
 use crate::solver::relaxing::Relaxing;
 use crate::solver::{Control, Method, SolveError};
 
 /// Rounds of relaxing before new vertices are looked at again, and how often they are at most.
 const ROUNDS_BEFORE_REMOVAL: usize = 10;
-const REMOVALS: usize = 4;
+const REMOVALS: usize = 12;
 
 /// Another look at the new vertices is worthwhile where the last one took out so great a part of them.
 const WORTHWHILE: f64 = 0.05;
@@ -55,7 +55,8 @@ impl Rung for Match {
             }
             Stage::Refined { found: before, looks_left } => {
                 let Matched { refinement, embedding } = relaxed(before, task, control)?;
-                let found = bare(Matched { embedding: sheet.written(&embedding).into_owned(), refinement });
+                let bare = bare(Matched { embedding: sheet.written(&embedding).into_owned(), refinement });
+                let found = with_room_made_on_sheet(mesh, bare, task, control)?;
                 let count = before.refinement.new_vertices().len();
                 let taken_out = count - found.refinement.new_vertices().len();
                 let is_worthwhile = taken_out as f64 > WORTHWHILE * count as f64;
@@ -99,4 +100,16 @@ fn relaxed(found: &Matched, task: &Task, control: Control<'_>) -> Result<Matched
         }
     }
     Ok(Matched { refinement: found.refinement.clone(), embedding })
+}
+
+/// The same without new vertices for whose removal room can be made, if it is as good in the numbers that are written.
+fn with_room_made_on_sheet(
+    mesh: &DiskMesh,
+    bare: Matched,
+    task: &Task,
+    control: Control<'_>,
+) -> Result<Matched, SolveError> {
+    let found = with_room_made(mesh, bare.clone(), &task.held(), control)?;
+    let is_sound = task.sheet.is_one_to_one(found.refinement.disk(), &found.embedding);
+    Ok(if is_sound { found } else { bare })
 }

@@ -18,9 +18,12 @@
 //! | `subdivision.rs`, `triangulate.rs` | faces cut into cells by paths; cells cut into triangles |
 //! | `straighten.rs` | the embedding in which every path is straight |
 //! | `needless.rs` | new vertices that are not needed, taken out again |
+//! | `room.rs`, `patchwork.rs` | new vertices for whose removal room is made; triangles that are exchanged for that |
 
 mod needless;
+mod patchwork;
 mod paths;
+mod room;
 mod router;
 mod straighten;
 mod subdivision;
@@ -32,7 +35,8 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 pub use self::needless::without_needless_vertices;
-use self::paths::Paths;
+use self::paths::{Beginning, Ends, Growth, Manner, Paths};
+pub use self::room::with_room_made;
 use self::router::Router;
 use self::straighten::{Weights, held_places, straightened};
 use self::subdivision::Subdivision;
@@ -40,7 +44,7 @@ use self::target_graph::TargetGraph;
 use self::triangulate::{Parts, split_collapsing_edges, triangulate};
 use super::outside::{disk_in_plane, outside_of};
 use super::rest::mean_edge_length;
-use super::{Control, Embedding, Outside, Pins, SolveError, is_one_to_one};
+use super::{Control, Embedding, Outside, Phase, Pins, SolveError, is_one_to_one};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, VertexId};
 
 /// Length that a new vertex counts for, in mean lengths of an edge.
@@ -49,6 +53,17 @@ const CROSSING: f64 = 0.5;
 /// The most new vertices for each vertex of the mesh, and on small meshes: paths that wind around each other need ever more.
 const NEW_VERTICES_PER_VERTEX: usize = 16;
 const NEW_VERTICES_OF_SMALL: usize = 10_000;
+
+/// Trees whose lengths are by chance up to so many times as long, and how many of each; the mesh's vertices in all trees
+/// that are tried, and the fewest trees.
+const LUCK: [f64; 2] = [1.3, 2.0];
+const SEEDS: u64 = 4;
+const VERTICES_OF_ALL_TREES: usize = 200_000;
+const FEWEST_TREES: usize = 2;
+
+/// Another tree than the first is taken where it needs at most so many of so many new vertices: a few more or less say
+/// nothing about the map.
+const WORTHWHILE: [usize; 2] = [4, 5];
 
 /// A planar embedding of a refined mesh that meets all exact pins to the last bit.
 #[derive(Clone, Debug)]
@@ -69,6 +84,9 @@ struct Surroundings {
 
 /// Finds new vertices and an embedding with which all exact pins are met, from a planar embedding near to the targets.
 ///
+/// The tree of the first paths decides how those of all others wind: several are tried, and the one that takes the
+/// fewest new vertices is taken.
+///
 /// # Errors
 ///
 /// Targets that coincide, a start that is not planar, faces too fine for 64-bit numbers, paths that need too many new
@@ -77,31 +95,39 @@ pub fn matched(mesh: &DiskMesh, start: &Embedding, pins: &Pins, control: Control
     let exact = || pins.iter().filter(|(_, pin)| pin.hold.is_exact());
     let targets: Vec<DVec2> = exact().map(|(_, pin)| pin.target).collect();
     let surroundings = Surroundings::new(mesh, start, &targets)?;
-    let graph = TargetGraph::new(&targets, &surroundings.frame).ok_or(SolveError::TooFine)?;
-    let corners = (mesh.vertex_count()..).take(surroundings.frame.len()).map(VertexId::from_index);
+    let frame = surroundings.frame.len();
+    let corners = (mesh.vertex_count()..).take(frame).map(VertexId::from_index);
     let vertices = exact().map(|(&v, _)| v).chain(corners).map(VertexId::number).collect();
-    let cells = Subdivision::new(&surroundings.disk, &surroundings.places);
-    let mut paths = Paths::new(cells, &graph, vertices, surroundings.frame.len());
-    let most = (NEW_VERTICES_PER_VERTEX * mesh.vertex_count()).max(NEW_VERTICES_OF_SMALL);
-    paths.lay_all(&mut Router::new(CROSSING * mean_edge_length(mesh, start), control), most)?;
-    let Paths { mut cells, lines, .. } = paths;
-    split_collapsing_edges(&mut cells, &graph);
-    let parts = triangulate(&mut cells, &graph, &surroundings.disk);
-    let held = held_places(&cells, &graph, &lines);
-    let whole = surroundings.refined(&cells, &parts);
-    let (refinement, vertices) = refined(mesh, &surroundings.disk, &cells, &parts);
-    for weights in [Weights::MeanValue, Weights::Uniform] {
-        let places = match straightened(&whole, &cells, &held, weights, control) {
-            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
-            Err(_) => continue,
-            Ok(places) => places,
+    let graph = TargetGraph::new(&targets, &surroundings.frame);
+    let mut router = Router::new(CROSSING * mean_edge_length(mesh, start), control);
+    let ends = Ends { graph, vertices, frame };
+    let mut manners = manners(mesh);
+    loop {
+        let (number, paths) = surroundings.with_fewest_points(mesh, &ends, &manners, &mut router)?;
+        match surroundings.straightened(mesh, paths, control) {
+            // Another tree may lead to faces that are less fine.
+            Err(SolveError::TooFine) if manners.len() > 1 => manners.remove(number),
+            result => return result,
         };
-        let embedding: Embedding = vertices.iter().map(|&v| places[v as usize]).collect();
-        if is_one_to_one(refinement.disk(), &embedding) {
-            return Ok(Matched { refinement, embedding });
-        }
     }
-    Err(SolveError::TooFine)
+}
+
+/// Trees that are tried. On large meshes a few only.
+fn manners(mesh: &DiskMesh) -> Vec<Manner> {
+    use Beginning::{NearOnMesh, NearTargets};
+    use Growth::{Anywhere, FromFrame};
+    let plain = [
+        (FromFrame, NearTargets, 0.0),
+        (Anywhere, NearOnMesh, 0.0),
+        (Anywhere, NearTargets, 0.0),
+        (Anywhere, NearOnMesh, 0.3),
+        (FromFrame, NearTargets, 1.0),
+    ];
+    let manner = |(growth, beginning, target_share)| Manner { growth, beginning, target_share, luck: (1.0, 0) };
+    let by_chance = LUCK.into_iter().flat_map(|most| (1..=SEEDS).map(move |seed| (most, seed)));
+    let varied = by_chance.map(|luck| Manner { luck, ..manner(plain[1]) });
+    let count = (VERTICES_OF_ALL_TREES / mesh.vertex_count()).max(FEWEST_TREES);
+    plain.into_iter().map(manner).chain(varied).take(count).collect()
 }
 
 impl Surroundings {
@@ -112,6 +138,60 @@ impl Surroundings {
         let places: Vec<DVec2> = start.iter().chain(&frame).copied().collect();
         let disk = disk_in_plane(&places, triangles.collect()).ok_or(SolveError::NotPlanar)?;
         Ok(Self { disk, places, frame })
+    }
+
+    /// Paths by the manner that takes the fewest new points, and its place in the list.
+    fn with_fewest_points(
+        &self,
+        mesh: &DiskMesh,
+        ends: &Ends,
+        manners: &[Manner],
+        router: &mut Router<'_>,
+    ) -> Result<(usize, Paths), SolveError> {
+        let most = (NEW_VERTICES_PER_VERTEX * mesh.vertex_count()).max(NEW_VERTICES_OF_SMALL);
+        let mut fewest: Option<(usize, Paths)> = None;
+        let mut at_most = most;
+        for (number, &manner) in manners.iter().enumerate() {
+            let is_by_chance = manner.luck.0 > 1.0;
+            if is_by_chance && fewest.is_none() {
+                break;
+            }
+            let mut paths = Paths::new(Subdivision::new(&self.disk, &self.places), ends.clone(), manner);
+            match paths.lay_all(router, at_most) {
+                Ok(()) => {
+                    let count = paths.cells.point_count();
+                    let [part, whole] = if fewest.is_none() { WORTHWHILE } else { [1, 1] };
+                    at_most = (part * count / whole).min(count.saturating_sub(1));
+                    fewest = Some((number, paths));
+                }
+                Err(SolveError::TooManyNewVertices { .. }) => {}
+                Err(error) => return Err(error),
+            }
+        }
+        fewest.ok_or(SolveError::TooManyNewVertices { most })
+    }
+
+    /// The embedding in which all paths are straight.
+    fn straightened(&self, mesh: &DiskMesh, paths: Paths, control: Control<'_>) -> Result<Matched, SolveError> {
+        let Paths { mut cells, graph, lines, .. } = paths;
+        split_collapsing_edges(&mut cells, &graph);
+        let parts = triangulate(&mut cells, &graph, &self.disk);
+        control.enter(Phase::Assemble)?;
+        let held = held_places(&cells, &graph, &lines);
+        let whole = self.refined(&cells, &parts);
+        let (refinement, vertices) = refined(mesh, &self.disk, &cells, &parts);
+        for weights in [Weights::MeanValue, Weights::Uniform] {
+            let places = match straightened(&whole, &cells, &held, weights, control) {
+                Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
+                Err(_) => continue,
+                Ok(places) => places,
+            };
+            let embedding: Embedding = vertices.iter().map(|&v| places[v as usize]).collect();
+            if is_one_to_one(refinement.disk(), &embedding) {
+                return Ok(Matched { refinement, embedding });
+            }
+        }
+        Err(SolveError::TooFine)
     }
 
     /// Mesh and outside, cut into parts.

@@ -26,7 +26,7 @@ pub fn without_needless_vertices(mesh: &DiskMesh, matched: Matched) -> Matched {
 }
 
 /// Triangles by the old face that they are parts of.
-type Parts = BTreeMap<FaceId, Vec<[VertexId; 3]>>;
+pub(super) type Parts = BTreeMap<FaceId, Vec<[VertexId; 3]>>;
 
 /// The refined mesh on the way.
 struct Removal<'a> {
@@ -117,7 +117,7 @@ impl<'a> Removal<'a> {
     /// Triangles without the vertex, if there are such.
     fn fill(&self, hole: &Hole) -> Option<Vec<[VertexId; 3]>> {
         let Hole { face, corners } = hole;
-        let on: Vec<u8> = corners.iter().map(|&v| self.sides_of(*face, v)).collect();
+        let on: Vec<u8> = corners.iter().map(|&v| sides_of(self.mesh, self.new_vertices, *face, v)).collect();
         let position = |i: usize| self.refined.position(corners[i]);
         let length = |i: usize, j: usize| position(i).distance_squared(position(j));
         let is_bad = |i: usize, j: usize, k: usize| {
@@ -126,19 +126,6 @@ impl<'a> Removal<'a> {
         };
         let triangles = shortest_triangulation(corners.len(), length, is_bad)?;
         Some(triangles.into_iter().map(|t| t.map(|i| corners[i])).collect())
-    }
-
-    /// The sides of an old face that a vertex lies on, as bits.
-    fn sides_of(&self, face: FaceId, vertex: VertexId) -> u8 {
-        let corners = self.mesh.face(face);
-        let is_on = |k: usize| {
-            let side = [corners[k], corners[(k + 1) % 3]];
-            match vertex.index().checked_sub(self.mesh.vertex_count()) {
-                Some(new) => self.new_vertices[new].edge.iter().all(|end| side.contains(end)),
-                None => side.contains(&vertex),
-            }
-        };
-        (0..3).map(|k| u8::from(is_on(k)) << k).sum()
     }
 
     /// Whether the boundary may go straight past a vertex: the line meets no edge but the two beside it, at its ends.
@@ -156,8 +143,21 @@ impl<'a> Removal<'a> {
     }
 }
 
+/// The sides of an old face that a vertex lies on, as bits.
+pub(super) fn sides_of(mesh: &DiskMesh, new_vertices: &[NewVertex], face: FaceId, vertex: VertexId) -> u8 {
+    let corners = mesh.face(face);
+    let is_on = |k: usize| {
+        let side = [corners[k], corners[(k + 1) % 3]];
+        match vertex.index().checked_sub(mesh.vertex_count()) {
+            Some(new) => new_vertices[new].edge.iter().all(|end| side.contains(end)),
+            None => side.contains(&vertex),
+        }
+    };
+    (0..3).map(|k| u8::from(is_on(k)) << k).sum()
+}
+
 /// The mesh without the removed new vertices.
-fn without(mesh: &DiskMesh, matched: &Matched, removed: &BTreeSet<VertexId>, parts: Parts) -> Matched {
+pub(super) fn without(mesh: &DiskMesh, matched: &Matched, removed: &BTreeSet<VertexId>, parts: Parts) -> Matched {
     let old = mesh.vertex_count();
     let kept: Vec<VertexId> = matched.refinement.disk().vertices().filter(|v| !removed.contains(v)).collect();
     let mut number = vec![VertexId::default(); matched.embedding.len()];

@@ -1,148 +1,205 @@
 //! Paths on the mesh, one for each edge of the target graph, in its order around each vertex.
 //!
-//! First a tree that grows from the frame: a path joins an end that is connected with one that has no path yet, so that
-//! the rest stays in one piece and there always is a way. Then all others: each joins two corners of a region without
-//! holes, and cuts it in two. Either time the shortest comes first (Kraevoy, Sheffer, Gotsman 2003, "Matchmaker:
-//! constructing constrained texture maps").
+//! First a tree: a path joins two ends that are not connected yet, so that the rest stays in one piece and there always
+//! is a way. Then all others: each joins two corners of a region without holes, and cuts it in two. Either time the
+//! shortest comes first (Kraevoy, Sheffer, Gotsman 2003, "Matchmaker: constructing constrained texture maps").
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
 use super::router::{Length, Move, Router, Sector, Terminal, Way};
 use super::subdivision::{Role, Subdivision};
-use super::target_graph::TargetGraph;
+use super::target_graph::{TargetGraph, near_pairs};
 use crate::solver::SolveError;
+use crate::solver::study::Random;
+
+/// Which paths make the tree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Manner {
+    pub(super) growth: Growth,
+    pub(super) beginning: Beginning,
+    /// The part of the distance between targets in what counts as short.
+    pub(super) target_share: f64,
+    /// What lengths are multiplied by at most, and the seed of the chance that decides.
+    pub(super) luck: (f64, u64),
+}
+
+/// Where the tree grows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Growth {
+    /// From the frame (Prim).
+    FromFrame,
+    /// Wherever the next shortest path is (Kruskal).
+    Anywhere,
+}
+
+/// Which edges the tree begins with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Beginning {
+    /// Those of a triangulation of the targets.
+    NearTargets,
+    /// Those whose ends are near to each other on the mesh.
+    NearOnMesh,
+}
 
 #[derive(Debug)]
-pub(super) struct Paths<'a> {
+pub(super) struct Paths {
     pub(super) cells: Subdivision,
-    graph: &'a TargetGraph,
-    /// Vertices of the graph before the frame's.
-    target_count: usize,
+    pub(super) graph: TargetGraph,
     /// The vertex of the subdivision for each vertex of the graph.
     vertices: Vec<u32>,
-    /// For each directed edge of the graph that has a path the halfedge by which it leaves.
+    /// For each directed edge of the graph the halfedge by which its path leaves.
     departures: BTreeMap<[u32; 2], u32>,
     /// For each edge the vertices of its path, from the first end to the second.
     pub(super) lines: Vec<Vec<u32>>,
+    /// For each vertex of the graph a number of the piece that paths make it a part of.
+    piece: Vec<u32>,
+    manner: Manner,
 }
 
-/// An edge that waits for its path, by a bound of the path's length.
+/// What paths join.
+#[derive(Clone, Debug)]
+pub(super) struct Ends {
+    /// Targets and frame, with no edge.
+    pub(super) graph: TargetGraph,
+    /// The vertex of the subdivision for each of them.
+    pub(super) vertices: Vec<u32>,
+    /// How many are the frame's corners.
+    pub(super) frame: usize,
+}
+
+/// A pair of ends that waits for its path, by a bound of the path's length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Waiting {
     bound: Length,
-    edge: u32,
+    pair: [u32; 2],
 }
 
-impl<'a> Paths<'a> {
-    /// The frame's sides, which are edges of the subdivision, and no other path. `frame` counts the frame's corners.
-    pub(super) fn new(mut cells: Subdivision, graph: &'a TargetGraph, vertices: Vec<u32>, frame: usize) -> Self {
+impl Paths {
+    /// The frame's sides, which are edges of the subdivision, and no other path.
+    pub(super) fn new(mut cells: Subdivision, Ends { graph, vertices, frame }: Ends, manner: Manner) -> Self {
         for (end, &vertex) in (0..).zip(&vertices) {
             cells.roles[vertex as usize] = Role::End(end);
         }
-        let lines = vec![Vec::new(); graph.edges.len()];
-        let target_count = graph.points.len() - frame;
-        let mut paths = Self { cells, graph, target_count, vertices, departures: BTreeMap::new(), lines };
-        let corners: Vec<u32> = (0..).take(graph.points.len()).skip(target_count).collect();
+        let count = graph.points.len();
+        let corners: Vec<u32> = (0..).take(count).skip(count - frame).collect();
+        let piece = (0..).take(count).map(|end: u32| end.min(corners[0])).collect();
+        let (departures, lines) = (BTreeMap::new(), Vec::new());
+        let mut paths = Self { cells, graph, vertices, departures, lines, piece, manner };
         for (k, &from) in corners.iter().enumerate() {
             let to = corners[(k + 1) % frame];
             let [tail, head] = [from, to].map(|end| paths.vertices[end as usize]);
             let side = paths.cells.around(tail).find(|&h| paths.cells.head(h) == head).expect("the frame is closed");
-            let edge = graph.edge_between(from, to).expect("the frame is the hull of the graph");
-            paths.lay(edge, from, &[Move::Along(side)]);
+            paths.lay([from, to], &[Move::Along(side)]);
         }
         paths
     }
 
-    /// Lays the paths of all edges, with at most so many new points.
+    /// Lays the paths of all edges of a triangulation, with at most so many new points.
     pub(super) fn lay_all(&mut self, router: &mut Router<'_>, most: usize) -> Result<(), SolveError> {
-        let check = |paths: &Self| {
-            let is_enough = paths.cells.point_count() > most;
-            if is_enough { Err(SolveError::TooManyNewVertices { most }) } else { Ok(()) }
-        };
-        let mut is_connected: Vec<bool> = (0..self.graph.points.len()).map(|end| end >= self.target_count).collect();
-        let mut waiting = BinaryHeap::new();
-        for end in (0..).take(is_connected.len()).filter(|&end| is_connected[end as usize]) {
-            self.wait_at(end, &is_connected, &mut waiting);
+        if self.manner.beginning == Beginning::NearOnMesh {
+            let places: Vec<_> = self.vertices.iter().map(|&v| self.cells.places[v as usize]).collect();
+            self.lay_tree(&near_pairs(&places), router, most)?;
         }
-        while let Some(Reverse(Waiting { edge, .. })) = waiting.peek().copied() {
-            let [a, b] = self.graph.edges[edge as usize];
-            let [from, to] = if is_connected[a as usize] { [a, b] } else { [b, a] };
-            if is_connected[to as usize] {
-                waiting.pop();
-            } else if self.lay_or_wait(edge, from, router, &mut waiting)? {
-                check(self)?;
-                is_connected[to as usize] = true;
-                self.wait_at(to, &is_connected, &mut waiting);
-            }
-        }
-        for edge in (0..).take(self.lines.len()).filter(|&edge| self.lines[edge as usize].is_empty()) {
-            waiting.push(self.waiting(edge));
-        }
-        while let Some(Reverse(Waiting { edge, .. })) = waiting.peek().copied() {
-            self.lay_or_wait(edge, self.graph.edges[edge as usize][0], router, &mut waiting)?;
-            check(self)?;
+        let missing = self.graph.missing_edges().ok_or(SolveError::TooFine)?;
+        self.lay_tree(&missing, router, most)?;
+        let mut waiting: BinaryHeap<_> = missing
+            .iter()
+            .filter(|[a, b]| self.graph.edge_between(*a, *b).is_none())
+            .map(|&pair| Reverse(self.waiting(pair)))
+            .collect();
+        while let Some(Reverse(Waiting { pair, .. })) = waiting.pop() {
+            self.lay_or_wait(pair, router, &mut waiting)?;
+            self.check(most)?;
         }
         Ok(())
     }
 
-    /// The edges from a connected end to others wait.
-    fn wait_at(&self, end: u32, is_connected: &[bool], waiting: &mut BinaryHeap<Reverse<Waiting>>) {
-        for (edge, [a, b]) in (0..).zip(&self.graph.edges) {
-            let other = if *a == end { *b } else { *a };
-            if (*a == end || *b == end) && !is_connected[other as usize] {
-                waiting.push(self.waiting(edge));
+    /// Lays paths between pairs of ends that are not connected yet, as far as no edges cross.
+    fn lay_tree(&mut self, pairs: &[[u32; 2]], router: &mut Router<'_>, most: usize) -> Result<(), SolveError> {
+        let growth = self.manner.growth;
+        let frame = self.piece[self.piece.len() - 1];
+        let mut pairs_at: Vec<Vec<[u32; 2]>> = vec![Vec::new(); self.piece.len()];
+        for &[a, b] in pairs {
+            pairs_at[a as usize].push([a, b]);
+            pairs_at[b as usize].push([a, b]);
+        }
+        let is_at_frame = |paths: &Self, [a, b]: [u32; 2]| {
+            growth == Growth::Anywhere || [a, b].iter().any(|&end| paths.piece[end as usize] == frame)
+        };
+        let mut waiting: BinaryHeap<_> =
+            pairs.iter().filter(|&&pair| is_at_frame(self, pair)).map(|&pair| Reverse(self.waiting(pair))).collect();
+        while let Some(Reverse(Waiting { pair, .. })) = waiting.pop() {
+            let [one, other] = pair.map(|end| self.piece[end as usize]);
+            if one == other || self.graph.bars(pair) || !self.lay_or_wait(pair, router, &mut waiting)? {
+                continue;
+            }
+            self.check(most)?;
+            let (kept, lost) = if one == frame { (one, other) } else { (other, one) };
+            for end in (0..).take(self.piece.len()) {
+                if self.piece[end as usize] == lost {
+                    self.piece[end as usize] = kept;
+                    if growth == Growth::FromFrame {
+                        waiting.extend(pairs_at[end as usize].iter().map(|&pair| Reverse(self.waiting(pair))));
+                    }
+                }
             }
         }
+        Ok(())
     }
 
-    /// An edge of which nothing is known but how far its ends are from each other.
-    fn waiting(&self, edge: u32) -> Reverse<Waiting> {
-        let [a, b] = self.graph.edges[edge as usize].map(|end| self.cells.places[self.vertices[end as usize] as usize]);
-        Reverse(Waiting { bound: Length(a.distance(b)), edge })
+    fn check(&self, most: usize) -> Result<(), SolveError> {
+        if self.cells.point_count() > most { Err(SolveError::TooManyNewVertices { most }) } else { Ok(()) }
     }
 
-    /// Lays the path of the first edge that waits, if no longer than the next may be: paths in its way only add to it.
+    /// A pair of which nothing is known but how far its ends are from each other.
+    fn waiting(&self, pair: [u32; 2]) -> Waiting {
+        let [a, b] = pair.map(|end| self.cells.places[self.vertices[end as usize] as usize]);
+        Waiting { bound: Length(self.counted(a.distance(b), pair)), pair }
+    }
+
+    /// What a path of some length counts for.
+    fn counted(&self, length: f64, [a, b]: [u32; 2]) -> f64 {
+        let [from, to] = [a, b].map(|end| self.graph.points[end as usize]);
+        let Manner { target_share, luck: (most, seed), .. } = self.manner;
+        let number = (u64::from(a.min(b)) << 32) | u64::from(a.max(b));
+        let chance = Random::of_run(seed, number).unit();
+        (length + target_share * from.distance(to)) * (1.0 + (most - 1.0) * chance)
+    }
+
+    /// Lays a path, if no longer than the next may be: paths in its way only add to it.
     fn lay_or_wait(
         &mut self,
-        edge: u32,
-        from: u32,
+        pair: [u32; 2],
         router: &mut Router<'_>,
         waiting: &mut BinaryHeap<Reverse<Waiting>>,
     ) -> Result<bool, SolveError> {
-        waiting.pop();
-        let to = self.other_end(edge, from);
+        let [from, to] = pair;
         let Way { length, moves } = router.way(&self.cells, &self.terminal(from, to), &self.terminal(to, from))?;
+        let length = self.counted(length, pair);
         let is_shortest = waiting.peek().is_none_or(|Reverse(next)| length <= next.bound.0);
         if is_shortest {
-            self.lay(edge, from, &moves);
+            self.lay(pair, &moves);
         } else {
-            waiting.push(Reverse(Waiting { bound: Length(length), edge }));
+            waiting.push(Reverse(Waiting { bound: Length(length), pair }));
         }
         Ok(is_shortest)
-    }
-
-    /// The other end of an edge.
-    fn other_end(&self, edge: u32, end: u32) -> u32 {
-        let [a, b] = self.graph.edges[edge as usize];
-        if end == a { b } else { a }
     }
 
     /// Where a path from one end to another may leave it: between its neighbours in the order of the graph.
     fn terminal(&self, from: u32, to: u32) -> Terminal {
         let vertex = self.vertices[from as usize];
-        let departure = |other: u32| self.departures.get(&[from, other]).copied();
-        let after = self.graph.neighbours_after(from, to).find_map(departure);
-        let before = self.graph.neighbours_after(from, to).rev().find_map(departure);
-        let sector = match (before, after) {
-            (Some(begin), Some(end)) => Sector::between(&self.cells, begin, end),
-            _ => Sector::around(&self.cells, vertex),
+        let departure = |other: u32| self.departures[&[from, other]];
+        let sector = match self.graph.beside(from, to) {
+            Some([before, after]) => Sector::between(&self.cells, departure(before), departure(after)),
+            None => Sector::around(&self.cells, vertex),
         };
         Terminal { vertex, sector }
     }
 
     /// Lays a path: splits what it crosses.
-    fn lay(&mut self, edge: u32, from: u32, moves: &[Move]) {
+    fn lay(&mut self, [from, to]: [u32; 2], moves: &[Move]) {
+        let edge = self.graph.add([from, to]);
         let role = Role::Within(edge);
         let mut vertex = self.vertices[from as usize];
         let mut line = vec![vertex];
@@ -177,12 +234,8 @@ impl<'a> Paths<'a> {
             line.push(vertex);
             pieces.push(piece);
         }
-        let to = self.other_end(edge, from);
         self.departures.insert([from, to], pieces[0]);
         self.departures.insert([to, from], self.cells[pieces[pieces.len() - 1]].twin);
-        if from != self.graph.edges[edge as usize][0] {
-            line.reverse();
-        }
-        self.lines[edge as usize] = line;
+        self.lines.push(line);
     }
 }

@@ -1,74 +1,108 @@
 //! What the paths are to match: a triangulation of the targets and of the frame's corners around them.
+//!
+//! It grows with the paths: edges whose paths are short come first, and the triangulation has them all.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use crate::geom::{Orientation, delaunay_triangles, orientation};
+use crate::geom::{Orientation, constrained_triangles, delaunay_triangles, folds_back, orientation, segments_meet};
 
-/// A Delaunay triangulation whose vertices are the targets, followed by the corners of the frame.
-#[derive(Debug)]
+/// A graph in the plane, of straight edges, whose vertices are the targets, followed by the corners of the frame.
+#[derive(Clone, Debug)]
 pub(super) struct TargetGraph {
     pub(super) points: Vec<DVec2>,
-    /// Ends of each edge, the lower number first.
+    /// Ends of each edge.
     pub(super) edges: Vec<[u32; 2]>,
     number_of_edge: BTreeMap<[u32; 2], u32>,
-    /// Neighbours of each vertex, counter-clockwise; of a frame corner from the side that leaves to the one that comes.
+    /// The other ends of the edges at each vertex, counter-clockwise.
     neighbours: Vec<Vec<u32>>,
 }
 
 impl TargetGraph {
-    /// Triangulates targets and frame. `None` where targets coincide, or lie too near for the triangulation.
-    pub(super) fn new(targets: &[DVec2], frame: &[DVec2]) -> Option<Self> {
+    /// Targets and frame with no edge yet.
+    pub(super) fn new(targets: &[DVec2], frame: &[DVec2]) -> Self {
         let points: Vec<DVec2> = targets.iter().chain(frame).copied().collect();
-        let triangles = delaunay_triangles(&points)?;
-        let is_positive = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|corner| points[corner as usize]);
-            orientation(a, b, c) == Some(Orientation::CounterClockwise)
-        };
-        if !triangles.iter().all(is_positive) {
-            return None;
-        }
-        let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-        let mut edges: Vec<[u32; 2]> = sides.map(|[a, b]| [a.min(b), a.max(b)]).collect();
-        edges.sort_unstable();
-        edges.dedup();
-        let number_of_edge = edges.iter().copied().zip(0..).collect();
-        let neighbours = neighbours(points.len(), &triangles);
-        Some(Self { points, edges, number_of_edge, neighbours })
+        let neighbours = vec![Vec::new(); points.len()];
+        Self { points, edges: Vec::new(), number_of_edge: BTreeMap::new(), neighbours }
     }
 
     pub(super) fn edge_between(&self, a: u32, b: u32) -> Option<u32> {
         self.number_of_edge.get(&[a.min(b), a.max(b)]).copied()
     }
 
-    /// Neighbours of a vertex in their order around it, from the one after `first` until `first` again.
-    pub(super) fn neighbours_after(&self, vertex: u32, first: u32) -> impl DoubleEndedIterator<Item = u32> + '_ {
-        let all = &self.neighbours[vertex as usize];
-        let at = all.iter().position(|&other| other == first).unwrap_or(0);
-        (1..=all.len()).map(move |step| all[(at + step) % all.len()])
+    /// Adds an edge, and returns its number.
+    pub(super) fn add(&mut self, [a, b]: [u32; 2]) -> u32 {
+        let number = u32::try_from(self.edges.len()).expect("edges fit");
+        self.edges.push([a, b]);
+        self.number_of_edge.insert([a.min(b), a.max(b)], number);
+        for [from, to] in [[a, b], [b, a]] {
+            let place = self.place_around(from, to);
+            self.neighbours[from as usize].insert(place, to);
+        }
+        number
+    }
+
+    /// The neighbours of a vertex before and after the direction to another vertex, counter-clockwise.
+    pub(super) fn beside(&self, from: u32, to: u32) -> Option<[u32; 2]> {
+        let (around, place) = (&self.neighbours[from as usize], self.place_around(from, to));
+        let before = around.get(place.wrapping_sub(1)).or_else(|| around.last())?;
+        let after = around.get(place).or_else(|| around.first())?;
+        Some([*before, *after])
+    }
+
+    fn place_around(&self, from: u32, to: u32) -> usize {
+        let at = |v: u32| self.points[v as usize];
+        self.neighbours[from as usize].partition_point(|&other| by_turn(at(from), at(other), at(to)) == Ordering::Less)
+    }
+
+    /// Whether a further edge would cross one that there is, or go through a vertex.
+    pub(super) fn bars(&self, [a, b]: [u32; 2]) -> bool {
+        let at = |v: u32| self.points[v as usize];
+        let line = [at(a), at(b)];
+        let meets = |&[c, d]: &[u32; 2]| match [[c, d], [d, c]].into_iter().find(|[end, _]| [a, b].contains(end)) {
+            None => segments_meet(line, [at(c), at(d)]),
+            Some([shared, other]) => folds_back(at(if shared == a { b } else { a }), at(shared), at(other)),
+        };
+        let is_on_line = |v: u32| ![a, b].contains(&v) && segments_meet(line, [at(v); 2]);
+        self.edges.iter().any(meets) || (0..).take(self.points.len()).any(is_on_line)
+    }
+
+    /// The edges that are still missing to a triangulation; `None` where targets coincide, or lie too near for one.
+    pub(super) fn missing_edges(&self) -> Option<Vec<[u32; 2]>> {
+        let triangles = constrained_triangles(&self.points, &self.edges)?;
+        let is_positive = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|corner| self.points[corner as usize]);
+            orientation(a, b, c) == Some(Orientation::CounterClockwise)
+        };
+        if !triangles.iter().all(is_positive) {
+            return None;
+        }
+        Some(sides(&triangles).filter(|&[a, b]| self.edge_between(a, b).is_none()).collect())
     }
 }
 
-/// Neighbours of each vertex in their order around it.
-fn neighbours(count: usize, triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
-    let mut after: Vec<BTreeMap<u32, u32>> = vec![BTreeMap::new(); count];
-    for &[a, b, c] in triangles {
-        for [at, from, to] in [[a, b, c], [b, c, a], [c, a, b]] {
-            after[at as usize].insert(from, to);
-        }
-    }
-    let around = |after: &BTreeMap<u32, u32>| {
-        let begins = |from: &&u32| !after.values().any(|to| to == *from);
-        let first = after.keys().find(begins).or_else(|| after.keys().next()).copied();
-        let mut order: Vec<u32> = first.into_iter().collect();
-        while let Some(&next) = order.last().and_then(|last| after.get(last)) {
-            if Some(next) == first {
-                break;
-            }
-            order.push(next);
-        }
-        order
-    };
-    after.iter().map(around).collect()
+/// Edges between points that are near to each other: those of their Delaunay triangulation.
+pub(super) fn near_pairs(points: &[DVec2]) -> Vec<[u32; 2]> {
+    delaunay_triangles(points).map_or_else(Vec::new, |triangles| sides(&triangles).collect())
+}
+
+/// The sides of triangles, each once, the lower number first; ascending.
+fn sides(triangles: &[[u32; 3]]) -> impl Iterator<Item = [u32; 2]> + use<> {
+    let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let mut sides: Vec<[u32; 2]> = sides.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    sides.sort_unstable();
+    sides.dedup();
+    sides.into_iter()
+}
+
+/// Which of two directions from a centre comes first counter-clockwise, beginning with that along x.
+fn by_turn(centre: DVec2, a: DVec2, b: DVec2) -> Ordering {
+    let is_below = |z: DVec2| z.y < centre.y || (z.y == centre.y && z.x < centre.x);
+    is_below(a).cmp(&is_below(b)).then_with(|| match orientation(centre, a, b) {
+        Some(Orientation::CounterClockwise) => Ordering::Less,
+        Some(Orientation::Clockwise) => Ordering::Greater,
+        _ => Ordering::Equal,
+    })
 }

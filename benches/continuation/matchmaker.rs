@@ -1,0 +1,165 @@
+//! New vertices: how many, and how distorted maps are that need them.
+//!
+//! The constrained sets of the corpus with their targets given to one another, whole boundaries held that cross
+//! themselves, and the sets as they are by rung 5 alone, beside rung 4, which needs no new vertex.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use freebound::mesh::{DiskMesh, VertexId};
+use freebound::solver::{Choice as _, Method, Pin, Pins, Settings, distortion, hard_pins};
+use glam::DVec2;
+
+use crate::common::table::{Table, ratio, seconds};
+use crate::corpus::{name_of, read_set, sets};
+use crate::makers::Random;
+use crate::outcome::Outcome;
+use crate::synthetic::{Cap, below};
+
+/// Vertices of the caps whose boundaries are held.
+const CAPS: [usize; 3] = [300, 1_000, 4_000];
+
+/// A boundary that is held, as a closed curve.
+#[derive(Clone, Copy)]
+enum Course {
+    /// A circle on which so many pairs of neighbours have changed places.
+    Swapped(usize),
+    /// A lemniscate: it crosses itself once.
+    Eight,
+    /// A limaçon with an inner loop: it turns twice.
+    Loop,
+}
+
+const COURSES: [Course; 3] = [Course::Swapped(8), Course::Eight, Course::Loop];
+
+impl Course {
+    fn name(self) -> String {
+        match self {
+            Self::Swapped(pairs) => format!("{pairs} pairs swapped"),
+            Self::Eight => "figure eight".to_owned(),
+            Self::Loop => "inner loop".to_owned(),
+        }
+    }
+
+    /// Where the boundary goes, counter-clockwise where it is a circle. No two places are the same: the steps are so
+    /// displaced that no two have a symmetric place.
+    fn places(self, count: usize) -> Vec<DVec2> {
+        let turns = (0..count).map(|k| TAU * (k as f64 + 0.37) / count as f64);
+        match self {
+            Self::Swapped(pairs) => {
+                let mut places: Vec<DVec2> = turns.map(DVec2::from_angle).collect();
+                (0..pairs).map(|pair| pair * count / pairs).for_each(|at| places.swap(at, at + 1));
+                places
+            }
+            Self::Eight => turns.map(|turn| DVec2::new(turn.cos(), turn.sin() * turn.cos())).collect(),
+            Self::Loop => turns.map(|turn| (0.5 + turn.cos()) * DVec2::from_angle(turn)).collect(),
+        }
+    }
+}
+
+const HEADS: [&str; 10] =
+    ["targets", "vertices", "pins", "rung", "new at first", "new", "s to first", "s", "energy", "end"];
+
+pub(crate) fn run(is_quick: bool) {
+    let mut table = Table::new("new vertices where pins are in each other's way; energy after all relaxing", &HEADS);
+    let mut add = |row: Vec<String>| {
+        println!("{}", row.join("  "));
+        table.row(row);
+    };
+    let few = |path: &Path| !is_quick || name_of(path).starts_with("fran_face");
+    for path in sets().iter().filter(|path| few(path)) {
+        match read_set(path) {
+            Ok((mesh, pins)) => {
+                let name = format!("{} permuted", name_of(path));
+                add(row(&name, &mesh, &permuted(&pins), Settings::default()));
+            }
+            Err(error) => println!("{}: {error}", name_of(path)),
+        }
+    }
+    for &vertices in if is_quick { &CAPS[..1] } else { &CAPS[..] } {
+        for course in COURSES {
+            match Cap::of(vertices, 1) {
+                Ok(cap) => {
+                    let name = format!("boundary, {}", course.name());
+                    add(row(&name, &cap.mesh, &held_boundary(&cap.mesh, course), Settings::default()));
+                }
+                Err(error) => println!("cap of {vertices} vertices: {error}"),
+            }
+        }
+    }
+    println!();
+    table.print();
+    beside_rung_4(&few);
+}
+
+/// The sets as they are by rung 5 and by rung 4.
+fn beside_rung_4(few: &dyn Fn(&Path) -> bool) {
+    let heads = ["set", "new", "s", "energy", "s by rung 4", "energy by rung 4", "times"];
+    let mut table = Table::new("rung 5 on sets that rung 4 can do", &heads);
+    for path in sets().iter().filter(|path| few(path)) {
+        let Ok((mesh, pins)) = read_set(path) else { continue };
+        let [five, four] = [Method::Matchmaker, Method::Continuation].map(|method| {
+            let settings = Settings { method, ..Settings::default() };
+            Outcome::of(&mesh, settings, &pins)
+        });
+        let [of_five, of_four] = [&five, &four].map(|found| energy(&mesh, found));
+        let times = of_five.zip(of_four).map_or("–".to_owned(), |(five, four)| ratio(five / four));
+        let [of_five, of_four] = [of_five, of_four].map(shown);
+        let new = new_at_end(&five);
+        let row = [name_of(path), new, seconds(five.seconds), of_five, seconds(four.seconds), of_four, times];
+        println!("{}", row.join("  "));
+        table.row(row);
+    }
+    println!();
+    table.print();
+}
+
+fn row(name: &str, mesh: &DiskMesh, pins: &Pins, settings: Settings) -> Vec<String> {
+    let found = Outcome::of(mesh, settings, pins);
+    let step = found.solved.as_ref().map(|(_, step)| step);
+    vec![
+        name.to_owned(),
+        mesh.vertex_count().to_string(),
+        pins.len().to_string(),
+        step.map_or("–", |step| step.rung.name()).to_owned(),
+        found.new_vertices().map_or("–".to_owned(), |count| count.to_string()),
+        new_at_end(&found),
+        seconds(found.seconds_to_solve()),
+        seconds(found.seconds),
+        shown(energy(mesh, &found)),
+        found.ending,
+    ]
+}
+
+/// New vertices of the last step, where that meets the pins.
+fn new_at_end(found: &Outcome) -> String {
+    let solved = found.last.as_ref().filter(|step| step.verdict.planar && step.unmet().is_empty());
+    let count = solved.map(|step| step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len()));
+    count.map_or("–".to_owned(), |count| count.to_string())
+}
+
+/// Mean symmetric Dirichlet energy of the last step, where that is planar and meets the pins.
+fn energy(mesh: &DiskMesh, found: &Outcome) -> Option<f64> {
+    let step = found.last.as_ref().filter(|step| step.verdict.planar && step.unmet().is_empty())?;
+    Some(distortion(step.mesh(mesh), &step.solution.embedding).summary.symmetric_dirichlet.mean)
+}
+
+fn shown(energy: Option<f64>) -> String {
+    energy.map_or("–".to_owned(), |energy| format!("{energy:.3}"))
+}
+
+/// The same vertices with the same targets, each of them given to another vertex: one cycle (Sattolo 1986).
+fn permuted(pins: &Pins) -> Pins {
+    let mut random = Random(16);
+    let mut targets: Vec<DVec2> = pins.values().map(|pin| pin.target).collect();
+    for last in (1..targets.len()).rev() {
+        targets.swap(last, below(&mut random, last));
+    }
+    pins.iter().zip(targets).map(|((&vertex, pin), target)| (vertex, Pin { target, ..*pin })).collect()
+}
+
+/// All vertices of the boundary along a curve.
+fn held_boundary(mesh: &DiskMesh, course: Course) -> Pins {
+    let boundary: &[VertexId] = mesh.boundary_loop();
+    hard_pins(boundary.iter().copied().zip(course.places(boundary.len())))
+}
