@@ -8,6 +8,7 @@ mod common;
 #[path = "../examples/makers/mod.rs"]
 mod makers;
 
+use std::f64::consts::{SQRT_2, TAU};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -64,8 +65,7 @@ fn main() {
         }
         let settings = Settings::new(method, family);
         let pins = if is_constrained { pins(&mesh, &flat) } else { Pins::new() };
-        let waits =
-            Waits::of(|control| Ladder::new(settings.clone(), pins.clone()).finish(&mesh, control, |_| {}).map(|_| ()));
+        let waits = Waits::of(|control| Ladder::new(settings, pins.clone()).finish(&mesh, control, |_| {}).map(|_| ()));
         let worst = waits.worst.as_ref();
         let row = [
             method.name().to_owned(),
@@ -73,10 +73,10 @@ fn main() {
             pins.len().to_string(),
             waits.stopped.to_string(),
             seconds(waits.times.median()),
-            worst.map_or("–".to_owned(), |worst| seconds(worst.wait)),
+            worst.map_or("–".to_owned(), |worst| seconds(worst.seconds)),
             worst.and_then(|worst| worst.phase).map_or("–", Phase::words).to_owned(),
             worst.map_or("–".to_owned(), |worst| seconds(worst.at)),
-            worst.map_or("–".to_owned(), |worst| target(worst.wait, WANTED)),
+            worst.map_or("–".to_owned(), |worst| target(worst.seconds, WANTED)),
         ];
         println!("{}", row.join("  "));
         table.row(row);
@@ -98,12 +98,12 @@ fn pins(mesh: &DiskMesh, flat: &Embedding) -> Pins {
     let low = flat.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let high = flat.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     let (middle, reach) = ((low + high) / 2.0, (high - low).min_element() / 4.0);
-    let place = |k: u32| middle + reach * DVec2::from_angle(std::f64::consts::TAU * f64::from(k) / 8.0);
+    let place = |k: u32| middle + reach * DVec2::from_angle(TAU * f64::from(k) / 8.0);
     let nearest = |to: DVec2| {
         let distance = |v: &VertexId| flat[*v].distance(to);
         mesh.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("a mesh has vertices")
     };
-    hard_pins((0..8).map(|k| (nearest(place(k)), place(k) + (place(k + 2) - place(k)).normalize() * reach * 4.0 / 3.0)))
+    hard_pins((0..8).map(|k| (nearest(place(k)), place(k) + (place(k + 2) - place(k)) * (4.0 / 3.0 / SQRT_2))))
 }
 
 /// What stopping came to.
@@ -116,7 +116,7 @@ struct Waits {
 
 /// One wait.
 struct Wait {
-    wait: f64,
+    seconds: f64,
     /// The phase that was entered last, and the seconds from the beginning.
     phase: Option<Phase>,
     at: f64,
@@ -141,8 +141,8 @@ impl Waits {
 
     fn add(&mut self, wait: Wait) {
         self.stopped += 1;
-        self.times.add(wait.wait);
-        if self.worst.as_ref().is_none_or(|worst| worst.wait < wait.wait) {
+        self.times.add(wait.seconds);
+        if self.worst.as_ref().is_none_or(|worst| worst.seconds < wait.seconds) {
             self.worst = Some(wait);
         }
     }
@@ -170,5 +170,5 @@ fn stopped(run: impl Fn(Control<'_>) -> Result<(), SolveError>, until: Duration)
     let (outcome, ended) = outcome;
     let (raised, phase) = raised.into_inner().expect("nobody panics")?;
     let wait = ended.duration_since(raised).as_secs_f64();
-    matches!(outcome, Err(SolveError::Cancelled)).then_some(Wait { wait, phase, at: until.as_secs_f64() })
+    matches!(outcome, Err(SolveError::Cancelled)).then_some(Wait { seconds: wait, phase, at: until.as_secs_f64() })
 }
