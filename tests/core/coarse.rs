@@ -207,7 +207,8 @@ fn pins_far_from_their_targets_are_met_by_way_of_fewer_vertices() {
     let note = last.note.as_deref().unwrap_or_default();
     assert!(note.starts_with("by way of ") && note.ends_with(" of the 4225 vertices"), "{note}");
     assert!(last.progress.unwrap().energy < 20.0 && last.progress.unwrap().distance_left == 0.0);
-    assert_eq!(steps.iter().filter(|step| step.rung == Method::Continuation).count(), 2, "the fit, and one step");
+    let of_continuation = steps.iter().filter(|step| step.rung == Method::Continuation);
+    assert_eq!(of_continuation.count(), 1, "the outer pins hold it where it lies: nothing is fitted");
 }
 
 #[test]
@@ -218,7 +219,7 @@ fn the_way_by_fewer_vertices_that_is_cancelled_is_taken_anew() {
     while ladder.step_count() + 1 < whole.len() {
         ladder.step(&mesh, Control::unattended()).unwrap();
     }
-    for allowed in [0, 12, 40] {
+    for allowed in [0, 6, 12] {
         let (flag, phases) = (AtomicBool::new(false), AtomicUsize::new(0));
         let report = |_| flag.store(phases.fetch_add(1, Ordering::Relaxed) >= allowed, Ordering::Relaxed);
         assert_eq!(

@@ -208,7 +208,8 @@ impl Fuzz {
         let (Some(outcome), Some(model)) = (self.session.outcome(), self.session.model()) else { return };
         let disk = model.disk().expect("only a disk is solved");
         assert!(outcome.step.solution.embedding.iter().all(|z| z.is_finite()));
-        let is_on_its_way = outcome.step.is_of_planar_start();
+        // A run that was cancelled on its way is shown again as it stood.
+        let is_on_its_way = outcome.step.is_of_planar_start() || self.session.can_run();
         if !self.session.is_current() || !outcome.problem.settings.method.uses_pins() || is_on_its_way {
             return;
         }
