@@ -18,7 +18,7 @@ use super::triangulate::shortest_triangulation;
 use crate::geom::{Orientation, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::solver::foldover_energy::{Element, Energy};
-use crate::solver::membrane::{Limits, Membrane, Unfolding};
+use crate::solver::membrane::{Limits, Membrane, Planning, Unfolding};
 use crate::solver::outside::{FRAME_POINTS, THINNEST as THINNEST_OUTSIDE, outside_of};
 use crate::solver::rest::{THINNEST, laid_flat};
 use crate::solver::{Control, Phase, Pins, SolveError};
@@ -229,7 +229,8 @@ impl<'a> Room<'a> {
     fn unfolds(&mut self, patch: &Patch, before: f64, control: Control<'_>) -> Result<bool, SolveError> {
         let (elements, mut z) = (self.elements(patch), self.places(patch));
         let is_held = |point: u32| !patch.is_free[point as usize];
-        let membrane = Membrane::new(z.len(), elements, Vec::new(), is_held, None)?;
+        let planning = Planning { similar: None, control };
+        let membrane = Membrane::new(z.len(), elements, Vec::new(), is_held, planning)?;
         let unfolding = Unfolding::BesideBarriers;
         let limits = Limits { unfolded: Energy::SymmetricDirichlet, steps: STEPS, unfolding, tolerance: TOLERANCE };
         match membrane.descend(&mut z, limits, control) {
