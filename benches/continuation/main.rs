@@ -2,7 +2,8 @@
 //!
 //! Words behind `--` choose the parts: `corpus` (the constrained problems of `../shared/corpus`), `synthetic` (bumpy caps
 //! with displaced, swirled, stretched and permuted pins), `size` (time and memory by the number of faces), `matchmaker`
-//! (new vertices where pins are in each other's way); all of them without any. `quick` takes few and small cases; `steps` shows every step.
+//! (new vertices where pins are in each other's way), `seams` (disks with long seams, without constraints), `held` (whole
+//! boundaries held); all of them without any. `quick` takes few and small cases; `steps` shows every step.
 //!
 //! A run that takes longer than two minutes is stopped and says so; one that fails is a row like any other.
 
@@ -14,6 +15,7 @@ mod corpus;
 mod makers;
 mod matchmaker;
 mod outcome;
+mod seams;
 mod size;
 mod synthetic;
 
@@ -30,8 +32,14 @@ fn main() {
     SHOWS_STEPS.store(arguments.iter().any(|word| word == "steps"), Ordering::Relaxed);
     let words = arguments.iter().map(String::as_str);
     let chosen: Vec<&str> = words.filter(|word| !["quick", "steps"].contains(word)).collect();
-    let parts: [(&str, fn(bool)); 4] =
-        [("corpus", corpus::run), ("synthetic", synthetic::run), ("size", size::run), ("matchmaker", matchmaker::run)];
+    let parts: [(&str, fn(bool)); 6] = [
+        ("corpus", corpus::run),
+        ("synthetic", synthetic::run),
+        ("size", size::run),
+        ("matchmaker", matchmaker::run),
+        ("seams", seams::run_free),
+        ("held", seams::run_held),
+    ];
     for (name, run) in parts {
         if chosen.is_empty() || chosen.contains(&name) {
             run(is_quick);

@@ -8,6 +8,7 @@
 //! | `sheet.rs` | an irregular sheet of any size |
 //! | `head.rs` | a closed head of quads |
 //! | `quads.rs` | sheets of quads and of hexagons, gentle to rough |
+//! | `seamed.rs` | a closed ball with bumps or folds, cut open along long random seams |
 //! | `flat.rs`, `caps.rs`, `cube.rs`, `face.rs` | the built-in meshes |
 //! | `fill.rs`, `delaunay.rs` | good triangles on a surface, for these |
 //! | `sculpt.rs`, `landmarks.rs` | the sculpture of the face, and its landmarks |
@@ -39,6 +40,7 @@ mod portrait;
 mod quads;
 mod relief;
 mod sculpt;
+mod seamed;
 mod sheet;
 
 use freebound::examples::Example;
@@ -54,6 +56,7 @@ pub(crate) use landmarks::landmarks;
 pub(crate) use plain::{band, disk, fan, grid, shaped, sheet, tetrahedron, write_obj};
 pub(crate) use portrait::{PORTRAIT_SIZE, picture_from_sculpture, plane, portrait, sculpture_from_plane};
 pub(crate) use quads::{honeycomb, quad_sheet};
+pub(crate) use seamed::{Relief, seamed_ball};
 pub(crate) use sheet::{jittered_sheet, sheet_of_faces};
 
 /// Makes a built-in mesh.

@@ -1,0 +1,167 @@
+//! Closed surfaces cut open along long random seams: without constraints, their free boundaries cross themselves; and with
+//! the whole boundary held on a simple polygon.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use freebound::geom::Bounds;
+use freebound::mesh::DiskMesh;
+use freebound::solver::{Choice as _, Pins, Settings, distortion, hard_pins};
+use glam::DVec2;
+
+use crate::common::table::{Table, seconds, target};
+use crate::makers::{Relief, bumpy_cap_of, seamed_ball};
+use crate::outcome::Outcome;
+
+/// A disk: its name, the maker's numbers, and the seconds that it may take on two cores.
+enum Surface {
+    /// Cells of an octahedron's side, edges of the seams, relief and seed.
+    Ball(i32, usize, Relief, u64),
+    /// Vertices.
+    Cap(usize),
+}
+
+impl Surface {
+    fn mesh(&self) -> Result<DiskMesh, String> {
+        let mesh = match *self {
+            Self::Ball(cells, edges, relief, seed) => seamed_ball(cells, edges, relief, seed),
+            Self::Cap(vertices) => bumpy_cap_of(vertices, 1),
+        };
+        DiskMesh::try_from(mesh).map_err(|diagnosis| diagnosis.to_string())
+    }
+
+    fn name(&self) -> String {
+        match self {
+            Self::Ball(_, _, relief, seed) => format!("ball, {relief:?}, {seed}").to_lowercase(),
+            Self::Cap(_) => "cap".to_owned(),
+        }
+    }
+}
+
+/// Without constraints, and the seconds that these may take.
+const FREE: [Surface; 6] = [
+    Surface::Ball(79, 300, Relief::Bumps, 1),
+    Surface::Ball(79, 1000, Relief::Bumps, 2),
+    Surface::Ball(79, 3000, Relief::Bumps, 3),
+    Surface::Ball(79, 300, Relief::Folds, 4),
+    Surface::Ball(79, 1000, Relief::Folds, 5),
+    Surface::Ball(79, 3000, Relief::Folds, 6),
+];
+const FREE_SECONDS: f64 = 5.0;
+
+/// Where a whole boundary is held.
+#[derive(Clone, Copy, Debug)]
+enum Held {
+    /// On a circle, by its lengths.
+    Circle,
+    /// On a flower of five petals, by its lengths.
+    Flower,
+    /// Where it lies without constraints, but swirled: a quarter turn in the middle, none farthest from it.
+    Swirl,
+}
+
+const HELD: [(Surface, f64); 3] = [
+    (Surface::Cap(15_000), 10.0),
+    (Surface::Ball(61, 824, Relief::Bumps, 7), 10.0),
+    (Surface::Ball(120, 1648, Relief::Bumps, 8), 60.0),
+];
+
+const HEADS: [&str; 11] =
+    ["surface", "faces", "boundary", "held", "planar", "rung", "steps", "s", "target s", "energy", "end"];
+
+pub(crate) fn run_free(is_quick: bool) {
+    let mut table = Table::new("auto on disks with long seams, without constraints", &HEADS);
+    for surface in FREE.iter().take(if is_quick { 1 } else { FREE.len() }) {
+        match surface.mesh() {
+            Ok(mesh) => show(&mut table, row(surface, &mesh, ("–".to_owned(), FREE_SECONDS), &Pins::new())),
+            Err(error) => println!("{}: {error}", surface.name()),
+        }
+    }
+    println!();
+    table.print();
+}
+
+pub(crate) fn run_held(is_quick: bool) {
+    let mut table = Table::new("auto with the whole boundary held", &HEADS);
+    for (surface, at_most) in HELD.iter().take(if is_quick { 1 } else { HELD.len() }) {
+        let mesh = match surface.mesh() {
+            Ok(mesh) => mesh,
+            Err(error) => {
+                println!("{}: {error}", surface.name());
+                continue;
+            }
+        };
+        for held in [Held::Circle, Held::Flower, Held::Swirl] {
+            match held.pins(&mesh) {
+                Some(pins) => {
+                    show(&mut table, row(surface, &mesh, (format!("{held:?}").to_lowercase(), *at_most), &pins))
+                }
+                None => println!("{}: no planar embedding without constraints", surface.name()),
+            }
+        }
+    }
+    println!();
+    table.print();
+}
+
+fn show(table: &mut Table, row: [String; 11]) {
+    println!("{}", row.join("  "));
+    table.row(row);
+}
+
+fn row(surface: &Surface, mesh: &DiskMesh, (held, at_most): (String, f64), pins: &Pins) -> [String; 11] {
+    let found = Outcome::of(mesh, Settings::default(), pins);
+    let solved = found.solved.as_ref().map(|(_, step)| step);
+    let last = found.last.as_ref();
+    // What is shown is the end, relaxed, where nothing is held: until then it takes.
+    let taken = if pins.is_empty() { found.seconds } else { found.seconds_to_solve() };
+    let energy = |step: &freebound::solver::Step| {
+        format!("{:.3}", distortion(step.mesh(mesh), &step.solution.embedding).summary.symmetric_dirichlet.mean)
+    };
+    [
+        surface.name(),
+        mesh.face_count().to_string(),
+        mesh.boundary_loop().len().to_string(),
+        held,
+        if solved.is_some() { "yes" } else { "NO" }.to_owned(),
+        solved.or(last).map_or("–", |step| step.rung.name()).to_owned(),
+        found.steps.to_string(),
+        seconds(taken),
+        target(taken, at_most),
+        last.map_or("–".to_owned(), energy),
+        found.ending,
+    ]
+}
+
+impl Held {
+    /// All boundary vertices as pins; `None` where that needs a planar embedding, and there is none.
+    fn pins(self, mesh: &DiskMesh) -> Option<Pins> {
+        let places = match self {
+            Self::Circle => along(mesh, |_| 1.0),
+            Self::Flower => along(mesh, |angle| 1.0 + 0.35 * (5.0 * angle).cos()),
+            Self::Swirl => swirled(mesh)?,
+        };
+        Some(hard_pins(mesh.boundary_loop().iter().copied().zip(places)))
+    }
+}
+
+/// Places on a closed curve around the origin, whose radius is given by the angle; angles by lengths on the surface.
+fn along(mesh: &DiskMesh, radius: impl Fn(f64) -> f64) -> Vec<DVec2> {
+    let boundary = mesh.boundary_loop();
+    let mut walked = vec![0.0];
+    for (k, &vertex) in boundary.iter().enumerate() {
+        let next = boundary[(k + 1) % boundary.len()];
+        walked.push(walked[k] + mesh.position(vertex).distance(mesh.position(next)));
+    }
+    let angles = walked[..boundary.len()].iter().map(|length| TAU * length / walked[boundary.len()]);
+    angles.map(|angle| radius(angle) * DVec2::from_angle(angle)).collect()
+}
+
+fn swirled(mesh: &DiskMesh) -> Option<Vec<DVec2>> {
+    let found = Outcome::of(mesh, Settings::default(), &Pins::new());
+    let step = found.last.filter(|step| step.verdict.planar)?;
+    let boundary = step.solution.embedding.boundary(mesh);
+    let middle = Bounds::of(boundary.iter().copied()).middle();
+    let reach = boundary.iter().map(|z| z.distance(middle)).fold(0.0, f64::max);
+    let turn = |z: DVec2| DVec2::from_angle(FRAC_PI_2 * (1.0 - z.distance(middle) / reach));
+    Some(boundary.iter().map(|&z| middle + turn(z).rotate(z - middle)).collect())
+}
