@@ -3,13 +3,14 @@
 //! A vertex v that moves onto its neighbour u takes two triangles with it, and the others at v become a fan from u. In the
 //! plane all of the fan, the outside's part too, has to be positive, exactly: then surface and outside still cover the
 //! frame once, and no edge is there twice. In space the fan's triangles must not be thin, nor turned away from those that
-//! they stand for, and between space and plane they must not be much more distorted.
+//! they stand for, and between space and plane they must not be much more distorted. Without an embedding, u and v must have
+//! no other neighbours in common than the corners across from their edge.
 
 use glam::{DVec2, DVec3};
 
 use super::super::foldover_energy::{Element, Energy};
 use super::super::rest::{THINNEST, laid_flat};
-use super::surface::{Ring, Surface};
+use super::surface::{Guide, Ring, Surface};
 use crate::geom::{Orientation, orientation};
 use crate::mesh::VertexId;
 
@@ -90,11 +91,14 @@ impl Surface<'_> {
     fn quality_onto(&self, onto: usize, ring: &Ring, star: &Star) -> Option<f64> {
         let u = ring.at(onto);
         let sides = (1..ring.len() - 1).map(|by| (onto + by) % ring.len());
+        if self.guide == Guide::Space && !self.leaves_edges_apart(onto, ring) {
+            return None;
+        }
         let is_positive = |side: usize| {
             let [a, b, c] = self.in_plane([u, ring.at(side), ring.at(side + 1)]);
             orientation(a, b, c) == Some(Orientation::CounterClockwise)
         };
-        if !sides.clone().all(is_positive) {
+        if self.guide == Guide::Plane && !sides.clone().all(is_positive) {
             return None;
         }
         let most_energy = MOST_ENERGY.max(MORE_ENERGY * star.most_energy);
@@ -105,12 +109,21 @@ impl Surface<'_> {
             let normal = self.double_area_vector(face);
             let is_turned = normal.dot(star.normal) < LEAST_COSINE * normal.length() * star.normal.length();
             worst = worst.min(self.quality(face));
-            let is_distorted = self.energy(face, star.scale) > most_energy;
+            let is_distorted = self.guide == Guide::Plane && self.energy(face, star.scale) > most_energy;
             if is_turned || worst < least_quality || worst == 0.0 || is_distorted {
                 return None;
             }
         }
         Some(worst)
+    }
+
+    /// Whether no edge of the fan from a neighbour is there already.
+    fn leaves_edges_apart(&self, onto: usize, ring: &Ring) -> bool {
+        let is_next = |place: usize| {
+            let apart = place.abs_diff(onto);
+            apart <= 1 || (!ring.is_of_boundary() && apart == ring.len() - 1)
+        };
+        (0..ring.len()).filter(|&place| !is_next(place)).all(|place| !self.are_joined(ring.at(onto), ring.at(place)))
     }
 
     fn in_plane(&self, face: [u32; 3]) -> [DVec2; 3] {

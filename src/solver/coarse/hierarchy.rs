@@ -79,12 +79,36 @@ impl Hierarchy {
         target: usize,
         control: Control<'_>,
     ) -> Result<Option<Self>, SolveError> {
+        Self::of(Surface::new(mesh, embedding), keeps, target, control)
+    }
+
+    /// The same where there is no embedding yet: the shape of the surface alone says which vertices can go.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    pub fn in_space(
+        mesh: &DiskMesh,
+        keeps: impl Fn(VertexId) -> bool,
+        target: usize,
+        control: Control<'_>,
+    ) -> Result<Option<Self>, SolveError> {
+        Self::of(Surface::alone(mesh), keeps, target, control)
+    }
+
+    fn of(
+        mut surface: Surface<'_>,
+        keeps: impl Fn(VertexId) -> bool,
+        target: usize,
+        control: Control<'_>,
+    ) -> Result<Option<Self>, SolveError> {
+        let mesh = surface.mesh;
         if mesh.real_faces().len() < mesh.face_count() {
             return Ok(None);
         }
+        surface.look_around();
         let kept: Vec<bool> = mesh.vertices().map(keeps).collect();
         let mut left: Vec<u32> = mesh.vertices().filter(|&v| mesh.is_used(v)).map(VertexId::number).collect();
-        let mut surface = Surface::new(mesh, embedding);
         let (mut rounds, mut levels) = (Vec::new(), Vec::new());
         let mut before = left.len();
         while left.len() > target {

@@ -21,7 +21,7 @@ use crate::mesh::{DiskMesh, VertexId};
 pub struct Fine<'a> {
     /// The mesh.
     pub mesh: &'a DiskMesh,
-    /// The embedding that vertices were taken in.
+    /// The embedding that vertices were taken in; without one, any: it says near which neighbours a vertex is tried first.
     pub embedding: &'a Embedding,
     /// Vertices that stay where the coarsest disk has them.
     pub pins: &'a Pins,

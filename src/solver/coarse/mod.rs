@@ -16,6 +16,9 @@
 //! positive: near that corner there is always room for it, but for rounding. So a planar embedding of the coarse disk
 //! becomes one of the whole mesh.
 //!
+//! Where there is no planar embedding yet, vertices are taken by the shape of the surface alone, and the coarse disk is the
+//! place to find one: whatever its embedding, if it is planar, all vertices can be put back.
+//!
 //! After L. Liu, C. Ye, R. Ni, X.-M. Fu, "Progressive parameterizations", 2018, and H. Shen, Z. Jiang, D. Zorin,
 //! D. Panozzo, "Progressive embedding", 2019, from whom it differs in what guides the collapses (an embedding that is
 //! planar already), in rounds of vertices that are far from each other, and in the boundary, which is made coarser too.

@@ -6,11 +6,21 @@ use super::super::outside::{FRAME_POINTS, frame_around};
 use crate::geom::outside_triangles;
 use crate::mesh::{DiskMesh, VertexId};
 
-/// A surface in the plane with its outside up to a frame. Vertices have the numbers of the mesh as given; the frame's
+/// What keeps a surface in order while vertices are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Guide {
+    /// A planar embedding: triangles stay positive, those of the outside included.
+    Plane,
+    /// The surface alone: no edge comes to be there twice.
+    Space,
+}
+
+/// A surface; in the plane with its outside up to a frame. Vertices have the numbers of the mesh as given; the frame's
 /// points follow.
 pub(super) struct Surface<'a> {
     pub(super) mesh: &'a DiskMesh,
-    /// Positions in the plane.
+    pub(super) guide: Guide,
+    /// Positions in the plane; anywhere where the surface alone guides.
     pub(super) points: Vec<DVec2>,
     /// Triangles of the surface.
     pub(super) inner: Vec<[u32; 3]>,
@@ -29,7 +39,7 @@ struct Stars {
 }
 
 /// The neighbours of a vertex, counter-clockwise. At a boundary vertex the first one follows it along the boundary, and
-/// those of the outside are the last.
+/// those of the outside are the last. Where the surface alone guides there is no outside, and the last one precedes it.
 #[derive(Default)]
 pub(super) struct Ring {
     pub(super) vertices: Vec<u32>,
@@ -62,9 +72,13 @@ impl<'a> Surface<'a> {
         let boundary: Vec<u32> = mesh.boundary_loop().iter().map(|v| v.number()).collect();
         let mut points = embedding.to_vec();
         points.extend(frame_around(boundary.iter().map(|&v| embedding[v as usize]), FRAME_POINTS));
-        let mut surface = Self { mesh, points, inner, boundary, outer: Vec::new(), stars: Stars::default() };
-        surface.look_around();
-        surface
+        Self { mesh, guide: Guide::Plane, points, inner, boundary, outer: Vec::new(), stars: Stars::default() }
+    }
+
+    /// The same without an embedding.
+    pub(super) fn alone(mesh: &'a DiskMesh) -> Self {
+        let nowhere = vec![DVec2::ZERO; mesh.vertex_count()];
+        Self { guide: Guide::Space, points: nowhere.clone(), ..Self::new(mesh, &nowhere) }
     }
 
     /// How many vertices the mesh as given has: higher numbers are the frame's.
@@ -74,17 +88,29 @@ impl<'a> Surface<'a> {
 
     /// Triangulates the outside, and finds the triangles at each vertex.
     pub(super) fn look_around(&mut self) {
+        if self.guide == Guide::Plane {
+            self.outer = self.outside();
+        }
+        self.stars = Stars::of(&self.inner, &self.outer, self.points.len());
+    }
+
+    fn outside(&self) -> Vec<[u32; 3]> {
         let polygon: Vec<DVec2> = self.boundary.iter().map(|&v| self.points[v as usize]).collect();
         let frame = &self.points[self.vertex_count()..];
         let (first, count) = (number(self.vertex_count()), number(polygon.len()));
         let vertex =
             |corner: u32| self.boundary.get(corner as usize).copied().unwrap_or_else(|| first + corner - count);
         let outer = outside_triangles(&polygon, frame).unwrap_or_default();
-        self.outer = outer.into_iter().map(|corners| corners.map(vertex)).collect();
-        self.stars = Stars::of(&self.inner, &self.outer, self.points.len());
+        outer.into_iter().map(|corners| corners.map(vertex)).collect()
     }
 
-    /// Finds the neighbours of a vertex. Returns whether they go all around it.
+    /// Whether two vertices are joined by an edge.
+    pub(super) fn are_joined(&self, v: u32, u: u32) -> bool {
+        self.stars.of_vertex(v).iter().any(|&face| self.inner[face as usize].contains(&u))
+    }
+
+    /// Finds the neighbours of a vertex. Returns whether they go all around it, or as far as there is a surface where that
+    /// alone guides.
     pub(super) fn find_ring(&self, v: u32, ring: &mut Ring) -> bool {
         ring.sides.clear();
         ring.vertices.clear();
@@ -105,6 +131,17 @@ impl<'a> Surface<'a> {
         let begins = |&&[from, _]: &&[u32; 2]| inner.iter().all(|[_, to]| *to != from);
         let Some(&[first, mut to]) = inner.iter().find(begins).or(inner.first()) else { return false };
         ring.vertices.push(first);
+        if self.guide == Guide::Space && inner.iter().all(|[_, to]| *to != first) {
+            ring.vertices.push(to);
+            while let Some(&[_, next]) = inner.iter().find(|[from, _]| *from == to) {
+                if ring.vertices.len() > ring.inner {
+                    return false;
+                }
+                to = next;
+                ring.vertices.push(to);
+            }
+            return ring.vertices.len() == ring.inner + 1;
+        }
         while to != first && ring.vertices.len() < all.len() {
             ring.vertices.push(to);
             // Those of the surface are first, and follow each other.

@@ -1,13 +1,13 @@
 //! The rungs by name, and which flights of them a part of a plan can have.
 
 use self::Kind::{
-    Again, Angles, Continuation, Fit, Given, Iterate, Lee, Matchmaker, Natural, Schnyder, Slim, Spectral, Stretch,
-    VirtualBoundary,
+    Again, Angles, Continuation, FewVertices, Fit, Given, Iterate, Lee, Matchmaker, Natural, Schnyder, Slim, Spectral,
+    Stretch, VirtualBoundary,
 };
 use super::Kept;
 use super::rung::Rung;
 use super::{
-    again, angles, continuation, given, iterate, lee, matchmaker, natural, schnyder, slim, spectral, stretch,
+    again, angles, coarse, continuation, given, iterate, lee, matchmaker, natural, schnyder, slim, spectral, stretch,
     virtual_boundary,
 };
 
@@ -15,7 +15,8 @@ use super::{
 pub(super) type Flights = &'static [&'static [Kind]];
 
 /// Until planar.
-pub(super) const LADDER: Flights = &[&[Natural, Iterate], &[Again, Iterate], &[VirtualBoundary], &[Schnyder]];
+pub(super) const LADDER: Flights =
+    &[&[Natural, Iterate], &[Again, Iterate], &[FewVertices], &[VirtualBoundary], &[Schnyder]];
 /// Until planar, stalled or at the limit.
 pub(super) const ITERATED: Flights = &[&[Natural, Iterate]];
 /// Until planar.
@@ -57,6 +58,7 @@ pub(super) enum Kind {
     Natural,
     Iterate,
     Again,
+    FewVertices,
     VirtualBoundary,
     Schnyder,
     Stretch,
@@ -76,6 +78,7 @@ impl Kind {
             Natural => Box::new(natural::Natural { prepared: kept.prepared.clone() }),
             Iterate => Box::<iterate::Iterate>::default(),
             Again => Box::<again::Again>::default(),
+            FewVertices => Box::<coarse::FewVertices>::default(),
             VirtualBoundary => Box::<virtual_boundary::Bend>::default(),
             Schnyder => Box::<schnyder::Draw>::default(),
             Stretch => Box::<stretch::Stretch>::default(),

@@ -19,6 +19,7 @@
 //! | `lee.rs` | Lee's virtual boundary: layers around the mesh, peeled |
 //! | `slim.rs` | Tutte's map, or a planar one of the ladder, iteration after iteration with less energy |
 //! | `stretch.rs` | a convex boundary, solve after solve with less stretch |
+//! | `coarse.rs` | before rung 3 on large meshes: a disk with few vertices goes first |
 //! | `virtual_boundary.rs` | rung 3: the boundary made simple, and the outside embedded with the mesh |
 //! | `angles.rs` | angles, then the plane |
 //! | `spectral.rs` | one eigenvector, without pins |
@@ -33,6 +34,7 @@
 
 mod again;
 mod angles;
+mod coarse;
 mod continuation;
 mod cut;
 mod ending;
