@@ -1,7 +1,7 @@
 //! Closed surfaces cut open along long random seams: without constraints, their free boundaries cross themselves; and with
 //! the whole boundary held on a simple polygon.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{PI, TAU};
 
 use freebound::geom::Bounds;
 use freebound::mesh::DiskMesh;
@@ -53,11 +53,14 @@ const FREE_SECONDS: f64 = 5.0;
 enum Held {
     /// On a circle, by its lengths.
     Circle,
-    /// On a flower of five petals, by its lengths.
-    Flower,
-    /// Where it lies without constraints, but swirled: a quarter turn in the middle, none farthest from it.
+    /// Where it lies without constraints, in waves: sheared along x, then along y.
+    Waves,
+    /// Where it lies without constraints, but swirled: half a turn in the middle, none farthest from it.
     Swirl,
 }
+
+/// Height of a wave and number of waves, by the size.
+const WAVES: [f64; 2] = [0.08, 2.0];
 
 const HELD: [(Surface, f64); 3] = [
     (Surface::Cap(15_000), 10.0),
@@ -72,7 +75,10 @@ pub(crate) fn run_free(is_quick: bool) {
     let mut table = Table::new("auto on disks with long seams, without constraints", &HEADS);
     for surface in FREE.iter().take(if is_quick { 1 } else { FREE.len() }) {
         match surface.mesh() {
-            Ok(mesh) => show(&mut table, row(surface, &mesh, ("–".to_owned(), FREE_SECONDS), &Pins::new())),
+            Ok(mesh) => show(
+                &mut table,
+                row(surface, &mesh, Asked { held: "–".to_owned(), pins: Pins::new(), at_most: FREE_SECONDS }),
+            ),
             Err(error) => println!("{}: {error}", surface.name()),
         }
     }
@@ -90,11 +96,12 @@ pub(crate) fn run_held(is_quick: bool) {
                 continue;
             }
         };
-        for held in [Held::Circle, Held::Flower, Held::Swirl] {
+        for held in [Held::Circle, Held::Waves, Held::Swirl] {
             match held.pins(&mesh) {
-                Some(pins) => {
-                    show(&mut table, row(surface, &mesh, (format!("{held:?}").to_lowercase(), *at_most), &pins))
-                }
+                Some(pins) => show(
+                    &mut table,
+                    row(surface, &mesh, Asked { held: format!("{held:?}").to_lowercase(), pins, at_most: *at_most }),
+                ),
                 None => println!("{}: no planar embedding without constraints", surface.name()),
             }
         }
@@ -108,8 +115,15 @@ fn show(table: &mut Table, row: [String; 11]) {
     table.row(row);
 }
 
-fn row(surface: &Surface, mesh: &DiskMesh, (held, at_most): (String, f64), pins: &Pins) -> [String; 11] {
-    let found = Outcome::of(mesh, Settings::default(), pins);
+/// What is asked of a disk: the pins, in words, and the seconds that it may take.
+struct Asked {
+    held: String,
+    pins: Pins,
+    at_most: f64,
+}
+
+fn row(surface: &Surface, mesh: &DiskMesh, Asked { held, pins, at_most }: Asked) -> [String; 11] {
+    let found = Outcome::of(mesh, Settings::default(), &pins);
     let solved = found.solved.as_ref().map(|(_, step)| step);
     let last = found.last.as_ref();
     // What is shown is the end, relaxed, where nothing is held: until then it takes.
@@ -136,32 +150,38 @@ impl Held {
     /// All boundary vertices as pins; `None` where that needs a planar embedding, and there is none.
     fn pins(self, mesh: &DiskMesh) -> Option<Pins> {
         let places = match self {
-            Self::Circle => along(mesh, |_| 1.0),
-            Self::Flower => along(mesh, |angle| 1.0 + 0.35 * (5.0 * angle).cos()),
-            Self::Swirl => swirled(mesh)?,
+            Self::Circle => on_circle(mesh),
+            Self::Waves => moved(mesh, |z, size| {
+                let wave = |by: f64| WAVES[0] * size * (TAU * WAVES[1] * by / size).sin();
+                let x = z.x + wave(z.y);
+                DVec2::new(x, z.y + wave(x))
+            })?,
+            Self::Swirl => {
+                moved(mesh, |z, size| DVec2::from_angle(PI * (1.0 - 2.0_f64.sqrt() * z.length() / size)).rotate(z))?
+            }
         };
         Some(hard_pins(mesh.boundary_loop().iter().copied().zip(places)))
     }
 }
 
-/// Places on a closed curve around the origin, whose radius is given by the angle; angles by lengths on the surface.
-fn along(mesh: &DiskMesh, radius: impl Fn(f64) -> f64) -> Vec<DVec2> {
+/// Places on a circle, angles by lengths on the surface.
+fn on_circle(mesh: &DiskMesh) -> Vec<DVec2> {
     let boundary = mesh.boundary_loop();
     let mut walked = vec![0.0];
     for (k, &vertex) in boundary.iter().enumerate() {
         let next = boundary[(k + 1) % boundary.len()];
         walked.push(walked[k] + mesh.position(vertex).distance(mesh.position(next)));
     }
-    let angles = walked[..boundary.len()].iter().map(|length| TAU * length / walked[boundary.len()]);
-    angles.map(|angle| radius(angle) * DVec2::from_angle(angle)).collect()
+    walked[..boundary.len()].iter().map(|length| DVec2::from_angle(TAU * length / walked[boundary.len()])).collect()
 }
 
-fn swirled(mesh: &DiskMesh) -> Option<Vec<DVec2>> {
+/// Where the boundary lies without constraints, moved by a map of the plane, which is told the place from the middle of the
+/// box around it and the box's longer side.
+fn moved(mesh: &DiskMesh, map: impl Fn(DVec2, f64) -> DVec2) -> Option<Vec<DVec2>> {
     let found = Outcome::of(mesh, Settings::default(), &Pins::new());
     let step = found.last.filter(|step| step.verdict.planar)?;
     let boundary = step.solution.embedding.boundary(mesh);
-    let middle = Bounds::of(boundary.iter().copied()).middle();
-    let reach = boundary.iter().map(|z| z.distance(middle)).fold(0.0, f64::max);
-    let turn = |z: DVec2| DVec2::from_angle(FRAC_PI_2 * (1.0 - z.distance(middle) / reach));
-    Some(boundary.iter().map(|&z| middle + turn(z).rotate(z - middle)).collect())
+    let bounds = Bounds::of(boundary.iter().copied());
+    let (middle, size) = (bounds.middle(), bounds.size().max_element());
+    Some(boundary.iter().map(|&z| middle + map(z - middle, size)).collect())
 }

@@ -6,12 +6,13 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::coarse::{Fine, Hierarchy, Level};
 use freebound::solver::{
-    Control, Embedding, Ending, Family, Ladder, Method, Pin, Pins, Settings, SolveError, Step, is_one_to_one,
+    Control, Embedding, Ending, Family, Ladder, Method, Pin, Pins, Settings, SolveError, Step, hard_pins,
+    is_one_to_one, schnyder,
 };
 use glam::DVec2;
 use proptest::prelude::*;
 
-use crate::makers::Random;
+use crate::makers::{Random, Relief, seamed_ball};
 
 /// A hilly square of so many columns and rows, of irregular triangles; and where its vertices lie seen from above, in a
 /// square about the origin of side 2.
@@ -244,4 +245,97 @@ fn an_embedding_of_a_huge_energy_is_relaxed_by_way_of_fewer_vertices() {
     assert!(is_one_round && energies[0] > 1e6, "{energies:?}");
     assert!(energies.last().is_some_and(|&last| last < 10.0), "from the worst to the good: {energies:?}");
     assert!(steps.iter().all(|step| step.verdict.is_one_to_one()));
+}
+
+#[test]
+fn without_an_embedding_the_surface_says_what_can_go_and_any_planar_drawing_of_the_rest_takes_all_back() {
+    for (seed, relief) in [(1, Relief::Bumps), (2, Relief::Folds), (3, Relief::Folds)] {
+        let mesh = DiskMesh::try_from(seamed_ball(14, 40, relief, seed)).unwrap();
+        let hierarchy = Hierarchy::in_space(&mesh, |_| false, 60, Control::unattended()).unwrap().expect("most can go");
+        let coarsest = hierarchy.coarsest();
+        let (few, all) = (coarsest.disk.vertex_count(), mesh.vertex_count());
+        assert!(8 * few < all, "{few} of {all}");
+        for (place, &vertex) in coarsest.vertices.iter().enumerate() {
+            assert_eq!(coarsest.disk.position(VertexId::from_index(place)), mesh.position(vertex));
+        }
+        // A grid drawing is planar by theorem, and has nothing to do with the surface.
+        let drawing = schnyder(&coarsest.disk);
+        assert!(is_one_to_one(&coarsest.disk, &drawing));
+        let nowhere = Embedding::from(vec![DVec2::ZERO; all]);
+        let fine = Fine { mesh: &mesh, embedding: &nowhere, pins: &Pins::new() };
+        let back = lifted(&hierarchy, fine, &drawing).expect("there is room");
+        assert!(is_one_to_one(&mesh, &back), "{relief:?}, {seed}");
+    }
+}
+
+#[test]
+fn a_large_disk_whose_boundary_crosses_itself_goes_by_way_of_few_vertices() {
+    let mesh = DiskMesh::try_from(seamed_ball(33, 420, Relief::Folds, 5)).unwrap();
+    assert!(mesh.vertex_count() > 4000);
+    let settings = Settings { relax_rounds: Some(0), ..Settings::default() };
+    let (steps, ending) = all_steps(&mesh, Ladder::new(settings, Pins::new()));
+    assert_eq!(ending, Ending::Planar);
+    assert!(!steps[0].has_simple_boundary(), "the natural boundary crosses itself");
+    let by_few = steps.iter().position(|step| step.note.as_deref().is_some_and(|note| note.starts_with("by way of ")));
+    let by_few = by_few.expect("a step by way of few vertices");
+    assert!(steps[by_few].verdict.planar && steps[..by_few].iter().all(|step| !step.verdict.planar));
+    // No bending of the whole: all steps before are linear solves and iterations.
+    assert!(steps[..by_few].iter().all(|step| matches!(step.rung, Method::Natural | Method::Iterate)));
+    let energy = steps[by_few].progress.expect("numbers of its energy").energy;
+    assert!(energy < 6.0, "{energy}, not the millions of a boundary on a circle");
+}
+
+/// A small cut ball, and its boundary where it lies in a planar embedding.
+fn cut_ball() -> (DiskMesh, Vec<DVec2>) {
+    let mesh = DiskMesh::try_from(seamed_ball(12, 60, Relief::Folds, 8)).unwrap();
+    let (steps, _) = all_steps(&mesh, Ladder::new(Settings::default(), Pins::new()));
+    let last = steps.last().filter(|step| step.verdict.planar).expect("a planar embedding");
+    let boundary = last.solution.embedding.boundary(&mesh);
+    (mesh, boundary)
+}
+
+fn with_boundary_held(mesh: &DiskMesh, places: &[DVec2]) -> (Vec<Step>, Ending) {
+    let pins = hard_pins(mesh.boundary_loop().iter().copied().zip(places.iter().copied()));
+    let settings = Settings { new_vertices: false, relax_rounds: Some(0), ..Settings::default() };
+    all_steps(mesh, Ladder::new(settings, pins))
+}
+
+fn is_noted(steps: &[Step], words: &str) -> bool {
+    steps.iter().any(|step| step.note.as_deref().is_some_and(|note| note.contains(words)))
+}
+
+#[test]
+fn a_boundary_held_on_a_circle_is_met_by_one_solve_that_fixes_it() {
+    let (mesh, boundary) = cut_ball();
+    let count = boundary.len() as f64;
+    let circle: Vec<DVec2> =
+        (0..boundary.len()).map(|k| DVec2::from_angle(std::f64::consts::TAU * k as f64 / count)).collect();
+    let (steps, ending) = with_boundary_held(&mesh, &circle);
+    let last = steps.last().unwrap();
+    assert_eq!(ending, Ending::Planar);
+    assert!(last.verdict.planar && last.unmet().is_empty());
+    assert!(is_noted(&steps, "mean-value equations with the whole boundary on its targets"));
+    assert_eq!(steps.iter().filter(|step| step.rung == Method::Continuation).count(), 1, "nothing is left to be done");
+}
+
+#[test]
+fn a_boundary_held_on_waves_is_met_from_a_circle() {
+    let (mesh, boundary) = cut_ball();
+    let size = boundary.iter().map(|z| z.abs().max_element()).fold(0.0, f64::max);
+    let wave = |by: f64| 0.3 * size * (6.0 * by / size).sin();
+    // Sheared along x and then along y: a one-to-one map of the plane.
+    let sheared = |z: &DVec2| {
+        let x = z.x + wave(z.y);
+        DVec2::new(x, z.y + wave(x))
+    };
+    let waves: Vec<DVec2> = boundary.iter().map(sheared).collect();
+    let (steps, ending) = with_boundary_held(&mesh, &waves);
+    let last = steps.last().unwrap();
+    assert_eq!(ending, Ending::Planar);
+    assert!(last.verdict.planar && last.unmet().is_empty(), "{}", last.verdict.summary());
+    assert!(is_noted(&steps, "the whole boundary begins on a circle"));
+    assert!(steps.iter().all(|step| !step.is_of_planar_start()), "no free boundary had to be found first");
+    let distances = steps.iter().filter(|step| step.rung == Method::Continuation).filter_map(|step| step.progress);
+    let distances: Vec<f64> = distances.map(|progress| progress.distance_left).collect();
+    assert!(distances[0] > 0.0 && distances.last() == Some(&0.0), "{distances:?}");
 }

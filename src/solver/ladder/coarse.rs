@@ -22,8 +22,8 @@ const FROM_VERTICES: usize = 4000;
 const COARSE_VERTICES: usize = 1500;
 
 /// Rounds of relaxing on the way back, level by level, and of the whole mesh that follow.
-const LEVEL_ROUNDS: usize = 3;
-const ROUNDS: usize = 30;
+const LEVEL_ROUNDS: usize = 6;
+const ROUNDS: usize = 3;
 
 #[derive(Debug, Default)]
 pub(super) struct FewVertices {

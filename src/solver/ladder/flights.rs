@@ -1,14 +1,14 @@
 //! The rungs by name, and which flights of them a part of a plan can have.
 
 use self::Kind::{
-    Again, Angles, Continuation, FewVertices, Fit, Given, Iterate, Lee, Matchmaker, Natural, Schnyder, Slim, Spectral,
-    Stretch, VirtualBoundary,
+    Again, Angles, Continuation, FewVertices, Fit, Given, Held, Iterate, Lee, Matchmaker, Natural, Schnyder, Slim,
+    Spectral, Stretch, VirtualBoundary,
 };
 use super::Kept;
 use super::rung::Rung;
 use super::{
-    again, angles, coarse, continuation, given, iterate, lee, matchmaker, natural, schnyder, slim, spectral, stretch,
-    virtual_boundary,
+    again, angles, coarse, continuation, given, held, iterate, lee, matchmaker, natural, schnyder, slim, spectral,
+    stretch, virtual_boundary,
 };
 
 /// The rungs of a part, flight by flight.
@@ -37,6 +37,8 @@ pub(super) const SPECTRAL: Flights = &[&[Spectral]];
 pub(super) const LINEAR: Flights = &[&[Natural]];
 /// From a planar start until the constraints are met, or stuck.
 pub(super) const CONTINUED: Flights = &[&[Fit, Continuation]];
+/// From a boundary that follows its targets until the constraints are met, or stuck.
+pub(super) const HELD: Flights = &[&[Held, Continuation]];
 /// From a planar start until the constraints are met, with new vertices.
 pub(super) const MATCHED: Flights = &[&[Fit, Matchmaker]];
 /// From a planar start until the constraints are met, with new vertices where it cannot be otherwise.
@@ -67,6 +69,7 @@ pub(super) enum Kind {
     Spectral,
     Angles,
     Fit,
+    Held,
     Continuation,
     Matchmaker,
 }
@@ -87,6 +90,7 @@ impl Kind {
             Spectral => Box::<spectral::Eigenvector>::default(),
             Angles => Box::<angles::Angles>::default(),
             Fit => Box::new(continuation::Fit { start: kept.planar_start.clone(), is_done: false }),
+            Held => Box::<held::Held>::default(),
             Continuation => Box::<continuation::Continue>::default(),
             Matchmaker => Box::<matchmaker::Match>::default(),
         }

@@ -25,6 +25,7 @@
 //! | `spectral.rs` | one eigenvector, without pins |
 //! | `schnyder.rs` | the end of rung 3: a grid drawing, planar by theorem |
 //! | `continuation.rs` | rung 4: a planar start fitted to the constraints, then one-to-one on the way to them |
+//! | `held.rs` | rung 4 where the whole boundary is held: from a boundary that follows its targets |
 //! | `matchmaker.rs` | rung 5: new vertices |
 //! | `relax.rs` | what follows: lower distortion, convex polygons; `auto` goes on until the embedding serves |
 //! | `cut.rs` | what follows: polygons that cannot be convex, cut into triangles |
@@ -41,6 +42,7 @@ mod ending;
 mod flights;
 mod given;
 mod going_on;
+mod held;
 mod iterate;
 mod kept;
 mod lee;

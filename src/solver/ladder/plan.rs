@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::cut::Cut;
 use super::flights::Kind::{self, Continuation, Fit, Given, Iterate, Schnyder};
 use super::flights::{
-    ANGLES, BENT, CONTINUED, CONTINUED_OR_MATCHED, DRAWN, Flights, GIVEN, GIVEN_BENT, GIVEN_ITERATED, GOING_ON,
+    ANGLES, BENT, CONTINUED, CONTINUED_OR_MATCHED, DRAWN, Flights, GIVEN, GIVEN_BENT, GIVEN_ITERATED, GOING_ON, HELD,
     ITERATED, LADDER, LESS_ENERGETIC, LESS_STRETCHED, LINEAR, MATCHED, PADDED, SPECTRAL,
 };
 use super::relax::{Relax, Rounds};
@@ -86,7 +86,8 @@ impl Plan {
         let parts = match task.settings.method {
             Method::Auto if !task.is_constrained() => [part(LADDER)].into(),
             Method::Auto => {
-                [part(ITERATED)].into_iter().chain(from_start(Self::flights_to_constraints(task))).collect()
+                let first = [part(ITERATED), part(HELD)].into_iter();
+                first.chain(from_start(Self::flights_to_constraints(task))).collect()
             }
             Method::Continuation | Method::Relax | Method::Cut | Method::Given | Method::Matchmaker => {
                 from_start(Self::flights_to_constraints(task)).collect()

@@ -1,0 +1,99 @@
+//! Rung 4 where the whole boundary is held: from an embedding whose boundary follows the targets, not from a free one.
+//!
+//! Where the targets' polygon is convex, the mean-value equations with the boundary fixed have the answer by theorem (Floater
+//! 1997), and often where it is not. Otherwise the boundary is laid on a circle first, its vertices as far apart as
+//! their targets, and goes from there.
+
+use std::time::Instant;
+
+use glam::DVec2;
+
+use super::rung::{Failure, Footing, Handover, Latest, Rung};
+use super::task::Task;
+use super::{Candidate, Step};
+use crate::geom::{Similarity, is_simple, turning_number};
+use crate::mesh::DiskMesh;
+use crate::solver::continuation::Continuation;
+use crate::solver::convex::on_shape;
+use crate::solver::{
+    BoundaryShape, Control, Embedding, Family, Method, Pins, Settings, SolveError, Spacing, Treatment, fixed_pins,
+    solve_once,
+};
+
+/// Rounds of relaxing that follow where that meets the targets: the first answer is not the best.
+const ROUNDS: usize = 3;
+
+#[derive(Debug, Default)]
+pub(super) struct Held {
+    is_done: bool,
+}
+
+impl Rung for Held {
+    fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
+        let began = Instant::now();
+        let found = match begun(from, control) {
+            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
+            found => found.ok().flatten(),
+        };
+        self.is_done = true;
+        let nothing = Failure { error: SolveError::Unmet, handover: Some(Handover::default()) };
+        found.map(|candidate| candidate.since(began)).ok_or(nothing)
+    }
+
+    fn has_more(&self, _: &Task, _: Option<&Latest>) -> bool {
+        !self.is_done
+    }
+
+    fn relax_rounds_after(&self, _: &Task, _: &Step) -> usize {
+        ROUNDS
+    }
+}
+
+/// A one-to-one embedding to begin with; `None` where not all of the boundary is held, or on no simple polygon, or where
+/// numbers give none.
+fn begun(Footing { task, mesh, .. }: Footing<'_>, control: Control<'_>) -> Result<Option<Candidate>, SolveError> {
+    let held = task.held();
+    let Some(targets) = targets_of_boundary(mesh, &held) else { return Ok(None) };
+    if !is_simple(&targets) || turning_number(&targets) != Some(1) {
+        return Ok(None);
+    }
+    let is_one_to_one = |embedding: &Embedding| task.sheet.is_one_to_one(mesh, embedding);
+    let at_once = with_boundary_at(mesh, &targets, control)?.filter(is_one_to_one);
+    let (embedding, note) = match at_once {
+        Some(embedding) => (embedding, "mean-value equations with the whole boundary on its targets"),
+        None => {
+            let Some(circle) = on_circle(mesh, &targets)? else { return Ok(None) };
+            let Some(round) = with_boundary_at(mesh, &circle, control)?.filter(is_one_to_one) else { return Ok(None) };
+            (round, "the whole boundary begins on a circle")
+        }
+    };
+    let progress = Continuation::new(mesh, embedding.clone(), &held).progress(mesh);
+    let candidate = Candidate::one_to_one(Method::Continuation, embedding, &held);
+    Ok(Some(Candidate { progress: Some(progress), note: Some(note.to_owned()), ..candidate }))
+}
+
+/// Places on the circle that fits the targets best, as far apart as these in proportion.
+fn on_circle(mesh: &DiskMesh, targets: &[DVec2]) -> Result<Option<Vec<DVec2>>, SolveError> {
+    let next = targets.iter().cycle().skip(1);
+    let lengths: Vec<f64> = targets.iter().zip(next).map(|(a, b)| a.distance(*b)).collect();
+    let circle = on_shape(mesh, &lengths, BoundaryShape::Circle, Spacing::Chord)?;
+    let pairs: Vec<[DVec2; 2]> = circle.iter().zip(targets).map(|(&from, &to)| [from, to]).collect();
+    Ok(Similarity::fitting(&pairs).map(|way| circle.into_iter().map(|z| way.apply(z)).collect()))
+}
+
+/// Where the boundary is to go; `None` where not all of it is held exactly.
+fn targets_of_boundary(mesh: &DiskMesh, held: &Pins) -> Option<Vec<DVec2>> {
+    let target = |vertex| held.get(vertex).filter(|pin| pin.hold.is_exact()).map(|pin| pin.target);
+    mesh.boundary_loop().iter().map(target).collect()
+}
+
+/// The mean-value embedding with the boundary at these places.
+fn with_boundary_at(mesh: &DiskMesh, places: &[DVec2], control: Control<'_>) -> Result<Option<Embedding>, SolveError> {
+    let settings =
+        Settings { treatment: Some(Treatment::Eliminate), ..Settings::new(Method::Natural, Family::MeanValue) };
+    let pins = fixed_pins(mesh.boundary_loop().iter().copied().zip(places.iter().copied()));
+    match solve_once(mesh, &settings, &pins, control) {
+        Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
+        solved => Ok(solved.ok().map(|solution| solution.embedding)),
+    }
+}
