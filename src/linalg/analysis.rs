@@ -11,7 +11,7 @@ use super::fronts::{FrontAnalysis, Sides};
 use super::ldlt::{Ldlt, LdltAnalysis};
 use super::llt::Llt;
 use super::lu::Lu;
-use super::order::{Pattern, go_on_unless, in_order, order};
+use super::order::{Pattern, dissected, go_on_unless, in_order, order};
 use super::refine::{Accept, Solved, System, refined};
 use super::scalar::Scalar;
 use super::sparse::{Operation, check_finite};
@@ -89,7 +89,10 @@ impl Analysis {
     /// [`LinalgError::TooLarge`] and [`LinalgError::Cancelled`].
     pub fn new(kind: Kind, pattern: &SparsityPattern, cancel: &AtomicBool) -> Result<Self, LinalgError> {
         let pattern = Pattern::checked(pattern)?;
-        let elimination = order(&pattern, cancel)?;
+        let elimination = match kind {
+            Kind::Augmented { .. } => order(&pattern, cancel)?,
+            Kind::Hermitian | Kind::General => dissected(&pattern, cancel)?,
+        };
         go_on_unless(cancel)?;
         let symbolic = match kind {
             Kind::Hermitian => Symbolic::Llt(FrontAnalysis::new(&pattern, &elimination, Sides::Lower, cancel)?),
@@ -255,6 +258,8 @@ impl<T: Scalar> Factor<T> {
             _ => None,
         };
         let is_faithful = self.stats().replaced_pivots == 0;
+        // The rows of A = Aᴴ are its columns, which threads can share.
+        let operation = if matches!(self.numeric, Numeric::Llt(_)) { Operation::Adjoint } else { operation };
         refined(&System { matrix, operation, row_scale, is_faithful, accept, solve: &solve }, rhs)
     }
 

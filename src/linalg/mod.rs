@@ -10,7 +10,9 @@
 //! | file | what |
 //! |---|---|
 //! | `analysis.rs` | the interface |
-//! | `order.rs` | fill-reducing order (AMD), elimination tree, postorder |
+//! | `order.rs` | fill-reducing order (dissection, AMD), elimination tree, postorder |
+//! | `degree.rs` | minimum degree, and stopping it |
+//! | `dissection/` | separators of large patterns |
 //! | `fronts/` | the tree of dense fronts that both multifrontal factorizations go up |
 //! | `llt/` | Hermitian definite: our multifrontal Cholesky |
 //! | `ldlt.rs` | Hermitian augmented, for least squares: faer's supernodal `LDLᴴ` |
@@ -20,6 +22,8 @@
 //! | `sparse.rs`, `scalar.rs`, `error.rs` | products, norms and inner products; real and complex numbers alike; what can go wrong |
 
 mod analysis;
+mod degree;
+mod dissection;
 mod error;
 mod fronts;
 mod gmres;

@@ -1,28 +1,22 @@
-//! The order of elimination: approximate minimum degree, made a postorder of the elimination tree.
+//! The order of elimination: a shallow dissection of large patterns with approximate minimum degree in its parts, made a
+//! postorder of the elimination tree.
 //!
 //! AMD (Amestoy, Davis and Duff 1996, through faer) keeps the fill small; a postorder of the elimination tree changes
 //! neither fill nor flops but numbers every subtree contiguously, which supernodes and parallel subtrees need.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, sync_channel};
-use std::thread::Builder;
-use std::time::Duration;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
 use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::simplicial;
 use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
+use rayon::prelude::*;
 
 use super::LinalgError;
-
-/// Patterns of so many unknowns take AMD some hundredths of a second.
-const WORTH_LEAVING: usize = 50_000;
-
-/// How often the wish to stop is looked at meanwhile.
-const LOOKS: Duration = Duration::from_millis(5);
+use super::degree::{minimum_degree, minimum_degree_to_the_end};
+use super::dissection::Dissection;
 
 /// "No parent" in a tree of `u32`.
 pub(super) const NONE: u32 = u32::MAX;
@@ -202,6 +196,25 @@ pub(super) fn order(pattern: &Pattern, cancel: &AtomicBool) -> Result<Eliminatio
     Ok(Elimination::new(pattern, pairs, &degree))
 }
 
+/// The same with AMD in the parts of a dissection, all of them side by side, where the pattern is large and is cut cheaply.
+pub(super) fn dissected(pattern: &Pattern, cancel: &AtomicBool) -> Result<Elimination, LinalgError> {
+    let pairs = pattern.of_pairs();
+    let graph = pairs.as_ref().unwrap_or(pattern);
+    let Some(dissection) = Dissection::new(graph, cancel)? else {
+        let degree = minimum_degree(graph, cancel)?;
+        go_on_unless(cancel)?;
+        return Ok(Elimination::new(pattern, pairs, &degree));
+    };
+    let order_of = |part: usize| {
+        go_on_unless(cancel)?;
+        minimum_degree_to_the_end(&dissection.pattern_of(part, graph)).map(|order| order.new_to_old)
+    };
+    let of_parts: Result<Vec<Vec<u32>>, _> = (0..dissection.parts.len()).into_par_iter().map(order_of).collect();
+    let order = Order::from_new_to_old(dissection.order(&of_parts?));
+    go_on_unless(cancel)?;
+    Ok(Elimination::new(pattern, pairs, &order))
+}
+
 /// [`LinalgError::Cancelled`] where the caller asked to stop.
 pub(super) fn go_on_unless(cancel: &AtomicBool) -> Result<(), LinalgError> {
     if cancel.load(Ordering::Relaxed) { Err(LinalgError::Cancelled) } else { Ok(()) }
@@ -242,41 +255,6 @@ impl Elimination {
             pairs,
         }
     }
-}
-
-/// AMD cannot be stopped. For large patterns it runs on a thread of its own, which a caller who gives up leaves behind:
-/// it ends by itself, in half a second at a million faces.
-fn minimum_degree(pattern: &Pattern, cancel: &AtomicBool) -> Result<Order, LinalgError> {
-    if pattern.order() < WORTH_LEAVING {
-        return minimum_degree_to_the_end(pattern);
-    }
-    let (send, receive) = sync_channel(1);
-    let own = pattern.clone();
-    let found = || minimum_degree_to_the_end(pattern);
-    let started = Builder::new().name("order".to_owned()).spawn(move || send.send(minimum_degree_to_the_end(&own)));
-    if started.is_err() {
-        return found();
-    }
-    loop {
-        go_on_unless(cancel)?;
-        match receive.recv_timeout(LOOKS) {
-            Ok(order) => return order,
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return found(),
-        }
-    }
-}
-
-fn minimum_degree_to_the_end(pattern: &Pattern) -> Result<Order, LinalgError> {
-    let n = pattern.order();
-    let too_large = LinalgError::TooLarge { order: n };
-    let scratch = amd::order_scratch::<u32>(n, pattern.rows.len());
-    let mut memory = MemBuffer::try_new(scratch).map_err(|_| too_large.clone())?;
-    let (mut new_to_old, mut old_to_new) = (vec![0; n], vec![0; n]);
-    let control = amd::Control::default();
-    amd::order(&mut new_to_old, &mut old_to_new, pattern.as_faer(), control, MemStack::new(&mut memory))
-        .map_err(|_| too_large)?;
-    Ok(Order { new_to_old, old_to_new })
 }
 
 /// Parent and column count of every column, from the upper triangle (faer's walk over row subtrees).

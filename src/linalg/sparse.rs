@@ -3,6 +3,7 @@
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 use nalgebra_sparse::CscMatrix;
+use rayon::prelude::*;
 
 use super::LinalgError;
 use super::scalar::Scalar;
@@ -30,12 +31,17 @@ pub(super) fn residual<T: Scalar>(matrix: &CscMatrix<T>, operation: Operation, x
             }
         }
         Operation::Adjoint => {
-            for ((rows, values), out) in columns.zip(out) {
-                *out -= rows.iter().zip(values).fold(T::ZERO, |sum, (&row, &value)| sum + value.conjugate() * x[row]);
-            }
+            out.par_iter_mut().with_min_len(ROWS_PER_TASK).enumerate().for_each(|(column, out)| {
+                let entries = offsets[column]..offsets[column + 1];
+                let entries = rows[entries.clone()].iter().zip(&values[entries]);
+                *out -= entries.fold(T::ZERO, |sum, (&row, &value)| sum + value.conjugate() * x[row]);
+            });
         }
     }
 }
+
+/// Rows that share the work of one task: enough to outweigh the handing out.
+const ROWS_PER_TASK: usize = 4096;
 
 /// The Euclidean norm, scaled so that it neither overflows nor underflows.
 pub(super) fn norm<T: Scalar>(vector: impl Iterator<Item = T> + Clone) -> f64 {
@@ -72,19 +78,25 @@ pub(super) fn backward_error<T: Scalar>(
     r: &[T],
 ) -> f64 {
     let (offsets, rows, values) = matrix.csc_data();
+    // `max` would drop a NaN.
+    let worse = |worst: f64, ratio: f64| if ratio <= worst || worst.is_nan() { worst } else { ratio };
+    let ratio = |r: T, scale: f64| if r.size() == 0.0 { 0.0 } else { r.size() / scale };
+    if operation == Operation::Adjoint {
+        let ratios = r.par_iter().with_min_len(ROWS_PER_TASK).enumerate().map(|(column, &r)| {
+            let entries = offsets[column]..offsets[column + 1];
+            let entries = rows[entries.clone()].iter().zip(&values[entries]);
+            let sum: f64 = entries.map(|(&row, value)| value.size() * x[row].size()).sum();
+            ratio(r, rhs[column].size() + sum)
+        });
+        return ratios.reduce(|| 0.0, worse);
+    }
     let mut scale: Vec<f64> = rhs.iter().map(|b| b.size()).collect();
     for (column, pair) in offsets.windows(2).enumerate() {
+        let size = x[column].size();
         let entries = rows[pair[0]..pair[1]].iter().zip(&values[pair[0]..pair[1]]);
-        if operation == Operation::Plain {
-            let size = x[column].size();
-            entries.for_each(|(&row, value)| scale[row] += value.size() * size);
-        } else {
-            scale[column] += entries.map(|(&row, value)| value.size() * x[row].size()).sum::<f64>();
-        }
+        entries.for_each(|(&row, value)| scale[row] += value.size() * size);
     }
-    // `max` would drop a NaN.
-    let worse = |worst: f64, ratio: f64| if ratio <= worst { worst } else { ratio };
-    r.iter().zip(scale).filter(|(r, _)| r.size() != 0.0).map(|(r, scale)| r.size() / scale).fold(0.0, worse)
+    r.iter().zip(scale).map(|(&r, scale)| ratio(r, scale)).fold(0.0, worse)
 }
 
 /// Wᴴ W of the columns of W, `n` entries each, one after another: Hermitian to the last bit, column by column.

@@ -212,27 +212,36 @@ impl FaceMap {
 }
 
 fn summary(faces: &[FaceDistortion], weights: &[f64]) -> DistortionSummary {
-    let weighted = |of: fn(&FaceDistortion) -> f64| -> Vec<(f64, f64)> {
-        faces.iter().zip(weights).filter(|&(_, &weight)| weight > 0.0).map(|(face, &w)| (of(face), w)).collect()
-    };
+    // Without a list of them: new memory would cost more time than the numbers.
+    fn weighted<'a>(
+        faces: &'a [FaceDistortion],
+        weights: &'a [f64],
+        of: fn(&FaceDistortion) -> f64,
+    ) -> impl Iterator<Item = (f64, f64)> + Clone {
+        faces.iter().zip(weights).filter(|&(_, &weight)| weight > 0.0).map(move |(face, &w)| (of(face), w))
+    }
+    let weighted = |of: fn(&FaceDistortion) -> f64| weighted(faces, weights, of);
     let (angle, (area, stretch_l2)) = rayon::join(
-        || Spread::new(weighted(|face| face.angle)),
+        || Spread::new(weighted(|face| face.angle).collect()),
         || {
-            let area = Spread::new(weighted(|face| face.area.max(face.area.recip())));
-            (area, mean(&weighted(|face| face.stretch_l2.powi(2))).sqrt())
+            let area = Spread::new(weighted(|face| face.area.max(face.area.recip())).collect());
+            (area, mean(weighted(|face| face.stretch_l2.powi(2))).sqrt())
         },
     );
-    let stretch_linf = weighted(|face| face.stretch_linf).into_iter().map(|(value, _)| value).fold(1.0, f64::max);
+    let stretch_linf = weighted(|face| face.stretch_linf).map(|(value, _)| value).fold(1.0, f64::max);
     // A quarter is 1 where nothing is distorted, as all other values are.
-    let quarter = mean(&weighted(|face| face.symmetric_dirichlet() / 4.0));
+    let quarter = mean(weighted(|face| face.symmetric_dirichlet() / 4.0));
     let symmetric_dirichlet = Mean { mean: 4.0 * quarter };
     DistortionSummary { angle, area, stretch_l2, stretch_linf, symmetric_dirichlet }
 }
 
 /// The mean of values with positive weights; 1 where there are none.
-fn mean(weighted: &[(f64, f64)]) -> f64 {
-    let total: f64 = weighted.iter().map(|&(_, weight)| weight).sum();
-    if weighted.is_empty() { 1.0 } else { weighted.iter().map(|&(value, weight)| value * weight).sum::<f64>() / total }
+fn mean(weighted: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
+    let total: f64 = weighted.clone().map(|(_, weight)| weight).sum();
+    if weighted.clone().next().is_none() {
+        return 1.0;
+    }
+    weighted.map(|(value, weight)| value * weight).sum::<f64>() / total
 }
 
 impl Spread {
@@ -246,7 +255,7 @@ impl Spread {
             return Self { mean: 1.0, p99: 1.0, max: 1.0 };
         }
         let total: f64 = weighted.iter().map(|&(_, weight)| weight).sum();
-        let mean = mean(&weighted);
+        let mean = mean(weighted.iter().copied());
         // Equal values in the order of their weights, so that sums do not depend on how the greatest are found.
         let descending =
             |first: &(f64, f64), second: &(f64, f64)| second.0.total_cmp(&first.0).then(second.1.total_cmp(&first.1));

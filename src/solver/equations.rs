@@ -65,21 +65,28 @@ impl Equations<Complex<f64>> {
     }
 
     /// ‖A z‖ over the vertices that `has_equation`, relative to ‖ |A| |z| ‖, the sizes of the terms that should cancel.
-    pub fn residual(&self, mesh: &DiskMesh, embedding: &Embedding, has_equation: impl Fn(VertexId) -> bool) -> f64 {
-        let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
-        for (h, &coefficient) in mesh.links().zip(&self.coefficients) {
-            let tail = mesh.tail(h);
-            let along = embedding[mesh.head(h)] - embedding[tail];
-            let term = coefficient * Complex::new(along.x, along.y);
-            let (sum, size) = &mut sums[tail.index()];
-            *sum += term;
-            *size += term.norm();
-        }
-        let (residual, whole) =
-            mesh.vertices().filter(|&v| has_equation(v)).fold((0.0, 0.0), |(residual, whole), v| {
-                let (sum, size) = sums[v.index()];
-                (residual + sum.norm_sqr(), whole + size * size)
-            });
+    pub fn residual(
+        &self,
+        mesh: &DiskMesh,
+        embedding: &Embedding,
+        has_equation: impl Fn(VertexId) -> bool + Sync,
+    ) -> f64 {
+        let of_vertex = |vertex: usize| {
+            let vertex = VertexId::from_index(vertex);
+            if !has_equation(vertex) {
+                return (0.0, 0.0);
+            }
+            let add = |(sum, size): (Complex<f64>, f64), h: HalfedgeId| {
+                let along = embedding[mesh.head(h)] - embedding[vertex];
+                let term = self.coefficients[h.index()] * Complex::new(along.x, along.y);
+                (sum + term, size + term.norm())
+            };
+            let (sum, size) = mesh.links_from(vertex).fold((Complex::ZERO, 0.0), add);
+            (sum.norm_sqr(), size * size)
+        };
+        let of_vertices: Vec<(f64, f64)> = (0..mesh.vertex_count()).into_par_iter().map(of_vertex).collect();
+        let add = |(residual, whole), &(sum, size): &(f64, f64)| (residual + sum, whole + size);
+        let (residual, whole) = of_vertices.iter().fold((0.0, 0.0), add);
         if whole > 0.0 { f64::sqrt(residual / whole) } else { 0.0 }
     }
 }
@@ -199,24 +206,30 @@ fn from_corner(x: [DVec3; 3], k: usize) -> [DVec3; 3] {
 /// What a corner adds to two links, and whether its weight was bounded.
 type Parts<T> = ([(HalfedgeId, T); 2], bool);
 
+/// Pieces whose corners' parts are in memory at one time.
+const PIECES_AT_ONCE: usize = 1 << 15;
+
 /// Adds up what each corner of each piece gives to two links.
 fn sum_pieces<T: Scalar>(
     mesh: &DiskMesh,
     of_corner: impl Fn(&Piece, usize) -> Parts<T> + Sync,
 ) -> Result<Equations<T>, SolveError> {
-    let pieces = pieces(mesh);
-    let found: Vec<[Parts<T>; 3]> = pieces.par_iter().map(|piece| [0, 1, 2].map(|k| of_corner(piece, k))).collect();
+    let mut found: Vec<[Parts<T>; 3]> = Vec::new();
     let mut coefficients = vec![T::ZERO; mesh.link_count()];
     let mut bounded_corners = 0;
-    for (piece, corners) in pieces.iter().zip(&found) {
-        for (parts, bounded) in corners {
-            for &(link, part) in parts {
-                if !part.is_finite() {
-                    return Err(SolveError::NotFinite { face: piece.face });
+    // Some at a time: new memory for the parts of all corners would cost more time than to compute them.
+    for pieces in pieces(mesh).chunks(PIECES_AT_ONCE) {
+        pieces.par_iter().map(|piece| [0, 1, 2].map(|k| of_corner(piece, k))).collect_into_vec(&mut found);
+        for (piece, corners) in pieces.iter().zip(&found) {
+            for (parts, bounded) in corners {
+                for &(link, part) in parts {
+                    if !part.is_finite() {
+                        return Err(SolveError::NotFinite { face: piece.face });
+                    }
+                    coefficients[link.index()] += part.scale(piece.share);
                 }
-                coefficients[link.index()] += part.scale(piece.share);
+                bounded_corners += usize::from(*bounded);
             }
-            bounded_corners += usize::from(*bounded);
         }
     }
     Ok(Equations { coefficients, bounded_corners })

@@ -59,6 +59,7 @@ mod linalg_augmented;
 mod linalg_faults;
 mod linalg_hermitian;
 mod linalg_lanczos;
+mod linalg_large;
 mod linalg_matrices;
 mod linalg_mean_value;
 mod live;

@@ -11,17 +11,19 @@
 //! | `symbolic.rs` | patterns of the fronts, where every entry goes |
 //! | `units.rs` | what runs one after another, what side by side |
 //! | `tree.rs` | the way up the tree, on all threads |
-//! | `work.rs` | right-hand sides while they are substituted into |
+//! | `substitution.rs` | the way of right-hand sides up the tree and down again |
 //! | `dense.rs` | slices as matrices, and adding rows of one front to another's |
 
 mod dense;
+mod substitution;
 mod supernodes;
 mod symbolic;
 mod tree;
 mod units;
-mod work;
 
 pub(super) use dense::{mat, mat_mut, scatter_add};
+pub(super) use substitution::{
+    LARGE_PANEL, Part, Substitution, TOGETHER, dot, split_panel, substitute, subtract_product,
+};
 pub(super) use symbolic::{FrontAnalysis, Shape, Sides};
 pub(super) use tree::{Kernel, Tree, Update};
-pub(super) use work::{LARGE_PANEL, TOGETHER, Work, dot};

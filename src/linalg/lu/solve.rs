@@ -3,24 +3,22 @@
 //! Several right-hand sides are taken [`TOGETHER`] at a time, so that the numbers of the factors are read once for all of
 //! them; such groups run side by side. Large blocks go through faer's dense kernels, small ones through plain loops.
 
-use faer::linalg::matmul::matmul;
+use faer::Par;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place, solve_unit_upper_triangular_in_place,
     solve_upper_triangular_in_place,
 };
-use faer::{Accum, MatRef, Par};
 use rayon::prelude::*;
 
 use super::factor::Lu;
-use crate::linalg::fronts::{FrontAnalysis, LARGE_PANEL, Shape, TOGETHER, Work, dot, mat};
+use crate::linalg::fronts::{
+    FrontAnalysis, LARGE_PANEL, Part, Substitution, TOGETHER, dot, mat, split_panel, substitute, subtract_product,
+};
 use crate::linalg::scalar::Scalar;
 use crate::linalg::sparse::Operation;
 
 /// One supernode's part of the factors.
 struct Block<'a, T> {
-    shape: Shape,
-    begin: usize,
-    rows: &'a [u32],
     left: &'a [T],
     right: &'a [T],
     swaps: &'a [u32],
@@ -52,101 +50,108 @@ impl<T: Scalar> Lu<T> {
                 conjugate(column[row]).scale(factor(before, row))
             }));
         }
-        let mut work = Work::new(x, n);
+        let blocks = Blocks { analysis, factor: self };
         if operation == Operation::Plain {
-            self.blocks(analysis).for_each(|block| block.forward(&mut work));
-            self.blocks(analysis).rev().for_each(|block| block.backward(&mut work));
+            substitute(analysis, &Plain(blocks), &mut x);
         } else {
-            self.blocks(analysis).for_each(|block| block.forward_transpose(&mut work));
-            self.blocks(analysis).rev().for_each(|block| block.backward_transpose(&mut work));
+            substitute(analysis, &Transposed(blocks), &mut x);
         }
-        for (x, column) in work.columns().zip(columns.chunks_exact_mut(n)) {
+        for (x, column) in x.chunks_exact(n).zip(columns.chunks_exact_mut(n)) {
             for (&x, &old) in x.iter().zip(order) {
                 let row = old as usize;
                 column[row] = conjugate(x).scale(factor(after, row));
             }
         }
     }
+}
 
-    fn blocks<'a>(&'a self, analysis: &'a FrontAnalysis) -> impl DoubleEndedIterator<Item = Block<'a, T>> {
-        self.units.iter().zip(&analysis.units).flat_map(move |(factor, unit)| {
-            let first_column = analysis.begin[unit.range.start] as usize;
-            let mut starts = Vec::with_capacity(unit.range.len());
-            let mut start = 0;
-            for supernode in unit.range.clone() {
-                starts.push(start);
-                start += analysis.kept_len(supernode);
-            }
-            unit.range.clone().zip(starts).map(move |(supernode, start)| {
-                let shape = analysis.shape(supernode);
-                let begin = analysis.begin[supernode] as usize;
-                let (left, right) =
-                    factor.values[start..start + analysis.kept_len(supernode)].split_at(shape.left_len());
-                let swaps = &factor.swaps[begin - first_column..][..shape.columns];
-                Block { shape, begin, rows: analysis.rows.column(supernode), left, right, swaps }
-            })
-        })
+/// The blocks of all fronts.
+struct Blocks<'a, T> {
+    analysis: &'a FrontAnalysis,
+    factor: &'a Lu<T>,
+}
+
+/// L U x = b.
+struct Plain<'a, T>(Blocks<'a, T>);
+
+/// Uᵀ Lᵀ x = b.
+struct Transposed<'a, T>(Blocks<'a, T>);
+
+impl<T: Scalar> Blocks<'_, T> {
+    fn block(&self, supernode: usize) -> Block<'_, T> {
+        let analysis = self.analysis;
+        let unit = analysis.unit_of[supernode] as usize;
+        let (factor, shape) = (&self.factor.units[unit], analysis.shape(supernode));
+        let (left, right) = factor.values[analysis.kept_range(supernode)].split_at(shape.left_len());
+        let first = analysis.begin[supernode] - analysis.begin[analysis.units[unit].range.start];
+        Block { left, right, swaps: &factor.swaps[first as usize..][..shape.columns] }
     }
 }
 
-impl<'a, T: Scalar> Block<'a, T> {
+impl<T: Scalar> Substitution<T> for Plain<'_, T> {
+    fn up(&self, supernode: usize, part: Part<'_, T>) {
+        self.0.block(supernode).forward(part);
+    }
+    fn down(&self, supernode: usize, part: Part<'_, T>) {
+        self.0.block(supernode).backward(part);
+    }
+}
+
+impl<T: Scalar> Substitution<T> for Transposed<'_, T> {
+    fn up(&self, supernode: usize, part: Part<'_, T>) {
+        self.0.block(supernode).forward_transpose(part);
+    }
+    fn down(&self, supernode: usize, part: Part<'_, T>) {
+        self.0.block(supernode).backward_transpose(part);
+    }
+}
+
+impl<T: Scalar> Block<'_, T> {
     fn is_large(&self) -> bool {
         self.left.len() >= LARGE_PANEL
     }
 
-    /// L₁₁\U₁₁, L₂₁ and U₁₂.
-    fn parts(&self) -> (MatRef<'a, T>, MatRef<'a, T>, MatRef<'a, T>) {
-        let Shape { columns, below } = self.shape;
-        let (diagonal, lower) = mat(self.left, columns + below, columns).split_at_row(columns);
-        (diagonal, lower, mat(self.right, columns, below))
-    }
-
-    /// The place of an outer row among the rows that follow the block's own.
-    fn place(&self, row: u32) -> usize {
-        row as usize - self.begin - self.shape.columns
-    }
-
     /// L y = P b.
-    fn forward(&self, work: &mut Work<T>) {
-        for (own, _) in work.split(self.begin, self.shape) {
+    fn forward(&self, mut part: Part<'_, T>) {
+        let shape = part.shape;
+        for (own, _) in part.each() {
             for (k, &row) in self.swaps.iter().enumerate() {
                 own.swap(k, row as usize);
             }
         }
         if self.is_large() {
-            let (diagonal, lower, _) = self.parts();
-            let (mut own, outer) = work.views(self.begin, self.shape);
+            let (diagonal, lower) = split_panel(self.left, shape);
+            let (mut own, outer) = part.matrices();
             solve_unit_lower_triangular_in_place(diagonal, own.as_mut(), Par::Seq);
-            matmul(outer, Accum::Replace, lower, own.as_ref(), T::ONE, Par::Seq);
-            work.scatter_subtract(self.rows);
+            subtract_product(outer, lower, own.as_ref());
             return;
         }
-        for (own, later) in work.split(self.begin, self.shape) {
-            for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
+        for (own, outer) in part.each() {
+            for (k, column) in self.left.chunks_exact(shape.height()).enumerate() {
                 let value = own[k];
-                let (diagonal, below) = column.split_at(self.shape.columns);
+                let (diagonal, below) = column.split_at(shape.columns);
                 own[k + 1..].iter_mut().zip(&diagonal[k + 1..]).for_each(|(x, &l)| *x -= l * value);
-                self.rows.iter().zip(below).for_each(|(&row, &l)| later[self.place(row)] -= l * value);
+                outer.iter_mut().zip(below).for_each(|(x, &l)| *x -= l * value);
             }
         }
     }
 
     /// U x = y.
-    fn backward(&self, work: &mut Work<T>) {
+    fn backward(&self, mut part: Part<'_, T>) {
+        let shape = part.shape;
         if self.is_large() {
-            let (diagonal, _, right) = self.parts();
-            work.gather(self.rows);
-            let (mut own, outer) = work.views(self.begin, self.shape);
-            matmul(own.as_mut(), Accum::Add, right, outer.as_ref(), -T::ONE, Par::Seq);
+            let (diagonal, _) = split_panel(self.left, shape);
+            let right = mat(self.right, shape.columns, shape.below);
+            let (mut own, outer) = part.matrices();
+            subtract_product(own.as_mut(), right, outer.as_ref());
             solve_upper_triangular_in_place(diagonal, own, Par::Seq);
             return;
         }
-        for (own, later) in work.split(self.begin, self.shape) {
-            for (column, &row) in self.right.chunks_exact(self.shape.columns).zip(self.rows) {
-                let value = later[self.place(row)];
+        for (own, outer) in part.each() {
+            for (column, &value) in self.right.chunks_exact(shape.columns).zip(&*outer) {
                 own.iter_mut().zip(column).for_each(|(x, &u)| *x -= u * value);
             }
-            for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate().rev() {
+            for (k, column) in self.left.chunks_exact(shape.height()).enumerate().rev() {
                 let value = own[k] / column[k];
                 own[k] = value;
                 own[..k].iter_mut().zip(column).for_each(|(x, &u)| *x -= u * value);
@@ -155,45 +160,44 @@ impl<'a, T: Scalar> Block<'a, T> {
     }
 
     /// Uᵀ y = b.
-    fn forward_transpose(&self, work: &mut Work<T>) {
+    fn forward_transpose(&self, mut part: Part<'_, T>) {
+        let shape = part.shape;
         if self.is_large() {
-            let (diagonal, _, right) = self.parts();
-            let (mut own, outer) = work.views(self.begin, self.shape);
+            let (diagonal, _) = split_panel(self.left, shape);
+            let right = mat(self.right, shape.columns, shape.below);
+            let (mut own, outer) = part.matrices();
             solve_lower_triangular_in_place(diagonal.transpose(), own.as_mut(), Par::Seq);
-            matmul(outer, Accum::Replace, right.transpose(), own.as_ref(), T::ONE, Par::Seq);
-            work.scatter_subtract(self.rows);
+            subtract_product(outer, right.transpose(), own.as_ref());
             return;
         }
-        for (own, later) in work.split(self.begin, self.shape) {
-            for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
+        for (own, outer) in part.each() {
+            for (k, column) in self.left.chunks_exact(shape.height()).enumerate() {
                 let sum = dot(&own[..k], column);
                 own[k] = (own[k] - sum) / column[k];
             }
-            for (column, &row) in self.right.chunks_exact(self.shape.columns).zip(self.rows) {
-                later[self.place(row)] -= dot(own, column);
+            for (column, x) in self.right.chunks_exact(shape.columns).zip(outer) {
+                *x -= dot(own, column);
             }
         }
     }
 
     /// Lᵀ x = y, then the swaps undone.
-    fn backward_transpose(&self, work: &mut Work<T>) {
+    fn backward_transpose(&self, mut part: Part<'_, T>) {
+        let shape = part.shape;
         if self.is_large() {
-            let (diagonal, lower, _) = self.parts();
-            work.gather(self.rows);
-            let (mut own, outer) = work.views(self.begin, self.shape);
-            matmul(own.as_mut(), Accum::Add, lower.transpose(), outer.as_ref(), -T::ONE, Par::Seq);
+            let (diagonal, lower) = split_panel(self.left, shape);
+            let (mut own, outer) = part.matrices();
+            subtract_product(own.as_mut(), lower.transpose(), outer.as_ref());
             solve_unit_upper_triangular_in_place(diagonal.transpose(), own, Par::Seq);
         } else {
-            for (own, later) in work.split(self.begin, self.shape) {
-                for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate().rev() {
-                    let (diagonal, below) = column.split_at(self.shape.columns);
-                    let inside = dot(&own[k + 1..], &diagonal[k + 1..]);
-                    let outside = self.rows.iter().zip(below);
-                    own[k] -= outside.fold(inside, |sum, (&row, &l)| sum + l * later[self.place(row)]);
+            for (own, outer) in part.each() {
+                for (k, column) in self.left.chunks_exact(shape.height()).enumerate().rev() {
+                    let (diagonal, below) = column.split_at(shape.columns);
+                    own[k] -= dot(&own[k + 1..], &diagonal[k + 1..]) + dot(outer, below);
                 }
             }
         }
-        for (own, _) in work.split(self.begin, self.shape) {
+        for (own, _) in part.each() {
             for (k, &row) in self.swaps.iter().enumerate().rev() {
                 own.swap(k, row as usize);
             }

@@ -1,0 +1,185 @@
+//! Patches of a graph, and where their quotient graph is cut in two.
+
+use std::cmp::Reverse;
+
+use rayon::prelude::*;
+
+use crate::linalg::order::{NONE, Pattern, narrow, running_sum};
+
+/// Vertices of a patch.
+const PATCH: u64 = 64;
+
+/// Far patches from which distances are taken.
+const LANDMARKS: usize = 6;
+
+/// The least share of the vertices on either side of a cut.
+const LEAST_SHARE: f64 = 0.44;
+
+/// A distance beyond all others.
+const FAR: i64 = 1 << 30;
+
+/// The patches of a graph and the edges between them.
+pub(super) struct Quotient {
+    /// Patches beside each patch.
+    around: Pattern,
+    /// The edges of the graph that each of these stands for.
+    edges: Vec<u32>,
+    /// Vertices of each patch.
+    size: Vec<u32>,
+}
+
+impl Quotient {
+    /// Grows patches around vertices that are strewn over the graph. Also returns the patch of every vertex.
+    pub(super) fn of_patches(graph: &Pattern) -> (Vec<u32>, Self) {
+        let patch = grown(graph);
+        let count = patch.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut size = vec![0; count];
+        patch.iter().for_each(|&own| size[own as usize] += 1);
+        let mut pairs: Vec<u64> = Vec::new();
+        for (vertex, &own) in patch.iter().enumerate() {
+            let others = graph.column(vertex).iter().map(|&other| patch[other as usize]).filter(|&other| other != own);
+            pairs.extend(others.map(|other| u64::from(own) << 32 | u64::from(other)));
+        }
+        pairs.sort_unstable();
+        let (mut counts, mut rows, mut edges) = (vec![0; count], Vec::new(), Vec::new());
+        for run in pairs.chunk_by(|a, b| a == b) {
+            let [own, other] = [run[0] >> 32, run[0] & u64::from(u32::MAX)];
+            counts[usize::try_from(own).expect("32 bits")] += 1;
+            rows.push(u32::try_from(other).expect("32 bits"));
+            edges.push(narrow(run.len()));
+        }
+        (patch, Self { around: Pattern { offsets: running_sum(&counts), rows }, edges, size })
+    }
+
+    /// Cuts it in two so many times. The part of every patch: the parts of its halves come one after the other.
+    pub(super) fn parts(&self, levels: u32) -> Vec<u32> {
+        let mut part = vec![0; self.size.len()];
+        let mut lists: Vec<Vec<u32>> = vec![(0..narrow(part.len())).collect()];
+        for _ in 0..levels {
+            let seconds: Vec<Vec<u32>> = lists.par_iter().map(|list| self.second_half(list, &part)).collect();
+            let mut halves = Vec::with_capacity(2 * lists.len());
+            for (list, second) in lists.into_iter().zip(seconds) {
+                second.iter().for_each(|&patch| part[patch as usize] = NONE);
+                let first = list.into_iter().filter(|&patch| part[patch as usize] != NONE).collect();
+                halves.extend([first, second]);
+            }
+            lists = halves;
+            for (number, list) in (0..).zip(&lists) {
+                list.iter().for_each(|&patch| part[patch as usize] = number);
+            }
+        }
+        part
+    }
+
+    fn beside(&self, patch: u32) -> impl Iterator<Item = (u32, u32)> {
+        let range = self.around.offsets[patch as usize] as usize..self.around.offsets[patch as usize + 1] as usize;
+        self.around.rows[range.clone()].iter().copied().zip(self.edges[range].iter().copied())
+    }
+
+    /// The patches of a list on one side of the cheapest cut that is found: along a level line of the distance from a far
+    /// patch, or of the difference of two such distances.
+    fn second_half(&self, list: &[u32], part: &[u32]) -> Vec<u32> {
+        let Some(&first) = list.first() else { return Vec::new() };
+        let fields = self.fields(first, list, part);
+        let sum = |patch: u32| fields.iter().map(|field| field[patch as usize]).sum::<i64>();
+        let mut best: Option<(f64, Vec<u32>)> = None;
+        for (i, one) in fields.iter().enumerate() {
+            for other in fields[..i].iter().map(Some).chain([None]) {
+                let value = |patch: u32| one[patch as usize] - other.map_or(0, |other| other[patch as usize]);
+                let mut sorted = list.to_vec();
+                sorted.sort_unstable_by_key(|&patch| (value(patch), sum(patch), patch));
+                if let Some((cost, at)) = self.cheapest(&sorted, part)
+                    && best.as_ref().is_none_or(|&(least, _)| cost < least)
+                {
+                    best = Some((cost, sorted.split_off(at)));
+                }
+            }
+        }
+        best.map_or_else(|| list[list.len() / 2..].to_vec(), |(_, half)| half)
+    }
+
+    /// The cost and the place of the cheapest cut of a sorted list.
+    fn cheapest(&self, sorted: &[u32], part: &[u32]) -> Option<(f64, usize)> {
+        let weight = |patch: u32| f64::from(self.size[patch as usize]);
+        let total: f64 = sorted.iter().map(|&patch| weight(patch)).sum();
+        let mut is_before = vec![false; self.size.len()];
+        let (mut before, mut cut) = (0.0, 0.0);
+        let mut best: Option<(f64, usize)> = None;
+        for (place, &patch) in sorted.iter().enumerate() {
+            is_before[patch as usize] = true;
+            before += weight(patch) / total;
+            for (other, edges) in self.beside(patch).filter(|&(other, _)| part[other as usize] == part[patch as usize])
+            {
+                cut += if is_before[other as usize] { -f64::from(edges) } else { f64::from(edges) };
+            }
+            let cost = cut * (1.0 + 2.0 * (before - 0.5_f64).abs());
+            let is_even = (LEAST_SHARE..=1.0 - LEAST_SHARE).contains(&before);
+            if is_even && best.is_none_or(|(least, _)| cost < least) {
+                best = Some((cost, place + 1));
+            }
+        }
+        best
+    }
+
+    /// Distances from far patches of a list to all of it, in patches.
+    fn fields(&self, first: u32, list: &[u32], part: &[u32]) -> Vec<Vec<i64>> {
+        let farthest = |fields: &[Vec<i64>]| {
+            let nearest = |patch: u32| fields.iter().map(|field| field[patch as usize]).min();
+            list.iter().copied().max_by_key(|&patch| (nearest(patch), Reverse(patch))).unwrap_or(first)
+        };
+        let mut from = farthest(&[self.distances(first, part)]);
+        let mut fields = Vec::with_capacity(LANDMARKS);
+        for _ in 0..LANDMARKS {
+            fields.push(self.distances(from, part));
+            from = farthest(&fields);
+        }
+        fields
+    }
+
+    fn distances(&self, from: u32, part: &[u32]) -> Vec<i64> {
+        let mut distances = vec![FAR; self.size.len()];
+        distances[from as usize] = 0;
+        let (mut queue, mut next) = (vec![from], 0);
+        while let Some(&patch) = queue.get(next) {
+            next += 1;
+            for (other, _) in self.beside(patch) {
+                if part[other as usize] == part[patch as usize] && distances[other as usize] == FAR {
+                    distances[other as usize] = distances[patch as usize] + 1;
+                    queue.push(other);
+                }
+            }
+        }
+        distances
+    }
+}
+
+/// The patch of every vertex: that of the nearest seed.
+fn grown(graph: &Pattern) -> Vec<u32> {
+    let n = graph.order();
+    let mut patch = vec![NONE; n];
+    // Seeds are strewn by a hash of their numbers (Fibonacci's), whose neighbours may lie in a row.
+    let is_seed = |vertex: &u64| (vertex.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 32).is_multiple_of(PATCH);
+    let mut queue: Vec<u32> = (0..n as u64).filter(is_seed).filter_map(|vertex| u32::try_from(vertex).ok()).collect();
+    queue.reserve_exact(n - queue.len());
+    for (number, &seed) in (0..).zip(&queue) {
+        patch[seed as usize] = number;
+    }
+    let (mut next, mut count) = (0, narrow(queue.len()));
+    for start in 0..n {
+        while let Some(&vertex) = queue.get(next) {
+            next += 1;
+            for &other in graph.column(vertex as usize) {
+                if patch[other as usize] == NONE {
+                    patch[other as usize] = patch[vertex as usize];
+                    queue.push(other);
+                }
+            }
+        }
+        if patch[start] == NONE {
+            patch[start] = count;
+            count += 1;
+            queue.push(narrow(start));
+        }
+    }
+    patch
+}

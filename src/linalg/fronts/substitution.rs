@@ -1,0 +1,294 @@
+//! The way of right-hand sides through the fronts: up to the root, and down again.
+//!
+//! A front solves for its own unknowns and hands what these take from the rows below to its parent, as updates go in the
+//! factorization; on the way down it gets the unknowns of these rows from its parent. So subtrees need nothing of each other.
+//! Units that await none run side by side, the fronts above them one after another, with threads in large ones. What is
+//! added to what, and in which order, depends on the pattern alone.
+
+use faer::linalg::matmul::matmul;
+use faer::traits::Conjugate;
+use faer::{Accum, MatMut, MatRef, Par};
+use rayon::prelude::*;
+
+use super::dense::{mat, mat_mut};
+use super::symbolic::{FrontAnalysis, Shape};
+use super::units::Unit;
+use crate::linalg::order::NONE;
+use crate::linalg::scalar::Scalar;
+
+/// Right-hand sides solved together.
+pub(in crate::linalg) const TOGETHER: usize = 4;
+
+/// A panel with at least so many entries is worth the call of a dense kernel.
+pub(in crate::linalg) const LARGE_PANEL: usize = 256;
+
+/// A product with more entries than this is worth a further thread.
+const ENTRIES_PER_TASK: usize = 1 << 15;
+
+/// What a factorization does to right-hand sides at each front.
+pub(in crate::linalg) trait Substitution<T>: Sync {
+    /// Solves for the front's own unknowns and subtracts what these take from the rows below.
+    fn up(&self, supernode: usize, part: Part<'_, T>);
+
+    /// Solves for the front's own unknowns where those of the rows below are known, which stay as they are.
+    fn down(&self, supernode: usize, part: Part<'_, T>);
+}
+
+/// The part of some right-hand sides that one front has to do with; column-major.
+pub(in crate::linalg) struct Part<'a, T> {
+    pub(in crate::linalg) shape: Shape,
+    /// `columns` of each.
+    pub(in crate::linalg) own: &'a mut [T],
+    /// `below` of each.
+    pub(in crate::linalg) outer: &'a mut [T],
+}
+
+impl<T: Scalar> Part<'_, T> {
+    /// Both as matrices.
+    pub(in crate::linalg) fn matrices(&mut self) -> (MatMut<'_, T>, MatMut<'_, T>) {
+        let (Shape { columns, below }, count) = (self.shape, self.own.len() / self.shape.columns);
+        (mat_mut(self.own, columns, count), mat_mut(self.outer, below, count))
+    }
+
+    /// One right-hand side after another.
+    pub(in crate::linalg) fn each(&mut self) -> impl Iterator<Item = (&mut [T], &mut [T])> {
+        let Shape { columns, below } = self.shape;
+        let (mut own, mut outer) = (&mut *self.own, &mut *self.outer);
+        std::iter::from_fn(move || {
+            let (first, rest) = std::mem::take(&mut own).split_at_mut_checked(columns)?;
+            let (first_outer, rest_outer) = std::mem::take(&mut outer).split_at_mut(below);
+            (own, outer) = (rest, rest_outer);
+            Some((first, first_outer))
+        })
+    }
+}
+
+/// Subtracts A B, of large A some rows beside the others.
+pub(in crate::linalg) fn subtract_product<T: Scalar, A: Conjugate<Canonical = T>>(
+    target: MatMut<'_, T>,
+    a: MatRef<'_, A>,
+    b: MatRef<'_, T>,
+) {
+    let rows = a.nrows();
+    if rows < 2 || rows * a.ncols() <= ENTRIES_PER_TASK {
+        matmul(target, Accum::Add, a, b, -T::ONE, Par::Seq);
+        return;
+    }
+    let (upper_target, lower_target) = target.split_at_row_mut(rows / 2);
+    let (upper, lower) = a.split_at_row(rows / 2);
+    rayon::join(|| subtract_product(upper_target, upper, b), || subtract_product(lower_target, lower, b));
+}
+
+/// Takes right-hand sides, one after another in the order of elimination, to their solutions.
+pub(in crate::linalg) fn substitute<T: Scalar>(analysis: &FrontAnalysis, how: &impl Substitution<T>, x: &mut [T]) {
+    let n = analysis.order.new_to_old.len();
+    let way = Way { analysis, how, n, count: x.len() / n };
+    let (low, top): (Vec<&Unit>, Vec<&Unit>) = analysis.units.iter().partition(|unit| unit.awaited == 0);
+    let done: Vec<Carried<T>> = low.par_iter().map(|unit| way.up(unit, x)).collect();
+    for (unit, Carried { own, outer }) in low.iter().zip(done) {
+        way.put(unit, &own, x);
+        let mut outer = &outer[..];
+        for root in way.roots(unit) {
+            let (of_root, others) = outer.split_at(analysis.shape(root).below * way.count);
+            way.add(root, of_root, x);
+            outer = others;
+        }
+    }
+    let fronts = top.iter().flat_map(|unit| unit.range.clone());
+    fronts.clone().for_each(|front| way.up_top(front, x));
+    fronts.rev().for_each(|front| way.down_top(front, x));
+    let done: Vec<Vec<T>> = low.par_iter().map(|unit| way.down(unit, x)).collect();
+    low.iter().zip(done).for_each(|(unit, own)| way.put(unit, &own, x));
+}
+
+/// What is the same for all fronts.
+struct Way<'a, H> {
+    analysis: &'a FrontAnalysis,
+    how: &'a H,
+    /// Rows of a right-hand side.
+    n: usize,
+    /// Right-hand sides.
+    count: usize,
+}
+
+/// The rows of a unit, and what is left for the rows above by each front whose parent belongs to another.
+struct Carried<T> {
+    own: Vec<T>,
+    outer: Vec<T>,
+}
+
+impl<H> Way<'_, H> {
+    /// A unit's rows of every right-hand side.
+    fn taken<T: Scalar>(&self, unit: &Unit, x: &[T]) -> Vec<T> {
+        let rows = self.rows(unit);
+        x.chunks_exact(self.n).flat_map(|column| &column[rows.clone()]).copied().collect()
+    }
+
+    fn put<T: Scalar>(&self, unit: &Unit, own: &[T], x: &mut [T]) {
+        let rows = self.rows(unit);
+        for (column, own) in x.chunks_exact_mut(self.n).zip(own.chunks_exact(rows.len())) {
+            column[rows.clone()].copy_from_slice(own);
+        }
+    }
+
+    fn rows(&self, unit: &Unit) -> std::ops::Range<usize> {
+        let at = |supernode: usize| self.analysis.begin[supernode] as usize;
+        at(unit.range.start)..at(unit.range.end)
+    }
+
+    /// The fronts of a unit whose parents belong to other units, ascending.
+    fn roots(&self, unit: &Unit) -> impl Iterator<Item = usize> {
+        let end = unit.range.end;
+        let is_root = move |&supernode: &usize| {
+            let parent = self.analysis.parent[supernode];
+            parent == NONE || parent as usize >= end
+        };
+        unit.range.clone().filter(is_root)
+    }
+
+    /// Adds what a front leaves for the rows below it to these.
+    fn add<T: Scalar>(&self, front: usize, outer: &[T], x: &mut [T]) {
+        let rows = self.analysis.rows.column(front);
+        if rows.is_empty() {
+            return;
+        }
+        for (column, outer) in x.chunks_exact_mut(self.n).zip(outer.chunks_exact(rows.len())) {
+            rows.iter().zip(outer).for_each(|(&row, &value)| column[row as usize] += value);
+        }
+    }
+
+    /// Appends the rows below a front.
+    fn gather<T: Scalar>(&self, front: usize, x: &[T], outer: &mut Vec<T>) {
+        let rows = self.analysis.rows.column(front);
+        for column in x.chunks_exact(self.n) {
+            outer.extend(rows.iter().map(|&row| column[row as usize]));
+        }
+    }
+
+    /// A unit that awaits none, on the way up. In a postorder what the children leave stands on top of a stack.
+    fn up<T: Scalar>(&self, unit: &Unit, x: &[T]) -> Carried<T>
+    where
+        H: Substitution<T>,
+    {
+        let (rows, mut x) = (self.rows(unit), self.taken(unit, x));
+        let (mut stack, mut own, mut outer) = (Vec::new(), Vec::new(), Vec::new());
+        for front in unit.range.clone() {
+            let shape = self.analysis.shape(front);
+            let first = self.analysis.begin[front] as usize - rows.start;
+            own.clear();
+            own.extend(x.chunks_exact(rows.len()).flat_map(|column| &column[first..first + shape.columns]));
+            outer.clear();
+            outer.resize(shape.below * self.count, T::ZERO);
+            let children = self.analysis.children.column(front);
+            let left = |&child: &u32| self.analysis.shape(child as usize).below * self.count;
+            let begin = stack.len() - children.iter().map(left).sum::<usize>();
+            let mut at = begin;
+            for child in children {
+                let part = Part { shape, own: &mut own, outer: &mut outer };
+                self.take_from_child(*child as usize, &stack[at..at + left(child)], part);
+                at += left(child);
+            }
+            stack.truncate(begin);
+            self.how.up(front, Part { shape, own: &mut own, outer: &mut outer });
+            for (column, own) in x.chunks_exact_mut(rows.len()).zip(own.chunks_exact(shape.columns)) {
+                column[first..first + shape.columns].copy_from_slice(own);
+            }
+            stack.extend_from_slice(&outer);
+        }
+        Carried { own: x, outer: stack }
+    }
+
+    fn take_from_child<T: Scalar>(&self, child: usize, left: &[T], mut part: Part<'_, T>) {
+        let (relative, columns) = (self.analysis.relative(child), part.shape.columns);
+        let inside = relative.partition_point(|&row| (row as usize) < columns);
+        let mut left = left;
+        for (own, outer) in part.each() {
+            let (of_column, others) = left.split_at(relative.len());
+            left = others;
+            let (to_own, to_outer) = of_column.split_at(inside);
+            relative.iter().zip(to_own).for_each(|(&row, &value)| own[row as usize] += value);
+            relative[inside..].iter().zip(to_outer).for_each(|(&row, &value)| outer[row as usize - columns] += value);
+        }
+    }
+
+    /// The same on the way down: what the next front has to know stands on top of the stack.
+    fn down<T: Scalar>(&self, unit: &Unit, x: &[T]) -> Vec<T>
+    where
+        H: Substitution<T>,
+    {
+        let mut stack = Vec::new();
+        self.roots(unit).for_each(|root| self.gather(root, x, &mut stack));
+        let (rows, mut x) = (self.rows(unit), self.taken(unit, x));
+        let (mut own, mut outer) = (Vec::new(), Vec::new());
+        for front in unit.range.clone().rev() {
+            let shape = self.analysis.shape(front);
+            let first = self.analysis.begin[front] as usize - rows.start;
+            own.clear();
+            own.extend(x.chunks_exact(rows.len()).flat_map(|column| &column[first..first + shape.columns]));
+            outer.clear();
+            outer.extend_from_slice(&stack[stack.len() - shape.below * self.count..]);
+            stack.truncate(stack.len() - outer.len());
+            let mut part = Part { shape, own: &mut own, outer: &mut outer };
+            self.how.down(front, Part { shape, own: &mut *part.own, outer: &mut *part.outer });
+            for &child in self.analysis.children.column(front) {
+                let relative = self.analysis.relative(child as usize);
+                for (own, outer) in part.each() {
+                    let known =
+                        |&row: &u32| own.get(row as usize).copied().unwrap_or_else(|| outer[row as usize - own.len()]);
+                    stack.extend(relative.iter().map(known));
+                }
+            }
+            for (column, own) in x.chunks_exact_mut(rows.len()).zip(own.chunks_exact(shape.columns)) {
+                column[first..first + shape.columns].copy_from_slice(own);
+            }
+        }
+        x
+    }
+
+    /// A front above those units, on the way up.
+    fn up_top<T: Scalar>(&self, front: usize, x: &mut [T])
+    where
+        H: Substitution<T>,
+    {
+        let (shape, rows) = self.own_rows(front);
+        let mut own: Vec<T> = x.chunks_exact(self.n).flat_map(|column| &column[rows.clone()]).copied().collect();
+        let mut outer = vec![T::ZERO; shape.below * self.count];
+        self.how.up(front, Part { shape, own: &mut own, outer: &mut outer });
+        self.put_own(&rows, &own, x);
+        self.add(front, &outer, x);
+    }
+
+    fn down_top<T: Scalar>(&self, front: usize, x: &mut [T])
+    where
+        H: Substitution<T>,
+    {
+        let (shape, rows) = self.own_rows(front);
+        let mut own: Vec<T> = x.chunks_exact(self.n).flat_map(|column| &column[rows.clone()]).copied().collect();
+        let mut outer = Vec::with_capacity(shape.below * self.count);
+        self.gather(front, x, &mut outer);
+        self.how.down(front, Part { shape, own: &mut own, outer: &mut outer });
+        self.put_own(&rows, &own, x);
+    }
+
+    fn own_rows(&self, front: usize) -> (Shape, std::ops::Range<usize>) {
+        let shape = self.analysis.shape(front);
+        let first = self.analysis.begin[front] as usize;
+        (shape, first..first + shape.columns)
+    }
+
+    fn put_own<T: Scalar>(&self, rows: &std::ops::Range<usize>, own: &[T], x: &mut [T]) {
+        for (column, own) in x.chunks_exact_mut(self.n).zip(own.chunks_exact(rows.len())) {
+            column[rows.clone()].copy_from_slice(own);
+        }
+    }
+}
+
+/// Σ xᵢ yᵢ over the shorter of both, without conjugation.
+pub(in crate::linalg) fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
+    x.iter().zip(y).fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
+}
+
+/// The L panel of a front, split at its own rows.
+pub(in crate::linalg) fn split_panel<T>(left: &[T], shape: Shape) -> (MatRef<'_, T>, MatRef<'_, T>) {
+    mat(left, shape.height(), shape.columns).split_at_row(shape.columns)
+}

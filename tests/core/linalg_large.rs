@@ -1,0 +1,114 @@
+//! Systems large enough to be dissected: answers that are known beforehand, and no difference by threads.
+
+use freebound::linalg::{Kind, Scalar};
+use nalgebra_sparse::CscMatrix;
+use nalgebra_sparse::pattern::SparsityPattern;
+use num_complex::Complex;
+use rayon::ThreadPoolBuilder;
+
+use crate::linalg::bits;
+use crate::linalg_matrices::{Draw, factored, hermitian, laplacian, scale_rows};
+use crate::makers::Random;
+
+/// Side of a grid of 25,600 unknowns: cut in two.
+const SIDE: usize = 160;
+
+/// The pattern of a grid with one diagonal a cell, its vertices renumbered without order.
+fn pattern() -> SparsityPattern {
+    let count = SIDE * SIDE;
+    let number = |x: usize, y: usize| (y * SIDE + x) * 7919 % count;
+    let mut columns: Vec<Vec<usize>> = (0..count).map(|k| vec![k]).collect();
+    for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
+        for (u, v) in [(x + 1, y), (x, y + 1), (x + 1, y + 1)].into_iter().filter(|&(u, v)| u < SIDE && v < SIDE) {
+            columns[number(x, y)].push(number(u, v));
+            columns[number(u, v)].push(number(x, y));
+        }
+    }
+    let (mut offsets, mut rows) = (vec![0], Vec::new());
+    for mut column in columns {
+        column.sort_unstable();
+        rows.extend(column);
+        offsets.push(rows.len());
+    }
+    SparsityPattern::try_from_offsets_and_indices(count, count, offsets, rows).expect("sorted and in range")
+}
+
+/// A x, entry by entry.
+fn product<T: Scalar>(matrix: &CscMatrix<T>, x: &[T]) -> Vec<T> {
+    let mut product = vec![T::ZERO; x.len()];
+    for (row, column, &value) in matrix.triplet_iter() {
+        product[row] += value * x[column];
+    }
+    product
+}
+
+/// Solves for three known answers on 1, 2 and 4 threads: they come back up to `tolerance`, and always alike. Returns the
+/// memory of the factors, bytes.
+fn known_answers_come_back<T: Draw>(kind: Kind, matrix: &CscMatrix<T>, tolerance: f64) -> usize {
+    let mut random = Random(11);
+    let n = matrix.nrows();
+    let known: Vec<T> = (0..3 * n).map(|_| T::draw(&mut random)).collect();
+    let rhs: Vec<T> = known.chunks_exact(n).flat_map(|x| product(matrix, x)).collect();
+    let solve = || {
+        let factor = factored(kind, matrix).expect("regular");
+        let x = factor.solve(matrix, &rhs).expect("regular").x;
+        let adjoint = factor.solve_adjoint(matrix, &rhs).expect("regular").x;
+        (x, adjoint, factor.stats().factor_bytes)
+    };
+    let on_threads = |count| ThreadPoolBuilder::new().num_threads(count).build().expect("a few threads").install(solve);
+    let [one, two, four] = [1, 2, 4].map(on_threads);
+    assert!(bits(&one.0) == bits(&two.0) && bits(&one.0) == bits(&four.0), "threads make a difference");
+    assert!(bits(&one.1) == bits(&two.1) && bits(&one.1) == bits(&four.1), "threads make a difference");
+    let worst = one.0.iter().zip(&known).map(|(&x, &known)| (x - known).size()).fold(0.0, f64::max);
+    assert!(worst < tolerance, "off by {worst}");
+    // Aᴴ y = b for the same b: judged by its product.
+    let back: Vec<T> = one.1.chunks_exact(n).flat_map(|x| product(&matrix.transpose(), &conjugate(x))).collect();
+    let off = back.iter().zip(&rhs).map(|(&back, &b)| (back - b.conjugate()).size()).fold(0.0, f64::max);
+    let largest = rhs.iter().map(|b| b.size()).fold(0.0, f64::max);
+    assert!(off < tolerance * largest, "the adjoint system is off by {off}");
+    one.2
+}
+
+fn conjugate<T: Scalar>(x: &[T]) -> Vec<T> {
+    x.iter().map(|x| x.conjugate()).collect()
+}
+
+#[test]
+fn a_large_definite_system_is_solved_alike_on_any_number_of_threads() {
+    let mut random = Random(5);
+    let matrix = laplacian(&pattern(), 0.01, &mut random);
+    let mut symmetric = &matrix + &matrix.transpose();
+    symmetric.values_mut().iter_mut().for_each(|value| *value *= 0.5);
+    // The mean of two Laplacians has rows that do not sum to 0: the diagonal makes up for that.
+    let bytes = {
+        let n = symmetric.nrows();
+        let mut sums = vec![0.0; n];
+        symmetric
+            .triplet_iter()
+            .filter(|(row, column, _)| row != column)
+            .for_each(|(row, _, value)| sums[row] += value);
+        let places: Vec<(usize, usize)> = symmetric.pattern().entries().collect();
+        for (&(column, row), value) in places.iter().zip(symmetric.values_mut()) {
+            if row == column {
+                *value = -sums[row] - 0.01;
+            }
+        }
+        known_answers_come_back(Kind::Hermitian, &symmetric, 1e-9)
+    };
+    // George 1973: a nested dissection of a grid fills at most 31/4 n log₂ n.
+    let n = symmetric.nrows() as f64;
+    assert!((bytes / size_of::<f64>()) as f64 <= 31.0 / 4.0 * n * n.log2(), "{bytes} bytes");
+}
+
+#[test]
+fn a_large_complex_system_is_solved_alike_on_any_number_of_threads() {
+    let matrix: CscMatrix<Complex<f64>> = hermitian(&pattern(), -1.0, &mut Random(6));
+    known_answers_come_back(Kind::Hermitian, &matrix, 1e-12);
+}
+
+#[test]
+fn a_large_unsymmetric_system_is_solved_alike_on_any_number_of_threads() {
+    let mut matrix = laplacian(&pattern(), 0.01, &mut Random(7));
+    scale_rows(&mut matrix, |row| 1.0 + (row % 17) as f64);
+    known_answers_come_back(Kind::General, &matrix, 1e-8);
+}
