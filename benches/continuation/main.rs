@@ -25,6 +25,9 @@ use common::arguments;
 use common::machine::print_machine;
 use outcome::SHOWS_STEPS;
 
+/// A part of the benchmark, which may take few and small cases.
+type Part = fn(bool);
+
 fn main() {
     print_machine();
     let arguments = arguments();
@@ -32,7 +35,7 @@ fn main() {
     SHOWS_STEPS.store(arguments.iter().any(|word| word == "steps"), Ordering::Relaxed);
     let words = arguments.iter().map(String::as_str);
     let chosen: Vec<&str> = words.filter(|word| !["quick", "steps"].contains(word)).collect();
-    let parts: [(&str, fn(bool)); 6] = [
+    let parts: [(&str, Part); 6] = [
         ("corpus", corpus::run),
         ("synthetic", synthetic::run),
         ("size", size::run),

@@ -118,18 +118,20 @@ fn sides(mesh: &TriMesh) -> impl Iterator<Item = [u32; 2]> + '_ {
     mesh.triangles.iter().flat_map(|t| (0..3).map(|k| [t[k].number(), t[(k + 1) % 3].number()]))
 }
 
+/// The lowest corner of a part of the corners, each of which points to a lower one of its part. Shortens the way there.
+fn root(part: &mut [usize], mut corner: usize) -> usize {
+    while part[corner] != corner {
+        part[corner] = part[part[corner]];
+        corner = part[corner];
+    }
+    corner
+}
+
 /// The mesh with a vertex for each part of the faces around it that seams leave.
 fn cut_open(mesh: &TriMesh, seams: &BTreeSet<[u32; 2]>) -> TriMesh {
     // The corner behind each side, by the side's ends.
-    let corner_at: BTreeMap<[u32; 2], usize> = sides(mesh).zip(0..).map(|(side, corner)| (side, corner)).collect();
+    let corner_at: BTreeMap<[u32; 2], usize> = sides(mesh).zip(0..).collect();
     let mut part: Vec<usize> = (0..3 * mesh.face_count()).collect();
-    fn root(part: &mut [usize], mut corner: usize) -> usize {
-        while part[corner] != corner {
-            part[corner] = part[part[corner]];
-            corner = part[corner];
-        }
-        corner
-    }
     let next = |corner: usize| corner - corner % 3 + (corner + 1) % 3;
     for (&[a, b], &corner) in corner_at.iter().filter(|([a, b], _)| a < b && !seams.contains(&[*a, *b])) {
         let twin = corner_at[&[b, a]];

@@ -2,7 +2,7 @@
 
 use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::{
-    Control, Embedding, Ladder, Matched, Method, Pins, Settings, hard_pins, is_one_to_one, matched, verdict,
+    Control, Embedding, Family, Ladder, Matched, Method, Pins, Settings, hard_pins, is_one_to_one, matched, verdict,
     with_room_made, without_needless_vertices,
 };
 use glam::DVec2;
@@ -50,7 +50,7 @@ fn two_pins_that_change_places_with_room_around_need_no_new_vertex() {
     let after = roomy(&mesh, &before, &pins);
     let count = |found: &Matched| found.refinement.new_vertices().len();
     assert!(count(&after) < count(&before), "{} {}", count(&after), count(&before));
-    let mut run = Ladder::new(Settings::new(Method::Matchmaker, Default::default()), pins);
+    let mut run = Ladder::new(Settings::new(Method::Matchmaker, Family::default()), pins);
     let mut last = None;
     run.finish(&mesh, Control::unattended(), |step| last = Some(step)).unwrap();
     let last = last.unwrap();

@@ -69,7 +69,7 @@ impl Dissection {
         for level in 0..levels {
             go_on_unless(cancel)?;
             let most = MOST_OF_ROOT * (graph.order() as f64).sqrt();
-            let cuts = Level { graph, labels: &labels, level, below: levels - level - 1 }.cuts();
+            let cuts = Level { graph, labels: &labels, above: level, below: levels - level - 1 }.cuts();
             // A cut along patches is hardly twice as long as it has to be.
             if cuts.iter().any(|cut| cut.width() as f64 > 2.0 * most) {
                 return Ok(None);
@@ -174,14 +174,14 @@ struct Level<'a> {
     graph: &'a Pattern,
     labels: &'a [u32],
     /// Levels above it.
-    level: u32,
+    above: u32,
     /// Levels below the sides of its nodes.
     below: u32,
 }
 
 impl Level<'_> {
     fn cuts(&self) -> Vec<Cut> {
-        let nodes = 1 << self.level..2 << self.level;
+        let nodes = 1 << self.above..2 << self.above;
         let mut cuts: Vec<Cut> =
             nodes.map(|node| Cut { node, below: self.below, beside: [Vec::new(), Vec::new()] }).collect();
         let found: Vec<u32> = (0..self.labels.len())
@@ -219,7 +219,9 @@ fn take_in(graph: &Pattern, labels: &mut [u32], cut: &Cut, moved: &[Moved]) {
         }
     }
     // Meanwhile they belong to neither side.
-    open.iter().for_each(|&(vertex, _)| labels[vertex as usize] = SEPARATOR);
+    for &(vertex, _) in &open {
+        labels[vertex as usize] = SEPARATOR;
+    }
     while !open.is_empty() {
         let before = open.len();
         let label_for = |labels: &[u32], vertex: u32, side: usize| {
@@ -302,7 +304,9 @@ mod tests {
         assert_eq!(dissection.parts.len(), 4);
         let mut part_of = vec![None; graph.order()];
         for (part, vertices) in dissection.parts.iter().enumerate() {
-            vertices.iter().for_each(|&vertex| part_of[vertex as usize] = Some(part));
+            for &vertex in vertices {
+                part_of[vertex as usize] = Some(part);
+            }
         }
         for vertex in 0..graph.order() {
             for &other in graph.column(vertex) {

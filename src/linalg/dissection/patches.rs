@@ -34,7 +34,9 @@ impl Quotient {
         let patch = grown(graph);
         let count = patch.iter().max().map_or(0, |&last| last as usize + 1);
         let mut size = vec![0; count];
-        patch.iter().for_each(|&own| size[own as usize] += 1);
+        for &own in &patch {
+            size[own as usize] += 1;
+        }
         let mut pairs: Vec<u64> = Vec::new();
         for (vertex, &own) in patch.iter().enumerate() {
             let others = graph.column(vertex).iter().map(|&other| patch[other as usize]).filter(|&other| other != own);
@@ -59,13 +61,17 @@ impl Quotient {
             let seconds: Vec<Vec<u32>> = lists.par_iter().map(|list| self.second_half(list, &part)).collect();
             let mut halves = Vec::with_capacity(2 * lists.len());
             for (list, second) in lists.into_iter().zip(seconds) {
-                second.iter().for_each(|&patch| part[patch as usize] = NONE);
+                for &patch in &second {
+                    part[patch as usize] = NONE;
+                }
                 let first = list.into_iter().filter(|&patch| part[patch as usize] != NONE).collect();
                 halves.extend([first, second]);
             }
             lists = halves;
             for (number, list) in (0..).zip(&lists) {
-                list.iter().for_each(|&patch| part[patch as usize] = number);
+                for &patch in list {
+                    part[patch as usize] = number;
+                }
             }
         }
         part

@@ -53,7 +53,9 @@ impl Band {
         let mut band = Self { vertices: Vec::new(), place: vec![0; graph.order()], rim: Vec::new() };
         for (side, beside) in cut.beside.iter().enumerate() {
             let mut layer = beside.clone();
-            layer.iter().for_each(|&vertex| band.push(vertex));
+            for &vertex in &layer {
+                band.push(vertex);
+            }
             let mut taken = layer.len();
             for _ in 1..LAYERS {
                 let mut next = Vec::new();

@@ -59,13 +59,12 @@ fn begun(Footing { task, mesh, .. }: Footing<'_>, control: Control<'_>) -> Resul
     }
     let is_one_to_one = |embedding: &Embedding| task.sheet.is_one_to_one(mesh, embedding);
     let at_once = with_boundary_at(mesh, &targets, control)?.filter(is_one_to_one);
-    let (embedding, note) = match at_once {
-        Some(embedding) => (embedding, "mean-value equations with the whole boundary on its targets"),
-        None => {
-            let Some(circle) = on_circle(mesh, &targets)? else { return Ok(None) };
-            let Some(round) = with_boundary_at(mesh, &circle, control)?.filter(is_one_to_one) else { return Ok(None) };
-            (round, "the whole boundary begins on a circle")
-        }
+    let (embedding, note) = if let Some(embedding) = at_once {
+        (embedding, "mean-value equations with the whole boundary on its targets")
+    } else {
+        let Some(circle) = on_circle(mesh, &targets)? else { return Ok(None) };
+        let Some(round) = with_boundary_at(mesh, &circle, control)?.filter(is_one_to_one) else { return Ok(None) };
+        (round, "the whole boundary begins on a circle")
     };
     let progress = Continuation::new(mesh, embedding.clone(), &held).progress(mesh);
     let candidate = Candidate::one_to_one(Method::Continuation, embedding, &held);

@@ -136,11 +136,11 @@ impl Paths {
             }
             self.check(most)?;
             let (kept, lost) = if one == frame { (one, other) } else { (other, one) };
-            for end in (0..).take(self.piece.len()) {
-                if self.piece[end as usize] == lost {
-                    self.piece[end as usize] = kept;
+            for (end, pairs) in pairs_at.iter().enumerate() {
+                if self.piece[end] == lost {
+                    self.piece[end] = kept;
                     if growth == Growth::FromFrame {
-                        waiting.extend(pairs_at[end as usize].iter().map(|&pair| Reverse(self.waiting(pair))));
+                        waiting.extend(pairs.iter().map(|&pair| Reverse(self.waiting(pair))));
                     }
                 }
             }

@@ -99,7 +99,7 @@ fn sides(triangles: &[[u32; 3]]) -> impl Iterator<Item = [u32; 2]> + use<> {
 
 /// Which of two directions from a centre comes first counter-clockwise, beginning with that along x.
 fn by_turn(centre: DVec2, a: DVec2, b: DVec2) -> Ordering {
-    let is_below = |z: DVec2| z.y < centre.y || (z.y == centre.y && z.x < centre.x);
+    let is_below = |z: DVec2| z.y.total_cmp(&centre.y).then(z.x.total_cmp(&centre.x)).is_lt();
     is_below(a).cmp(&is_below(b)).then_with(|| match orientation(centre, a, b) {
         Some(Orientation::CounterClockwise) => Ordering::Less,
         Some(Orientation::Clockwise) => Ordering::Greater,
