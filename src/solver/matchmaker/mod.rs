@@ -150,7 +150,7 @@ impl Surroundings {
     ) -> Result<(usize, Paths), SolveError> {
         let most = (NEW_VERTICES_PER_VERTEX * mesh.vertex_count()).max(NEW_VERTICES_OF_SMALL);
         let mut fewest: Option<(usize, Paths)> = None;
-        let mut at_most = most;
+        let (mut at_most, mut why) = (most, SolveError::TooManyNewVertices { most });
         for (number, &manner) in manners.iter().enumerate() {
             let is_by_chance = manner.luck.0 > 1.0;
             if is_by_chance && fewest.is_none() {
@@ -165,10 +165,12 @@ impl Surroundings {
                     fewest = Some((number, paths));
                 }
                 Err(SolveError::TooManyNewVertices { .. }) => {}
+                // Another tree may lie where numbers are coarser.
+                Err(SolveError::TooFine) => why = SolveError::TooFine,
                 Err(error) => return Err(error),
             }
         }
-        fewest.ok_or(SolveError::TooManyNewVertices { most })
+        fewest.ok_or(why)
     }
 
     /// The embedding in which all paths are straight.

@@ -131,7 +131,7 @@ impl<'a> Router<'a> {
     ///
     /// # Errors
     ///
-    /// The caller's wish to stop.
+    /// The caller's wish to stop; targets so near to a line, beside their distances, that rounding parts a region.
     pub(super) fn way(&mut self, cells: &Subdivision, start: &Terminal, goal: &Terminal) -> Result<Way, SolveError> {
         self.run += 1;
         self.heap.clear();
@@ -143,7 +143,7 @@ impl<'a> Router<'a> {
             if count.is_multiple_of(NODES_BETWEEN_LOOKS) {
                 self.control.enter(Phase::Solve)?;
             }
-            let Reverse(reached) = self.heap.pop().expect("ends of one region are joined within it");
+            let Reverse(reached) = self.heap.pop().ok_or(SolveError::TooFine)?;
             let Reached { length: Length(length), node, .. } = reached;
             if node == 2 * goal.vertex + 1 {
                 return Ok(Way { length, moves: self.moves(begin, node) });
