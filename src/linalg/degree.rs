@@ -25,17 +25,17 @@ pub(super) fn minimum_degree(pattern: &Pattern, cancel: &AtomicBool) -> Result<O
     }
     let (send, receive) = sync_channel(1);
     let own = pattern.clone();
-    let found = || minimum_degree_to_the_end(pattern);
+    let here = || minimum_degree_to_the_end(pattern);
     let started = Builder::new().name("order".to_owned()).spawn(move || send.send(minimum_degree_to_the_end(&own)));
     if started.is_err() {
-        return found();
+        return here();
     }
     loop {
         go_on_unless(cancel)?;
         match receive.recv_timeout(LOOKS) {
             Ok(order) => return order,
             Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return found(),
+            Err(RecvTimeoutError::Disconnected) => return here(),
         }
     }
 }
@@ -51,4 +51,33 @@ pub(super) fn minimum_degree_to_the_end(pattern: &Pattern) -> Result<Order, Lina
     amd::order(&mut new_to_old, &mut old_to_new, pattern.as_faer(), control, MemStack::new(&mut memory))
         .map_err(|_| too_large)?;
     Ok(Order { new_to_old, old_to_new })
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra_sparse::pattern::SparsityPattern;
+
+    use super::*;
+
+    /// Unknowns in a row, so many that AMD runs on a thread of its own.
+    fn long_chain() -> Pattern {
+        let n = WORTH_LEAVING;
+        let lanes: Vec<Vec<usize>> = (0..n).map(|k| (k.saturating_sub(1)..(k + 2).min(n)).collect()).collect();
+        let ends = lanes.iter().scan(0, |end, lane| {
+            *end += lane.len();
+            Some(*end)
+        });
+        let offsets = std::iter::once(0).chain(ends).collect();
+        let pattern = SparsityPattern::try_from_offsets_and_indices(n, n, offsets, lanes.concat()).expect("a band");
+        Pattern::checked(&pattern).expect("symmetric")
+    }
+
+    #[test]
+    fn on_a_thread_of_its_own_the_order_is_the_same_and_a_raised_flag_stops_it() {
+        let chain = long_chain();
+        let order = minimum_degree(&chain, &AtomicBool::new(false)).expect("small enough");
+        assert_eq!(order.new_to_old, minimum_degree_to_the_end(&chain).expect("small enough").new_to_old);
+        let stopped = minimum_degree(&chain, &AtomicBool::new(true));
+        assert_eq!(stopped.expect_err("cancelled"), LinalgError::Cancelled);
+    }
 }

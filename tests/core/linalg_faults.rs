@@ -79,7 +79,7 @@ fn a_cancelled_factorization_stops() {
     }
 }
 
-/// Unknowns in a row, so many that they are ordered on a thread of their own.
+/// Unknowns in a row, so many that they are dissected.
 fn long_chain() -> SparsityPattern {
     let n = 60_000;
     let lanes: Vec<Vec<usize>> = (0..n).map(|k: usize| (k.saturating_sub(1)..(k + 2).min(n)).collect()).collect();
@@ -101,7 +101,7 @@ fn a_cancelled_analysis_stops() {
 }
 
 #[test]
-fn a_pattern_that_is_ordered_on_its_own_thread_is_solved_like_others() {
+fn a_pattern_that_is_dissected_is_solved_like_others() {
     // −1 2 −1 with a little more on the diagonal, times 0 1 2 3 4 0 1 …
     let pattern = long_chain();
     let entry = |(row, column): (usize, usize)| if row == column { 2.5 } else { -1.0 };

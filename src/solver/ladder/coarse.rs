@@ -6,7 +6,7 @@
 
 use std::time::Instant;
 
-use super::rung::{Failure, Footing, Handover, Latest, Rung};
+use super::rung::{Failure, Footing, Latest, Rung, tried};
 use super::task::Task;
 use super::{Candidate, Ladder, Step};
 use crate::mesh::DiskMesh;
@@ -33,13 +33,9 @@ pub(super) struct FewVertices {
 impl Rung for FewVertices {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
         let began = Instant::now();
-        let found = match by_few(from, control) {
-            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
-            found => found.ok().flatten(),
-        };
+        let found = tried(by_few(from, control))?;
         self.is_done = true;
-        let nothing = Failure { error: SolveError::NotPlanar, handover: Some(Handover::default()) };
-        found.map(|candidate| candidate.since(began)).ok_or(nothing)
+        found.map(|candidate| candidate.since(began)).ok_or_else(|| Failure::in_silence(SolveError::NotPlanar))
     }
 
     fn has_more(&self, _: &Task, latest: Option<&Latest>) -> bool {

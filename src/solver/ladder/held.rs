@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use glam::DVec2;
 
-use super::rung::{Failure, Footing, Handover, Latest, Rung};
+use super::rung::{Failure, Footing, Latest, Rung, tried};
 use super::task::Task;
 use super::{Candidate, Step};
 use crate::geom::{Similarity, is_simple, turning_number};
@@ -31,13 +31,9 @@ pub(super) struct Held {
 impl Rung for Held {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
         let began = Instant::now();
-        let found = match begun(from, control) {
-            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
-            found => found.ok().flatten(),
-        };
+        let found = tried(begun(from, control))?;
         self.is_done = true;
-        let nothing = Failure { error: SolveError::Unmet, handover: Some(Handover::default()) };
-        found.map(|candidate| candidate.since(began)).ok_or(nothing)
+        found.map(|candidate| candidate.since(began)).ok_or_else(|| Failure::in_silence(SolveError::Unmet))
     }
 
     fn has_more(&self, _: &Task, _: Option<&Latest>) -> bool {

@@ -96,6 +96,19 @@ impl Failure {
         let note = Some(format!("{what} gave nothing: {error}"));
         Self { error, handover: Some(Handover { note, embedding: None }) }
     }
+
+    /// The same of a rung that is tried where it may serve: that it did not is nothing to say.
+    pub(super) fn in_silence(error: SolveError) -> Self {
+        Self { error, handover: Some(Handover::default()) }
+    }
+}
+
+/// What a rung found that is tried where it may serve; of its failures only the wish to stop counts.
+pub(super) fn tried(found: Result<Option<Candidate>, SolveError>) -> Result<Option<Candidate>, SolveError> {
+    match found {
+        Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
+        found => Ok(found.ok().flatten()),
+    }
 }
 
 /// Notes on the next step, each once.
