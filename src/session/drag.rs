@@ -287,10 +287,7 @@ impl Session {
             return Some(Screen { embedding, problem, is_planar: preview.live.is_some() });
         }
         let outcome = self.outcome().filter(|outcome| outcome.step.refinement.is_none())?;
-        let (step, problem) = (&outcome.step, outcome.problem.clone());
-        // A planar start sets constraints aside: it is nothing to hold them where they are.
-        let is_planar = step.verdict.planar && !step.verdict.mirrored && !step.is_of_planar_start();
-        Some(Screen { embedding: Arc::new(step.solution.embedding.clone()), problem, is_planar })
+        Screen::of(outcome, outcome.step.solution.embedding.len())
     }
 
     /// Takes in what a drag has waited for.

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use super::drag::Screen;
 use super::solving::Beginning;
 use super::{Outcome, Problem, Session};
-use crate::solver::{Method, Settings};
+use crate::solver::Settings;
 
 /// Pins that hold a map: two fix place, turn and size.
 const HOLDING_PINS: usize = 2;
@@ -26,16 +26,15 @@ impl Session {
             return None;
         }
         let wanted = self.document.problem();
-        let newest = self.solving.newest().and_then(|newest| Screen::of(newest, self.vertex_count_of_disk()?));
+        let newest = || {
+            let newest = self.solving.newest().filter(|newest| wanted.goes_on_from(&newest.problem))?;
+            Screen::of(newest, self.disk()?.vertex_count()).filter(|screen| screen.is_planar)
+        };
         let serves = |screen: &Screen| screen.is_planar && wanted.goes_on_from(&screen.problem);
-        let screen = [self.screen(), newest].into_iter().flatten().find(serves)?;
+        let screen = self.screen().filter(serves).or_else(newest)?;
         // Where constraints only came, the map is as good as it was where it meets them, too.
         let stays = screen.problem.targets.iter().all(|(vertex, target)| wanted.targets.get(vertex) == Some(target));
         Some(Beginning { embedding: screen.embedding, stays })
-    }
-
-    fn vertex_count_of_disk(&self) -> Option<usize> {
-        self.disk().map(|disk| disk.vertex_count())
     }
 
     /// The embedding on the screen where it is planar, and made by the document's method: the end of a drag goes on from it.
@@ -57,7 +56,7 @@ impl Session {
 impl Screen {
     /// A step, on a mesh of so many vertices: of new ones it has nothing to say. Whether it is one-to-one without them, the run
     /// finds out.
-    fn of(outcome: &Outcome, vertex_count: usize) -> Option<Self> {
+    pub(super) fn of(outcome: &Outcome, vertex_count: usize) -> Option<Self> {
         let (step, problem) = (&outcome.step, outcome.problem.clone());
         // A planar start sets constraints aside: it is nothing to hold them where they are.
         let is_planar = step.verdict.planar && !step.verdict.mirrored && !step.is_of_planar_start();
@@ -69,13 +68,12 @@ impl Screen {
 impl Problem {
     /// Whether it is solved from a planar solution of another one on.
     fn goes_on_from(&self, before: &Self) -> bool {
-        let is_continued = matches!(self.settings.method, Method::Auto | Method::Continuation);
         let of_way = |settings: Settings| Settings { new_vertices: true, ..settings };
         let is_alike = of_way(self.settings).amounts_to(&of_way(before.settings)) && self.frame == before.frame;
         let stays = before
             .targets
             .iter()
             .filter(|(vertex, target)| self.targets.get(vertex).is_some_and(|now| now.uv == target.uv));
-        is_continued && is_alike && self.settings.are_constraints(&self.pins()) && stays.count() >= HOLDING_PINS
+        is_alike && self.settings.continues(&self.pins()) && stays.count() >= HOLDING_PINS
     }
 }

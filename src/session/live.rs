@@ -15,7 +15,7 @@ use super::drag::{Pull, Screen};
 use super::{Background, Place, Problem, Session, Wake};
 use crate::io::Target;
 use crate::mesh::{DiskMesh, VertexId};
-use crate::solver::{Aim, Control, Embedding, Live, Method, Moved};
+use crate::solver::{Aim, Control, Embedding, Live, Moved};
 
 /// Frames under way, and the embedding between them.
 pub(super) struct LiveDrag {
@@ -82,8 +82,7 @@ impl LiveDrag {
             held.live.dragged() == pull.dragged && held.problem.differs_in_targets_of(problem, &pull.dragged)
         };
         let held = self.held.take().filter(serves);
-        let is_continued = matches!(problem.settings.method, Method::Auto | Method::Continuation);
-        let can_begin = is_continued && !self.has_no_beginning && problem.settings.are_constraints(&problem.pins());
+        let can_begin = !self.has_no_beginning && problem.settings.continues(&problem.pins());
         let begin = || pull.base().filter(|screen| can_begin && screen.is_planar).cloned().map(Beginning::Screen);
         let Some(beginning) = held.map(Box::new).map(Beginning::Held).or_else(begin) else { return Some(pull) };
         let mesh = Arc::clone(&pull.task.mesh);

@@ -207,6 +207,11 @@ impl Settings {
         pins.len() > GAUGE_PINS || (pins.len() == GAUGE_PINS && !is_exact())
     }
 
+    /// Whether the method continues from a one-to-one embedding to the constraints, and these pins are some.
+    pub fn continues(&self, pins: &Pins) -> bool {
+        matches!(self.method, Method::Auto | Method::Continuation) && self.are_constraints(pins)
+    }
+
     /// Whether this treatment meets the targets of such pins to the last bit.
     pub fn is_exact(&self, hold: Hold) -> bool {
         hold.is_exact() && self.treatment != Some(Treatment::Weighted)

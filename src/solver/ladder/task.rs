@@ -82,7 +82,7 @@ impl Task {
 
     /// Whether the method continues from an embedding to the constraints, and there are some.
     pub(super) fn continues(&self) -> bool {
-        matches!(self.settings.method, Method::Auto | Method::Continuation) && self.is_constrained()
+        self.settings.continues(&self.pins)
     }
 
     pub(super) fn held(&self) -> Pins {
