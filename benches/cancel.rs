@@ -10,7 +10,7 @@ mod makers;
 
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use freebound::mesh::{DiskMesh, VertexId};
@@ -20,6 +20,7 @@ use freebound::solver::{
 use glam::DVec2;
 
 use common::machine::print_machine;
+use common::stop::within;
 use common::table::{Table, seconds, target};
 use common::{Times, arguments};
 use makers::bumpy_cap_of;
@@ -151,24 +152,9 @@ impl Waits {
 /// Runs a job and stops it after a while; none where it came to its end before.
 fn stopped(run: impl Fn(Control<'_>) -> Result<(), SolveError>, until: Duration) -> Option<Wait> {
     let (flag, phase) = (AtomicBool::new(false), Mutex::new(None));
-    let raised = Mutex::new(None);
-    let (done, wait) = std::sync::mpsc::sync_channel::<()>(0);
-    let outcome = std::thread::scope(|scope| {
-        scope.spawn(|| {
-            let wait = wait;
-            if wait.recv_timeout(until).is_err_and(|error| error == std::sync::mpsc::RecvTimeoutError::Timeout) {
-                *raised.lock().expect("nobody panics") = Some((Instant::now(), *phase.lock().expect("nobody panics")));
-                flag.store(true, Ordering::Relaxed);
-            }
-        });
-        let report = |entered| *phase.lock().expect("nobody panics") = Some(entered);
-        let outcome = run(Control::new(&flag, &report));
-        let ended = Instant::now();
-        drop(done);
-        (outcome, ended)
-    });
-    let (outcome, ended) = outcome;
-    let (raised, phase) = raised.into_inner().expect("nobody panics")?;
-    let wait = ended.duration_since(raised).as_secs_f64();
-    matches!(outcome, Err(SolveError::Cancelled)).then_some(Wait { seconds: wait, phase, at: until.as_secs_f64() })
+    let report = |entered| *phase.lock().expect("nobody panics") = Some(entered);
+    let (outcome, wait) = within(until, &flag, || run(Control::new(&flag, &report)));
+    let phase = phase.into_inner().expect("nobody panics");
+    let (seconds, at) = (wait?.as_secs_f64(), until.as_secs_f64());
+    matches!(outcome, Err(SolveError::Cancelled)).then_some(Wait { seconds, phase, at })
 }

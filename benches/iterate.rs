@@ -6,9 +6,8 @@ mod common;
 #[path = "../examples/makers/mod.rs"]
 mod makers;
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 use freebound::mesh::DiskMesh;
 use freebound::solver::{
@@ -16,6 +15,7 @@ use freebound::solver::{
 };
 
 use common::machine::{print_machine, processor_seconds};
+use common::stop::within;
 use common::table::{Table, seconds};
 use common::{Times, arguments, time};
 use makers::sheet_of_faces;
@@ -117,21 +117,12 @@ fn cancelling() {
         for k in 0..CANCELS {
             let flag = AtomicBool::new(false);
             let until = Duration::from_secs_f64(whole * f64::from(k) / f64::from(CANCELS));
-            let raised = Mutex::new(Instant::now());
-            std::thread::scope(|scope| {
-                scope.spawn(|| {
-                    std::thread::sleep(until);
-                    *raised.lock().expect("nobody panics") = Instant::now();
-                    flag.store(true, Ordering::Relaxed);
-                });
-                let outcome = iteration.step(&mesh, &folded, Control::new(&flag, &|_| {}));
-                let ended = Instant::now();
-                if outcome.is_err() {
-                    let wait = ended.duration_since(*raised.lock().expect("nobody panics")).as_secs_f64();
-                    waits.add(wait);
-                    longest = longest.max(wait);
-                }
-            });
+            let control = Control::new(&flag, &|_| {});
+            let (outcome, wait) = within(until, &flag, || iteration.step(&mesh, &folded, control));
+            if let Some(wait) = wait.filter(|_| outcome.is_err()) {
+                waits.add(wait.as_secs_f64());
+                longest = longest.max(wait.as_secs_f64());
+            }
         }
         table.row([mesh.vertex_count().to_string(), seconds(waits.median()), seconds(longest)]);
     }

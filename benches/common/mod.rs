@@ -8,6 +8,7 @@
 )]
 
 pub(crate) mod machine;
+pub(crate) mod stop;
 pub(crate) mod table;
 
 use std::time::Instant;

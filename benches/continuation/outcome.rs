@@ -2,11 +2,12 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 use freebound::mesh::DiskMesh;
 use freebound::solver::{Choice as _, Control, Ladder, Pins, Settings, SolveError, Step};
+
+use crate::common::stop::within;
 
 /// The longest that a run may take.
 const LIMIT: Duration = Duration::from_mins(2);
@@ -36,7 +37,7 @@ impl Outcome {
         let control = Control::new(&cancel, &silent);
         let start = Instant::now();
         let mut found = Self { ending: String::new(), solved: None, last: None, steps: 0, seconds: 0.0 };
-        let ending = within(LIMIT, &cancel, || {
+        let (ending, _) = within(LIMIT, &cancel, || {
             let mut run = Ladder::new(settings, pins.clone());
             let take = |step: Step| {
                 found.steps += usize::from(!step.is_of_planar_start());
@@ -78,19 +79,4 @@ fn show(step: &Step) {
         format!(", energy {:.4}, distance left {:.3e}", progress.energy, progress.distance_left)
     });
     println!("    {} {}: {:.3} s, {}{progress}", step.index, step.rung.name(), step.seconds(), step.verdict.summary());
-}
-
-/// Does some work, and raises a flag when it takes too long.
-fn within<R>(limit: Duration, flag: &AtomicBool, work: impl FnOnce() -> R) -> R {
-    std::thread::scope(|scope| {
-        let (done, wait) = sync_channel::<()>(0);
-        scope.spawn(move || {
-            if wait.recv_timeout(limit) == Err(RecvTimeoutError::Timeout) {
-                flag.store(true, Ordering::Relaxed);
-            }
-        });
-        let result = work();
-        drop(done);
-        result
-    })
 }
