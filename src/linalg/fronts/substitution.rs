@@ -5,6 +5,8 @@
 //! Units that await none run side by side, the fronts above them one after another, with threads in large ones. What is
 //! added to what, and in which order, depends on the pattern alone.
 
+use std::ops::Range;
+
 use faer::linalg::matmul::matmul;
 use faer::traits::Conjugate;
 use faer::{Accum, MatMut, MatRef, Par};
@@ -86,7 +88,7 @@ pub(in crate::linalg) fn substitute<T: Scalar>(analysis: &FrontAnalysis, how: &i
     let (low, top): (Vec<&Unit>, Vec<&Unit>) = analysis.units.iter().partition(|unit| unit.awaited == 0);
     let done: Vec<Carried<T>> = low.par_iter().map(|unit| way.up(unit, x)).collect();
     for (unit, Carried { own, outer }) in low.iter().zip(done) {
-        way.put(unit, &own, x);
+        put(&own, &way.rows(&unit.range), n, x);
         let mut outer = &outer[..];
         for root in way.roots(unit) {
             let (of_root, others) = outer.split_at(analysis.shape(root).below * way.count);
@@ -98,7 +100,7 @@ pub(in crate::linalg) fn substitute<T: Scalar>(analysis: &FrontAnalysis, how: &i
     fronts.clone().for_each(|front| way.up_top(front, x));
     fronts.rev().for_each(|front| way.down_top(front, x));
     let done: Vec<Vec<T>> = low.par_iter().map(|unit| way.down(unit, x)).collect();
-    low.iter().zip(done).for_each(|(unit, own)| way.put(unit, &own, x));
+    low.iter().zip(done).for_each(|(unit, own)| put(&own, &way.rows(&unit.range), n, x));
 }
 
 /// What is the same for all fronts.
@@ -118,22 +120,10 @@ struct Carried<T> {
 }
 
 impl<H> Way<'_, H> {
-    /// A unit's rows of every right-hand side.
-    fn taken<T: Scalar>(&self, unit: &Unit, x: &[T]) -> Vec<T> {
-        let rows = self.rows(unit);
-        x.chunks_exact(self.n).flat_map(|column| &column[rows.clone()]).copied().collect()
-    }
-
-    fn put<T: Scalar>(&self, unit: &Unit, own: &[T], x: &mut [T]) {
-        let rows = self.rows(unit);
-        for (column, own) in x.chunks_exact_mut(self.n).zip(own.chunks_exact(rows.len())) {
-            column[rows.clone()].copy_from_slice(own);
-        }
-    }
-
-    fn rows(&self, unit: &Unit) -> std::ops::Range<usize> {
+    /// The rows that some fronts, one after another, solve for.
+    fn rows(&self, fronts: &Range<usize>) -> Range<usize> {
         let at = |supernode: usize| self.analysis.begin[supernode] as usize;
-        at(unit.range.start)..at(unit.range.end)
+        at(fronts.start)..at(fronts.end)
     }
 
     /// The fronts of a unit whose parents belong to other units, ascending.
@@ -170,13 +160,15 @@ impl<H> Way<'_, H> {
     where
         H: Substitution<T>,
     {
-        let (rows, mut x) = (self.rows(unit), self.taken(unit, x));
+        let rows = self.rows(&unit.range);
+        let mut x: Vec<T> = taken(x, self.n, &rows).collect();
         let (mut stack, mut own, mut outer) = (Vec::new(), Vec::new(), Vec::new());
         for front in unit.range.clone() {
             let shape = self.analysis.shape(front);
             let first = self.analysis.begin[front] as usize - rows.start;
+            let of_front = first..first + shape.columns;
             own.clear();
-            own.extend(x.chunks_exact(rows.len()).flat_map(|column| &column[first..first + shape.columns]));
+            own.extend(taken(&x, rows.len(), &of_front));
             outer.clear();
             outer.resize(shape.below * self.count, T::ZERO);
             let children = self.analysis.children.column(front);
@@ -190,9 +182,7 @@ impl<H> Way<'_, H> {
             }
             stack.truncate(begin);
             self.how.up(front, Part { shape, own: &mut own, outer: &mut outer });
-            for (column, own) in x.chunks_exact_mut(rows.len()).zip(own.chunks_exact(shape.columns)) {
-                column[first..first + shape.columns].copy_from_slice(own);
-            }
+            put(&own, &of_front, rows.len(), &mut x);
             stack.extend_from_slice(&outer);
         }
         Carried { own: x, outer: stack }
@@ -218,13 +208,15 @@ impl<H> Way<'_, H> {
     {
         let mut stack = Vec::new();
         self.roots(unit).for_each(|root| self.gather(root, x, &mut stack));
-        let (rows, mut x) = (self.rows(unit), self.taken(unit, x));
+        let rows = self.rows(&unit.range);
+        let mut x: Vec<T> = taken(x, self.n, &rows).collect();
         let (mut own, mut outer) = (Vec::new(), Vec::new());
         for front in unit.range.clone().rev() {
             let shape = self.analysis.shape(front);
             let first = self.analysis.begin[front] as usize - rows.start;
+            let of_front = first..first + shape.columns;
             own.clear();
-            own.extend(x.chunks_exact(rows.len()).flat_map(|column| &column[first..first + shape.columns]));
+            own.extend(taken(&x, rows.len(), &of_front));
             outer.clear();
             outer.extend_from_slice(&stack[stack.len() - shape.below * self.count..]);
             stack.truncate(stack.len() - outer.len());
@@ -238,9 +230,7 @@ impl<H> Way<'_, H> {
                     stack.extend(relative.iter().map(known));
                 }
             }
-            for (column, own) in x.chunks_exact_mut(rows.len()).zip(own.chunks_exact(shape.columns)) {
-                column[first..first + shape.columns].copy_from_slice(own);
-            }
+            put(&own, &of_front, rows.len(), &mut x);
         }
         x
     }
@@ -250,11 +240,11 @@ impl<H> Way<'_, H> {
     where
         H: Substitution<T>,
     {
-        let (shape, rows) = self.own_rows(front);
-        let mut own: Vec<T> = x.chunks_exact(self.n).flat_map(|column| &column[rows.clone()]).copied().collect();
+        let (shape, rows) = (self.analysis.shape(front), self.rows(&(front..front + 1)));
+        let mut own: Vec<T> = taken(x, self.n, &rows).collect();
         let mut outer = vec![T::ZERO; shape.below * self.count];
         self.how.up(front, Part { shape, own: &mut own, outer: &mut outer });
-        self.put_own(&rows, &own, x);
+        put(&own, &rows, self.n, x);
         self.add(front, &outer, x);
     }
 
@@ -262,24 +252,25 @@ impl<H> Way<'_, H> {
     where
         H: Substitution<T>,
     {
-        let (shape, rows) = self.own_rows(front);
-        let mut own: Vec<T> = x.chunks_exact(self.n).flat_map(|column| &column[rows.clone()]).copied().collect();
+        let (shape, rows) = (self.analysis.shape(front), self.rows(&(front..front + 1)));
+        let mut own: Vec<T> = taken(x, self.n, &rows).collect();
         let mut outer = Vec::with_capacity(shape.below * self.count);
         self.gather(front, x, &mut outer);
         self.how.down(front, Part { shape, own: &mut own, outer: &mut outer });
-        self.put_own(&rows, &own, x);
+        put(&own, &rows, self.n, x);
     }
+}
 
-    fn own_rows(&self, front: usize) -> (Shape, std::ops::Range<usize>) {
-        let shape = self.analysis.shape(front);
-        let first = self.analysis.begin[front] as usize;
-        (shape, first..first + shape.columns)
-    }
+/// Some rows of right-hand sides of this length, one after another.
+fn taken<'a, T: Copy>(x: &'a [T], length: usize, rows: &Range<usize>) -> impl Iterator<Item = T> + use<'a, T> {
+    let rows = rows.clone();
+    x.chunks_exact(length).flat_map(move |column| &column[rows.clone()]).copied()
+}
 
-    fn put_own<T: Scalar>(&self, rows: &std::ops::Range<usize>, own: &[T], x: &mut [T]) {
-        for (column, own) in x.chunks_exact_mut(self.n).zip(own.chunks_exact(rows.len())) {
-            column[rows.clone()].copy_from_slice(own);
-        }
+/// Puts such rows back.
+fn put<T: Copy>(own: &[T], rows: &Range<usize>, length: usize, x: &mut [T]) {
+    for (column, own) in x.chunks_exact_mut(length).zip(own.chunks_exact(rows.len())) {
+        column[rows.clone()].copy_from_slice(own);
     }
 }
 
