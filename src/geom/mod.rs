@@ -40,7 +40,7 @@ pub use convex_polygon::{ConvexPolygon, PolygonFault};
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, folds_back, is_simple, segments_meet};
 pub use hull::{convex_hull, is_inside_hull};
 pub use kernel::{centre_of_gravity, kernel};
-pub use orient::{Orientation, orientation};
+pub use orient::{Orientation, double_area, orientation};
 pub use packing::{Packed, Packing, PackingOptions, pack};
 pub use picture::Picture;
 pub use picture_frame::{PictureFrame, VAxis};

@@ -32,6 +32,11 @@ const LEAST: f64 = f64::from_bits((1023 - 400) << 52);
 /// 2⁴⁰⁰: the greatest magnitude that is left to the adaptive predicate.
 const GREATEST: f64 = f64::from_bits((1023 + 400) << 52);
 
+/// Twice the area of a triangle, rounded: negative where it turns right.
+pub fn double_area([a, b, c]: [DVec2; 3]) -> f64 {
+    (b - a).perp_dot(c - a)
+}
+
 /// How three points lie in the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Orientation {

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::outcome::{pins_report, upright};
 use super::{Model, Outcome};
-use crate::geom::{Bounds, Packing, PackingOptions, least_box_turn, pack};
+use crate::geom::{Bounds, Packing, PackingOptions, double_area, least_box_turn, pack};
 use crate::io::{
     ChartReport, Materials, MeshReport, Output, OutputChart, OutputFit, PackingReport, Placement, Report, Seconds,
     ShapeReport, StepReport, proved_together,
@@ -153,8 +153,7 @@ impl SolvedChart<'_> {
     fn density(&self, coordinates: &Embedding, picture: DVec2) -> f64 {
         let mesh = self.outcome.step.mesh(self.disk());
         let doubled = |face: FaceId| {
-            let [a, b, c] = mesh.mesh().triangles[face.index()].map(|vertex| coordinates[vertex] * picture);
-            (b - a).perp_dot(c - a).abs()
+            double_area(mesh.mesh().triangles[face.index()].map(|vertex| coordinates[vertex] * picture)).abs()
         };
         (mesh.real_faces().map(doubled).sum::<f64>() / 2.0 / self.area()).sqrt()
     }

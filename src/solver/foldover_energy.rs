@@ -106,6 +106,11 @@ impl Energy {
     }
 }
 
+/// The energy of elements whose corners lie at these places.
+pub(super) fn energy_of(elements: &[Element], z: &[DVec2], energy: Energy) -> f64 {
+    elements.iter().map(|element| element.energy(element.corners.map(|c| z[c as usize]), energy)).sum()
+}
+
 impl Element {
     /// A triangle that is at rest in the shape `[a, b, c]`, counter-clockwise. One that is thinner than `thinnest`, height
     /// to longest side, is measured as if it were so thick.

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::Embedding;
 use super::foldover_energy::Element;
-use crate::geom::{Bounds, outside_triangles};
+use crate::geom::{Bounds, double_area, outside_triangles};
 use crate::mesh::{DiskMesh, TriMesh, VertexId};
 
 /// Points on each side of a frame that vertices move within.
@@ -77,10 +77,9 @@ pub(super) fn outside_elements<'a>(
     weight: f64,
 ) -> Vec<Element> {
     let shape = |t: &[VertexId; 3]| t.map(|v| points[v.index()]);
-    let area = |[a, b, c]: [DVec2; 3]| (b - a).perp_dot(c - a);
-    let total: f64 = triangles.clone().map(|t| area(shape(t))).sum();
+    let total: f64 = triangles.clone().map(|t| double_area(shape(t))).sum();
     let element = |t: &[VertexId; 3]| {
-        Element::new(t.map(VertexId::number), shape(t), (weight * area(shape(t)) / total, THINNEST))
+        Element::new(t.map(VertexId::number), shape(t), (weight * double_area(shape(t)) / total, THINNEST))
     };
     triangles.map(element).collect()
 }

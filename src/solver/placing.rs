@@ -10,7 +10,7 @@ use glam::DVec2;
 use super::equations::length_scale;
 use super::upright::Turns;
 use super::{Embedding, GaugeSize, Pins};
-use crate::geom::{Bounds, Similarity, power_of_two_near};
+use crate::geom::{Bounds, Similarity, double_area, power_of_two_near};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// What the rounding of a turn adds to a length at most, as a share of it.
@@ -202,13 +202,8 @@ pub fn true_area_factor(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
             (b - a).cross(c - a).length()
         })
         .sum();
-    let flat: f64 = mesh
-        .real_faces()
-        .map(|face| {
-            let [a, b, c] = mesh.face(face).map(|v| embedding[v] * in_plane);
-            (b - a).perp_dot(c - a).abs()
-        })
-        .sum();
+    let flat: f64 =
+        mesh.real_faces().map(|face| double_area(mesh.face(face).map(|v| embedding[v] * in_plane)).abs()).sum();
     (surface / flat).sqrt() * (in_plane / in_space)
 }
 

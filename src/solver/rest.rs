@@ -3,10 +3,11 @@
 use glam::{DVec2, DVec3};
 
 use super::equations::length_scale;
-use super::foldover_energy::{Element, Energy};
+use super::foldover_energy::{Element, Energy, energy_of};
 use super::membrane::{Membrane, Planning, Spring};
 use super::outside::outside_elements;
 use super::{Embedding, Hold, Outside, Pins, Progress, SolveError};
+use crate::geom::double_area;
 use crate::mesh::{DiskMesh, VertexId};
 
 /// Faces that are thinner, height to longest side, are measured as if they were so thick.
@@ -74,8 +75,7 @@ impl Rest {
         let scale = length_scale(mesh);
         let shape = |(corners, part): ([VertexId; 3], f64)| {
             let flat = laid_flat(mesh.shape(corners).map(|x| scale * x));
-            let [a, b, c] = flat;
-            Shape { corners, flat, share: part * 0.5 * (b - a).perp_dot(c - a) }
+            Shape { corners, flat, share: part * 0.5 * double_area(flat) }
         };
         let mut shapes: Vec<Shape> = triangles.map(shape).collect();
         let area: f64 = shapes.iter().map(|shape| shape.share).sum();
@@ -97,8 +97,7 @@ impl Rest {
 
     /// An energy of an embedding at its own size, of the triangles alone.
     pub(super) fn energy(&self, mesh: &DiskMesh, embedding: &Embedding, energy: Energy) -> f64 {
-        let of = |element: &Element| element.energy(element.corners.map(|c| embedding[c as usize]), energy);
-        self.elements(mesh, embedding).iter().map(of).sum()
+        energy_of(&self.elements(mesh, embedding), embedding, energy)
     }
 
     /// How many of the triangles are folded in an embedding.
@@ -141,13 +140,7 @@ impl Rest {
 
     /// The triangles' energies, at rest when as large as the embedding is now.
     fn elements(&self, mesh: &DiskMesh, embedding: &Embedding) -> Vec<Element> {
-        let flat: f64 = mesh
-            .real_faces()
-            .map(|face| {
-                let [a, b, c] = embedding.corners(mesh, face);
-                0.5 * (b - a).perp_dot(c - a)
-            })
-            .sum();
+        let flat: f64 = mesh.real_faces().map(|face| 0.5 * double_area(embedding.corners(mesh, face))).sum();
         let scale = (flat / self.area).sqrt();
         let element = |shape: &Shape| {
             Element::new(shape.corners.map(VertexId::number), shape.flat.map(|z| scale * z), (shape.share, THINNEST))

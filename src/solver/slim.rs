@@ -49,7 +49,7 @@ use super::rest::{THINNEST, laid_flat};
 use super::{
     BoundaryShape, Control, Embedding, Family, Method, Pins, Prepared, Progress, Settings, Solution, SolveError,
 };
-use crate::geom::{Orientation, orientation};
+use crate::geom::{Orientation, double_area, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 
 /// Weight of what fills holes, that of the surface being 1 for the same area: it only has to stay unfolded.
@@ -172,7 +172,6 @@ impl Slim {
         if !is_unfolded(mesh, start) {
             return Err(SolveError::NotPlanar);
         }
-        let double_area = |[a, b, c]: [DVec2; 3]| (b - a).perp_dot(c - a);
         let scale = length_scale(mesh);
         let shapes: Vec<[DVec2; 3]> =
             mesh.faces().map(|face| laid_flat(mesh.shape(mesh.face(face)).map(|x| scale * x))).collect();

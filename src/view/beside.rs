@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use super::PlaneCamera;
-use crate::geom::Bounds;
+use crate::geom::{Bounds, double_area};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::session::Outcome;
 
@@ -108,9 +108,6 @@ fn common_side(extents: impl Iterator<Item = f64>) -> f64 {
 /// The area that an embedding covers, folds counted as often as they lie there.
 fn area(given: &DiskMesh, outcome: &Outcome) -> f64 {
     let embedding = &outcome.step.solution.embedding;
-    let double = |corners: &[VertexId; 3]| {
-        let [a, b, c] = corners.map(|v| embedding[v]);
-        (b - a).perp_dot(c - a).abs()
-    };
-    outcome.step.mesh(given).mesh().real_triangles().iter().map(double).sum::<f64>() / 2.0
+    let covered = |corners: &[VertexId; 3]| double_area(corners.map(|v| embedding[v])).abs();
+    outcome.step.mesh(given).mesh().real_triangles().iter().map(covered).sum::<f64>() / 2.0
 }

@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use super::{CellFrame, CellFrames, Quantity, Range};
-use crate::geom::{Bounds, Picture};
+use crate::geom::{Bounds, Picture, double_area};
 use crate::io::figure::{CellContent, ColourBar, Curve, Curves, Grid, GridCell, Page, TintedDrawing, Window};
 use crate::io::raster::{Canvas, Colour, Paint, View, mesh_picture};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
@@ -158,11 +158,8 @@ pub(super) fn checkered(disk: &DiskMesh, embedding: &Embedding) -> Picture {
     let mesh = disk.mesh();
     let triangles = mesh.real_triangles();
     let view = View::facing((0..triangles.len()).map(|face| mesh.double_area_vector(FaceId::from_index(face))));
-    let double_area = |corners: &[VertexId; 3]| {
-        let [a, b, c] = corners.map(|v| embedding[v]);
-        (b - a).perp_dot(c - a).abs()
-    };
-    let area: f64 = triangles.iter().map(double_area).sum::<f64>() / 2.0;
+    let covered = |corners: &[VertexId; 3]| double_area(corners.map(|v| embedding[v])).abs();
+    let area: f64 = triangles.iter().map(covered).sum::<f64>() / 2.0;
     let size = (area.sqrt() / CHECKER_FIELDS).max(f64::MIN_POSITIVE);
     let paint = Paint::Checker { coordinates: embedding, size };
     mesh_picture(&mesh.positions, triangles, &view, &Canvas::clay(PICTURE_SIZE, PICTURE_SIZE), paint)

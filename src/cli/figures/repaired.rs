@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::free::FreeEmbedding;
 use super::pairs::{TOP_AND_BOUNDARY, settings};
 use super::{Figure, flips_in_words, iterations_in_words};
+use crate::geom::double_area;
 use crate::io::figure::{Drawing, Outside, PlaneDrawing, Pockets, Window, zones_of};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::solver::{Control, Ladder, Method, Settings, SolveError, Step, VirtualBoundary};
@@ -123,8 +124,7 @@ fn largest_pocket(stages: &VirtualBoundary) -> Vec<[VertexId; 3]> {
         groups = far;
     }
     let area = |group: &Vec<[VertexId; 3]>| -> f64 {
-        let corners = group.iter().map(|t| t.map(|v| stages.before[v.index()]));
-        corners.map(|[a, b, c]| (b - a).perp_dot(c - a)).sum()
+        group.iter().map(|t| double_area(t.map(|v| stages.before[v.index()]))).sum()
     };
     groups.into_iter().max_by(|a, b| area(a).total_cmp(&area(b))).unwrap_or_default()
 }

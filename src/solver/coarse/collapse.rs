@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use super::super::foldover_energy::{Element, Energy};
 use super::super::rest::{THINNEST, laid_flat};
 use super::surface::{Guide, Ring, Surface};
-use crate::geom::{Orientation, orientation};
+use crate::geom::{Orientation, double_area, orientation};
 use crate::mesh::VertexId;
 
 /// Vertices with more neighbours stay.
@@ -151,8 +151,4 @@ impl Surface<'_> {
         let flat = laid_flat(self.mesh.shape(face.map(VertexId::new))).map(|z| scale * z);
         Element::new([0, 1, 2], flat, (1.0, THINNEST)).energy(self.in_plane(face), Energy::SymmetricDirichlet)
     }
-}
-
-fn double_area([a, b, c]: [DVec2; 3]) -> f64 {
-    (b - a).perp_dot(c - a)
 }

@@ -13,7 +13,7 @@ use super::hierarchy::{Hierarchy, OUTSIDE, Removed, Round};
 use super::level::Level;
 use super::place::{Room, resistance};
 use super::sweep::Sweeps;
-use crate::geom::outside_triangles;
+use crate::geom::{double_area, outside_triangles};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// The mesh as given, and where its vertices lay when some were taken.
@@ -101,7 +101,7 @@ fn swept(
 fn scale_of(disk: &DiskMesh, embedding: &Embedding) -> f64 {
     let areas = disk.faces().map(|face| {
         let [x, z] = [laid_flat(disk.shape(disk.face(face))), embedding.corners(disk, face)];
-        [x, z].map(|[a, b, c]| (b - a).perp_dot(c - a))
+        [x, z].map(double_area)
     });
     let [space, plane] = areas.fold([0.0; 2], |sum, area| [sum[0] + area[0], sum[1] + area[1]]);
     (plane / space).sqrt()

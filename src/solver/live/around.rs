@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::proof::is_upright;
-use crate::geom::Bounds;
+use crate::geom::{Bounds, double_area};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::outside::{FRAME_POINTS, outside_of};
 use crate::solver::{Embedding, Sheet};
@@ -102,9 +102,4 @@ impl Around {
 
 fn mesh_place(mesh: &DiskMesh, corner: VertexId) -> Option<usize> {
     if corner.index() < mesh.vertex_count() { mesh.boundary_place(corner) } else { None }
-}
-
-/// Twice the area of a triangle.
-pub(super) fn double_area([a, b, c]: [DVec2; 3]) -> f64 {
-    (b - a).perp_dot(c - a)
 }

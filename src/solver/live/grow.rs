@@ -2,9 +2,10 @@
 
 use glam::DVec2;
 
-use super::around::{Around, double_area};
+use super::around::Around;
 use super::patch::{Ground, Patch};
 use super::{Aim, GROWTH, Live, MOST_VERTICES};
+use crate::geom::double_area;
 use crate::mesh::DiskMesh;
 use crate::solver::rest::mean_edge_length;
 use crate::solver::{Embedding, Pins};

@@ -5,8 +5,9 @@ use std::collections::HashMap;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::around::{Around, double_area};
+use super::around::Around;
 use super::proof::Moved;
+use crate::geom::double_area;
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::solver::foldover_energy::Element;
 use crate::solver::membrane::{Membrane, Planning, Spring};

@@ -15,9 +15,9 @@ use super::Matched;
 use super::needless::{Parts, sides_of, without};
 use super::patchwork::{Hole, OUTSIDE, Patchwork, Triangle};
 use super::triangulate::shortest_triangulation;
-use crate::geom::{Orientation, orientation};
+use crate::geom::{Orientation, double_area, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
-use crate::solver::foldover_energy::{Element, Energy};
+use crate::solver::foldover_energy::{Element, Energy, energy_of};
 use crate::solver::membrane::{Limits, Membrane, Planning, Unfolding};
 use crate::solver::outside::{FRAME_POINTS, THINNEST as THINNEST_OUTSIDE, outside_of};
 use crate::solver::rest::{THINNEST, laid_flat};
@@ -94,11 +94,7 @@ impl<'a> Room<'a> {
         let triangles = of_mesh.chain(of_outside).map(triangle).collect();
         let count = disk.vertex_count();
         let is_held = (0..places.len()).map(|v| v >= count || pins.contains_key(&VertexId::from_index(v))).collect();
-        let area = |face| {
-            let [a, b, c] = embedding.corners(disk, face);
-            0.5 * (b - a).perp_dot(c - a)
-        };
-        let area_in_plane: f64 = disk.real_faces().map(area).sum();
+        let area_in_plane: f64 = disk.real_faces().map(|face| 0.5 * double_area(embedding.corners(disk, face))).sum();
         Some(Self {
             mesh,
             matched,
@@ -204,8 +200,7 @@ impl<'a> Room<'a> {
             let corners = t.corners.map(|v| patch.number_of(v));
             if t.source != OUTSIDE && !self.mesh.is_virtual(FaceId::new(t.source)) {
                 let flat = laid_flat(t.corners.map(|v| disk.position(VertexId::new(v)))).map(|z| self.scale * z);
-                let area = 0.5 * (flat[1] - flat[0]).perp_dot(flat[2] - flat[0]);
-                return Element::new(corners, flat, (area / self.mean_area, THINNEST));
+                return Element::new(corners, flat, (0.5 * double_area(flat) / self.mean_area, THINNEST));
             }
             let [a, b, c] = t.corners.map(|v| self.place(v));
             let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
@@ -221,7 +216,7 @@ impl<'a> Room<'a> {
     }
 
     fn energy(&self, patch: &Patch) -> f64 {
-        energy(&self.elements(patch), &self.places(patch))
+        energy_of(&self.elements(patch), &self.places(patch), Energy::SymmetricDirichlet)
     }
 
     /// Moves the points of a patch so that no triangle is folded, if that can be and its energy stays moderate beside
@@ -243,7 +238,8 @@ impl<'a> Room<'a> {
             let [a, b, c] = t.corners.map(|v| z[patch.number_of(v) as usize]);
             orientation(a, b, c) == Some(Orientation::CounterClockwise)
         };
-        let is_sound = patch.triangles.iter().all(is_positive) && energy(membrane.elements(), &z) <= HIGHER * before;
+        let after = energy_of(membrane.elements(), &z, Energy::SymmetricDirichlet);
+        let is_sound = patch.triangles.iter().all(is_positive) && after <= HIGHER * before;
         if is_sound {
             for (&v, place) in patch.points.iter().zip(z) {
                 self.patchwork.places[v as usize] = place;
@@ -271,9 +267,4 @@ impl Patch {
         let place = self.points.binary_search(&vertex).expect("a corner of the patch");
         u32::try_from(place).expect("points fit")
     }
-}
-
-fn energy(elements: &[Element], z: &[DVec2]) -> f64 {
-    let of = |element: &Element| element.energy(element.corners.map(|c| z[c as usize]), Energy::SymmetricDirichlet);
-    elements.iter().map(of).sum()
 }

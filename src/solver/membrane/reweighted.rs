@@ -7,6 +7,7 @@ use super::super::slim::Proxy;
 use super::super::{Control, Phase, Progress, SolveError};
 use super::Membrane;
 use super::descent::Energies;
+use crate::geom::double_area;
 
 /// The share of the way to the first fold that is taken at most.
 const SHARE_BEFORE_FOLD: f64 = 0.8;
@@ -26,8 +27,7 @@ impl Membrane {
 
     /// Twice the area of the first `count` elements.
     pub(in crate::solver) fn double_area(&self, z: &[DVec2], count: usize) -> f64 {
-        let corners = self.elements[..count].iter().map(|element| Self::corners(element, z));
-        corners.map(|[a, b, c]| (b - a).perp_dot(c - a)).sum()
+        self.elements[..count].iter().map(|element| double_area(Self::corners(element, z))).sum()
     }
 
     /// Goes towards the minimiser of the proxies at `z`, no farther than to a share of the way to the first fold, and
