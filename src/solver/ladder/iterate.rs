@@ -75,6 +75,10 @@ impl Rung for Iterate {
             // A linear solve, from which iterations count anew.
             _ => (self.stall, self.taken) = (Stall::default(), 0),
         }
+        if step.rung != Method::Iterate {
+            // Its memory is as large as that of a rung that follows.
+            self.iteration = None;
+        }
         self.stall.look_at(step);
     }
 

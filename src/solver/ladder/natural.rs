@@ -9,7 +9,7 @@ use crate::solver::{Control, Method, Prepared, SolveError};
 
 #[derive(Debug)]
 pub(super) struct Natural {
-    /// Equations and factors, kept from an earlier solve or made by this one.
+    /// Equations and factors, kept from an earlier solve, or made by a step that came to no end.
     pub(super) prepared: Option<Arc<Prepared>>,
 }
 
@@ -20,8 +20,11 @@ impl Rung for Natural {
             Some(prepared) => prepared,
             None => Arc::new(Prepared::new(from.mesh, settings, pins, control).map_err(failure)?),
         };
-        self.prepared = Some(Arc::clone(&prepared));
-        let solution = prepared.solve_unplaced(from.mesh, pins, control).map_err(failure)?;
+        let solved = prepared.solve_unplaced(from.mesh, pins, control);
+        if solved.is_err() {
+            self.prepared = Some(Arc::clone(&prepared));
+        }
+        let solution = solved.map_err(failure)?;
         let rung = match settings.method {
             Method::Auto | Method::Iterate | Method::VirtualBoundary => Method::Natural,
             other => other,
