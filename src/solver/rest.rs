@@ -1,9 +1,10 @@
 //! Triangles as they lie in space, each laid into the plane: the shapes that an embedding's triangles are measured by.
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::equations::length_scale;
-use super::foldover_energy::{Element, Energy, energy_of};
+use super::foldover_energy::{Element, Energy};
 use super::membrane::{Membrane, Planning, Spring};
 use super::outside::outside_elements;
 use super::{Embedding, Hold, Outside, Pins, Progress, SolveError};
@@ -12,6 +13,9 @@ use crate::mesh::{DiskMesh, VertexId};
 
 /// Faces that are thinner, height to longest side, are measured as if they were so thick.
 pub(super) const THINNEST: f64 = 1e-4;
+
+/// Triangles that share the work of one task.
+const TRIANGLES_PER_TASK: usize = 4096;
 
 /// Triangles as they lie in space, each laid into the plane.
 #[derive(Debug)]
@@ -88,22 +92,23 @@ impl Rest {
 
     /// How distorted an embedding is whose pins have so far to go.
     pub(super) fn progress(&self, mesh: &DiskMesh, embedding: &Embedding, distance_left: f64) -> Progress {
-        let elements = self.elements(mesh, embedding);
-        let placed = || elements.iter().map(|element| (element, element.corners.map(|c| embedding[c as usize])));
-        let half: f64 = placed().map(|(element, z)| element.energy(z, Energy::SymmetricDirichlet)).sum();
-        let least_determinant = placed().map(|(element, z)| element.determinant(z)).fold(f64::INFINITY, f64::min);
+        let measured = self.measured(mesh, embedding, |element, z| {
+            (element.energy(z, Energy::SymmetricDirichlet), element.determinant(z))
+        });
+        let half: f64 = measured.iter().map(|(energy, _)| energy).sum();
+        let least_determinant = measured.iter().map(|&(_, determinant)| determinant).fold(f64::INFINITY, f64::min);
         Progress { energy: 2.0 * half, least_determinant, distance_left }
     }
 
     /// An energy of an embedding at its own size, of the triangles alone.
     pub(super) fn energy(&self, mesh: &DiskMesh, embedding: &Embedding, energy: Energy) -> f64 {
-        energy_of(&self.elements(mesh, embedding), embedding, energy)
+        self.measured(mesh, embedding, |element, z| element.energy(z, energy)).iter().sum()
     }
 
     /// How many of the triangles are folded in an embedding.
     pub(super) fn folded_count(&self, mesh: &DiskMesh, embedding: &Embedding) -> usize {
-        let is_folded = |element: &&Element| element.determinant(element.corners.map(|c| embedding[c as usize])) <= 0.0;
-        self.elements(mesh, embedding).iter().filter(is_folded).count()
+        let is_folded = self.measured(mesh, embedding, |element, z| element.determinant(z) <= 0.0);
+        is_folded.into_iter().filter(|&is_folded| is_folded).count()
     }
 
     /// Mesh, what fills its holes, and outside of an embedding with its exact pins held and the others on springs; and all points, those of the
@@ -117,7 +122,9 @@ impl Rest {
     ) -> Result<(Membrane, Vec<DVec2>), SolveError> {
         let mut points = embedding.to_vec();
         points.extend(&outside.frame);
-        let mut elements = self.elements(mesh, embedding);
+        let mut elements = Vec::with_capacity(self.shapes.len() + self.filling.len() + outside.triangles.len());
+        let element = self.element_beside(mesh, embedding);
+        elements.extend(self.shapes.iter().map(element));
         let around = self.filling.iter().chain(&outside.triangles);
         elements.extend(outside_elements(around, &points, weight));
         let is_pulled = pins.values().any(|pin| !pin.hold.is_exact());
@@ -138,14 +145,26 @@ impl Rest {
         Ok((Membrane::new(points.len(), elements, springs.collect(), is_held, planning)?, points))
     }
 
-    /// The triangles' energies, at rest when as large as the embedding is now.
-    fn elements(&self, mesh: &DiskMesh, embedding: &Embedding) -> Vec<Element> {
+    /// What each triangle's energy and its place in an embedding give. No list of energies is made: its memory would cost
+    /// more than all else.
+    fn measured<T: Send>(
+        &self,
+        mesh: &DiskMesh,
+        embedding: &Embedding,
+        of: impl Fn(Element, [DVec2; 3]) -> T + Sync,
+    ) -> Vec<T> {
+        let element = self.element_beside(mesh, embedding);
+        let measure = |shape: &Shape| of(element(shape), shape.corners.map(|vertex| embedding[vertex]));
+        self.shapes.par_iter().with_min_len(TRIANGLES_PER_TASK).map(measure).collect()
+    }
+
+    /// The energy of a triangle, at rest when all are as large as the embedding is now.
+    fn element_beside(&self, mesh: &DiskMesh, embedding: &Embedding) -> impl Fn(&Shape) -> Element {
         let flat: f64 = mesh.real_faces().map(|face| 0.5 * double_area(embedding.corners(mesh, face))).sum();
         let scale = (flat / self.area).sqrt();
-        let element = |shape: &Shape| {
+        move |shape| {
             Element::new(shape.corners.map(VertexId::number), shape.flat.map(|z| scale * z), (shape.share, THINNEST))
-        };
-        self.shapes.iter().map(element).collect()
+        }
     }
 }
 

@@ -11,7 +11,10 @@
 //! side that the faces look at, y up; a body that looks to no side is seen from the front, z towards the eye, and only a
 //! sheet that lies down from above or below.
 
+use std::ops::Add;
+
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::Embedding;
 use super::equations::length_scale;
@@ -29,6 +32,9 @@ const LEAST_AGREEMENT: f64 = 1e-6;
 
 /// A turn as near to a multiple of 90° as this, radians, is one: rounding turns nothing.
 const NEARLY_QUARTER: f64 = 1e-9;
+
+/// Faces that share the work of one task.
+const FACES_PER_TASK: usize = 4096;
 
 /// Turns of an embedding that no pin holds, as complex numbers of length 1.
 #[derive(Clone, Copy, Debug)]
@@ -76,36 +82,51 @@ fn upright_turn(mesh: &DiskMesh, embedding: &Embedding) -> Option<DVec2> {
     let origin = mesh.mesh().positions[0];
     let corners = |face: FaceId| mesh.mesh().corners(face).map(|x| (x - origin) * in_space);
     let doubled_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
-    let (normal, area) = mesh.real_faces().fold((DVec3::ZERO, 0.0), |(normal, area), face| {
+    let (normal, area) = sum_over_faces(mesh, |face| {
         let doubled = doubled_area(corners(face));
-        (normal + doubled, area + doubled.length())
+        (doubled, doubled.length())
     });
     let [right, up] = front_view(normal / area);
-    let parts = || {
-        mesh.real_faces().map(|face| {
-            let at = corners(face);
-            let middle = at.iter().sum::<DVec3>() / 3.0;
-            let z = embedding.corners(mesh, face).iter().sum::<DVec2>() / 3.0;
-            Part {
-                area: doubled_area(at).length(),
-                in_plane: z * in_plane,
-                in_view: DVec2::new(right.dot(middle), up.dot(middle)),
-            }
-        })
+    let part = |face| {
+        let at = corners(face);
+        let middle = at.iter().sum::<DVec3>() / 3.0;
+        let z = embedding.corners(mesh, face).iter().sum::<DVec2>() / 3.0;
+        Part {
+            area: doubled_area(at).length(),
+            in_plane: z * in_plane,
+            in_view: DVec2::new(right.dot(middle), up.dot(middle)),
+        }
     };
-    let (z_sum, w_sum) = parts().fold((DVec2::ZERO, DVec2::ZERO), |(z, w), Part { area, in_plane, in_view }| {
-        (z + area * in_plane, w + area * in_view)
+    let (z_sum, w_sum) = sum_over_faces(mesh, |face| {
+        let Part { area, in_plane, in_view } = part(face);
+        (area * in_plane, area * in_view)
     });
     let (z_mean, w_mean) = (z_sum / area, w_sum / area);
-    let (mut sum, mut squares) = (DVec2::ZERO, DVec2::ZERO);
-    for Part { area, in_plane, in_view } in parts() {
+    let (sum, squares) = sum_over_faces(mesh, |face| {
+        let Part { area, in_plane, in_view } = part(face);
         let (z, w) = (in_plane - z_mean, in_view - w_mean);
         // The conjugate of z, times w.
-        sum += area * DVec2::new(z.dot(w), z.perp_dot(w));
-        squares += area * DVec2::new(z.length_squared(), w.length_squared());
-    }
+        let product = DVec2::new(z.dot(w), z.perp_dot(w));
+        (area * product, area * DVec2::new(z.length_squared(), w.length_squared()))
+    });
     let is_clear = sum.length() > LEAST_AGREEMENT * (squares.x * squares.y).sqrt();
     sum.try_normalize().filter(|_| is_clear)
+}
+
+/// The sums of two quantities over the faces of the surface, the same for any number of threads.
+fn sum_over_faces<A, B>(mesh: &DiskMesh, of: impl Fn(FaceId) -> (A, B) + Sync) -> (A, B)
+where
+    A: Add<Output = A> + Default + Send,
+    B: Add<Output = B> + Default + Send,
+{
+    let add = |(a, b): (A, B), (c, d): (A, B)| (a + c, b + d);
+    let count = mesh.mesh().real_face_count();
+    let of_task = |task: usize| {
+        let faces = task * FACES_PER_TASK..count.min((task + 1) * FACES_PER_TASK);
+        faces.map(|face| of(FaceId::from_index(face))).fold(Default::default(), add)
+    };
+    let sums: Vec<(A, B)> = (0..count.div_ceil(FACES_PER_TASK)).into_par_iter().map(of_task).collect();
+    sums.into_iter().fold(Default::default(), add)
 }
 
 /// Right and up of the view from the side that a surface faces. `mean_normal` has length 1 for a plane sheet and 0 for a
