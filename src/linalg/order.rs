@@ -18,6 +18,9 @@ use super::LinalgError;
 use super::degree::{minimum_degree, minimum_degree_to_the_end};
 use super::dissection::Dissection;
 
+/// Columns of a pattern that share the work of one task.
+const COLUMNS_PER_TASK: usize = 16_384;
+
 /// "No parent" in a tree of `u32`.
 pub(super) const NONE: u32 = u32::MAX;
 
@@ -105,27 +108,26 @@ impl Pattern {
 
     /// The upper triangle of the pattern renumbered by `order`, columns sorted.
     pub(super) fn permuted_upper(&self, order: &Order) -> Self {
-        let n = self.order();
-        let mut offsets = vec![0u32; n + 1];
-        let upper = |new_row: usize| {
-            let lane = self.column(order.new_to_old[new_row] as usize);
-            lane.iter().map(|&old| order.old_to_new[old as usize]).filter(move |&column| column as usize >= new_row)
+        let upper = |column: usize| {
+            let lane = self.column(order.new_to_old[column] as usize);
+            lane.iter().map(|&old| order.old_to_new[old as usize]).filter(move |&row| row as usize <= column)
         };
-        for row in 0..n {
-            upper(row).for_each(|column| offsets[column as usize + 1] += 1);
-        }
-        for column in 0..n {
-            offsets[column + 1] += offsets[column];
-        }
-        let mut next = offsets.clone();
-        let mut rows = vec![0u32; offsets[n] as usize];
-        for row in 0..n {
-            for column in upper(row) {
-                rows[next[column as usize] as usize] = narrow(row);
-                next[column as usize] += 1;
-            }
-        }
-        Self { offsets, rows }
+        let parts: Vec<(Vec<u32>, Vec<u32>)> = (0..self.order().div_ceil(COLUMNS_PER_TASK))
+            .into_par_iter()
+            .map(|task| {
+                let columns = task * COLUMNS_PER_TASK..self.order().min((task + 1) * COLUMNS_PER_TASK);
+                let (mut counts, mut rows) = (Vec::with_capacity(columns.len()), Vec::new());
+                for column in columns {
+                    let start = rows.len();
+                    rows.extend(upper(column));
+                    rows[start..].sort_unstable();
+                    counts.push(narrow(rows.len() - start));
+                }
+                (counts, rows)
+            })
+            .collect();
+        let (counts, rows): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+        Self { offsets: running_sum(&counts.concat()), rows: rows.concat() }
     }
 }
 

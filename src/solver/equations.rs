@@ -14,7 +14,7 @@ use glam::DVec3;
 use num_complex::Complex;
 use rayon::prelude::*;
 
-use super::pieces::{Piece, pieces};
+use super::pieces::{Piece, in_pieces};
 use super::weights::{Corner, CornerWeights, three_point_weights};
 use super::{Embedding, Family, SolveError};
 use crate::geom::power_of_two_near;
@@ -206,9 +206,6 @@ fn from_corner(x: [DVec3; 3], k: usize) -> [DVec3; 3] {
 /// What a corner adds to two links, and whether its weight was bounded.
 type Parts<T> = ([(HalfedgeId, T); 2], bool);
 
-/// Pieces whose corners' parts are in memory at one time.
-const PIECES_AT_ONCE: usize = 1 << 15;
-
 /// Adds up what each corner of each piece gives to two links.
 fn sum_pieces<T: Scalar>(
     mesh: &DiskMesh,
@@ -217,8 +214,7 @@ fn sum_pieces<T: Scalar>(
     let mut found: Vec<[Parts<T>; 3]> = Vec::new();
     let mut coefficients = vec![T::ZERO; mesh.link_count()];
     let mut bounded_corners = 0;
-    // Some at a time: new memory for the parts of all corners would cost more time than to compute them.
-    for pieces in pieces(mesh).chunks(PIECES_AT_ONCE) {
+    in_pieces(mesh, |pieces| {
         pieces.par_iter().map(|piece| [0, 1, 2].map(|k| of_corner(piece, k))).collect_into_vec(&mut found);
         for (piece, corners) in pieces.iter().zip(&found) {
             for (parts, bounded) in corners {
@@ -231,7 +227,8 @@ fn sum_pieces<T: Scalar>(
                 bounded_corners += usize::from(*bounded);
             }
         }
-    }
+        Ok(())
+    })?;
     Ok(Equations { coefficients, bounded_corners })
 }
 

@@ -24,7 +24,7 @@ use super::pins::{GAUGE_PINS, PinPositions, Pins, farthest_pair, fixed_pins};
 use super::prepared::analyze;
 use super::system::{FreeSystem, Site};
 use super::{Control, Family, Method, Phase, PhaseSeconds, Settings, SolveError, Treatment};
-use crate::linalg::Kind;
+use crate::linalg::{Analysis, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// Gauges that are tried before the last one is taken as it is. The second has always done.
@@ -53,6 +53,15 @@ struct Way {
     treatment: Treatment,
     /// Two vertices whose equations depend on the others, where they are known: least squares leaves them out beside the pins.
     gauge: Option<[VertexId; 2]>,
+}
+
+/// A system laid out and analysed.
+struct LaidOut {
+    layout: Layout,
+    system: FreeSystem,
+    kind: Kind,
+    analysis: Analysis,
+    analyze_seconds: f64,
 }
 
 impl FreeProblem<'_> {
@@ -110,7 +119,7 @@ impl FreeProblem<'_> {
     /// cannot be found.
     fn gauge_in_kernel(self, control: Control<'_>) -> Result<Option<[VertexId; 2]>, SolveError> {
         control.enter(Phase::Factor)?;
-        match gauge_of(self.mesh, &self.equations()?.0, control) {
+        match gauge_of(self.mesh, &self.equations()?, control) {
             Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
             other => Ok(other.ok()),
         }
@@ -118,25 +127,48 @@ impl FreeProblem<'_> {
 
     fn factored(self, way: &Way, seconds: &mut PhaseSeconds, control: Control<'_>) -> Result<FreeReady, SolveError> {
         let (mesh, start) = (self.mesh, Instant::now());
-        let (equations, power) = self.equations()?;
-        let pins = way.own_places.clone().map_or_else(|| self.asked.clone(), fixed_pins);
-        let gauge = |pinned: &[VertexId]| match way.gauge {
-            // Conformal equations depend on each other all over the mesh: those of any pins will do.
-            _ if self.is_hermitian() && pinned.len() >= GAUGE_PINS => Ok(Vec::new()),
-            _ if self.is_hermitian() => Ok(farthest_pair(mesh).to_vec()),
-            Some(two) => Ok(two.to_vec()),
-            None => gauge_or_farthest(mesh, &equations, control),
+        let (equations, laid_out) = if self.is_hermitian() {
+            // Conformal equations depend on each other all over the mesh: those of any pins will do, and what they are does
+            // not matter to the order.
+            let gauge = |pinned: &[VertexId]| {
+                Ok(if pinned.len() >= GAUGE_PINS { Vec::new() } else { farthest_pair(mesh).to_vec() })
+            };
+            rayon::join(|| self.equations(), || self.laid_out(way, gauge, control))
+        } else {
+            let equations = self.equations()?;
+            let gauge = |_: &[VertexId]| match way.gauge {
+                Some(two) => Ok(two.to_vec()),
+                None => gauge_or_farthest(mesh, &equations, control),
+            };
+            let laid_out = self.laid_out(way, gauge, control);
+            (Ok(equations), laid_out)
         };
-        let layout = Layout::new(&pins, way.treatment, gauge)?;
-        let system = layout.system(mesh);
-        seconds.assemble += start.elapsed().as_secs_f64();
-        let kind = if self.is_hermitian() { Kind::Hermitian } else { Kind::General };
+        let equations = equations?;
+        let LaidOut { layout, system, kind, analysis, analyze_seconds } = laid_out?;
+        seconds.analyze += analyze_seconds;
+        seconds.assemble += start.elapsed().as_secs_f64() - analyze_seconds;
         let site = Site { mesh, system: &system };
-        let analysis = analyze(|| layout.analysis(site, kind, control), seconds, control)?;
-        let unit = mean_edge_length(mesh).powf(1.0 - power);
+        let unit = if layout.has_springs() { mean_edge_length(mesh).powf(1.0 - self.power()) } else { 1.0 };
         let setup = Setup { equations, unit, analysis: &analysis, layout: &layout, kind };
         let solve = FreeSolve::new(site, setup, seconds, control)?;
         Ok(FreeReady { system, solve, own_places: way.own_places.clone() })
+    }
+
+    /// Lays the system out, and analyses it. For `gauge` see [`Layout::new`].
+    fn laid_out(
+        self,
+        way: &Way,
+        gauge: impl FnOnce(&[VertexId]) -> Result<Vec<VertexId>, SolveError>,
+        control: Control<'_>,
+    ) -> Result<LaidOut, SolveError> {
+        let pins = way.own_places.clone().map_or_else(|| self.asked.clone(), fixed_pins);
+        let layout = Layout::new(&pins, way.treatment, gauge)?;
+        let system = layout.system(self.mesh);
+        let kind = if self.is_hermitian() { Kind::Hermitian } else { Kind::General };
+        let mut seconds = PhaseSeconds::default();
+        let site = Site { mesh: self.mesh, system: &system };
+        let analysis = analyze(|| layout.analysis(site, kind, control), &mut seconds, control)?;
+        Ok(LaidOut { layout, system, kind, analysis, analyze_seconds: seconds.analyze })
     }
 
     fn is_hermitian(self) -> bool {
@@ -151,15 +183,13 @@ impl FreeProblem<'_> {
         }
     }
 
-    /// The equations of a free boundary, and their power.
-    fn equations(self) -> Result<(Equations<Complex<f64>>, f64), SolveError> {
-        let power = self.power();
-        let equations = match self.settings.method {
+    /// The equations of a free boundary.
+    fn equations(self) -> Result<Equations<Complex<f64>>, SolveError> {
+        match self.settings.method {
             Method::Levy => equations::levy(self.mesh),
             Method::Lscm => equations::lscm(self.mesh),
-            _ => equations::natural(self.mesh, power),
-        };
-        Ok((equations?, power))
+            _ => equations::natural(self.mesh, self.power()),
+        }
     }
 }
 

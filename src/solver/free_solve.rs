@@ -113,6 +113,11 @@ impl Layout {
         Ok(Self { left_out, keeps_equations, has_many, holds })
     }
 
+    /// Whether pins pull by a weight.
+    pub(super) fn has_springs(&self) -> bool {
+        self.holds.values().any(|hold| !hold.is_exact())
+    }
+
     pub(super) fn system(&self, mesh: &DiskMesh) -> FreeSystem {
         FreeSystem::new(mesh, |v| self.left_out.binary_search(&v).is_ok())
     }

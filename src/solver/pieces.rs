@@ -28,17 +28,33 @@ impl Piece {
     }
 }
 
-/// The faces in their order, but for those of averaged polygons; then the fans of these.
-pub(super) fn pieces(mesh: &DiskMesh) -> Vec<Piece> {
+/// Faces, or averaged polygons, whose pieces are in memory at one time: new memory for all of them would cost more time than
+/// to compute what they give.
+const AT_ONCE: usize = 1 << 15;
+
+/// Hands over all pieces, some at a time: the faces in their order, but for those of averaged polygons; then the fans of
+/// these.
+pub(super) fn in_pieces<E>(mesh: &DiskMesh, mut take: impl FnMut(&[Piece]) -> Result<(), E>) -> Result<(), E> {
     let averaged: Vec<Polygon<'_>> = mesh.polygons().filter(Polygon::is_averaged).collect();
     let mut is_in_fans = vec![false; if averaged.is_empty() { 0 } else { mesh.face_count() }];
     for face in averaged.iter().flat_map(Polygon::faces) {
         is_in_fans[face.index()] = true;
     }
-    let whole = mesh.faces().filter(|face| is_in_fans.get(face.index()) != Some(&true));
-    let mut pieces: Vec<Piece> = whole.map(|face| Piece::of_face(mesh, face)).collect();
-    pieces.par_extend(averaged.par_iter().flat_map_iter(|polygon| fans(mesh, polygon)));
-    pieces
+    let is_whole = |&face: &usize| is_in_fans.get(face) != Some(&true);
+    let mut pieces: Vec<Piece> = Vec::new();
+    for first in (0..mesh.face_count()).step_by(AT_ONCE) {
+        let faces = first..mesh.face_count().min(first + AT_ONCE);
+        pieces.clear();
+        let whole = faces.into_par_iter().filter(is_whole);
+        pieces.par_extend(whole.map(|face| Piece::of_face(mesh, FaceId::from_index(face))));
+        take(&pieces)?;
+    }
+    for some in averaged.chunks(AT_ONCE) {
+        pieces.clear();
+        pieces.par_extend(some.par_iter().flat_map_iter(|polygon| fans(mesh, polygon)));
+        take(&pieces)?;
+    }
+    Ok(())
 }
 
 /// The pieces with a corner at a vertex; where it has no averaged polygon, its faces counter-clockwise.

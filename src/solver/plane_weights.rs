@@ -20,13 +20,15 @@
 //! the face as it is. It counts as a thin face instead, a thousandth of its longest edge high, and its corners are
 //! counted.
 
+use std::convert::Infallible;
+
 use glam::DVec2;
 use num_complex::Complex;
 use rayon::prelude::*;
 
 use super::Embedding;
 use super::equations::{Equations, mean_length};
-use super::pieces::{Piece, pieces};
+use super::pieces::{Piece, in_pieces};
 use super::weights::bounded;
 use crate::geom::{Orientation, orientation, power_of_two_near};
 use crate::mesh::{DiskMesh, FaceId};
@@ -112,14 +114,17 @@ pub fn residuals_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex
         let [a, b, c] = piece.corners.map(|v| embedding[v]);
         orientation(a, b, c) != Some(Orientation::CounterClockwise)
     };
-    let folded: Vec<Piece> = pieces(mesh).into_par_iter().filter(is_folded).collect();
     let mut residuals = vec![Complex::ZERO; mesh.vertex_count()];
-    for piece in folded {
-        let corners = piece.corners.map(|v| embedding[v] * scale);
-        for (vertex, share) in piece.corners.iter().zip(residual_shares(corners)) {
-            residuals[vertex.index()] += piece.share * share / scale;
+    let Ok(()) = in_pieces(mesh, |pieces| {
+        let folded: Vec<&Piece> = pieces.par_iter().filter(|piece| is_folded(piece)).collect();
+        for piece in folded {
+            let corners = piece.corners.map(|v| embedding[v] * scale);
+            for (vertex, share) in piece.corners.iter().zip(residual_shares(corners)) {
+                residuals[vertex.index()] += piece.share * share / scale;
+            }
         }
-    }
+        Ok::<_, Infallible>(())
+    });
     residuals
 }
 
@@ -141,18 +146,21 @@ fn residual_shares(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
 /// The mean-value equations of an embedding without the boundary's i-terms: paper eq. (2) with d = 1.
 pub fn mean_value_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Equations<f64> {
     let scale = scale_of(embedding, mesh.face_count());
-    let pieces = pieces(mesh);
     let weights = |piece: &Piece| face_weights(piece.corners.map(|v| embedding[v] * scale), 1.0);
-    let found: Vec<FaceWeights> = pieces.par_iter().map(weights).collect();
+    let mut found: Vec<FaceWeights> = Vec::new();
     let mut coefficients = vec![0.0; mesh.link_count()];
     let mut bounded_corners = 0;
-    for (Piece { links, share, .. }, weights) in pieces.iter().zip(&found) {
-        bounded_corners += weights.bounded_corners;
-        for (k, &[to_next, to_previous]) in weights.at_corner.iter().enumerate() {
-            coefficients[links[k].index()] += share * to_next;
-            coefficients[mesh.twin(links[(k + 2) % 3]).index()] += share * to_previous;
+    let Ok(()) = in_pieces(mesh, |pieces| {
+        pieces.par_iter().map(weights).collect_into_vec(&mut found);
+        for (Piece { links, share, .. }, weights) in pieces.iter().zip(&found) {
+            bounded_corners += weights.bounded_corners;
+            for (k, &[to_next, to_previous]) in weights.at_corner.iter().enumerate() {
+                coefficients[links[k].index()] += share * to_next;
+                coefficients[mesh.twin(links[(k + 2) % 3]).index()] += share * to_previous;
+            }
         }
-    }
+        Ok::<_, Infallible>(())
+    });
     Equations { coefficients, bounded_corners }
 }
 

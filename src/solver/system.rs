@@ -15,7 +15,10 @@ use super::{Control, Embedding, SolveError};
 use crate::linalg::{Analysis, Kind, LinalgError, Scalar};
 use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
-/// Marks a vertex without a row and a link without an entry.
+/// Columns that share the work of one task.
+const COLUMNS_PER_TASK: usize = 16_384;
+
+/// Marks a vertex without a row and an entry without a link.
 const NONE: u32 = u32::MAX;
 
 /// Which vertices are unknown, and where each coefficient stands in the matrix.
@@ -24,12 +27,55 @@ pub struct FreeSystem {
     free: Vec<VertexId>,
     row_of_vertex: Vec<u32>,
     pattern: SparsityPattern,
-    /// For each link the place of entry (tail, head), `NONE` where an end is pinned.
-    slot_of_link: Vec<u32>,
+    /// For each entry (tail, head) its link; `NONE` on the diagonal.
+    links: Vec<u32>,
     /// For each row the place of its diagonal entry.
     slot_of_diagonal: Vec<u32>,
     /// Links from a free to a pinned vertex.
     to_pinned: Vec<HalfedgeId>,
+}
+
+/// Columns of the system, one after another.
+#[derive(Default)]
+struct Columns {
+    shapes: Vec<ColumnShape>,
+    rows: Vec<usize>,
+    /// As [`FreeSystem::links`].
+    links: Vec<u32>,
+    to_pinned: Vec<HalfedgeId>,
+}
+
+struct ColumnShape {
+    entries: usize,
+    /// Those above the diagonal.
+    above: usize,
+}
+
+impl Columns {
+    fn new(mesh: &DiskMesh, free: &[VertexId], row_of_vertex: &[u32]) -> Self {
+        let mut this = Self::default();
+        let mut column: Vec<(u32, u32)> = Vec::new();
+        for &v in free {
+            column.clear();
+            let own = row_of_vertex[v.index()];
+            column.push((own, NONE));
+            for h in mesh.links_from(v) {
+                let row = row_of_vertex[mesh.head(h).index()];
+                if row == NONE {
+                    this.to_pinned.push(h);
+                } else {
+                    // The entry (tail, head) of the link that comes back stands in this column.
+                    column.push((row, mesh.twin(h).number()));
+                }
+            }
+            column.sort_unstable_by_key(|&(row, _)| row);
+            let above = column.partition_point(|&(row, _)| row < own);
+            this.shapes.push(ColumnShape { entries: column.len(), above });
+            this.rows.extend(column.iter().map(|&(row, _)| row as usize));
+            this.links.extend(column.iter().map(|&(_, link)| link));
+        }
+        this
+    }
 }
 
 impl FreeSystem {
@@ -44,40 +90,26 @@ impl FreeSystem {
         for (row, v) in (0_u32..).zip(&free) {
             row_of_vertex[v.index()] = row;
         }
-        let mut slot_of_link = vec![NONE; mesh.link_count()];
-        let mut slot_of_diagonal = Vec::with_capacity(free.len());
-        let mut to_pinned = Vec::new();
-        let mut starts = Vec::with_capacity(free.len() + 1);
-        let mut rows: Vec<usize> = Vec::with_capacity(free.len() + mesh.link_count());
-        let mut column: Vec<(u32, HalfedgeId)> = Vec::new();
-        starts.push(0);
-        for &v in &free {
-            column.clear();
-            for h in mesh.links_from(v) {
-                let row = row_of_vertex[mesh.head(h).index()];
-                if row == NONE {
-                    to_pinned.push(h);
-                } else {
-                    // The entry (tail, head) of the link that comes back stands in this column.
-                    column.push((row, mesh.twin(h)));
-                }
-            }
-            column.sort_unstable_by_key(|&(row, _)| row);
-            let own = row_of_vertex[v.index()];
-            let below = column.partition_point(|&(row, _)| row < own);
-            let place = |offset: usize| u32::try_from(rows.len() + offset).expect("entries fit");
-            slot_of_diagonal.push(place(below));
-            for (i, &(_, h)) in column.iter().enumerate() {
-                slot_of_link[h.index()] = place(i + usize::from(i >= below));
-            }
-            rows.extend(column[..below].iter().map(|&(row, _)| row as usize));
-            rows.push(own as usize);
-            rows.extend(column[below..].iter().map(|&(row, _)| row as usize));
-            starts.push(rows.len());
+        let columns: Vec<Columns> = (0..free.len().div_ceil(COLUMNS_PER_TASK))
+            .into_par_iter()
+            .map(|task| {
+                let own = task * COLUMNS_PER_TASK..free.len().min((task + 1) * COLUMNS_PER_TASK);
+                Columns::new(mesh, &free[own], &row_of_vertex)
+            })
+            .collect();
+        let (mut starts, mut slot_of_diagonal) = (vec![0], Vec::with_capacity(free.len()));
+        let mut begin = 0_usize;
+        for count in columns.iter().flat_map(|some| &some.shapes) {
+            slot_of_diagonal.push(u32::try_from(begin + count.above).expect("entries fit"));
+            begin += count.entries;
+            starts.push(begin);
         }
+        let rows = columns.iter().map(|some| &some.rows[..]).collect::<Vec<_>>().concat();
+        let links = columns.iter().map(|some| &some.links[..]).collect::<Vec<_>>().concat();
+        let to_pinned = columns.iter().flat_map(|some| some.to_pinned.iter().copied()).collect();
         let pattern = SparsityPattern::try_from_offsets_and_indices(free.len(), free.len(), starts, rows)
             .expect("columns were sorted and neighbours are distinct");
-        Self { free, row_of_vertex, pattern, slot_of_link, slot_of_diagonal, to_pinned }
+        Self { free, row_of_vertex, pattern, links, slot_of_diagonal, to_pinned }
     }
 
     /// The vertices whose positions are unknown, in the order of the rows.
@@ -110,17 +142,17 @@ impl FreeSystem {
     where
         T: Scalar,
     {
-        let mut values = vec![T::ZERO; self.pattern.nnz()];
-        for (h, &coefficient) in mesh.links().zip(&equations.coefficients) {
-            let row = self.row_of_vertex[mesh.tail(h).index()];
-            if row == NONE {
-                continue;
+        let coefficients = &equations.coefficients;
+        let mut diagonal = vec![T::ZERO; self.free.len()];
+        diagonal.par_iter_mut().zip(&self.free).with_min_len(COLUMNS_PER_TASK).for_each(|(sum, &v)| {
+            for h in mesh.links_from(v) {
+                *sum += coefficients[h.index()];
             }
-            values[self.slot_of_diagonal[row as usize] as usize] += coefficient;
-            let slot = self.slot_of_link[h.index()];
-            if slot != NONE {
-                values[slot as usize] -= coefficient;
-            }
+        });
+        let of_link = |&link: &u32| if link == NONE { T::ZERO } else { T::ZERO - coefficients[link as usize] };
+        let mut values: Vec<T> = self.links.par_iter().with_min_len(COLUMNS_PER_TASK).map(of_link).collect();
+        for (&slot, sum) in self.slot_of_diagonal.iter().zip(diagonal) {
+            values[slot as usize] = sum;
         }
         CscMatrix::try_from_pattern_and_values(self.pattern.clone(), values).expect("one value per entry was made")
     }

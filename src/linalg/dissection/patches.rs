@@ -87,20 +87,25 @@ impl Quotient {
     fn second_half(&self, list: &[u32], part: &[u32]) -> Vec<u32> {
         let Some(&first) = list.first() else { return Vec::new() };
         let fields = self.fields(first, list, part);
-        let sum = |patch: u32| fields.iter().map(|field| field[patch as usize]).sum::<i64>();
-        let mut best: Option<(f64, Vec<u32>)> = None;
-        for (i, one) in fields.iter().enumerate() {
-            for other in fields[..i].iter().map(Some).chain([None]) {
-                let value = |patch: u32| one[patch as usize] - other.map_or(0, |other| other[patch as usize]);
-                let mut sorted = list.to_vec();
-                sorted.sort_unstable_by_key(|&patch| (value(patch), sum(patch), patch));
-                if let Some((cost, at)) = self.cheapest(&sorted, part)
-                    && best.as_ref().is_none_or(|&(least, _)| cost < least)
-                {
-                    best = Some((cost, sorted.split_off(at)));
-                }
-            }
-        }
+        let sums: Vec<i64> = list.iter().map(|&patch| fields.iter().map(|field| field[patch as usize]).sum()).collect();
+        let differences: Vec<(usize, Option<usize>)> =
+            (0..fields.len()).flat_map(|one| (0..one).map(Some).chain([None]).map(move |other| (one, other))).collect();
+        let sorted = |&(one, other): &(usize, Option<usize>)| {
+            let value = |patch: usize| fields[one][patch] - other.map_or(0, |other| fields[other][patch]);
+            // With their values beside them, the patches are sorted in a fraction of the time.
+            let mut keyed: Vec<(i64, i64, u32)> =
+                list.iter().zip(&sums).map(|(&patch, &sum)| (value(patch as usize), sum, patch)).collect();
+            keyed.sort_unstable();
+            keyed.into_iter().map(|(.., patch)| patch).collect::<Vec<u32>>()
+        };
+        let cut = |difference| {
+            let mut sorted = sorted(difference);
+            let (cost, at) = self.cheapest(&sorted, part)?;
+            Some((cost, sorted.split_off(at)))
+        };
+        // The first of those that cost the least.
+        let cuts: Vec<Option<(f64, Vec<u32>)>> = differences.par_iter().map(cut).collect();
+        let best = cuts.into_iter().flatten().reduce(|best, cut| if cut.0 < best.0 { cut } else { best });
         best.map_or_else(|| list[list.len() / 2..].to_vec(), |(_, half)| half)
     }
 

@@ -153,6 +153,10 @@ impl Network {
         let mut next = 0;
         while let Some(&node) = queue.get(next) {
             next += 1;
+            // No path that is as short as can be goes on behind the sink's level.
+            if self.level[node] >= self.level[self.sink] {
+                break;
+            }
             let mut arc = self.first[node];
             while arc != NONE {
                 let Arc { head, capacity, next } = self.arcs[arc as usize];

@@ -7,6 +7,7 @@
 use std::sync::atomic::AtomicBool;
 
 use faer::Par;
+use rayon::prelude::*;
 
 use super::supernodes::{Supernodes, supernodes};
 use super::units::{Unit, units};
@@ -174,58 +175,85 @@ impl FrontAnalysis {
     }
 
     fn relative_rows(&self) -> Vec<u32> {
-        let mut relative = Vec::with_capacity(self.rows.rows.len());
-        for supernode in 0..self.count() {
-            let Some(&parent) = self.parent.get(supernode).filter(|&&parent| parent != NONE) else { continue };
-            let parent = parent as usize;
-            let (begin, end) = (self.begin[parent], self.begin[parent + 1]);
-            let mut parents_rows = self.rows.column(parent).iter().zip(end - begin..);
-            for &row in self.rows.column(supernode) {
-                relative.push(if row < end {
-                    row - begin
-                } else {
-                    let found = parents_rows.by_ref().find(|&(&other, _)| other == row);
-                    found.expect("a child's rows lie in its parent's front").1
-                });
+        in_tasks(self.count(), |supernodes| {
+            let mut relative = Vec::new();
+            for supernode in supernodes.filter(|&supernode| self.parent[supernode] != NONE) {
+                let parent = self.parent[supernode] as usize;
+                let (begin, end) = (self.begin[parent], self.begin[parent + 1]);
+                let mut parents_rows = self.rows.column(parent).iter().zip(end - begin..);
+                for &row in self.rows.column(supernode) {
+                    relative.push(if row < end {
+                        row - begin
+                    } else {
+                        let found = parents_rows.by_ref().find(|&(&other, _)| other == row);
+                        found.expect("a child's rows lie in its parent's front").1
+                    });
+                }
             }
-        }
-        relative
+            relative
+        })
+        .concat()
     }
 
     fn place_entries(&mut self, pattern: &Pattern) {
         let mirror = if self.sides == Sides::Both { mirrored_positions(pattern) } else { Vec::new() };
-        let mut local = vec![0u32; pattern.order()];
-        let mut entries = Vec::with_capacity(pattern.rows.len());
-        let mut offsets = vec![0u32];
-        for supernode in 0..self.count() {
-            let Shape { columns, below } = self.shape(supernode);
-            let (begin, end) = (self.begin[supernode], self.begin[supernode + 1]);
-            let height = narrow(columns + below);
-            for (&row, place) in self.rows.column(supernode).iter().zip(0..) {
-                local[row as usize] = place;
+        let parts = in_tasks(self.count(), |supernodes| {
+            let mut local = vec![0u32; pattern.order()];
+            let (mut counts, mut entries) = (Vec::with_capacity(supernodes.len()), Vec::new());
+            for supernode in supernodes {
+                let before = entries.len();
+                self.place_entries_of(supernode, Source { pattern, mirror: &mirror }, &mut local, &mut entries);
+                counts.push(narrow(entries.len() - before));
             }
-            for column in begin..end {
-                let old = self.order.new_to_old[column as usize] as usize;
-                let place = column - begin;
-                for source in pattern.offsets[old]..pattern.offsets[old + 1] {
-                    let row = self.order.old_to_new[pattern.rows[source as usize] as usize];
-                    if row >= end {
-                        let below = local[row as usize];
-                        let target = height * place + narrow(columns) + below;
-                        entries.push(Entry { source, target });
-                        if self.sides == Sides::Both {
-                            let target = height * narrow(columns) + narrow(columns) * below + place;
-                            entries.push(Entry { source: mirror[source as usize], target });
-                        }
-                    } else if row >= if self.sides == Sides::Both { begin } else { column } {
-                        entries.push(Entry { source, target: height * place + row - begin });
+            (counts, entries)
+        });
+        let (counts, entries): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+        (self.entry_offsets, self.entries) = (running_sum(&counts.concat()), entries.concat());
+    }
+
+    /// Appends the entries of one front. `local` has room for all rows.
+    fn place_entries_of(&self, supernode: usize, from: Source<'_>, local: &mut [u32], entries: &mut Vec<Entry>) {
+        let Shape { columns, below } = self.shape(supernode);
+        let (begin, end) = (self.begin[supernode], self.begin[supernode + 1]);
+        let height = narrow(columns + below);
+        for (&row, place) in self.rows.column(supernode).iter().zip(0..) {
+            local[row as usize] = place;
+        }
+        for column in begin..end {
+            let old = self.order.new_to_old[column as usize] as usize;
+            let place = column - begin;
+            for source in from.pattern.offsets[old]..from.pattern.offsets[old + 1] {
+                let row = self.order.old_to_new[from.pattern.rows[source as usize] as usize];
+                if row >= end {
+                    let below = local[row as usize];
+                    let target = height * place + narrow(columns) + below;
+                    entries.push(Entry { source, target });
+                    if self.sides == Sides::Both {
+                        let target = height * narrow(columns) + narrow(columns) * below + place;
+                        entries.push(Entry { source: from.mirror[source as usize], target });
                     }
+                } else if row >= if self.sides == Sides::Both { begin } else { column } {
+                    entries.push(Entry { source, target: height * place + row - begin });
                 }
             }
-            offsets.push(narrow(entries.len()));
         }
-        (self.entry_offsets, self.entries) = (offsets, entries);
     }
+}
+
+/// Where entries come from: a pattern, and the position of the mirror image of each where both sides are kept.
+#[derive(Clone, Copy)]
+struct Source<'a> {
+    pattern: &'a Pattern,
+    mirror: &'a [u32],
+}
+
+/// Supernodes that share the work of one task.
+const SUPERNODES_PER_TASK: usize = 8192;
+
+/// What runs of supernodes give, in their order.
+fn in_tasks<T: Send>(count: usize, of: impl Fn(std::ops::Range<usize>) -> T + Sync) -> Vec<T> {
+    let of_task = |task: usize| of(task * SUPERNODES_PER_TASK..count.min((task + 1) * SUPERNODES_PER_TASK));
+    (0..count.div_ceil(SUPERNODES_PER_TASK)).into_par_iter().map(of_task).collect()
 }
 
 /// The supernodes with the rows of their fronts.
