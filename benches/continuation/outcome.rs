@@ -10,7 +10,7 @@ use freebound::solver::{Choice as _, Control, Ladder, Pins, Settings, SolveError
 use crate::common::stop::within;
 
 /// The longest that a run may take.
-const LIMIT: Duration = Duration::from_mins(2);
+const LIMIT: Duration = Duration::from_mins(3);
 
 /// Whether every step is shown.
 pub(crate) static SHOWS_STEPS: AtomicBool = AtomicBool::new(false);
@@ -74,7 +74,7 @@ impl Outcome {
 }
 
 /// A step in a line.
-fn show(step: &Step) {
+pub(crate) fn show(step: &Step) {
     let progress = step.progress.map_or_else(String::new, |progress| {
         format!(", energy {:.4}, distance left {:.3e}", progress.energy, progress.distance_left)
     });

@@ -18,7 +18,11 @@ struct Growth {
 }
 
 const NEAR: Growth = Growth { pins: 10, part: 0.1, faces: &[(5_000, 1.0), (20_000, 5.0), (100_000, 40.0)] };
-const FAR: Growth = Growth { pins: 8, part: 1.0 / 3.0, faces: &[(20_000, 1.5), (50_000, 4.0), (100_000, 10.0)] };
+const FAR: Growth =
+    Growth { pins: 8, part: 1.0 / 3.0, faces: &[(20_000, 1.5), (50_000, 4.0), (100_000, 10.0), (1_000_000, 150.0)] };
+
+/// The most memory in millions of bytes, whatever the size.
+const MOST_MEGABYTES: f64 = 2000.0;
 
 pub(crate) fn run(is_quick: bool) {
     for growth in [NEAR, FAR] {
@@ -28,7 +32,7 @@ pub(crate) fn run(is_quick: bool) {
 
 impl Growth {
     fn run(&self, is_quick: bool) {
-        let heads = ["faces", "planar", "rung", "steps", "new", "s", "target s", "peak MB", "end"];
+        let heads = ["faces", "planar", "rung", "steps", "new", "s", "target s", "peak MB", "target MB", "end"];
         let title = format!("auto with {} hard pins displaced by {:.0} % of the size", self.pins, 100.0 * self.part);
         let mut table = Table::new(&title, &heads);
         for &(faces, at_most) in if is_quick { &self.faces[..1] } else { self.faces } {
@@ -44,7 +48,7 @@ impl Growth {
         table.print();
     }
 
-    fn row(&self, faces: usize, at_most: f64) -> Result<[String; 9], String> {
+    fn row(&self, faces: usize, at_most: f64) -> Result<[String; 10], String> {
         let cap = Cap::of(faces / 2, 1)?;
         let pins = cap.pins(self.pins, Change::Displaced(self.part), &mut Random(faces as u64));
         let is_reset = forget_peak();
@@ -60,12 +64,13 @@ impl Growth {
             seconds(found.seconds_to_solve()),
             target(found.seconds_to_solve(), at_most),
             peak.map_or("–".to_owned(), megabytes),
+            peak.map_or("–".to_owned(), |bytes| target(bytes as f64 / 1e6, MOST_MEGABYTES)),
             found.ending,
         ])
     }
 }
 
 /// Makes the kernel's high-water mark of memory begin anew, where it can (Linux).
-fn forget_peak() -> bool {
+pub(crate) fn forget_peak() -> bool {
     fs::write("/proc/self/clear_refs", "5").is_ok()
 }

@@ -11,7 +11,7 @@ use super::fronts::{FrontAnalysis, Sides};
 use super::ldlt::{Ldlt, LdltAnalysis};
 use super::llt::Llt;
 use super::lu::Lu;
-use super::order::{Pattern, dissected, go_on_unless, in_order, order};
+use super::order::{Order, Pattern, dissected, go_on_unless, in_order, order};
 use super::refine::{Accept, Solved, System, refined};
 use super::scalar::Scalar;
 use super::sparse::{Operation, check_finite};
@@ -35,17 +35,28 @@ pub enum Kind {
 /// Ordering and symbolic factorization of a pattern, for any number of matrices of either scalar. Clones share it.
 #[derive(Clone, Debug)]
 pub struct Analysis {
-    shared: Arc<Shared>,
+    pub(super) shared: Arc<Shared>,
+}
+
+/// An order of elimination, for patterns that differ in a few places.
+#[derive(Clone, Debug)]
+pub struct EliminationOrder {
+    order: Order,
+    /// Multiplications of a factorization in it.
+    work: f64,
+}
+
+/// An order that takes so many times the work for a pattern that it was not found for is given up for a new one.
+const TOO_MUCH_WORK: f64 = 1.25;
+
+#[derive(Debug)]
+pub(super) struct Shared {
+    pub(super) pattern: Pattern,
+    pub(super) symbolic: Symbolic,
 }
 
 #[derive(Debug)]
-struct Shared {
-    pattern: Pattern,
-    symbolic: Symbolic,
-}
-
-#[derive(Debug)]
-enum Symbolic {
+pub(super) enum Symbolic {
     Llt(FrontAnalysis),
     Ldlt(LdltAnalysis),
     Lu(FrontAnalysis),
@@ -102,23 +113,35 @@ impl Analysis {
         Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) })
     }
 
-    /// The same kind of analysis for another pattern of the same order, in the order of elimination that this one has
-    /// where that is kept: for patterns that differ in a few places, whose best order is nearly the same.
+    /// Analyses the pattern of a Hermitian matrix in an order of elimination: for patterns that differ from that which it was
+    /// found for in a few places. One of another size is ordered anew, and one that takes much more work in that order.
     ///
     /// # Errors
     ///
     /// Those of [`Analysis::new`].
-    pub fn of_similar(&self, pattern: &SparsityPattern, cancel: &AtomicBool) -> Result<Self, LinalgError> {
-        match &self.shared.symbolic {
-            Symbolic::Llt(llt) if self.shared.pattern.order() == pattern.major_dim() => {
-                let pattern = Pattern::checked(pattern)?;
-                let elimination = in_order(&pattern, &llt.order);
-                let symbolic = Symbolic::Llt(FrontAnalysis::new(&pattern, &elimination, Sides::Lower, cancel)?);
-                Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) })
+    pub fn in_order(
+        order: &EliminationOrder,
+        pattern: &SparsityPattern,
+        cancel: &AtomicBool,
+    ) -> Result<Self, LinalgError> {
+        let EliminationOrder { order, work } = order;
+        if order.new_to_old.len() == pattern.major_dim() {
+            let pattern = Pattern::checked(pattern)?;
+            let elimination = in_order(&pattern, order);
+            let analysis = FrontAnalysis::new(&pattern, &elimination, Sides::Lower, cancel)?;
+            if analysis.work() <= TOO_MUCH_WORK * work {
+                let symbolic = Symbolic::Llt(analysis);
+                return Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) });
             }
-            Symbolic::Llt(_) => Self::new(Kind::Hermitian, pattern, cancel),
-            Symbolic::Ldlt(ldlt) => Self::new(Kind::Augmented { pairs: ldlt.pairs() }, pattern, cancel),
-            Symbolic::Lu(_) => Self::new(Kind::General, pattern, cancel),
+        }
+        Self::new(Kind::Hermitian, pattern, cancel)
+    }
+
+    /// The order of elimination of a Hermitian matrix; none of others.
+    pub fn order(&self) -> Option<EliminationOrder> {
+        match &self.shared.symbolic {
+            Symbolic::Llt(llt) => Some(EliminationOrder { order: llt.order.clone(), work: llt.work() }),
+            Symbolic::Ldlt(_) | Symbolic::Lu(_) => None,
         }
     }
 
@@ -130,21 +153,6 @@ impl Analysis {
     /// [`LinalgError::OtherPattern`], [`LinalgError::NotFinite`], [`LinalgError::NotPositiveDefinite`] for a Hermitian
     /// matrix, [`LinalgError::Singular`] for others, [`LinalgError::TooLarge`], [`LinalgError::Cancelled`].
     pub fn factor<T: Scalar>(&self, matrix: &CscMatrix<T>, cancel: &AtomicBool) -> Result<Factor<T>, LinalgError> {
-        self.factor_in(None, matrix, cancel)
-    }
-
-    /// The same in the memory of a factor that is no longer needed, where that is a Cholesky factor: new memory costs a
-    /// good part of the time of a factorization.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Analysis::factor`].
-    pub fn factor_in<T: Scalar>(
-        &self,
-        earlier: Option<Factor<T>>,
-        matrix: &CscMatrix<T>,
-        cancel: &AtomicBool,
-    ) -> Result<Factor<T>, LinalgError> {
         let Shared { pattern, symbolic } = &*self.shared;
         if !pattern.is_that_of(matrix) {
             return Err(LinalgError::OtherPattern);
@@ -152,13 +160,7 @@ impl Analysis {
         check_finite(matrix)?;
         go_on_unless(cancel)?;
         let numeric = match symbolic {
-            Symbolic::Llt(analysis) => {
-                let earlier = earlier.and_then(|factor| match factor.numeric {
-                    Numeric::Llt(llt) => Some(llt),
-                    Numeric::Ldlt(_) | Numeric::Lu(_) => None,
-                });
-                Numeric::Llt(Llt::new(analysis, matrix, earlier, cancel)?)
-            }
+            Symbolic::Llt(analysis) => Numeric::Llt(Llt::new(analysis, matrix.values(), cancel)?),
             Symbolic::Ldlt(analysis) => Numeric::Ldlt(analysis.factor(pattern, matrix)?),
             Symbolic::Lu(analysis) => Numeric::Lu(Lu::new(analysis, pattern, matrix, cancel)?),
         };

@@ -52,10 +52,6 @@ impl LdltAnalysis {
         Ok(Self { symbolic: symbolic(pattern, &order.with_pairs_in_turn(pairs))?, pairs })
     }
 
-    pub(super) fn pairs(&self) -> usize {
-        self.pairs
-    }
-
     pub(super) fn factor<T: Scalar>(&self, pattern: &Pattern, matrix: &CscMatrix<T>) -> Result<Ldlt<T>, LinalgError> {
         let mut ldlt = Ldlt { values: vec![T::ZERO; self.symbolic.len_val()], peak_bytes: 0, replaced_row: None };
         if let Some(row) = self.run(pattern, matrix, LdltRegularization::default(), &mut ldlt)? {

@@ -18,6 +18,7 @@
 //! | `ldlt.rs` | Hermitian augmented, for least squares: faer's supernodal `LDLᴴ` |
 //! | `lu/` | unsymmetric: our multifrontal LU |
 //! | `lanczos.rs` | the greatest eigenvalue of an operator, such as the inverse of a factored matrix |
+//! | `rough.rs` | definite systems of which a few digits are enough: Cholesky in `f32`, conjugate gradients |
 //! | `refine.rs`, `gmres.rs` | what makes a factor's answer good, or an error |
 //! | `sparse.rs`, `scalar.rs`, `error.rs` | products, norms and inner products; real and complex numbers alike; what can go wrong |
 
@@ -33,12 +34,14 @@ mod llt;
 mod lu;
 mod order;
 mod refine;
+mod rough;
 mod scalar;
 mod sparse;
 
-pub use analysis::{Analysis, Answer, Factor, FactorStats, Kind};
+pub use analysis::{Analysis, Answer, EliminationOrder, Factor, FactorStats, Kind};
 pub use error::LinalgError;
 pub use lanczos::{EigenLimits, Eigenpair, greatest_eigenpair};
 pub use refine::Solved;
-pub use scalar::Scalar;
+pub use rough::{Precision, RoughFactor};
+pub use scalar::{Number, Scalar};
 pub use sparse::gram;

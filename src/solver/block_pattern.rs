@@ -1,9 +1,13 @@
 //! The pattern of a membrane's Hessian: a 2×2 block for every pair of unknowns that share an element.
 
 use nalgebra_sparse::pattern::SparsityPattern;
+use rayon::prelude::*;
 
 /// A point without an unknown of its own, and an entry that the matrix does not have.
 pub(super) const HELD: u32 = u32::MAX;
+
+/// Unknowns whose neighbours are found by one task.
+const PART: usize = 2048;
 
 pub(super) fn number(count: usize) -> u32 {
     u32::try_from(count).expect("entries fit")
@@ -19,37 +23,58 @@ pub(super) struct Neighbours {
 impl Neighbours {
     /// Neighbours of so many unknowns. Of each element its corners' unknowns, or [`HELD`].
     pub(super) fn new(of_corners: &[[u32; 3]], count: usize) -> Self {
-        let mut starts = vec![0_usize; count + 1];
+        // The elements at each unknown.
+        let mut firsts = vec![0_u32; count + 1];
         for &unknown in of_corners.as_flattened().iter().filter(|&&u| u != HELD) {
-            starts[unknown as usize + 1] += 3;
+            firsts[unknown as usize + 1] += 1;
         }
-        for i in 0..count {
-            starts[i + 1] += starts[i];
+        for unknown in 0..count {
+            firsts[unknown + 1] += firsts[unknown];
         }
-        let mut list = vec![HELD; starts[count]];
-        let mut next = starts.clone();
-        for &unknowns in of_corners {
-            for column in unknowns.into_iter().filter(|&u| u != HELD) {
-                for row in unknowns {
-                    list[next[column as usize]] = row;
-                    next[column as usize] += 1;
-                }
+        let mut next = firsts.clone();
+        let mut around = vec![0_u32; firsts[count] as usize];
+        for (element, unknowns) in of_corners.iter().enumerate() {
+            for &unknown in unknowns.iter().filter(|&&u| u != HELD) {
+                around[next[unknown as usize] as usize] = number(element);
+                next[unknown as usize] += 1;
             }
         }
-        let mut packed = Self { starts: Vec::with_capacity(count + 1), list: Vec::with_capacity(list.len() / 2) };
+        let of_part = |part: &[u32]| {
+            let (mut lengths, mut list, mut column) =
+                (Vec::with_capacity(PART), Vec::with_capacity(8 * PART), Vec::new());
+            for pair in part.windows(2) {
+                column.clear();
+                let elements = &around[pair[0] as usize..pair[1] as usize];
+                column.extend(elements.iter().flat_map(|&element| of_corners[element as usize]).filter(|&u| u != HELD));
+                column.sort_unstable();
+                column.dedup();
+                lengths.push(column.len());
+                list.extend_from_slice(&column);
+            }
+            (lengths, list)
+        };
+        // Parts share their ends.
+        let parts: Vec<&[u32]> = (0..count).step_by(PART).map(|k| &firsts[k..=(k + PART).min(count)]).collect();
+        let of_parts: Vec<(Vec<usize>, Vec<u32>)> = parts.into_par_iter().map(of_part).collect();
+        let total = of_parts.iter().map(|(_, list)| list.len()).sum();
+        let mut packed = Self { starts: Vec::with_capacity(count + 1), list: Vec::with_capacity(total) };
         packed.starts.push(0);
-        for pair in starts.windows(2) {
-            let column = &mut list[pair[0]..pair[1]];
-            column.sort_unstable();
-            let distinct = column.chunk_by(|a, b| a == b).map(|same| same[0]);
-            packed.list.extend(distinct.filter(|&row| row != HELD));
-            packed.starts.push(packed.list.len());
+        for (lengths, list) in of_parts {
+            for length in lengths {
+                packed.starts.push(packed.starts[packed.starts.len() - 1] + length);
+            }
+            packed.list.extend(list);
         }
         packed
     }
 
     pub(super) fn column_lengths(&self) -> Vec<u32> {
         self.starts.windows(2).map(|pair| number(2 * (pair[1] - pair[0]))).collect()
+    }
+
+    /// Where the columns of each unknown begin among the matrix's values, and where the last ones end.
+    pub(super) fn columns(&self) -> Vec<u32> {
+        self.starts.iter().map(|start| number(4 * start)).collect()
     }
 
     /// The place among the matrix's values of the first entry of the block of two unknowns that share an element.

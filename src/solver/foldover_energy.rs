@@ -176,9 +176,11 @@ impl Element {
                 across_alpha * rows[2][i],
                 across_beta * rows[3][i],
             ];
-            for (j, entry) in row.iter_mut().enumerate() {
-                *entry = self.weight * scaled.iter().zip(&rows).map(|(by, row)| by * row[j]).sum::<f64>();
+            // Row by row, which vectors of the processor do side by side.
+            for (by, source) in scaled.iter().zip(&rows) {
+                row.iter_mut().zip(source).for_each(|(entry, source)| *entry += by * source);
             }
+            row.iter_mut().for_each(|entry| *entry *= self.weight);
         }
         // d|α|² = 2 Re(ᾱ dα).
         let (by_alpha, by_beta) = (self.weight * by.p * alpha, self.weight * by.q * beta);

@@ -112,7 +112,7 @@ impl Rest {
     }
 
     /// Mesh, what fills its holes, and outside of an embedding with its exact pins held and the others on springs; and all points, those of the
-    /// frame last. What it is similar to was made before for the same mesh and pins.
+    /// frame last. An order of elimination is that of an earlier one for the same mesh and pins.
     pub(super) fn membrane(
         &self,
         mesh: &DiskMesh,

@@ -187,7 +187,7 @@ impl Slim {
         };
         let elements = mesh.faces().zip(shapes).map(element).collect();
         let held = mesh.boundary_loop()[0].number();
-        let planning = Planning { similar: None, control };
+        let planning = Planning { order: None, control };
         let membrane = Membrane::new(z.len(), elements, Vec::new(), |point| point == held, planning)?;
         Ok(Self { membrane, z, scale, real_faces, area: on_surface })
     }

@@ -20,14 +20,14 @@ static GO_ON: AtomicBool = AtomicBool::new(false);
 const TOLERANCE: f64 = 1e-11;
 
 /// A 2 × 2 block for every entry.
-fn in_blocks(pattern: &SparsityPattern) -> SparsityPattern {
+pub(crate) fn in_blocks(pattern: &SparsityPattern) -> SparsityPattern {
     let n = pattern.major_dim();
     let joined: std::collections::BTreeSet<(usize, usize)> = pattern.entries().collect();
     pattern_where(2 * n, |column, row| joined.contains(&(column / 2, row / 2)))
 }
 
 /// What `work` gives on so many threads.
-fn on_threads<R: Send>(count: usize, work: impl FnOnce() -> R + Send) -> R {
+pub(crate) fn on_threads<R: Send>(count: usize, work: impl FnOnce() -> R + Send) -> R {
     rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("threads").install(work)
 }
 
@@ -135,7 +135,8 @@ fn a_similar_pattern_is_factored_in_the_order_of_the_first() {
             joined.contains(&(i, j)) || (low < 2 && high >= n - 2) || n == 12
         });
         let analysis = Analysis::new(Kind::Hermitian, &first, &AtomicBool::new(false)).expect("symmetric");
-        let similar = analysis.of_similar(&other, &AtomicBool::new(false)).expect("symmetric");
+        let order = analysis.order().expect("that of a Hermitian matrix");
+        let similar = Analysis::in_order(&order, &other, &AtomicBool::new(false)).expect("symmetric");
         let matrix: CscMatrix<f64> = hermitian(&other, 1.0, &mut random);
         let rhs: Vec<f64> = (0..n).map(|_| f64::draw(&mut random)).collect();
         let solved = similar.factor(&matrix, &GO_ON).and_then(|f| f.solve(&matrix, &rhs)).expect("definite");

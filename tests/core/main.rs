@@ -62,6 +62,7 @@ mod linalg_lanczos;
 mod linalg_large;
 mod linalg_matrices;
 mod linalg_mean_value;
+mod linalg_rough;
 mod live;
 #[path = "../../examples/makers/mod.rs"]
 mod makers;

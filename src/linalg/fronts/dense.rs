@@ -2,10 +2,10 @@
 
 use faer::{MatMut, MatRef};
 
-use crate::linalg::scalar::Scalar;
+use crate::linalg::scalar::Number;
 
 /// Adds numbers to the rows `rows` of a column whose first row is `first`.
-pub(in crate::linalg) fn scatter_add<T: Scalar>(target: &mut [T], rows: &[u32], first: usize, source: &[T]) {
+pub(in crate::linalg) fn scatter_add<T: Number>(target: &mut [T], rows: &[u32], first: usize, source: &[T]) {
     for (&row, &value) in rows.iter().zip(source) {
         target[row as usize - first] += value;
     }

@@ -16,7 +16,7 @@ use super::dense::{mat, mat_mut};
 use super::symbolic::{FrontAnalysis, Shape};
 use super::units::Unit;
 use crate::linalg::order::NONE;
-use crate::linalg::scalar::Scalar;
+use crate::linalg::scalar::Number;
 
 /// Right-hand sides solved together.
 pub(in crate::linalg) const TOGETHER: usize = 4;
@@ -45,7 +45,7 @@ pub(in crate::linalg) struct Part<'a, T> {
     pub(in crate::linalg) outer: &'a mut [T],
 }
 
-impl<T: Scalar> Part<'_, T> {
+impl<T: Number> Part<'_, T> {
     /// Both as matrices.
     pub(in crate::linalg) fn matrices(&mut self) -> (MatMut<'_, T>, MatMut<'_, T>) {
         let (Shape { columns, below }, count) = (self.shape, self.own.len() / self.shape.columns);
@@ -66,7 +66,7 @@ impl<T: Scalar> Part<'_, T> {
 }
 
 /// Subtracts A B, of large A some rows beside the others.
-pub(in crate::linalg) fn subtract_product<T: Scalar, A: Conjugate<Canonical = T>>(
+pub(in crate::linalg) fn subtract_product<T: Number, A: Conjugate<Canonical = T>>(
     target: MatMut<'_, T>,
     a: MatRef<'_, A>,
     b: MatRef<'_, T>,
@@ -82,7 +82,7 @@ pub(in crate::linalg) fn subtract_product<T: Scalar, A: Conjugate<Canonical = T>
 }
 
 /// Takes right-hand sides, one after another in the order of elimination, to their solutions.
-pub(in crate::linalg) fn substitute<T: Scalar>(analysis: &FrontAnalysis, how: &impl Substitution<T>, x: &mut [T]) {
+pub(in crate::linalg) fn substitute<T: Number>(analysis: &FrontAnalysis, how: &impl Substitution<T>, x: &mut [T]) {
     let n = analysis.order.new_to_old.len();
     let way = Way { analysis, how, n, count: x.len() / n };
     let (low, top): (Vec<&Unit>, Vec<&Unit>) = analysis.units.iter().partition(|unit| unit.awaited == 0);
@@ -137,7 +137,7 @@ impl<H> Way<'_, H> {
     }
 
     /// Adds what a front leaves for the rows below it to these.
-    fn add<T: Scalar>(&self, front: usize, outer: &[T], x: &mut [T]) {
+    fn add<T: Number>(&self, front: usize, outer: &[T], x: &mut [T]) {
         let rows = self.analysis.rows.column(front);
         if rows.is_empty() {
             return;
@@ -148,7 +148,7 @@ impl<H> Way<'_, H> {
     }
 
     /// Appends the rows below a front.
-    fn gather<T: Scalar>(&self, front: usize, x: &[T], outer: &mut Vec<T>) {
+    fn gather<T: Number>(&self, front: usize, x: &[T], outer: &mut Vec<T>) {
         let rows = self.analysis.rows.column(front);
         for column in x.chunks_exact(self.n) {
             outer.extend(rows.iter().map(|&row| column[row as usize]));
@@ -156,7 +156,7 @@ impl<H> Way<'_, H> {
     }
 
     /// A unit that awaits none, on the way up. In a postorder what the children leave stands on top of a stack.
-    fn up<T: Scalar>(&self, unit: &Unit, x: &[T]) -> Carried<T>
+    fn up<T: Number>(&self, unit: &Unit, x: &[T]) -> Carried<T>
     where
         H: Substitution<T>,
     {
@@ -188,7 +188,7 @@ impl<H> Way<'_, H> {
         Carried { own: x, outer: stack }
     }
 
-    fn take_from_child<T: Scalar>(&self, child: usize, left: &[T], mut part: Part<'_, T>) {
+    fn take_from_child<T: Number>(&self, child: usize, left: &[T], mut part: Part<'_, T>) {
         let (relative, columns) = (self.analysis.relative(child), part.shape.columns);
         let inside = relative.partition_point(|&row| (row as usize) < columns);
         let mut left = left;
@@ -202,7 +202,7 @@ impl<H> Way<'_, H> {
     }
 
     /// The same on the way down: what the next front has to know stands on top of the stack.
-    fn down<T: Scalar>(&self, unit: &Unit, x: &[T]) -> Vec<T>
+    fn down<T: Number>(&self, unit: &Unit, x: &[T]) -> Vec<T>
     where
         H: Substitution<T>,
     {
@@ -236,7 +236,7 @@ impl<H> Way<'_, H> {
     }
 
     /// A front above those units, on the way up.
-    fn up_top<T: Scalar>(&self, front: usize, x: &mut [T])
+    fn up_top<T: Number>(&self, front: usize, x: &mut [T])
     where
         H: Substitution<T>,
     {
@@ -248,7 +248,7 @@ impl<H> Way<'_, H> {
         self.add(front, &outer, x);
     }
 
-    fn down_top<T: Scalar>(&self, front: usize, x: &mut [T])
+    fn down_top<T: Number>(&self, front: usize, x: &mut [T])
     where
         H: Substitution<T>,
     {
@@ -275,7 +275,7 @@ fn put<T: Copy>(own: &[T], rows: &Range<usize>, length: usize, x: &mut [T]) {
 }
 
 /// Σ xᵢ yᵢ over the shorter of both, without conjugation.
-pub(in crate::linalg) fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
+pub(in crate::linalg) fn dot<T: Number>(x: &[T], y: &[T]) -> T {
     x.iter().zip(y).fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
 }
 

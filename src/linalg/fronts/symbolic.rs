@@ -138,6 +138,11 @@ impl FrontAnalysis {
         Shape { columns, below: self.rows.column(supernode).len() }
     }
 
+    /// Multiplications of all fronts.
+    pub(in crate::linalg) fn work(&self) -> f64 {
+        (0..self.count()).map(|supernode| self.shape(supernode).work()).sum()
+    }
+
     /// Numbers that are kept of a front.
     pub(in crate::linalg) fn kept_len(&self, supernode: usize) -> usize {
         let shape = self.shape(supernode);

@@ -8,7 +8,7 @@ use rayon::Scope;
 use super::symbolic::FrontAnalysis;
 use crate::linalg::LinalgError;
 use crate::linalg::order::{NONE, narrow};
-use crate::linalg::scalar::Scalar;
+use crate::linalg::scalar::Number;
 
 /// What is done at each front.
 pub(in crate::linalg) trait Kernel<T>: Sync {
@@ -56,7 +56,7 @@ const LARGE_UPDATE: usize = 4096;
 /// Updates grow on the way up the tree: of those that have arrived only the largest are of use.
 const MOST_SPARE: usize = 8;
 
-impl<T: Scalar> Spare<T> {
+impl<T: Number> Spare<T> {
     /// So many zeros.
     fn zeros(&self, length: usize) -> Vec<T> {
         let mut found = if length < LARGE_UPDATE { None } else { self.take(length) }.unwrap_or_default();
@@ -98,7 +98,7 @@ impl Memory {
     }
 }
 
-impl<'a, T: Scalar, K: Kernel<T>> Tree<'a, T, K> {
+impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
     /// Goes up the whole tree. Returns what is kept of every unit, and the most numeric memory at one time in bytes.
     ///
     /// # Errors

@@ -3,9 +3,10 @@
 use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, Par};
+use nalgebra::ComplexField as _;
 
 use crate::linalg::fronts::{Shape, mat, mat_mut, scatter_add};
-use crate::linalg::scalar::Scalar;
+use crate::linalg::scalar::Number;
 
 /// Columns eliminated one by one before the rest of the block is updated by a matrix product.
 const BLOCK: usize = 32;
@@ -19,7 +20,7 @@ pub(super) struct Front<'a, T> {
     pub(super) update: &'a mut [T],
 }
 
-impl<T: Scalar> Front<'_, T> {
+impl<T: Number> Front<'_, T> {
     /// Adds a child's update; `relative` are its rows in this front, ascending.
     pub(super) fn extend_add(&mut self, update: &[T], relative: &[u32]) {
         let Shape { columns, below } = self.shape;
@@ -55,13 +56,13 @@ impl<T: Scalar> Front<'_, T> {
 }
 
 /// Subtracts L Lᴴ from the lower triangle of a square.
-fn subtract_product<T: Scalar>(square: faer::MatMut<'_, T>, lower: faer::MatRef<'_, T>, par: Par) {
+fn subtract_product<T: Number>(square: faer::MatMut<'_, T>, lower: faer::MatRef<'_, T>, par: Par) {
     let (whole, triangle) = (BlockStructure::Rectangular, BlockStructure::TriangularLower);
     matmul(square, triangle, Accum::Add, lower, whole, lower.adjoint(), whole, -T::ONE, par);
 }
 
 /// Factors the lower triangle of the top `columns` × `columns` block of a panel (leading dimension `height`).
-fn factor_block<T: Scalar>(panel: &mut [T], height: usize, columns: usize) -> Result<(), usize> {
+fn factor_block<T: Number>(panel: &mut [T], height: usize, columns: usize) -> Result<(), usize> {
     for first in (0..columns).step_by(BLOCK) {
         let last = (first + BLOCK).min(columns);
         for k in first..last {
@@ -78,7 +79,7 @@ fn factor_block<T: Scalar>(panel: &mut [T], height: usize, columns: usize) -> Re
 }
 
 /// Divides column `k` by the root of its pivot and updates the columns before `rest`, within the block's rows.
-fn eliminate_column<T: Scalar>(
+fn eliminate_column<T: Number>(
     panel: &mut [T],
     height: usize,
     k: usize,
@@ -87,7 +88,7 @@ fn eliminate_column<T: Scalar>(
     let (done, later) = panel.split_at_mut((k + 1) * height);
     let column = &mut done[k * height..][k..rest.end];
     let pivot = column[0].real();
-    if !(pivot > 0.0 && pivot.is_finite()) {
+    if !(pivot > T::ZERO.real() && pivot.is_finite()) {
         return Err(k);
     }
     let root = pivot.sqrt();

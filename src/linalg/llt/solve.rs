@@ -11,9 +11,9 @@ use super::factor::Llt;
 use crate::linalg::fronts::{
     FrontAnalysis, LARGE_PANEL, Part, Substitution, TOGETHER, split_panel, substitute, subtract_product,
 };
-use crate::linalg::scalar::Scalar;
+use crate::linalg::scalar::Number;
 
-impl<T: Scalar> Llt<T> {
+impl<T: Number> Llt<T> {
     /// Solves A x = b in place for each column of `columns` (column-major).
     pub(crate) fn solve_in_place(&self, analysis: &FrontAnalysis, columns: &mut [T]) {
         let n = analysis.order.new_to_old.len();
@@ -28,7 +28,7 @@ impl<T: Scalar> Llt<T> {
         let n = order.len();
         let mut x = Vec::with_capacity(columns.len());
         for column in columns.chunks_exact(n) {
-            x.extend(order.iter().map(|&old| column[old as usize].scale(self.sign)));
+            x.extend(order.iter().map(|&old| column[old as usize].scale(self.sign.real())));
         }
         substitute(analysis, &Panels { analysis, factor: self }, &mut x);
         for (x, column) in x.chunks_exact(n).zip(columns.chunks_exact_mut(n)) {
@@ -52,7 +52,7 @@ impl<T> Panels<'_, T> {
     }
 }
 
-impl<T: Scalar> Substitution<T> for Panels<'_, T> {
+impl<T: Number> Substitution<T> for Panels<'_, T> {
     /// L y = b.
     fn up(&self, supernode: usize, mut part: Part<'_, T>) {
         let (left, shape) = (self.left(supernode), part.shape);

@@ -64,7 +64,7 @@ impl Continuation {
             _ => (v, Pin::weighted(pin.target, weight)),
         });
         let Some(Settled { membrane, mut points, .. }) =
-            self.surround(mesh, &self.embedding, &loose.collect(), Planning { similar: None, control })?
+            self.surround(mesh, &self.embedding, &loose.collect(), Planning { order: None, control })?
         else {
             return Ok(false);
         };

@@ -163,7 +163,7 @@ impl Continuation {
         let settled = match self.settled.take() {
             Some(settled) => settled,
             None => self
-                .surround(mesh, &self.embedding, &self.pins, Planning { similar: None, control })?
+                .surround(mesh, &self.embedding, &self.pins, Planning { order: None, control })?
                 .ok_or(SolveError::Unmet)?,
         };
         let mut shift = vec![DVec2::ZERO; settled.points.len()];
@@ -269,7 +269,7 @@ impl Continuation {
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let Some(mut settled) =
-            self.surround(mesh, &embedding, &self.pins, Planning { similar: Some(similar), control })?
+            self.surround(mesh, &embedding, &self.pins, Planning { order: similar.order().as_ref(), control })?
         else {
             return Ok(false);
         };

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::plan::Aim;
+use super::plan::{Aim, Plan};
 use super::task::Task;
 use super::{Ladder, Step};
 use crate::geom::PictureFrame;
@@ -41,6 +41,14 @@ impl PlanarStart {
 }
 
 impl Ladder {
+    /// The same with what earlier ladders on the mesh have computed, used where it serves. Its steps hand on the factors of
+    /// linear solves for further ladders; otherwise these go when they have served.
+    #[must_use]
+    pub fn with_kept(self, kept: &Kept) -> Self {
+        let plan = Plan::new(&self.task, kept, self.asked.start.as_ref());
+        Self { plan, kept: kept.clone(), hands_on_factors: true, ..self }
+    }
+
     /// Hands a step on as the planar start of ladders with constraints, where theirs would end with it: a ladder without any
     /// takes the same steps, up to where energy alone is lowered. Once; and not of polygons, which a planar start may leave
     /// concave.

@@ -89,6 +89,8 @@ pub struct Ladder {
     notes: Notes,
     /// What earlier ladders on the mesh have computed.
     kept: Kept,
+    /// Whether its steps hand on factors, which are large.
+    hands_on_factors: bool,
 }
 
 impl Ladder {
@@ -101,7 +103,18 @@ impl Ladder {
         let (units, kept) = (asked.units(), Kept::default());
         let task = Arc::new(asked.in_units(&units));
         let plan = Plan::new(&task, &kept, asked.start.as_ref());
-        Self { asked, units, task, plan, step_count: 0, latest: None, ending: None, notes: Notes::default(), kept }
+        Self {
+            asked,
+            units,
+            task,
+            plan,
+            step_count: 0,
+            latest: None,
+            ending: None,
+            notes: Notes::default(),
+            kept,
+            hands_on_factors: false,
+        }
     }
 
     /// The same with every step proved in the numbers that are written of it, not in those of the plane.
@@ -122,12 +135,6 @@ impl Ladder {
             return self;
         }
         Self::of(Task { start: Some(embedding), ..self.asked })
-    }
-
-    /// The same with what earlier ladders on the mesh have computed, used where it serves.
-    #[must_use]
-    pub fn with_kept(self, kept: &Kept) -> Self {
-        Self { plan: Plan::new(&self.task, kept, self.asked.start.as_ref()), kept: kept.clone(), ..self }
     }
 
     /// The same, going on from a step of another ladder's on the same mesh, which counts as this one's first.

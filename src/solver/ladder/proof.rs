@@ -58,13 +58,10 @@ impl Ladder {
         self.notes.say(candidate.note.take());
         self.notes.say(placing);
         candidate.note = self.notes.take();
-        let set_aside = match self.plan.part().aim {
-            Aim::Constraints => Pins::new(),
-            Aim::PlanarStart => {
-                candidate.prepared = None;
-                self.asked.held()
-            }
-        };
+        if is_start || !self.hands_on_factors {
+            candidate.prepared = None;
+        }
+        let set_aside = if is_start { self.asked.held() } else { Pins::new() };
         let lies_as_given = task.start.is_some();
         let (index, goes_on) = (self.step_count, self.plan.part().goes_on());
         let step = Step {

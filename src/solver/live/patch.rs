@@ -159,7 +159,8 @@ impl Patch {
         let springs = springs(ground, &points[..free_count]);
         let is_held = |point: u32| point as usize >= free_count;
         // A neighbourhood is small: nobody waits for it.
-        let planning = Planning { similar: similar.map(|similar| &similar.membrane), control: Control::unattended() };
+        let order = similar.and_then(|similar| similar.membrane.order());
+        let planning = Planning { order: order.as_ref(), control: Control::unattended() };
         let membrane = Membrane::new(points.len(), elements, springs, is_held, planning)?;
         let z = points.iter().map(|&point| ground.place(point)).collect();
         let has_boundary = points[..moving_count].iter().any(|&v| ground.mesh.boundary_place(v).is_some());

@@ -224,7 +224,7 @@ impl<'a> Room<'a> {
     fn unfolds(&mut self, patch: &Patch, before: f64, control: Control<'_>) -> Result<bool, SolveError> {
         let (elements, mut z) = (self.elements(patch), self.places(patch));
         let is_held = |point: u32| !patch.is_free[point as usize];
-        let planning = Planning { similar: None, control };
+        let planning = Planning { order: None, control };
         let membrane = Membrane::new(z.len(), elements, Vec::new(), is_held, planning)?;
         let unfolding = Unfolding::BesideBarriers;
         let limits = Limits { unfolded: Energy::SymmetricDirichlet, steps: STEPS, unfolding, tolerance: TOLERANCE };

@@ -7,18 +7,17 @@
 use std::ops::Range;
 
 use glam::DVec2;
-use nalgebra_sparse::CscMatrix;
 use rayon::prelude::*;
 
-use super::super::block_pattern::HELD;
+use super::super::block_pattern::{HELD, number};
 use super::super::foldover_energy::{Element, Model};
 use super::{CHUNK, Membrane, Spring};
 
 /// Elements whose models are held at one time.
-const MODELS: usize = 8 * CHUNK;
+const MODELS: usize = 4 * CHUNK;
 
 /// Parts that the unknowns are cut into: work for so many threads.
-const PARTS: usize = 8;
+const PARTS: usize = 16;
 
 /// Elements whose models are made by one task.
 const TOGETHER: usize = CHUNK / 8;
@@ -30,22 +29,39 @@ struct Part<'a> {
     first_value: usize,
     gradient: &'a mut [f64],
     values: &'a mut [f64],
+    /// The elements that it has to do with and that are not yet added.
+    elements: &'a [u32],
+}
+
+/// The first unknown of a part.
+fn begin(part: usize, count: usize) -> usize {
+    part * count / PARTS
+}
+
+/// For each part of so many unknowns the elements that it has to do with, ascending. Of each element its corners' unknowns.
+pub(super) fn elements_of_parts(of_corners: &[[u32; 3]], count: usize) -> Vec<Vec<u32>> {
+    let of_part = |part: usize| {
+        let unknowns = number(begin(part, count))..number(begin(part + 1, count));
+        let touched = (0..).zip(of_corners).filter(|(_, of)| of.iter().any(|unknown| unknowns.contains(unknown)));
+        touched.map(|(element, _)| element).collect()
+    };
+    (0..PARTS).into_par_iter().map(of_part).collect()
 }
 
 impl Membrane {
-    /// Gradient by unknown, and Hessian, of these models of the elements, which are numbered. Where points are moved by
+    /// Gradient by unknown, and the Hessian's values, of these models of the elements, which are numbered. Where points are moved by
     /// `shift`, the gradient is that of the models there.
     pub(super) fn assembled(
         &self,
         z: &[DVec2],
         model_of: impl Fn(usize, &Element) -> Model + Sync,
         shift: Option<&[DVec2]>,
-    ) -> (Vec<f64>, CscMatrix<f64>) {
+    ) -> (Vec<f64>, Vec<f64>) {
         let mut gradient = vec![0.0; 2 * self.unknowns.len()];
-        let mut values = vec![0.0; self.pattern.nnz()];
+        let mut values = vec![0.0; self.columns[self.unknowns.len()] as usize];
         let mut parts = self.parts(&mut gradient, &mut values);
-        let blocks = self.elements.chunks(MODELS).zip(self.slots.chunks(MODELS));
-        for (first, (block, slots)) in (0..).step_by(MODELS).zip(blocks) {
+        let mut models: Vec<Model> = Vec::new();
+        for (first, block) in (0..).step_by(MODELS).zip(self.elements.chunks(MODELS)) {
             let model = |(at, element): (usize, &Element)| {
                 let model = model_of(first + at, element);
                 match shift {
@@ -53,36 +69,38 @@ impl Membrane {
                     None => model,
                 }
             };
-            let models: Vec<Model> = block.par_iter().enumerate().with_min_len(TOGETHER).map(model).collect();
+            block.par_iter().enumerate().with_min_len(TOGETHER).map(model).collect_into_vec(&mut models);
+            let end = first + block.len();
             parts.par_iter_mut().for_each(|part| {
-                for ((element, slots), model) in block.iter().zip(slots).zip(&models) {
-                    self.add(element, slots, model, part);
+                let (now, later) = part.elements.split_at(part.elements.partition_point(|&at| (at as usize) < end));
+                part.elements = later;
+                for at in now.iter().map(|&at| at as usize) {
+                    self.add(at, &models[at - first], part);
                 }
             });
         }
         self.add_springs(z, &mut gradient, &mut values);
-        let hessian = CscMatrix::try_from_pattern_and_values(self.pattern.clone(), values).expect("one value an entry");
-        (gradient, hessian)
+        (gradient, values)
     }
 
     /// Cuts the unknowns into parts.
-    fn parts<'a>(&self, mut gradient: &'a mut [f64], mut values: &'a mut [f64]) -> Vec<Part<'a>> {
+    fn parts<'a>(&'a self, mut gradient: &'a mut [f64], mut values: &'a mut [f64]) -> Vec<Part<'a>> {
         let count = self.unknowns.len();
-        let begin = |part: usize| part * count / PARTS;
-        let cut = |part: usize| {
-            let unknowns = begin(part)..begin(part + 1);
-            let offset = |unknown: usize| self.pattern.major_offsets()[2 * unknown];
+        let cut = |(part, elements): (usize, &'a Vec<u32>)| {
+            let unknowns = begin(part, count)..begin(part + 1, count);
+            let offset = |unknown: usize| self.columns[unknown] as usize;
             let (first_value, length) = (offset(unknowns.start), offset(unknowns.end) - offset(unknowns.start));
             let gradient = gradient.split_off_mut(..2 * unknowns.len()).expect("two numbers an unknown");
             let values = values.split_off_mut(..length).expect("the columns' own");
-            Part { unknowns, first_value, gradient, values }
+            Part { unknowns, first_value, gradient, values, elements }
         };
-        (0..PARTS).map(cut).collect()
+        self.of_parts.iter().enumerate().map(cut).collect()
     }
 
     /// Adds what of an element's model belongs to the columns of a part.
-    fn add(&self, element: &Element, slots: &[[u32; 3]; 3], model: &Model, part: &mut Part<'_>) {
-        for (l, corner) in element.corners.into_iter().enumerate() {
+    fn add(&self, element: usize, model: &Model, part: &mut Part<'_>) {
+        let (corners, slots) = (self.elements[element].corners, &self.slots[element]);
+        for (l, corner) in corners.into_iter().enumerate() {
             let unknown = self.unknown_of[corner as usize];
             if unknown == HELD || !part.unknowns.contains(&(unknown as usize)) {
                 continue;
@@ -95,7 +113,7 @@ impl Membrane {
                     continue;
                 }
                 let first = slots[l] as usize - part.first_value;
-                let second = first + self.column_length[unknown as usize] as usize;
+                let second = first + self.column_length(unknown as usize);
                 part.values[first] += model.hessian[2 * k][2 * l];
                 part.values[first + 1] += model.hessian[2 * k + 1][2 * l];
                 part.values[second] += model.hessian[2 * k][2 * l + 1];
@@ -112,7 +130,7 @@ impl Membrane {
             gradient[2 * unknown + 1] += pull.y;
             let at = self.diagonal[unknown] as usize;
             values[at] += stiffness;
-            values[at + self.column_length[unknown] as usize + 1] += stiffness;
+            values[at + self.column_length(unknown) + 1] += stiffness;
         }
     }
 }

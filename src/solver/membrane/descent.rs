@@ -5,8 +5,8 @@ use rayon::prelude::*;
 
 use super::super::foldover_energy::{Element, Energy};
 use super::super::{Control, Phase, SolveError};
+use super::direction::Memory;
 use super::{CHUNK, Membrane};
-use crate::linalg::Factor;
 
 /// ε² where a triangle is folded: a little, and a share of the worst determinant's square.
 const EPSILON_SQUARED: [f64; 2] = [1e-12, 0.04];
@@ -57,7 +57,7 @@ pub(in crate::solver) struct Descent {
 struct Place {
     /// Points that are tried.
     trial: Vec<DVec2>,
-    memory: Option<Factor<f64>>,
+    memory: Memory,
 }
 
 /// Which energy each element has.
@@ -90,7 +90,7 @@ impl Membrane {
         limits: Limits,
         control: Control<'_>,
     ) -> Result<Descent, SolveError> {
-        let mut place = Place { trial: z.to_vec(), memory: None };
+        let mut place = Place { trial: z.to_vec(), memory: self.no_memory() };
         let mut unfolded_energies: Option<[f64; 2]> = None;
         for _ in 0..limits.steps {
             control.enter(Phase::Solve)?;

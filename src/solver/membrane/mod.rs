@@ -12,29 +12,27 @@
 //! |---|---|
 //! | `assembly.rs` | gradient and Hessian of all elements |
 //! | `descent.rs` | Newton steps with a line search |
+//! | `direction.rs` | the systems of the Hessian |
 //! | `reweighted.rs` | a step of SLIM |
 
 mod assembly;
 mod descent;
+mod direction;
 mod reweighted;
 
 use glam::DVec2;
-use nalgebra_sparse::CscMatrix;
-use nalgebra_sparse::pattern::SparsityPattern;
 use rayon::prelude::*;
 
 use super::block_pattern::{HELD, Neighbours, number};
-use super::foldover_energy::{Element, Energy};
+use super::foldover_energy::Element;
 use super::{Control, SolveError};
-use crate::linalg::{Analysis, Factor, Kind, LinalgError};
+use crate::linalg::{Analysis, EliminationOrder, Kind};
+use assembly::elements_of_parts;
 use descent::Energies;
 pub(super) use descent::{Limits, Unfolding};
 
 /// Elements whose energies are summed by one task: the sum is the same however many threads share it.
 const CHUNK: usize = 2048;
-
-/// The first multiple of the diagonal that is added where the Hessian cannot be factored; then ten times as much.
-const REGULARISATION: f64 = 1e-10;
 
 /// A pull on a point.
 #[derive(Clone, Copy, Debug)]
@@ -52,20 +50,22 @@ pub(super) struct Membrane {
     /// For each point its unknown, or `HELD`.
     unknown_of: Vec<u32>,
     unknowns: Vec<u32>,
-    pattern: SparsityPattern,
     /// For each element and pair of corners (row, column) the place of the block's first entry, or `HELD`.
     slots: Vec<[[u32; 3]; 3]>,
-    /// Entries of each unknown's columns.
-    column_length: Vec<u32>,
+    /// Where the unknowns' columns begin among the Hessian's values, and where the last ones end.
+    columns: Vec<u32>,
+    /// For each unknown the place of its block's first entry.
     diagonal: Vec<u32>,
+    /// For each part of the unknowns the elements that it has to do with, ascending.
+    of_parts: Vec<Vec<u32>>,
     analysis: Analysis,
 }
 
 /// How a membrane is planned.
 #[derive(Clone, Copy)]
 pub(super) struct Planning<'a> {
-    /// One over the same points, most of whose elements are the same: its order of elimination is kept.
-    pub(super) similar: Option<&'a Membrane>,
+    /// The order of elimination of one over the same points, most of whose elements are the same.
+    pub(super) order: Option<&'a EliminationOrder>,
     pub(super) control: Control<'a>,
 }
 
@@ -98,16 +98,30 @@ impl Membrane {
         let neighbours = Neighbours::new(&of_corners, unknowns.len());
         let slot =
             |row: u32, column: u32| if row == HELD || column == HELD { HELD } else { neighbours.slot(row, column) };
-        let slots = of_corners.iter().map(|of| of.map(|row| of.map(|column| slot(row, column)))).collect();
-        let column_length = neighbours.column_lengths();
+        let slots_of = |of: &[u32; 3]| of.map(|row| of.map(|column| slot(row, column)));
+        let slots = of_corners.par_iter().with_min_len(CHUNK).map(slots_of).collect();
+        let columns = neighbours.columns();
         let diagonal = (0..number(unknowns.len())).map(|unknown| neighbours.slot(unknown, unknown)).collect();
+        let of_parts = elements_of_parts(&of_corners, unknowns.len());
+        drop(of_corners);
         let pattern = neighbours.block_pattern();
+        drop(neighbours);
         let cancel = planning.control.cancel();
-        let analysis = match planning.similar {
-            Some(similar) => similar.analysis.of_similar(&pattern, cancel)?,
+        let analysis = match planning.order {
+            Some(order) => Analysis::in_order(order, &pattern, cancel)?,
             None => Analysis::new(Kind::Hermitian, &pattern, cancel)?,
         };
-        Ok(Self { elements, springs, unknown_of, unknowns, pattern, slots, column_length, diagonal, analysis })
+        Ok(Self { elements, springs, unknown_of, unknowns, slots, columns, diagonal, of_parts, analysis })
+    }
+
+    /// The order of elimination, for another that is similar.
+    pub(super) fn order(&self) -> Option<EliminationOrder> {
+        self.analysis.order()
+    }
+
+    /// Entries of each of an unknown's columns.
+    fn column_length(&self, unknown: usize) -> usize {
+        (self.columns[unknown + 1] - self.columns[unknown]) as usize / 2
     }
 
     fn corners(element: &Element, z: &[DVec2]) -> [DVec2; 3] {
@@ -152,67 +166,9 @@ impl Membrane {
         self.elements[..count].par_iter().with_min_len(CHUNK).map(of).reduce(|| f64::INFINITY, f64::min)
     }
 
-    /// Gradient by unknown, and Hessian. Where points are moved by `shift`, the gradient is that of the model there.
-    fn linearise(&self, z: &[DVec2], energies: &Energies, shift: Option<&[DVec2]>) -> (Vec<f64>, CscMatrix<f64>) {
+    /// Gradient by unknown, and the Hessian's values. Where points are moved by `shift`, the gradient is that of the model
+    /// there.
+    fn linearise(&self, z: &[DVec2], energies: &Energies, shift: Option<&[DVec2]>) -> (Vec<f64>, Vec<f64>) {
         self.assembled(z, |at, element| element.model(Self::corners(element, z), energies.of(at)), shift)
-    }
-
-    /// Factors a Hessian; where rounding has made it indefinite, with a growing multiple of its diagonal added.
-    fn factor(
-        &self,
-        hessian: &mut CscMatrix<f64>,
-        mut earlier: Option<Factor<f64>>,
-        control: Control<'_>,
-    ) -> Result<Factor<f64>, SolveError> {
-        let mut share = REGULARISATION;
-        loop {
-            match self.analysis.factor_in(earlier.take(), hessian, control.cancel()) {
-                Err(LinalgError::NotPositiveDefinite { .. }) if share < 1e3 => {
-                    let values = hessian.values_mut();
-                    for (&first, &length) in self.diagonal.iter().zip(&self.column_length) {
-                        let (x, y) = (first as usize, (first + length) as usize + 1);
-                        let most = values[x].max(values[y]).max(f64::MIN_POSITIVE);
-                        values[x] += share * most;
-                        values[y] += share * most;
-                    }
-                    share *= 10.0;
-                }
-                other => return Ok(other?),
-            }
-        }
-    }
-
-    /// Newton's direction: how far each point goes. `memory` is that of the factor of the step before.
-    fn direction(
-        &self,
-        gradient: &[f64],
-        mut hessian: CscMatrix<f64>,
-        memory: &mut Option<Factor<f64>>,
-        control: Control<'_>,
-    ) -> Result<Vec<DVec2>, SolveError> {
-        let factor = self.factor(&mut hessian, memory.take(), control)?;
-        let rhs: Vec<f64> = gradient.iter().map(|g| -g).collect();
-        let x = factor.substitute(&rhs);
-        *memory = Some(factor);
-        let mut direction = vec![DVec2::ZERO; self.unknown_of.len()];
-        for (&point, move_) in self.unknowns.iter().zip(x.chunks_exact(2)) {
-            direction[point as usize] = DVec2::new(move_[0], move_[1]);
-        }
-        Ok(direction)
-    }
-
-    /// How the others follow, to first order, where held points are moved by `shift`: the moves of all points.
-    pub(super) fn response(
-        &self,
-        z: &[DVec2],
-        shift: &[DVec2],
-        control: Control<'_>,
-    ) -> Result<Vec<DVec2>, SolveError> {
-        let (gradient, hessian) = self.linearise(z, &Energies::all(Energy::Foldover(0.0)), Some(shift));
-        let mut moves = self.direction(&gradient, hessian, &mut None, control)?;
-        for (move_, shift) in moves.iter_mut().zip(shift) {
-            *move_ += *shift;
-        }
-        Ok(moves)
     }
 }

@@ -47,7 +47,7 @@ impl Membrane {
         };
         let (gradient, hessian) = self.assembled(z, proxy, None);
         control.enter(Phase::Factor)?;
-        let direction = self.direction(&gradient, hessian, &mut None, control)?;
+        let direction = self.direction(&gradient, hessian, &mut self.no_memory(), control)?;
         control.enter(Phase::Solve)?;
         let to_fold = self.longest_step(z, &direction, self.elements.len());
         let mut step = (SHARE_BEFORE_FOLD * to_fold).min(1.0);

@@ -19,10 +19,11 @@ use std::sync::Arc;
 pub(super) use coarse::Relaxed;
 
 use super::foldover_energy::Energy;
-use super::membrane::{Limits, Membrane, Planning, Unfolding};
+use super::membrane::{Limits, Planning, Unfolding};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::{Rest, Surrounded};
 use super::{Candidate, Control, Embedding, Method, Outside, Pins, Progress, Sheet, SolveError};
+use crate::linalg::EliminationOrder;
 use crate::mesh::DiskMesh;
 
 /// Weight of the whole outside, that of the mesh being 1.
@@ -53,8 +54,8 @@ pub(super) struct Relaxing {
     /// How distorted the embedding is: over the faces, and over all that has an energy.
     progress: Progress,
     inner: Progress,
-    /// That of the round before, whose order of elimination is kept.
-    membrane: Option<Membrane>,
+    /// The order of elimination of the round before.
+    order: Option<EliminationOrder>,
     stall: Stall,
     /// Whether the last round gained next to nothing.
     pub(super) has_converged: bool,
@@ -78,7 +79,7 @@ impl Relaxing {
             embedding,
             progress,
             inner,
-            membrane: None,
+            order: None,
             stall: Stall::default(),
             has_converged: false,
             sheet: Arc::default(),
@@ -113,7 +114,7 @@ impl Relaxing {
     fn descend(&mut self, mesh: &DiskMesh, outside: &Outside, control: Control<'_>) -> Result<(), SolveError> {
         let surrounded = Surrounded { embedding: &self.embedding, outside, weight: OUTSIDE_WEIGHT };
         let all = self.with_ears.as_ref().unwrap_or(&self.rest);
-        let planning = Planning { similar: self.membrane.as_ref(), control };
+        let planning = Planning { order: self.order.as_ref(), control };
         let (membrane, mut z) = all.membrane(mesh, surrounded, &self.pins, planning)?;
         let before = self.inner;
         let folded = if before.least_determinant > 0.0 { 0 } else { all.folded_count(mesh, &self.embedding) };
@@ -139,7 +140,7 @@ impl Relaxing {
             let progress = if self.with_ears.is_some() { self.rest.progress(mesh, &z, 0.0) } else { inner };
             (self.embedding, self.progress, self.inner) = (z, progress, inner);
         }
-        self.membrane = Some(membrane);
+        self.order = membrane.order();
         let is_still_steep = self.inner.least_determinant < STEEP;
         self.has_converged = !is_taken || (gain < TOLERANCE && is_still_steep == is_steep && !is_unfolding);
         if is_taken && !is_unfolding {

@@ -1,0 +1,122 @@
+//! Relaxing from the conformal map, without constraints, until it ends by itself.
+//!
+//! A round of relaxing takes Newton steps until one lowers the energy by less than a ten-thousandth of it, five at most; a
+//! round that lowers it by less than a thousandth is the last. A step costs its part of its round: the outside, its order of
+//! elimination, factors, the proof.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Instant;
+
+use freebound::io::peak_memory_bytes;
+use freebound::mesh::DiskMesh;
+use freebound::solver::{Control, Family, Ladder, Method, Phase, Pins, Settings, Step, distortion};
+
+use crate::common::machine::processor_seconds;
+use crate::common::table::{Table, megabytes, seconds, target};
+use crate::makers::bumpy_cap_of;
+use crate::outcome::{SHOWS_STEPS, show};
+use crate::size::forget_peak;
+
+/// The most rounds.
+const MOST_ROUNDS: usize = 30;
+
+/// The most Newton steps until relaxing ends.
+const STEPS_TARGET: f64 = 12.0;
+
+/// Numbers of faces, with the most seconds of a step and the most memory in millions of bytes, where there are limits.
+const SIZES: [(usize, Option<f64>, Option<f64>); 3] =
+    [(20_000, None, None), (100_000, Some(0.4), None), (1_000_000, None, Some(2000.0))];
+
+pub(crate) fn run(is_quick: bool) {
+    let heads = [
+        "faces",
+        "energy",
+        "relaxed",
+        "rounds",
+        "steps",
+        "target",
+        "a step s",
+        "target s",
+        "cpu s",
+        "peak MB",
+        "target MB",
+    ];
+    let title = "relaxing from the conformal map; a step is one of Newton's, its seconds those of the slowest round";
+    let mut table = Table::new(title, &heads);
+    for &(faces, most_seconds, most_megabytes) in if is_quick { &SIZES[..1] } else { &SIZES[..] } {
+        let mesh = DiskMesh::try_from(bumpy_cap_of(faces / 2, 1)).expect("a cap is a disk");
+        let is_reset = forget_peak();
+        let found = Relaxed::of(&mesh);
+        let peak = peak_memory_bytes().filter(|_| is_reset).and_then(|bytes| usize::try_from(bytes).ok());
+        let in_megabytes = |most: f64| peak.map(|peak| target(peak as f64 / 1e6, most));
+        let a_step = found.rounds.iter().map(|round| round.seconds / round.steps as f64).fold(0.0, f64::max);
+        let steps: usize = found.rounds.iter().map(|round| round.steps).sum();
+        let processor: f64 = found.rounds.iter().map(|round| round.processor).sum();
+        let row = [
+            mesh.face_count().to_string(),
+            format!("{:.3}", found.energy_before),
+            format!("{:.4}", found.energy),
+            found.rounds.len().to_string(),
+            steps.to_string(),
+            target(steps as f64, STEPS_TARGET),
+            seconds(a_step),
+            most_seconds.map(|most| target(a_step, most)).unwrap_or_default(),
+            seconds(processor / steps as f64),
+            peak.map_or("–".to_owned(), megabytes),
+            most_megabytes.and_then(in_megabytes).unwrap_or_default(),
+        ];
+        println!("{}", row.join("  "));
+        table.row(row);
+    }
+    println!();
+    table.print();
+}
+
+/// What relaxing came to.
+#[derive(Default)]
+struct Relaxed {
+    /// The mean symmetric Dirichlet energy of the conformal map, and in the end.
+    energy_before: f64,
+    energy: f64,
+    rounds: Vec<Round>,
+}
+
+/// One round, with the verdict on it.
+struct Round {
+    seconds: f64,
+    processor: f64,
+    /// Newton steps.
+    steps: usize,
+}
+
+impl Relaxed {
+    fn of(mesh: &DiskMesh) -> Self {
+        let settings =
+            Settings { relax_rounds: Some(MOST_ROUNDS), ..Settings::new(Method::Natural, Family::Conformal) };
+        let (cancel, newton_steps) = (AtomicBool::new(false), AtomicUsize::new(0));
+        // Each of Newton's steps enters this phase.
+        let count = |phase| {
+            newton_steps.fetch_add(usize::from(phase == Phase::Solve), Ordering::Relaxed);
+        };
+        let mut found = Self::default();
+        let mut before = (Instant::now(), processor_seconds());
+        let take = |step: Step| {
+            let (seconds, processor) = (before.0.elapsed().as_secs_f64(), processor_seconds() - before.1);
+            let steps = newton_steps.swap(0, Ordering::Relaxed);
+            if SHOWS_STEPS.load(Ordering::Relaxed) {
+                show(&step);
+            }
+            assert!(step.verdict.planar, "relaxing keeps it planar");
+            if step.rung == Method::Relax {
+                found.rounds.push(Round { seconds, processor, steps });
+                found.energy = step.progress.map_or(f64::NAN, |progress| progress.energy);
+            } else {
+                found.energy_before = distortion(mesh, &step.solution.embedding).summary.symmetric_dirichlet.mean;
+            }
+            before = (Instant::now(), processor_seconds());
+        };
+        let ending = Ladder::new(settings, Pins::new()).finish(mesh, Control::new(&cancel, &count), take);
+        ending.expect("relaxing does not fail");
+        found
+    }
+}

@@ -1,0 +1,122 @@
+//! Directions of descent, and how points follow those that are held: one system of the Hessian each.
+//!
+//! Where there are many unknowns the Hessian is factored in single precision, which takes half the memory and time, and
+//! the direction is found by conjugate gradients; in double precision where that is no good.
+
+use glam::DVec2;
+
+use super::super::foldover_energy::Energy;
+use super::super::{Control, SolveError};
+use super::Membrane;
+use super::descent::Energies;
+use crate::linalg::{LinalgError, Precision, RoughFactor};
+
+/// The first multiple of the diagonal that is added where the Hessian cannot be factored; then ten times as much.
+const REGULARISATION: f64 = 1e-10;
+
+/// The greatest of these multiples.
+const MOST_REGULARISATION: f64 = 1e3;
+
+/// Points that move, from which on single precision is worth its iterations.
+const SINGLE_FROM: usize = 20_000;
+
+/// What a step leaves to the next.
+#[derive(Debug)]
+pub(super) struct Memory {
+    /// Its factor, for the memory of it.
+    factor: Option<RoughFactor>,
+    precision: Precision,
+}
+
+impl Membrane {
+    /// What there is before the first step.
+    pub(super) fn no_memory(&self) -> Memory {
+        let precision = if self.unknowns.len() < SINGLE_FROM { Precision::Double } else { Precision::Single };
+        Memory { factor: None, precision }
+    }
+
+    /// Newton's direction, where the Hessian has these values: how far each point goes.
+    pub(super) fn direction(
+        &self,
+        gradient: &[f64],
+        mut hessian: Vec<f64>,
+        memory: &mut Memory,
+        control: Control<'_>,
+    ) -> Result<Vec<DVec2>, SolveError> {
+        let rhs: Vec<f64> = gradient.iter().map(|g| -g).collect();
+        if memory.precision == Precision::Single {
+            match self.solved_in_single(&hessian, &rhs, memory, control) {
+                Ok(x) => return Ok(self.by_point(&x)),
+                Err(LinalgError::Cancelled) => return Err(SolveError::Cancelled),
+                // The next steps are as hard.
+                Err(_) => *memory = Memory { factor: None, precision: Precision::Double },
+            }
+        }
+        let factor = self.factor(&mut hessian, memory.factor.take(), control)?;
+        let x = factor.solve(&hessian, &rhs, control.cancel())?;
+        memory.factor = Some(factor);
+        Ok(self.by_point(&x))
+    }
+
+    fn solved_in_single(
+        &self,
+        hessian: &[f64],
+        rhs: &[f64],
+        memory: &mut Memory,
+        control: Control<'_>,
+    ) -> Result<Vec<f64>, LinalgError> {
+        let earlier = memory.factor.take();
+        let factor = self.analysis.factor_roughly(hessian, Precision::Single, earlier, control.cancel())?;
+        let x = factor.solve(hessian, rhs, control.cancel())?;
+        memory.factor = Some(factor);
+        Ok(x)
+    }
+
+    /// Factors a Hessian; where rounding has made it indefinite, with a growing multiple of its diagonal added.
+    fn factor(
+        &self,
+        hessian: &mut [f64],
+        mut earlier: Option<RoughFactor>,
+        control: Control<'_>,
+    ) -> Result<RoughFactor, SolveError> {
+        let mut share = REGULARISATION;
+        loop {
+            match self.analysis.factor_roughly(hessian, Precision::Double, earlier.take(), control.cancel()) {
+                Err(LinalgError::NotPositiveDefinite { .. }) if share < MOST_REGULARISATION => {
+                    for (unknown, &first) in self.diagonal.iter().enumerate() {
+                        let (x, y) = (first as usize, first as usize + self.column_length(unknown) + 1);
+                        let most = hessian[x].max(hessian[y]).max(f64::MIN_POSITIVE);
+                        hessian[x] += share * most;
+                        hessian[y] += share * most;
+                    }
+                    share *= 10.0;
+                }
+                other => return Ok(other?),
+            }
+        }
+    }
+
+    /// What belongs to unknowns, by point.
+    fn by_point(&self, x: &[f64]) -> Vec<DVec2> {
+        let mut by_point = vec![DVec2::ZERO; self.unknown_of.len()];
+        for (&point, x) in self.unknowns.iter().zip(x.chunks_exact(2)) {
+            by_point[point as usize] = DVec2::new(x[0], x[1]);
+        }
+        by_point
+    }
+
+    /// How the others follow, to first order, where held points are moved by `shift`: the moves of all points.
+    pub(in crate::solver) fn response(
+        &self,
+        z: &[DVec2],
+        shift: &[DVec2],
+        control: Control<'_>,
+    ) -> Result<Vec<DVec2>, SolveError> {
+        let (gradient, hessian) = self.linearise(z, &Energies::all(Energy::Foldover(0.0)), Some(shift));
+        let mut moves = self.direction(&gradient, hessian, &mut self.no_memory(), control)?;
+        for (move_, shift) in moves.iter_mut().zip(shift) {
+            *move_ += *shift;
+        }
+        Ok(moves)
+    }
+}
