@@ -20,12 +20,23 @@ use crate::size::forget_peak;
 /// The most rounds.
 const MOST_ROUNDS: usize = 30;
 
-/// The most Newton steps until relaxing ends.
+/// The most Newton steps until relaxing ends, and seconds of a step.
 const STEPS_TARGET: f64 = 12.0;
+const SECONDS_TARGET: f64 = 0.4;
 
-/// Numbers of faces, with the most seconds of a step and the most memory in millions of bytes, where there are limits.
-const SIZES: [(usize, Option<f64>, Option<f64>); 3] =
-    [(20_000, None, None), (100_000, Some(0.4), None), (1_000_000, None, Some(2000.0))];
+/// The most memory in millions of bytes.
+const MEGABYTES_TARGET: f64 = 2000.0;
+
+/// Numbers of faces, and what has limits there.
+const SIZES: [(usize, Limited); 3] =
+    [(20_000, Limited::Nothing), (100_000, Limited::Time), (1_000_000, Limited::Memory)];
+
+#[derive(Clone, Copy, PartialEq)]
+enum Limited {
+    Nothing,
+    Time,
+    Memory,
+}
 
 pub(crate) fn run(is_quick: bool) {
     let heads = [
@@ -43,12 +54,13 @@ pub(crate) fn run(is_quick: bool) {
     ];
     let title = "relaxing from the conformal map; a step is one of Newton's, its seconds those of the slowest round";
     let mut table = Table::new(title, &heads);
-    for &(faces, most_seconds, most_megabytes) in if is_quick { &SIZES[..1] } else { &SIZES[..] } {
+    for &(faces, limited) in if is_quick { &SIZES[..1] } else { &SIZES[..] } {
         let mesh = DiskMesh::try_from(bumpy_cap_of(faces / 2, 1)).expect("a cap is a disk");
         let is_reset = forget_peak();
         let found = Relaxed::of(&mesh);
         let peak = peak_memory_bytes().filter(|_| is_reset).and_then(|bytes| usize::try_from(bytes).ok());
-        let in_megabytes = |most: f64| peak.map(|peak| target(peak as f64 / 1e6, most));
+        let limit =
+            |by: Limited, value: f64, most: f64| if limited == by { target(value, most) } else { String::new() };
         let a_step = found.rounds.iter().map(|round| round.seconds / round.steps as f64).fold(0.0, f64::max);
         let steps: usize = found.rounds.iter().map(|round| round.steps).sum();
         let processor: f64 = found.rounds.iter().map(|round| round.processor).sum();
@@ -58,12 +70,12 @@ pub(crate) fn run(is_quick: bool) {
             format!("{:.4}", found.energy),
             found.rounds.len().to_string(),
             steps.to_string(),
-            target(steps as f64, STEPS_TARGET),
+            limit(Limited::Time, steps as f64, STEPS_TARGET),
             seconds(a_step),
-            most_seconds.map(|most| target(a_step, most)).unwrap_or_default(),
+            limit(Limited::Time, a_step, SECONDS_TARGET),
             seconds(processor / steps as f64),
             peak.map_or("–".to_owned(), megabytes),
-            most_megabytes.and_then(in_megabytes).unwrap_or_default(),
+            peak.map_or(String::new(), |peak| limit(Limited::Memory, peak as f64 / 1e6, MEGABYTES_TARGET)),
         ];
         println!("{}", row.join("  "));
         table.row(row);

@@ -120,3 +120,61 @@ impl Membrane {
         Ok(moves)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Planning;
+    use super::*;
+    use crate::solver::foldover_energy::Element;
+
+    const SIDE: u32 = 9;
+
+    /// A square of unit cells, each of two triangles, one corner held; and where its points lie, sheared and uneven.
+    fn sheared() -> (Membrane, Vec<DVec2>) {
+        let at = |point: u32| DVec2::new(f64::from(point % SIDE), f64::from(point / SIDE));
+        let first_corners = (0..SIDE * (SIDE - 1)).filter(|point| point % SIDE + 1 < SIDE);
+        let triangles = first_corners.flat_map(|a| [[a, a + 1, a + SIDE + 1], [a, a + SIDE + 1, a + SIDE]]);
+        let elements = triangles.map(|corners| Element::new(corners, corners.map(at), (1.0, 0.0))).collect();
+        let planning = Planning { order: None, control: Control::unattended() };
+        let count = SIDE * SIDE;
+        let membrane = Membrane::new(count as usize, elements, Vec::new(), |point| point == 0, planning).unwrap();
+        let place = |point: u32| {
+            let z = at(point);
+            DVec2::new(1.4 * z.x + 0.5 * z.y, 0.8 * z.y + 0.1 * (2.0 * z.x).sin())
+        };
+        (membrane, (0..count).map(place).collect())
+    }
+
+    /// The change of the energy to first order along a direction.
+    fn slope(membrane: &Membrane, gradient: &[f64], direction: &[DVec2]) -> f64 {
+        let along = |(&point, g): (&u32, &[f64])| DVec2::new(g[0], g[1]).dot(direction[point as usize]);
+        membrane.unknowns.iter().zip(gradient.chunks_exact(2)).map(along).sum()
+    }
+
+    #[test]
+    fn a_direction_of_either_precision_promises_the_same_energy() {
+        let (membrane, z) = sheared();
+        let (gradient, hessian) = membrane.linearise(&z, &Energies::all(Energy::SymmetricDirichlet), None);
+        let [single, double] = [Precision::Single, Precision::Double].map(|precision| {
+            let mut memory = Memory { factor: None, precision };
+            let direction = membrane.direction(&gradient, hessian.clone(), &mut memory, Control::unattended()).unwrap();
+            assert_eq!(memory.precision, precision);
+            slope(&membrane, &gradient, &direction)
+        });
+        // The error of the direction is 1e-2 of it at most, and that of its energy the square.
+        assert!(double < 0.0 && (single - double).abs() < 2e-4 * double.abs(), "{single} for {double}");
+    }
+
+    #[test]
+    fn where_single_precision_is_no_good_double_takes_over_for_good() {
+        let (membrane, z) = sheared();
+        let (gradient, mut hessian) = membrane.linearise(&z, &Energies::all(Energy::SymmetricDirichlet), None);
+        // Indefinite: no shift that rounding could call for mends it.
+        let place = membrane.diagonal[40] as usize;
+        hessian[place] *= -0.1;
+        let mut memory = Memory { factor: None, precision: Precision::Single };
+        let direction = membrane.direction(&gradient, hessian, &mut memory, Control::unattended()).unwrap();
+        assert_eq!(memory.precision, Precision::Double);
+        assert!(slope(&membrane, &gradient, &direction) < 0.0, "a direction of descent");
+    }
+}
