@@ -53,11 +53,16 @@ const FREE_SECONDS: f64 = 5.0;
 enum Held {
     /// On a circle, by its lengths.
     Circle,
+    /// On a flower with five petals, as by its lengths around the middle: nowhere straight, and in five places concave.
+    Flower,
     /// Where it lies without constraints, in waves: sheared along x, then along y.
     Waves,
     /// Where it lies without constraints, but swirled: half a turn in the middle, none farthest from it.
     Swirl,
 }
+
+/// Height and number of petals, on a circle of radius 1.
+const PETALS: [f64; 2] = [0.4, 5.0];
 
 /// Height of a wave and number of waves, by the size.
 const WAVES: [f64; 2] = [0.08, 2.0];
@@ -96,7 +101,7 @@ pub(crate) fn run_held(is_quick: bool) {
                 continue;
             }
         };
-        for held in [Held::Circle, Held::Waves, Held::Swirl] {
+        for held in [Held::Circle, Held::Flower, Held::Waves, Held::Swirl] {
             match held.pins(&mesh) {
                 Some(pins) => show(
                     &mut table,
@@ -151,6 +156,10 @@ impl Held {
     fn pins(self, mesh: &DiskMesh) -> Option<Pins> {
         let places = match self {
             Self::Circle => on_circle(mesh),
+            Self::Flower => {
+                let petals = |z: &DVec2| (1.0 + PETALS[0] * (PETALS[1] * z.to_angle()).cos()) * *z;
+                on_circle(mesh).iter().map(petals).collect()
+            }
             Self::Waves => moved(mesh, |z, size| {
                 let wave = |by: f64| WAVES[0] * size * (TAU * WAVES[1] * by / size).sin();
                 let x = z.x + wave(z.y);

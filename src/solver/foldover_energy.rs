@@ -67,12 +67,19 @@ pub enum Energy {
     Foldover(f64),
     /// ½ (tr(JᵀJ) + tr(J⁻ᵀJ⁻¹)), the symmetric Dirichlet energy: a barrier too, and dearer where a triangle is small.
     SymmetricDirichlet,
+    /// ½ (tr(JᵀJ)/σ + σ tr(J⁻ᵀJ⁻¹)) + p det J: the same of a shape at rest with σ times the area, and a pressure p on it.
+    AtSize {
+        /// σ, positive.
+        size: f64,
+        /// p, of any sign: the energy of a positive one falls where the triangle shrinks.
+        pressure: f64,
+    },
 }
 
 impl Energy {
     /// Whether it is infinite where a triangle is folded.
     pub fn is_barrier(self) -> bool {
-        matches!(self, Self::SymmetricDirichlet | Self::Foldover(0.0))
+        matches!(self, Self::SymmetricDirichlet | Self::AtSize { .. } | Self::Foldover(0.0))
     }
 
     /// Its value by s = p + q and d = p − q.
@@ -81,6 +88,7 @@ impl Energy {
             _ if self.is_barrier() && d <= 0.0 => f64::INFINITY,
             Self::Foldover(epsilon) => (s + 0.5 * (d * d + 1.0)) * inverse_chi(d, epsilon).0,
             Self::SymmetricDirichlet => s * (1.0 + d.powi(-2)),
+            Self::AtSize { size, pressure } => s * (size.recip() + size * d.powi(-2)) + pressure * d,
         }
     }
 
@@ -98,9 +106,17 @@ impl Energy {
                     qq: u - 2.0 * (1.0 - d) * du + n * ddu,
                 }
             }
-            Self::SymmetricDirichlet => {
-                let (v, dv, ddv) = (1.0 + d.powi(-2), -2.0 * d.powi(-3), 6.0 * d.powi(-4));
-                Terms { p: v + s * dv, q: v - s * dv, pp: 2.0 * dv + s * ddv, pq: -s * ddv, qq: s * ddv - 2.0 * dv }
+            Self::SymmetricDirichlet => Self::AtSize { size: 1.0, pressure: 0.0 }.terms(s, d),
+            Self::AtSize { size, pressure } => {
+                let v = size.recip() + size * d.powi(-2);
+                let (dv, ddv) = (-2.0 * size * d.powi(-3), 6.0 * size * d.powi(-4));
+                Terms {
+                    p: v + s * dv + pressure,
+                    q: v - s * dv - pressure,
+                    pp: 2.0 * dv + s * ddv,
+                    pq: -s * ddv,
+                    qq: s * ddv - 2.0 * dv,
+                }
             }
         }
     }

@@ -92,12 +92,29 @@ impl Rest {
 
     /// How distorted an embedding is whose pins have so far to go.
     pub(super) fn progress(&self, mesh: &DiskMesh, embedding: &Embedding, distance_left: f64) -> Progress {
+        let progress = self.progress_where(mesh, embedding, |_| true);
+        Progress { distance_left, ..progress }
+    }
+
+    /// The same of the triangles that some move of vertices without exact pins changes: the others stay what they are.
+    pub(super) fn progress_of_movable(&self, mesh: &DiskMesh, embedding: &Embedding, pins: &Pins) -> Progress {
+        let is_free = |corner: u32| pins.get(&VertexId::new(corner)).is_none_or(|pin| !pin.hold.is_exact());
+        self.progress_where(mesh, embedding, |element| element.corners.into_iter().any(is_free))
+    }
+
+    fn progress_where(
+        &self,
+        mesh: &DiskMesh,
+        embedding: &Embedding,
+        counts: impl Fn(&Element) -> bool + Sync,
+    ) -> Progress {
         let measured = self.measured(mesh, embedding, |element, z| {
-            (element.energy(z, Energy::SymmetricDirichlet), element.determinant(z))
+            let counted = counts(&element).then(|| element.energy(z, Energy::SymmetricDirichlet));
+            counted.map_or((0.0, f64::INFINITY), |energy| (energy, element.determinant(z)))
         });
         let half: f64 = measured.iter().map(|(energy, _)| energy).sum();
         let least_determinant = measured.iter().map(|&(_, determinant)| determinant).fold(f64::INFINITY, f64::min);
-        Progress { energy: 2.0 * half, least_determinant, distance_left }
+        Progress { energy: 2.0 * half, least_determinant, distance_left: 0.0 }
     }
 
     /// An energy of an embedding at its own size, of the triangles alone.

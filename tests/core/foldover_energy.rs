@@ -20,6 +20,7 @@ fn moved(mut z: [DVec2; 3], coordinate: usize, by: f64) -> [DVec2; 3] {
 }
 
 const FREE: Energy = Energy::Foldover(0.0);
+const SIZED: Energy = Energy::AtSize { size: 1.3, pressure: -0.6 };
 
 #[test]
 fn a_triangle_at_rest_has_the_least_energy() {
@@ -37,7 +38,8 @@ fn a_triangle_at_rest_has_the_least_energy() {
 #[test]
 fn the_gradient_is_that_of_the_energy() {
     let energies = [FREE, Energy::Foldover(0.3), Energy::Foldover(0.01), Energy::SymmetricDirichlet];
-    for (z, energy) in PLACES.into_iter().zip(energies).chain([(PLACES[0], energies[3])]) {
+    let unfolded = [(PLACES[0], energies[3]), (PLACES[0], SIZED)];
+    for (z, energy) in PLACES.into_iter().zip(energies).chain(unfolded) {
         for (i, derivative) in element().model(z, energy).gradient.iter().enumerate() {
             let [after, before] = [1e-6, -1e-6].map(|h| element().energy(moved(z, i, h), energy));
             let difference = (after - before) / 2e-6;
@@ -50,7 +52,7 @@ fn the_gradient_is_that_of_the_energy() {
 fn the_hessian_is_that_of_the_energy_where_it_is_convex() {
     // Near to rest, where nothing had to be made positive.
     let z = [DVec2::new(0.01, 0.0), DVec2::new(2.02, 0.1), DVec2::new(0.4, 1.53)];
-    for energy in [FREE, Energy::SymmetricDirichlet] {
+    for energy in [FREE, Energy::SymmetricDirichlet, Energy::AtSize { size: 1.02, pressure: 0.05 }] {
         let model = element().model(z, energy);
         for i in 0..6 {
             let [after, before] = [1e-5, -1e-5].map(|h| element().model(moved(z, i, h), energy).gradient);

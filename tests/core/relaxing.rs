@@ -1,7 +1,9 @@
 //! Relaxing comes to its end by itself, and what was proved before it stays where it fails.
 
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
-use freebound::solver::{Control, Ending, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
+use freebound::solver::{
+    Control, Embedding, Ending, Family, Ladder, Method, Pin, Pins, Settings, Step, distortion, hard_pins,
+};
 use glam::{DVec2, DVec3};
 
 use crate::makers::{disk, grid};
@@ -73,4 +75,58 @@ fn weighted_constraints_do_not_keep_relaxing_from_going_on() {
         );
         assert!(!rounds.iter().any(|step| step.note.as_deref().is_some_and(|note| note.contains("would fold"))));
     }
+}
+
+/// How fast the mean symmetric Dirichlet energy at equal total areas falls as vertices that are free move, all at once by
+/// the length of a gradient of 1: by differences.
+fn steepness(mesh: &DiskMesh, embedding: &Embedding, pins: &Pins) -> f64 {
+    const STEP: f64 = 1e-5;
+    let energy = |vertex: VertexId, by: DVec2| {
+        let mut moved = embedding.clone();
+        moved[vertex] += by;
+        distortion(mesh, &moved).summary.symmetric_dirichlet.mean
+    };
+    let slope = |vertex, along: DVec2| (energy(vertex, STEP * along) - energy(vertex, -STEP * along)) / (2.0 * STEP);
+    let free = mesh.vertices().filter(|vertex| !pins.contains_key(vertex));
+    free.map(|vertex| slope(vertex, DVec2::X).powi(2) + slope(vertex, DVec2::Y).powi(2)).sum::<f64>().sqrt()
+}
+
+#[test]
+fn relaxing_ends_where_the_energy_at_equal_areas_is_least() {
+    // Four pins in the middle at a quarter of the size that the four corners are held at.
+    let mesh = disk(bump(8));
+    let held = [(0, 1.0), (8, 1.0), (72, 1.0), (80, 1.0), (30, 0.25), (32, 0.25), (48, 0.25), (50, 0.25)];
+    let place = |v: u32| (mesh.position(VertexId::new(v)) - mesh.position(VertexId::new(40))).truncate();
+    let pins = hard_pins(held.map(|(v, size)| (VertexId::new(v), size * place(v))));
+    let settings = Settings { relax_rounds: Some(100), ..Settings::default() };
+    let (steps, _) = steps(&mesh, settings, &pins);
+    let rounds = steps.iter().filter(|step| step.rung == Method::Relax);
+    let slopes: Vec<f64> = rounds.map(|step| steepness(&mesh, &step.solution.embedding, &pins)).collect();
+    // Rounds that keep the size which they begin with come to 0.175, and no further.
+    assert!(slopes.iter().any(|&slope| slope > 0.1), "the test is to need the size: {slopes:?}");
+    assert!(slopes.last().is_some_and(|&slope| slope < 0.02), "{slopes:?}");
+}
+
+#[test]
+fn faces_whose_corners_are_all_pinned_do_not_keep_the_others_from_their_least_energy() {
+    // A boundary on a circle, all of it pinned, but for two corners of the grid that are hardly off the line between their
+    // neighbours: their faces are too steep to begin with, and always will be.
+    let mesh = disk(bump(8));
+    let boundary = mesh.boundary_loop();
+    let count = boundary.len();
+    let turn = |k: usize| DVec2::from_angle(std::f64::consts::TAU * (k % count) as f64 / count as f64);
+    let is_ear = |k: usize| mesh.faces().filter(|&face| mesh.face(face).contains(&boundary[k])).count() == 1;
+    let place = |k: usize| {
+        let middle = 0.5 * (turn(k + count - 1) + turn(k + 1));
+        if is_ear(k) { middle * (1.0 + 1e-5) } else { turn(k) }
+    };
+    assert_eq!((0..count).filter(|&k| is_ear(k)).count(), 2);
+    let pins = hard_pins((0..count).map(|k| (boundary[k], place(k))));
+    let settings = Settings { relax_rounds: Some(100), new_vertices: false, ..Settings::default() };
+    let (steps, ending) = steps(&mesh, settings, &pins);
+    let last = steps.last().expect("a step");
+    assert!(ending == Ending::Planar && last.rung == Method::Relax, "{ending:?}");
+    assert!(last.progress.expect("numbers").least_determinant < 1e-3);
+    let slope = steepness(&mesh, &last.solution.embedding, &pins);
+    assert!(slope < 0.05, "{slope}");
 }

@@ -196,7 +196,7 @@ impl Part {
         Self {
             aim,
             task: Arc::clone(task),
-            relax: Relax::default(),
+            relax: Relax::of(aim),
             cut: Cut,
             is_from_layout: false,
             flights,

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::plan::Aim;
 use super::rung::{Failure, Footing, Latest, Rung};
 use super::task::Task;
 use super::{Candidate, Step};
@@ -36,6 +37,8 @@ pub(super) struct Relax {
     lack: Option<Lack>,
     /// Whether a round has failed: then none follows.
     has_failed: bool,
+    /// Whether constraints are to follow.
+    is_before_constraints: bool,
 }
 
 /// What an embedding lacks to serve.
@@ -68,6 +71,11 @@ impl Lack {
 }
 
 impl Relax {
+    /// Of a part of the plan with such an aim.
+    pub(super) fn of(aim: Aim) -> Self {
+        Self { is_before_constraints: aim == Aim::PlanarStart, ..Self::default() }
+    }
+
     /// Lets so many rounds follow, from the latest embedding on.
     pub(super) fn begin(&mut self, rounds: Rounds) {
         (self.relaxing, self.left, self.has_failed) = (None, rounds, false);
@@ -98,7 +106,10 @@ impl Relax {
         let is_constrained = task.is_constrained();
         let held = if is_constrained { task.held() } else { Pins::new() };
         let sheet = if is_constrained { Arc::clone(&task.sheet) } else { Arc::default() };
-        let begin = || Relaxing::new(mesh, latest.embedding.clone(), &held).written_on(sheet);
+        let begin = || {
+            let relaxing = Relaxing::new(mesh, latest.embedding.clone(), &held).written_on(sheet);
+            if self.is_before_constraints { relaxing.before_constraints(mesh) } else { relaxing }
+        };
         let candidate = self.relaxing.get_or_insert_with(begin).round(mesh, control)?;
         let lack = self.lack.filter(|_| self.left.always == 0);
         let note = lack.map(|lack| format!("relaxed because {}", lack.words()));

@@ -3,6 +3,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
+use super::super::block_pattern::HELD;
 use super::super::foldover_energy::{Element, Energy};
 use super::super::{Control, Phase, SolveError};
 use super::direction::Memory;
@@ -66,11 +67,13 @@ pub(super) struct Energies {
     folded: Energy,
     /// By element; empty where all are as the unfolded ones.
     is_folded: Vec<bool>,
+    /// How many of the first elements are measured at their own size, and their energy.
+    own: Option<(usize, Energy)>,
 }
 
 impl Energies {
     pub(super) fn all(energy: Energy) -> Self {
-        Self { unfolded: energy, folded: energy, is_folded: Vec::new() }
+        Self { unfolded: energy, folded: energy, is_folded: Vec::new(), own: None }
     }
 
     fn is_folded(&self, element: usize) -> bool {
@@ -78,7 +81,16 @@ impl Energies {
     }
 
     pub(super) fn of(&self, element: usize) -> Energy {
-        if self.is_folded(element) { self.folded } else { self.unfolded }
+        match self.own {
+            Some((count, energy)) if element < count => energy,
+            _ if self.is_folded(element) => self.folded,
+            _ => self.unfolded,
+        }
+    }
+
+    /// How many of the first elements are measured at their own size.
+    pub(super) fn own_count(&self) -> usize {
+        self.own.map_or(0, |(count, _)| count)
     }
 }
 
@@ -92,6 +104,8 @@ impl Membrane {
     ) -> Result<Descent, SolveError> {
         let mut place = Place { trial: z.to_vec(), memory: self.no_memory() };
         let mut unfolded_energies: Option<[f64; 2]> = None;
+        // What no step changes is no part of what is gained.
+        let idle = self.energy_of_held(z, limits.unfolded);
         for _ in 0..limits.steps {
             control.enter(Phase::Solve)?;
             let least = self.least_determinant(z);
@@ -101,6 +115,7 @@ impl Membrane {
             let energies = self.energies(z, least, limits);
             let Some([before, after]) = self.newton_step(z, &mut place, &energies, control)? else { break };
             if least > 0.0 {
+                let [before, after] = [before, after].map(|energy| energy - idle);
                 let [first, _] = unfolded_energies.unwrap_or([before, before]);
                 unfolded_energies = Some([first, after]);
                 if before - after < limits.tolerance * before {
@@ -112,10 +127,20 @@ impl Membrane {
         Ok(Descent { least_determinant: self.least_determinant(z), gain })
     }
 
+    /// The energy of the elements all of whose corners are held; 0 where one of them is folded.
+    fn energy_of_held(&self, z: &[DVec2], energy: Energy) -> f64 {
+        let is_held = |element: &&Element| element.corners.iter().all(|&c| self.unknown_of[c as usize] == HELD);
+        let of = |element: &Element| element.energy(Self::corners(element, z), energy);
+        let sum: f64 = self.elements.iter().filter(is_held).map(of).sum();
+        if sum.is_finite() { sum } else { 0.0 }
+    }
+
     /// The energies of a step from where the least determinant is that.
     fn energies(&self, z: &[DVec2], least: f64, limits: Limits) -> Energies {
         if least > 0.0 {
-            return Energies::all(limits.unfolded);
+            let is_sized = self.own_count > 0 && limits.unfolded == Energy::SymmetricDirichlet;
+            let own = is_sized.then(|| (self.own_count, self.own_sums(z).model()));
+            return Energies { own, ..Energies::all(limits.unfolded) };
         }
         let [little, share] = EPSILON_SQUARED;
         let has_barriers = limits.unfolding == Unfolding::BesideBarriers;
@@ -126,7 +151,7 @@ impl Membrane {
         }
         let is_folded = |element: &Element| element.determinant(Self::corners(element, z)) <= 0.0;
         let is_folded = self.elements.par_iter().with_min_len(CHUNK).map(is_folded).collect();
-        Energies { unfolded: limits.unfolded, folded, is_folded }
+        Energies { unfolded: limits.unfolded, folded, is_folded, own: None }
     }
 
     /// The longest step along a direction that folds no element with a barrier.

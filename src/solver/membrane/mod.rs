@@ -13,11 +13,13 @@
 //! | `assembly.rs` | gradient and Hessian of all elements |
 //! | `descent.rs` | Newton steps with a line search |
 //! | `direction.rs` | the systems of the Hessian |
+//! | `own_size.rs` | the energy of elements that are measured at their own size |
 //! | `reweighted.rs` | a step of SLIM |
 
 mod assembly;
 mod descent;
 mod direction;
+mod own_size;
 mod reweighted;
 
 use glam::DVec2;
@@ -59,6 +61,8 @@ pub(super) struct Membrane {
     /// For each part of the unknowns the elements that it has to do with, ascending.
     of_parts: Vec<Vec<u32>>,
     analysis: Analysis,
+    /// How many of the first elements are measured at their own size; none: 0.
+    own_count: usize,
 }
 
 /// How a membrane is planned.
@@ -111,7 +115,8 @@ impl Membrane {
             Some(order) => Analysis::in_order(order, &pattern, cancel)?,
             None => Analysis::new(Kind::Hermitian, &pattern, cancel)?,
         };
-        Ok(Self { elements, springs, unknown_of, unknowns, slots, columns, diagonal, of_parts, analysis })
+        let own_count = 0;
+        Ok(Self { elements, springs, unknown_of, unknowns, slots, columns, diagonal, of_parts, analysis, own_count })
     }
 
     /// The order of elimination, for another that is similar.
@@ -130,12 +135,14 @@ impl Membrane {
 
     /// The energy; infinite where a triangle is folded that has a barrier.
     fn energy(&self, z: &[DVec2], energies: &Energies) -> f64 {
+        let own = energies.own_count();
+        let of_own = if own > 0 { self.own_sums(z).energy() } else { 0.0 };
         let of_chunk = |(chunk, elements): (usize, &[Element])| -> f64 {
-            let numbered = (chunk * CHUNK..).zip(elements);
+            let numbered = (own + chunk * CHUNK..).zip(elements);
             numbered.map(|(at, element)| element.energy(Self::corners(element, z), energies.of(at))).sum()
         };
-        let sums: Vec<f64> = self.elements.par_chunks(CHUNK).enumerate().map(of_chunk).collect();
-        sums.iter().sum::<f64>() + self.pull(z)
+        let sums: Vec<f64> = self.elements[own..].par_chunks(CHUNK).enumerate().map(of_chunk).collect();
+        of_own + sums.iter().sum::<f64>() + self.pull(z)
     }
 
     /// The part of the springs in the energy.

@@ -16,11 +16,21 @@ const VERTICES_A_PIN: usize = 20;
 const COARSE_ROUNDS: usize = 60;
 const LEVEL_ROUNDS: usize = 3;
 
+/// Smaller meshes go by themselves where constraints follow: of the places where boundaries come to touch, which those
+/// keep, what was relaxed as a whole has somewhat better ones, and there it takes little time.
+const FROM_VERTICES: usize = 4000;
+
 impl Relaxing {
+    /// The same as what constraints are met from: on a small mesh, all its vertices from the first round on.
+    pub(in crate::solver) fn before_constraints(self, mesh: &DiskMesh) -> Self {
+        let may_go_by_coarse = self.may_go_by_coarse && mesh.used_vertex_count() >= FROM_VERTICES;
+        Self { may_go_by_coarse, ..self }
+    }
+
     /// Takes in what relaxing fewer vertices leads to, where the energy is huge and falls by that.
     pub(super) fn go_by_way_of_coarse(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<(), SolveError> {
         let target = COARSE_VERTICES + VERTICES_A_PIN * self.pins.len();
-        if self.progress.energy < HUGE || mesh.used_vertex_count() < 2 * target {
+        if self.standing.faces.energy < HUGE || mesh.used_vertex_count() < 2 * target {
             return Ok(());
         }
         let lifted = match self.lifted_from_coarse(mesh, target, control) {
@@ -33,10 +43,9 @@ impl Relaxing {
         } else {
             self.sheet.is_one_to_one(mesh, &lifted)
         };
-        let progress = self.rest.progress(mesh, &lifted, 0.0);
-        if holds && progress.energy < self.progress.energy {
-            self.inner = self.with_ears.as_ref().map_or(progress, |all| all.progress(mesh, &lifted, 0.0));
-            (self.embedding, self.progress) = (lifted, progress);
+        let standing = self.standing_of(mesh, &lifted);
+        if holds && standing.faces.energy < self.standing.faces.energy {
+            (self.embedding, self.standing) = (lifted, standing);
         }
         Ok(())
     }

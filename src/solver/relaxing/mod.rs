@@ -4,6 +4,9 @@
 //! outside (J. Smith, S. Schaefer, "Bijective parameterization with free boundaries", 2015). While some face is nearly
 //! without area, the foldover energy goes first, which is less steep there.
 //!
+//! In the end it is the energy at equal total areas, which is what distortion is measured by: as the embedding grows or
+//! shrinks, so do the shapes at rest (see `membrane/own_size.rs`).
+//!
 //! Where the mesh has polygons, the triangles at their corners have energies too: a polygon that is convex stays so, and
 //! one that is not is unfolded like any folded triangle, by the same energy with ε > 0.
 //!
@@ -34,8 +37,10 @@ const OUTSIDE_WEIGHT: f64 = 0.002;
 const ROUND_STEPS: usize = 5;
 const STEEP_ROUND_STEPS: usize = 25;
 
-/// A round that gains a smaller share of the energy is the last.
+/// A round that gains a smaller share of the energy is the last; the first while the size is that of each round's beginning,
+/// the second at the embedding's own size.
 const TOLERANCE: f64 = 1e-3;
+const TOLERANCE_AT_OWN_SIZE: f64 = 1e-4;
 
 /// Below this determinant the symmetric Dirichlet energy is too steep to begin with.
 const STEEP: f64 = 1e-3;
@@ -44,6 +49,26 @@ const STEEP: f64 = 1e-3;
 const PATIENCE: usize = 5;
 const LOWER: f64 = 1e-9;
 
+/// The size of the shapes at rest, beside that of the embedding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Measure {
+    /// As large as the embedding is when a round begins. That way is short, but ends where the energy at equal areas is not
+    /// least.
+    AsItBegins,
+    /// Always as large as the embedding. It follows where the other gains no more, but not where springs pull, whose
+    /// stiffness is told by a size, or polygons have triangles at their corners, whose areas are not the faces'.
+    AtOwnSize,
+}
+
+impl Measure {
+    fn tolerance(self) -> f64 {
+        match self {
+            Self::AsItBegins => TOLERANCE,
+            Self::AtOwnSize => TOLERANCE_AT_OWN_SIZE,
+        }
+    }
+}
+
 #[derive(Debug)]
 pub(super) struct Relaxing {
     rest: Rest,
@@ -51,12 +76,12 @@ pub(super) struct Relaxing {
     with_ears: Option<Rest>,
     pins: Pins,
     embedding: Embedding,
-    /// How distorted the embedding is: over the faces, and over all that has an energy.
-    progress: Progress,
-    inner: Progress,
+    /// How distorted the embedding is.
+    standing: Standing,
     /// The order of elimination of the round before.
     order: Option<EliminationOrder>,
     stall: Stall,
+    measure: Measure,
     /// Whether the last round gained next to nothing.
     pub(super) has_converged: bool,
     /// How embeddings are written: what is proved.
@@ -70,17 +95,16 @@ impl Relaxing {
     pub(super) fn new(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Self {
         let rest = Rest::new(mesh);
         let with_ears = Rest::with_ears(mesh);
-        let progress = rest.progress(mesh, &embedding, 0.0);
-        let inner = with_ears.as_ref().map_or(progress, |all| all.progress(mesh, &embedding, 0.0));
+        let standing = Standing::of(&rest, with_ears.as_ref(), Placed { mesh, embedding: &embedding, pins });
         Self {
+            standing,
             rest,
             with_ears,
             pins: pins.clone(),
             embedding,
-            progress,
-            inner,
             order: None,
             stall: Stall::default(),
+            measure: Measure::AsItBegins,
             has_converged: false,
             sheet: Arc::default(),
             may_go_by_coarse: true,
@@ -107,7 +131,7 @@ impl Relaxing {
             Err(_) => self.has_converged = true,
         }
         let candidate = Candidate::one_to_one(Method::Relax, self.embedding.clone(), &self.pins);
-        Ok(Candidate { progress: Some(self.progress), outside: Some(Arc::new(outside)), ..candidate })
+        Ok(Candidate { progress: Some(self.standing.faces), outside: Some(Arc::new(outside)), ..candidate })
     }
 
     /// Goes down the energy of mesh and outside, to what is one-to-one there, and planar if it was.
@@ -116,40 +140,94 @@ impl Relaxing {
         let all = self.with_ears.as_ref().unwrap_or(&self.rest);
         let planning = Planning { order: self.order.as_ref(), control };
         let (membrane, mut z) = all.membrane(mesh, surrounded, &self.pins, planning)?;
-        let before = self.inner;
+        let is_drawn = self.is_drawn();
+        let membrane = match self.measure {
+            Measure::AsItBegins => membrane,
+            Measure::AtOwnSize => membrane.measured_at_own_size(mesh.real_faces().len()),
+        };
+        let Standing { inner: before, movable: movable_before, .. } = self.standing;
         let folded = if before.least_determinant > 0.0 { 0 } else { all.folded_count(mesh, &self.embedding) };
-        let is_steep = before.least_determinant < STEEP;
+        let is_steep = movable_before.least_determinant < STEEP;
         let unfolded = if is_steep { Energy::Foldover(0.0) } else { Energy::SymmetricDirichlet };
         let steps = if is_steep { STEEP_ROUND_STEPS } else { ROUND_STEPS };
         let unfolding = Unfolding::BesideBarriers;
-        let limits = Limits { unfolded, steps, unfolding, tolerance: 0.1 * TOLERANCE };
+        let limits = Limits { unfolded, steps, unfolding, tolerance: 0.1 * self.measure.tolerance() };
         let gain = membrane.descend(&mut z, limits, control)?.gain;
         let pull = membrane.pull(&z);
         let z = Embedding::of_mesh(mesh, &z);
         // The outside has a small part in the energy that goes down; the faces' own must not go up for it.
-        let is_drawn = is_steep || self.pins.values().any(|pin| !pin.hold.is_exact());
-        let inner = all.progress(mesh, &z, 0.0);
+        let is_drawn = is_steep || is_drawn;
+        let standing = self.standing_of(mesh, &z);
+        let inner = standing.inner;
         let is_better = is_drawn || inner.energy <= before.energy;
         // What the descent gains by size alone is lost again: an embedding is measured at its own size.
-        let gain = if is_drawn { gain } else { 1.0 - inner.energy / before.energy };
+        let gain = if is_drawn { gain } else { (before.energy - inner.energy) / movable_before.energy };
         let must_be_planar = folded == 0 && self.with_ears.is_some() && self.sheet.is_planar(mesh, &self.embedding);
         let is_taken = is_better
             && if must_be_planar { self.sheet.is_planar(mesh, &z) } else { self.sheet.is_one_to_one(mesh, &z) };
         let is_unfolding = is_taken && folded > 0 && all.folded_count(mesh, &z) < folded;
         if is_taken {
-            let progress = if self.with_ears.is_some() { self.rest.progress(mesh, &z, 0.0) } else { inner };
-            (self.embedding, self.progress, self.inner) = (z, progress, inner);
+            (self.embedding, self.standing) = (z, standing);
         }
         self.order = membrane.order();
-        let is_still_steep = self.inner.least_determinant < STEEP;
-        self.has_converged = !is_taken || (gain < TOLERANCE && is_still_steep == is_steep && !is_unfolding);
+        let is_still_steep = self.standing.movable.least_determinant < STEEP;
+        self.has_converged =
+            !is_taken || (gain < self.measure.tolerance() && is_still_steep == is_steep && !is_unfolding);
         if is_taken && !is_unfolding {
             let own = if is_steep { all.energy(mesh, &self.embedding, unfolded) } else { 0.5 * inner.energy };
             self.stall.look_at(is_steep, own + pull);
             self.has_converged |= self.stall.is_reached();
         }
+        if self.has_converged && self.measure == Measure::AsItBegins && self.has_own_size(mesh) {
+            (self.measure, self.stall, self.has_converged) = (Measure::AtOwnSize, Stall::default(), false);
+        }
         Ok(())
     }
+
+    fn standing_of(&self, mesh: &DiskMesh, embedding: &Embedding) -> Standing {
+        Standing::of(&self.rest, self.with_ears.as_ref(), Placed { mesh, embedding, pins: &self.pins })
+    }
+
+    /// Whether springs pull.
+    fn is_drawn(&self) -> bool {
+        self.pins.values().any(|pin| !pin.hold.is_exact())
+    }
+
+    /// Whether the energy can be measured at the embedding's own size, and that can change.
+    fn has_own_size(&self, mesh: &DiskMesh) -> bool {
+        let is_boundary_free = mesh.boundary_loop().iter().any(|vertex| !self.pins.contains_key(vertex));
+        is_boundary_free && !self.is_drawn() && self.with_ears.is_none()
+    }
+}
+
+/// How distorted an embedding is.
+#[derive(Clone, Copy, Debug)]
+struct Standing {
+    /// Over the faces.
+    faces: Progress,
+    /// Over all that has an energy.
+    inner: Progress,
+    /// Over what of that is not held at all its corners: the rest stays as it is.
+    movable: Progress,
+}
+
+impl Standing {
+    /// By the faces, and by these with the triangles at the corners of polygons where there are any.
+    fn of(faces: &Rest, with_ears: Option<&Rest>, Placed { mesh, embedding, pins }: Placed<'_>) -> Self {
+        let of_faces = faces.progress(mesh, embedding, 0.0);
+        let inner = with_ears.map_or(of_faces, |all| all.progress(mesh, embedding, 0.0));
+        let has_held_faces = pins.len() >= 3;
+        let of_movable = || with_ears.unwrap_or(faces).progress_of_movable(mesh, embedding, pins);
+        Self { faces: of_faces, inner, movable: if has_held_faces { of_movable() } else { inner } }
+    }
+}
+
+/// An embedding with its pins.
+#[derive(Clone, Copy)]
+struct Placed<'a> {
+    mesh: &'a DiskMesh,
+    embedding: &'a Embedding,
+    pins: &'a Pins,
 }
 
 /// Watches for rounds that lead nowhere, such as those that come to the steep and leave it again and again.
