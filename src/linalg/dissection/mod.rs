@@ -65,6 +65,7 @@ impl Dissection {
             return Ok(None);
         }
         let (patch, quotient) = Quotient::of_patches(graph);
+        go_on_unless(cancel)?;
         let part_of_patch = quotient.parts(levels);
         let mut labels: Vec<u32> = patch.iter().map(|&patch| part_of_patch[patch as usize]).collect();
         for level in 0..levels {

@@ -5,7 +5,7 @@
 //! an arc of capacity 1 from one to the other.
 
 use super::Cut;
-use crate::linalg::order::{NONE, Pattern, narrow};
+use crate::linalg::order::{NONE, Pattern, narrow, running_sum};
 
 /// Layers of vertices on either side of the cut among which the separator is sought: a patch is less than twice as wide.
 const LAYERS: usize = 5;
@@ -88,20 +88,20 @@ impl Band {
     }
 }
 
-/// An arc; its reverse stands beside it, at the place with the last bit changed.
-#[derive(Clone, Copy)]
+/// An arc, with the place of its reverse.
+#[derive(Clone, Copy, Default)]
 struct Arc {
     head: u32,
     capacity: u32,
-    /// The next arc with its tail.
-    next: u32,
+    reverse: u32,
 }
 
 /// The band's vertices as pairs of nodes, 2k where paths come in and 2k + 1 where they leave, with a source and a sink.
 struct Network {
+    /// Those of one tail after another: both ways are gone through again and again.
     arcs: Vec<Arc>,
-    /// The first arc of each node.
-    first: Vec<u32>,
+    /// Where the arcs of each node begin, and the end of the last.
+    begin: Vec<u32>,
     /// The arc of each node that comes next.
     at: Vec<u32>,
     /// Arcs from the source; none for nodes that no path reaches.
@@ -113,61 +113,57 @@ struct Network {
 impl Network {
     fn of(graph: &Pattern, band: &Band) -> Self {
         let nodes = 2 * band.vertices.len() + 2;
-        let mut this = Self {
-            arcs: Vec::new(),
-            first: vec![NONE; nodes],
-            at: Vec::new(),
-            level: vec![NONE; nodes],
-            source: nodes - 2,
-            sink: nodes - 1,
-        };
+        let (source, sink) = (nodes - 2, nodes - 1);
+        let mut edges: Vec<Edge> = Vec::new();
         for (k, &vertex) in band.vertices.iter().enumerate() {
             let rim = band.rim[k];
-            this.add(2 * k, 2 * k + 1, if rim.is_some() { ENDLESS } else { 1 });
+            edges.push(Edge::new(2 * k, 2 * k + 1, if rim.is_some() { ENDLESS } else { 1 }));
             match rim {
-                Some(0) => this.add(this.source, 2 * k, ENDLESS),
-                Some(_) => this.add(2 * k + 1, this.sink, ENDLESS),
+                Some(0) => edges.push(Edge::new(source, 2 * k, ENDLESS)),
+                Some(_) => edges.push(Edge::new(2 * k + 1, sink, ENDLESS)),
                 None => {}
             }
             for &other in graph.column(vertex as usize).iter().filter(|&&other| other != vertex) {
                 if let Some(other) = band.place[other as usize].checked_sub(1) {
-                    this.add(2 * k + 1, 2 * other as usize, ENDLESS);
+                    edges.push(Edge::new(2 * k + 1, 2 * other as usize, ENDLESS));
                 }
             }
         }
-        this
-    }
-
-    fn add(&mut self, tail: usize, head: usize, capacity: u32) {
-        for (tail, head, capacity) in [(tail, head, capacity), (head, tail, 0)] {
-            let next = std::mem::replace(&mut self.first[tail], narrow(self.arcs.len()));
-            self.arcs.push(Arc { head: narrow(head), capacity, next });
+        let mut counts = vec![0; nodes];
+        for end in edges.iter().flat_map(|edge| edge.ends) {
+            counts[end as usize] += 1;
         }
+        let begin = running_sum(&counts);
+        let mut next = begin.clone();
+        let mut arcs = vec![Arc::default(); 2 * edges.len()];
+        for Edge { ends: [tail, head], capacity } in edges {
+            let [forth, back] = [tail, head].map(|end| {
+                next[end as usize] += 1;
+                next[end as usize] - 1
+            });
+            arcs[forth as usize] = Arc { head, capacity, reverse: back };
+            arcs[back as usize] = Arc { head: tail, capacity: 0, reverse: forth };
+        }
+        Self { arcs, at: begin[..nodes].to_vec(), begin, level: vec![NONE; nodes], source, sink }
     }
 
-    /// Finds the level of every node. Whether the sink has one.
+    /// Finds the level of every node that a shortest way to the sink may go through; of all that are reached, where the sink
+    /// is not. Whether it is.
     fn level_up(&mut self) -> bool {
         self.level.fill(NONE);
         self.level[self.source] = 0;
         let mut queue = vec![self.source];
         let mut next = 0;
-        while let Some(&node) = queue.get(next) {
+        while let Some(&node) = queue.get(next).filter(|&&node| self.level[node] < self.level[self.sink]) {
             next += 1;
-            // No path that is as short as can be goes on behind the sink's level.
-            if self.level[node] >= self.level[self.sink] {
-                break;
-            }
-            let mut arc = self.first[node];
-            while arc != NONE {
-                let Arc { head, capacity, next } = self.arcs[arc as usize];
+            for &Arc { head, capacity, .. } in &self.arcs[self.begin[node] as usize..self.begin[node + 1] as usize] {
                 if capacity > 0 && self.level[head as usize] == NONE {
                     self.level[head as usize] = self.level[node] + 1;
                     queue.push(head as usize);
                 }
-                arc = next;
             }
         }
-        self.at.clone_from(&self.first);
+        self.at.copy_from_slice(&self.begin[..self.level.len()]);
         self.level[self.sink] != NONE
     }
 
@@ -178,8 +174,9 @@ impl Network {
         loop {
             if node == self.sink {
                 for &arc in &path {
+                    let Arc { reverse, .. } = self.arcs[arc as usize];
                     self.arcs[arc as usize].capacity -= 1;
-                    self.arcs[arc as usize ^ 1].capacity += 1;
+                    self.arcs[reverse as usize].capacity += 1;
                 }
                 path.clear();
                 node = self.source;
@@ -188,8 +185,9 @@ impl Network {
                 path.push(arc);
                 node = self.arcs[arc as usize].head as usize;
             } else if let Some(arc) = path.pop() {
-                node = self.arcs[arc as usize ^ 1].head as usize;
-                self.at[node] = self.arcs[arc as usize].next;
+                let Arc { reverse, .. } = self.arcs[arc as usize];
+                node = self.arcs[reverse as usize].head as usize;
+                self.at[node] += 1;
             } else {
                 return;
             }
@@ -198,13 +196,25 @@ impl Network {
 
     /// The next arc of a node that leads on.
     fn onward(&mut self, node: usize) -> Option<u32> {
-        while self.at[node] != NONE {
-            let Arc { head, capacity, next } = self.arcs[self.at[node] as usize];
+        while self.at[node] < self.begin[node + 1] {
+            let Arc { head, capacity, .. } = self.arcs[self.at[node] as usize];
             if capacity > 0 && self.level[head as usize] == self.level[node] + 1 {
                 return Some(self.at[node]);
             }
-            self.at[node] = next;
+            self.at[node] += 1;
         }
         None
+    }
+}
+
+/// An arc before the arcs are in their order, from the first end to the second.
+struct Edge {
+    ends: [u32; 2],
+    capacity: u32,
+}
+
+impl Edge {
+    fn new(tail: usize, head: usize, capacity: u32) -> Self {
+        Self { ends: [tail, head].map(narrow), capacity }
     }
 }

@@ -25,5 +25,5 @@ pub(super) use dense::{mat, mat_mut, scatter_add};
 pub(super) use substitution::{
     LARGE_PANEL, Part, Substitution, TOGETHER, dot, split_panel, substitute, subtract_product,
 };
-pub(super) use symbolic::{FrontAnalysis, Shape, Sides};
+pub(super) use symbolic::{FrontAnalysis, Shape, Sides, threads_for};
 pub(super) use tree::{Kernel, Tree, Update};

@@ -14,7 +14,7 @@ use super::units::{Unit, units};
 use crate::linalg::LinalgError;
 use crate::linalg::order::{Elimination, NONE, Order, Pattern, children, go_on_unless, in_pairs, narrow, running_sum};
 
-/// Fronts with less work than this, in multiplications, are not worth more than one thread.
+/// Less work than this, in multiplications, is not worth more than one thread.
 const PARALLEL_WORK: f64 = 2e6;
 
 /// An entry of the caller's matrix and its place in the kept part of a front.
@@ -48,13 +48,18 @@ impl Shape {
     }
     /// The threads that its dense operations are worth.
     pub(in crate::linalg) fn threads(self) -> Par {
-        if self.work() < PARALLEL_WORK { Par::Seq } else { Par::rayon(0) }
+        threads_for(self.work())
     }
     /// Multiplications of an LU, to leading order.
     pub(in crate::linalg) fn work(self) -> f64 {
         let (c, p) = (self.columns as f64, self.below as f64);
         c * (c * c / 3.0 + c * p + p * p)
     }
+}
+
+/// The threads that so many multiplications are worth.
+pub(in crate::linalg) fn threads_for(work: f64) -> Par {
+    if work < PARALLEL_WORK { Par::Seq } else { Par::rayon(0) }
 }
 
 /// Which panels of a front are kept.

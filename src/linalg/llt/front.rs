@@ -5,7 +5,7 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, Par};
 use nalgebra::ComplexField as _;
 
-use crate::linalg::fronts::{Shape, mat, mat_mut, scatter_add};
+use crate::linalg::fronts::{Shape, mat, mat_mut, scatter_add, threads_for};
 use crate::linalg::scalar::Number;
 
 /// Columns eliminated one by one before the rest of the block is updated by a matrix product.
@@ -72,7 +72,8 @@ fn factor_block<T: Number>(panel: &mut [T], height: usize, columns: usize) -> Re
             let (done, rest) = panel.split_at_mut(last * height);
             let lower = mat(done, height, last).submatrix(last, first, columns - last, last - first);
             let rest = mat_mut(&mut rest[..height * (columns - last)], height, columns - last);
-            subtract_product(rest.subrows_mut(last, columns - last), lower, Par::Seq);
+            let par = threads_for(lower.nrows().pow(2) as f64 * lower.ncols() as f64);
+            subtract_product(rest.subrows_mut(last, columns - last), lower, par);
         }
     }
     Ok(())

@@ -1,8 +1,8 @@
 //! Dense LU of one diagonal block, with partial pivoting inside it.
 
-use faer::{Accum, Par, linalg};
+use faer::{Accum, linalg};
 
-use crate::linalg::fronts::{mat, mat_mut};
+use crate::linalg::fronts::{mat, mat_mut, threads_for};
 use crate::linalg::order::narrow;
 use crate::linalg::scalar::Scalar;
 
@@ -97,7 +97,8 @@ fn update_rest<T: Scalar>(panel: &mut [T], height: usize, done: std::ops::Range<
     let rest = mat_mut(&mut rest[..height * (columns - done.end)], height, columns - done.end);
     let (_, rest) = rest.split_at_row_mut(done.start);
     let (mut top, rest) = rest.split_at_row_mut(done.len());
-    linalg::triangular_solve::solve_unit_lower_triangular_in_place(lower, top.as_mut(), Par::Seq);
+    let par = threads_for(below.nrows().pow(2) as f64 * below.ncols() as f64);
+    linalg::triangular_solve::solve_unit_lower_triangular_in_place(lower, top.as_mut(), par);
     let (rest, _) = rest.split_at_row_mut(columns - done.end);
-    linalg::matmul::matmul(rest, Accum::Add, below, top.as_ref(), -T::ONE, Par::Seq);
+    linalg::matmul::matmul(rest, Accum::Add, below, top.as_ref(), -T::ONE, par);
 }
