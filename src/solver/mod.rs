@@ -21,7 +21,7 @@
 //! | `slim` | an energy lowered from Tutte's map, as others ship it |
 //! | `live/` | a planar embedding under a dragged pin, proved at every frame |
 //! | `coarse/` | a surface with fewer vertices, and the way back from it, one-to-one throughout |
-//! | `continuation`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
+//! | `continuation`, `matchmaker/`, `room_at_boundary`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
 //! | `ladder/`, `flatten` | a plan of rungs over all of these, each step proved; all of them in one call |
 //! | `morph/` | a way between two planar embeddings, every frame proved one-to-one |
 //! | `verdict`, `atlas`, `distortion`, `vertex_equation` | what is said of an embedding |
@@ -71,6 +71,7 @@ pub mod plane_weights;
 mod prepared;
 mod relaxing;
 mod rest;
+mod room_at_boundary;
 mod rounding;
 mod schnyder;
 mod settings;

@@ -340,3 +340,25 @@ fn a_boundary_held_on_waves_is_met_from_a_circle() {
     let distances: Vec<f64> = distances.map(|progress| progress.distance_left).collect();
     assert!(distances[0] > 0.0 && distances.last() == Some(&0.0), "{distances:?}");
 }
+
+#[test]
+fn a_boundary_held_on_a_flower_is_met_with_new_vertices_where_faces_between_its_vertices_would_turn_over() {
+    let (mesh, _) = cut_ball();
+    let boundary = mesh.boundary_loop();
+    let turn = |k: usize| std::f64::consts::TAU * k as f64 / boundary.len() as f64;
+    let target = |k: usize| (1.0 + 0.4 * (5.0 * turn(k)).cos()) * DVec2::from_angle(turn(k));
+    let pins = hard_pins((0..boundary.len()).map(|k| (boundary[k], target(k))));
+    let is_turned = |face| {
+        let corners: Vec<DVec2> = mesh.face(face).iter().filter_map(|v| Some(pins.get(v)?.target)).collect();
+        matches!(corners[..], [a, b, c] if (b - a).perp_dot(c - a) <= 0.0)
+    };
+    assert!(mesh.faces().any(is_turned), "no map without new vertices meets that");
+    let (steps, ending) = all_steps(&mesh, Ladder::new(Settings::default(), pins));
+    let last = steps.last().unwrap();
+    assert_eq!(ending, Ending::Planar);
+    assert!(last.verdict.planar && last.unmet().is_empty(), "{}", last.verdict.summary());
+    assert!(is_noted(&steps, "new vertices on edges between boundary vertices"));
+    let joins_boundary = |&&edge: &&[VertexId; 2]| edge.iter().all(|&vertex| mesh.boundary_place(vertex).is_some());
+    let edges = last.refinement.as_ref().expect("new vertices").split_edges();
+    assert!(!edges.is_empty() && edges.iter().filter(joins_boundary).count() == edges.len(), "{edges:?}");
+}

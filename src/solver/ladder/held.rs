@@ -2,8 +2,10 @@
 //!
 //! Where the targets' polygon is convex, the mean-value equations with the boundary fixed have the answer by theorem (Floater
 //! 1997), and often where it is not. Otherwise the boundary is laid on a circle first, its vertices as far apart as
-//! their targets, and goes from there.
+//! their targets, and goes from there. Where faces between boundary vertices would turn over, it goes with new vertices on
+//! their edges.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use glam::DVec2;
@@ -12,9 +14,11 @@ use super::rung::{Failure, Footing, Latest, Rung, tried};
 use super::task::Task;
 use super::{Candidate, Step};
 use crate::geom::{Similarity, is_simple, turning_number};
-use crate::mesh::DiskMesh;
+use crate::mesh::{DiskMesh, Refinement};
 use crate::solver::continuation::Continuation;
 use crate::solver::convex::on_shape;
+use crate::solver::matchmaker::{Matched, without_needless_vertices};
+use crate::solver::room_at_boundary::with_room_at_boundary;
 use crate::solver::{
     BoundaryShape, Control, Embedding, Family, Method, Pins, Settings, SolveError, Spacing, Treatment, fixed_pins,
     solve_once,
@@ -22,6 +26,9 @@ use crate::solver::{
 
 /// Rounds of relaxing that follow where that meets the targets: the first answer is not the best.
 const ROUNDS: usize = 3;
+
+/// The most steps of continuation with new vertices.
+const MOST_STEPS: usize = 60;
 
 #[derive(Debug, Default)]
 pub(super) struct Held {
@@ -53,18 +60,60 @@ fn begun(Footing { task, mesh, .. }: Footing<'_>, control: Control<'_>) -> Resul
     if !is_simple(&targets) || turning_number(&targets) != Some(1) {
         return Ok(None);
     }
-    let is_one_to_one = |embedding: &Embedding| task.sheet.is_one_to_one(mesh, embedding);
-    let at_once = with_boundary_at(mesh, &targets, control)?.filter(is_one_to_one);
-    let (embedding, note) = if let Some(embedding) = at_once {
-        (embedding, "mean-value equations with the whole boundary on its targets")
-    } else {
-        let Some(circle) = on_circle(mesh, &targets)? else { return Ok(None) };
-        let Some(round) = with_boundary_at(mesh, &circle, control)?.filter(is_one_to_one) else { return Ok(None) };
-        (round, "the whole boundary begins on a circle")
-    };
+    // Rung 5 makes what is written on other sheets.
+    if task.adds_vertices()
+        && task.sheet.is_plain()
+        && let Some(refinement) = with_room_at_boundary(mesh, &targets)
+    {
+        return with_new_vertices(task, mesh, refinement, control);
+    }
+    let Some((embedding, note)) = begun_on(task, mesh, &targets, control)? else { return Ok(None) };
     let progress = Continuation::new(mesh, embedding.clone(), &held).progress(mesh);
     let candidate = Candidate::one_to_one(Method::Continuation, embedding, &held);
     Ok(Some(Candidate { progress: Some(progress), note: Some(note.to_owned()), ..candidate }))
+}
+
+/// An embedding that meets the targets on a mesh with room at its boundary, without the new vertices that it does not need;
+/// `None` where it gets stuck.
+fn with_new_vertices(
+    task: &Task,
+    mesh: &DiskMesh,
+    refinement: Refinement,
+    control: Control<'_>,
+) -> Result<Option<Candidate>, SolveError> {
+    let (disk, held) = (refinement.disk(), task.held());
+    let Some(targets) = targets_of_boundary(disk, &held) else { return Ok(None) };
+    let Some((start, _)) = begun_on(task, disk, &targets, control)? else { return Ok(None) };
+    let mut continuation = Continuation::new(disk, start, &held).written_on(Arc::clone(&task.sheet));
+    for _ in 0..MOST_STEPS {
+        continuation.step(disk, control)?;
+        if continuation.is_at_its_end() {
+            let embedding = continuation.embedding;
+            let Matched { refinement, embedding } = without_needless_vertices(mesh, Matched { refinement, embedding });
+            let candidate = Candidate::one_to_one(Method::Matchmaker, embedding, &held);
+            let note = Some("new vertices on edges between boundary vertices".to_owned());
+            return Ok(Some(Candidate { refinement: Some(Arc::new(refinement)), note, ..candidate }));
+        }
+    }
+    Ok(None)
+}
+
+/// A one-to-one embedding with the whole boundary on its targets or else on a circle, and which of both it is.
+fn begun_on(
+    task: &Task,
+    mesh: &DiskMesh,
+    targets: &[DVec2],
+    control: Control<'_>,
+) -> Result<Option<(Embedding, &'static str)>, SolveError> {
+    let is_one_to_one = |embedding: &Embedding| task.sheet.is_one_to_one(mesh, embedding);
+    let at_once = with_boundary_at(mesh, targets, control)?.filter(is_one_to_one);
+    Ok(if let Some(embedding) = at_once {
+        Some((embedding, "mean-value equations with the whole boundary on its targets"))
+    } else {
+        let Some(circle) = on_circle(mesh, targets)? else { return Ok(None) };
+        let round = with_boundary_at(mesh, &circle, control)?.filter(is_one_to_one);
+        round.map(|round| (round, "the whole boundary begins on a circle"))
+    })
 }
 
 /// Places on the circle that fits the targets best, as far apart as these in proportion.
