@@ -144,11 +144,17 @@ impl FreeSystem {
     {
         let coefficients = &equations.coefficients;
         let mut diagonal = vec![T::ZERO; self.free.len()];
-        diagonal.par_iter_mut().zip(&self.free).with_min_len(COLUMNS_PER_TASK).for_each(|(sum, &v)| {
-            for h in mesh.links_from(v) {
+        // In ascending order, so that it does not matter to a sum where the fan of a vertex begins.
+        let ascending = |links: &mut Vec<HalfedgeId>, (sum, &v): (&mut T, &VertexId)| {
+            links.clear();
+            links.extend(mesh.links_from(v));
+            links.sort_unstable_by_key(|h| h.index());
+            for h in links {
                 *sum += coefficients[h.index()];
             }
-        });
+        };
+        let rows = diagonal.par_iter_mut().zip(&self.free).with_min_len(COLUMNS_PER_TASK);
+        rows.for_each_init(Vec::new, ascending);
         let of_link = |&link: &u32| if link == NONE { T::ZERO } else { T::ZERO - coefficients[link as usize] };
         let mut values: Vec<T> = self.links.par_iter().with_min_len(COLUMNS_PER_TASK).map(of_link).collect();
         for (&slot, sum) in self.slot_of_diagonal.iter().zip(diagonal) {
