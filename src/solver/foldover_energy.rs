@@ -196,7 +196,9 @@ impl Element {
             for (by, source) in scaled.iter().zip(&rows) {
                 row.iter_mut().zip(source).for_each(|(entry, source)| *entry += by * source);
             }
-            row.iter_mut().for_each(|entry| *entry *= self.weight);
+            for entry in row {
+                *entry *= self.weight;
+            }
         }
         // d|α|² = 2 Re(ᾱ dα).
         let (by_alpha, by_beta) = (self.weight * by.p * alpha, self.weight * by.q * beta);

@@ -46,6 +46,7 @@ pub(super) fn with_room_at_boundary(mesh: &DiskMesh, targets: &[DVec2]) -> Optio
 }
 
 /// A triangle in parts, with new vertices on some of its sides, which begin at its corners in turn.
+#[expect(clippy::many_single_char_names, reason = "corners, and what lies between them")]
 fn cut([a, b, c]: [VertexId; 3], on: [Option<VertexId>; 3]) -> Vec<[VertexId; 3]> {
     match on {
         [None, None, None] => vec![[a, b, c]],

@@ -92,7 +92,9 @@ fn a_mode_that_rounding_to_32_bits_loses_is_found_all_the_same() {
     let matrix = positive_laplacian(30, 1e-9);
     let mut rhs = drawn(matrix.nrows(), &mut Random(6));
     // A part of it along that mode, as large in the answer as all the rest.
-    rhs.iter_mut().for_each(|b| *b += 1e-4);
+    for b in &mut rhs {
+        *b += 1e-4;
+    }
     let x = rough(&matrix, &rhs, Precision::Single).expect("definite");
     let error = error(&matrix, &rhs, &x);
     assert!(error < ROUGH, "{error:e}");
