@@ -192,7 +192,7 @@ fn solve(
     let mut records: Vec<StepReport> = Vec::new();
     let mut last: Option<Step> = None;
     loop {
-        let mut step = match run.step(mesh, control) {
+        let step = match run.step(mesh, control) {
             Ok(step) => step,
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
             // Where a rung fails, the steps before it are written.
@@ -204,8 +204,6 @@ fn solve(
                 return Ok(Solved { outcome: placed(before), records, ending: Err(error) });
             }
         };
-        // Nothing is solved again for other targets.
-        step.candidate.prepared = None;
         progress.reach(step_words(&step));
         records.push(StepReport::of(&step));
         if let Some(folder) = folder.as_deref_mut() {
