@@ -34,7 +34,7 @@ impl Rung for Cut {
     }
 
     fn has_more(&self, task: &Task, latest: Option<&Latest>) -> bool {
-        task.adds_vertices()
+        task.cuts_polygons()
             && latest.is_some_and(|latest| latest.is_solved_but_for_polygons && !latest.concave_polygons.is_empty())
     }
 }

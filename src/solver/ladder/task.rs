@@ -94,6 +94,11 @@ impl Task {
         self.settings.method == Method::Auto && self.settings.new_vertices
     }
 
+    /// Whether polygons that cannot be convex are cut into triangles: rung 5 by itself is asked for new vertices, too.
+    pub(super) fn cuts_polygons(&self) -> bool {
+        self.adds_vertices() || self.settings.method == Method::Matchmaker
+    }
+
     /// Checks what the first rung does not.
     pub(super) fn check(&self, mesh: &DiskMesh) -> Result<(), SolveError> {
         match self.settings.method {
