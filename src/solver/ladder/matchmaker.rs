@@ -91,7 +91,8 @@ impl Rung for Match {
 fn relaxed(found: &Matched, task: &Task, control: Control<'_>) -> Result<Matched, SolveError> {
     let disk: &DiskMesh = found.refinement.disk();
     let sheet = Arc::clone(&task.sheet);
-    let mut relaxing = Relaxing::new(disk, found.embedding.clone(), &task.held()).written_on(sheet);
+    let mut relaxing =
+        Relaxing::new(disk, found.embedding.clone(), &task.held()).written_on(sheet).after_straight_paths();
     let mut embedding = found.embedding.clone();
     for _ in 0..ROUNDS_BEFORE_REMOVAL {
         embedding = relaxing.round(disk, control)?.solution.embedding;

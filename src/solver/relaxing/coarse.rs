@@ -5,8 +5,9 @@ use super::super::{Control, Embedding, Pins, SolveError};
 use super::Relaxing;
 use crate::mesh::{DiskMesh, VertexId};
 
-/// An energy up to this is lowered directly.
-const HUGE: f64 = 1000.0;
+/// An energy up to this is lowered directly; and where paths were made straight, which leaves whole regions out of shape.
+pub(super) const HUGE: f64 = 1000.0;
+const OF_STRAIGHT_PATHS: f64 = 30.0;
 
 /// About how many vertices the coarsest disk has, and so many more for each pin.
 const COARSE_VERTICES: usize = 400;
@@ -20,17 +21,25 @@ const LEVEL_ROUNDS: usize = 3;
 /// keep, what was relaxed as a whole has somewhat better ones, and there it takes little time.
 const FROM_VERTICES: usize = 4000;
 
+/// A coarsest disk with more than this part of the vertices is no way: its rounds are hardly shorter than the mesh's.
+const COARSE_PART: f64 = 0.6;
+
 impl Relaxing {
     /// The same as what constraints are met from: on a small mesh, all its vertices from the first round on.
     pub(in crate::solver) fn before_constraints(self, mesh: &DiskMesh) -> Self {
-        let may_go_by_coarse = self.may_go_by_coarse && mesh.used_vertex_count() >= FROM_VERTICES;
-        Self { may_go_by_coarse, ..self }
+        let coarse_from = if mesh.used_vertex_count() >= FROM_VERTICES { self.coarse_from } else { f64::INFINITY };
+        Self { coarse_from, ..self }
+    }
+
+    /// The same from where paths were made straight.
+    pub(in crate::solver) fn after_straight_paths(self) -> Self {
+        Self { coarse_from: OF_STRAIGHT_PATHS, ..self }
     }
 
     /// Takes in what relaxing fewer vertices leads to, where the energy is huge and falls by that.
     pub(super) fn go_by_way_of_coarse(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<(), SolveError> {
         let target = COARSE_VERTICES + VERTICES_A_PIN * self.pins.len();
-        if self.standing.faces.energy < HUGE || mesh.used_vertex_count() < 2 * target {
+        if self.standing.faces.energy < self.coarse_from || mesh.used_vertex_count() < 2 * target {
             return Ok(());
         }
         let lifted = match self.lifted_from_coarse(mesh, target, control) {
@@ -59,6 +68,9 @@ impl Relaxing {
         let keeps = |vertex: VertexId| self.pins.contains_key(&vertex);
         let Some(hierarchy) = Hierarchy::new(mesh, &self.embedding, keeps, target, control)? else { return Ok(None) };
         let coarsest = hierarchy.coarsest();
+        if coarsest.vertices.len() as f64 > COARSE_PART * mesh.used_vertex_count() as f64 {
+            return Ok(None);
+        }
         let coarse = Relaxed { pins: &self.pins, rounds: COARSE_ROUNDS, control }
             .of(coarsest, coarsest.part_of(&self.embedding))?;
         let on_the_way = Relaxed { pins: &self.pins, rounds: LEVEL_ROUNDS, control };
@@ -80,7 +92,7 @@ impl Relaxed<'_> {
     /// An embedding of the disk after the rounds.
     pub(in crate::solver) fn of(self, level: &Level, embedding: Embedding) -> Result<Embedding, SolveError> {
         let mut relaxing = Relaxing::new(&level.disk, embedding, &level.pins_of(self.pins));
-        relaxing.may_go_by_coarse = false;
+        relaxing.coarse_from = f64::INFINITY;
         for _ in 0..self.rounds {
             if relaxing.has_converged {
                 break;

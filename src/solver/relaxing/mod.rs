@@ -86,8 +86,8 @@ pub(super) struct Relaxing {
     pub(super) has_converged: bool,
     /// How embeddings are written: what is proved.
     sheet: Arc<Sheet>,
-    /// Whether the next round may begin by way of a disk with fewer vertices.
-    may_go_by_coarse: bool,
+    /// The energy from which on the next round begins by way of a disk with fewer vertices.
+    coarse_from: f64,
 }
 
 impl Relaxing {
@@ -107,7 +107,7 @@ impl Relaxing {
             measure: Measure::AsItBegins,
             has_converged: false,
             sheet: Arc::default(),
-            may_go_by_coarse: true,
+            coarse_from: coarse::HUGE,
         }
     }
 
@@ -118,10 +118,8 @@ impl Relaxing {
 
     /// One round. The embedding stays as it is where rounding keeps a better one from being planar.
     pub(super) fn round(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
-        if self.may_go_by_coarse {
-            self.go_by_way_of_coarse(mesh, control)?;
-            self.may_go_by_coarse = false;
-        }
+        self.go_by_way_of_coarse(mesh, control)?;
+        self.coarse_from = f64::INFINITY;
         let outside =
             outside_of(mesh, &self.embedding, std::iter::empty(), FRAME_POINTS).ok_or(SolveError::NotPlanar)?;
         match self.descend(mesh, &outside, control) {
