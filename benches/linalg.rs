@@ -12,7 +12,7 @@ use std::sync::atomic::AtomicBool;
 
 use freebound::linalg::{Analysis, Factor, FactorStats, Kind, Solved};
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{FreeSystem, equations, gauge_pins};
+use freebound::solver::{Control, FreeSystem, equations, gauge_pins};
 use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
 
@@ -57,7 +57,7 @@ impl Job {
     fn new(name: &'static str, kind: Kind, mesh: &DiskMesh, power: f64) -> Self {
         let pins = gauge_pins(mesh);
         let system = FreeSystem::new(mesh, |v: VertexId| pins.contains_key(&v));
-        let natural = equations::natural(mesh, power).expect("weights are finite");
+        let natural = equations::natural(mesh, power, Control::unattended()).expect("weights are finite");
         let rhs = system.pinned_terms(mesh, &natural, |v| C::new(pins[&v].x, pins[&v].y));
         let matrix = system.negated_matrix(mesh, &natural);
         let [analyze, factor, solve, adjoint] = <[Times; 4]>::default();
@@ -72,9 +72,9 @@ impl Job {
         let before = processor_seconds();
         let factor: Factor<C> = self.factor.run(|| analysis.factor(&self.matrix, &GO_ON).expect("regular"));
         self.processor = self.processor.min(processor_seconds() - before);
-        let solved = self.solve.run(|| factor.solve(&self.matrix, &self.rhs).expect("a good answer"));
+        let solved = self.solve.run(|| factor.solve(&self.matrix, &self.rhs, &GO_ON).expect("a good answer"));
         let many: Vec<C> = self.rhs.iter().copied().cycle().take(8 * self.rhs.len()).collect();
-        self.adjoint.run(|| factor.solve_adjoint(&self.matrix, &many).expect("good answers"));
+        self.adjoint.run(|| factor.solve_adjoint(&self.matrix, &many, &GO_ON).expect("good answers"));
         let earlier = self.last.replace((solved, factor.stats()));
         let (solved, _) = self.last.as_ref().expect("just put there");
         assert!(earlier.is_none_or(|(earlier, _)| earlier.x == solved.x), "two factorizations of one matrix differ");

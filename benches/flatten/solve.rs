@@ -42,8 +42,8 @@ impl Systems {
     fn new(mesh: &DiskMesh) -> Self {
         let pins = gauge_pins(mesh);
         let system = FreeSystem::new(mesh, |v: VertexId| pins.contains_key(&v));
-        let weights = equations::barycentric(mesh, 1.0).expect("weights are finite");
-        let natural = equations::natural(mesh, 1.0).expect("weights are finite");
+        let weights = equations::barycentric(mesh, 1.0, Control::unattended()).expect("weights are finite");
+        let natural = equations::natural(mesh, 1.0, Control::unattended()).expect("weights are finite");
         let rhs: Vec<C> = system.pinned_terms(mesh, &natural, |v| C::new(pins[&v].x, pins[&v].y));
         let complex = system.negated_matrix(mesh, &natural);
         Self {
@@ -80,7 +80,7 @@ fn run<T: freebound::linalg::Scalar>(matrix: &CscMatrix<T>, rhs: Option<&[T]>) -
         Analysis::new(Kind::Hermitian, matrix.pattern(), &AtomicBool::new(false)).expect("a symmetric pattern");
     let factor = analysis.factor(matrix, &GO_ON).expect("positive definite");
     if let Some(rhs) = rhs {
-        std::hint::black_box(factor.solve(matrix, rhs).expect("a good answer"));
+        std::hint::black_box(factor.solve(matrix, rhs, &GO_ON).expect("a good answer"));
     }
     factor.stats()
 }

@@ -70,7 +70,15 @@ pub struct Factor<T> {
 }
 
 /// How a factor answers: [`Factor::solve`], [`Factor::solve_correction`].
-pub type Answer<T> = fn(&Factor<T>, &CscMatrix<T>, &[T]) -> Result<Solved<T>, LinalgError>;
+pub type Answer<T> = fn(&Factor<T>, &CscMatrix<T>, &[T], &AtomicBool) -> Result<Solved<T>, LinalgError>;
+
+/// What a factor is asked.
+struct Ask<'a, T> {
+    matrix: &'a CscMatrix<T>,
+    rhs: &'a [T],
+    operation: Operation,
+    accept: Accept,
+}
 
 #[derive(Debug)]
 enum Numeric<T> {
@@ -100,6 +108,7 @@ impl Analysis {
     /// [`LinalgError::TooLarge`] and [`LinalgError::Cancelled`].
     pub fn new(kind: Kind, pattern: &SparsityPattern, cancel: &AtomicBool) -> Result<Self, LinalgError> {
         let pattern = Pattern::checked(pattern)?;
+        go_on_unless(cancel)?;
         let elimination = match kind {
             Kind::Augmented { .. } => order(&pattern, cancel)?,
             Kind::Hermitian | Kind::General => dissected(&pattern, cancel)?,
@@ -127,7 +136,7 @@ impl Analysis {
         let EliminationOrder { order, work } = order;
         if order.new_to_old.len() == pattern.major_dim() {
             let pattern = Pattern::checked(pattern)?;
-            let elimination = in_order(&pattern, order);
+            let elimination = in_order(&pattern, order, cancel)?;
             let analysis = FrontAnalysis::new(&pattern, &elimination, Sides::Lower, cancel)?;
             if analysis.work() <= TOO_MUCH_WORK * work {
                 let symbolic = Symbolic::Llt(analysis);
@@ -145,8 +154,8 @@ impl Analysis {
         }
     }
 
-    /// Factors a matrix of the analysed pattern. LU and Cholesky look at `cancel` at every supernode, the augmented
-    /// factorization only before and after.
+    /// Factors a matrix of the analysed pattern. LU and Cholesky look at `cancel` at every supernode, and at every few
+    /// columns of it, the augmented factorization only before and after.
     ///
     /// # Errors
     ///
@@ -157,6 +166,7 @@ impl Analysis {
         if !pattern.is_that_of(matrix) {
             return Err(LinalgError::OtherPattern);
         }
+        go_on_unless(cancel)?;
         check_finite(matrix)?;
         go_on_unless(cancel)?;
         let numeric = match symbolic {
@@ -166,22 +176,23 @@ impl Analysis {
         };
         go_on_unless(cancel)?;
         let factor = Factor { shared: Arc::clone(&self.shared), numeric };
-        factor.check_regular(matrix)?;
+        factor.check_regular(matrix, cancel)?;
         Ok(factor)
     }
 }
 
 impl<T: Scalar> Factor<T> {
     /// Solves A X = B with iterative refinement against `matrix`, which must be the matrix that was factored. Several
-    /// right-hand sides are stored one after another; so is the answer. The residual is that of the worst column.
+    /// right-hand sides are stored one after another; so is the answer. The residual is that of the worst column. Looks at
+    /// `cancel` all the way.
     ///
     /// # Errors
     ///
     /// [`LinalgError::ResidualTooLarge`] when neither refinement nor GMRES makes the residual good;
     /// [`LinalgError::NotFinite`] for a broken right-hand side; [`LinalgError::WrongLength`],
-    /// [`LinalgError::OtherPattern`].
-    pub fn solve(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.run(matrix, Operation::Plain, Accept::Residual, rhs)
+    /// [`LinalgError::OtherPattern`], [`LinalgError::Cancelled`].
+    pub fn solve(&self, matrix: &CscMatrix<T>, rhs: &[T], cancel: &AtomicBool) -> Result<Solved<T>, LinalgError> {
+        self.run(Ask { matrix, rhs, operation: Operation::Plain, accept: Accept::Residual }, cancel)
     }
 
     /// Solves Aᴴ X = B, otherwise as [`Factor::solve`]. The adjoint systems of this project have single rows on their
@@ -191,8 +202,13 @@ impl<T: Scalar> Factor<T> {
     /// # Errors
     ///
     /// Those of [`Factor::solve`].
-    pub fn solve_adjoint(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.run(matrix, Operation::Adjoint, Accept::BackwardError, rhs)
+    pub fn solve_adjoint(
+        &self,
+        matrix: &CscMatrix<T>,
+        rhs: &[T],
+        cancel: &AtomicBool,
+    ) -> Result<Solved<T>, LinalgError> {
+        self.run(Ask { matrix, rhs, operation: Operation::Adjoint, accept: Accept::BackwardError }, cancel)
     }
 
     /// Size of the factors and number of replaced pivots.
@@ -209,41 +225,49 @@ impl<T: Scalar> Factor<T> {
     /// # Errors
     ///
     /// Those of [`Factor::solve`].
-    pub fn solve_correction(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.run(matrix, Operation::Plain, Accept::BackwardError, rhs)
+    pub fn solve_correction(
+        &self,
+        matrix: &CscMatrix<T>,
+        rhs: &[T],
+        cancel: &AtomicBool,
+    ) -> Result<Solved<T>, LinalgError> {
+        self.run(Ask { matrix, rhs, operation: Operation::Plain, accept: Accept::BackwardError }, cancel)
     }
 
     /// Solves A x = b by substitution alone, without refinement: good enough for directions of descent.
     ///
+    /// # Errors
+    ///
+    /// [`LinalgError::Cancelled`].
+    ///
     /// # Panics
     ///
     /// If the right-hand side has another length than the system.
-    pub fn substitute(&self, rhs: &[T]) -> Vec<T> {
+    pub fn substitute(&self, rhs: &[T], cancel: &AtomicBool) -> Result<Vec<T>, LinalgError> {
         assert_eq!(rhs.len(), self.shared.pattern.order(), "one number per row");
         let mut x = rhs.to_vec();
-        self.solve_in_place(Operation::Plain, &mut x);
-        x
+        self.solve_in_place(Operation::Plain, &mut x, cancel)?;
+        Ok(x)
     }
 
     /// Solves Aᴴ X = B in place by substitution alone, without refinement: good enough to know sizes. Columns are stored one
     /// after another.
     ///
+    /// # Errors
+    ///
+    /// [`LinalgError::Cancelled`]: the columns are then of no use.
+    ///
     /// # Panics
     ///
     /// If the columns do not have the length of the system.
-    pub fn substitute_adjoint(&self, columns: &mut [T]) {
+    pub fn substitute_adjoint(&self, columns: &mut [T], cancel: &AtomicBool) -> Result<(), LinalgError> {
         let order = self.shared.pattern.order();
         assert_eq!(columns.len().checked_rem(order).unwrap_or(columns.len()), 0, "one number per row of each column");
-        self.solve_in_place(Operation::Adjoint, columns);
+        self.solve_in_place(Operation::Adjoint, columns, cancel)
     }
 
-    fn run(
-        &self,
-        matrix: &CscMatrix<T>,
-        operation: Operation,
-        accept: Accept,
-        rhs: &[T],
-    ) -> Result<Solved<T>, LinalgError> {
+    fn run(&self, ask: Ask<'_, T>, cancel: &AtomicBool) -> Result<Solved<T>, LinalgError> {
+        let Ask { matrix, rhs, operation, accept } = ask;
         let order = self.shared.pattern.order();
         if matrix.nrows() != order || matrix.nnz() != self.shared.pattern.rows.len() {
             return Err(LinalgError::OtherPattern);
@@ -254,7 +278,7 @@ impl<T: Scalar> Factor<T> {
         if let Some(place) = rhs.iter().position(|value| !value.is_finite()) {
             return Err(LinalgError::NotFinite { row: place % order });
         }
-        let solve = |columns: &mut [T]| self.solve_in_place(operation, columns);
+        let solve = |columns: &mut [T]| self.solve_in_place(operation, columns, cancel);
         let row_scale = match (&self.numeric, operation) {
             (Numeric::Lu(lu), Operation::Plain) => Some(lu.row_scale.as_slice()),
             _ => None,
@@ -262,24 +286,28 @@ impl<T: Scalar> Factor<T> {
         let is_faithful = self.stats().replaced_pivots == 0;
         // The rows of A = Aᴴ are its columns, which threads can share.
         let operation = if matches!(self.numeric, Numeric::Llt(_)) { Operation::Adjoint } else { operation };
-        refined(&System { matrix, operation, row_scale, is_faithful, accept, solve: &solve }, rhs)
+        refined(&System { matrix, operation, row_scale, is_faithful, accept, solve: &solve, cancel }, rhs)
     }
 
-    fn solve_in_place(&self, operation: Operation, columns: &mut [T]) {
+    fn solve_in_place(&self, operation: Operation, columns: &mut [T], cancel: &AtomicBool) -> Result<(), LinalgError> {
         match (&self.shared.symbolic, &self.numeric) {
             (Symbolic::Llt(analysis), Numeric::Llt(llt)) => {
                 // A = Aᴴ: both operations are one.
-                llt.solve_in_place(analysis, columns);
+                llt.solve_in_place(analysis, columns, cancel)
             }
-            (Symbolic::Ldlt(analysis), Numeric::Ldlt(ldlt)) => analysis.solve_in_place(ldlt, columns),
-            (Symbolic::Lu(analysis), Numeric::Lu(lu)) => lu.solve_in_place(analysis, operation, columns),
+            (Symbolic::Ldlt(analysis), Numeric::Ldlt(ldlt)) => {
+                go_on_unless(cancel)?;
+                analysis.solve_in_place(ldlt, columns);
+                Ok(())
+            }
+            (Symbolic::Lu(analysis), Numeric::Lu(lu)) => lu.solve_in_place(analysis, operation, columns, cancel),
             _ => unreachable!("a factor is made by its own analysis"),
         }
     }
 
     /// Where pivots were replaced, tells a singular matrix from one that only wanted another order of elimination: a
     /// right-hand side with a part in every direction has a solution only if the matrix is regular.
-    fn check_regular(&self, matrix: &CscMatrix<T>) -> Result<(), LinalgError> {
+    fn check_regular(&self, matrix: &CscMatrix<T>, cancel: &AtomicBool) -> Result<(), LinalgError> {
         let (row, scales) = match &self.numeric {
             Numeric::Llt(_) => return Ok(()),
             Numeric::Ldlt(ldlt) => (ldlt.replaced_row, None),
@@ -288,7 +316,7 @@ impl<T: Scalar> Factor<T> {
         let Some(row) = row else { return Ok(()) };
         let probe = |index: usize| T::from_real((0.5 + spread(index)) / scales.map_or(1.0, |scales| scales[index]));
         let rhs: Vec<T> = (0..self.shared.pattern.order()).map(probe).collect();
-        match self.run(matrix, Operation::Plain, Accept::Residual, &rhs) {
+        match self.solve(matrix, &rhs, cancel) {
             Err(LinalgError::ResidualTooLarge { .. }) => Err(LinalgError::Singular { row }),
             other => other.map(|_| ()),
         }

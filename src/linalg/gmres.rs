@@ -9,6 +9,7 @@
 //!
 //! k replaced pivots change A by a matrix of rank k, so about k + 1 steps suffice.
 
+use super::LinalgError;
 use super::refine::System;
 use super::scalar::Scalar;
 use super::sparse::{norm, residual};
@@ -21,7 +22,11 @@ const MOST_RESTARTS: usize = 4;
 const REDUCTION: f64 = 1e-13;
 
 /// Improves `x` in place; returns the number of steps.
-pub(super) fn gmres<T: Scalar>(system: &System<'_, T>, x: &mut [T], b: &[T]) -> usize {
+///
+/// # Errors
+///
+/// [`LinalgError::Cancelled`].
+pub(super) fn gmres<T: Scalar>(system: &System<'_, T>, x: &mut [T], b: &[T]) -> Result<usize, LinalgError> {
     if x.iter().any(|x| !x.is_finite()) {
         x.fill(T::ZERO);
     }
@@ -32,22 +37,22 @@ pub(super) fn gmres<T: Scalar>(system: &System<'_, T>, x: &mut [T], b: &[T]) -> 
         let size = norm(r.iter().copied());
         let worthwhile = size < 0.5 * before && size > 0.0;
         if !worthwhile {
-            return steps;
+            return Ok(steps);
         }
         before = size;
         scale(&mut r, size.recip());
         let mut space =
             Krylov { basis: vec![r], triangle: Vec::new(), rotations: Vec::new(), rhs: vec![T::from_real(size)] };
-        while space.triangle.len() < RESTART && space.extend(system) && space.remaining() > REDUCTION * size {}
+        while space.triangle.len() < RESTART && space.extend(system)? && space.remaining() > REDUCTION * size {}
         steps += space.triangle.len();
         let mut correction = space.combination();
-        (system.solve)(&mut correction);
+        (system.solve)(&mut correction)?;
         if correction.iter().any(|value| !value.is_finite()) {
-            return steps;
+            return Ok(steps);
         }
         x.iter_mut().zip(&correction).for_each(|(x, &correction)| *x += correction);
     }
-    steps
+    Ok(steps)
 }
 
 fn scale<T: Scalar>(vector: &mut [T], factor: f64) {
@@ -78,9 +83,9 @@ struct Krylov<T> {
 
 impl<T: Scalar> Krylov<T> {
     /// Adds one vector. False when the space cannot grow.
-    fn extend(&mut self, system: &System<'_, T>) -> bool {
+    fn extend(&mut self, system: &System<'_, T>) -> Result<bool, LinalgError> {
         let mut direction = self.basis.last().expect("begins with one").clone();
-        (system.solve)(&mut direction);
+        (system.solve)(&mut direction)?;
         let zero = vec![T::ZERO; direction.len()];
         let mut next = scaled_residual(system, &direction, &zero);
         scale(&mut next, -1.0);
@@ -96,7 +101,7 @@ impl<T: Scalar> Krylov<T> {
         }
         let below = norm(next.iter().copied());
         if !before.is_finite() || before == 0.0 {
-            return false;
+            return Ok(false);
         }
         self.rotate(column, below);
         let grows = below > f64::EPSILON * before;
@@ -104,7 +109,7 @@ impl<T: Scalar> Krylov<T> {
             scale(&mut next, below.recip());
             self.basis.push(next);
         }
-        grows
+        Ok(grows)
     }
 
     /// Applies the rotations so far to a new column and adds the one that removes the entry `below` its diagonal.

@@ -194,18 +194,17 @@ pub(super) struct Elimination {
 pub(super) fn order(pattern: &Pattern, cancel: &AtomicBool) -> Result<Elimination, LinalgError> {
     let pairs = pattern.of_pairs();
     let degree = minimum_degree(pairs.as_ref().unwrap_or(pattern), cancel)?;
-    go_on_unless(cancel)?;
-    Ok(Elimination::new(pattern, pairs, &degree))
+    Elimination::new(pattern, pairs, &degree, cancel)
 }
 
 /// The same with AMD in the parts of a dissection, all of them side by side, where the pattern is large and is cut cheaply.
 pub(super) fn dissected(pattern: &Pattern, cancel: &AtomicBool) -> Result<Elimination, LinalgError> {
     let pairs = pattern.of_pairs();
     let graph = pairs.as_ref().unwrap_or(pattern);
+    go_on_unless(cancel)?;
     let Some(dissection) = Dissection::new(graph, cancel)? else {
         let degree = minimum_degree(graph, cancel)?;
-        go_on_unless(cancel)?;
-        return Ok(Elimination::new(pattern, pairs, &degree));
+        return Elimination::new(pattern, pairs, &degree, cancel);
     };
     let order_of = |part: usize| {
         go_on_unless(cancel)?;
@@ -213,8 +212,7 @@ pub(super) fn dissected(pattern: &Pattern, cancel: &AtomicBool) -> Result<Elimin
     };
     let of_parts: Result<Vec<Vec<u32>>, _> = (0..dissection.parts.len()).into_par_iter().map(order_of).collect();
     let order = Order::from_new_to_old(dissection.order(&of_parts?));
-    go_on_unless(cancel)?;
-    Ok(Elimination::new(pattern, pairs, &order))
+    Elimination::new(pattern, pairs, &order, cancel)
 }
 
 /// [`LinalgError::Cancelled`] where the caller asked to stop.
@@ -223,14 +221,14 @@ pub(super) fn go_on_unless(cancel: &AtomicBool) -> Result<(), LinalgError> {
 }
 
 /// The same in a given order, but for its postorder. Pairs of unknowns are taken as such where they are neighbours in it.
-pub(super) fn in_order(pattern: &Pattern, given: &Order) -> Elimination {
+pub(super) fn in_order(pattern: &Pattern, given: &Order, cancel: &AtomicBool) -> Result<Elimination, LinalgError> {
     let has_pairs = given.new_to_old.chunks(2).all(|pair| pair.iter().all(|&old| old / 2 == pair[0] / 2));
     let pairs = if has_pairs { pattern.of_pairs() } else { None };
     if pairs.is_none() {
-        return Elimination::new(pattern, None, given);
+        return Elimination::new(pattern, None, given, cancel);
     }
     let of_pairs = given.new_to_old.iter().step_by(2).map(|&old| old / 2).collect();
-    Elimination::new(pattern, pairs, &Order::from_new_to_old(of_pairs))
+    Elimination::new(pattern, pairs, &Order::from_new_to_old(of_pairs), cancel)
 }
 
 impl Elimination {
@@ -239,8 +237,17 @@ impl Elimination {
         if self.pairs.is_some() { self.order.of_pairs() } else { self.order }
     }
 
-    fn new(pattern: &Pattern, pairs: Option<Pattern>, degree: &Order) -> Self {
-        let (parent, counts) = elimination_tree(&pairs.as_ref().unwrap_or(pattern).permuted_upper(degree));
+    fn new(
+        pattern: &Pattern,
+        pairs: Option<Pattern>,
+        degree: &Order,
+        cancel: &AtomicBool,
+    ) -> Result<Self, LinalgError> {
+        go_on_unless(cancel)?;
+        let upper = pairs.as_ref().unwrap_or(pattern).permuted_upper(degree);
+        go_on_unless(cancel)?;
+        let (parent, counts) = elimination_tree(&upper);
+        go_on_unless(cancel)?;
         let children = children(&parent);
         let roots = (0..).zip(&parent).filter(|&(_, &above)| above == NONE).map(|(node, _)| node).collect();
         let post = postorder(roots, |node| children.column(node as usize));
@@ -250,12 +257,13 @@ impl Elimination {
         }
         let renamed =
             |old: u32| if parent[old as usize] == NONE { NONE } else { position[parent[old as usize] as usize] };
-        Self {
+        go_on_unless(cancel)?;
+        Ok(Self {
             order: degree.then(&post),
             parent: post.iter().map(|&old| renamed(old)).collect(),
             counts: post.iter().map(|&old| counts[old as usize]).collect(),
             pairs,
-        }
+        })
     }
 }
 

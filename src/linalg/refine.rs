@@ -8,11 +8,14 @@
 //! backward error"): it does not depend on the scale of the rows. Where refinement stalls above the goal, GMRES
 //! preconditioned with the same factors takes over.
 
+use std::sync::atomic::AtomicBool;
+
 use nalgebra_sparse::CscMatrix;
 use rayon::prelude::*;
 
 use super::LinalgError;
 use super::gmres::gmres;
+use super::order::go_on_unless;
 use super::scalar::Scalar;
 use super::sparse::{Operation, backward_error, norm, residual};
 
@@ -74,7 +77,8 @@ pub(super) struct System<'a, T> {
     pub(super) is_faithful: bool,
     pub(super) accept: Accept,
     /// Solves in place, column by column.
-    pub(super) solve: &'a (dyn Fn(&mut [T]) + Sync),
+    pub(super) solve: &'a (dyn Fn(&mut [T]) -> Result<(), LinalgError> + Sync),
+    pub(super) cancel: &'a AtomicBool,
 }
 
 impl<T: Scalar> System<'_, T> {
@@ -98,11 +102,11 @@ pub(super) fn refined<T: Scalar>(system: &System<'_, T>, rhs: &[T]) -> Result<So
     }
     let n = system.matrix.nrows();
     for (x, b) in x.chunks_mut(GROUP * n).zip(rhs.chunks(GROUP * n)) {
-        (system.solve)(x);
+        (system.solve)(x)?;
         let columns = x.chunks_exact_mut(n).zip(b.chunks_exact(n));
         let mut columns: Vec<Column<'_, T>> =
             columns.map(|(x, b)| Column { x, b, backward_error: f64::INFINITY, steps: 0 }).collect();
-        refine(system, &mut columns);
+        refine(system, &mut columns)?;
         for column in &mut columns {
             let (plain, scaled) = accept(system, column)?;
             all.residual = all.residual.max(plain);
@@ -117,6 +121,7 @@ pub(super) fn refined<T: Scalar>(system: &System<'_, T>, rhs: &[T]) -> Result<So
 
 /// Measures a refined answer, betters it by GMRES if need be, and returns its relative residuals if they are good.
 fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Result<(f64, f64), LinalgError> {
+    go_on_unless(system.cancel)?;
     let measure = |x: &[T]| {
         let mut r = vec![T::ZERO; x.len()];
         residual(system.matrix, system.operation, x, column.b, &mut r);
@@ -129,7 +134,7 @@ fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Resu
     let converged = column.backward_error <= STALLED;
     let at_the_floor = converged && system.accept == Accept::BackwardError && system.is_faithful;
     if !good(GOAL, relative) && !converged {
-        column.steps += gmres(system, column.x, column.b);
+        column.steps += gmres(system, column.x, column.b)?;
         relative = measure(column.x);
     }
     if good(LIMIT, relative) || at_the_floor {
@@ -147,7 +152,7 @@ struct Column<'a, T> {
 }
 
 /// Refines the answers in place, all that still gain by it together.
-fn refine<T: Scalar>(system: &System<'_, T>, columns: &mut [Column<'_, T>]) {
+fn refine<T: Scalar>(system: &System<'_, T>, columns: &mut [Column<'_, T>]) -> Result<(), LinalgError> {
     let n = system.matrix.nrows();
     let mut active: Vec<&mut Column<'_, T>> = columns.iter_mut().collect();
     let mut r = vec![T::ZERO; active.len() * n];
@@ -156,7 +161,7 @@ fn refine<T: Scalar>(system: &System<'_, T>, columns: &mut [Column<'_, T>]) {
         let judged: Vec<_> = judged.map(|(column, r)| (judge(system, column, r, step), column)).collect();
         let mut still = Vec::with_capacity(judged.len());
         for (place, (may_gain, column)) in judged.into_iter().enumerate() {
-            if may_gain && step < MOST_STEPS {
+            if may_gain? && step < MOST_STEPS {
                 r.copy_within(place * n..(place + 1) * n, still.len() * n);
                 still.push(column);
             }
@@ -164,9 +169,9 @@ fn refine<T: Scalar>(system: &System<'_, T>, columns: &mut [Column<'_, T>]) {
         active = still;
         r.truncate(active.len() * n);
         if active.is_empty() {
-            return;
+            break;
         }
-        (system.solve)(&mut r);
+        (system.solve)(&mut r)?;
         active.par_iter_mut().zip(r.par_chunks_exact_mut(n)).for_each(|(column, r)| {
             // The answer so far stays in `r`, in case the step makes it worse.
             column.x.iter_mut().zip(r).for_each(|(x, r)| {
@@ -176,24 +181,32 @@ fn refine<T: Scalar>(system: &System<'_, T>, columns: &mut [Column<'_, T>]) {
             });
         });
     }
+    Ok(())
 }
 
 /// Takes the residual after `step` steps. `r` holds the answer before the last, which comes back if that was
 /// better. Returns whether another step may help.
-fn judge<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>, r: &mut [T], step: usize) -> bool {
+fn judge<T: Scalar>(
+    system: &System<'_, T>,
+    column: &mut Column<'_, T>,
+    r: &mut [T],
+    step: usize,
+) -> Result<bool, LinalgError> {
     let Column { x, b, backward_error: before, steps } = column;
     let previous = (step > 0).then(|| r.to_vec());
+    go_on_unless(system.cancel)?;
     residual(system.matrix, system.operation, x, b, r);
+    go_on_unless(system.cancel)?;
     let now = backward_error(system.matrix, system.operation, x, b, r);
     let better = now < *before;
     if !better {
         if let Some(previous) = previous {
             x.copy_from_slice(&previous);
         }
-        return false;
+        return Ok(false);
     }
     *steps = step;
     let worthwhile = now <= WORTHWHILE * *before;
     *before = now;
-    worthwhile && now > GOOD_BACKWARD_ERROR
+    Ok(worthwhile && now > GOOD_BACKWARD_ERROR)
 }

@@ -172,13 +172,13 @@ impl RoughFactor {
         match &self.numeric {
             Numeric::Double(llt) => {
                 let mut x = rhs.to_vec();
-                llt.solve_in_place(analysis, &mut x);
+                llt.solve_in_place(analysis, &mut x, cancel)?;
                 Ok(x)
             }
             Numeric::Single(llt, scale) => {
                 let precondition = |r: &[f64]| {
                     go_on_unless(cancel)?;
-                    Ok(preconditioned(analysis, llt, scale, r))
+                    Preconditioner { analysis, llt, scale }.applied(r, cancel)
                 };
                 conjugate_gradients(&|x| product(pattern, values, x), &precondition, rhs)
             }
@@ -186,19 +186,28 @@ impl RoughFactor {
     }
 }
 
-/// S (L Lᵀ)⁻¹ S r.
-fn preconditioned(analysis: &FrontAnalysis, llt: &Llt<f32>, scale: &[f64], r: &[f64]) -> Vec<f64> {
-    let sizes = r.par_iter().zip(scale).with_min_len(ROWS_PER_TASK).map(|(r, scale)| (r * scale).abs());
-    // The same maximum in any order.
-    let largest = sizes.reduce(|| 0.0, f64::max);
-    if largest == 0.0 {
-        return vec![0.0; r.len()];
+/// S (L Lᵀ)⁻¹ S.
+struct Preconditioner<'a> {
+    analysis: &'a FrontAnalysis,
+    llt: &'a Llt<f32>,
+    scale: &'a [f64],
+}
+
+impl Preconditioner<'_> {
+    fn applied(&self, r: &[f64], cancel: &AtomicBool) -> Result<Vec<f64>, LinalgError> {
+        let Self { analysis, llt, scale } = *self;
+        let scaled = || r.par_iter().zip(scale).with_min_len(ROWS_PER_TASK).map(|(r, scale)| r * scale);
+        // The same maximum in any order.
+        let largest = scaled().map(f64::abs).reduce(|| 0.0, f64::max);
+        if largest == 0.0 {
+            return Ok(vec![0.0; r.len()]);
+        }
+        let mut x: Vec<f32> = scaled().map(|value| rounded(value / largest)).collect();
+        llt.solve_in_place(analysis, &mut x, cancel)?;
+        let wide =
+            x.par_iter().zip(scale).with_min_len(ROWS_PER_TASK).map(|(&x, scale)| f64::from(x) * scale * largest);
+        Ok(wide.collect())
     }
-    let narrow = r.par_iter().zip(scale).with_min_len(ROWS_PER_TASK).map(|(r, scale)| rounded(r * scale / largest));
-    let mut x: Vec<f32> = narrow.collect();
-    llt.solve_in_place(analysis, &mut x);
-    let wide = x.par_iter().zip(scale).with_min_len(ROWS_PER_TASK).map(|(&x, scale)| f64::from(x) * scale * largest);
-    wide.collect()
 }
 
 /// Solves A x = b by conjugate gradients; flexible ones, for a preconditioner in `f32` is not quite symmetric.

@@ -70,10 +70,17 @@ impl<'a> Control<'a> {
     ///
     /// [`SolveError::Cancelled`] where the caller asked to stop.
     pub fn enter(&self, phase: Phase) -> Result<(), SolveError> {
-        if self.cancel.load(Ordering::Relaxed) {
-            return Err(SolveError::Cancelled);
-        }
+        self.go_on()?;
         (self.report)(phase);
         Ok(())
+    }
+
+    /// Looks at the flag. To be asked for all some hundredths of a second, so that a caller never waits for long.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`] where the caller asked to stop.
+    pub fn go_on(&self) -> Result<(), SolveError> {
+        if self.cancel.load(Ordering::Relaxed) { Err(SolveError::Cancelled) } else { Ok(()) }
     }
 }

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use super::pieces::{Piece, in_pieces};
 use super::weights::{Corner, CornerWeights, three_point_weights};
-use super::{Embedding, Family, SolveError};
+use super::{Control, Embedding, Family, SolveError};
 use crate::geom::power_of_two_near;
 use crate::linalg::Scalar;
 use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
@@ -95,38 +95,41 @@ impl Equations<Complex<f64>> {
 ///
 /// # Errors
 ///
-/// [`SolveError::NotFinite`] where a weight overflows.
-pub fn barycentric(mesh: &DiskMesh, power: f64) -> Result<Equations<f64>, SolveError> {
+/// [`SolveError::NotFinite`] where a weight overflows; [`SolveError::Cancelled`].
+pub fn barycentric(mesh: &DiskMesh, power: f64, control: Control<'_>) -> Result<Equations<f64>, SolveError> {
     if power == Family::CONFORMAL_POWER {
-        return cotangents(mesh);
+        return cotangents(mesh, control);
     }
     let scale = length_scale(mesh);
-    sum_corners(mesh, |corner| {
+    let weights = |corner: [DVec3; 3]| {
         let scaled = Corner::at(corner.map(|x| x * scale));
         three_point_weights(&scaled, power)
-    })
+    };
+    sum_corners(mesh, weights, control)
 }
 
 /// The conformal weights, each cotangent computed once for both directions of the link that it faces: the matrix is
 /// Hermitian to the last bit, and so what refinement measures is what Cholesky factored.
-fn cotangents(mesh: &DiskMesh) -> Result<Equations<f64>, SolveError> {
+fn cotangents(mesh: &DiskMesh, control: Control<'_>) -> Result<Equations<f64>, SolveError> {
     let scale = length_scale(mesh);
-    sum_pieces(mesh, |piece, k| {
+    let of_corner = |piece: &Piece, k: usize| {
         let corners = mesh.shape(piece.corners).map(|x| x * scale);
         let (cotangent, bounded) = Corner::at(from_corner(corners, k)).cotangent();
         let opposite = piece.links[(k + 1) % 3];
         ([(opposite, cotangent), (mesh.twin(opposite), cotangent)], bounded)
-    })
+    };
+    sum_pieces(mesh, of_corner, control)
 }
 
 /// The natural boundary equations for offset d = rᵖ: paper eq. (2) inside and eq. (3) on the boundary.
 ///
 /// # Errors
 ///
-/// [`SolveError::NotFinite`] where a weight overflows.
-pub fn natural(mesh: &DiskMesh, power: f64) -> Result<Equations<Complex<f64>>, SolveError> {
+/// [`SolveError::NotFinite`] where a weight overflows; [`SolveError::Cancelled`].
+pub fn natural(mesh: &DiskMesh, power: f64, control: Control<'_>) -> Result<Equations<Complex<f64>>, SolveError> {
     let scale = length_scale(mesh);
-    let mut equations = barycentric(mesh, power)?.to_complex();
+    let mut equations = barycentric(mesh, power, control)?.to_complex();
+    control.go_on()?;
     equations.add_boundary_terms(mesh, |inner| {
         let length = mesh.length([mesh.head(inner), mesh.tail(inner)]) * scale;
         length.powf(power - 1.0)
@@ -138,14 +141,15 @@ pub fn natural(mesh: &DiskMesh, power: f64) -> Result<Equations<Complex<f64>>, S
 ///
 /// # Errors
 ///
-/// [`SolveError::NotFinite`] where an edge has no length.
-pub fn levy(mesh: &DiskMesh) -> Result<Equations<Complex<f64>>, SolveError> {
+/// [`SolveError::NotFinite`] where an edge has no length; [`SolveError::Cancelled`].
+pub fn levy(mesh: &DiskMesh, control: Control<'_>) -> Result<Equations<Complex<f64>>, SolveError> {
     let scale = length_scale(mesh);
-    sum_corners(mesh, |corner| {
+    let weights = |corner: [DVec3; 3]| {
         let Corner { radii: [r1, r2], cross, dot, .. } = Corner::at(corner.map(|x| x * scale));
         let rotation = Complex::new(dot, cross) / (r1 * r2);
         CornerWeights { shares: [-rotation, Complex::new(r1 / r2, 0.0)], bounded: false }
-    })
+    };
+    sum_corners(mesh, weights, control)
 }
 
 /// Least-squares conformal maps (Lévy et al. 2002, eq. 4): the normal equations of `Σ |W₀z₀ + W₁z₁ + W₂z₂|²/2T`.
@@ -155,11 +159,11 @@ pub fn levy(mesh: &DiskMesh) -> Result<Equations<Complex<f64>>, SolveError> {
 ///
 /// # Errors
 ///
-/// [`SolveError::NotFinite`] where a triangle has no area.
+/// [`SolveError::NotFinite`] where a triangle has no area; [`SolveError::Cancelled`].
 #[expect(clippy::many_single_char_names, reason = "corners and edges as the equation names them")]
-pub fn lscm(mesh: &DiskMesh) -> Result<Equations<Complex<f64>>, SolveError> {
+pub fn lscm(mesh: &DiskMesh, control: Control<'_>) -> Result<Equations<Complex<f64>>, SolveError> {
     let scale = length_scale(mesh);
-    sum_corners(mesh, |corner| {
+    let weights = |corner: [DVec3; 3]| {
         let [a, b, c] = corner.map(|x| x * scale);
         let (u, w) = (b - a, c - a);
         let (base, height) = (u.length(), u.cross(w).length() / u.length());
@@ -168,7 +172,8 @@ pub fn lscm(mesh: &DiskMesh) -> Result<Equations<Complex<f64>>, SolveError> {
         // The energy's matrix is WᴴW/2T; its rows sum to zero, so off-diagonal entries say everything.
         let share = |j: usize| -opposite[0].conj() * opposite[j] / (base * height);
         CornerWeights { shares: [share(1), share(2)], bounded: false }
-    })
+    };
+    sum_corners(mesh, weights, control)
 }
 
 /// Equal weights on all edges (Tutte 1963).
@@ -182,8 +187,9 @@ pub fn uniform(mesh: &DiskMesh) -> Equations<f64> {
 fn sum_corners<T: Scalar>(
     mesh: &DiskMesh,
     weights: impl Fn([DVec3; 3]) -> CornerWeights<T> + Sync,
+    control: Control<'_>,
 ) -> Result<Equations<T>, SolveError> {
-    sum_corners_of(mesh, |corners| mesh.shape(corners), weights)
+    sum_corners_of(mesh, |corners| mesh.shape(corners), weights, control)
 }
 
 /// The same where the triangles of three vertices have other shapes than in space.
@@ -191,11 +197,13 @@ pub(super) fn sum_corners_of<T: Scalar>(
     mesh: &DiskMesh,
     shape: impl Fn([VertexId; 3]) -> [DVec3; 3] + Sync,
     weights: impl Fn([DVec3; 3]) -> CornerWeights<T> + Sync,
+    control: Control<'_>,
 ) -> Result<Equations<T>, SolveError> {
-    sum_pieces(mesh, |piece, k| {
+    let of_corner = |piece: &Piece, k: usize| {
         let CornerWeights { shares: [to_next, to_previous], bounded } = weights(from_corner(shape(piece.corners), k));
         ([(piece.links[k], to_next), (mesh.twin(piece.links[(k + 2) % 3]), to_previous)], bounded)
-    })
+    };
+    sum_pieces(mesh, of_corner, control)
 }
 
 /// The corners of a triangle from one of them on.
@@ -206,15 +214,17 @@ fn from_corner(x: [DVec3; 3], k: usize) -> [DVec3; 3] {
 /// What a corner adds to two links, and whether its weight was bounded.
 type Parts<T> = ([(HalfedgeId, T); 2], bool);
 
-/// Adds up what each corner of each piece gives to two links.
+/// Adds up what each corner of each piece gives to two links. Looks at the flag at every some thousand pieces.
 fn sum_pieces<T: Scalar>(
     mesh: &DiskMesh,
     of_corner: impl Fn(&Piece, usize) -> Parts<T> + Sync,
+    control: Control<'_>,
 ) -> Result<Equations<T>, SolveError> {
     let mut found: Vec<[Parts<T>; 3]> = Vec::new();
     let mut coefficients = vec![T::ZERO; mesh.link_count()];
     let mut bounded_corners = 0;
     in_pieces(mesh, |pieces| {
+        control.go_on()?;
         pieces.par_iter().map(|piece| [0, 1, 2].map(|k| of_corner(piece, k))).collect_into_vec(&mut found);
         for (piece, corners) in pieces.iter().zip(&found) {
             for (parts, bounded) in corners {

@@ -24,15 +24,25 @@ impl FixedSolve {
         analysis: &Analysis,
         control: Control<'_>,
     ) -> Result<Self, SolveError> {
+        control.go_on()?;
         let matrix = site.system.negated_matrix(site.mesh, &equations);
         let factor = analysis.factor(&matrix, control.cancel()).map_err(|error| site.system.named(error))?;
         Ok(Self { equations, matrix, factor })
     }
 
     /// The embedding with the prescribed vertices in their places, and the residual.
-    pub(super) fn solve(&self, site: Site<'_>, places: &PinPositions) -> Result<(Embedding, f64), SolveError> {
+    ///
+    /// # Errors
+    ///
+    /// A residual that refinement cannot bring down, or the caller's wish to stop.
+    pub(super) fn solve(
+        &self,
+        site: Site<'_>,
+        places: &PinPositions,
+        control: Control<'_>,
+    ) -> Result<(Embedding, f64), SolveError> {
         let terms = site.system.pinned_terms(site.mesh, &self.equations, |v| places[&v]);
-        let (free, residual) = self.answer(site, &terms, Factor::solve)?;
+        let (free, residual) = self.answer(site, &terms, Factor::solve, control)?;
         let mut embedding = Embedding::from(vec![DVec2::ZERO; site.mesh.vertex_count()]);
         // Assigned, not added: adding to zero would make a zero of a negative zero.
         for (vertex, place) in free.into_iter().chain(places.iter().map(|(&v, &place)| (v, place))) {
@@ -47,11 +57,13 @@ impl FixedSolve {
         site: Site<'_>,
         start: &Embedding,
         residuals: &[DVec2],
+        control: Control<'_>,
     ) -> Result<(Embedding, f64), SolveError> {
         let mut embedding = start.clone();
-        for (vertex, by) in self.answer(site, residuals, Factor::solve_correction)?.0 {
+        for (vertex, by) in self.answer(site, residuals, Factor::solve_correction, control)?.0 {
             embedding[vertex] += by;
         }
+        control.go_on()?;
         let residual = site.system.relative_residual(site.mesh, &self.equations, &embedding);
         Ok((embedding, residual))
     }
@@ -62,9 +74,11 @@ impl FixedSolve {
         site: Site<'_>,
         terms: &[DVec2],
         by: Answer<f64>,
+        control: Control<'_>,
     ) -> Result<(Vec<(VertexId, DVec2)>, f64), SolveError> {
         let both: Vec<f64> = terms.iter().map(|z| z.x).chain(terms.iter().map(|z| z.y)).collect();
-        let solved = by(&self.factor, &self.matrix, &both).map_err(|error| site.system.named(error))?;
+        let solved = by(&self.factor, &self.matrix, &both, control.cancel());
+        let solved = solved.map_err(|error| site.system.named(error))?;
         let (x, y) = solved.x.split_at(terms.len());
         let free = site.system.free().iter().zip(x.iter().zip(y)).map(|(&v, (&x, &y))| (v, DVec2::new(x, y)));
         Ok((free.collect(), solved.residual))

@@ -80,7 +80,7 @@ impl FreeProblem<'_> {
                 return outcome;
             }
             let gauge = match &outcome {
-                Ok(FreeReady { system, solve, .. }) => solve.better_gauge(Site { mesh: self.mesh, system }),
+                Ok(FreeReady { system, solve, .. }) => solve.better_gauge(Site { mesh: self.mesh, system }, control)?,
                 Err(SolveError::Singular { .. }) => self.gauge_in_kernel(control)?,
                 Err(_) => None,
             };
@@ -119,7 +119,7 @@ impl FreeProblem<'_> {
     /// cannot be found.
     fn gauge_in_kernel(self, control: Control<'_>) -> Result<Option<[VertexId; 2]>, SolveError> {
         control.enter(Phase::Factor)?;
-        match gauge_of(self.mesh, &self.equations()?, control) {
+        match gauge_of(self.mesh, &self.equations(control)?, control) {
             Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
             other => Ok(other.ok()),
         }
@@ -133,9 +133,9 @@ impl FreeProblem<'_> {
             let gauge = |pinned: &[VertexId]| {
                 Ok(if pinned.len() >= GAUGE_PINS { Vec::new() } else { farthest_pair(mesh).to_vec() })
             };
-            rayon::join(|| self.equations(), || self.laid_out(way, gauge, control))
+            rayon::join(|| self.equations(control), || self.laid_out(way, gauge, control))
         } else {
-            let equations = self.equations()?;
+            let equations = self.equations(control)?;
             let gauge = |_: &[VertexId]| match way.gauge {
                 Some(two) => Ok(two.to_vec()),
                 None => gauge_or_farthest(mesh, &equations, control),
@@ -163,6 +163,7 @@ impl FreeProblem<'_> {
     ) -> Result<LaidOut, SolveError> {
         let pins = way.own_places.clone().map_or_else(|| self.asked.clone(), fixed_pins);
         let layout = Layout::new(&pins, way.treatment, gauge)?;
+        control.go_on()?;
         let system = layout.system(self.mesh);
         let kind = if self.is_hermitian() { Kind::Hermitian } else { Kind::General };
         let mut seconds = PhaseSeconds::default();
@@ -184,11 +185,11 @@ impl FreeProblem<'_> {
     }
 
     /// The equations of a free boundary.
-    fn equations(self) -> Result<Equations<Complex<f64>>, SolveError> {
+    fn equations(self, control: Control<'_>) -> Result<Equations<Complex<f64>>, SolveError> {
         match self.settings.method {
-            Method::Levy => equations::levy(self.mesh),
-            Method::Lscm => equations::lscm(self.mesh),
-            _ => equations::natural(self.mesh, self.power()),
+            Method::Levy => equations::levy(self.mesh, control),
+            Method::Lscm => equations::lscm(self.mesh, control),
+            _ => equations::natural(self.mesh, self.power(), control),
         }
     }
 }

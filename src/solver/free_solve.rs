@@ -77,6 +77,13 @@ pub(super) struct Start<'a> {
     pub(super) residuals: &'a [Complex<f64>],
 }
 
+/// Where a solve takes place, for which targets, and who may stop it.
+struct Asked<'a> {
+    site: Site<'a>,
+    targets: &'a PinPositions,
+    control: Control<'a>,
+}
+
 /// How pins enter a system.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layout {
@@ -160,6 +167,7 @@ impl FreeSolve {
             Some(many) => many.matrix(site, &equations),
             None => site.system.negated_matrix(site.mesh, &equations),
         };
+        control.go_on()?;
         seconds.assemble += start.elapsed().as_secs_f64();
         control.enter(Phase::Factor)?;
         let start = Instant::now();
@@ -179,21 +187,42 @@ impl FreeSolve {
 
     /// Two vertices whose equations are better left out than those of the two pins that are; none where these will do, or
     /// where all equations are kept.
-    pub(super) fn better_gauge(&self, site: Site<'_>) -> Option<[VertexId; 2]> {
-        let &[a, b] = self.eliminated.as_slice() else { return None };
-        let factored = Factored { matrix: &self.matrix, factor: &self.factor, cancel: Control::unattended().cancel() };
-        better_gauge(site, &self.equations, &factored, [a, b]).filter(|_| self.least_squares.is_none())
+    ///
+    /// # Errors
+    ///
+    /// The caller's wish to stop.
+    pub(super) fn better_gauge(
+        &self,
+        site: Site<'_>,
+        control: Control<'_>,
+    ) -> Result<Option<[VertexId; 2]>, SolveError> {
+        let (&[a, b], None) = (self.eliminated.as_slice(), &self.least_squares) else { return Ok(None) };
+        Ok(better_gauge(site, &self.equations, &self.factored(control), [a, b])?)
+    }
+
+    fn factored<'a>(&'a self, control: Control<'a>) -> Factored<'a> {
+        Factored { matrix: &self.matrix, factor: &self.factor, cancel: control.cancel() }
     }
 
     /// The embedding with the pins on their targets, or as near as weights bring them, linear in these; and its residual.
-    pub(super) fn solve(&self, site: Site<'_>, targets: &PinPositions) -> Result<(Embedding, f64), SolveError> {
+    ///
+    /// # Errors
+    ///
+    /// A residual that refinement cannot bring down, or the caller's wish to stop.
+    pub(super) fn solve(
+        &self,
+        site: Site<'_>,
+        targets: &PinPositions,
+        control: Control<'_>,
+    ) -> Result<(Embedding, f64), SolveError> {
         let mut start = Embedding::from(vec![DVec2::ZERO; site.mesh.vertex_count()]);
         for (&vertex, target) in targets {
             start[vertex] = *target;
         }
         let start = Start { embedding: &start, residuals: &self.residuals(site.mesh, &start) };
-        let solved = self.move_from(site, start, targets, Factor::solve)?;
-        let (embedding, residual) = self.rest_of(site, &solved.0, targets)?.unwrap_or(solved);
+        let asked = Asked { site, targets, control };
+        let solved = self.move_from(&asked, start, Factor::solve)?;
+        let (embedding, residual) = self.rest_of(&asked, &solved.0)?.unwrap_or(solved);
         if self.least_squares.is_some() && residual > GRADIENT_LIMIT {
             return Err(SolveError::ResidualTooLarge { residual, limit: GRADIENT_LIMIT });
         }
@@ -203,26 +232,23 @@ impl FreeSolve {
     /// A solution with the move that its equations still ask for; none where that is not worth it. Differences of neighbours have all
     /// their digits, so it is known where a solve for positions is at an end: in corridors, where equations tell little
     /// of long moves. A Hermitian matrix tells enough of them unless the mesh is a corridor.
-    fn rest_of(
-        &self,
-        site: Site<'_>,
-        embedding: &Embedding,
-        targets: &PinPositions,
-    ) -> Result<Option<(Embedding, f64)>, SolveError> {
+    fn rest_of(&self, asked: &Asked<'_>, embedding: &Embedding) -> Result<Option<(Embedding, f64)>, SolveError> {
+        let &Asked { site, targets, control } = asked;
         if self.is_hermitian && !is_corridor(site.mesh) {
             return Ok(None);
         }
+        control.go_on()?;
         let residuals = self.residuals(site.mesh, embedding);
         let extent = Bounds::of(site.mesh.vertices().filter(|&v| site.mesh.is_used(v)).map(|v| embedding[v])).size();
         let is_little = |largest: f64| largest <= MOST_REST * extent.max_element();
         if self.least_squares.is_none() {
             let terms: Vec<_> = site.system.free().iter().map(|v| residuals[v.index()]).collect();
-            let moves = self.factor.substitute(&terms);
+            let moves = self.factor.substitute(&terms, control.cancel())?;
             if is_little(moves.iter().map(|z| z.norm()).fold(0.0, f64::max)) {
                 return Ok(None);
             }
         }
-        let again = self.solve_from(site, Start { embedding, residuals: &residuals }, targets)?;
+        let again = self.solve_from(site, Start { embedding, residuals: &residuals }, targets, control)?;
         let moved = embedding.iter().zip(&again.0).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
         Ok((!is_little(moved)).then_some(again))
     }
@@ -234,32 +260,32 @@ impl FreeSolve {
         site: Site<'_>,
         start: Start<'_>,
         targets: &PinPositions,
+        control: Control<'_>,
     ) -> Result<(Embedding, f64), SolveError> {
-        self.move_from(site, start, targets, Factor::solve_correction)
+        self.move_from(&Asked { site, targets, control }, start, Factor::solve_correction)
     }
 
     /// Solves for the move from `start` that takes up the residuals there.
     fn move_from(
         &self,
-        site: Site<'_>,
+        asked: &Asked<'_>,
         Start { embedding: start, residuals }: Start<'_>,
-        targets: &PinPositions,
         answer: Answer<Complex<f64>>,
     ) -> Result<(Embedding, f64), SolveError> {
+        let &Asked { site, targets, control } = asked;
         let named = |error| site.system.named(error);
         let mut embedding = start.clone();
         let Some(least_squares) = &self.least_squares else {
             let terms: Vec<_> = site.system.free().iter().map(|v| residuals[v.index()]).collect();
-            let moves = answer(&self.factor, &self.matrix, &terms).map_err(named)?.x;
+            let moves = answer(&self.factor, &self.matrix, &terms, control.cancel()).map_err(named)?.x;
             for (&vertex, z) in site.system.free().iter().zip(moves) {
                 embedding[vertex] += DVec2::new(z.re, z.im);
             }
+            control.go_on()?;
             let residual = site.system.relative_residual(site.mesh, &self.equations, &embedding);
             return Ok((embedding, residual));
         };
-        // One further solve is not worth an interruption.
-        let cancel = Control::unattended().cancel();
-        let factored = Factored { matrix: &self.matrix, factor: &self.factor, cancel };
+        let factored = self.factored(control);
         let to_target = |pin: &Spring| {
             let to_target = targets[&pin.vertex] - start[pin.vertex];
             Complex::new(to_target.x, to_target.y)
@@ -273,6 +299,7 @@ impl FreeSolve {
         for (z, by) in embedding.iter_mut().zip(moves).filter(|(_, by)| *by != Complex::ZERO) {
             *z += DVec2::new(by.re, by.im);
         }
+        control.go_on()?;
         let residual = self.gradient_residual(site.mesh, &embedding, least_squares.springs(), targets);
         Ok((embedding, residual))
     }

@@ -89,7 +89,8 @@ impl Iteration {
         control.enter(Phase::Solve)?;
         let start = Instant::now();
         let (embedding, residual) =
-            solve.solve_from(site, Start { embedding, residuals: &residuals }, &targets_of(&pins))?;
+            solve.solve_from(site, Start { embedding, residuals: &residuals }, &targets_of(&pins), control)?;
+        control.go_on()?;
         let linear = Some(solve.numbers(mesh, &embedding, residual));
         seconds.solve = start.elapsed().as_secs_f64();
         Ok(Solution { embedding, pins, gauge_completed: false, linear, seconds, convergence: None })

@@ -108,7 +108,7 @@ impl LeastSquares {
         let equation = |&v: &VertexId| equation_of(site, equations, v);
         let rows: Vec<Row> = left_out.iter().map(equation).chain(springs.iter().map(unit)).collect();
         let from_movers: Vec<Vec<C64>> = movers.iter().map(|&v| column_of(site, equations, v)).collect();
-        let by_movers = factored.factor.solve_correction(factored.matrix, &from_movers.concat())?.x;
+        let by_movers = factored.factor.solve_correction(factored.matrix, &from_movers.concat(), factored.cancel)?.x;
         let n = site.system.free().len();
         let (k, g, m) = (rows.len(), left_out.len(), movers.len());
         let mut matrix: DMatrix<C64> = DMatrix::zeros(k + m, k + m);
@@ -144,7 +144,7 @@ impl LeastSquares {
     ) -> Result<Vec<C64>, LinalgError> {
         let free = site.system.free();
         let mut terms: Vec<C64> = free.iter().map(|v| residuals[v.index()]).collect();
-        let still = factored.factor.solve_correction(factored.matrix, &terms)?.x;
+        let still = factored.factor.solve_correction(factored.matrix, &terms, factored.cancel)?.x;
         let (k, g) = (self.rows.len(), self.rest.left_out.len());
         let mut rhs = DVector::zeros(k + self.rest.movers.len());
         for (i, row) in self.rows.iter().enumerate() {
@@ -156,14 +156,14 @@ impl LeastSquares {
         for (row, &force) in self.rows.iter().zip(answer.iter()) {
             add_adjoint(row, force, &mut forces);
         }
-        let residual = factored.factor.solve_adjoint(factored.matrix, &forces)?.x;
+        let residual = factored.factor.solve_adjoint(factored.matrix, &forces, factored.cancel)?.x;
         for (i, term) in terms.iter_mut().enumerate() {
             for (column, &moved) in self.from_movers.iter().zip(answer.iter().skip(k)) {
                 *term += column[i] * moved;
             }
             *term -= residual[i];
         }
-        let moves = factored.factor.solve_correction(factored.matrix, &terms)?.x;
+        let moves = factored.factor.solve_correction(factored.matrix, &terms, factored.cancel)?.x;
         let mut all = vec![C64::ZERO; site.mesh.vertex_count()];
         let by_movers = self.rest.movers.iter().zip(answer.iter().skip(k));
         for (vertex, &z) in free.iter().zip(&moves).chain(by_movers) {
@@ -198,7 +198,7 @@ fn gram_of(rows: &[Row], n: usize, factored: &Factored<'_>) -> Result<DMatrix<C6
         for (row, column) in group.iter().zip(columns.chunks_exact_mut(n)) {
             add_adjoint(row, C64::ONE, column);
         }
-        Ok(factored.factor.solve_adjoint(factored.matrix, &columns)?.x)
+        Ok(factored.factor.solve_adjoint(factored.matrix, &columns, factored.cancel)?.x)
     };
     if n * k * size_of::<C64>() <= COLUMNS_KEPT {
         let mut columns = Vec::with_capacity(n * k);
@@ -209,7 +209,7 @@ fn gram_of(rows: &[Row], n: usize, factored: &Factored<'_>) -> Result<DMatrix<C6
     }
     let mut matrix = DMatrix::zeros(k, k);
     for (place, group) in rows.chunks(GROUP).enumerate() {
-        let solved = factored.factor.solve_correction(factored.matrix, &columns_of(group)?)?.x;
+        let solved = factored.factor.solve_correction(factored.matrix, &columns_of(group)?, factored.cancel)?.x;
         for (j, column) in (place * GROUP..).zip(solved.chunks_exact(n)) {
             for (i, row) in rows[..=j].iter().enumerate() {
                 let value = along(row, column);

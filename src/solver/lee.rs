@@ -155,12 +155,15 @@ impl<'a> Padded<'a> {
     ///
     /// # Errors
     ///
-    /// [`SolveError::NotFinite`] where a weight overflows.
-    pub fn equations(&self, family: Family) -> Result<Equations<f64>, SolveError> {
+    /// [`SolveError::NotFinite`] where a weight overflows; [`SolveError::Cancelled`].
+    pub fn equations(&self, family: Family, control: Control<'_>) -> Result<Equations<f64>, SolveError> {
         let scale = length_scale(self.mesh);
         let shape = |corners| self.shape(corners).map(|x| x * scale);
         match family.power() {
-            Some(power) => sum_corners_of(&self.disk, shape, |corner| three_point_weights(&Corner::at(corner), power)),
+            Some(power) => {
+                let weights = |corner| three_point_weights(&Corner::at(corner), power);
+                sum_corners_of(&self.disk, shape, weights, control)
+            }
             None if family == Family::Uniform => Ok(uniform(&self.disk)),
             None => Ok(shape_preserving_of(&self.disk, &shape)),
         }
@@ -186,7 +189,7 @@ impl<'a> Padded<'a> {
         control.enter(Phase::Assemble)?;
         let start = Instant::now();
         let places = self.places(settings)?;
-        let equations = self.equations(settings.family())?;
+        let equations = self.equations(settings.family(), control)?;
         let system = FreeSystem::new(&self.disk, |v| places.contains_key(&v));
         let site = Site { mesh: &self.disk, system: &system };
         let assemble = start.elapsed().as_secs_f64();
@@ -200,7 +203,7 @@ impl<'a> Padded<'a> {
         let factor = start.elapsed().as_secs_f64();
         control.enter(Phase::Solve)?;
         let start = Instant::now();
-        let (solved, residual) = solve.solve(site, &places)?;
+        let (solved, residual) = solve.solve(site, &places, control)?;
         let linear = Some(solve.numbers(site, &solved, residual));
         let seconds = PhaseSeconds { assemble, analyze, factor, solve: start.elapsed().as_secs_f64() };
         let embedding = Embedding::of_mesh(self.mesh, &solved);

@@ -15,7 +15,7 @@ use super::equations::Equations;
 use super::least_squares::Factored;
 use super::system::{FreeSystem, Site};
 use super::{Control, SolveError, farthest_pair};
-use crate::linalg::Kind;
+use crate::linalg::{Kind, LinalgError};
 use crate::mesh::{DiskMesh, VertexId};
 
 type C64 = Complex<f64>;
@@ -42,7 +42,9 @@ pub(super) fn gauge_of(
 ) -> Result<[VertexId; 2], SolveError> {
     let system = FreeSystem::new(mesh, |_| false);
     let named = |error| system.named(error);
+    control.go_on()?;
     let mut matrix = system.negated_matrix(mesh, equations);
+    control.go_on()?;
     for (row, column, value) in matrix.triplet_iter_mut() {
         if row == column {
             *value *= 1.0 + SHIFT;
@@ -54,7 +56,7 @@ pub(super) fn gauge_of(
     let mut kernel: Vec<C64> =
         (0..2 * n).map(|i| C64::new(1.0, if i < n { 0.0 } else { (i % 7) as f64 - 3.0 })).collect();
     for _ in 0..ROUNDS {
-        kernel = factor.solve_adjoint(&matrix, &kernel).map_err(named)?.x;
+        kernel = factor.solve_adjoint(&matrix, &kernel, control.cancel()).map_err(named)?.x;
         orthonormalize(&mut kernel, n);
     }
     let (first, second) = kernel.split_at(n);
@@ -68,12 +70,16 @@ pub(super) fn gauge_of(
 
 /// Two vertices whose equations are better left out than those of `held`, which the factors leave out; none where these
 /// are good enough. Sizes are those of equations whose coefficients sum to 1.
+///
+/// # Errors
+///
+/// [`LinalgError::Cancelled`].
 pub(super) fn better_gauge(
     site: Site<'_>,
     equations: &Equations<C64>,
     factored: &Factored<'_>,
     held: [VertexId; 2],
-) -> Option<[VertexId; 2]> {
+) -> Result<Option<[VertexId; 2]>, LinalgError> {
     let Site { mesh, system } = site;
     let n = system.free().len();
     let mut kernel = vec![C64::ZERO; 2 * n];
@@ -84,22 +90,22 @@ pub(super) fn better_gauge(
             }
         }
     }
-    factored.factor.substitute_adjoint(&mut kernel);
+    factored.factor.substitute_adjoint(&mut kernel, factored.cancel)?;
     let (first, second) = kernel.split_at(n);
     let sum_at = |v: VertexId| mesh.links_from(v).map(|h| equations.coefficients[h.index()].norm()).sum::<f64>();
     let (wholes, [at_a, at_b]): (Vec<f64>, _) = (system.free().iter().map(|&v| sum_at(v)).collect(), held.map(sum_at));
     let growth = |i: usize| wholes[i] * f64::hypot(first[i].norm() / at_a, second[i].norm() / at_b);
-    let a = largest(n, growth)?;
+    let Some(a) = largest(n, growth) else { return Ok(None) };
     if growth(a) <= MOST_GROWTH {
-        return None;
+        return Ok(None);
     }
     // Not of the products, which could leave the range of numbers.
     let minor = |i: usize| wholes[i] * (first[a] / growth(a) * second[i] - second[a] / growth(a) * first[i]).norm();
-    let best = minor(largest(n, minor)?);
+    let best = largest(n, minor).map_or(0.0, minor);
     let distance = |i: usize| mesh.position(system.free()[a]).distance(mesh.position(system.free()[i]));
-    let b = largest(n, |i| if minor(i) >= NEARLY_AS_GOOD * best { distance(i) } else { -1.0 })?;
+    let b = largest(n, |i| if minor(i) >= NEARLY_AS_GOOD * best { distance(i) } else { -1.0 }).unwrap_or(a);
     let is_found = a != b && best > 0.0 && best.is_finite();
-    is_found.then(|| [a.min(b), a.max(b)].map(|row| system.free()[row]))
+    Ok(is_found.then(|| [a.min(b), a.max(b)].map(|row| system.free()[row])))
 }
 
 /// The first of the numbers up to n whose size is largest.

@@ -153,7 +153,7 @@ impl ManyPins {
                 rhs[row] = to_target * (pull(pin.compliance) / self.damping(pin.vertex));
             }
         }
-        let solved = factored.factor.solve_correction(factored.matrix, &rhs);
+        let solved = factored.factor.solve_correction(factored.matrix, &rhs, factored.cancel);
         let answer = solved.map_err(|error| self.named(site, error))?.x;
         let mut moves = vec![C64::ZERO; site.mesh.vertex_count()];
         for (place, vertex) in site.system.free().iter().enumerate() {

@@ -114,7 +114,7 @@ impl Prepared {
             Method::Convex(_) | Method::Stretch(_) => {
                 let system = FreeSystem::new(mesh, |v| pins.contains_key(&v));
                 let family = if settings.method.uses_family() { settings.family() } else { Family::MeanValue };
-                let equations = convex_equations(mesh, family)?;
+                let equations = convex_equations(mesh, family, control)?;
                 let is_symmetric = matches!(family, Family::Conformal | Family::Uniform);
                 seconds.assemble = start.elapsed().as_secs_f64();
                 let kind = if is_symmetric { Kind::Hermitian } else { Kind::General };
@@ -161,7 +161,7 @@ impl Prepared {
         }
         let target = |v: VertexId| if moved.contains(&v) { DVec2::X } else { DVec2::ZERO };
         let targets: PinPositions = self.asked.keys().map(|&v| (v, target(v))).collect();
-        let (mut column, _) = free.solve(Site { mesh, system: &self.system }, &targets)?;
+        let (mut column, _) = free.solve(Site { mesh, system: &self.system }, &targets, Control::unattended())?;
         column.gather_unused(mesh);
         Ok(column.into_inner())
     }
@@ -202,10 +202,11 @@ impl Prepared {
         let targets = self.own_places.clone().unwrap_or_else(|| targets_of(&units.pins(&held)));
         let site = Site { mesh, system: &self.system };
         let (mut embedding, residual) = match &self.values {
-            Values::Free(free) => free.solve(site, &targets)?,
-            Values::Fixed(fixed) => fixed.solve(site, &targets)?,
+            Values::Free(free) => free.solve(site, &targets, control)?,
+            Values::Fixed(fixed) => fixed.solve(site, &targets, control)?,
         };
         embedding.gather_unused(mesh);
+        control.go_on()?;
         let linear = match &self.values {
             Values::Free(free) => free.numbers(mesh, &embedding, residual),
             Values::Fixed(fixed) => fixed.numbers(site, &embedding, residual),
@@ -227,11 +228,11 @@ impl Prepared {
     }
 }
 
-fn convex_equations(mesh: &DiskMesh, family: Family) -> Result<Equations<f64>, SolveError> {
+fn convex_equations(mesh: &DiskMesh, family: Family, control: Control<'_>) -> Result<Equations<f64>, SolveError> {
     match family {
         Family::Uniform => Ok(equations::uniform(mesh)),
         Family::ShapePreserving => Ok(shape_preserving(mesh)),
-        three_point => equations::barycentric(mesh, three_point.power().unwrap_or(Family::CONFORMAL_POWER)),
+        three_point => equations::barycentric(mesh, three_point.power().unwrap_or(Family::CONFORMAL_POWER), control),
     }
 }
 

@@ -83,7 +83,7 @@ pub struct Spectral {
 pub fn spectral(mesh: &DiskMesh, control: Control<'_>) -> Result<Spectral, SolveError> {
     control.enter(Phase::Assemble)?;
     let start = Instant::now();
-    let equations = natural(mesh, Family::CONFORMAL_POWER)?;
+    let equations = natural(mesh, Family::CONFORMAL_POWER, control)?;
     let system = FreeSystem::new(mesh, |_| false);
     let boundary: Vec<usize> = mesh.boundary_loop().iter().filter_map(|&v| system.row(v)).collect();
     let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
@@ -99,12 +99,12 @@ pub fn spectral(mesh: &DiskMesh, control: Control<'_>) -> Result<Spectral, Solve
     let named = |error| system.named(error);
     let apply = |x: &[C64]| {
         control.enter(Phase::Solve)?;
-        let mut on_boundary = shifted.on_boundary(&shifted.inverse(x).map_err(named)?);
+        let mut on_boundary = shifted.on_boundary(&shifted.inverse(x, control).map_err(named)?);
         centre(&mut on_boundary);
         Ok::<_, SolveError>(on_boundary)
     };
     let found = greatest_eigenpair(&first_iterate(mesh), LIMITS, apply)?;
-    let z = shifted.inverse(&found.vector).map_err(named)?;
+    let z = shifted.inverse(&found.vector, control).map_err(named)?;
     let mut answer = Answer { mesh, system: &system, equations: &equations }.spectral(&shifted, &found, z)?;
     seconds.solve = start.elapsed().as_secs_f64();
     answer.solution.seconds = seconds;
@@ -172,7 +172,7 @@ impl Shifted {
             }
             // What has a pivot only by rounding gives answers that solve nothing.
             let factored = analysis.factor(&matrix, control.cancel()).and_then(|factor| {
-                factor.solve_correction(&matrix, &vec![C64::ONE; diagonal.len()])?;
+                factor.solve_correction(&matrix, &vec![C64::ONE; diagonal.len()], control.cancel())?;
                 Ok(factor)
             });
             match factored {
@@ -185,12 +185,12 @@ impl Shifted {
     }
 
     /// (L + σB)⁻¹ Pᵀ x.
-    fn inverse(&self, x: &[C64]) -> Result<Vec<C64>, LinalgError> {
+    fn inverse(&self, x: &[C64], control: Control<'_>) -> Result<Vec<C64>, LinalgError> {
         let mut rhs = vec![C64::ZERO; self.matrix.nrows()];
         for (&row, &x) in self.boundary.iter().zip(x) {
             rhs[row] = x;
         }
-        Ok(self.factor.solve_correction(&self.matrix, &rhs)?.x)
+        Ok(self.factor.solve_correction(&self.matrix, &rhs, control.cancel())?.x)
     }
 
     fn on_boundary(&self, z: &[C64]) -> Vec<C64> {

@@ -108,7 +108,7 @@ impl StretchMinimising {
     pub fn first(&self, mesh: &DiskMesh, control: Control<'_>) -> Result<LessStretched, SolveError> {
         control.enter(Phase::Assemble)?;
         let start = Instant::now();
-        let weights = barycentric(mesh, MEAN_VALUE_POWER)?;
+        let weights = barycentric(mesh, MEAN_VALUE_POWER, control)?;
         self.solved(mesh, weights, PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..self.seconds() }, control)
     }
 
@@ -146,7 +146,7 @@ impl StretchMinimising {
         let factor = start.elapsed().as_secs_f64();
         control.enter(Phase::Solve)?;
         let start = Instant::now();
-        let (mut embedding, residual) = solve.solve(site, &self.places)?;
+        let (mut embedding, residual) = solve.solve(site, &self.places, control)?;
         embedding.gather_unused(mesh);
         let linear = solve.numbers(site, &embedding, residual);
         let solve_seconds = start.elapsed().as_secs_f64();

@@ -149,7 +149,7 @@ impl Extended {
         control.enter(Phase::Factor)?;
         let solve = FixedSolve::new(site, equations, &analysis, control)?;
         control.enter(Phase::Solve)?;
-        let (embedding, residual) = solve.solve_from(site, start, &residuals)?;
+        let (embedding, residual) = solve.solve_from(site, start, &residuals, control)?;
         let numbers = solve.numbers(site, &embedding, residual);
         Ok((embedding, numbers))
     }

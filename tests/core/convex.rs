@@ -251,8 +251,12 @@ fn weights(mesh: &DiskMesh, family: Family) -> Equations<f64> {
     match family {
         Family::Uniform => equations::uniform(mesh),
         Family::ShapePreserving => shape_preserving(mesh),
-        three_point => equations::barycentric(mesh, three_point.power().expect("well-formed by construction"))
-            .expect("well-formed by construction"),
+        three_point => equations::barycentric(
+            mesh,
+            three_point.power().expect("well-formed by construction"),
+            Control::unattended(),
+        )
+        .expect("well-formed by construction"),
     }
 }
 

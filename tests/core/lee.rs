@@ -86,7 +86,7 @@ fn weights_of_the_padded_mesh_are_positive() {
     for (name, mesh) in meshes() {
         for family in POSITIVE {
             let padded = Padded::new(&mesh, 2);
-            let equations = padded.equations(family).expect("finite");
+            let equations = padded.equations(family, Control::unattended()).expect("finite");
             for link in padded.disk().links() {
                 let weight = equations.coefficients[link.index()];
                 let is_inside = padded.disk().boundary_place(padded.disk().tail(link)).is_none();

@@ -9,7 +9,7 @@ use num_complex::Complex;
 use proptest::prelude::*;
 
 use crate::linalg_matrices::{
-    Draw, dominant, factored, grid_pattern, hermitian, laplacian, pattern_where, random_pattern, scale_rows,
+    Draw, GO_ON, dominant, factored, grid_pattern, hermitian, laplacian, pattern_where, random_pattern, scale_rows,
 };
 use crate::makers::Random;
 
@@ -47,14 +47,14 @@ fn agrees_with_dense<T: Draw>(seed: u64, n: usize, density: f64) {
     // More than a group of lanes and more than a group of refinement.
     let rhs: Vec<T> = (0..11 * n).map(|_| T::draw(&mut random)).collect();
     let dense = dense(&matrix);
-    let many = factor.solve(&matrix, &rhs).expect("regular");
+    let many = factor.solve(&matrix, &rhs, &GO_ON).expect("regular");
     assert!(deviation(&dense, &many.x, &rhs) < TOLERANCE);
     assert!(many.residual < 1e-14, "{}", many.residual);
-    let one = factor.solve(&matrix, &rhs[..n]).expect("regular");
+    let one = factor.solve(&matrix, &rhs[..n], &GO_ON).expect("regular");
     assert!(deviation(&dense, &one.x, &rhs[..n]) < TOLERANCE);
-    let adjoint = factor.solve_adjoint(&matrix, &rhs[..n]).expect("regular");
+    let adjoint = factor.solve_adjoint(&matrix, &rhs[..n], &GO_ON).expect("regular");
     assert!(deviation(&dense.adjoint().to_owned(), &adjoint.x, &rhs[..n]) < TOLERANCE);
-    let adjoints = factor.solve_adjoint(&matrix, &rhs[..3 * n]).expect("regular");
+    let adjoints = factor.solve_adjoint(&matrix, &rhs[..3 * n], &GO_ON).expect("regular");
     assert!(deviation(&dense.adjoint().to_owned(), &adjoints.x, &rhs[..3 * n]) < TOLERANCE);
 }
 
@@ -64,9 +64,9 @@ fn hermitian_agrees_with_dense<T: Draw>(seed: u64, n: usize, sign: f64) {
     let matrix: CscMatrix<T> = hermitian(&pattern, sign, &mut random);
     let factor = factored(Kind::Hermitian, &matrix).expect("definite");
     let rhs: Vec<T> = (0..2 * n).map(|_| T::draw(&mut random)).collect();
-    let solved = factor.solve(&matrix, &rhs).expect("definite");
+    let solved = factor.solve(&matrix, &rhs, &GO_ON).expect("definite");
     assert!(deviation(&dense(&matrix), &solved.x, &rhs) < TOLERANCE);
-    let adjoint = factor.solve_adjoint(&matrix, &rhs[..n]).expect("definite");
+    let adjoint = factor.solve_adjoint(&matrix, &rhs[..n], &GO_ON).expect("definite");
     assert!(deviation(&dense(&matrix), &adjoint.x, &rhs[..n]) < TOLERANCE);
 }
 
@@ -86,7 +86,7 @@ fn rows_over_twenty_decades_do_not_spoil_the_answer() {
     for (row, column, value) in matrix.triplet_iter() {
         rhs[row] += value * exact[column];
     }
-    let solved = factored(Kind::General, &matrix).and_then(|f| f.solve(&matrix, &rhs)).expect("regular");
+    let solved = factored(Kind::General, &matrix).and_then(|f| f.solve(&matrix, &rhs, &GO_ON)).expect("regular");
     assert!(solved.residual < 1e-14 && solved.scaled_residual < 1e-14, "{}", solved.residual);
     // The unscaled system has a condition number of about 1e4.
     let worst = solved.x.iter().zip(&exact).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
@@ -117,7 +117,7 @@ fn a_regular_matrix_with_a_zero_diagonal_is_solved() {
     let rhs: Vec<_> = (0..n).map(|_| Complex::draw(&mut random)).collect();
     let factor = factored(Kind::General, &matrix).expect("regular with probability one");
     assert!(factor.stats().replaced_pivots > 0, "otherwise this tests nothing");
-    let solved = factor.solve(&matrix, &rhs).expect("regular");
+    let solved = factor.solve(&matrix, &rhs, &GO_ON).expect("regular");
     assert!(solved.residual < 1e-12, "{}", solved.residual);
     assert!(deviation(&dense(&matrix), &solved.x, &rhs) < 1e-9);
 }
@@ -130,8 +130,8 @@ fn a_reused_analysis_gives_the_bits_of_a_fresh_one_and_two_runs_agree() {
     let rhs: Vec<_> = (0..3600).map(|_| Complex::draw(&mut random)).collect();
     for _ in 0..3 {
         let matrix: CscMatrix<Complex<f64>> = dominant(&pattern, &mut random);
-        let reused = shared.factor(&matrix, &AtomicBool::new(false)).and_then(|f| f.solve(&matrix, &rhs));
-        let fresh = factored(Kind::General, &matrix).and_then(|f| f.solve(&matrix, &rhs));
+        let reused = shared.factor(&matrix, &AtomicBool::new(false)).and_then(|f| f.solve(&matrix, &rhs, &GO_ON));
+        let fresh = factored(Kind::General, &matrix).and_then(|f| f.solve(&matrix, &rhs, &GO_ON));
         assert_eq!(bits(&reused.expect("regular").x), bits(&fresh.expect("regular").x));
     }
 }
@@ -152,7 +152,8 @@ fn an_adjoint_answer_that_dwarfs_its_right_hand_side_is_judged_by_its_backward_e
     let matrix = CscMatrix::try_from_pattern_and_values(pattern, values).expect("one value an entry");
     let mut rhs = vec![0.0; n];
     rhs[n - 1] = 1.0;
-    let solved = factored(Kind::General, &matrix).and_then(|f| f.solve_adjoint(&matrix, &rhs)).expect("regular");
+    let solved =
+        factored(Kind::General, &matrix).and_then(|f| f.solve_adjoint(&matrix, &rhs, &GO_ON)).expect("regular");
     assert!(solved.residual > 1e-10, "otherwise this tests nothing");
     assert!(solved.backward_error < 1e-15, "{}", solved.backward_error);
     let (mut before, mut exact) = (0.0, 1.0);
@@ -165,7 +166,7 @@ fn an_adjoint_answer_that_dwarfs_its_right_hand_side_is_judged_by_its_backward_e
 #[test]
 fn a_right_hand_side_of_zeros_has_residual_zero() {
     let matrix = laplacian(&grid_pattern(4), 0.1, &mut Random(1));
-    let solved = factored(Kind::General, &matrix).and_then(|f| f.solve(&matrix, &[0.0; 16])).expect("regular");
+    let solved = factored(Kind::General, &matrix).and_then(|f| f.solve(&matrix, &[0.0; 16], &GO_ON)).expect("regular");
     assert_eq!((solved.residual, solved.x), (0.0, vec![0.0; 16]));
 }
 
@@ -179,7 +180,7 @@ fn a_path_and_a_star_are_factored() {
         let pattern = pattern_where(n, joined);
         let matrix = laplacian(&pattern, 0.1, &mut Random(1));
         let rhs = vec![1.0; n];
-        let solved = factored(Kind::General, &matrix).and_then(|f| f.solve(&matrix, &rhs)).expect("regular");
+        let solved = factored(Kind::General, &matrix).and_then(|f| f.solve(&matrix, &rhs, &GO_ON)).expect("regular");
         // Every row sums to −0.1.
         assert!(solved.x.iter().all(|x| (x + 10.0).abs() < 1e-9));
     }
@@ -189,7 +190,7 @@ fn a_path_and_a_star_are_factored() {
 fn an_empty_system_has_an_empty_answer() {
     let matrix = CscMatrix::<f64>::zeros(0, 0);
     for kind in [Kind::General, Kind::Hermitian] {
-        let solved = factored(kind, &matrix).and_then(|f| f.solve(&matrix, &[])).expect("nothing to do");
+        let solved = factored(kind, &matrix).and_then(|f| f.solve(&matrix, &[], &GO_ON)).expect("nothing to do");
         assert!(solved.x.is_empty());
     }
 }

@@ -7,7 +7,7 @@ use num_complex::Complex;
 use proptest::prelude::*;
 
 use crate::linalg::{dense, deviation};
-use crate::linalg_matrices::{Draw, dominant, factored, grid_pattern, pattern_where, random_pattern};
+use crate::linalg_matrices::{Draw, GO_ON, dominant, factored, grid_pattern, pattern_where, random_pattern};
 use crate::makers::Random;
 
 /// Relative to the largest entry of the answer. A's diagonal dominates its rows.
@@ -44,7 +44,7 @@ proptest! {
         let matrix = augmented(&pattern, pairs, share, &mut random);
         let factor = factored(Kind::Augmented { pairs }, &matrix).expect("A has full column rank");
         let rhs: Vec<_> = (0..6 * matrix.nrows()).map(|_| Complex::draw(&mut random)).collect();
-        let solved = factor.solve(&matrix, &rhs).expect("regular");
+        let solved = factor.solve(&matrix, &rhs, &GO_ON).expect("regular");
         prop_assert!(deviation(&dense(&matrix), &solved.x, &rhs) < TOLERANCE);
         prop_assert!(solved.residual < 1e-12, "{}", solved.residual);
     }
@@ -77,7 +77,7 @@ fn a_row_without_a_coefficient_of_its_own_has_its_pivot_replaced_and_the_answer_
     let factor = factored(Kind::Augmented { pairs }, &matrix).expect("regular");
     assert!(factor.stats().replaced_pivots > 0, "otherwise this tests nothing");
     let rhs: Vec<_> = (0..matrix.nrows()).map(|_| Complex::draw(&mut random)).collect();
-    let solved = factor.solve(&matrix, &rhs).expect("regular");
+    let solved = factor.solve(&matrix, &rhs, &GO_ON).expect("regular");
     assert!(deviation(&dense(&matrix), &solved.x, &rhs) < TOLERANCE);
 }
 

@@ -7,7 +7,9 @@ use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
 use num_complex::Complex;
 
-use crate::linalg_matrices::{dominant, factored, grid_pattern, hermitian, laplacian, pattern_where, scale_rows};
+use crate::linalg_matrices::{
+    GO_ON, dominant, factored, grid_pattern, hermitian, laplacian, pattern_where, scale_rows,
+};
 use crate::makers::Random;
 
 #[test]
@@ -67,7 +69,7 @@ fn a_nan_in_the_right_hand_side_is_named_by_its_row() {
     let factor = factored(Kind::General, &matrix).expect("regular");
     let mut rhs = vec![0.0; 32];
     rhs[16 + 5] = f64::INFINITY;
-    assert_eq!(factor.solve(&matrix, &rhs).expect_err("infinite"), LinalgError::NotFinite { row: 5 });
+    assert_eq!(factor.solve(&matrix, &rhs, &GO_ON).expect_err("infinite"), LinalgError::NotFinite { row: 5 });
 }
 
 #[test]
@@ -111,7 +113,8 @@ fn a_pattern_that_is_dissected_is_solved_like_others() {
     let at = |k: usize| wanted.get(k).copied().unwrap_or(0.0);
     let rhs: Vec<f64> = (0..wanted.len()).map(|k| 2.5 * at(k) - at(k.wrapping_sub(1)) - at(k + 1)).collect();
     let matrix = CscMatrix::try_from_pattern_and_values(pattern.clone(), values).expect("one value per entry");
-    let solved = factored(Kind::Hermitian, &matrix).and_then(|factor| factor.solve(&matrix, &rhs)).expect("solvable");
+    let solved =
+        factored(Kind::Hermitian, &matrix).and_then(|factor| factor.solve(&matrix, &rhs, &GO_ON)).expect("solvable");
     let error = solved.x.iter().zip(&wanted).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
     assert!(error < 1e-12, "{error}");
 }

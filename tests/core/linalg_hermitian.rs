@@ -9,12 +9,10 @@ use num_complex::Complex;
 use proptest::prelude::*;
 
 use crate::linalg::{bits, dense, deviation};
-use crate::linalg_matrices::{Draw, factored, grid_pattern, hermitian, pattern_where, random_pattern};
+use crate::linalg_matrices::{Draw, GO_ON, factored, grid_pattern, hermitian, pattern_where, random_pattern};
 use crate::makers::Random;
 
 type C = Complex<f64>;
-
-static GO_ON: AtomicBool = AtomicBool::new(false);
 
 /// Relative to the largest entry of the answer; diagonals dominate their rows.
 const TOLERANCE: f64 = 1e-11;
@@ -38,7 +36,7 @@ fn unknowns_in_pairs_are_analysed_as_pairs_and_solved_as_any() {
     let matrix: CscMatrix<f64> = hermitian(&pattern, 1.0, &mut random);
     let rhs: Vec<f64> = (0..3 * matrix.nrows()).map(|_| f64::draw(&mut random)).collect();
     let factor = factored(Kind::Hermitian, &matrix).expect("definite");
-    let solved = factor.solve(&matrix, &rhs).expect("definite");
+    let solved = factor.solve(&matrix, &rhs, &GO_ON).expect("definite");
     assert!(deviation(&dense(&matrix), &solved.x, &rhs) < TOLERANCE);
     // Of every pair both columns stand in one front, so the factor holds whole blocks.
     assert_eq!(factor.stats().factor_bytes % (4 * size_of::<f64>()), 0);
@@ -54,7 +52,7 @@ fn a_pattern_that_only_nearly_comes_in_pairs_is_solved_too() {
     });
     let matrix: CscMatrix<f64> = hermitian(&pattern, 1.0, &mut random);
     let rhs: Vec<f64> = (0..72).map(|_| f64::draw(&mut random)).collect();
-    let solved = factored(Kind::Hermitian, &matrix).and_then(|f| f.solve(&matrix, &rhs)).expect("definite");
+    let solved = factored(Kind::Hermitian, &matrix).and_then(|f| f.solve(&matrix, &rhs, &GO_ON)).expect("definite");
     assert!(deviation(&dense(&matrix), &solved.x, &rhs) < TOLERANCE);
 }
 
@@ -63,7 +61,7 @@ fn fronts_of_several_blocks_of_columns_agree_with_a_dense_solution() {
     let mut random = Random(7);
     let matrix: CscMatrix<C> = hermitian(&pattern_where(150, |_, _| true), -1.0, &mut random);
     let rhs: Vec<C> = (0..150).map(|_| C::draw(&mut random)).collect();
-    let solved = factored(Kind::Hermitian, &matrix).and_then(|f| f.solve(&matrix, &rhs)).expect("definite");
+    let solved = factored(Kind::Hermitian, &matrix).and_then(|f| f.solve(&matrix, &rhs, &GO_ON)).expect("definite");
     assert!(deviation(&dense(&matrix), &solved.x, &rhs) < TOLERANCE);
 }
 
@@ -72,7 +70,7 @@ fn any_number_of_threads_gives_the_same_bits() {
     let mut random = Random(8);
     let matrix: CscMatrix<C> = hermitian(&grid_pattern(60), 1.0, &mut random);
     let rhs: Vec<C> = (0..matrix.nrows()).map(|_| C::draw(&mut random)).collect();
-    let solve = || factored(Kind::Hermitian, &matrix).and_then(|f| f.solve(&matrix, &rhs)).expect("definite").x;
+    let solve = || factored(Kind::Hermitian, &matrix).and_then(|f| f.solve(&matrix, &rhs, &GO_ON)).expect("definite").x;
     let alone = on_threads(1, solve);
     assert_eq!(bits(&alone), bits(&on_threads(2, solve)));
     assert_eq!(bits(&alone), bits(&on_threads(5, solve)));
@@ -94,7 +92,7 @@ fn fronts_that_are_worth_several_threads_have_the_same_bits_on_any_number() {
     let pattern = pattern_where(500, |i, j| part(i) == part(j) || part(i) == 2 || part(j) == 2);
     let matrix: CscMatrix<C> = hermitian(&pattern, 1.0, &mut random);
     let rhs: Vec<C> = (0..500).map(|_| C::draw(&mut random)).collect();
-    let solve = || factored(Kind::Hermitian, &matrix).and_then(|f| f.solve(&matrix, &rhs)).expect("definite").x;
+    let solve = || factored(Kind::Hermitian, &matrix).and_then(|f| f.solve(&matrix, &rhs, &GO_ON)).expect("definite").x;
     let alone = on_threads(1, solve);
     assert!(deviation(&dense(&matrix), &alone, &rhs) < TOLERANCE);
     for threads in [2, 5] {
@@ -139,7 +137,7 @@ fn a_similar_pattern_is_factored_in_the_order_of_the_first() {
         let similar = Analysis::in_order(&order, &other, &AtomicBool::new(false)).expect("symmetric");
         let matrix: CscMatrix<f64> = hermitian(&other, 1.0, &mut random);
         let rhs: Vec<f64> = (0..n).map(|_| f64::draw(&mut random)).collect();
-        let solved = similar.factor(&matrix, &GO_ON).and_then(|f| f.solve(&matrix, &rhs)).expect("definite");
+        let solved = similar.factor(&matrix, &GO_ON).and_then(|f| f.solve(&matrix, &rhs, &GO_ON)).expect("definite");
         assert!(deviation(&dense(&matrix), &solved.x, &rhs) < TOLERANCE);
     }
 }
@@ -151,7 +149,7 @@ proptest! {
         let pattern = in_blocks(&random_pattern(n, density, &mut random));
         let matrix: CscMatrix<f64> = hermitian(&pattern, 1.0, &mut random);
         let rhs: Vec<f64> = (0..2 * n).map(|_| f64::draw(&mut random)).collect();
-        let solved = factored(Kind::Hermitian, &matrix).and_then(|f| f.solve(&matrix, &rhs)).expect("definite");
+        let solved = factored(Kind::Hermitian, &matrix).and_then(|f| f.solve(&matrix, &rhs, &GO_ON)).expect("definite");
         prop_assert!(deviation(&dense(&matrix), &solved.x, &rhs) < TOLERANCE);
     }
 }

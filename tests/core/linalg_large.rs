@@ -7,7 +7,7 @@ use num_complex::Complex;
 use rayon::ThreadPoolBuilder;
 
 use crate::linalg::bits;
-use crate::linalg_matrices::{Draw, factored, hermitian, laplacian, scale_rows};
+use crate::linalg_matrices::{Draw, GO_ON, factored, hermitian, laplacian, scale_rows};
 use crate::makers::Random;
 
 /// Side of a grid of 25,600 unknowns: cut in two.
@@ -51,8 +51,8 @@ fn known_answers_come_back<T: Draw>(kind: Kind, matrix: &CscMatrix<T>, tolerance
     let rhs: Vec<T> = known.chunks_exact(n).flat_map(|x| product(matrix, x)).collect();
     let solve = || {
         let factor = factored(kind, matrix).expect("regular");
-        let x = factor.solve(matrix, &rhs).expect("regular").x;
-        let adjoint = factor.solve_adjoint(matrix, &rhs).expect("regular").x;
+        let x = factor.solve(matrix, &rhs, &GO_ON).expect("regular").x;
+        let adjoint = factor.solve_adjoint(matrix, &rhs, &GO_ON).expect("regular").x;
         (x, adjoint, factor.stats().factor_bytes)
     };
     let on_threads = |count| ThreadPoolBuilder::new().num_threads(count).build().expect("a few threads").install(solve);

@@ -9,6 +9,9 @@ use num_complex::Complex;
 
 use crate::makers::Random;
 
+/// The flag of a caller who lets everything run to its end.
+pub(crate) static GO_ON: AtomicBool = AtomicBool::new(false);
+
 /// A scalar drawn from a generator.
 pub(crate) trait Draw: Scalar {
     fn draw(random: &mut Random) -> Self;

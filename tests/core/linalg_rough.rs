@@ -8,10 +8,10 @@ use proptest::prelude::*;
 
 use crate::linalg::bits;
 use crate::linalg_hermitian::{in_blocks, on_threads};
-use crate::linalg_matrices::{Draw, factored, grid_pattern, hermitian, laplacian, pattern_where, random_pattern};
+use crate::linalg_matrices::{
+    Draw, GO_ON, factored, grid_pattern, hermitian, laplacian, pattern_where, random_pattern,
+};
 use crate::makers::Random;
-
-static GO_ON: AtomicBool = AtomicBool::new(false);
 
 /// What single precision is to leave of the error at most, in the norm of the matrix; the module asks for this in the
 /// norm of its factors, which is nearly the same.
@@ -50,7 +50,8 @@ fn energy(matrix: &CscMatrix<f64>, x: &[f64]) -> f64 {
 
 /// The error of an answer in the norm of the matrix, by the norm of the answer that refinement gives.
 fn error(matrix: &CscMatrix<f64>, rhs: &[f64], x: &[f64]) -> f64 {
-    let best = factored(Kind::Hermitian, matrix).and_then(|f| f.solve_correction(matrix, rhs)).expect("definite").x;
+    let best =
+        factored(Kind::Hermitian, matrix).and_then(|f| f.solve_correction(matrix, rhs, &GO_ON)).expect("definite").x;
     let off: Vec<f64> = x.iter().zip(&best).map(|(x, best)| x - best).collect();
     (energy(matrix, &off) / energy(matrix, &best)).sqrt()
 }

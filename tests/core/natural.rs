@@ -112,7 +112,7 @@ fn the_conformal_matrix_is_hermitian_bit_for_bit() {
     let built_in = Example::ALL.map(|e| (e.name().to_owned(), DiskMesh::try_from(e.mesh()).unwrap()));
     let corpus = corpus_disks().into_iter().map(|entry| (entry.file.clone(), entry.disk()));
     for (name, mesh) in built_in.into_iter().chain(corpus) {
-        let equations = equations::natural(&mesh, Family::CONFORMAL_POWER).unwrap();
+        let equations = equations::natural(&mesh, Family::CONFORMAL_POWER, Control::unattended()).unwrap();
         let pins = fixed_pins(gauge_pins(&mesh));
         let matrix = FreeSystem::new(&mesh, |v| pins.contains_key(&v)).negated_matrix(&mesh, &equations);
         for (row, column, value) in matrix.triplet_iter() {
@@ -190,9 +190,9 @@ fn a_dense_solve_written_corner_by_corner_agrees() {
 /// The unsymmetric systems with a free boundary.
 fn unsymmetric(mesh: &DiskMesh) -> [(&'static str, Equations<Complex<f64>>); 3] {
     [
-        ("mean value", equations::natural(mesh, 0.0).expect("well-formed by construction")),
-        ("Wachspress", equations::natural(mesh, -1.0).expect("well-formed by construction")),
-        ("Lévy", equations::levy(mesh).expect("well-formed by construction")),
+        ("mean value", equations::natural(mesh, 0.0, Control::unattended()).expect("well-formed by construction")),
+        ("Wachspress", equations::natural(mesh, -1.0, Control::unattended()).expect("well-formed by construction")),
+        ("Lévy", equations::levy(mesh, Control::unattended()).expect("well-formed by construction")),
     ]
 }
 
@@ -212,7 +212,9 @@ fn the_lu_finds_manufactured_solutions_on_the_disks_of_the_corpus() {
             for (row, column, value) in matrix.triplet_iter() {
                 right[row] += value * wanted[column];
             }
-            let solved = analysis.factor(&matrix, &AtomicBool::new(false)).and_then(|f| f.solve(&matrix, &right));
+            let solved = analysis
+                .factor(&matrix, &AtomicBool::new(false))
+                .and_then(|f| f.solve(&matrix, &right, &AtomicBool::new(false)));
             if entry.file == CORRIDORS {
                 assert!(matches!(solved, Err(LinalgError::Singular { .. })), "{name}: {solved:?}");
                 continue;

@@ -164,9 +164,13 @@ fn a_mirrored_plane_comes_back_by_its_faces() {
 /// A of all vertex equations as a real matrix of order 2n.
 pub(crate) fn real_matrix(mesh: &DiskMesh, settings: &Settings) -> DMatrix<f64> {
     let equations = match settings.method {
-        Method::Levy => equations::levy(mesh),
-        Method::Lscm => equations::lscm(mesh),
-        _ => equations::natural(mesh, settings.family().power().expect("well-formed by construction")),
+        Method::Levy => equations::levy(mesh, Control::unattended()),
+        Method::Lscm => equations::lscm(mesh, Control::unattended()),
+        _ => equations::natural(
+            mesh,
+            settings.family().power().expect("well-formed by construction"),
+            Control::unattended(),
+        ),
     }
     .expect("well-formed by construction");
     let n = mesh.vertex_count();

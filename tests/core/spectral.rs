@@ -22,7 +22,7 @@ fn complex(z: DVec2) -> C64 {
 
 /// L as a dense matrix, over all vertices of a mesh without unused ones.
 fn energy_matrix(mesh: &DiskMesh) -> DMatrix<C64> {
-    let equations = equations::natural(mesh, Family::CONFORMAL_POWER).unwrap();
+    let equations = equations::natural(mesh, Family::CONFORMAL_POWER, Control::unattended()).unwrap();
     let mut matrix = DMatrix::zeros(mesh.vertex_count(), mesh.vertex_count());
     for (link, &a) in mesh.links().zip(&equations.coefficients) {
         let (tail, head) = (mesh.tail(link).index(), mesh.head(link).index());
@@ -34,7 +34,7 @@ fn energy_matrix(mesh: &DiskMesh) -> DMatrix<C64> {
 
 /// z* L z, from the equations.
 fn energy(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
-    let equations = equations::natural(mesh, Family::CONFORMAL_POWER).unwrap();
+    let equations = equations::natural(mesh, Family::CONFORMAL_POWER, Control::unattended()).unwrap();
     let work = |v: VertexId| -(complex(embedding[v]).conj() * equations.residual_of(mesh, embedding, v)).re;
     mesh.vertices().map(work).sum()
 }

@@ -120,7 +120,10 @@ fn weights_are_divided_by_the_stretch_of_the_neighbour_and_stay_positive() {
         let minimising =
             StretchMinimising::new(&mesh, BoundaryShape::Circle, Spacing::Even, Control::unattended()).expect("a disk");
         let mut solved = minimising.first(&mesh, Control::unattended()).expect("solvable");
-        assert_eq!(solved.weights(), equations::barycentric(&mesh, 0.0).expect("finite").coefficients);
+        assert_eq!(
+            solved.weights(),
+            equations::barycentric(&mesh, 0.0, Control::unattended()).expect("finite").coefficients
+        );
         for _ in 0..3 {
             let before = solved.clone();
             solved = minimising.after(&before, &mesh, Control::unattended()).expect("solvable");

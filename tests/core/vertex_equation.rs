@@ -78,7 +78,7 @@ fn each_equation_is_a_row_of_the_system() {
     let mesh = disk(Example::Cube.mesh());
     let embedding = at_random(mesh.vertex_count(), 1);
     for family in [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.4)] {
-        let all = equations::natural(&mesh, family.power().unwrap()).unwrap();
+        let all = equations::natural(&mesh, family.power().unwrap(), Control::unattended()).unwrap();
         let step = step_with(&mesh, family, embedding.clone());
         for vertex in mesh.vertices() {
             let found = equation(&mesh, &step, vertex);
@@ -93,7 +93,7 @@ fn each_equation_on_polygons_is_a_row_of_the_system_with_their_diagonals() {
         let mesh = disk(polygons.triangulate());
         let (before, after) = (at_random(mesh.vertex_count(), 7), at_random(mesh.vertex_count(), 8));
         for family in [Family::Conformal, Family::MeanValue] {
-            let all = equations::natural(&mesh, family.power().unwrap()).unwrap();
+            let all = equations::natural(&mesh, family.power().unwrap(), Control::unattended()).unwrap();
             let mut step = step_with(&mesh, family, after.clone());
             for vertex in mesh.vertices() {
                 assert_is_row(&mesh, &equation(&mesh, &step, vertex), &all, &after, vertex);

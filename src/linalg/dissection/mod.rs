@@ -64,9 +64,8 @@ impl Dissection {
         if levels == 0 {
             return Ok(None);
         }
-        let (patch, quotient) = Quotient::of_patches(graph);
-        go_on_unless(cancel)?;
-        let part_of_patch = quotient.parts(levels);
+        let (patch, quotient) = Quotient::of_patches(graph, cancel)?;
+        let part_of_patch = quotient.parts(levels, cancel)?;
         let mut labels: Vec<u32> = patch.iter().map(|&patch| part_of_patch[patch as usize]).collect();
         for level in 0..levels {
             go_on_unless(cancel)?;
@@ -76,8 +75,12 @@ impl Dissection {
             if cuts.iter().any(|cut| cut.width() as f64 > 2.0 * most) {
                 return Ok(None);
             }
-            let found: Vec<Vec<Moved>> = cuts.par_iter().map(|cut| least_separator(graph, &labels, cut)).collect();
-            for (cut, moved) in cuts.iter().zip(found) {
+            let separator = |cut| {
+                go_on_unless(cancel)?;
+                Ok(least_separator(graph, &labels, cut))
+            };
+            let found: Result<Vec<Vec<Moved>>, LinalgError> = cuts.par_iter().map(separator).collect();
+            for (cut, moved) in cuts.iter().zip(found?) {
                 let count = moved.iter().filter(|moved| moved.side.is_none()).count();
                 if count as f64 > most {
                     return Ok(None);

@@ -1,10 +1,12 @@
 //! Patches of a graph, and where their quotient graph is cut in two.
 
 use std::cmp::Reverse;
+use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-use crate::linalg::order::{NONE, Pattern, narrow, running_sum};
+use crate::linalg::LinalgError;
+use crate::linalg::order::{NONE, Pattern, go_on_unless, narrow, running_sum};
 
 /// Vertices of a patch.
 const PATCH: u64 = 64;
@@ -30,8 +32,13 @@ pub(super) struct Quotient {
 
 impl Quotient {
     /// Grows patches around vertices that are strewn over the graph. Also returns the patch of every vertex.
-    pub(super) fn of_patches(graph: &Pattern) -> (Vec<u32>, Self) {
+    ///
+    /// # Errors
+    ///
+    /// [`LinalgError::Cancelled`].
+    pub(super) fn of_patches(graph: &Pattern, cancel: &AtomicBool) -> Result<(Vec<u32>, Self), LinalgError> {
         let patch = grown(graph);
+        go_on_unless(cancel)?;
         let count = patch.iter().max().map_or(0, |&last| last as usize + 1);
         let mut size = vec![0; count];
         for &own in &patch {
@@ -42,7 +49,9 @@ impl Quotient {
             let others = graph.column(vertex).iter().map(|&other| patch[other as usize]).filter(|&other| other != own);
             pairs.extend(others.map(|other| u64::from(own) << 32 | u64::from(other)));
         }
+        go_on_unless(cancel)?;
         pairs.sort_unstable();
+        go_on_unless(cancel)?;
         let (mut counts, mut rows, mut edges) = (vec![0; count], Vec::new(), Vec::new());
         for run in pairs.chunk_by(|a, b| a == b) {
             let [own, other] = [run[0] >> 32, run[0] & u64::from(u32::MAX)];
@@ -50,14 +59,19 @@ impl Quotient {
             rows.push(u32::try_from(other).expect("32 bits"));
             edges.push(narrow(run.len()));
         }
-        (patch, Self { around: Pattern { offsets: running_sum(&counts), rows }, edges, size })
+        Ok((patch, Self { around: Pattern { offsets: running_sum(&counts), rows }, edges, size }))
     }
 
     /// Cuts it in two so many times. The part of every patch: the parts of its halves come one after the other.
-    pub(super) fn parts(&self, levels: u32) -> Vec<u32> {
+    ///
+    /// # Errors
+    ///
+    /// [`LinalgError::Cancelled`].
+    pub(super) fn parts(&self, levels: u32, cancel: &AtomicBool) -> Result<Vec<u32>, LinalgError> {
         let mut part = vec![0; self.size.len()];
         let mut lists: Vec<Vec<u32>> = vec![(0..narrow(part.len())).collect()];
         for _ in 0..levels {
+            go_on_unless(cancel)?;
             let seconds: Vec<Vec<u32>> = lists.par_iter().map(|list| self.second_half(list, &part)).collect();
             let mut halves = Vec::with_capacity(2 * lists.len());
             for (list, second) in lists.into_iter().zip(seconds) {
@@ -74,7 +88,7 @@ impl Quotient {
                 }
             }
         }
-        part
+        Ok(part)
     }
 
     fn beside(&self, patch: u32) -> impl Iterator<Item = (u32, u32)> {

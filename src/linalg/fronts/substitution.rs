@@ -6,6 +6,7 @@
 //! added to what, and in which order, depends on the pattern alone.
 
 use std::ops::Range;
+use std::sync::atomic::AtomicBool;
 
 use faer::linalg::matmul::matmul;
 use faer::traits::Conjugate;
@@ -15,7 +16,8 @@ use rayon::prelude::*;
 use super::dense::{mat, mat_mut};
 use super::symbolic::{FrontAnalysis, Shape};
 use super::units::Unit;
-use crate::linalg::order::NONE;
+use crate::linalg::LinalgError;
+use crate::linalg::order::{NONE, go_on_unless};
 use crate::linalg::scalar::Number;
 
 /// Right-hand sides solved together.
@@ -82,12 +84,22 @@ pub(in crate::linalg) fn subtract_product<T: Number, A: Conjugate<Canonical = T>
 }
 
 /// Takes right-hand sides, one after another in the order of elimination, to their solutions.
-pub(in crate::linalg) fn substitute<T: Number>(analysis: &FrontAnalysis, how: &impl Substitution<T>, x: &mut [T]) {
+///
+/// # Errors
+///
+/// [`LinalgError::Cancelled`], looked for at every unit and every front above the units: `x` is then of no use.
+pub(in crate::linalg) fn substitute<T: Number>(
+    analysis: &FrontAnalysis,
+    how: &impl Substitution<T>,
+    x: &mut [T],
+    cancel: &AtomicBool,
+) -> Result<(), LinalgError> {
     let n = analysis.order.new_to_old.len();
     let way = Way { analysis, how, n, count: x.len() / n };
     let (low, top): (Vec<&Unit>, Vec<&Unit>) = analysis.units.iter().partition(|unit| unit.awaited == 0);
-    let done: Vec<Carried<T>> = low.par_iter().map(|unit| way.up(unit, x)).collect();
-    for (unit, Carried { own, outer }) in low.iter().zip(done) {
+    let up = |unit: &&Unit| go_on_unless(cancel).map(|()| way.up(unit, x));
+    let done: Result<Vec<Carried<T>>, LinalgError> = low.par_iter().map(up).collect();
+    for (unit, Carried { own, outer }) in low.iter().zip(done?) {
         put(&own, &way.rows(&unit.range), n, x);
         let mut outer = &outer[..];
         for root in way.roots(unit) {
@@ -97,10 +109,18 @@ pub(in crate::linalg) fn substitute<T: Number>(analysis: &FrontAnalysis, how: &i
         }
     }
     let fronts = top.iter().flat_map(|unit| unit.range.clone());
-    fronts.clone().for_each(|front| way.up_top(front, x));
-    fronts.rev().for_each(|front| way.down_top(front, x));
-    let done: Vec<Vec<T>> = low.par_iter().map(|unit| way.down(unit, x)).collect();
-    low.iter().zip(done).for_each(|(unit, own)| put(&own, &way.rows(&unit.range), n, x));
+    for front in fronts.clone() {
+        go_on_unless(cancel)?;
+        way.up_top(front, x);
+    }
+    for front in fronts.rev() {
+        go_on_unless(cancel)?;
+        way.down_top(front, x);
+    }
+    let down = |unit: &&Unit| go_on_unless(cancel).map(|()| way.down(unit, x));
+    let done: Result<Vec<Vec<T>>, LinalgError> = low.par_iter().map(down).collect();
+    low.iter().zip(done?).for_each(|(unit, own)| put(&own, &way.rows(&unit.range), n, x));
+    Ok(())
 }
 
 /// What is the same for all fronts.

@@ -101,8 +101,8 @@ impl FrontAnalysis {
         cancel: &AtomicBool,
     ) -> Result<Self, LinalgError> {
         let Plan { order, begin, parent, rows } = match &elimination.pairs {
-            Some(pairs) => Plan::new(pairs, elimination).of_pairs(),
-            None => Plan::new(pattern, elimination),
+            Some(pairs) => Plan::new(pairs, elimination, cancel)?.of_pairs(),
+            None => Plan::new(pattern, elimination, cancel)?,
         };
         go_on_unless(cancel)?;
         let children = children(&parent);
@@ -125,9 +125,8 @@ impl FrontAnalysis {
         if (0..this.count()).any(too_large) {
             return Err(LinalgError::TooLarge { order: pattern.order() });
         }
-        this.relative = this.relative_rows();
-        go_on_unless(cancel)?;
-        this.place_entries(pattern);
+        this.relative = this.relative_rows(cancel)?;
+        this.place_entries(pattern, cancel)?;
         let work: Vec<f64> = (0..this.count()).map(|s| this.shape(s).work()).collect();
         (this.units, this.unit_of) = units(&this.parent, &work);
         this.starts = this.starts();
@@ -184,8 +183,8 @@ impl FrontAnalysis {
         &self.entries[self.entry_offsets[supernode] as usize..self.entry_offsets[supernode + 1] as usize]
     }
 
-    fn relative_rows(&self) -> Vec<u32> {
-        in_tasks(self.count(), |supernodes| {
+    fn relative_rows(&self, cancel: &AtomicBool) -> Result<Vec<u32>, LinalgError> {
+        let parts = in_tasks(self.count(), cancel, |supernodes| {
             let mut relative = Vec::new();
             for supernode in supernodes.filter(|&supernode| self.parent[supernode] != NONE) {
                 let parent = self.parent[supernode] as usize;
@@ -201,13 +200,14 @@ impl FrontAnalysis {
                 }
             }
             relative
-        })
-        .concat()
+        });
+        Ok(parts?.concat())
     }
 
-    fn place_entries(&mut self, pattern: &Pattern) {
+    fn place_entries(&mut self, pattern: &Pattern, cancel: &AtomicBool) -> Result<(), LinalgError> {
         let mirror = if self.sides == Sides::Both { mirrored_positions(pattern) } else { Vec::new() };
-        let parts = in_tasks(self.count(), |supernodes| {
+        go_on_unless(cancel)?;
+        let parts = in_tasks(self.count(), cancel, |supernodes| {
             let mut local = vec![0u32; pattern.order()];
             let (mut counts, mut entries) = (Vec::with_capacity(supernodes.len()), Vec::new());
             for supernode in supernodes {
@@ -217,8 +217,9 @@ impl FrontAnalysis {
             }
             (counts, entries)
         });
-        let (counts, entries): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+        let (counts, entries): (Vec<_>, Vec<_>) = parts?.into_iter().unzip();
         (self.entry_offsets, self.entries) = (running_sum(&counts.concat()), entries.concat());
+        go_on_unless(cancel)
     }
 
     /// Appends the entries of one front. `local` has room for all rows.
@@ -261,8 +262,15 @@ struct Source<'a> {
 const SUPERNODES_PER_TASK: usize = 8192;
 
 /// What runs of supernodes give, in their order.
-fn in_tasks<T: Send>(count: usize, of: impl Fn(std::ops::Range<usize>) -> T + Sync) -> Vec<T> {
-    let of_task = |task: usize| of(task * SUPERNODES_PER_TASK..count.min((task + 1) * SUPERNODES_PER_TASK));
+fn in_tasks<T: Send>(
+    count: usize,
+    cancel: &AtomicBool,
+    of: impl Fn(std::ops::Range<usize>) -> T + Sync,
+) -> Result<Vec<T>, LinalgError> {
+    let of_task = |task: usize| {
+        go_on_unless(cancel)?;
+        Ok(of(task * SUPERNODES_PER_TASK..count.min((task + 1) * SUPERNODES_PER_TASK)))
+    };
     (0..count.div_ceil(SUPERNODES_PER_TASK)).into_par_iter().map(of_task).collect()
 }
 
@@ -275,11 +283,14 @@ struct Plan {
 }
 
 impl Plan {
-    fn new(pattern: &Pattern, elimination: &Elimination) -> Self {
+    fn new(pattern: &Pattern, elimination: &Elimination, cancel: &AtomicBool) -> Result<Self, LinalgError> {
         let Supernodes { begin, parent, below, columns } = supernodes(elimination);
+        go_on_unless(cancel)?;
         let order = elimination.order.then(&columns);
-        let rows = front_rows(&pattern.permuted_upper(&order), &begin, &parent, running_sum(&below));
-        Self { order, begin, parent, rows }
+        let upper = pattern.permuted_upper(&order);
+        go_on_unless(cancel)?;
+        let rows = front_rows(&upper, &begin, &parent, running_sum(&below));
+        Ok(Self { order, begin, parent, rows })
     }
 
     /// The same of a matrix whose unknowns stand for pairs: 2k and 2k + 1 for k.

@@ -23,6 +23,7 @@ struct Job<'a, T, V> {
     value: &'a V,
     /// Memory of an earlier factor's units.
     spare: Vec<Mutex<Vec<T>>>,
+    cancel: &'a AtomicBool,
 }
 
 impl<T: Number> Llt<T> {
@@ -44,7 +45,7 @@ impl<T: Number> Llt<T> {
         cancel: &AtomicBool,
     ) -> Result<Self, LinalgError> {
         let spare = earlier.into_iter().flat_map(|earlier| earlier.units).map(Mutex::new).collect();
-        let (units, peak_bytes) = Tree::run(analysis, &Job { analysis, value, spare }, cancel)?;
+        let (units, peak_bytes) = Tree::run(analysis, &Job { analysis, value, spare, cancel }, cancel)?;
         Ok(Self { units, sign: T::ONE, peak_bytes })
     }
 }
@@ -82,9 +83,10 @@ impl<T: Number, V: Fn(usize, usize) -> T + Sync> Kernel<T> for Job<'_, T, V> {
         for (child, childs_update) in children {
             front.extend_add(childs_update, analysis.relative(*child as usize));
         }
-        front
-            .eliminate(shape.threads())
-            .map_err(|column| LinalgError::NotPositiveDefinite { row: columns[column] as usize })
+        front.eliminate(shape.threads(), self.cancel).map_err(|error| match error {
+            LinalgError::NotPositiveDefinite { row } => LinalgError::NotPositiveDefinite { row: columns[row] as usize },
+            other => other,
+        })
     }
 }
 

@@ -1,11 +1,15 @@
 //! One front: assembly, elimination, update; lower triangles alone.
 
+use std::sync::atomic::AtomicBool;
+
 use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, Par};
 use nalgebra::ComplexField as _;
 
+use crate::linalg::LinalgError;
 use crate::linalg::fronts::{Shape, mat, mat_mut, scatter_add, threads_for};
+use crate::linalg::order::go_on_unless;
 use crate::linalg::scalar::Number;
 
 /// Columns eliminated one by one before the rest of the block is updated by a matrix product.
@@ -38,18 +42,20 @@ impl<T: Number> Front<'_, T> {
         }
     }
 
-    /// Eliminates the front's columns and leaves the Schur complement in `update`. The error is the first column without
-    /// a positive pivot.
-    pub(super) fn eliminate(&mut self, par: Par) -> Result<(), usize> {
+    /// Eliminates the front's columns and leaves the Schur complement in `update`. An error's row is the first column
+    /// without a positive pivot.
+    pub(super) fn eliminate(&mut self, par: Par, cancel: &AtomicBool) -> Result<(), LinalgError> {
         let Shape { columns, below } = self.shape;
         let height = self.shape.height();
-        factor_block(self.left, height, columns)?;
+        factor_block(self.left, height, columns, cancel)?;
         if below == 0 {
             return Ok(());
         }
+        go_on_unless(cancel)?;
         let (block, mut lower) = mat_mut(self.left, height, columns).split_at_row_mut(columns);
         // L₂₁ L₁₁ᴴ = A₂₁ as conj(L₁₁) L₂₁ᵀ = A₂₁ᵀ.
         solve_lower_triangular_in_place(block.as_ref().conjugate(), lower.as_mut().transpose_mut(), par);
+        go_on_unless(cancel)?;
         subtract_product(mat_mut(self.update, below, below), lower.as_ref(), par);
         Ok(())
     }
@@ -62,8 +68,14 @@ fn subtract_product<T: Number>(square: faer::MatMut<'_, T>, lower: faer::MatRef<
 }
 
 /// Factors the lower triangle of the top `columns` × `columns` block of a panel (leading dimension `height`).
-fn factor_block<T: Number>(panel: &mut [T], height: usize, columns: usize) -> Result<(), usize> {
+fn factor_block<T: Number>(
+    panel: &mut [T],
+    height: usize,
+    columns: usize,
+    cancel: &AtomicBool,
+) -> Result<(), LinalgError> {
     for first in (0..columns).step_by(BLOCK) {
+        go_on_unless(cancel)?;
         let last = (first + BLOCK).min(columns);
         for k in first..last {
             eliminate_column(panel, height, k, last..columns)?;
@@ -85,12 +97,12 @@ fn eliminate_column<T: Number>(
     height: usize,
     k: usize,
     rest: std::ops::Range<usize>,
-) -> Result<(), usize> {
+) -> Result<(), LinalgError> {
     let (done, later) = panel.split_at_mut((k + 1) * height);
     let column = &mut done[k * height..][k..rest.end];
     let pivot = column[0].real();
     if !(pivot > T::ZERO.real() && pivot.is_finite()) {
-        return Err(k);
+        return Err(LinalgError::NotPositiveDefinite { row: k });
     }
     let root = pivot.sqrt();
     column[0] = T::from_real(root);

@@ -3,11 +3,14 @@
 //! Several right-hand sides are taken some at a time, so that the numbers of the factors are read once for all of them;
 //! such groups run side by side. Large blocks go through faer's dense kernels, small ones through plain loops.
 
+use std::sync::atomic::AtomicBool;
+
 use faer::Par;
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use rayon::prelude::*;
 
 use super::factor::Llt;
+use crate::linalg::LinalgError;
 use crate::linalg::fronts::{
     FrontAnalysis, LARGE_PANEL, Part, Substitution, TOGETHER, split_panel, substitute, subtract_product,
 };
@@ -15,27 +18,37 @@ use crate::linalg::scalar::Number;
 
 impl<T: Number> Llt<T> {
     /// Solves A x = b in place for each column of `columns` (column-major).
-    pub(crate) fn solve_in_place(&self, analysis: &FrontAnalysis, columns: &mut [T]) {
+    ///
+    /// # Errors
+    ///
+    /// [`LinalgError::Cancelled`].
+    pub(crate) fn solve_in_place(
+        &self,
+        analysis: &FrontAnalysis,
+        columns: &mut [T],
+        cancel: &AtomicBool,
+    ) -> Result<(), LinalgError> {
         let n = analysis.order.new_to_old.len();
         if n == 0 {
-            return;
+            return Ok(());
         }
-        columns.par_chunks_mut(TOGETHER * n).for_each(|columns| self.solve_group(analysis, columns));
+        columns.par_chunks_mut(TOGETHER * n).try_for_each(|columns| self.solve_group(analysis, columns, cancel))
     }
 
-    fn solve_group(&self, analysis: &FrontAnalysis, columns: &mut [T]) {
+    fn solve_group(&self, analysis: &FrontAnalysis, columns: &mut [T], cancel: &AtomicBool) -> Result<(), LinalgError> {
         let order = &analysis.order.new_to_old;
         let n = order.len();
         let mut x = Vec::with_capacity(columns.len());
         for column in columns.chunks_exact(n) {
             x.extend(order.iter().map(|&old| column[old as usize].scale(self.sign.real())));
         }
-        substitute(analysis, &Panels { analysis, factor: self }, &mut x);
+        substitute(analysis, &Panels { analysis, factor: self }, &mut x, cancel)?;
         for (x, column) in x.chunks_exact(n).zip(columns.chunks_exact_mut(n)) {
             for (&x, &old) in x.iter().zip(order) {
                 column[old as usize] = x;
             }
         }
+        Ok(())
     }
 }
 

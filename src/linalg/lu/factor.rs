@@ -7,7 +7,7 @@ use nalgebra_sparse::CscMatrix;
 use super::front::Front;
 use super::pivot::Pivots;
 use crate::linalg::fronts::{FrontAnalysis, Kernel, Tree, Update};
-use crate::linalg::order::{Pattern, narrow};
+use crate::linalg::order::{Pattern, go_on_unless, narrow};
 use crate::linalg::scalar::Scalar;
 use crate::linalg::sparse::power_of_two_near;
 use crate::linalg::{FactorStats, LinalgError};
@@ -41,6 +41,7 @@ struct Job<'a, T> {
     row_scale: &'a [f64],
     /// Smallest pivot accepted, by the caller's rows.
     thresholds: &'a [f64],
+    cancel: &'a AtomicBool,
 }
 
 impl<T: Scalar> Lu<T> {
@@ -51,8 +52,9 @@ impl<T: Scalar> Lu<T> {
         cancel: &AtomicBool,
     ) -> Result<Self, LinalgError> {
         let (row_scale, thresholds) = equilibrate(pattern, matrix.values())?;
+        go_on_unless(cancel)?;
         let values = matrix.values();
-        let job = Job { analysis, pattern, values, row_scale: &row_scale, thresholds: &thresholds };
+        let job = Job { analysis, pattern, values, row_scale: &row_scale, thresholds: &thresholds, cancel };
         let (units, peak_bytes) = Tree::run(analysis, &job, cancel)?;
         let replaced = units.iter().flat_map(|unit| &unit.replaced);
         let replaced_rows = replaced.map(|&row| analysis.order.new_to_old[row as usize]).collect();
@@ -96,7 +98,7 @@ impl<T: Scalar> Kernel<T> for Job<'_, T> {
         factor.swaps.resize(first + shape.columns, 0);
         let swaps = &mut factor.swaps[first..];
         let mut pivots = Pivots { thresholds: &mut thresholds, swaps, replaced: Vec::new() };
-        front.eliminate(&mut pivots, shape.threads());
+        front.eliminate(&mut pivots, shape.threads(), self.cancel)?;
         factor.replaced.extend(pivots.replaced.iter().map(|&k| analysis.begin[supernode] + narrow(k)));
         Ok(())
     }

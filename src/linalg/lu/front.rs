@@ -1,9 +1,13 @@
 //! One front: assembly, elimination, update.
 
+use std::sync::atomic::AtomicBool;
+
 use faer::{Accum, Par, linalg};
 
 use super::pivot::{Pivots, factor_block};
+use crate::linalg::LinalgError;
 use crate::linalg::fronts::{Shape, mat_mut, scatter_add};
+use crate::linalg::order::go_on_unless;
 use crate::linalg::scalar::Scalar;
 
 /// A dense front under way. The two panels are the factor's own memory.
@@ -41,24 +45,33 @@ impl<T: Scalar> Front<'_, T> {
     }
 
     /// Eliminates the front's columns and leaves the Schur complement in `update`.
-    pub(super) fn eliminate(&mut self, pivots: &mut Pivots<'_>, par: Par) {
+    pub(super) fn eliminate(
+        &mut self,
+        pivots: &mut Pivots<'_>,
+        par: Par,
+        cancel: &AtomicBool,
+    ) -> Result<(), LinalgError> {
         let Shape { columns, below } = self.shape;
         let height = self.shape.height();
-        factor_block(self.left, height, self.right, pivots);
+        factor_block(self.left, height, self.right, pivots, cancel)?;
         if below == 0 {
-            return;
+            return Ok(());
         }
+        go_on_unless(cancel)?;
         let (block, mut lower) = mat_mut(self.left, height, columns).split_at_row_mut(columns);
         let block = block.as_ref();
         let mut right = mat_mut(self.right, columns, below);
         linalg::triangular_solve::solve_unit_lower_triangular_in_place(block, right.as_mut(), par);
+        go_on_unless(cancel)?;
         // L₂₁ U₁₁ = A₂₁ as U₁₁ᵀ L₂₁ᵀ = A₂₁ᵀ.
         linalg::triangular_solve::solve_lower_triangular_in_place(
             block.transpose(),
             lower.as_mut().transpose_mut(),
             par,
         );
+        go_on_unless(cancel)?;
         let update = mat_mut(self.update, below, below);
         linalg::matmul::matmul(update, Accum::Add, lower.as_ref(), right.as_ref(), -T::ONE, par);
+        Ok(())
     }
 }

@@ -1,9 +1,12 @@
 //! Dense LU of one diagonal block, with partial pivoting inside it.
 
+use std::sync::atomic::AtomicBool;
+
 use faer::{Accum, linalg};
 
+use crate::linalg::LinalgError;
 use crate::linalg::fronts::{mat, mat_mut, threads_for};
-use crate::linalg::order::narrow;
+use crate::linalg::order::{go_on_unless, narrow};
 use crate::linalg::scalar::Scalar;
 
 /// The diagonal entry is taken as pivot when it is at least this share of the largest candidate. Systems with positive
@@ -24,9 +27,16 @@ pub(super) struct Pivots<'a> {
 }
 
 /// Factors the top `columns` × `columns` block of `panel` (leading dimension `height`); the rows of `right` move along.
-pub(super) fn factor_block<T: Scalar>(panel: &mut [T], height: usize, right: &mut [T], pivots: &mut Pivots<'_>) {
+pub(super) fn factor_block<T: Scalar>(
+    panel: &mut [T],
+    height: usize,
+    right: &mut [T],
+    pivots: &mut Pivots<'_>,
+    cancel: &AtomicBool,
+) -> Result<(), LinalgError> {
     let columns = pivots.swaps.len();
     for first in (0..columns).step_by(BLOCK) {
+        go_on_unless(cancel)?;
         let last = (first + BLOCK).min(columns);
         for k in first..last {
             let row = choose(panel, height, k, pivots);
@@ -43,6 +53,7 @@ pub(super) fn factor_block<T: Scalar>(panel: &mut [T], height: usize, right: &mu
             update_rest(panel, height, first..last, columns);
         }
     }
+    Ok(())
 }
 
 fn choose<T: Scalar>(panel: &[T], height: usize, k: usize, pivots: &Pivots<'_>) -> usize {

@@ -3,6 +3,8 @@
 //! Several right-hand sides are taken [`TOGETHER`] at a time, so that the numbers of the factors are read once for all of
 //! them; such groups run side by side. Large blocks go through faer's dense kernels, small ones through plain loops.
 
+use std::sync::atomic::AtomicBool;
+
 use faer::Par;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place, solve_unit_upper_triangular_in_place,
@@ -11,6 +13,7 @@ use faer::linalg::triangular_solve::{
 use rayon::prelude::*;
 
 use super::factor::Lu;
+use crate::linalg::LinalgError;
 use crate::linalg::fronts::{
     FrontAnalysis, LARGE_PANEL, Part, Substitution, TOGETHER, dot, mat, split_panel, substitute, subtract_product,
 };
@@ -26,15 +29,32 @@ struct Block<'a, T> {
 
 impl<T: Scalar> Lu<T> {
     /// Solves op(A) x = b in place for each column of `columns` (column-major).
-    pub(crate) fn solve_in_place(&self, analysis: &FrontAnalysis, operation: Operation, columns: &mut [T]) {
+    ///
+    /// # Errors
+    ///
+    /// [`LinalgError::Cancelled`].
+    pub(crate) fn solve_in_place(
+        &self,
+        analysis: &FrontAnalysis,
+        operation: Operation,
+        columns: &mut [T],
+        cancel: &AtomicBool,
+    ) -> Result<(), LinalgError> {
         let n = self.row_scale.len();
         if n == 0 {
-            return;
+            return Ok(());
         }
-        columns.par_chunks_mut(TOGETHER * n).for_each(|columns| self.solve_group(analysis, operation, columns));
+        let groups = columns.par_chunks_mut(TOGETHER * n);
+        groups.try_for_each(|columns| self.solve_group(analysis, operation, columns, cancel))
     }
 
-    fn solve_group(&self, analysis: &FrontAnalysis, operation: Operation, columns: &mut [T]) {
+    fn solve_group(
+        &self,
+        analysis: &FrontAnalysis,
+        operation: Operation,
+        columns: &mut [T],
+        cancel: &AtomicBool,
+    ) -> Result<(), LinalgError> {
         let n = self.row_scale.len();
         let conjugate = |x: T| if operation == Operation::Adjoint { x.conjugate() } else { x };
         let (before, after) = match operation {
@@ -52,9 +72,9 @@ impl<T: Scalar> Lu<T> {
         }
         let blocks = Blocks { analysis, factor: self };
         if operation == Operation::Plain {
-            substitute(analysis, &Plain(blocks), &mut x);
+            substitute(analysis, &Plain(blocks), &mut x, cancel)?;
         } else {
-            substitute(analysis, &Transposed(blocks), &mut x);
+            substitute(analysis, &Transposed(blocks), &mut x, cancel)?;
         }
         for (x, column) in x.chunks_exact(n).zip(columns.chunks_exact_mut(n)) {
             for (&x, &old) in x.iter().zip(order) {
@@ -62,6 +82,7 @@ impl<T: Scalar> Lu<T> {
                 column[row] = conjugate(x).scale(factor(after, row));
             }
         }
+        Ok(())
     }
 }
 

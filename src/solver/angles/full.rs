@@ -168,7 +168,7 @@ impl Full {
             CscMatrix::try_from_pattern_and_values(self.pattern.clone(), values).expect("one value per entry was made");
         let named = |error| self.named(at.net, error);
         let factor = self.analysis.factor(&matrix, control.cancel()).map_err(named)?;
-        let x = factor.solve_correction(&matrix, &rhs).map_err(named)?.x;
+        let x = factor.solve_correction(&matrix, &rhs, control.cancel()).map_err(named)?.x;
         let move_of = |(face, targets): (usize, &[f64; 3])| [0, 1, 2].map(|k| x[of_angles[3 * face + k]] * targets[k]);
         Ok(Direction {
             angles: at.net.targets.iter().enumerate().map(move_of).collect(),

@@ -59,7 +59,7 @@ pub(super) fn laid_out(mesh: &DiskMesh, angles: &[[f64; 3]], control: Control<'_
     let mut residual = f64::INFINITY;
     for _ in 0..SOLVES {
         let start = Start { embedding: &embedding, residuals: &solve.residuals(mesh, &embedding) };
-        let (nearer, left) = solve.solve_from(site, start, &targets)?;
+        let (nearer, left) = solve.solve_from(site, start, &targets, control)?;
         if left >= residual || left.is_nan() {
             break;
         }

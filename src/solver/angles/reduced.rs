@@ -151,7 +151,7 @@ impl Reduced {
             other => other.into(),
         };
         let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
-        let solved = factor.solve_correction(&matrix, rhs).map_err(named)?.x;
+        let solved = factor.solve_correction(&matrix, rhs, control.cancel()).map_err(named)?.x;
         Ok(solved.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect())
     }
 }

@@ -190,7 +190,7 @@ impl Bend {
         let has_pockets = !extended.pockets.is_empty();
         let (equations, residuals) = match weights {
             // The theorem is about triangles.
-            Weights::Surface if !has_pockets => (barycentric(&mesh.without_polygons(), 0.0)?, None),
+            Weights::Surface if !has_pockets => (barycentric(&mesh.without_polygons(), 0.0, control)?, None),
             Weights::Uniform => (uniform(&extended.disk), None),
             _ => (mean_value_in_plane(&extended.disk, from), Some(residuals_in_plane(&extended.disk, from))),
         };

@@ -61,5 +61,5 @@ pub(super) fn straightened(
         Weights::Uniform => (uniform(mesh), Kind::Hermitian),
     };
     let site = Site { mesh, system: &system };
-    Ok(FixedSolve::new(site, equations, &system.analysis(kind, control)?, control)?.solve(site, held)?.0)
+    Ok(FixedSolve::new(site, equations, &system.analysis(kind, control)?, control)?.solve(site, held, control)?.0)
 }

@@ -73,7 +73,7 @@ impl Held {
         control.enter(Phase::Factor)?;
         let solve = FixedSolve::new(site, equations, &self.analysis, control)?;
         control.enter(Phase::Solve)?;
-        Ok(solve.solve_from(site, start, &residuals)?.0)
+        Ok(solve.solve_from(site, start, &residuals, control)?.0)
     }
 }
 
