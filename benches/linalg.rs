@@ -56,10 +56,11 @@ struct Job {
 impl Job {
     fn new(name: &'static str, kind: Kind, mesh: &DiskMesh, power: f64) -> Self {
         let pins = gauge_pins(mesh);
-        let system = FreeSystem::new(mesh, |v: VertexId| pins.contains_key(&v));
+        let system =
+            FreeSystem::new(mesh, |v: VertexId| pins.contains_key(&v), Control::unattended()).expect("nobody stops it");
         let natural = equations::natural(mesh, power, Control::unattended()).expect("weights are finite");
         let rhs = system.pinned_terms(mesh, &natural, |v| C::new(pins[&v].x, pins[&v].y));
-        let matrix = system.negated_matrix(mesh, &natural);
+        let matrix = system.negated_matrix(mesh, &natural, Control::unattended()).expect("nobody stops it");
         let [analyze, factor, solve, adjoint] = <[Times; 4]>::default();
         Self { name, kind, matrix, rhs, analyze, factor, processor: f64::INFINITY, solve, adjoint, last: None }
     }

@@ -41,13 +41,14 @@ struct Systems {
 impl Systems {
     fn new(mesh: &DiskMesh) -> Self {
         let pins = gauge_pins(mesh);
-        let system = FreeSystem::new(mesh, |v: VertexId| pins.contains_key(&v));
+        let system =
+            FreeSystem::new(mesh, |v: VertexId| pins.contains_key(&v), Control::unattended()).expect("nobody stops it");
         let weights = equations::barycentric(mesh, 1.0, Control::unattended()).expect("weights are finite");
         let natural = equations::natural(mesh, 1.0, Control::unattended()).expect("weights are finite");
         let rhs: Vec<C> = system.pinned_terms(mesh, &natural, |v| C::new(pins[&v].x, pins[&v].y));
-        let complex = system.negated_matrix(mesh, &natural);
+        let complex = system.negated_matrix(mesh, &natural, Control::unattended()).expect("nobody stops it");
         Self {
-            laplacian: system.negated_matrix(mesh, &weights),
+            laplacian: system.negated_matrix(mesh, &weights, Control::unattended()).expect("nobody stops it"),
             real: realified(&complex, |value| value != 0.0),
             real_full: realified(&complex, |_| true),
             real_rhs: rhs.iter().flat_map(|z| [z.re, z.im]).collect(),

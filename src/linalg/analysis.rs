@@ -14,7 +14,7 @@ use super::lu::Lu;
 use super::order::{Order, Pattern, dissected, go_on_unless, in_order, order};
 use super::refine::{Accept, Solved, System, refined};
 use super::scalar::Scalar;
-use super::sparse::{Operation, check_finite};
+use super::sparse::{Operation, Operator, check_finite};
 
 /// What is known of the values of a matrix. The pattern is symmetric, diagonal included, in every case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -286,7 +286,8 @@ impl<T: Scalar> Factor<T> {
         let is_faithful = self.stats().replaced_pivots == 0;
         // The rows of A = Aᴴ are its columns, which threads can share.
         let operation = if matches!(self.numeric, Numeric::Llt(_)) { Operation::Adjoint } else { operation };
-        refined(&System { matrix, operation, row_scale, is_faithful, accept, solve: &solve, cancel }, rhs)
+        let operator = Operator { matrix, operation, cancel };
+        refined(&System { operator, row_scale, is_faithful, accept, solve: &solve }, rhs)
     }
 
     fn solve_in_place(&self, operation: Operation, columns: &mut [T], cancel: &AtomicBool) -> Result<(), LinalgError> {

@@ -12,7 +12,7 @@
 use super::LinalgError;
 use super::refine::System;
 use super::scalar::Scalar;
-use super::sparse::{norm, residual};
+use super::sparse::norm;
 
 /// Steps before a restart; each keeps a vector.
 const RESTART: usize = 30;
@@ -33,7 +33,7 @@ pub(super) fn gmres<T: Scalar>(system: &System<'_, T>, x: &mut [T], b: &[T]) -> 
     let mut steps = 0;
     let mut before = f64::INFINITY;
     for _ in 0..MOST_RESTARTS {
-        let mut r = scaled_residual(system, x, b);
+        let mut r = scaled_residual(system, x, b)?;
         let size = norm(r.iter().copied());
         let worthwhile = size < 0.5 * before && size > 0.0;
         if !worthwhile {
@@ -62,13 +62,13 @@ fn scale<T: Scalar>(vector: &mut [T], factor: f64) {
 }
 
 /// R⁻¹ (b − op(A) x).
-fn scaled_residual<T: Scalar>(system: &System<'_, T>, x: &[T], b: &[T]) -> Vec<T> {
+fn scaled_residual<T: Scalar>(system: &System<'_, T>, x: &[T], b: &[T]) -> Result<Vec<T>, LinalgError> {
     let mut r = vec![T::ZERO; b.len()];
-    residual(system.matrix, system.operation, x, b, &mut r);
+    system.operator.residual(x, b, &mut r)?;
     if let Some(scale) = system.row_scale {
         r.iter_mut().zip(scale).for_each(|(r, &scale)| *r = r.scale(scale));
     }
-    r
+    Ok(r)
 }
 
 /// An orthonormal basis of the Krylov space and the least-squares problem in it, made triangular by rotations.
@@ -87,7 +87,7 @@ impl<T: Scalar> Krylov<T> {
         let mut direction = self.basis.last().expect("begins with one").clone();
         (system.solve)(&mut direction)?;
         let zero = vec![T::ZERO; direction.len()];
-        let mut next = scaled_residual(system, &direction, &zero);
+        let mut next = scaled_residual(system, &direction, &zero)?;
         scale(&mut next, -1.0);
         let before = norm(next.iter().copied());
         let mut column: Vec<T> = vec![T::ZERO; self.basis.len()];

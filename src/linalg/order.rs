@@ -107,14 +107,19 @@ impl Pattern {
     }
 
     /// The upper triangle of the pattern renumbered by `order`, columns sorted.
-    pub(super) fn permuted_upper(&self, order: &Order) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// [`LinalgError::Cancelled`].
+    pub(super) fn permuted_upper(&self, order: &Order, cancel: &AtomicBool) -> Result<Self, LinalgError> {
         let upper = |column: usize| {
             let lane = self.column(order.new_to_old[column] as usize);
             lane.iter().map(|&old| order.old_to_new[old as usize]).filter(move |&row| row as usize <= column)
         };
-        let parts: Vec<(Vec<u32>, Vec<u32>)> = (0..self.order().div_ceil(COLUMNS_PER_TASK))
+        let parts: Result<Vec<(Vec<u32>, Vec<u32>)>, LinalgError> = (0..self.order().div_ceil(COLUMNS_PER_TASK))
             .into_par_iter()
             .map(|task| {
+                go_on_unless(cancel)?;
                 let columns = task * COLUMNS_PER_TASK..self.order().min((task + 1) * COLUMNS_PER_TASK);
                 let (mut counts, mut rows) = (Vec::with_capacity(columns.len()), Vec::new());
                 for column in columns {
@@ -123,11 +128,11 @@ impl Pattern {
                     rows[start..].sort_unstable();
                     counts.push(narrow(rows.len() - start));
                 }
-                (counts, rows)
+                Ok((counts, rows))
             })
             .collect();
-        let (counts, rows): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
-        Self { offsets: running_sum(&counts.concat()), rows: rows.concat() }
+        let (counts, rows): (Vec<_>, Vec<_>) = parts?.into_iter().unzip();
+        Ok(Self { offsets: running_sum(&counts.concat()), rows: rows.concat() })
     }
 }
 
@@ -244,7 +249,7 @@ impl Elimination {
         cancel: &AtomicBool,
     ) -> Result<Self, LinalgError> {
         go_on_unless(cancel)?;
-        let upper = pairs.as_ref().unwrap_or(pattern).permuted_upper(degree);
+        let upper = pairs.as_ref().unwrap_or(pattern).permuted_upper(degree, cancel)?;
         go_on_unless(cancel)?;
         let (parent, counts) = elimination_tree(&upper);
         go_on_unless(cancel)?;

@@ -8,16 +8,12 @@
 //! backward error"): it does not depend on the scale of the rows. Where refinement stalls above the goal, GMRES
 //! preconditioned with the same factors takes over.
 
-use std::sync::atomic::AtomicBool;
-
-use nalgebra_sparse::CscMatrix;
 use rayon::prelude::*;
 
 use super::LinalgError;
 use super::gmres::gmres;
-use super::order::go_on_unless;
 use super::scalar::Scalar;
-use super::sparse::{Operation, backward_error, norm, residual};
+use super::sparse::{Operator, norm};
 
 /// Answers with a larger relative residual are errors.
 const LIMIT: f64 = 1e-10;
@@ -69,8 +65,7 @@ pub(super) enum Accept {
 }
 
 pub(super) struct System<'a, T> {
-    pub(super) matrix: &'a CscMatrix<T>,
-    pub(super) operation: Operation,
+    pub(super) operator: Operator<'a, T>,
     /// Factors of the rows of op(A), if they are scaled.
     pub(super) row_scale: Option<&'a [f64]>,
     /// Whether the factors are those of the matrix up to rounding: no pivot was replaced.
@@ -78,7 +73,6 @@ pub(super) struct System<'a, T> {
     pub(super) accept: Accept,
     /// Solves in place, column by column.
     pub(super) solve: &'a (dyn Fn(&mut [T]) -> Result<(), LinalgError> + Sync),
-    pub(super) cancel: &'a AtomicBool,
 }
 
 impl<T: Scalar> System<'_, T> {
@@ -100,7 +94,7 @@ pub(super) fn refined<T: Scalar>(system: &System<'_, T>, rhs: &[T]) -> Result<So
     if rhs.is_empty() {
         return Ok(all);
     }
-    let n = system.matrix.nrows();
+    let n = system.operator.matrix.nrows();
     for (x, b) in x.chunks_mut(GROUP * n).zip(rhs.chunks(GROUP * n)) {
         (system.solve)(x)?;
         let columns = x.chunks_exact_mut(n).zip(b.chunks_exact(n));
@@ -121,21 +115,20 @@ pub(super) fn refined<T: Scalar>(system: &System<'_, T>, rhs: &[T]) -> Result<So
 
 /// Measures a refined answer, betters it by GMRES if need be, and returns its relative residuals if they are good.
 fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Result<(f64, f64), LinalgError> {
-    go_on_unless(system.cancel)?;
     let measure = |x: &[T]| {
         let mut r = vec![T::ZERO; x.len()];
-        residual(system.matrix, system.operation, x, column.b, &mut r);
-        system.relative(&r, column.b)
+        system.operator.residual(x, column.b, &mut r)?;
+        Ok(system.relative(&r, column.b))
     };
     // A NaN is not good, and neither is an infinity on one side.
     let good = |limit: f64, (plain, scaled): (f64, f64)| plain.min(scaled) <= limit && (plain + scaled).is_finite();
-    let mut relative = measure(column.x);
+    let mut relative = measure(column.x)?;
     // Written so that a NaN counts as stalled.
     let converged = column.backward_error <= STALLED;
     let at_the_floor = converged && system.accept == Accept::BackwardError && system.is_faithful;
     if !good(GOAL, relative) && !converged {
         column.steps += gmres(system, column.x, column.b)?;
-        relative = measure(column.x);
+        relative = measure(column.x)?;
     }
     if good(LIMIT, relative) || at_the_floor {
         return Ok(relative);
@@ -153,7 +146,7 @@ struct Column<'a, T> {
 
 /// Refines the answers in place, all that still gain by it together.
 fn refine<T: Scalar>(system: &System<'_, T>, columns: &mut [Column<'_, T>]) -> Result<(), LinalgError> {
-    let n = system.matrix.nrows();
+    let n = system.operator.matrix.nrows();
     let mut active: Vec<&mut Column<'_, T>> = columns.iter_mut().collect();
     let mut r = vec![T::ZERO; active.len() * n];
     for step in 0..=MOST_STEPS {
@@ -194,10 +187,8 @@ fn judge<T: Scalar>(
 ) -> Result<bool, LinalgError> {
     let Column { x, b, backward_error: before, steps } = column;
     let previous = (step > 0).then(|| r.to_vec());
-    go_on_unless(system.cancel)?;
-    residual(system.matrix, system.operation, x, b, r);
-    go_on_unless(system.cancel)?;
-    let now = backward_error(system.matrix, system.operation, x, b, r);
+    system.operator.residual(x, b, r)?;
+    let now = system.operator.backward_error(x, b, r)?;
     let better = now < *before;
     if !better {
         if let Some(previous) = previous {

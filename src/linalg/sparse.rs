@@ -1,11 +1,15 @@
 //! Products of a compressed-column matrix with a vector, norms, and inner products of many columns.
 
+use std::ops::Range;
+use std::sync::atomic::AtomicBool;
+
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 use nalgebra_sparse::CscMatrix;
 use rayon::prelude::*;
 
 use super::LinalgError;
+use super::order::go_on_unless;
 use super::scalar::Scalar;
 
 /// Which of the two systems of a matrix is meant.
@@ -17,31 +21,19 @@ pub(super) enum Operation {
     Adjoint,
 }
 
-/// Writes `rhs − op(A) x` into `out`.
-pub(super) fn residual<T: Scalar>(matrix: &CscMatrix<T>, operation: Operation, x: &[T], rhs: &[T], out: &mut [T]) {
-    let (offsets, rows, values) = matrix.csc_data();
-    out.copy_from_slice(rhs);
-    let columns = offsets.windows(2).map(|pair| (&rows[pair[0]..pair[1]], &values[pair[0]..pair[1]]));
-    match operation {
-        Operation::Plain => {
-            for ((rows, values), &xj) in columns.zip(x) {
-                for (&row, &value) in rows.iter().zip(values) {
-                    out[row] -= value * xj;
-                }
-            }
-        }
-        Operation::Adjoint => {
-            out.par_iter_mut().with_min_len(ROWS_PER_TASK).enumerate().for_each(|(column, out)| {
-                let entries = offsets[column]..offsets[column + 1];
-                let entries = rows[entries.clone()].iter().zip(&values[entries]);
-                *out -= entries.fold(T::ZERO, |sum, (&row, &value)| sum + value.conjugate() * x[row]);
-            });
-        }
-    }
+/// One of them, and the caller's wish to stop, which is looked at every some thousand columns.
+#[derive(Clone, Copy)]
+pub(super) struct Operator<'a, T> {
+    pub(super) matrix: &'a CscMatrix<T>,
+    pub(super) operation: Operation,
+    pub(super) cancel: &'a AtomicBool,
 }
 
 /// Rows that share the work of one task: enough to outweigh the handing out.
 const ROWS_PER_TASK: usize = 4096;
+
+/// Columns that are gone through between two looks at the flag: some hundredths of a second at most.
+const COLUMNS_BETWEEN_LOOKS: usize = 1 << 16;
 
 /// The Euclidean norm, scaled so that it neither overflows nor underflows.
 pub(super) fn norm<T: Scalar>(vector: impl Iterator<Item = T> + Clone) -> f64 {
@@ -68,35 +60,73 @@ pub(super) fn check_finite<T: Scalar>(matrix: &CscMatrix<T>) -> Result<(), Linal
     broken.map(|(&row, _)| row).min().map_or(Ok(()), |row| Err(LinalgError::NotFinite { row }))
 }
 
-/// The componentwise backward error maxᵢ |r|ᵢ / (|op(A)||x| + |b|)ᵢ of an answer with residual `r`, sizes measured by
-/// [`Scalar::size`]. A row with both 0 counts as 0.
-pub(super) fn backward_error<T: Scalar>(
-    matrix: &CscMatrix<T>,
-    operation: Operation,
-    x: &[T],
-    rhs: &[T],
-    r: &[T],
-) -> f64 {
-    let (offsets, rows, values) = matrix.csc_data();
-    // `max` would drop a NaN.
-    let worse = |worst: f64, ratio: f64| if ratio <= worst || worst.is_nan() { worst } else { ratio };
-    let ratio = |r: T, scale: f64| if r.size() == 0.0 { 0.0 } else { r.size() / scale };
-    if operation == Operation::Adjoint {
-        let ratios = r.par_iter().with_min_len(ROWS_PER_TASK).enumerate().map(|(column, &r)| {
-            let entries = offsets[column]..offsets[column + 1];
+impl<T: Scalar> Operator<'_, T> {
+    /// Writes `rhs − op(A) x` into `out`.
+    ///
+    /// # Errors
+    ///
+    /// [`LinalgError::Cancelled`].
+    pub(super) fn residual(self, x: &[T], rhs: &[T], out: &mut [T]) -> Result<(), LinalgError> {
+        let (offsets, rows, values) = self.matrix.csc_data();
+        out.copy_from_slice(rhs);
+        match self.operation {
+            Operation::Plain => self.by_columns(|column, entries| {
+                for (&row, &value) in rows[entries.clone()].iter().zip(&values[entries]) {
+                    out[row] -= value * x[column];
+                }
+            }),
+            Operation::Adjoint => {
+                go_on_unless(self.cancel)?;
+                out.par_iter_mut().with_min_len(ROWS_PER_TASK).enumerate().for_each(|(column, out)| {
+                    let entries = offsets[column]..offsets[column + 1];
+                    let entries = rows[entries.clone()].iter().zip(&values[entries]);
+                    *out -= entries.fold(T::ZERO, |sum, (&row, &value)| sum + value.conjugate() * x[row]);
+                });
+                Ok(())
+            }
+        }
+    }
+
+    /// The componentwise backward error maxᵢ |r|ᵢ / (|op(A)||x| + |b|)ᵢ of an answer with residual `r`, sizes measured by
+    /// [`Scalar::size`]. A row with both 0 counts as 0.
+    ///
+    /// # Errors
+    ///
+    /// [`LinalgError::Cancelled`].
+    pub(super) fn backward_error(self, x: &[T], rhs: &[T], r: &[T]) -> Result<f64, LinalgError> {
+        let (offsets, rows, values) = self.matrix.csc_data();
+        // `max` would drop a NaN.
+        let worse = |worst: f64, ratio: f64| if ratio <= worst || worst.is_nan() { worst } else { ratio };
+        let ratio = |r: T, scale: f64| if r.size() == 0.0 { 0.0 } else { r.size() / scale };
+        if self.operation == Operation::Adjoint {
+            go_on_unless(self.cancel)?;
+            let ratios = r.par_iter().with_min_len(ROWS_PER_TASK).enumerate().map(|(column, &r)| {
+                let entries = offsets[column]..offsets[column + 1];
+                let entries = rows[entries.clone()].iter().zip(&values[entries]);
+                let sum: f64 = entries.map(|(&row, value)| value.size() * x[row].size()).sum();
+                ratio(r, rhs[column].size() + sum)
+            });
+            return Ok(ratios.reduce(|| 0.0, worse));
+        }
+        let mut scale: Vec<f64> = rhs.iter().map(|b| b.size()).collect();
+        self.by_columns(|column, entries| {
+            let size = x[column].size();
             let entries = rows[entries.clone()].iter().zip(&values[entries]);
-            let sum: f64 = entries.map(|(&row, value)| value.size() * x[row].size()).sum();
-            ratio(r, rhs[column].size() + sum)
-        });
-        return ratios.reduce(|| 0.0, worse);
+            entries.for_each(|(&row, value)| scale[row] += value.size() * size);
+        })?;
+        Ok(r.iter().zip(scale).map(|(&r, scale)| ratio(r, scale)).fold(0.0, worse))
     }
-    let mut scale: Vec<f64> = rhs.iter().map(|b| b.size()).collect();
-    for (column, pair) in offsets.windows(2).enumerate() {
-        let size = x[column].size();
-        let entries = rows[pair[0]..pair[1]].iter().zip(&values[pair[0]..pair[1]]);
-        entries.for_each(|(&row, value)| scale[row] += value.size() * size);
+
+    /// Goes through the columns, with the places of their entries.
+    fn by_columns(self, mut take: impl FnMut(usize, Range<usize>)) -> Result<(), LinalgError> {
+        for (column, pair) in self.matrix.col_offsets().windows(2).enumerate() {
+            if column.is_multiple_of(COLUMNS_BETWEEN_LOOKS) {
+                go_on_unless(self.cancel)?;
+            }
+            take(column, pair[0]..pair[1]);
+        }
+        Ok(())
     }
-    r.iter().zip(scale).map(|(&r, scale)| ratio(r, scale)).fold(0.0, worse)
 }
 
 /// Wᴴ W of the columns of W, `n` entries each, one after another: Hermitian to the last bit, column by column.

@@ -1,8 +1,14 @@
 //! How a caller watches a solve and stops it.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use rayon::prelude::*;
+
 use super::SolveError;
+
+/// Vertices, faces or links between two looks at the flag: up to some hundredths of a second where memory is slow.
+const AT_ONCE: usize = 1 << 15;
 
 /// What a solve is busy with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -82,5 +88,24 @@ impl<'a> Control<'a> {
     /// [`SolveError::Cancelled`] where the caller asked to stop.
     pub fn go_on(&self) -> Result<(), SolveError> {
         if self.cancel.load(Ordering::Relaxed) { Err(SolveError::Cancelled) } else { Ok(()) }
+    }
+
+    /// The numbers below `count` in runs, the flag looked at before each: an error is the last.
+    pub(super) fn runs(self, count: usize) -> impl Iterator<Item = Result<Range<usize>, SolveError>> + use<'a> {
+        let run = move |first| self.go_on().map(|()| first..count.min(first + AT_ONCE));
+        (0..count).step_by(AT_ONCE).map(run)
+    }
+
+    /// What each of the numbers below `count` gives, in their order: found side by side, some at a time.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    pub(super) fn each<T: Send>(self, count: usize, of: impl Fn(usize) -> T + Sync) -> Result<Vec<T>, SolveError> {
+        let mut found = Vec::with_capacity(count);
+        for run in self.runs(count) {
+            found.par_extend(run?.into_par_iter().map(&of));
+        }
+        Ok(found)
     }
 }

@@ -65,12 +65,17 @@ impl Equations<Complex<f64>> {
     }
 
     /// ‖A z‖ over the vertices that `has_equation`, relative to ‖ |A| |z| ‖, the sizes of the terms that should cancel.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
     pub fn residual(
         &self,
         mesh: &DiskMesh,
         embedding: &Embedding,
         has_equation: impl Fn(VertexId) -> bool + Sync,
-    ) -> f64 {
+        control: Control<'_>,
+    ) -> Result<f64, SolveError> {
         let of_vertex = |vertex: usize| {
             let vertex = VertexId::from_index(vertex);
             if !has_equation(vertex) {
@@ -84,10 +89,10 @@ impl Equations<Complex<f64>> {
             let (sum, size) = mesh.links_from(vertex).fold((Complex::ZERO, 0.0), add);
             (sum.norm_sqr(), size * size)
         };
-        let of_vertices: Vec<(f64, f64)> = (0..mesh.vertex_count()).into_par_iter().map(of_vertex).collect();
+        let of_vertices: Vec<(f64, f64)> = control.each(mesh.vertex_count(), of_vertex)?;
         let add = |(residual, whole), &(sum, size): &(f64, f64)| (residual + sum, whole + size);
         let (residual, whole) = of_vertices.iter().fold((0.0, 0.0), add);
-        if whole > 0.0 { f64::sqrt(residual / whole) } else { 0.0 }
+        Ok(if whole > 0.0 { f64::sqrt(residual / whole) } else { 0.0 })
     }
 }
 

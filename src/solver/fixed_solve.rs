@@ -24,8 +24,7 @@ impl FixedSolve {
         analysis: &Analysis,
         control: Control<'_>,
     ) -> Result<Self, SolveError> {
-        control.go_on()?;
-        let matrix = site.system.negated_matrix(site.mesh, &equations);
+        let matrix = site.system.negated_matrix(site.mesh, &equations, control)?;
         let factor = analysis.factor(&matrix, control.cancel()).map_err(|error| site.system.named(error))?;
         Ok(Self { equations, matrix, factor })
     }
@@ -63,8 +62,7 @@ impl FixedSolve {
         for (vertex, by) in self.answer(site, residuals, Factor::solve_correction, control)?.0 {
             embedding[vertex] += by;
         }
-        control.go_on()?;
-        let residual = site.system.relative_residual(site.mesh, &self.equations, &embedding);
+        let residual = site.system.relative_residual(site.mesh, &self.equations, &embedding, control)?;
         Ok((embedding, residual))
     }
 
@@ -90,10 +88,16 @@ impl FixedSolve {
     }
 
     /// The numbers of a solve. Prescribed vertices have no equation.
-    pub(super) fn numbers(&self, site: Site<'_>, embedding: &Embedding, residual: f64) -> LinearSolve {
+    pub(super) fn numbers(
+        &self,
+        site: Site<'_>,
+        embedding: &Embedding,
+        residual: f64,
+        control: Control<'_>,
+    ) -> Result<LinearSolve, SolveError> {
         let has_equation = |v| site.system.row(v).is_some();
-        let equation_residual = self.equations.to_complex().residual(site.mesh, embedding, has_equation);
+        let equation_residual = self.equations.to_complex().residual(site.mesh, embedding, has_equation, control)?;
         let bounded_corners = self.equations.bounded_corners;
-        LinearSolve { residual, equation_residual, bounded_corners, ..self.factor.stats().into() }
+        Ok(LinearSolve { residual, equation_residual, bounded_corners, ..self.factor.stats().into() })
     }
 }

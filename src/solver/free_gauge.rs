@@ -163,8 +163,7 @@ impl FreeProblem<'_> {
     ) -> Result<LaidOut, SolveError> {
         let pins = way.own_places.clone().map_or_else(|| self.asked.clone(), fixed_pins);
         let layout = Layout::new(&pins, way.treatment, gauge)?;
-        control.go_on()?;
-        let system = layout.system(self.mesh);
+        let system = layout.system(self.mesh, control)?;
         let kind = if self.is_hermitian() { Kind::Hermitian } else { Kind::General };
         let mut seconds = PhaseSeconds::default();
         let site = Site { mesh: self.mesh, system: &system };

@@ -6,7 +6,6 @@ use std::time::Instant;
 use glam::DVec2;
 use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
-use rayon::prelude::*;
 
 use super::equations::Equations;
 use super::least_squares::{Factored, LeastSquares, Rest, Spring};
@@ -16,7 +15,7 @@ use super::system::{FreeSystem, Site};
 use super::{Control, Embedding, Hold, LinearSolve, Phase, PhaseSeconds, PinPositions, Pins, SolveError, Treatment};
 use crate::geom::Bounds;
 use crate::linalg::{Analysis, Answer, Factor, Kind};
-use crate::mesh::{DiskMesh, VertexId};
+use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
 /// A least-squares answer whose conditions for a minimum are off by more, relative to their terms, is wrong.
 const GRADIENT_LIMIT: f64 = 1e-10;
@@ -125,8 +124,8 @@ impl Layout {
         self.holds.values().any(|hold| !hold.is_exact())
     }
 
-    pub(super) fn system(&self, mesh: &DiskMesh) -> FreeSystem {
-        FreeSystem::new(mesh, |v| self.left_out.binary_search(&v).is_ok())
+    pub(super) fn system(&self, mesh: &DiskMesh, control: Control<'_>) -> Result<FreeSystem, SolveError> {
+        FreeSystem::new(mesh, |v| self.left_out.binary_search(&v).is_ok(), control)
     }
 
     /// Orders and analyses the system that is factored.
@@ -165,7 +164,7 @@ impl FreeSolve {
         let many = rest.take_if(|_| layout.has_many).map(|rest| ManyPins::new(site, rest));
         let matrix = match &many {
             Some(many) => many.matrix(site, &equations),
-            None => site.system.negated_matrix(site.mesh, &equations),
+            None => site.system.negated_matrix(site.mesh, &equations, control)?,
         };
         control.go_on()?;
         seconds.assemble += start.elapsed().as_secs_f64();
@@ -197,7 +196,7 @@ impl FreeSolve {
         control: Control<'_>,
     ) -> Result<Option<[VertexId; 2]>, SolveError> {
         let (&[a, b], None) = (self.eliminated.as_slice(), &self.least_squares) else { return Ok(None) };
-        Ok(better_gauge(site, &self.equations, &self.factored(control), [a, b])?)
+        better_gauge(site, &self.equations, &self.factor, [a, b], control)
     }
 
     fn factored<'a>(&'a self, control: Control<'a>) -> Factored<'a> {
@@ -219,7 +218,7 @@ impl FreeSolve {
         for (&vertex, target) in targets {
             start[vertex] = *target;
         }
-        let start = Start { embedding: &start, residuals: &self.residuals(site.mesh, &start) };
+        let start = Start { embedding: &start, residuals: &self.residuals(site.mesh, &start, control)? };
         let asked = Asked { site, targets, control };
         let solved = self.move_from(&asked, start, Factor::solve)?;
         let (embedding, residual) = self.rest_of(&asked, &solved.0)?.unwrap_or(solved);
@@ -237,8 +236,7 @@ impl FreeSolve {
         if self.is_hermitian && !is_corridor(site.mesh) {
             return Ok(None);
         }
-        control.go_on()?;
-        let residuals = self.residuals(site.mesh, embedding);
+        let residuals = self.residuals(site.mesh, embedding, control)?;
         let extent = Bounds::of(site.mesh.vertices().filter(|&v| site.mesh.is_used(v)).map(|v| embedding[v])).size();
         let is_little = |largest: f64| largest <= MOST_REST * extent.max_element();
         if self.least_squares.is_none() {
@@ -281,8 +279,7 @@ impl FreeSolve {
             for (&vertex, z) in site.system.free().iter().zip(moves) {
                 embedding[vertex] += DVec2::new(z.re, z.im);
             }
-            control.go_on()?;
-            let residual = site.system.relative_residual(site.mesh, &self.equations, &embedding);
+            let residual = site.system.relative_residual(site.mesh, &self.equations, &embedding, control)?;
             return Ok((embedding, residual));
         };
         let factored = self.factored(control);
@@ -299,8 +296,7 @@ impl FreeSolve {
         for (z, by) in embedding.iter_mut().zip(moves).filter(|(_, by)| *by != Complex::ZERO) {
             *z += DVec2::new(by.re, by.im);
         }
-        control.go_on()?;
-        let residual = self.gradient_residual(site.mesh, &embedding, least_squares.springs(), targets);
+        let residual = self.gradient_residual(asked, &embedding, least_squares.springs())?;
         Ok((embedding, residual))
     }
 
@@ -308,29 +304,34 @@ impl FreeSolve {
     /// vertices that can move, relative to ‖|A|ᵀ |A| |z| + W² (|z| + |t|)‖, the sizes of the terms that should cancel.
     fn gradient_residual(
         &self,
-        mesh: &DiskMesh,
+        asked: &Asked<'_>,
         embedding: &Embedding,
         springs: &[Spring],
-        targets: &PinPositions,
-    ) -> f64 {
-        let mut residuals = self.residuals(mesh, embedding);
+    ) -> Result<f64, SolveError> {
+        let &Asked { site: Site { mesh, .. }, targets, control } = asked;
+        let coefficients = &self.equations.coefficients;
+        let mut residuals = self.residuals(mesh, embedding, control)?;
         let mut bounds = vec![0.0; mesh.vertex_count()];
-        for (h, &coefficient) in mesh.links().zip(&self.equations.coefficients) {
-            let along = embedding[mesh.head(h)].distance(embedding[mesh.tail(h)]);
-            bounds[mesh.tail(h).index()] += coefficient.norm() * along;
+        for run in control.runs(coefficients.len()) {
+            for h in run?.map(HalfedgeId::from_index) {
+                let along = embedding[mesh.head(h)].distance(embedding[mesh.tail(h)]);
+                bounds[mesh.tail(h).index()] += coefficients[h.index()].norm() * along;
+            }
         }
         for vertex in &self.eliminated {
             residuals[vertex.index()] = Complex::ZERO;
             bounds[vertex.index()] = 0.0;
         }
         let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
-        for (h, &coefficient) in mesh.links().zip(&self.equations.coefficients) {
-            let tail = mesh.tail(h).index();
-            let (term, most) = (coefficient.conj() * residuals[tail], coefficient.norm() * bounds[tail]);
-            for (vertex, sign) in [(mesh.head(h), 1.0), (mesh.tail(h), -1.0)] {
-                let (sum, total) = &mut sums[vertex.index()];
-                *sum += term * sign;
-                *total += most;
+        for run in control.runs(coefficients.len()) {
+            for h in run?.map(HalfedgeId::from_index) {
+                let (coefficient, tail) = (coefficients[h.index()], mesh.tail(h).index());
+                let (term, most) = (coefficient.conj() * residuals[tail], coefficient.norm() * bounds[tail]);
+                for (vertex, sign) in [(mesh.head(h), 1.0), (mesh.tail(h), -1.0)] {
+                    let (sum, total) = &mut sums[vertex.index()];
+                    *sum += term * sign;
+                    *total += most;
+                }
             }
         }
         let is_exact = |v: &VertexId| springs.binary_search_by_key(v, |pin| pin.vertex).is_err();
@@ -347,20 +348,30 @@ impl FreeSolve {
         let (gradient, whole) = sums
             .iter()
             .fold((0.0, 0.0), |(gradient, whole), (sum, total)| (gradient + sum.norm_sqr(), whole + total * total));
-        if gradient > 0.0 { f64::sqrt(gradient / whole) } else { 0.0 }
+        Ok(if gradient > 0.0 { f64::sqrt(gradient / whole) } else { 0.0 })
     }
 
     /// The residual of every vertex's equation.
-    pub(super) fn residuals(&self, mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex<f64>> {
-        let at = |v: usize| self.equations.residual_of(mesh, embedding, VertexId::from_index(v));
-        (0..mesh.vertex_count()).into_par_iter().map(at).collect()
+    pub(super) fn residuals(
+        &self,
+        mesh: &DiskMesh,
+        embedding: &Embedding,
+        control: Control<'_>,
+    ) -> Result<Vec<Complex<f64>>, SolveError> {
+        control.each(mesh.vertex_count(), |v| self.equations.residual_of(mesh, embedding, VertexId::from_index(v)))
     }
 
-    pub(super) fn numbers(&self, mesh: &DiskMesh, embedding: &Embedding, residual: f64) -> LinearSolve {
+    pub(super) fn numbers(
+        &self,
+        mesh: &DiskMesh,
+        embedding: &Embedding,
+        residual: f64,
+        control: Control<'_>,
+    ) -> Result<LinearSolve, SolveError> {
         let Equations { bounded_corners, .. } = self.equations;
-        let equation_residual = self.equations.residual(mesh, embedding, |_| true);
+        let equation_residual = self.equations.residual(mesh, embedding, |_| true, control)?;
         let keeps_equations = self.least_squares.is_some() && self.eliminated.is_empty();
-        LinearSolve { residual, equation_residual, bounded_corners, keeps_equations, ..self.factor.stats().into() }
+        Ok(LinearSolve { residual, equation_residual, bounded_corners, keeps_equations, ..self.factor.stats().into() })
     }
 }
 

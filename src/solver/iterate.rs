@@ -57,7 +57,7 @@ impl Iteration {
                 Ok(farthest_pair(mesh).to_vec())
             }
         })?;
-        let system = layout.system(mesh);
+        let system = layout.system(mesh, control)?;
         let analysis = layout.analysis(Site { mesh, system: &system }, Kind::General, control)?;
         let analyze_seconds = start.elapsed().as_secs_f64();
         Ok(Self { pins: pins.clone(), layout, system, analysis, analyze_seconds })
@@ -90,8 +90,7 @@ impl Iteration {
         let start = Instant::now();
         let (embedding, residual) =
             solve.solve_from(site, Start { embedding, residuals: &residuals }, &targets_of(&pins), control)?;
-        control.go_on()?;
-        let linear = Some(solve.numbers(mesh, &embedding, residual));
+        let linear = Some(solve.numbers(mesh, &embedding, residual, control)?);
         seconds.solve = start.elapsed().as_secs_f64();
         Ok(Solution { embedding, pins, gauge_completed: false, linear, seconds, convergence: None })
     }

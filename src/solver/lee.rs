@@ -190,7 +190,7 @@ impl<'a> Padded<'a> {
         let start = Instant::now();
         let places = self.places(settings)?;
         let equations = self.equations(settings.family(), control)?;
-        let system = FreeSystem::new(&self.disk, |v| places.contains_key(&v));
+        let system = FreeSystem::new(&self.disk, |v| places.contains_key(&v), control)?;
         let site = Site { mesh: &self.disk, system: &system };
         let assemble = start.elapsed().as_secs_f64();
         control.enter(Phase::Analyze)?;
@@ -204,7 +204,7 @@ impl<'a> Padded<'a> {
         control.enter(Phase::Solve)?;
         let start = Instant::now();
         let (solved, residual) = solve.solve(site, &places, control)?;
-        let linear = Some(solve.numbers(site, &solved, residual));
+        let linear = Some(solve.numbers(site, &solved, residual, control)?);
         let seconds = PhaseSeconds { assemble, analyze, factor, solve: start.elapsed().as_secs_f64() };
         let embedding = Embedding::of_mesh(self.mesh, &solved);
         let frame: Vec<DVec2> = solved[self.mesh.vertex_count()..].to_vec();

@@ -12,10 +12,9 @@
 use num_complex::Complex;
 
 use super::equations::Equations;
-use super::least_squares::Factored;
 use super::system::{FreeSystem, Site};
 use super::{Control, SolveError, farthest_pair};
-use crate::linalg::{Kind, LinalgError};
+use crate::linalg::{Factor, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
 type C64 = Complex<f64>;
@@ -40,11 +39,9 @@ pub(super) fn gauge_of(
     equations: &Equations<C64>,
     control: Control<'_>,
 ) -> Result<[VertexId; 2], SolveError> {
-    let system = FreeSystem::new(mesh, |_| false);
+    let system = FreeSystem::new(mesh, |_| false, control)?;
     let named = |error| system.named(error);
-    control.go_on()?;
-    let mut matrix = system.negated_matrix(mesh, equations);
-    control.go_on()?;
+    let mut matrix = system.negated_matrix(mesh, equations, control)?;
     for (row, column, value) in matrix.triplet_iter_mut() {
         if row == column {
             *value *= 1.0 + SHIFT;
@@ -73,13 +70,14 @@ pub(super) fn gauge_of(
 ///
 /// # Errors
 ///
-/// [`LinalgError::Cancelled`].
+/// [`SolveError::Cancelled`].
 pub(super) fn better_gauge(
     site: Site<'_>,
     equations: &Equations<C64>,
-    factored: &Factored<'_>,
+    factor: &Factor<C64>,
     held: [VertexId; 2],
-) -> Result<Option<[VertexId; 2]>, LinalgError> {
+    control: Control<'_>,
+) -> Result<Option<[VertexId; 2]>, SolveError> {
     let Site { mesh, system } = site;
     let n = system.free().len();
     let mut kernel = vec![C64::ZERO; 2 * n];
@@ -90,15 +88,17 @@ pub(super) fn better_gauge(
             }
         }
     }
-    factored.factor.substitute_adjoint(&mut kernel, factored.cancel)?;
+    factor.substitute_adjoint(&mut kernel, control.cancel())?;
     let (first, second) = kernel.split_at(n);
     let sum_at = |v: VertexId| mesh.links_from(v).map(|h| equations.coefficients[h.index()].norm()).sum::<f64>();
-    let (wholes, [at_a, at_b]): (Vec<f64>, _) = (system.free().iter().map(|&v| sum_at(v)).collect(), held.map(sum_at));
+    let wholes: Vec<f64> = control.each(n, |row| sum_at(system.free()[row]))?;
+    let [at_a, at_b] = held.map(sum_at);
     let growth = |i: usize| wholes[i] * f64::hypot(first[i].norm() / at_a, second[i].norm() / at_b);
     let Some(a) = largest(n, growth) else { return Ok(None) };
     if growth(a) <= MOST_GROWTH {
         return Ok(None);
     }
+    control.go_on()?;
     // Not of the products, which could leave the range of numbers.
     let minor = |i: usize| wholes[i] * (first[a] / growth(a) * second[i] - second[a] / growth(a) * first[i]).norm();
     let best = largest(n, minor).map_or(0.0, minor);

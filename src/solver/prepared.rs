@@ -112,7 +112,7 @@ impl Prepared {
         let mut seconds = PhaseSeconds::default();
         let (system, values) = match settings.method {
             Method::Convex(_) | Method::Stretch(_) => {
-                let system = FreeSystem::new(mesh, |v| pins.contains_key(&v));
+                let system = FreeSystem::new(mesh, |v| pins.contains_key(&v), control)?;
                 let family = if settings.method.uses_family() { settings.family() } else { Family::MeanValue };
                 let equations = convex_equations(mesh, family, control)?;
                 let is_symmetric = matches!(family, Family::Conformal | Family::Uniform);
@@ -206,10 +206,9 @@ impl Prepared {
             Values::Fixed(fixed) => fixed.solve(site, &targets, control)?,
         };
         embedding.gather_unused(mesh);
-        control.go_on()?;
         let linear = match &self.values {
-            Values::Free(free) => free.numbers(mesh, &embedding, residual),
-            Values::Fixed(fixed) => fixed.numbers(site, &embedding, residual),
+            Values::Free(free) => free.numbers(mesh, &embedding, residual, control)?,
+            Values::Fixed(fixed) => fixed.numbers(site, &embedding, residual, control)?,
         };
         let in_force = if self.own_places.is_some() {
             fixed_pins(targets.keys().map(|&vertex| (vertex, embedding[vertex])))

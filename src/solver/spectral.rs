@@ -84,7 +84,7 @@ pub fn spectral(mesh: &DiskMesh, control: Control<'_>) -> Result<Spectral, Solve
     control.enter(Phase::Assemble)?;
     let start = Instant::now();
     let equations = natural(mesh, Family::CONFORMAL_POWER, control)?;
-    let system = FreeSystem::new(mesh, |_| false);
+    let system = FreeSystem::new(mesh, |_| false, control)?;
     let boundary: Vec<usize> = mesh.boundary_loop().iter().filter_map(|&v| system.row(v)).collect();
     let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
     control.enter(Phase::Analyze)?;
@@ -105,7 +105,7 @@ pub fn spectral(mesh: &DiskMesh, control: Control<'_>) -> Result<Spectral, Solve
     };
     let found = greatest_eigenpair(&first_iterate(mesh), LIMITS, apply)?;
     let z = shifted.inverse(&found.vector, control).map_err(named)?;
-    let mut answer = Answer { mesh, system: &system, equations: &equations }.spectral(&shifted, &found, z)?;
+    let mut answer = Answer { mesh, system: &system, equations: &equations, control }.spectral(&shifted, &found, z)?;
     seconds.solve = start.elapsed().as_secs_f64();
     answer.solution.seconds = seconds;
     Ok(answer)
@@ -158,7 +158,7 @@ impl Shifted {
         Setup { equations, analysis, boundary }: Setup<'_>,
         control: Control<'_>,
     ) -> Result<Self, SolveError> {
-        let mut matrix = system.negated_matrix(mesh, equations);
+        let mut matrix = system.negated_matrix(mesh, equations, control)?;
         let places: Vec<usize> = boundary.iter().map(|&row| system.place_of_diagonal(row)).collect();
         let mut diagonal: Vec<f64> =
             (0..system.free().len()).map(|row| matrix.values()[system.place_of_diagonal(row)].re).collect();
@@ -203,6 +203,7 @@ struct Answer<'a> {
     mesh: &'a DiskMesh,
     system: &'a FreeSystem,
     equations: &'a Equations<C64>,
+    control: Control<'a>,
 }
 
 impl Answer<'_> {
@@ -217,13 +218,13 @@ impl Answer<'_> {
             embedding[vertex] = DVec2::new(z.re, z.im);
         }
         embedding.check_finite()?;
-        let (eigenvalue, residual) = self.eigenvalue(&embedding);
+        let (eigenvalue, residual) = self.eigenvalue(&embedding)?;
         let limit = LIMITS.tolerance;
         let stop = if found.residual <= limit { Stop::Converged } else { Stop::Limit };
         let convergence = Convergence { steps: found.applications, residual: found.residual, stop };
         let linear = LinearSolve {
             residual,
-            equation_residual: self.equations.residual(self.mesh, &embedding, |_| true),
+            equation_residual: self.equations.residual(self.mesh, &embedding, |_| true, self.control)?,
             bounded_corners: self.equations.bounded_corners,
             ..shifted.factor.stats().into()
         };
@@ -239,22 +240,26 @@ impl Answer<'_> {
     }
 
     /// λ as the energy of an embedding of boundary norm 1, and ‖L z − λ B z‖ relative to the sizes of the terms of L z.
-    fn eigenvalue(&self, embedding: &Embedding) -> (f64, f64) {
+    fn eigenvalue(&self, embedding: &Embedding) -> Result<(f64, f64), SolveError> {
         let place = |v: VertexId| C64::new(embedding[v].x, embedding[v].y);
-        let forces: Vec<C64> =
-            self.system.free().iter().map(|&v| -self.equations.residual_of(self.mesh, embedding, v)).collect();
+        let free = self.system.free();
+        let force = |row: usize| -self.equations.residual_of(self.mesh, embedding, free[row]);
+        let forces: Vec<C64> = self.control.each(free.len(), force)?;
         let work = |(&v, force): (&VertexId, &C64)| (place(v).conj() * force).re;
-        let eigenvalue = self.system.free().iter().zip(&forces).map(work).sum::<f64>().max(0.0);
+        let eigenvalue = free.iter().zip(&forces).map(work).sum::<f64>().max(0.0);
         let (mut left, mut whole) = (0.0, 0.0);
-        for (&v, force) in self.system.free().iter().zip(&forces) {
-            let held = if self.mesh.boundary_place(v).is_some() { eigenvalue * place(v) } else { C64::ZERO };
-            let size = |h: HalfedgeId| {
-                let coefficient: C64 = self.equations.coefficients[h.index()];
-                coefficient.norm() * embedding[self.mesh.head(h)].distance(embedding[v])
-            };
-            left += (force - held).norm_sqr();
-            whole += self.mesh.links_from(v).map(size).sum::<f64>().powi(2);
+        for run in self.control.runs(free.len()) {
+            for row in run? {
+                let (v, force) = (free[row], forces[row]);
+                let held = if self.mesh.boundary_place(v).is_some() { eigenvalue * place(v) } else { C64::ZERO };
+                let size = |h: HalfedgeId| {
+                    let coefficient: C64 = self.equations.coefficients[h.index()];
+                    coefficient.norm() * embedding[self.mesh.head(h)].distance(embedding[v])
+                };
+                left += (force - held).norm_sqr();
+                whole += self.mesh.links_from(v).map(size).sum::<f64>().powi(2);
+            }
         }
-        (eigenvalue, if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 })
+        Ok((eigenvalue, if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }))
     }
 }

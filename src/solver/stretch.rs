@@ -95,7 +95,7 @@ impl StretchMinimising {
         control.enter(Phase::Analyze)?;
         let start = Instant::now();
         let places = convex_boundary(mesh, shape, spacing)?;
-        let system = FreeSystem::new(mesh, |v| places.contains_key(&v));
+        let system = FreeSystem::new(mesh, |v| places.contains_key(&v), control)?;
         let analysis = system.analysis(Kind::General, control)?;
         Ok(Self { places, system, analysis, analyze_seconds: start.elapsed().as_secs_f64() })
     }
@@ -148,7 +148,7 @@ impl StretchMinimising {
         let start = Instant::now();
         let (mut embedding, residual) = solve.solve(site, &self.places, control)?;
         embedding.gather_unused(mesh);
-        let linear = solve.numbers(site, &embedding, residual);
+        let linear = solve.numbers(site, &embedding, residual, control)?;
         let solve_seconds = start.elapsed().as_secs_f64();
         // What the next weights come from counts as assembling.
         let start = Instant::now();

@@ -81,22 +81,26 @@ impl Columns {
 impl FreeSystem {
     /// Lays out the system of all vertices that belong to faces and are not pinned.
     ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    ///
     /// # Panics
     ///
     /// If the system has 2³² entries or more.
-    pub fn new(mesh: &DiskMesh, is_pinned: impl Fn(VertexId) -> bool) -> Self {
+    pub fn new(
+        mesh: &DiskMesh,
+        is_pinned: impl Fn(VertexId) -> bool,
+        control: Control<'_>,
+    ) -> Result<Self, SolveError> {
         let mut row_of_vertex = vec![NONE; mesh.vertex_count()];
         let free: Vec<VertexId> = mesh.vertices().filter(|&v| mesh.is_used(v) && !is_pinned(v)).collect();
         for (row, v) in (0_u32..).zip(&free) {
             row_of_vertex[v.index()] = row;
         }
-        let columns: Vec<Columns> = (0..free.len().div_ceil(COLUMNS_PER_TASK))
-            .into_par_iter()
-            .map(|task| {
-                let own = task * COLUMNS_PER_TASK..free.len().min((task + 1) * COLUMNS_PER_TASK);
-                Columns::new(mesh, &free[own], &row_of_vertex)
-            })
-            .collect();
+        let of_task = |own: &[VertexId]| control.go_on().map(|()| Columns::new(mesh, own, &row_of_vertex));
+        let columns: Result<Vec<Columns>, SolveError> = free.par_chunks(COLUMNS_PER_TASK).map(of_task).collect();
+        let columns = columns?;
         let (mut starts, mut slot_of_diagonal) = (vec![0], Vec::with_capacity(free.len()));
         let mut begin = 0_usize;
         for count in columns.iter().flat_map(|some| &some.shapes) {
@@ -104,12 +108,15 @@ impl FreeSystem {
             begin += count.entries;
             starts.push(begin);
         }
+        control.go_on()?;
         let rows = columns.iter().map(|some| &some.rows[..]).collect::<Vec<_>>().concat();
+        control.go_on()?;
         let links = columns.iter().map(|some| &some.links[..]).collect::<Vec<_>>().concat();
         let to_pinned = columns.iter().flat_map(|some| some.to_pinned.iter().copied()).collect();
+        control.go_on()?;
         let pattern = SparsityPattern::try_from_offsets_and_indices(free.len(), free.len(), starts, rows)
             .expect("columns were sorted and neighbours are distinct");
-        Self { free, row_of_vertex, pattern, links, slot_of_diagonal, to_pinned }
+        Ok(Self { free, row_of_vertex, pattern, links, slot_of_diagonal, to_pinned })
     }
 
     /// The vertices whose positions are unknown, in the order of the rows.
@@ -135,32 +142,42 @@ impl FreeSystem {
 
     /// The matrix `−A_FF`; positive definite where the coefficients are conformal.
     ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    ///
     /// # Panics
     ///
     /// If the equations are not those of this mesh.
-    pub fn negated_matrix<T>(&self, mesh: &DiskMesh, equations: &Equations<T>) -> CscMatrix<T>
+    pub fn negated_matrix<T>(
+        &self,
+        mesh: &DiskMesh,
+        equations: &Equations<T>,
+        control: Control<'_>,
+    ) -> Result<CscMatrix<T>, SolveError>
     where
         T: Scalar,
     {
         let coefficients = &equations.coefficients;
-        let mut diagonal = vec![T::ZERO; self.free.len()];
         // In ascending order, so that it does not matter to a sum where the fan of a vertex begins.
-        let ascending = |links: &mut Vec<HalfedgeId>, (sum, &v): (&mut T, &VertexId)| {
+        let ascending = |links: &mut Vec<HalfedgeId>, row: usize| {
             links.clear();
-            links.extend(mesh.links_from(v));
+            links.extend(mesh.links_from(self.free[row]));
             links.sort_unstable_by_key(|h| h.index());
-            for h in links {
-                *sum += coefficients[h.index()];
-            }
+            links.iter().fold(T::ZERO, |sum, h| sum + coefficients[h.index()])
         };
-        let rows = diagonal.par_iter_mut().zip(&self.free).with_min_len(COLUMNS_PER_TASK);
-        rows.for_each_init(Vec::new, ascending);
-        let of_link = |&link: &u32| if link == NONE { T::ZERO } else { T::ZERO - coefficients[link as usize] };
-        let mut values: Vec<T> = self.links.par_iter().with_min_len(COLUMNS_PER_TASK).map(of_link).collect();
+        let mut diagonal: Vec<T> = Vec::with_capacity(self.free.len());
+        for run in control.runs(self.free.len()) {
+            diagonal.par_extend(run?.into_par_iter().with_min_len(COLUMNS_PER_TASK / 4).map_init(Vec::new, ascending));
+        }
+        let of_link = |link: u32| if link == NONE { T::ZERO } else { T::ZERO - coefficients[link as usize] };
+        let mut values: Vec<T> = control.each(self.links.len(), |entry| of_link(self.links[entry]))?;
         for (&slot, sum) in self.slot_of_diagonal.iter().zip(diagonal) {
             values[slot as usize] = sum;
         }
-        CscMatrix::try_from_pattern_and_values(self.pattern.clone(), values).expect("one value per entry was made")
+        control.go_on()?;
+        let matrix = CscMatrix::try_from_pattern_and_values(self.pattern.clone(), values);
+        Ok(matrix.expect("one value per entry was made"))
     }
 
     /// The vector `A_FP t`, the right-hand side that goes with [`negated_matrix`](Self::negated_matrix).
@@ -183,16 +200,22 @@ impl FreeSystem {
     }
 
     /// ‖Ax − b‖ / ‖b‖, b being what the pinned vertices give where they lie.
-    pub(super) fn relative_residual<T>(&self, mesh: &DiskMesh, equations: &Equations<T>, embedding: &Embedding) -> f64
+    pub(super) fn relative_residual<T>(
+        &self,
+        mesh: &DiskMesh,
+        equations: &Equations<T>,
+        embedding: &Embedding,
+        control: Control<'_>,
+    ) -> Result<f64, SolveError>
     where
         T: Copy + Sync + Mul<Complex<f64>, Output = Complex<f64>>,
     {
         let rhs = self.pinned_terms(mesh, equations, |v| Complex::new(embedding[v].x, embedding[v].y));
         let whole: f64 = rhs.iter().map(Complex::norm_sqr).sum();
-        let square = |&v: &VertexId| equations.residual_of(mesh, embedding, v).norm_sqr();
-        let squares: Vec<f64> = self.free.par_iter().map(square).collect();
+        let square = |row: usize| equations.residual_of(mesh, embedding, self.free[row]).norm_sqr();
+        let squares: Vec<f64> = control.each(self.free.len(), square)?;
         let residual: f64 = squares.iter().sum();
-        if residual > 0.0 { f64::sqrt(residual / whole) } else { 0.0 }
+        Ok(if residual > 0.0 { f64::sqrt(residual / whole) } else { 0.0 })
     }
 
     /// Orders and analyses its pattern.

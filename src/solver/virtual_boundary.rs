@@ -137,7 +137,7 @@ impl Extended {
         residuals: Option<&[Complex<f64>]>,
         control: Control<'_>,
     ) -> Result<(Embedding, LinearSolve), SolveError> {
-        let system = FreeSystem::new(&self.disk, |v| self.disk.boundary_place(v).is_some());
+        let system = FreeSystem::new(&self.disk, |v| self.disk.boundary_place(v).is_some(), control)?;
         let site = Site { mesh: &self.disk, system: &system };
         let residual_of = |v: &VertexId| match residuals {
             Some(residuals) => residuals[v.index()],
@@ -150,7 +150,7 @@ impl Extended {
         let solve = FixedSolve::new(site, equations, &analysis, control)?;
         control.enter(Phase::Solve)?;
         let (embedding, residual) = solve.solve_from(site, start, &residuals, control)?;
-        let numbers = solve.numbers(site, &embedding, residual);
+        let numbers = solve.numbers(site, &embedding, residual, control)?;
         Ok((embedding, numbers))
     }
 }

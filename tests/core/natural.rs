@@ -114,7 +114,10 @@ fn the_conformal_matrix_is_hermitian_bit_for_bit() {
     for (name, mesh) in built_in.into_iter().chain(corpus) {
         let equations = equations::natural(&mesh, Family::CONFORMAL_POWER, Control::unattended()).unwrap();
         let pins = fixed_pins(gauge_pins(&mesh));
-        let matrix = FreeSystem::new(&mesh, |v| pins.contains_key(&v)).negated_matrix(&mesh, &equations);
+        let matrix = FreeSystem::new(&mesh, |v| pins.contains_key(&v), Control::unattended())
+            .unwrap()
+            .negated_matrix(&mesh, &equations, Control::unattended())
+            .unwrap();
         for (row, column, value) in matrix.triplet_iter() {
             let mirror = matrix.get_entry(column, row).expect("the pattern is symmetric").into_value();
             // Adding zero makes one bit pattern of the two zeros.
@@ -201,13 +204,13 @@ fn the_lu_finds_manufactured_solutions_on_the_disks_of_the_corpus() {
     for entry in corpus_disks() {
         let mesh = entry.disk();
         let pins = fixed_pins(gauge_pins(&mesh));
-        let system = FreeSystem::new(&mesh, |v| pins.contains_key(&v));
+        let system = FreeSystem::new(&mesh, |v| pins.contains_key(&v), Control::unattended()).unwrap();
         let analysis = Analysis::new(Kind::General, system.pattern(), &AtomicBool::new(false)).unwrap();
         let mut random = Random(11);
         let wanted: Vec<Complex<f64>> =
             system.free().iter().map(|_| Complex::new(random.unit() - 0.5, random.unit() - 0.5)).collect();
         for (name, equations) in unsymmetric(&mesh) {
-            let matrix = system.negated_matrix(&mesh, &equations);
+            let matrix = system.negated_matrix(&mesh, &equations, Control::unattended()).unwrap();
             let mut right = vec![Complex::ZERO; wanted.len()];
             for (row, column, value) in matrix.triplet_iter() {
                 right[row] += value * wanted[column];

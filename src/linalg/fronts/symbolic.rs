@@ -287,7 +287,7 @@ impl Plan {
         let Supernodes { begin, parent, below, columns } = supernodes(elimination);
         go_on_unless(cancel)?;
         let order = elimination.order.then(&columns);
-        let upper = pattern.permuted_upper(&order);
+        let upper = pattern.permuted_upper(&order, cancel)?;
         go_on_unless(cancel)?;
         let rows = front_rows(&upper, &begin, &parent, running_sum(&below));
         Ok(Self { order, begin, parent, rows })

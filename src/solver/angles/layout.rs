@@ -41,7 +41,7 @@ pub(super) fn laid_out(mesh: &DiskMesh, angles: &[[f64; 3]], control: Control<'_
     let equations = equations_of(mesh, angles);
     let targets = gauge_pins(mesh);
     let layout = Layout::new(&fixed_pins(targets.clone()), Treatment::Eliminate, |_| Ok(Vec::new()))?;
-    let system = layout.system(mesh);
+    let system = layout.system(mesh, control)?;
     let site = Site { mesh, system: &system };
     let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
     control.enter(Phase::Analyze)?;
@@ -58,14 +58,14 @@ pub(super) fn laid_out(mesh: &DiskMesh, angles: &[[f64; 3]], control: Control<'_
     }
     let mut residual = f64::INFINITY;
     for _ in 0..SOLVES {
-        let start = Start { embedding: &embedding, residuals: &solve.residuals(mesh, &embedding) };
+        let start = Start { embedding: &embedding, residuals: &solve.residuals(mesh, &embedding, control)? };
         let (nearer, left) = solve.solve_from(site, start, &targets, control)?;
         if left >= residual || left.is_nan() {
             break;
         }
         (embedding, residual) = (nearer, left);
     }
-    let linear = Some(solve.numbers(mesh, &embedding, residual));
+    let linear = Some(solve.numbers(mesh, &embedding, residual, control)?);
     seconds.solve = start.elapsed().as_secs_f64();
     let pins = fixed_pins(targets);
     Ok(Solution { embedding, pins, gauge_completed: true, linear, convergence: None, seconds })

@@ -55,7 +55,7 @@ pub(super) fn straightened(
     weights: Weights,
     control: Control<'_>,
 ) -> Result<Embedding, SolveError> {
-    let system = FreeSystem::new(mesh, |v| cells.roles[v.index()] != Role::Free);
+    let system = FreeSystem::new(mesh, |v| cells.roles[v.index()] != Role::Free, control)?;
     let (equations, kind) = match weights {
         Weights::MeanValue => (mean_value_in_plane(mesh, &cells.places.clone().into()), Kind::General),
         Weights::Uniform => (uniform(mesh), Kind::Hermitian),

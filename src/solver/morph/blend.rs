@@ -47,7 +47,7 @@ impl Held {
         control: Control<'_>,
     ) -> Result<Self, SolveError> {
         control.enter(Phase::Analyze)?;
-        let system = FreeSystem::new(disk, is_held);
+        let system = FreeSystem::new(disk, is_held, control)?;
         let analysis = system.analysis(Kind::General, control)?;
         Ok(Self { system, analysis })
     }
