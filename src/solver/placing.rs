@@ -9,9 +9,9 @@ use glam::DVec2;
 
 use super::equations::length_scale;
 use super::upright::Turns;
-use super::{Embedding, GaugeSize, Pins};
+use super::{Control, Embedding, GaugeSize, Pins, SolveError};
 use crate::geom::{Bounds, Similarity, double_area, power_of_two_near};
-use crate::mesh::{DiskMesh, VertexId};
+use crate::mesh::{DiskMesh, FaceId, VertexId};
 
 /// What the rounding of a turn adds to a length at most, as a share of it.
 const TURN_ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -38,24 +38,28 @@ pub(super) struct Placed {
 impl Placing {
     /// To where up to two pins want an embedding; at the size asked for, and turned, where they do not say. None where two
     /// pins have fallen together, and no similarity takes them to their targets.
-    pub(super) fn of_gauge(mesh: &DiskMesh, embedding: &Embedding, pins: &Pins, free: Free) -> Option<Self> {
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    pub(super) fn of_gauge(of: Placement<'_>, pins: &Pins) -> Result<Option<Self>, SolveError> {
         let anchors: Vec<(VertexId, DVec2)> = pins.iter().map(|(&vertex, pin)| (vertex, pin.target)).take(2).collect();
-        let Free { size, turns } = free;
+        let Placement { embedding, free: Free { size, turns }, .. } = of;
         let ways = match (&anchors[..], size) {
             (&[(first, a), (second, b)], _) => {
                 let (is, wanted) = (embedding[second] - embedding[first], b - a);
                 // The quotient wanted / is of complex numbers.
                 let turn = DVec2::new(is.dot(wanted), is.perp_dot(wanted)) / is.length_squared();
                 if !turn.is_finite() || turn == DVec2::ZERO {
-                    return None;
+                    return Ok(None);
                 }
                 let [from, to] = [embedding[first].midpoint(embedding[second]), a.midpoint(b)];
                 [[embedding[first], a], [embedding[second], b], [from, to]]
                     .map(|[from, to]| Similarity::new(turn, from, to))
                     .into()
             }
-            (&[(vertex, target)], _) => upright_ways(mesh, embedding, free, [embedding[vertex], target]),
-            (_, GaugeSize::TrueArea) => upright_ways(mesh, embedding, free, [DVec2::ZERO; 2]),
+            (&[(vertex, target)], _) => of.upright_ways([embedding[vertex], target])?,
+            (_, GaugeSize::TrueArea) => of.upright_ways([DVec2::ZERO; 2])?,
             (_, GaugeSize::Within(into)) => {
                 let mut ways = within(embedding, into, turns.wished);
                 if turns.wished != turns.quarter {
@@ -65,7 +69,7 @@ impl Placing {
                 ways
             }
         };
-        Some(Self { ways, anchors })
+        Ok(Some(Self { ways, anchors }))
     }
 
     /// To where an embedding fits pins best, in the sum of squares; the targets are not met by that.
@@ -100,16 +104,26 @@ impl Placing {
     }
 
     /// The embedding by the first way that a proof `holds` on. One that does not hold as it lies goes as wished.
-    pub(super) fn best(&self, embedding: &Embedding, holds: impl Fn(&Embedding) -> bool) -> Placed {
+    ///
+    /// # Errors
+    ///
+    /// Those of the proof.
+    pub(super) fn best<E>(
+        &self,
+        embedding: &Embedding,
+        holds: impl Fn(&Embedding) -> Result<bool, E>,
+    ) -> Result<Placed, E> {
         let wished = self.as_wished(embedding);
-        if holds(&wished) || !holds(embedding) {
-            return Placed { embedding: wished, way: Some(self.ways[0]), is_as_wished: true };
+        if holds(&wished)? || !holds(embedding)? {
+            return Ok(Placed { embedding: wished, way: Some(self.ways[0]), is_as_wished: true });
         }
-        let others = self.ways[1..].iter().map(|way| (way, self.along(way, embedding)));
-        match others.into_iter().find(|(_, placed)| holds(placed)) {
-            Some((way, placed)) => Placed { embedding: placed, way: Some(*way), is_as_wished: false },
-            None => Placed { embedding: embedding.clone(), way: None, is_as_wished: false },
+        for way in &self.ways[1..] {
+            let placed = self.along(way, embedding);
+            if holds(&placed)? {
+                return Ok(Placed { embedding: placed, way: Some(*way), is_as_wished: false });
+            }
         }
+        Ok(Placed { embedding: embedding.clone(), way: None, is_as_wished: false })
     }
 
     fn along(&self, way: &Similarity, embedding: &Embedding) -> Embedding {
@@ -128,12 +142,32 @@ pub(super) struct Free {
     pub(super) turns: Turns,
 }
 
-/// Ways to stand upright at a size, one point moved onto another, the best first.
-fn upright_ways(mesh: &DiskMesh, embedding: &Embedding, free: Free, [from, to]: [DVec2; 2]) -> Vec<Similarity> {
-    let Free { size, turns } = free;
-    let [factor, power] = with_power_of_two(factor_of(mesh, embedding, size), f64::round);
-    let ways = [(factor, turns.wished), (factor, turns.quarter), (power, turns.quarter)];
-    ways.map(|(factor, turn)| Similarity::new(factor * turn, from, to)).into()
+/// What is to be placed, what of its place is free, and who may stop it.
+#[derive(Clone, Copy)]
+pub(super) struct Placement<'a> {
+    pub(super) mesh: &'a DiskMesh,
+    pub(super) embedding: &'a Embedding,
+    pub(super) free: Free,
+    pub(super) control: Control<'a>,
+}
+
+impl Placement<'_> {
+    /// Ways to stand upright at a size, one point moved onto another, the best first.
+    fn upright_ways(self, [from, to]: [DVec2; 2]) -> Result<Vec<Similarity>, SolveError> {
+        let Free { size, turns } = self.free;
+        let [factor, power] = with_power_of_two(self.factor_of(size)?, f64::round);
+        let ways = [(factor, turns.wished), (factor, turns.quarter), (power, turns.quarter)];
+        Ok(ways.map(|(factor, turn)| Similarity::new(factor * turn, from, to)).into())
+    }
+
+    /// The factor that gives an embedding the size asked for; 1 where it has no finite extent.
+    fn factor_of(self, size: GaugeSize) -> Result<f64, SolveError> {
+        let factor = match size {
+            GaugeSize::TrueArea => area_factor(self.mesh, self.embedding, self.control)?,
+            GaugeSize::Within(into) => (into.size() / self.embedding.bounds().size()).min_element(),
+        };
+        Ok(usable_factor(factor))
+    }
 }
 
 /// Ways into the middle of a box as large as it holds an embedding that is turned, the best first.
@@ -157,7 +191,8 @@ fn within(embedding: &Embedding, into: Bounds, turn: DVec2) -> Vec<Similarity> {
 /// Moves an embedding to where fewer than two pins want it, without a turn and without a proof.
 pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut Embedding, pins: &Pins, size: GaugeSize) {
     let free = Free { size, turns: Turns::NONE };
-    if let Some(placing) = Placing::of_gauge(mesh, embedding, pins, free) {
+    let placement = Placement { mesh, embedding, free, control: Control::unattended() };
+    if let Ok(Some(placing)) = Placing::of_gauge(placement, pins) {
         *embedding = placing.as_wished(embedding);
     }
 }
@@ -178,15 +213,6 @@ fn rounding_alike(shift: DVec2, extent: f64) -> DVec2 {
     if digit.is_finite() && digit > 0.0 { (shift / digit).round() * digit } else { shift }
 }
 
-/// The factor that gives an embedding the size asked for; 1 where it has no finite extent.
-fn factor_of(mesh: &DiskMesh, embedding: &Embedding, size: GaugeSize) -> f64 {
-    let factor = match size {
-        GaugeSize::TrueArea => true_area_factor(mesh, embedding),
-        GaugeSize::Within(into) => (into.size() / embedding.bounds().size()).min_element(),
-    };
-    usable_factor(factor)
-}
-
 fn usable_factor(factor: f64) -> f64 {
     if factor.is_finite() && factor > 0.0 { factor } else { 1.0 }
 }
@@ -194,22 +220,26 @@ fn usable_factor(factor: f64) -> f64 {
 /// The factor to the total area of the surface, holes left out, in the mesh's unit. Both areas are summed at a size near 1, so that no square of a length
 /// overflows or vanishes.
 pub fn true_area_factor(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
+    area_factor(mesh, embedding, Control::unattended()).expect("nobody stops it")
+}
+
+fn area_factor(mesh: &DiskMesh, embedding: &Embedding, control: Control<'_>) -> Result<f64, SolveError> {
     let (in_space, in_plane) = (length_scale(mesh), power_of_two_near(embedding.bounds().size().max_element()).recip());
-    let surface: f64 = mesh
-        .real_faces()
-        .map(|face| {
-            let [a, b, c] = mesh.mesh().corners(face).map(|x| x * in_space);
-            (b - a).cross(c - a).length()
-        })
-        .sum();
-    let flat: f64 =
-        mesh.real_faces().map(|face| double_area(mesh.face(face).map(|v| embedding[v] * in_plane)).abs()).sum();
-    (surface / flat).sqrt() * (in_plane / in_space)
+    let count = mesh.mesh().real_face_count();
+    let surface = |face| {
+        let [a, b, c] = mesh.mesh().corners(FaceId::from_index(face)).map(|x| x * in_space);
+        (b - a).cross(c - a).length()
+    };
+    let flat = |face| double_area(mesh.face(FaceId::from_index(face)).map(|v| embedding[v] * in_plane)).abs();
+    // Summed in one order, for any number of threads.
+    let surface: f64 = control.each(count, surface)?.iter().sum();
+    let flat: f64 = control.each(count, flat)?.iter().sum();
+    Ok((surface / flat).sqrt() * (in_plane / in_space))
 }
 
 /// Scales an embedding about the origin to the total area of the surface; one without a finite area stays as it is.
 pub fn to_true_area(mesh: &DiskMesh, embedding: &mut Embedding) {
-    let factor = factor_of(mesh, embedding, GaugeSize::TrueArea);
+    let factor = usable_factor(true_area_factor(mesh, embedding));
     for z in embedding.iter_mut() {
         *z *= factor;
     }

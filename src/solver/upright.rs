@@ -16,8 +16,8 @@ use std::ops::Add;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::Embedding;
 use super::equations::length_scale;
+use super::{Control, Embedding, SolveError};
 use crate::geom::power_of_two_near;
 use crate::mesh::{DiskMesh, FaceId};
 
@@ -50,11 +50,15 @@ impl Turns {
     pub(super) const NONE: Self = Self { wished: DVec2::X, quarter: DVec2::X };
 
     /// Those that bring an embedding upright.
-    pub(super) fn upright(mesh: &DiskMesh, embedding: &Embedding) -> Self {
-        let Some(wished) = upright_turn(mesh, embedding) else { return Self::NONE };
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    pub(super) fn upright(mesh: &DiskMesh, embedding: &Embedding, control: Control<'_>) -> Result<Self, SolveError> {
+        let Some(wished) = upright_turn(mesh, embedding, control)? else { return Ok(Self::NONE) };
         let quarter = nearest_quarter(wished);
         let is_quarter = wished.distance(quarter) < NEARLY_QUARTER;
-        Self { wished: if is_quarter { quarter } else { wished }, quarter }
+        Ok(Self { wished: if is_quarter { quarter } else { wished }, quarter })
     }
 
     /// By multiples of 90° alone.
@@ -75,17 +79,18 @@ struct Part {
     in_view: DVec2,
 }
 
-fn upright_turn(mesh: &DiskMesh, embedding: &Embedding) -> Option<DVec2> {
+fn upright_turn(mesh: &DiskMesh, embedding: &Embedding, control: Control<'_>) -> Result<Option<DVec2>, SolveError> {
     // Both near size 1, so that no product overflows or vanishes.
     let in_space = length_scale(mesh);
     let in_plane = power_of_two_near(embedding.bounds().size().max_element()).recip();
     let origin = mesh.mesh().positions[0];
     let corners = |face: FaceId| mesh.mesh().corners(face).map(|x| (x - origin) * in_space);
     let doubled_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
-    let (normal, area) = sum_over_faces(mesh, |face| {
+    let of_normal = |face| {
         let doubled = doubled_area(corners(face));
         (doubled, doubled.length())
-    });
+    };
+    let (normal, area) = sum_over_faces(mesh, control, of_normal)?;
     let [right, up] = front_view(normal / area);
     let part = |face| {
         let at = corners(face);
@@ -97,24 +102,30 @@ fn upright_turn(mesh: &DiskMesh, embedding: &Embedding) -> Option<DVec2> {
             in_view: DVec2::new(right.dot(middle), up.dot(middle)),
         }
     };
-    let (z_sum, w_sum) = sum_over_faces(mesh, |face| {
+    let weighted = |face| {
         let Part { area, in_plane, in_view } = part(face);
         (area * in_plane, area * in_view)
-    });
+    };
+    let (z_sum, w_sum) = sum_over_faces(mesh, control, weighted)?;
     let (z_mean, w_mean) = (z_sum / area, w_sum / area);
-    let (sum, squares) = sum_over_faces(mesh, |face| {
+    let of_products = |face| {
         let Part { area, in_plane, in_view } = part(face);
         let (z, w) = (in_plane - z_mean, in_view - w_mean);
         // The conjugate of z, times w.
         let product = DVec2::new(z.dot(w), z.perp_dot(w));
         (area * product, area * DVec2::new(z.length_squared(), w.length_squared()))
-    });
+    };
+    let (sum, squares) = sum_over_faces(mesh, control, of_products)?;
     let is_clear = sum.length() > LEAST_AGREEMENT * (squares.x * squares.y).sqrt();
-    sum.try_normalize().filter(|_| is_clear)
+    Ok(sum.try_normalize().filter(|_| is_clear))
 }
 
 /// The sums of two quantities over the faces of the surface, the same for any number of threads.
-fn sum_over_faces<A, B>(mesh: &DiskMesh, of: impl Fn(FaceId) -> (A, B) + Sync) -> (A, B)
+fn sum_over_faces<A, B>(
+    mesh: &DiskMesh,
+    control: Control<'_>,
+    of: impl Fn(FaceId) -> (A, B) + Sync,
+) -> Result<(A, B), SolveError>
 where
     A: Add<Output = A> + Default + Send,
     B: Add<Output = B> + Default + Send,
@@ -122,11 +133,13 @@ where
     let add = |(a, b): (A, B), (c, d): (A, B)| (a + c, b + d);
     let count = mesh.mesh().real_face_count();
     let of_task = |task: usize| {
+        control.go_on()?;
         let faces = task * FACES_PER_TASK..count.min((task + 1) * FACES_PER_TASK);
-        faces.map(|face| of(FaceId::from_index(face))).fold(Default::default(), add)
+        Ok(faces.map(|face| of(FaceId::from_index(face))).fold(Default::default(), add))
     };
-    let sums: Vec<(A, B)> = (0..count.div_ceil(FACES_PER_TASK)).into_par_iter().map(of_task).collect();
-    sums.into_iter().fold(Default::default(), add)
+    let tasks = (0..count.div_ceil(FACES_PER_TASK)).into_par_iter();
+    let sums: Result<Vec<(A, B)>, SolveError> = tasks.map(of_task).collect();
+    Ok(sums?.into_iter().fold(Default::default(), add))
 }
 
 /// Right and up of the view from the side that a surface faces. `mean_normal` has length 1 for a plane sheet and 0 for a

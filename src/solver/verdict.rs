@@ -55,7 +55,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::Embedding;
+use super::{Control, Embedding, SolveError};
 use crate::geom::{Orientation, crossings, is_simple, orientation, turning_number, winding_number};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, Hole, Polygon, VertexId};
 
@@ -98,6 +98,15 @@ pub struct Verdict {
 ///
 /// If the embedding does not have one position per vertex.
 pub fn verdict(mesh: &DiskMesh, embedding: &Embedding) -> Verdict {
+    verdict_unless(mesh, embedding, Control::unattended()).expect("nobody stops it")
+}
+
+/// The same, unless the caller asks to stop.
+pub(super) fn verdict_unless(
+    mesh: &DiskMesh,
+    embedding: &Embedding,
+    control: Control<'_>,
+) -> Result<Verdict, SolveError> {
     assert_eq!(embedding.len(), mesh.vertex_count(), "an embedding has one position per vertex");
     let orientations: Vec<Option<Orientation>> = orientations(mesh, embedding).collect();
     let real = &orientations[..mesh.mesh().real_face_count()];
@@ -105,22 +114,26 @@ pub fn verdict(mesh: &DiskMesh, embedding: &Embedding) -> Verdict {
     let mirrored = some_are(Orientation::Clockwise) && !some_are(Orientation::CounterClockwise);
     let upright = if mirrored { Orientation::Clockwise } else { Orientation::CounterClockwise };
     let is_upright = |face: FaceId| orientations[face.index()] == Some(upright);
-
+    control.go_on()?;
     let flipped_faces: Vec<FaceId> = mesh.real_faces().filter(|&face| !is_upright(face)).collect();
     let folded = folded_holes(mesh, is_upright);
     let is_crossed = |hole: &&Hole| !is_around(hole, embedding, upright);
     let crossed_holes: Vec<VertexId> = folded.iter().filter(is_crossed).map(|hole| hole.rim[0]).collect();
     let zero_area_faces = real.iter().filter(|&&o| o == Some(Orientation::Collinear)).count();
     let boundary = embedding.boundary(mesh);
+    control.go_on()?;
     let (boundary_crossings, more_crossings) = boundary_crossings(mesh, &boundary);
+    control.go_on()?;
     let is_one_to_one = flipped_faces.is_empty() && crossed_holes.is_empty() && boundary_crossings.is_empty();
     let concave_polygons = concave_polygons(mesh, embedding, upright)
         .filter(|polygon| polygon.faces().all(is_upright))
         .map(|polygon| polygon.first_face)
         .collect::<Vec<_>>();
     let planar = is_one_to_one && concave_polygons.is_empty();
+    control.go_on()?;
     let overwound_vertices = if is_one_to_one { Vec::new() } else { overwound_vertices(mesh, embedding, is_upright) };
-    Verdict {
+    control.go_on()?;
+    Ok(Verdict {
         planar,
         flipped_faces,
         concave_polygons,
@@ -133,7 +146,7 @@ pub fn verdict(mesh: &DiskMesh, embedding: &Embedding) -> Verdict {
         zero_area_faces,
         mirrored,
         holds_in_f32: planar && sense_of_surface(mesh, &in_f32(embedding)) == Some(upright),
-    }
+    })
 }
 
 /// Whether an embedding of a disk is planar, as it lies or in a mirror: what [`verdict`] says, without a list of what is

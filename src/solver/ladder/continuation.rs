@@ -61,17 +61,16 @@ impl Rung for Fit {
 /// no more, it stays where it lies.
 fn fitted(task: &Task, mesh: &DiskMesh, start: &Embedding, control: Control<'_>) -> Result<Embedding, SolveError> {
     let held = task.held();
-    let fit = |embedding: &Embedding| {
-        Placing::fitting(embedding, &held).best(embedding, |placed| task.sheet.is_one_to_one(mesh, placed))
-    };
-    let mut placed = fit(start);
+    let holds = |placed: &Embedding| control.go_on().map(|()| task.sheet.is_one_to_one(mesh, placed));
+    let fit = |embedding: &Embedding| Placing::fitting(embedding, &held).best(embedding, holds);
+    let mut placed = fit(start)?;
     let mut relaxing = Relaxing::new(mesh, start.clone(), &Pins::new());
     for _ in 0..ROUNDS_BEFORE_FITTING {
         if placed.is_as_wished || relaxing.has_converged {
             break;
         }
         match relaxing.round(mesh, control) {
-            Ok(relaxed) => placed = fit(&relaxed.solution.embedding),
+            Ok(relaxed) => placed = fit(&relaxed.solution.embedding)?,
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
             Err(_) => break,
         }

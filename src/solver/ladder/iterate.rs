@@ -2,7 +2,8 @@
 
 use super::rung::{Failure, Footing, Latest, Rung};
 use super::task::Task;
-use super::{Candidate, Ending, Step, gauge_in};
+use super::task::gauge_in;
+use super::{Candidate, Ending, Step};
 use crate::solver::{Control, Family, Iteration, Method, SolveError};
 
 /// The most iterations of a ladder that has other ways to the constraints.

@@ -71,7 +71,7 @@ use self::relax::Rounds;
 use self::rung::{Failure, Footing, Latest, Notes};
 use self::task::Task;
 use super::units::Units;
-use super::{Control, Embedding, Method, Pins, Settings, Sheet, SolveError, fixed_pins, gauge_pins};
+use super::{Control, Embedding, Method, Pins, Settings, Sheet, SolveError};
 use crate::mesh::DiskMesh;
 
 /// A method under way on one mesh with one set of pins.
@@ -84,6 +84,8 @@ pub struct Ladder {
     plan: Plan,
     step_count: usize,
     latest: Option<Latest>,
+    /// A candidate whose proof was stopped: its rung has moved on.
+    unproved: Option<Candidate>,
     ending: Option<Ending>,
     /// Notes on the next step: why rungs before it gave no candidate.
     notes: Notes,
@@ -110,6 +112,7 @@ impl Ladder {
             plan,
             step_count: 0,
             latest: None,
+            unproved: None,
             ending: None,
             notes: Notes::default(),
             kept,
@@ -196,6 +199,7 @@ impl Ladder {
             self.check_beginning(mesh);
         }
         let candidate = match self.ending {
+            _ if self.unproved.is_some() => self.unproved.take().ok_or(SolveError::Cancelled),
             None => self.climb(mesh, control),
             // Where no way led to the constraints, none does now.
             Some(Ending::Unmet) => Err(SolveError::Unmet),
@@ -341,9 +345,4 @@ impl Ladder {
         }
         Some(if latest.is_some_and(|latest| latest.is_solved) { Ending::Planar } else { part.ending() })
     }
-}
-
-/// The default gauge pins where they lie in an embedding.
-fn gauge_in(mesh: &DiskMesh, embedding: &Embedding) -> Pins {
-    fixed_pins(gauge_pins(mesh).into_keys().map(|v| (v, embedding[v])))
 }

@@ -10,7 +10,8 @@ use super::{Candidate, Ladder, Step, largest_move};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::rest::Rest;
 use crate::solver::units::Units;
-use crate::solver::{Control, Embedding, Method, Phase, Pins, SolveError, Verdict, verdict, vertices_outside_hull};
+use crate::solver::verdict::verdict_unless;
+use crate::solver::{Control, Embedding, Method, Phase, Pins, SolveError, Verdict, vertices_outside_hull};
 
 impl Ladder {
     /// Those of the part under way: a planar start lies in the plane where it lies.
@@ -18,32 +19,50 @@ impl Ladder {
         if self.plan.part().aim == Aim::Constraints { self.units } else { Units::default() }
     }
 
-    /// A candidate with its verdict, handed over even where the caller has asked to stop: the rung has moved on.
+    /// A candidate with its verdict. Where the caller asks to stop it is kept, for the rung has moved on: the next step
+    /// begins with its proof.
     pub(super) fn proved(
+        &mut self,
+        candidate: Candidate,
+        mesh: &DiskMesh,
+        control: Control<'_>,
+    ) -> Result<Step, SolveError> {
+        self.unproved = Some(candidate.clone());
+        let step = self.placed_and_proved(candidate, mesh, control);
+        if !matches!(step, Err(SolveError::Cancelled)) {
+            self.unproved = None;
+        }
+        step
+    }
+
+    /// The same; where the caller asks to stop the ladder stays as it is.
+    fn placed_and_proved(
         &mut self,
         mut candidate: Candidate,
         mesh: &DiskMesh,
         control: Control<'_>,
     ) -> Result<Step, SolveError> {
-        control.enter(Phase::Verify).ok();
+        control.enter(Phase::Verify)?;
         let (start, units) = (Instant::now(), self.units_in_force());
         let task = Arc::clone(&self.plan.part().task);
         let refinement = candidate.refinement.clone();
         let disk = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
         candidate.solution.embedding.gather_unused(disk);
-        let placing = task.place(disk, &mut candidate);
-        let mut verdict = self.verdict_of(mesh, &candidate);
+        let placing = task.place(disk, &mut candidate, control)?;
+        let mut verdict = self.verdict_of(mesh, &candidate, control)?;
         let is_start = self.plan.part().aim == Aim::PlanarStart;
         let is_proved = verdict.is_one_to_one() && (verdict.planar || is_start);
         if !is_proved || !task.are_met(&candidate.solution.embedding) {
             let is_kept = self.keep_what_is_proved(&mut candidate);
-            verdict = if is_kept { self.verdict_of(mesh, &candidate) } else { verdict };
+            verdict = if is_kept { self.verdict_of(mesh, &candidate, control)? } else { verdict };
         }
+        control.go_on()?;
         if candidate.progress.is_none() && verdict.planar && self.plan.part().rounds_until_it_serves() > 0 {
             let of = candidate.mesh(mesh);
             candidate.progress = Some(Rest::new(of).progress(of, &candidate.solution.embedding, 0.0));
         }
         let verify_seconds = start.elapsed().as_secs_f64();
+        control.go_on()?;
         let (outside_hull, hull_seconds) = self.outside_hull_of(mesh, &candidate, &verdict);
         // New vertices have no position before, or another one's.
         let old = mesh.vertex_count();
@@ -80,8 +99,9 @@ impl Ladder {
     }
 
     /// The verdict on a candidate as it is written.
-    fn verdict_of(&self, mesh: &DiskMesh, candidate: &Candidate) -> Verdict {
-        verdict(candidate.mesh(mesh), &self.written(candidate))
+    fn verdict_of(&self, mesh: &DiskMesh, candidate: &Candidate, control: Control<'_>) -> Result<Verdict, SolveError> {
+        control.go_on()?;
+        verdict_unless(candidate.mesh(mesh), &self.written(candidate), control)
     }
 
     /// Why a candidate folds: vertices outside the hull of their neighbours, and the seconds that finding them took. None where

@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use super::{Candidate, gauge_in};
+use super::Candidate;
 use crate::geom::{Bounds, Similarity};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::pins::GAUGE_PINS;
-use crate::solver::placing::{Free, Placing};
+use crate::solver::placing::{Free, Placement, Placing};
 use crate::solver::units::Units;
 use crate::solver::upright::Turns;
 use crate::solver::{
-    BoundaryShape, Choice as _, Conflict, Embedding, Method, Outside, Pin, Pins, Settings, Sheet, SolveError,
-    check_pins, conflicts,
+    BoundaryShape, Choice as _, Conflict, Control, Embedding, Method, Outside, Pin, Pins, Settings, Sheet, SolveError,
+    check_pins, conflicts, fixed_pins, gauge_pins,
 };
 
 /// Numbers in 32 bits are off by less than this share of their size, and so are targets that lie about the origin.
@@ -117,27 +117,40 @@ impl Task {
 
     /// Moves a candidate to where up to two pins, or none, want it, without a fold. Constraints hold it where it is.
     /// Returns a note where it could not be moved.
-    pub(super) fn place(&self, mesh: &DiskMesh, candidate: &mut Candidate) -> Option<String> {
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    pub(super) fn place(
+        &self,
+        mesh: &DiskMesh,
+        candidate: &mut Candidate,
+        control: Control<'_>,
+    ) -> Result<Option<String>, SolveError> {
         let embedding = &candidate.solution.embedding;
         let is_open = self.has_open_gauge();
         if self.is_constrained() || (!is_open && self.are_met(embedding)) {
-            return None;
+            return Ok(None);
         }
         candidate.solution.gauge_completed = is_open;
         if self.pins.is_empty() && self.is_start(mesh, embedding) {
             candidate.solution.pins = gauge_in(mesh, embedding);
-            return None;
+            return Ok(None);
         }
-        let Some(placing) = self.placing(mesh, candidate) else {
+        let Some(placing) = self.placing(mesh, candidate, control)? else {
             candidate.solution.pins = gauge_in(mesh, embedding);
-            return Some("the pinned vertices fell together, and no similarity takes them to their targets".to_owned());
+            let note = "the pinned vertices fell together, and no similarity takes them to their targets";
+            return Ok(Some(note.to_owned()));
         };
+        control.go_on()?;
         let is_planar = self.sheet.is_planar(mesh, embedding);
         let holds = |embedding: &Embedding| {
             let sheet = &self.sheet;
-            if is_planar { sheet.is_planar(mesh, embedding) } else { sheet.is_one_to_one(mesh, embedding) }
+            let holds =
+                || if is_planar { sheet.is_planar(mesh, embedding) } else { sheet.is_one_to_one(mesh, embedding) };
+            control.go_on().map(|()| holds())
         };
-        let placed = placing.best(embedding, holds);
+        let placed = placing.best(embedding, holds)?;
         let solution = &mut candidate.solution;
         solution.embedding = placed.embedding;
         if !is_open || placed.way.is_none() {
@@ -152,7 +165,7 @@ impl Task {
         if let (Some(way), Some(outside)) = (placed.way, &candidate.outside) {
             candidate.outside = Some(Arc::new(moved(outside, way)));
         }
-        placed.way.is_none().then(|| "not yet moved to its place, whose numbers would fold it".to_owned())
+        Ok(placed.way.is_none().then(|| "not yet moved to its place, whose numbers would fold it".to_owned()))
     }
 
     /// Whether an embedding is the layout that it started from, to the last bit; vertices of no face may lie anywhere.
@@ -164,30 +177,35 @@ impl Task {
     }
 
     /// To where up to two pins want a candidate; where they leave that open, to where the layout lies that it started from.
-    fn placing(&self, mesh: &DiskMesh, candidate: &Candidate) -> Option<Placing> {
+    fn placing(
+        &self,
+        mesh: &DiskMesh,
+        candidate: &Candidate,
+        control: Control<'_>,
+    ) -> Result<Option<Placing>, SolveError> {
         let embedding = &candidate.solution.embedding;
         match &self.start {
-            Some(start) if self.has_open_gauge() => Some(Placing::over(mesh, [embedding, start], &self.pins)),
+            Some(start) if self.has_open_gauge() => Ok(Some(Placing::over(mesh, [embedding, start], &self.pins))),
             _ => {
-                let free = Free { size: self.settings.size, turns: self.turns(mesh, candidate) };
-                Placing::of_gauge(mesh, embedding, &self.pins, free)
+                let free = Free { size: self.settings.size, turns: self.turns(mesh, candidate, control)? };
+                Placing::of_gauge(Placement { mesh, embedding, free, control }, &self.pins)
             }
         }
     }
 
     /// How a candidate is turned where pins leave it free: upright; the sides of a square stay level, and a polygon of the
     /// user's as it is.
-    fn turns(&self, mesh: &DiskMesh, candidate: &Candidate) -> Turns {
+    fn turns(&self, mesh: &DiskMesh, candidate: &Candidate, control: Control<'_>) -> Result<Turns, SolveError> {
         if !self.has_open_gauge() {
-            return Turns::NONE;
+            return Ok(Turns::NONE);
         }
-        let turns = Turns::upright(mesh, &candidate.solution.embedding);
-        match candidate.rung.boundary_shape() {
+        let turns = Turns::upright(mesh, &candidate.solution.embedding, control)?;
+        Ok(match candidate.rung.boundary_shape() {
             Some(BoundaryShape::Polygon(_)) => Turns::NONE,
             Some(BoundaryShape::Hull) => turns,
             _ if candidate.has_convex_boundary() => turns.by_quarters(),
             _ => turns,
-        }
+        })
     }
 
     /// Whether all pins that are to be met exactly lie on their targets.
@@ -195,6 +213,11 @@ impl Task {
         let mut exact = self.pins.iter().filter(|(_, pin)| self.settings.is_exact(pin.hold));
         exact.all(|(vertex, pin)| embedding[vertex] == pin.target)
     }
+}
+
+/// The default gauge pins where they lie in an embedding.
+pub(super) fn gauge_in(mesh: &DiskMesh, embedding: &Embedding) -> Pins {
+    fixed_pins(gauge_pins(mesh).into_keys().map(|v| (v, embedding[v])))
 }
 
 fn moved(outside: &Outside, way: Similarity) -> Outside {
