@@ -268,3 +268,23 @@ fn every_method_can_be_taken_on_by_hand() {
         assert_eq!(further.rung, Method::Iterate, "after {method:?}");
     }
 }
+
+#[test]
+fn a_proof_that_is_stopped_is_all_that_the_next_step_has_to_do() {
+    let mesh = disk(Example::Cube.mesh());
+    let settings = Settings::new(Method::Natural, Family::Conformal);
+    let whole = Ladder::new(settings, Pins::new()).step(&mesh, Control::unattended()).unwrap();
+    let (flag, mut run) = (AtomicBool::new(false), Ladder::new(settings, Pins::new()));
+    let raise = |phase| flag.store(phase == Phase::Verify, Ordering::Relaxed);
+    assert_eq!(run.step(&mesh, Control::new(&flag, &raise)).unwrap_err(), SolveError::Cancelled);
+    assert_eq!((run.step_count(), run.ending()), (0, None));
+    let phases = std::sync::Mutex::new(Vec::new());
+    let listen = |phase| phases.lock().unwrap().push(phase);
+    let step = run.step(&mesh, Control::new(&AtomicBool::new(false), &listen)).unwrap();
+    assert_eq!(phases.into_inner().unwrap(), [Phase::Verify]);
+    assert_eq!(step.verdict, whole.verdict);
+    let bits = |step: &Step| -> Vec<[u64; 2]> {
+        step.solution.embedding.iter().map(|z| z.to_array().map(f64::to_bits)).collect()
+    };
+    assert_eq!(bits(&step), bits(&whole));
+}

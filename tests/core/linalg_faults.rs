@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use freebound::linalg::{Analysis, Kind, LinalgError};
+use freebound::linalg::{Analysis, Factor, Kind, LinalgError};
 use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
 use num_complex::Complex;
@@ -78,6 +78,20 @@ fn a_cancelled_factorization_stops() {
     for kind in [Kind::General, Kind::Hermitian] {
         let analysis = Analysis::new(kind, matrix.pattern(), &AtomicBool::new(false)).expect("symmetric");
         assert_eq!(analysis.factor(&matrix, &AtomicBool::new(true)).expect_err("cancelled"), LinalgError::Cancelled);
+    }
+}
+
+#[test]
+fn a_cancelled_solve_stops() {
+    let (matrix, raised) = (laplacian(&grid_pattern(20), 0.1, &mut Random(1)), AtomicBool::new(true));
+    let rhs = vec![1.0; matrix.nrows()];
+    for kind in [Kind::General, Kind::Hermitian] {
+        let factor = factored(kind, &matrix).expect("regular");
+        for answer in [Factor::solve, Factor::solve_adjoint, Factor::solve_correction] {
+            assert_eq!(answer(&factor, &matrix, &rhs, &raised).expect_err("cancelled"), LinalgError::Cancelled);
+        }
+        assert_eq!(factor.substitute(&rhs, &raised), Err(LinalgError::Cancelled));
+        assert_eq!(factor.substitute_adjoint(&mut rhs.clone(), &raised), Err(LinalgError::Cancelled));
     }
 }
 

@@ -321,6 +321,23 @@ fn a_flag_raised_before_stops_the_solve() {
 }
 
 #[test]
+fn a_raised_flag_stops_the_sums_of_equations_and_the_making_of_their_system() {
+    let (mesh, raised) = (face(), AtomicBool::new(true));
+    let (stopped, free) = (Control::new(&raised, &|_| {}), Control::unattended());
+    for power in [Family::CONFORMAL_POWER, 0.0] {
+        assert_eq!(equations::natural(&mesh, power, stopped), Err(SolveError::Cancelled));
+    }
+    assert_eq!(equations::levy(&mesh, stopped), Err(SolveError::Cancelled));
+    assert_eq!(equations::lscm(&mesh, stopped), Err(SolveError::Cancelled));
+    let equations = equations::natural(&mesh, 0.0, free).unwrap();
+    let flat = Embedding::from(vec![DVec2::ZERO; mesh.vertex_count()]);
+    assert_eq!(equations.residual(&mesh, &flat, |_| true, stopped), Err(SolveError::Cancelled));
+    assert_eq!(FreeSystem::new(&mesh, |_| false, stopped).unwrap_err(), SolveError::Cancelled);
+    let system = FreeSystem::new(&mesh, |_| false, free).unwrap();
+    assert_eq!(system.negated_matrix(&mesh, &equations, stopped), Err(SolveError::Cancelled));
+}
+
+#[test]
 fn a_flag_raised_in_any_phase_stops_the_solve_there() {
     use std::sync::atomic::Ordering;
     let mesh = face();
