@@ -18,7 +18,8 @@ use glam::DVec2;
 use num_complex::Complex;
 
 use super::equations::{self, Equations, mean_edge_length};
-use super::free_solve::{FreeSolve, Layout, Setup};
+use super::free_layout::Layout;
+use super::free_solve::{FreeSolve, Setup};
 use super::left_kernel::{gauge_of, gauge_or_farthest};
 use super::pins::{GAUGE_PINS, PinPositions, Pins, farthest_pair, fixed_pins};
 use super::prepared::analyze;

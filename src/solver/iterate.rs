@@ -10,7 +10,8 @@ use std::time::Instant;
 use glam::DVec2;
 use num_complex::Complex;
 
-use super::free_solve::{FreeSolve, Layout, Setup, Start};
+use super::free_layout::Layout;
+use super::free_solve::{FreeSolve, Setup, Start};
 use super::left_kernel::gauge_or_farthest;
 use super::pins::targets_of;
 use super::plane_weights::{mean_edge_length_in_plane, natural_in_plane, residuals_in_plane};

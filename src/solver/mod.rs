@@ -9,7 +9,7 @@
 //! | `units` | the units of a solve: near the origin and near size 1, wherever the targets are |
 //! | `embedding`, `solution` | positions of all vertices in the plane; one with the numbers of its solve |
 //! | `weights`, `pieces`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
-//! | `system`, `prepared`, `free_gauge`, `free_solve`, `fixed_solve`, `least_squares`, `many_pins`, `left_kernel`, `convex`, `hull_corners` | one linear solve, with a free or a fixed boundary |
+//! | `system`, `prepared`, `free_gauge`, `free_layout`, `free_solve`, `fixed_solve`, `least_squares`, `many_pins`, `left_kernel`, `convex`, `hull_corners` | one linear solve, with a free or a fixed boundary |
 //! | `iterate` | one mean-value iteration (paper §4) |
 //! | `lee` | layers of virtual triangles around the mesh, on a convex shape |
 //! | `stretch` | a convex boundary with less and less stretch |
@@ -48,6 +48,7 @@ mod fixed_solve;
 mod flatten;
 pub mod foldover_energy;
 mod free_gauge;
+mod free_layout;
 mod free_solve;
 mod hull_condition;
 mod hull_corners;

@@ -1,0 +1,81 @@
+//! How pins enter a system with a free boundary: what the factors leave out, and what least squares treats.
+
+use std::collections::BTreeMap;
+
+use super::least_squares::{Rest, Spring};
+use super::many_pins::ManyPins;
+use super::system::{FreeSystem, Site};
+use super::{Control, Hold, Pins, SolveError, Treatment};
+use crate::linalg::{Analysis, Kind};
+use crate::mesh::{DiskMesh, VertexId};
+
+/// With more pins than this that least squares has to treat, their rows go sparse. An estimate: at a thousand the dense
+/// way takes many times as long.
+const FEW: usize = 64;
+
+/// How pins enter a system.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Layout {
+    /// The vertices without unknown in the factors, ascending: all pins and a gauge where all equations are kept and pins
+    /// are few, otherwise the exact pins.
+    pub(super) left_out: Vec<VertexId>,
+    /// Whether the equations of those are kept beside the factors; otherwise they are pins, eliminated.
+    pub(super) keeps_equations: bool,
+    /// Whether least squares has too many pins to treat them one by one.
+    pub(super) has_many: bool,
+    pub(super) holds: BTreeMap<VertexId, Hold>,
+}
+
+impl Layout {
+    /// Lays out a system. `gauge` is asked for further vertices to leave out where all equations are kept.
+    pub(super) fn new(
+        pins: &Pins,
+        treatment: Treatment,
+        gauge: impl FnOnce(&[VertexId]) -> Result<Vec<VertexId>, SolveError>,
+    ) -> Result<Self, SolveError> {
+        let holds: BTreeMap<VertexId, Hold> = pins.iter().map(|(&v, pin)| (v, pin.hold)).collect();
+        let exact = pins.iter().filter(|(_, pin)| pin.hold.is_exact());
+        let mut left_out: Vec<VertexId> = exact.map(|(&v, _)| v).collect();
+        // One pin alone does not fix the similarity: the rest without its equation would still be singular.
+        let keeps_equations = treatment != Treatment::Eliminate || left_out.len() < 2;
+        let springs = pins.len() - left_out.len();
+        let has_many = springs + if keeps_equations { pins.len() } else { 0 } > FEW;
+        if keeps_equations && !has_many {
+            left_out = pins.keys().copied().collect();
+            left_out.extend(gauge(&left_out)?);
+            left_out.sort_unstable();
+            left_out.dedup();
+        }
+        Ok(Self { left_out, keeps_equations, has_many, holds })
+    }
+
+    /// Whether pins pull by a weight.
+    pub(super) fn has_springs(&self) -> bool {
+        self.holds.values().any(|hold| !hold.is_exact())
+    }
+
+    pub(super) fn system(&self, mesh: &DiskMesh, control: Control<'_>) -> Result<FreeSystem, SolveError> {
+        FreeSystem::new(mesh, |v| self.left_out.binary_search(&v).is_ok(), control)
+    }
+
+    /// Orders and analyses the system that is factored.
+    pub(super) fn analysis(&self, site: Site<'_>, kind: Kind, control: Control<'_>) -> Result<Analysis, SolveError> {
+        match self.rest(1.0).filter(|_| self.has_many) {
+            Some(rest) => ManyPins::new(site, rest).analysis(site, control),
+            None => site.system.analysis(kind, control),
+        }
+    }
+
+    /// What least squares has to treat, if anything. For `unit` see [`Setup::unit`].
+    pub(super) fn rest(&self, unit: f64) -> Option<Rest> {
+        let spring = |(&vertex, hold): (&VertexId, &Hold)| match hold {
+            Hold::Fixed | Hold::Hard => None,
+            Hold::Weighted(weight) => Some(Spring { vertex, compliance: (unit / weight).powi(2) }),
+        };
+        let springs: Vec<Spring> = self.holds.iter().filter_map(spring).collect();
+        let left_out = if self.keeps_equations { self.left_out.clone() } else { Vec::new() };
+        let can_move = |v: &VertexId| !self.holds.get(v).is_some_and(|hold| hold.is_exact());
+        let movers = left_out.iter().copied().filter(can_move).collect();
+        (self.keeps_equations || !springs.is_empty()).then_some(Rest { left_out, movers, springs })
+    }
+}
