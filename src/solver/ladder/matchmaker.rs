@@ -6,7 +6,7 @@ use std::time::Instant;
 use super::rung::{Failure, Footing, Latest, Rung};
 use super::task::Task;
 use super::{Candidate, Ending, Step};
-use crate::mesh::DiskMesh;
+use crate::mesh::{DiskMesh, Refinement};
 use crate::solver::matchmaker::{Matched, matched, with_room_made, without_needless_vertices};
 use crate::solver::relaxing::Relaxing;
 use crate::solver::{Control, Method, SolveError};
@@ -20,6 +20,14 @@ const WORTHWHILE: f64 = 0.05;
 
 /// Rounds of relaxing that follow: paths were made straight.
 const ROUNDS_AFTER_MATCHMAKER: usize = 30;
+
+/// The same on a tangle. There a round takes seconds and leads nowhere near to an embedding that serves: paths wind around
+/// each other, and so does the map.
+const ROUNDS_OF_TANGLE: usize = 1;
+
+/// A map is a tangle where there are more new vertices than this, and so many for each of the mesh.
+const NEW_VERTICES_OF_TANGLE: usize = 20_000;
+const NEW_PER_OLD_OF_TANGLE: usize = 4;
 
 #[derive(Debug, Default)]
 pub(super) struct Match {
@@ -51,10 +59,12 @@ impl Rung for Match {
                 let latest = latest.ok_or(SolveError::NotPlanar)?;
                 let start = latest.onward.as_ref().unwrap_or(&latest.embedding);
                 let pins = sheet.written_pins(&held);
-                (bare(matched(mesh, &sheet.written(start), &pins, control)?), REMOVALS)
+                let found = bare(matched(mesh, &sheet.written(start), &pins, control)?);
+                let looks = if is_tangle(&found.refinement) { 0 } else { REMOVALS };
+                (found, looks)
             }
             Stage::Refined { found: before, looks_left } => {
-                let Matched { refinement, embedding } = relaxed(before, task, control)?;
+                let Matched { refinement, embedding } = relaxed(before, task, *looks_left, control)?;
                 let bare = bare(Matched { embedding: sheet.written(&embedding).into_owned(), refinement });
                 let found = with_room_made_on_sheet(mesh, bare, task, control)?;
                 let count = before.refinement.new_vertices().len();
@@ -78,8 +88,9 @@ impl Rung for Match {
         matches!(self.stage, Stage::Refined { .. })
     }
 
-    fn relax_rounds_after(&self, _: &Task, _: &Step) -> usize {
-        ROUNDS_AFTER_MATCHMAKER
+    fn relax_rounds_after(&self, _: &Task, step: &Step) -> usize {
+        let is_of_tangle = step.refinement.as_deref().is_some_and(is_tangle);
+        if is_of_tangle { ROUNDS_OF_TANGLE } else { ROUNDS_AFTER_MATCHMAKER }
     }
 
     fn ending(&self, _: &Task) -> Ending {
@@ -87,12 +98,19 @@ impl Rung for Match {
     }
 }
 
+/// Whether new vertices outnumber those of the mesh so far that all work on them takes minutes, and gains little.
+pub(super) fn is_tangle(refinement: &Refinement) -> bool {
+    let least = NEW_VERTICES_OF_TANGLE.max(NEW_PER_OLD_OF_TANGLE * refinement.old_vertex_count());
+    refinement.new_vertices().len() > least
+}
+
 /// The same with its embedding relaxed.
-fn relaxed(found: &Matched, task: &Task, control: Control<'_>) -> Result<Matched, SolveError> {
+fn relaxed(found: &Matched, task: &Task, looks_left: usize, control: Control<'_>) -> Result<Matched, SolveError> {
     let disk: &DiskMesh = found.refinement.disk();
     let sheet = Arc::clone(&task.sheet);
-    let mut relaxing =
-        Relaxing::new(disk, found.embedding.clone(), &task.held()).written_on(sheet).after_straight_paths();
+    let relaxing = Relaxing::new(disk, found.embedding.clone(), &task.held()).written_on(sheet);
+    // Where a coarse disk is no way the first time, it is none later.
+    let mut relaxing = if looks_left == REMOVALS { relaxing.after_straight_paths() } else { relaxing };
     let mut embedding = found.embedding.clone();
     for _ in 0..ROUNDS_BEFORE_REMOVAL {
         embedding = relaxing.round(disk, control)?.solution.embedding;

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::matchmaker::is_tangle;
 use super::plan::Aim;
 use super::rung::{Failure, Footing, Latest, Rung};
 use super::task::Task;
@@ -84,6 +85,10 @@ impl Relax {
     /// Takes in the step that rounds may follow.
     pub(super) fn look_at_start(&mut self, step: &Step) {
         self.lack = Lack::of(step);
+        if step.refinement.as_deref().is_some_and(is_tangle) {
+            // However many rounds follow, it does not come to serve.
+            self.left.until_it_serves = 0;
+        }
     }
 
     /// Whether rounds follow that do not only lower the energy until it serves.

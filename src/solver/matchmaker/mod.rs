@@ -33,6 +33,7 @@ mod triangulate;
 use std::collections::BTreeMap;
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 pub use self::needless::without_needless_vertices;
 use self::paths::{Beginning, Ends, Growth, Manner, Paths};
@@ -61,6 +62,11 @@ const SEEDS: u64 = 4;
 const VERTICES_OF_ALL_TREES: usize = 200_000;
 const FEWEST_TREES: usize = 2;
 
+/// How many trees are tried side by side, where there are more than the fewest; and the new vertices in all, after which
+/// no further ones are tried.
+const TREES_AT_ONCE: usize = 2;
+const POINTS_OF_ALL_TREES: usize = 800_000;
+
 /// Another tree than the first is taken where it needs at most so many of so many new vertices: a few more or less say
 /// nothing about the map.
 const WORTHWHILE: [usize; 2] = [4, 5];
@@ -82,6 +88,14 @@ struct Surroundings {
     frame: Vec<DVec2>,
 }
 
+/// What ways are searched for, and how.
+struct Search<'a> {
+    ends: Ends,
+    /// Length that a new vertex counts for.
+    crossing: f64,
+    control: Control<'a>,
+}
+
 /// Finds new vertices and an embedding with which all exact pins are met, from a planar embedding near to the targets.
 ///
 /// The tree of the first paths decides how those of all others wind: several are tried, and the one that takes the
@@ -99,11 +113,11 @@ pub fn matched(mesh: &DiskMesh, start: &Embedding, pins: &Pins, control: Control
     let corners = (mesh.vertex_count()..).take(frame).map(VertexId::from_index);
     let vertices = exact().map(|(&v, _)| v).chain(corners).map(VertexId::number).collect();
     let graph = TargetGraph::new(&targets, &surroundings.frame);
-    let mut router = Router::new(CROSSING * mean_edge_length(mesh, start), control);
-    let ends = Ends { graph, vertices, frame };
+    let crossing = CROSSING * mean_edge_length(mesh, start);
+    let search = Search { ends: Ends { graph, vertices, frame }, crossing, control };
     let mut manners = manners(mesh);
     loop {
-        let (number, paths) = surroundings.with_fewest_points(mesh, &ends, &manners, &mut router)?;
+        let (number, paths) = surroundings.with_fewest_points(mesh, &search, &manners)?;
         match surroundings.straightened(mesh, paths, control) {
             // Another tree may lead to faces that are less fine.
             Err(SolveError::TooFine) if manners.len() > 1 => manners.remove(number),
@@ -140,37 +154,51 @@ impl Surroundings {
         Ok(Self { disk, places, frame })
     }
 
-    /// Paths by the manner that takes the fewest new points, and its place in the list.
+    /// Paths by the manner that takes the fewest new points, and its place in the list: the same as if all were tried one
+    /// after another.
     fn with_fewest_points(
         &self,
         mesh: &DiskMesh,
-        ends: &Ends,
+        search: &Search<'_>,
         manners: &[Manner],
-        router: &mut Router<'_>,
     ) -> Result<(usize, Paths), SolveError> {
         let most = (NEW_VERTICES_PER_VERTEX * mesh.vertex_count()).max(NEW_VERTICES_OF_SMALL);
         let mut fewest: Option<(usize, Paths)> = None;
         let (mut at_most, mut why) = (most, SolveError::TooManyNewVertices { most });
-        for (number, &manner) in manners.iter().enumerate() {
-            let is_by_chance = manner.luck.0 > 1.0;
-            if is_by_chance && fewest.is_none() {
+        let (mut number, mut laid) = (0, 0);
+        let at_once = if manners.len() > FEWEST_TREES { TREES_AT_ONCE } else { 1 };
+        for some in manners.chunks(at_once) {
+            let is_by_chance = some.iter().all(|manner| manner.luck.0 > 1.0);
+            if (is_by_chance && fewest.is_none()) || (laid > POINTS_OF_ALL_TREES && fewest.is_some()) {
                 break;
             }
-            let mut paths = Paths::new(Subdivision::new(&self.disk, &self.places), ends.clone(), manner);
-            match paths.lay_all(router, at_most) {
-                Ok(()) => {
-                    let count = paths.cells.point_count();
-                    let [part, whole] = if fewest.is_none() { WORTHWHILE } else { [1, 1] };
-                    at_most = (part * count / whole).min(count.saturating_sub(1));
-                    fewest = Some((number, paths));
+            let tried: Vec<_> = some.par_iter().map(|&manner| self.laid(search, manner, at_most)).collect();
+            for (paths, end) in tried {
+                let count = paths.cells.point_count();
+                laid += count;
+                match end {
+                    Ok(()) if count <= at_most => {
+                        let [part, whole] = if fewest.is_none() { WORTHWHILE } else { [1, 1] };
+                        at_most = (part * count / whole).min(count.saturating_sub(1));
+                        fewest = Some((number, paths));
+                    }
+                    Ok(()) | Err(SolveError::TooManyNewVertices { .. }) => {}
+                    // Another tree may lie where numbers are coarser.
+                    Err(SolveError::TooFine) => why = SolveError::TooFine,
+                    Err(error) => return Err(error),
                 }
-                Err(SolveError::TooManyNewVertices { .. }) => {}
-                // Another tree may lie where numbers are coarser.
-                Err(SolveError::TooFine) => why = SolveError::TooFine,
-                Err(error) => return Err(error),
+                number += 1;
             }
         }
         fewest.ok_or(why)
+    }
+
+    /// Paths by some manner with at most so many new points, or as far as they go; and how that ended.
+    fn laid(&self, search: &Search<'_>, manner: Manner, at_most: usize) -> (Paths, Result<(), SolveError>) {
+        let mut router = Router::new(search.crossing, search.control);
+        let mut paths = Paths::new(Subdivision::new(&self.disk, &self.places), search.ends.clone(), manner);
+        let end = paths.lay_all(&mut router, at_most);
+        (paths, end)
     }
 
     /// The embedding in which all paths are straight.
