@@ -33,7 +33,7 @@ pub(super) struct Operator<'a, T> {
 const ROWS_PER_TASK: usize = 4096;
 
 /// Columns that are gone through between two looks at the flag: some hundredths of a second at most.
-const COLUMNS_BETWEEN_LOOKS: usize = 1 << 16;
+const COLUMNS_BETWEEN_LOOKS: usize = 1 << 14;
 
 /// The Euclidean norm, scaled so that it neither overflows nor underflows.
 pub(super) fn norm<T: Scalar>(vector: impl Iterator<Item = T> + Clone) -> f64 {

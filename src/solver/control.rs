@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::SolveError;
 
 /// Vertices, faces or links between two looks at the flag: up to some hundredths of a second where memory is slow.
-const AT_ONCE: usize = 1 << 15;
+const AT_ONCE: usize = 1 << 14;
 
 /// What a solve is busy with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

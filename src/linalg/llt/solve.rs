@@ -14,6 +14,7 @@ use crate::linalg::LinalgError;
 use crate::linalg::fronts::{
     FrontAnalysis, LARGE_PANEL, Part, Substitution, TOGETHER, split_panel, substitute, subtract_product,
 };
+use crate::linalg::order::go_on_unless;
 use crate::linalg::scalar::Number;
 
 impl<T: Number> Llt<T> {
@@ -40,6 +41,7 @@ impl<T: Number> Llt<T> {
         let n = order.len();
         let mut x = Vec::with_capacity(columns.len());
         for column in columns.chunks_exact(n) {
+            go_on_unless(cancel)?;
             x.extend(order.iter().map(|&old| column[old as usize].scale(self.sign.real())));
         }
         substitute(analysis, &Panels { analysis, factor: self }, &mut x, cancel)?;

@@ -17,6 +17,7 @@ use crate::linalg::LinalgError;
 use crate::linalg::fronts::{
     FrontAnalysis, LARGE_PANEL, Part, Substitution, TOGETHER, dot, mat, split_panel, substitute, subtract_product,
 };
+use crate::linalg::order::go_on_unless;
 use crate::linalg::scalar::Scalar;
 use crate::linalg::sparse::Operation;
 
@@ -65,6 +66,7 @@ impl<T: Scalar> Lu<T> {
         let order = &analysis.order.new_to_old;
         let mut x = Vec::with_capacity(columns.len());
         for column in columns.chunks_exact(n) {
+            go_on_unless(cancel)?;
             x.extend(order.iter().map(|&old| {
                 let row = old as usize;
                 conjugate(column[row]).scale(factor(before, row))
