@@ -59,7 +59,11 @@ pub(super) struct Shared {
 pub(super) enum Symbolic {
     Llt(FrontAnalysis),
     Ldlt(LdltAnalysis),
-    Lu(FrontAnalysis),
+    Lu {
+        analysis: FrontAnalysis,
+        /// For each entry of the pattern the place of its mirror image.
+        transposed: Vec<u32>,
+    },
 }
 
 /// A factored matrix. It keeps what it needs of its [`Analysis`], but not the matrix.
@@ -117,7 +121,10 @@ impl Analysis {
         let symbolic = match kind {
             Kind::Hermitian => Symbolic::Llt(FrontAnalysis::new(&pattern, &elimination, Sides::Lower, cancel)?),
             Kind::Augmented { pairs } => Symbolic::Ldlt(LdltAnalysis::new(&pattern, elimination.order(), pairs)?),
-            Kind::General => Symbolic::Lu(FrontAnalysis::new(&pattern, &elimination, Sides::Both, cancel)?),
+            Kind::General => {
+                let analysis = FrontAnalysis::new(&pattern, &elimination, Sides::Both, cancel)?;
+                Symbolic::Lu { analysis, transposed: pattern.transposed() }
+            }
         };
         Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) })
     }
@@ -150,7 +157,7 @@ impl Analysis {
     pub fn order(&self) -> Option<EliminationOrder> {
         match &self.shared.symbolic {
             Symbolic::Llt(llt) => Some(EliminationOrder { order: llt.order.clone(), work: llt.work() }),
-            Symbolic::Ldlt(_) | Symbolic::Lu(_) => None,
+            Symbolic::Ldlt(_) | Symbolic::Lu { .. } => None,
         }
     }
 
@@ -172,7 +179,7 @@ impl Analysis {
         let numeric = match symbolic {
             Symbolic::Llt(analysis) => Numeric::Llt(Llt::new(analysis, matrix.values(), cancel)?),
             Symbolic::Ldlt(analysis) => Numeric::Ldlt(analysis.factor(pattern, matrix)?),
-            Symbolic::Lu(analysis) => Numeric::Lu(Lu::new(analysis, pattern, matrix, cancel)?),
+            Symbolic::Lu { analysis, .. } => Numeric::Lu(Lu::new(analysis, pattern, matrix, cancel)?),
         };
         go_on_unless(cancel)?;
         let factor = Factor { shared: Arc::clone(&self.shared), numeric };
@@ -279,14 +286,15 @@ impl<T: Scalar> Factor<T> {
             return Err(LinalgError::NotFinite { row: place % order });
         }
         let solve = |columns: &mut [T]| self.solve_in_place(operation, columns, cancel);
-        let row_scale = match (&self.numeric, operation) {
-            (Numeric::Lu(lu), Operation::Plain) => Some(lu.row_scale.as_slice()),
-            _ => None,
+        // Where A = Aᴴ, the rows of either are its columns.
+        let (row_scale, places) = match (&self.numeric, &self.shared.symbolic, operation) {
+            (Numeric::Lu(lu), Symbolic::Lu { transposed, .. }, Operation::Plain) => {
+                (Some(lu.row_scale.as_slice()), Some(transposed.as_slice()))
+            }
+            _ => (None, None),
         };
         let is_faithful = self.stats().replaced_pivots == 0;
-        // The rows of A = Aᴴ are its columns, which threads can share.
-        let operation = if matches!(self.numeric, Numeric::Llt(_)) { Operation::Adjoint } else { operation };
-        let operator = Operator { matrix, operation, cancel };
+        let operator = Operator { matrix, places, cancel };
         refined(&System { operator, row_scale, is_faithful, accept, solve: &solve }, rhs)
     }
 
@@ -301,7 +309,7 @@ impl<T: Scalar> Factor<T> {
                 analysis.solve_in_place(ldlt, columns);
                 Ok(())
             }
-            (Symbolic::Lu(analysis), Numeric::Lu(lu)) => lu.solve_in_place(analysis, operation, columns, cancel),
+            (Symbolic::Lu { analysis, .. }, Numeric::Lu(lu)) => lu.solve_in_place(analysis, operation, columns, cancel),
             _ => unreachable!("a factor is made by its own analysis"),
         }
     }

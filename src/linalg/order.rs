@@ -106,6 +106,16 @@ impl Pattern {
         Ok(())
     }
 
+    /// For each entry (i, j) the place of (j, i).
+    pub(super) fn transposed(&self) -> Vec<u32> {
+        let mut next: Vec<u32> = self.offsets[..self.order()].to_vec();
+        let place = |&row: &u32| {
+            next[row as usize] += 1;
+            next[row as usize] - 1
+        };
+        self.rows.iter().map(place).collect()
+    }
+
     /// The upper triangle of the pattern renumbered by `order`, columns sorted.
     ///
     /// # Errors

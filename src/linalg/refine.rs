@@ -187,7 +187,6 @@ fn judge<T: Scalar>(
 ) -> Result<bool, LinalgError> {
     let Column { x, b, backward_error: before, steps } = column;
     let previous = (step > 0).then(|| r.to_vec());
-    system.operator.residual(x, b, r)?;
     let now = system.operator.backward_error(x, b, r)?;
     let better = now < *before;
     if !better {

@@ -1,6 +1,5 @@
 //! Products of a compressed-column matrix with a vector, norms, and inner products of many columns.
 
-use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
 use faer::linalg::matmul::matmul;
@@ -21,19 +20,18 @@ pub(super) enum Operation {
     Adjoint,
 }
 
-/// One of them, and the caller's wish to stop, which is looked at every some thousand columns.
+/// The rows of op(A), each of which threads can read by itself, and the caller's wish to stop.
 #[derive(Clone, Copy)]
 pub(super) struct Operator<'a, T> {
     pub(super) matrix: &'a CscMatrix<T>,
-    pub(super) operation: Operation,
+    /// For A itself, whose pattern is symmetric: for each entry (i, j) the place of (j, i). None for Aᴴ, whose rows are A's
+    /// columns, conjugated.
+    pub(super) places: Option<&'a [u32]>,
     pub(super) cancel: &'a AtomicBool,
 }
 
 /// Rows that share the work of one task: enough to outweigh the handing out.
 const ROWS_PER_TASK: usize = 4096;
-
-/// Columns that are gone through between two looks at the flag: some hundredths of a second at most.
-const COLUMNS_BETWEEN_LOOKS: usize = 1 << 14;
 
 /// The Euclidean norm, scaled so that it neither overflows nor underflows.
 pub(super) fn norm<T: Scalar>(vector: impl Iterator<Item = T> + Clone) -> f64 {
@@ -61,71 +59,48 @@ pub(super) fn check_finite<T: Scalar>(matrix: &CscMatrix<T>) -> Result<(), Linal
 }
 
 impl<T: Scalar> Operator<'_, T> {
+    /// The entries of a row with their columns.
+    fn row(&self, row: usize) -> impl Iterator<Item = (T, usize)> {
+        let (offsets, columns, values) = self.matrix.csc_data();
+        let places = self.places;
+        (offsets[row]..offsets[row + 1]).map(move |k| {
+            let value = places.map_or_else(|| values[k].conjugate(), |places| values[places[k] as usize]);
+            (value, columns[k])
+        })
+    }
+
     /// Writes `rhs − op(A) x` into `out`.
     ///
     /// # Errors
     ///
     /// [`LinalgError::Cancelled`].
-    pub(super) fn residual(self, x: &[T], rhs: &[T], out: &mut [T]) -> Result<(), LinalgError> {
-        let (offsets, rows, values) = self.matrix.csc_data();
-        out.copy_from_slice(rhs);
-        match self.operation {
-            Operation::Plain => self.by_columns(|column, entries| {
-                for (&row, &value) in rows[entries.clone()].iter().zip(&values[entries]) {
-                    out[row] -= value * x[column];
-                }
-            }),
-            Operation::Adjoint => {
-                go_on_unless(self.cancel)?;
-                out.par_iter_mut().with_min_len(ROWS_PER_TASK).enumerate().for_each(|(column, out)| {
-                    let entries = offsets[column]..offsets[column + 1];
-                    let entries = rows[entries.clone()].iter().zip(&values[entries]);
-                    *out -= entries.fold(T::ZERO, |sum, (&row, &value)| sum + value.conjugate() * x[row]);
-                });
-                Ok(())
-            }
-        }
+    pub(super) fn residual(&self, x: &[T], rhs: &[T], out: &mut [T]) -> Result<(), LinalgError> {
+        go_on_unless(self.cancel)?;
+        out.par_iter_mut().zip(rhs).with_min_len(ROWS_PER_TASK).enumerate().for_each(|(row, (out, &b))| {
+            *out = b - self.row(row).fold(T::ZERO, |sum, (value, column)| sum + value * x[column]);
+        });
+        Ok(())
     }
 
-    /// The componentwise backward error maxᵢ |r|ᵢ / (|op(A)||x| + |b|)ᵢ of an answer with residual `r`, sizes measured by
-    /// [`Scalar::size`]. A row with both 0 counts as 0.
+    /// The same. Returns the componentwise backward error maxᵢ |r|ᵢ / (|op(A)||x| + |b|)ᵢ of an answer with residual `r`, sizes
+    /// measured by [`Scalar::size`]. A row with both 0 counts as 0.
     ///
     /// # Errors
     ///
     /// [`LinalgError::Cancelled`].
-    pub(super) fn backward_error(self, x: &[T], rhs: &[T], r: &[T]) -> Result<f64, LinalgError> {
-        let (offsets, rows, values) = self.matrix.csc_data();
+    pub(super) fn backward_error(&self, x: &[T], rhs: &[T], out: &mut [T]) -> Result<f64, LinalgError> {
+        go_on_unless(self.cancel)?;
         // `max` would drop a NaN.
         let worse = |worst: f64, ratio: f64| if ratio <= worst || worst.is_nan() { worst } else { ratio };
-        let ratio = |r: T, scale: f64| if r.size() == 0.0 { 0.0 } else { r.size() / scale };
-        if self.operation == Operation::Adjoint {
-            go_on_unless(self.cancel)?;
-            let ratios = r.par_iter().with_min_len(ROWS_PER_TASK).enumerate().map(|(column, &r)| {
-                let entries = offsets[column]..offsets[column + 1];
-                let entries = rows[entries.clone()].iter().zip(&values[entries]);
-                let sum: f64 = entries.map(|(&row, value)| value.size() * x[row].size()).sum();
-                ratio(r, rhs[column].size() + sum)
-            });
-            return Ok(ratios.reduce(|| 0.0, worse));
-        }
-        let mut scale: Vec<f64> = rhs.iter().map(|b| b.size()).collect();
-        self.by_columns(|column, entries| {
-            let size = x[column].size();
-            let entries = rows[entries.clone()].iter().zip(&values[entries]);
-            entries.for_each(|(&row, value)| scale[row] += value.size() * size);
-        })?;
-        Ok(r.iter().zip(scale).map(|(&r, scale)| ratio(r, scale)).fold(0.0, worse))
-    }
-
-    /// Goes through the columns, with the places of their entries.
-    fn by_columns(self, mut take: impl FnMut(usize, Range<usize>)) -> Result<(), LinalgError> {
-        for (column, pair) in self.matrix.col_offsets().windows(2).enumerate() {
-            if column.is_multiple_of(COLUMNS_BETWEEN_LOOKS) {
-                go_on_unless(self.cancel)?;
-            }
-            take(column, pair[0]..pair[1]);
-        }
-        Ok(())
+        let ratios = out.par_iter_mut().zip(rhs).with_min_len(ROWS_PER_TASK).enumerate().map(|(row, (out, &b))| {
+            let add = |(sum, size): (T, f64), (value, column): (T, usize)| {
+                (sum + value * x[column], size + value.size() * x[column].size())
+            };
+            let (sum, size) = self.row(row).fold((T::ZERO, 0.0), add);
+            *out = b - sum;
+            if out.size() == 0.0 { 0.0 } else { out.size() / (b.size() + size) }
+        });
+        Ok(ratios.reduce(|| 0.0, worse))
     }
 }
 

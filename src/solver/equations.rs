@@ -263,6 +263,8 @@ pub(super) fn mean_edge_length(mesh: &DiskMesh) -> f64 {
 }
 
 /// Mean length of the halfedges, from tail to head.
-pub(super) fn mean_length(mesh: &DiskMesh, length: impl Fn([VertexId; 2]) -> f64) -> f64 {
-    mesh.halfedges().map(|h| length([mesh.tail(h), mesh.head(h)])).sum::<f64>() / mesh.halfedge_count() as f64
+pub(super) fn mean_length(mesh: &DiskMesh, length: impl Fn([VertexId; 2]) -> f64 + Sync) -> f64 {
+    let of = |h: usize| length([mesh.tail(HalfedgeId::from_index(h)), mesh.head(HalfedgeId::from_index(h))]);
+    let lengths: Vec<f64> = (0..mesh.halfedge_count()).into_par_iter().map(of).collect();
+    lengths.iter().sum::<f64>() / mesh.halfedge_count() as f64
 }

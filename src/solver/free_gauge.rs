@@ -6,7 +6,8 @@
 //!
 //! * gauge pins, which the solver chooses by itself, go to vertices whose equations do depend on the others. The answer is moved to
 //!   where it belongs by a similarity anyway;
-//! * with two pins of the user's all equations are kept (least squares), unless their treatment was asked for.
+//! * with two pins of the user's all equations are kept (least squares), unless their treatment was asked for;
+//! * where all equations are kept, the factors leave out two more.
 //!
 //! Other surfaces have no second equation to spare, and each choice has an answer of its own. So the usual pins stay
 //! wherever they do: nothing is factored twice there.
@@ -18,14 +19,13 @@ use glam::DVec2;
 use num_complex::Complex;
 
 use super::equations::{self, Equations, mean_edge_length};
-use super::free_layout::Layout;
-use super::free_solve::{FreeSolve, Setup};
-use super::left_kernel::{gauge_of, gauge_or_farthest};
+use super::free_layout::{LaidOut, Way};
+use super::free_solve::{FreeSolve, Numbers, Unsolved};
+use super::left_kernel::gauge_of;
 use super::pins::{GAUGE_PINS, PinPositions, Pins, farthest_pair, fixed_pins};
-use super::prepared::analyze;
 use super::system::{FreeSystem, Site};
-use super::{Control, Family, Method, Phase, PhaseSeconds, Settings, SolveError, Treatment};
-use crate::linalg::{Analysis, Kind};
+use super::{Control, Family, Method, PhaseSeconds, Settings, SolveError, Treatment};
+use crate::linalg::Kind;
 use crate::mesh::{DiskMesh, VertexId};
 
 /// Gauges that are tried before the last one is taken as it is. The second has always done.
@@ -48,21 +48,10 @@ pub(super) struct FreeReady {
     pub(super) own_places: Option<PinPositions>,
 }
 
-/// What is left out, and what becomes of it.
-struct Way {
+/// A try: the gauge pins, and what is left out beside them.
+struct Try {
     own_places: Option<PinPositions>,
-    treatment: Treatment,
-    /// Two vertices whose equations depend on the others, where they are known: least squares leaves them out beside the pins.
-    gauge: Option<[VertexId; 2]>,
-}
-
-/// A system laid out and analysed.
-struct LaidOut {
-    layout: Layout,
-    system: FreeSystem,
-    kind: Kind,
-    analysis: Analysis,
-    analyze_seconds: f64,
+    way: Way,
 }
 
 impl FreeProblem<'_> {
@@ -74,37 +63,47 @@ impl FreeProblem<'_> {
         control: Control<'_>,
     ) -> Result<FreeReady, SolveError> {
         let treatment = self.settings.treatment_on(Method::Natural, self.asked.len());
-        let mut way = Way { own_places, treatment, gauge: None };
+        let mut choice = Try { own_places, way: Way { treatment, gauge: None } };
         for _ in 1..MOST_GAUGES {
-            let outcome = self.factored(&way, seconds, control);
-            if !self.can_change(&way) {
-                return outcome;
+            let outcome = self.factored(&choice, seconds, control);
+            if !self.can_change(&choice) {
+                return outcome.map_err(SolveError::from);
             }
             let gauge = match &outcome {
                 Ok(FreeReady { system, solve, .. }) => solve.better_gauge(Site { mesh: self.mesh, system }, control)?,
-                Err(SolveError::Singular { .. }) => self.gauge_in_kernel(control)?,
-                Err(_) => None,
+                Err(Unsolved::WithoutGauge(Some(gauge))) => Some(*gauge),
+                Err(
+                    Unsolved::WithoutGauge(None)
+                    | Unsolved::Error(SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. }),
+                ) => Some(gauge_of(self.mesh, &self.equations(control)?, control)?),
+                Err(Unsolved::Error(_)) => None,
             };
             // The same again would end as this did.
-            let is_new = |gauge: &[VertexId; 2]| !way.own_places.as_ref().is_some_and(|places| is_at(places, *gauge));
-            let Some(gauge) = gauge.filter(is_new) else { return outcome };
-            way = self.with_gauge(way, gauge);
+            let is_new =
+                |gauge: &[VertexId; 2]| !choice.own_places.as_ref().is_some_and(|places| is_at(places, *gauge));
+            let Some(gauge) = gauge.filter(is_new) else { return outcome.map_err(SolveError::from) };
+            choice = self.with_gauge(choice, gauge);
         }
-        self.factored(&way, seconds, control)
+        self.factored(&choice, seconds, control).map_err(SolveError::from)
     }
 
-    /// Whether it is the solver's choice which equations are left out.
-    fn can_change(self, way: &Way) -> bool {
-        let are_only_held = || self.asked.len() == GAUGE_PINS && self.asked.values().all(|pin| pin.hold.is_exact());
-        let is_free = way.own_places.is_some() || (self.settings.treatment.is_none() && are_only_held());
-        way.treatment == Treatment::Eliminate && is_free && !self.is_hermitian()
+    /// Whether it is the solver's choice which equations are left out, and another one could be made.
+    fn can_change(self, Try { own_places, way }: &Try) -> bool {
+        if self.is_hermitian() || way.gauge.is_some() {
+            return false;
+        }
+        let exact = self.asked.values().filter(|pin| pin.hold.is_exact()).count();
+        let are_only_held = self.asked.len() == GAUGE_PINS && exact == GAUGE_PINS;
+        let may_keep_equations = self.settings.treatment.is_none() && are_only_held;
+        let keeps_equations = way.treatment != Treatment::Eliminate || exact < GAUGE_PINS;
+        own_places.is_some() || may_keep_equations || keeps_equations
     }
 
-    fn with_gauge(self, way: Way, gauge: [VertexId; 2]) -> Way {
-        if way.own_places.is_none() {
-            return Way { treatment: Treatment::LeastSquares, gauge: Some(gauge), ..way };
+    fn with_gauge(self, Try { own_places, way }: Try, gauge: [VertexId; 2]) -> Try {
+        if own_places.is_some() && way.treatment == Treatment::Eliminate {
+            return Try { own_places: Some(self.places(gauge)), way };
         }
-        Way { own_places: Some(self.places(gauge)), ..way }
+        Try { own_places, way: Way { treatment: Treatment::LeastSquares, gauge: Some(gauge) } }
     }
 
     /// Gauge pins at two vertices, as far apart as in space. Their size does not matter, but may not be nothing.
@@ -116,60 +115,20 @@ impl FreeProblem<'_> {
         BTreeMap::from([(a, DVec2::ZERO), (b, DVec2::new(distance, 0.0))])
     }
 
-    /// Two vertices whose equations depend on the others, found without a factor that leaves out any; none where they
-    /// cannot be found.
-    fn gauge_in_kernel(self, control: Control<'_>) -> Result<Option<[VertexId; 2]>, SolveError> {
-        control.enter(Phase::Factor)?;
-        match gauge_of(self.mesh, &self.equations(control)?, control) {
-            Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
-            other => Ok(other.ok()),
-        }
-    }
-
-    fn factored(self, way: &Way, seconds: &mut PhaseSeconds, control: Control<'_>) -> Result<FreeReady, SolveError> {
+    fn factored(self, choice: &Try, seconds: &mut PhaseSeconds, control: Control<'_>) -> Result<FreeReady, Unsolved> {
         let (mesh, start) = (self.mesh, Instant::now());
-        let (equations, laid_out) = if self.is_hermitian() {
-            // Conformal equations depend on each other all over the mesh: those of any pins will do, and what they are does
-            // not matter to the order.
-            let gauge = |pinned: &[VertexId]| {
-                Ok(if pinned.len() >= GAUGE_PINS { Vec::new() } else { farthest_pair(mesh).to_vec() })
-            };
-            rayon::join(|| self.equations(control), || self.laid_out(way, gauge, control))
-        } else {
-            let equations = self.equations(control)?;
-            let gauge = |_: &[VertexId]| match way.gauge {
-                Some(two) => Ok(two.to_vec()),
-                None => gauge_or_farthest(mesh, &equations, control),
-            };
-            let laid_out = self.laid_out(way, gauge, control);
-            (Ok(equations), laid_out)
-        };
-        let equations = equations?;
-        let LaidOut { layout, system, kind, analysis, analyze_seconds } = laid_out?;
-        seconds.analyze += analyze_seconds;
-        seconds.assemble += start.elapsed().as_secs_f64() - analyze_seconds;
-        let site = Site { mesh, system: &system };
-        let unit = if layout.has_springs() { mean_edge_length(mesh).powf(1.0 - self.power()) } else { 1.0 };
-        let setup = Setup { equations, unit, analysis: &analysis, layout: &layout, kind };
-        let solve = FreeSolve::new(site, setup, seconds, control)?;
-        Ok(FreeReady { system, solve, own_places: way.own_places.clone() })
-    }
-
-    /// Lays the system out, and analyses it. For `gauge` see [`Layout::new`].
-    fn laid_out(
-        self,
-        way: &Way,
-        gauge: impl FnOnce(&[VertexId]) -> Result<Vec<VertexId>, SolveError>,
-        control: Control<'_>,
-    ) -> Result<LaidOut, SolveError> {
-        let pins = way.own_places.clone().map_or_else(|| self.asked.clone(), fixed_pins);
-        let layout = Layout::new(&pins, way.treatment, gauge)?;
-        let system = layout.system(self.mesh, control)?;
         let kind = if self.is_hermitian() { Kind::Hermitian } else { Kind::General };
-        let mut seconds = PhaseSeconds::default();
-        let site = Site { mesh: self.mesh, system: &system };
-        let analysis = analyze(|| layout.analysis(site, kind, control), &mut seconds, control)?;
-        Ok(LaidOut { layout, system, kind, analysis, analyze_seconds: seconds.analyze })
+        let pins = choice.own_places.clone().map_or_else(|| self.asked.clone(), fixed_pins);
+        // What the equations are does not matter to the order.
+        let laid_out = || LaidOut::new(mesh, &pins, choice.way, kind, control);
+        let (equations, laid_out) = rayon::join(|| self.equations(control), laid_out);
+        let (equations, laid_out) = (equations?, laid_out?);
+        seconds.analyze += laid_out.seconds;
+        seconds.assemble += start.elapsed().as_secs_f64() - laid_out.seconds;
+        let has_springs = laid_out.layout.has_springs();
+        let unit = if has_springs { mean_edge_length(mesh).powf(1.0 - self.power()) } else { 1.0 };
+        let solve = FreeSolve::new(mesh, &laid_out, Numbers { equations, unit }, seconds, control)?;
+        Ok(FreeReady { system: laid_out.system, solve, own_places: choice.own_places.clone() })
     }
 
     fn is_hermitian(self) -> bool {

@@ -1,17 +1,27 @@
-//! How pins enter a system with a free boundary: what the factors leave out, and what least squares treats.
+//! A system of a free boundary before it has numbers: which vertices the factors leave out, and what the pins add.
 
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 use super::least_squares::{Rest, Spring};
 use super::many_pins::ManyPins;
+use super::pins::GAUGE_PINS;
 use super::system::{FreeSystem, Site};
-use super::{Control, Hold, Pins, SolveError, Treatment};
+use super::{Control, Hold, Phase, Pins, SolveError, Treatment, farthest_pair};
 use crate::linalg::{Analysis, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// With more pins than this that least squares has to treat, their rows go sparse. An estimate: at a thousand the dense
 /// way takes many times as long.
 const FEW: usize = 64;
+
+/// What becomes of the equations of pins, and whether others are left out beside them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Way {
+    pub(super) treatment: Treatment,
+    /// Two vertices whose equations depend on the others, where they are known: least squares leaves them out, too.
+    pub(super) gauge: Option<[VertexId; 2]>,
+}
 
 /// How pins enter a system.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,26 +37,24 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Lays out a system. `gauge` is asked for further vertices to leave out where all equations are kept.
-    pub(super) fn new(
-        pins: &Pins,
-        treatment: Treatment,
-        gauge: impl FnOnce(&[VertexId]) -> Result<Vec<VertexId>, SolveError>,
-    ) -> Result<Self, SolveError> {
+    /// Lays out a system.
+    fn new(mesh: &DiskMesh, pins: &Pins, way: Way) -> Self {
         let holds: BTreeMap<VertexId, Hold> = pins.iter().map(|(&v, pin)| (v, pin.hold)).collect();
         let exact = pins.iter().filter(|(_, pin)| pin.hold.is_exact());
         let mut left_out: Vec<VertexId> = exact.map(|(&v, _)| v).collect();
         // One pin alone does not fix the similarity: the rest without its equation would still be singular.
-        let keeps_equations = treatment != Treatment::Eliminate || left_out.len() < 2;
+        let keeps_equations = way.treatment != Treatment::Eliminate || left_out.len() < GAUGE_PINS;
         let springs = pins.len() - left_out.len();
         let has_many = springs + if keeps_equations { pins.len() } else { 0 } > FEW;
         if keeps_equations && !has_many {
             left_out = pins.keys().copied().collect();
-            left_out.extend(gauge(&left_out)?);
+            // With one pin the equations still depend on each other: those of any vertices will do to begin with.
+            let to_begin_with = (left_out.len() < GAUGE_PINS).then(|| farthest_pair(mesh));
+            left_out.extend(way.gauge.or(to_begin_with).into_iter().flatten());
             left_out.sort_unstable();
             left_out.dedup();
         }
-        Ok(Self { left_out, keeps_equations, has_many, holds })
+        Self { left_out, keeps_equations, has_many, holds }
     }
 
     /// Whether pins pull by a weight.
@@ -54,12 +62,12 @@ impl Layout {
         self.holds.values().any(|hold| !hold.is_exact())
     }
 
-    pub(super) fn system(&self, mesh: &DiskMesh, control: Control<'_>) -> Result<FreeSystem, SolveError> {
+    fn system(&self, mesh: &DiskMesh, control: Control<'_>) -> Result<FreeSystem, SolveError> {
         FreeSystem::new(mesh, |v| self.left_out.binary_search(&v).is_ok(), control)
     }
 
     /// Orders and analyses the system that is factored.
-    pub(super) fn analysis(&self, site: Site<'_>, kind: Kind, control: Control<'_>) -> Result<Analysis, SolveError> {
+    fn analysis(&self, site: Site<'_>, kind: Kind, control: Control<'_>) -> Result<Analysis, SolveError> {
         match self.rest(1.0).filter(|_| self.has_many) {
             Some(rest) => ManyPins::new(site, rest).analysis(site, control),
             None => site.system.analysis(kind, control),
@@ -77,5 +85,42 @@ impl Layout {
         let can_move = |v: &VertexId| !self.holds.get(v).is_some_and(|hold| hold.is_exact());
         let movers = left_out.iter().copied().filter(can_move).collect();
         (self.keeps_equations || !springs.is_empty()).then_some(Rest { left_out, movers, springs })
+    }
+}
+
+/// A system laid out and analysed.
+#[derive(Debug)]
+pub(super) struct LaidOut {
+    pub(super) way: Way,
+    pub(super) layout: Layout,
+    pub(super) system: FreeSystem,
+    /// What is known of its matrix.
+    pub(super) kind: Kind,
+    pub(super) analysis: Analysis,
+    /// Seconds of the analysis.
+    pub(super) seconds: f64,
+}
+
+impl LaidOut {
+    pub(super) fn new(
+        mesh: &DiskMesh,
+        pins: &Pins,
+        way: Way,
+        kind: Kind,
+        control: Control<'_>,
+    ) -> Result<Self, SolveError> {
+        let layout = Layout::new(mesh, pins, way);
+        let system = layout.system(mesh, control)?;
+        control.enter(Phase::Analyze)?;
+        let start = Instant::now();
+        let analysis = layout.analysis(Site { mesh, system: &system }, kind, control)?;
+        let seconds = start.elapsed().as_secs_f64();
+        Ok(Self { way, layout, system, kind, analysis, seconds })
+    }
+
+    /// Whether all equations are kept, and it was not looked at yet where they depend on each other. Conformal ones do so all
+    /// over the mesh.
+    pub(super) fn may_want_gauge(&self) -> bool {
+        self.way.gauge.is_none() && self.layout.keeps_equations && self.kind == Kind::General
     }
 }

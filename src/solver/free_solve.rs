@@ -7,14 +7,15 @@ use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
 
 use super::equations::Equations;
-use super::free_layout::Layout;
-use super::least_squares::{Factored, LeastSquares, Spring};
+use super::free_layout::LaidOut;
+use super::least_squares::{Factored, LeastSquares, Spring, may_be_kept};
 use super::left_kernel::better_gauge;
 use super::many_pins::ManyPins;
+use super::pins::GAUGE_PINS;
 use super::system::Site;
 use super::{Control, Embedding, LinearSolve, Phase, PhaseSeconds, PinPositions, SolveError};
 use crate::geom::Bounds;
-use crate::linalg::{Analysis, Answer, Factor, Kind};
+use crate::linalg::{Answer, Factor, Kind};
 use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
 /// A least-squares answer whose conditions for a minimum are off by more, relative to their terms, is wrong.
@@ -54,14 +55,11 @@ impl Ways {
     }
 }
 
-pub(super) struct Setup<'a> {
+/// The numbers of a system.
+pub(super) struct Numbers {
     pub(super) equations: Equations<Complex<f64>>,
     /// What the rows are to be multiplied by so that they are those of a geometry whose edges have length 1 on average.
     pub(super) unit: f64,
-    pub(super) analysis: &'a Analysis,
-    pub(super) layout: &'a Layout,
-    /// What is known of the matrix.
-    pub(super) kind: Kind,
 }
 
 /// An embedding that a solve moves from.
@@ -79,15 +77,40 @@ struct Asked<'a> {
     control: Control<'a>,
 }
 
+/// Why there is no factored system.
+pub(super) enum Unsolved {
+    /// Two more equations have to be left out: of these vertices, where they are known.
+    WithoutGauge(Option<[VertexId; 2]>),
+    Error(SolveError),
+}
+
+impl From<SolveError> for Unsolved {
+    fn from(error: SolveError) -> Self {
+        Self::Error(error)
+    }
+}
+
+impl From<Unsolved> for SolveError {
+    fn from(unsolved: Unsolved) -> Self {
+        match unsolved {
+            Unsolved::WithoutGauge(_) => Self::Linear { reason: "its equations depend on each other".to_owned() },
+            Unsolved::Error(error) => error,
+        }
+    }
+}
+
 impl FreeSolve {
     /// Factors the matrix of the equations; adds the time that took to `seconds`.
     pub(super) fn new(
-        site: Site<'_>,
-        setup: Setup<'_>,
+        mesh: &DiskMesh,
+        laid_out: &LaidOut,
+        numbers: Numbers,
         seconds: &mut PhaseSeconds,
         control: Control<'_>,
-    ) -> Result<Self, SolveError> {
-        let Setup { equations, unit, analysis, layout, kind } = setup;
+    ) -> Result<Self, Unsolved> {
+        let LaidOut { layout, system, kind, analysis, .. } = laid_out;
+        let Numbers { equations, unit } = numbers;
+        let site = Site { mesh, system };
         let start = Instant::now();
         let mut rest = layout.rest(unit);
         let many = rest.take_if(|_| layout.has_many).map(|rest| ManyPins::new(site, rest));
@@ -104,12 +127,21 @@ impl FreeSolve {
             None => site.system.named(error),
         };
         let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
+        if let Some(rest) = rest.as_ref().filter(|_| laid_out.may_want_gauge()) {
+            let is_known = may_be_kept(system.free().len(), rest.left_out.len());
+            let look = || better_gauge(site, &equations, &factor, &rest.left_out, control);
+            let gauge = is_known.then(look).transpose()?;
+            if gauge != Some(None) {
+                seconds.factor += start.elapsed().as_secs_f64();
+                return Err(Unsolved::WithoutGauge(gauge.flatten()));
+            }
+        }
         let factored = Factored { matrix: &matrix, factor: &factor, cancel: control.cancel() };
         let few = rest.map(|rest| LeastSquares::new(site, &equations, rest, &factored).map_err(named)).transpose()?;
         let least_squares = few.map(Ways::Few).or(many.map(Ways::Many));
         seconds.factor += start.elapsed().as_secs_f64();
         let eliminated = if layout.keeps_equations { Vec::new() } else { layout.left_out.clone() };
-        let is_hermitian = kind == Kind::Hermitian;
+        let is_hermitian = *kind == Kind::Hermitian;
         Ok(Self { equations, matrix, factor, least_squares, eliminated, is_hermitian })
     }
 
@@ -124,8 +156,10 @@ impl FreeSolve {
         site: Site<'_>,
         control: Control<'_>,
     ) -> Result<Option<[VertexId; 2]>, SolveError> {
-        let (&[a, b], None) = (self.eliminated.as_slice(), &self.least_squares) else { return Ok(None) };
-        better_gauge(site, &self.equations, &self.factor, [a, b], control)
+        if self.eliminated.len() != GAUGE_PINS || self.least_squares.is_some() {
+            return Ok(None);
+        }
+        better_gauge(site, &self.equations, &self.factor, &self.eliminated, control)
     }
 
     fn factored<'a>(&'a self, control: Control<'a>) -> Factored<'a> {
@@ -239,30 +273,24 @@ impl FreeSolve {
     ) -> Result<f64, SolveError> {
         let &Asked { site: Site { mesh, .. }, targets, control } = asked;
         let coefficients = &self.equations.coefficients;
-        let mut residuals = self.residuals(mesh, embedding, control)?;
-        let mut bounds = vec![0.0; mesh.vertex_count()];
-        for run in control.runs(coefficients.len()) {
-            for h in run?.map(HalfedgeId::from_index) {
-                let along = embedding[mesh.head(h)].distance(embedding[mesh.tail(h)]);
-                bounds[mesh.tail(h).index()] += coefficients[h.index()].norm() * along;
+        let equation = |v: VertexId| {
+            if self.eliminated.binary_search(&v).is_ok() {
+                return (Complex::ZERO, 0.0);
             }
-        }
-        for vertex in &self.eliminated {
-            residuals[vertex.index()] = Complex::ZERO;
-            bounds[vertex.index()] = 0.0;
-        }
-        let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
-        for run in control.runs(coefficients.len()) {
-            for h in run?.map(HalfedgeId::from_index) {
-                let (coefficient, tail) = (coefficients[h.index()], mesh.tail(h).index());
-                let (term, most) = (coefficient.conj() * residuals[tail], coefficient.norm() * bounds[tail]);
-                for (vertex, sign) in [(mesh.head(h), 1.0), (mesh.tail(h), -1.0)] {
-                    let (sum, total) = &mut sums[vertex.index()];
-                    *sum += term * sign;
-                    *total += most;
-                }
-            }
-        }
+            let bound = |h| coefficients[HalfedgeId::index(h)].norm() * embedding[mesh.head(h)].distance(embedding[v]);
+            (self.equations.residual_of(mesh, embedding, v), mesh.links_from(v).map(bound).sum::<f64>())
+        };
+        let equations: Vec<(Complex<f64>, f64)> =
+            control.each(mesh.vertex_count(), |v| equation(VertexId::from_index(v)))?;
+        let sum = |v: VertexId| {
+            let (own, own_bound) = equations[v.index()];
+            mesh.links_from(v).fold((Complex::<f64>::ZERO, 0.0_f64), |(sum, total), h| {
+                let (there, back) = (coefficients[h.index()], coefficients[mesh.twin(h).index()]);
+                let (other, bound) = equations[mesh.head(h).index()];
+                (sum + back.conj() * other - there.conj() * own, total + back.norm() * bound + there.norm() * own_bound)
+            })
+        };
+        let mut sums: Vec<(Complex<f64>, f64)> = control.each(mesh.vertex_count(), |v| sum(VertexId::from_index(v)))?;
         let is_exact = |v: &VertexId| springs.binary_search_by_key(v, |pin| pin.vertex).is_err();
         for vertex in targets.keys().filter(|&v| is_exact(v)) {
             sums[vertex.index()] = (Complex::ZERO, 0.0);

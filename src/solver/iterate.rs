@@ -10,28 +10,24 @@ use std::time::Instant;
 use glam::DVec2;
 use num_complex::Complex;
 
-use super::free_layout::Layout;
-use super::free_solve::{FreeSolve, Setup, Start};
-use super::left_kernel::gauge_or_farthest;
+use super::free_layout::{LaidOut, Way};
+use super::free_solve::{FreeSolve, Numbers, Start, Unsolved};
+use super::left_kernel::gauge_of;
 use super::pins::targets_of;
 use super::plane_weights::{mean_edge_length_in_plane, natural_in_plane, residuals_in_plane};
-use super::system::{FreeSystem, Site};
+use super::system::Site;
 use super::{
     Control, Embedding, LinearSolve, Phase, PhaseSeconds, Pin, Pins, Solution, SolveError, Treatment, are_held_alike,
-    check_pins, farthest_pair,
+    check_pins,
 };
-use crate::linalg::{Analysis, Kind};
+use crate::linalg::Kind;
 use crate::mesh::{DiskMesh, VertexId};
 
 /// An iteration made ready: the layout of the system and its analysis, for a mesh and its pinned vertices.
 #[derive(Debug)]
 pub struct Iteration {
     pins: Pins,
-    layout: Layout,
-    system: FreeSystem,
-    analysis: Analysis,
-    /// Seconds that the analysis took, once for all steps.
-    pub(super) analyze_seconds: f64,
+    laid_out: LaidOut,
 }
 
 impl Iteration {
@@ -49,27 +45,24 @@ impl Iteration {
         control: Control<'_>,
     ) -> Result<Self, SolveError> {
         check_pins(mesh, &held_in(embedding, pins))?;
-        control.enter(Phase::Analyze)?;
-        let start = Instant::now();
-        let layout = Layout::new(pins, treatment, |_| {
-            if mesh.vertex_count() > 2 {
-                gauge_or_farthest(mesh, &natural_in_plane(mesh, embedding), control)
-            } else {
-                Ok(farthest_pair(mesh).to_vec())
-            }
-        })?;
-        let system = layout.system(mesh, control)?;
-        let analysis = layout.analysis(Site { mesh, system: &system }, Kind::General, control)?;
-        let analyze_seconds = start.elapsed().as_secs_f64();
-        Ok(Self { pins: pins.clone(), layout, system, analysis, analyze_seconds })
+        let way = Way { treatment, gauge: None };
+        let laid_out = LaidOut::new(mesh, pins, way, Kind::General, control)?;
+        Ok(Self { pins: pins.clone(), laid_out })
     }
 
-    /// One step: solves the mean-value equations of `embedding`. Its pinned vertices stay where they are.
+    /// One step: solves the mean-value equations of `embedding`. Its pinned vertices stay where they are. Where equations of
+    /// other vertices than the pinned ones depend on each other, these are found, and the system is laid out anew for all
+    /// further steps.
     ///
     /// # Errors
     ///
     /// A singular matrix, a residual that refinement cannot bring down, or the caller's wish to stop.
-    pub fn step(&self, mesh: &DiskMesh, embedding: &Embedding, control: Control<'_>) -> Result<Solution, SolveError> {
+    pub fn step(
+        &mut self,
+        mesh: &DiskMesh,
+        embedding: &Embedding,
+        control: Control<'_>,
+    ) -> Result<Solution, SolveError> {
         control.enter(Phase::Assemble)?;
         let start = Instant::now();
         let pins = held_in(embedding, &self.pins);
@@ -81,19 +74,56 @@ impl Iteration {
             let (embedding, linear) = (embedding.clone(), Some(LinearSolve::default()));
             return Ok(Solution { embedding, pins, gauge_completed: false, linear, seconds, convergence: None });
         }
-        let equations = natural_in_plane(mesh, embedding);
-        let unit = mean_edge_length_in_plane(mesh, embedding);
         let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
-        let site = Site { mesh, system: &self.system };
-        let setup = Setup { equations, unit, analysis: &self.analysis, layout: &self.layout, kind: Kind::General };
-        let solve = FreeSolve::new(site, setup, &mut seconds, control)?;
+        let solve = self.factored(mesh, embedding, &mut seconds, control)?;
         control.enter(Phase::Solve)?;
         let start = Instant::now();
+        let site = Site { mesh, system: &self.laid_out.system };
         let (embedding, residual) =
             solve.solve_from(site, Start { embedding, residuals: &residuals }, &targets_of(&pins), control)?;
         let linear = Some(solve.numbers(mesh, &embedding, residual, control)?);
         seconds.solve = start.elapsed().as_secs_f64();
         Ok(Solution { embedding, pins, gauge_completed: false, linear, seconds, convergence: None })
+    }
+
+    /// Factors the equations of an embedding; without two more of them where least squares asks for that.
+    fn factored(
+        &mut self,
+        mesh: &DiskMesh,
+        embedding: &Embedding,
+        seconds: &mut PhaseSeconds,
+        control: Control<'_>,
+    ) -> Result<FreeSolve, SolveError> {
+        let numbers = |seconds: &mut PhaseSeconds| {
+            let start = Instant::now();
+            let equations = natural_in_plane(mesh, embedding);
+            let unit = mean_edge_length_in_plane(mesh, embedding);
+            seconds.assemble += start.elapsed().as_secs_f64();
+            Numbers { equations, unit }
+        };
+        let may_want_gauge = self.laid_out.may_want_gauge();
+        let gauge = match FreeSolve::new(mesh, &self.laid_out, numbers(seconds), seconds, control) {
+            Ok(solve) => return Ok(solve),
+            Err(Unsolved::WithoutGauge(gauge)) => gauge,
+            Err(Unsolved::Error(SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. }))
+                if may_want_gauge =>
+            {
+                None
+            }
+            Err(Unsolved::Error(error)) => return Err(error),
+        };
+        let gauge = match gauge {
+            Some(gauge) => gauge,
+            None => gauge_of(mesh, &numbers(seconds).equations, control)?,
+        };
+        let way = Way { gauge: Some(gauge), ..self.laid_out.way };
+        self.laid_out = LaidOut::new(mesh, &self.pins, way, Kind::General, control)?;
+        FreeSolve::new(mesh, &self.laid_out, numbers(seconds), seconds, control).map_err(SolveError::from)
+    }
+
+    /// Seconds that the analysis took, once for all steps.
+    pub(super) fn analyze_seconds(&self) -> f64 {
+        self.laid_out.seconds
     }
 
     /// Whether it serves these pins: the same vertices, held in the same way, weighted ones with the same targets.

@@ -13,9 +13,9 @@
 //! # Method
 //!
 //! The factors leave out the unknowns *and* the equations of a few vertices g, and these equations are kept apart: g are
-//! all pins, which makes the rest well-conditioned, and two vertices where the equations depend on each other
-//! (`left_kernel.rs`). Of g those that are not pinned exactly can move: m. With N = −A without the rows and columns of g, s = δ on m, and e the (negated)
-//! residual of the other rows:
+//! all pins, which mostly makes the rest well-conditioned, and where it does not two vertices where the equations depend
+//! on each other (`left_kernel.rs`). Of g those that are not pinned exactly can move: m. With N = −A without the rows and
+//! columns of g, s = δ on m, and e the (negated) residual of the other rows:
 //!
 //! ```text
 //! δ   = u + U s + N⁻¹ e        u = N⁻¹ D,  U = N⁻¹ A_{·m}
@@ -32,8 +32,8 @@
 //! ⎣ Sᴴ        Mᴴ         0 ⎦ ⎣ s   ⎦   ⎣ 0       ⎦
 //! ```
 //!
-//! It depends on the pinned vertices and their weights alone: other targets cost three solves. Where pins are eliminated,
-//! their equations are not kept, and g is empty.
+//! It depends on the pinned vertices and their weights alone: other targets cost two solves, and a third one where W is too
+//! large to keep. Where pins are eliminated, their equations are not kept, and g is empty.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -51,7 +51,7 @@ type C64 = Complex<f64>;
 /// Columns that are solved for together.
 const GROUP: usize = 8;
 
-/// Bytes that the columns of W may take together; beyond, each is solved for once more instead of being kept.
+/// Bytes that the columns of W may take together; beyond, they are solved for once more instead of being kept.
 const COLUMNS_KEPT: usize = 256_000_000;
 
 /// Entries of a row, by column.
@@ -90,6 +90,8 @@ pub(super) struct LeastSquares {
     pub(super) rest: Rest,
     /// The equations of g and the unit rows of P, over the unknowns of the factors.
     rows: Vec<Row>,
+    /// The columns of W, one after another, where they may be kept.
+    columns: Option<Vec<C64>>,
     /// What the movers give to the other equations.
     from_movers: Vec<Vec<C64>>,
     dense: LU<C64, Dyn, Dyn>,
@@ -112,7 +114,13 @@ impl LeastSquares {
         let n = site.system.free().len();
         let (k, g, m) = (rows.len(), left_out.len(), movers.len());
         let mut matrix: DMatrix<C64> = DMatrix::zeros(k + m, k + m);
-        matrix.view_mut((0, 0), (k, k)).copy_from(&gram_of(&rows, n, factored)?);
+        let columns = may_be_kept(n, k).then(|| columns_of(&rows, n, factored)).transpose()?;
+        let gram = match &columns {
+            Some(columns) if n > 0 => DMatrix::from_vec(k, k, gram(columns, n)),
+            Some(_) => DMatrix::zeros(k, k),
+            None => gram_of(&rows, n, factored)?,
+        };
+        matrix.view_mut((0, 0), (k, k)).copy_from(&gram);
         for (i, row) in rows.iter().enumerate() {
             matrix[(i, i)] += if i < g { 1.0 } else { springs[i - g].compliance };
             for (j, &mover) in movers.iter().enumerate() {
@@ -130,7 +138,7 @@ impl LeastSquares {
         if !dense.is_invertible() {
             return Err(LinalgError::Singular { row: 0 });
         }
-        Ok(Self { rest, rows, from_movers, dense })
+        Ok(Self { rest, rows, columns, from_movers, dense })
     }
 
     /// The moves of all vertices that make the equations' residuals least, which are `residuals` before. `to_targets` are
@@ -152,11 +160,7 @@ impl LeastSquares {
                 along(row, &still) + if i < g { residuals[self.rest.left_out[i].index()] } else { -to_targets[i - g] };
         }
         let answer = self.dense.solve(&rhs).ok_or(LinalgError::Singular { row: 0 })?;
-        let mut forces = vec![C64::ZERO; free.len()];
-        for (row, &force) in self.rows.iter().zip(answer.iter()) {
-            add_adjoint(row, force, &mut forces);
-        }
-        let residual = factored.factor.solve_adjoint(factored.matrix, &forces, factored.cancel)?.x;
+        let residual = self.residual_of(answer.as_slice(), factored)?;
         for (i, term) in terms.iter_mut().enumerate() {
             for (column, &moved) in self.from_movers.iter().zip(answer.iter().skip(k)) {
                 *term += column[i] * moved;
@@ -171,6 +175,27 @@ impl LeastSquares {
         }
         Ok(all)
     }
+
+    /// W times the answer of the dense system: the residual of the equations of the factors, negated.
+    fn residual_of(&self, answer: &[C64], factored: &Factored<'_>) -> Result<Vec<C64>, LinalgError> {
+        let n = factored.matrix.nrows();
+        let mut sum = vec![C64::ZERO; n];
+        let Some(columns) = self.columns.as_ref().filter(|_| n > 0) else {
+            for (row, &force) in self.rows.iter().zip(answer) {
+                add_adjoint(row, force, &mut sum);
+            }
+            return Ok(factored.factor.solve_adjoint(factored.matrix, &sum, factored.cancel)?.x);
+        };
+        for (column, &force) in columns.chunks_exact(n).zip(answer) {
+            sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += value * force);
+        }
+        Ok(sum)
+    }
+}
+
+/// Whether so many columns with n entries may be in memory together.
+pub(super) fn may_be_kept(n: usize, columns: usize) -> bool {
+    n * columns * size_of::<C64>() <= COLUMNS_KEPT
 }
 
 /// Adds the adjoint of a row times a weight.
@@ -184,33 +209,33 @@ fn along(row: &Row, column: &[C64]) -> C64 {
     row.iter().map(|&(at, value)| value * column[at]).sum()
 }
 
-/// K = Wᴴ W, from one adjoint solve a row; from two solves where there are too many columns to keep.
+/// W: a solve for every row.
+fn columns_of(rows: &[Row], n: usize, factored: &Factored<'_>) -> Result<Vec<C64>, LinalgError> {
+    let mut columns = Vec::with_capacity(n * rows.len());
+    for group in rows.chunks(GROUP) {
+        columns.extend(columns_of_group(group, n, factored)?);
+    }
+    Ok(columns)
+}
+
+fn columns_of_group(group: &[Row], n: usize, factored: &Factored<'_>) -> Result<Vec<C64>, LinalgError> {
+    if factored.cancel.load(Ordering::Relaxed) {
+        return Err(LinalgError::Cancelled);
+    }
+    let mut columns = vec![C64::ZERO; n * group.len()];
+    for (row, column) in group.iter().zip(columns.chunks_exact_mut(n.max(1))) {
+        add_adjoint(row, C64::ONE, column);
+    }
+    Ok(factored.factor.solve_adjoint(factored.matrix, &columns, factored.cancel)?.x)
+}
+
+/// K = Wᴴ W by two solves a row, where W is too large to keep.
 fn gram_of(rows: &[Row], n: usize, factored: &Factored<'_>) -> Result<DMatrix<C64>, LinalgError> {
-    let k = rows.len();
-    if n == 0 {
-        return Ok(DMatrix::zeros(k, k));
-    }
-    let columns_of = |group: &[Row]| {
-        if factored.cancel.load(Ordering::Relaxed) {
-            return Err(LinalgError::Cancelled);
-        }
-        let mut columns = vec![C64::ZERO; n * group.len()];
-        for (row, column) in group.iter().zip(columns.chunks_exact_mut(n)) {
-            add_adjoint(row, C64::ONE, column);
-        }
-        Ok(factored.factor.solve_adjoint(factored.matrix, &columns, factored.cancel)?.x)
-    };
-    if n * k * size_of::<C64>() <= COLUMNS_KEPT {
-        let mut columns = Vec::with_capacity(n * k);
-        for group in rows.chunks(GROUP) {
-            columns.extend(columns_of(group)?);
-        }
-        return Ok(DMatrix::from_vec(k, k, gram(&columns, n)));
-    }
-    let mut matrix = DMatrix::zeros(k, k);
+    let mut matrix = DMatrix::zeros(rows.len(), rows.len());
     for (place, group) in rows.chunks(GROUP).enumerate() {
-        let solved = factored.factor.solve_correction(factored.matrix, &columns_of(group)?, factored.cancel)?.x;
-        for (j, column) in (place * GROUP..).zip(solved.chunks_exact(n)) {
+        let columns = columns_of_group(group, n, factored)?;
+        let solved = factored.factor.solve_correction(factored.matrix, &columns, factored.cancel)?.x;
+        for (j, column) in (place * GROUP..).zip(solved.chunks_exact(n.max(1))) {
             for (i, row) in rows[..=j].iter().enumerate() {
                 let value = along(row, column);
                 matrix[(i, j)] = value;

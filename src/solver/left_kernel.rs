@@ -13,7 +13,7 @@ use num_complex::Complex;
 
 use super::equations::Equations;
 use super::system::{FreeSystem, Site};
-use super::{Control, SolveError, farthest_pair};
+use super::{Control, Phase, SolveError, farthest_pair};
 use crate::linalg::{Factor, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
@@ -33,8 +33,25 @@ const MOST_GROWTH: f64 = 1e4;
 /// Of vertices whose choice loses no more than this share of the best one's, the farthest is taken.
 const NEARLY_AS_GOOD: f64 = 0.5;
 
-/// The two vertices whose equations depend most on all others: where the left kernel of the equations is largest.
+/// The two vertices whose equations depend most on all others: where the left kernel of the equations is largest. The
+/// farthest two of the boundary where it cannot be found.
+///
+/// # Errors
+///
+/// The caller's wish to stop.
 pub(super) fn gauge_of(
+    mesh: &DiskMesh,
+    equations: &Equations<C64>,
+    control: Control<'_>,
+) -> Result<[VertexId; 2], SolveError> {
+    control.enter(Phase::Factor)?;
+    match gauge_in_kernel(mesh, equations, control) {
+        Err(error) if error != SolveError::Cancelled => Ok(farthest_pair(mesh)),
+        other => other,
+    }
+}
+
+fn gauge_in_kernel(
     mesh: &DiskMesh,
     equations: &Equations<C64>,
     control: Control<'_>,
@@ -75,12 +92,12 @@ pub(super) fn better_gauge(
     site: Site<'_>,
     equations: &Equations<C64>,
     factor: &Factor<C64>,
-    held: [VertexId; 2],
+    held: &[VertexId],
     control: Control<'_>,
 ) -> Result<Option<[VertexId; 2]>, SolveError> {
     let Site { mesh, system } = site;
     let n = system.free().len();
-    let mut kernel = vec![C64::ZERO; 2 * n];
+    let mut kernel = vec![C64::ZERO; held.len() * n];
     for (&vertex, column) in held.iter().zip(kernel.chunks_exact_mut(n.max(1))) {
         for h in mesh.links_from(vertex) {
             if let Some(row) = system.row(mesh.head(h)) {
@@ -89,21 +106,30 @@ pub(super) fn better_gauge(
         }
     }
     factor.substitute_adjoint(&mut kernel, control.cancel())?;
-    let (first, second) = kernel.split_at(n);
-    let sum_at = |v: VertexId| mesh.links_from(v).map(|h| equations.coefficients[h.index()].norm()).sum::<f64>();
-    let wholes: Vec<f64> = control.each(n, |row| sum_at(system.free()[row]))?;
-    let [at_a, at_b] = held.map(sum_at);
-    let growth = |i: usize| wholes[i] * f64::hypot(first[i].norm() / at_a, second[i].norm() / at_b);
-    let Some(a) = largest(n, growth) else { return Ok(None) };
-    if growth(a) <= MOST_GROWTH {
+    let sum_at = |&v: &VertexId| mesh.links_from(v).map(|h| equations.coefficients[h.index()].norm()).sum();
+    let wholes: Vec<f64> = control.each(n, |row| sum_at(&system.free()[row]))?;
+    let at_held: Vec<f64> = held.iter().map(sum_at).collect();
+    let growth = |row: usize| {
+        let share = |(k, at): (usize, &f64)| kernel[k * n + row].norm() / at;
+        wholes[row] * at_held.iter().enumerate().map(share).fold(0.0, f64::hypot)
+    };
+    let growths: Vec<f64> = control.each(n, growth)?;
+    let Some(a) = largest(n, |row| growths[row]) else { return Ok(None) };
+    if growths[a] <= MOST_GROWTH {
         return Ok(None);
     }
-    control.go_on()?;
-    // Not of the products, which could leave the range of numbers.
-    let minor = |i: usize| wholes[i] * (first[a] / growth(a) * second[i] - second[a] / growth(a) * first[i]).norm();
-    let best = largest(n, minor).map_or(0.0, minor);
+    // The parts of rows across that of a; not by squares of them, which could leave the range of numbers.
+    let row = |i: usize| kernel.iter().skip(i).step_by(n);
+    let size = row(a).map(|z| z.norm()).fold(0.0, f64::hypot);
+    let along_a: Vec<C64> = row(a).map(|z| z / size).collect();
+    let across = |i: usize| {
+        let along: C64 = row(i).zip(&along_a).map(|(z, unit)| z * unit.conj()).sum();
+        wholes[i] * row(i).zip(&along_a).map(|(z, unit)| (z - along * unit).norm()).fold(0.0, f64::hypot)
+    };
+    let across: Vec<f64> = control.each(n, across)?;
+    let best = across.iter().copied().fold(0.0, f64::max);
     let distance = |i: usize| mesh.position(system.free()[a]).distance(mesh.position(system.free()[i]));
-    let b = largest(n, |i| if minor(i) >= NEARLY_AS_GOOD * best { distance(i) } else { -1.0 }).unwrap_or(a);
+    let b = largest(n, |i| if across[i] >= NEARLY_AS_GOOD * best { distance(i) } else { -1.0 }).unwrap_or(a);
     let is_found = a != b && best > 0.0 && best.is_finite();
     Ok(is_found.then(|| [a.min(b), a.max(b)].map(|row| system.free()[row])))
 }
@@ -126,16 +152,4 @@ fn orthonormalize(columns: &mut [C64], n: usize) {
     let along: C64 = first.iter().zip(&*second).map(|(a, b)| a.conj() * b).sum();
     second.iter_mut().zip(&*first).for_each(|(b, a)| *b -= along * a);
     scale(second);
-}
-
-/// The same; where the kernel cannot be found, the farthest two vertices of the boundary.
-pub(super) fn gauge_or_farthest(
-    mesh: &DiskMesh,
-    equations: &Equations<C64>,
-    control: Control<'_>,
-) -> Result<Vec<VertexId>, SolveError> {
-    match gauge_of(mesh, equations, control) {
-        Err(error) if error != SolveError::Cancelled => Ok(farthest_pair(mesh).to_vec()),
-        other => other.map(Vec::from),
-    }
 }

@@ -35,7 +35,7 @@ fn at_place(pinned: &[VertexId], embedding: &Embedding) -> Pins {
 
 /// One step from an embedding, with some of its vertices pinned where they lie.
 fn step(mesh: &DiskMesh, embedding: &Embedding, pinned: &[VertexId], treatment: Treatment) -> Embedding {
-    let iteration =
+    let mut iteration =
         Iteration::new(mesh, embedding, &at_place(pinned, embedding), treatment, Control::unattended()).unwrap();
     iteration.step(mesh, embedding, Control::unattended()).unwrap().embedding
 }
@@ -298,7 +298,7 @@ fn a_degenerate_embedding_says_that_weights_were_bounded_and_goes_on() {
     embedding[c] = embedding[a];
     embedding[d] = embedding[7].midpoint(embedding[9]);
     let corners = [0, 5].map(VertexId::new);
-    let iteration = Iteration::new(
+    let mut iteration = Iteration::new(
         &mesh,
         &embedding,
         &at_place(&corners, &embedding),

@@ -100,7 +100,7 @@ fn a_step_of_the_iteration_with_many_pins_agrees_with_one_with_few() {
     let few = mixed(10, |random| 0.1 + 3.0 * random.unit(), &mesh, &mut random);
     let start = solve(&mesh, &Settings::default(), &few).embedding;
     let step = |pins: &Pins, start: &Embedding| {
-        let iteration = Iteration::new(&mesh, start, pins, Treatment::LeastSquares, Control::unattended()).unwrap();
+        let mut iteration = Iteration::new(&mesh, start, pins, Treatment::LeastSquares, Control::unattended()).unwrap();
         iteration.step(&mesh, start, Control::unattended()).unwrap().embedding
     };
     let found = step(&few, &start);

@@ -163,7 +163,7 @@ fn a_step_of_the_iteration_with_weighted_constraints_agrees_with_dense_least_squ
     let mut random = Random(5);
     let pins = mixed(7, |random| 0.1 + 3.0 * random.unit(), &mesh, &mut random);
     let start = solve(&mesh, &Settings::new(Method::Natural, Family::Conformal), &pins);
-    let iteration = Iteration::new(&mesh, &start, &pins, Treatment::LeastSquares, Control::unattended()).unwrap();
+    let mut iteration = Iteration::new(&mesh, &start, &pins, Treatment::LeastSquares, Control::unattended()).unwrap();
     let found = iteration.step(&mesh, &start, Control::unattended()).unwrap().embedding;
     // The oracle: the equations at mean edge length 1.
     let edges = mesh.edges().map(|edge| mesh.ends(edge));

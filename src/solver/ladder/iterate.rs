@@ -51,10 +51,10 @@ impl Iterate {
             let treatment = settings.treatment_on(Method::Iterate, asked.len());
             self.iteration = Some(Iteration::new(mesh, &latest.embedding, &pins, treatment, control)?);
         }
-        let iteration = self.iteration.as_ref().expect("made above");
+        let iteration = self.iteration.as_mut().expect("made above");
         let mut solution = iteration.step(mesh, &latest.embedding, control)?;
         if self.taken == 0 {
-            solution.seconds.analyze = iteration.analyze_seconds;
+            solution.seconds.analyze = iteration.analyze_seconds();
         }
         Ok(Candidate::new(Method::Iterate, Family::MeanValue, solution))
     }
