@@ -77,6 +77,7 @@ pub struct Factor<T> {
 pub type Answer<T> = fn(&Factor<T>, &CscMatrix<T>, &[T], &AtomicBool) -> Result<Solved<T>, LinalgError>;
 
 /// What a factor is asked.
+#[derive(Clone, Copy)]
 struct Ask<'a, T> {
     matrix: &'a CscMatrix<T>,
     rhs: &'a [T],

@@ -126,7 +126,7 @@ impl Pattern {
             let lane = self.column(order.new_to_old[column] as usize);
             lane.iter().map(|&old| order.old_to_new[old as usize]).filter(move |&row| row as usize <= column)
         };
-        let parts: Result<Vec<(Vec<u32>, Vec<u32>)>, LinalgError> = (0..self.order().div_ceil(COLUMNS_PER_TASK))
+        let parts: Result<Vec<_>, LinalgError> = (0..self.order().div_ceil(COLUMNS_PER_TASK))
             .into_par_iter()
             .map(|task| {
                 go_on_unless(cancel)?;

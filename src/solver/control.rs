@@ -10,6 +10,9 @@ use super::SolveError;
 /// Vertices, faces or links between two looks at the flag: up to some hundredths of a second where memory is slow.
 const AT_ONCE: usize = 1 << 14;
 
+/// Those that share what they work in.
+const AT_LEAST: usize = 1 << 10;
+
 /// What a solve is busy with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Phase {
@@ -105,6 +108,24 @@ impl<'a> Control<'a> {
         let mut found = Vec::with_capacity(count);
         for run in self.runs(count) {
             found.par_extend(run?.into_par_iter().map(&of));
+        }
+        Ok(found)
+    }
+
+    /// The same with something to work in, made by `begin` once for many numbers.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    pub(super) fn each_with<W, T: Send>(
+        self,
+        count: usize,
+        begin: impl Fn() -> W + Sync,
+        of: impl Fn(&mut W, usize) -> T + Sync,
+    ) -> Result<Vec<T>, SolveError> {
+        let mut found = Vec::with_capacity(count);
+        for run in self.runs(count) {
+            found.par_extend(run?.into_par_iter().with_min_len(AT_LEAST).map_init(&begin, &of));
         }
         Ok(found)
     }

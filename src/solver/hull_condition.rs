@@ -33,9 +33,8 @@
 //! none either (the paper's Theorem 1).
 
 use glam::DVec2;
-use rayon::prelude::*;
 
-use super::Embedding;
+use super::{Control, Embedding, SolveError};
 use crate::geom::{Orientation, is_down, is_inside_hull, orientation, turning_number};
 use crate::mesh::{DiskMesh, VertexId};
 
@@ -70,9 +69,6 @@ impl HullStanding {
     }
 }
 
-/// Vertices whose neighbours' positions share the work of one task.
-const VERTICES_PER_TASK: usize = 1024;
-
 /// Whether the loop around each hole turns once, as the theorem asks besides the outer loop: +1 in the direction in which its
 /// filling runs around, and that is −1 with the surface to the left. The other way round where `upright` is clockwise. Exact.
 pub fn holes_turn_once(mesh: &DiskMesh, embedding: &Embedding, upright: Orientation) -> bool {
@@ -87,15 +83,23 @@ pub fn holes_turn_once(mesh: &DiskMesh, embedding: &Embedding, upright: Orientat
 /// goes straight on. `upright` is the orientation that faces should have: clockwise for an
 /// embedding that is judged in the mirror. Exact; vertices with a neighbour that is not finite count as outside.
 pub fn vertices_outside_hull(mesh: &DiskMesh, embedding: &Embedding, upright: Orientation) -> Vec<VertexId> {
-    let is_at_fault = |ring: &mut Ring, vertex: VertexId| {
+    // Nobody stops it.
+    vertices_outside_hull_unless(mesh, embedding, upright, Control::unattended()).unwrap_or_default()
+}
+
+/// The same, unless the caller asks to stop.
+pub(super) fn vertices_outside_hull_unless(
+    mesh: &DiskMesh,
+    embedding: &Embedding,
+    upright: Orientation,
+    control: Control<'_>,
+) -> Result<Vec<VertexId>, SolveError> {
+    let is_at_fault = |ring: &mut Ring, vertex: usize| {
+        let vertex = VertexId::from_index(vertex);
         ring.surround(mesh, vertex).is_some_and(|()| ring.standing(embedding, vertex, upright).is_at_fault())
     };
-    let at_fault: Vec<bool> = (0..mesh.vertex_count())
-        .into_par_iter()
-        .with_min_len(VERTICES_PER_TASK)
-        .map_init(Ring::default, |ring, vertex| is_at_fault(ring, VertexId::from_index(vertex)))
-        .collect();
-    mesh.vertices().filter(|vertex| at_fault[vertex.index()]).collect()
+    let at_fault: Vec<bool> = control.each_with(mesh.vertex_count(), Ring::default, is_at_fault)?;
+    Ok(mesh.vertices().filter(|vertex| at_fault[vertex.index()]).collect())
 }
 
 /// How one vertex stands to the hull of its neighbours; none for a vertex of no real face.

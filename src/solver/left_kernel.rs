@@ -120,8 +120,8 @@ pub(super) fn better_gauge(
     }
     // The parts of rows across that of a; not by squares of them, which could leave the range of numbers.
     let row = |i: usize| kernel.iter().skip(i).step_by(n);
-    let size = row(a).map(|z| z.norm()).fold(0.0, f64::hypot);
-    let along_a: Vec<C64> = row(a).map(|z| z / size).collect();
+    let length = row(a).map(|z| z.norm()).fold(0.0, f64::hypot);
+    let along_a: Vec<C64> = row(a).map(|z| z / length).collect();
     let across = |i: usize| {
         let along: C64 = row(i).zip(&along_a).map(|(z, unit)| z * unit.conj()).sum();
         wholes[i] * row(i).zip(&along_a).map(|(z, unit)| (z - along * unit).norm()).fold(0.0, f64::hypot)

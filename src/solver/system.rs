@@ -166,10 +166,7 @@ impl FreeSystem {
             links.sort_unstable_by_key(|h| h.index());
             links.iter().fold(T::ZERO, |sum, h| sum + coefficients[h.index()])
         };
-        let mut diagonal: Vec<T> = Vec::with_capacity(self.free.len());
-        for run in control.runs(self.free.len()) {
-            diagonal.par_extend(run?.into_par_iter().with_min_len(COLUMNS_PER_TASK / 4).map_init(Vec::new, ascending));
-        }
+        let diagonal: Vec<T> = control.each_with(self.free.len(), Vec::new, ascending)?;
         let of_link = |link: u32| if link == NONE { T::ZERO } else { T::ZERO - coefficients[link as usize] };
         let mut values: Vec<T> = control.each(self.links.len(), |entry| of_link(self.links[entry]))?;
         for (&slot, sum) in self.slot_of_diagonal.iter().zip(diagonal) {

@@ -131,8 +131,8 @@ pub(super) fn verdict_unless(
         .collect::<Vec<_>>();
     let planar = is_one_to_one && concave_polygons.is_empty();
     control.go_on()?;
-    let overwound_vertices = if is_one_to_one { Vec::new() } else { overwound_vertices(mesh, embedding, is_upright) };
-    control.go_on()?;
+    let overwound = || overwound_vertices(mesh, embedding, is_upright, control);
+    let overwound_vertices = if is_one_to_one { Vec::new() } else { overwound()? };
     Ok(Verdict {
         planar,
         flipped_faces,
@@ -269,8 +269,10 @@ fn overwound_vertices(
     mesh: &DiskMesh,
     embedding: &Embedding,
     is_upright: impl Fn(FaceId) -> bool + Sync,
-) -> Vec<VertexId> {
-    let is_overwound = |link: &mut Vec<DVec2>, vertex: VertexId| {
+    control: Control<'_>,
+) -> Result<Vec<VertexId>, SolveError> {
+    let is_overwound = |link: &mut Vec<DVec2>, vertex: usize| {
+        let vertex = VertexId::from_index(vertex);
         if mesh.boundary_place(vertex).is_some() {
             return false;
         }
@@ -283,12 +285,8 @@ fn overwound_vertices(
         }
         winding_number(link, embedding[vertex]).is_some_and(|turns| turns.abs() > 1)
     };
-    let overwound: Vec<bool> = (0..mesh.vertex_count())
-        .into_par_iter()
-        .with_min_len(FACES_PER_TASK)
-        .map_init(Vec::new, |link, vertex| is_overwound(link, VertexId::from_index(vertex)))
-        .collect();
-    mesh.vertices().filter(|&vertex| overwound[vertex.index()] && !mesh.is_virtual_vertex(vertex)).collect()
+    let overwound: Vec<bool> = control.each_with(mesh.vertex_count(), Vec::new, is_overwound)?;
+    Ok(mesh.vertices().filter(|&vertex| overwound[vertex.index()] && !mesh.is_virtual_vertex(vertex)).collect())
 }
 
 impl Verdict {

@@ -315,8 +315,8 @@ fn constraints_around_holes_are_met_with_new_vertices_where_that_takes_some() {
 
 #[test]
 fn whichever_of_equally_long_ways_rounding_takes_constraints_around_a_hole_end_planar() {
-    // Every edge of the sheet is as long as many others. The last bits decide which paths come first: around the hole the
-    // one way or the other, and where quads cannot become convex after that, they are cut.
+    // Every edge of the sheet is as long as many others, and the last bits decide which paths come first. After some of them
+    // quads are concave still where relaxing ends: those are cut.
     let mut cut = 0;
     for seed in 0..24 {
         let mut random = Random(seed);

@@ -75,9 +75,12 @@ impl Rung for Match {
             Stage::End => return Err(SolveError::Unmet.into()),
         };
         let candidate = Candidate::one_to_one(Method::Matchmaker, found.embedding.clone(), &held).since(began);
+        let count = found.refinement.new_vertices().len();
+        let tangled = || format!("its paths wind around each other, with {count} new vertices: hardly relaxed");
+        let note = is_tangle(&found.refinement).then(tangled);
         let refinement = Some(Arc::new(found.refinement.clone()));
         self.stage = if looks_left > 0 { Stage::Refined { found: Box::new(found), looks_left } } else { Stage::End };
-        Ok(Candidate { refinement, ..candidate })
+        Ok(Candidate { refinement, note, ..candidate })
     }
 
     fn has_more(&self, _: &Task, _: Option<&Latest>) -> bool {

@@ -8,10 +8,11 @@ use super::plan::Aim;
 use super::rung::Latest;
 use super::{Candidate, Ladder, Step, largest_move};
 use crate::mesh::{DiskMesh, VertexId};
+use crate::solver::hull_condition::vertices_outside_hull_unless;
 use crate::solver::rest::Rest;
 use crate::solver::units::Units;
 use crate::solver::verdict::verdict_unless;
-use crate::solver::{Control, Embedding, Method, Phase, Pins, SolveError, Verdict, vertices_outside_hull};
+use crate::solver::{Control, Embedding, Method, Phase, Pins, SolveError, Verdict};
 
 impl Ladder {
     /// Those of the part under way: a planar start lies in the plane where it lies.
@@ -63,7 +64,7 @@ impl Ladder {
         }
         let verify_seconds = start.elapsed().as_secs_f64();
         control.go_on()?;
-        let (outside_hull, hull_seconds) = self.outside_hull_of(mesh, &candidate, &verdict);
+        let (outside_hull, hull_seconds) = self.outside_hull_of(mesh, &candidate, &verdict, control)?;
         // New vertices have no position before, or another one's.
         let old = mesh.vertex_count();
         let moved = |latest: &Latest| largest_move(&latest.embedding[..old], &candidate.solution.embedding[..old]);
@@ -106,13 +107,20 @@ impl Ladder {
 
     /// Why a candidate folds: vertices outside the hull of their neighbours, and the seconds that finding them took. None where
     /// it is one-to-one, by the theorem.
-    fn outside_hull_of(&self, mesh: &DiskMesh, candidate: &Candidate, verdict: &Verdict) -> (Vec<VertexId>, f64) {
+    fn outside_hull_of(
+        &self,
+        mesh: &DiskMesh,
+        candidate: &Candidate,
+        verdict: &Verdict,
+        control: Control<'_>,
+    ) -> Result<(Vec<VertexId>, f64), SolveError> {
         if verdict.is_one_to_one() {
-            return (Vec::new(), 0.0);
+            return Ok((Vec::new(), 0.0));
         }
         let start = Instant::now();
-        let found = vertices_outside_hull(candidate.mesh(mesh), &self.written(candidate), verdict.upright());
-        (found, start.elapsed().as_secs_f64())
+        let found =
+            vertices_outside_hull_unless(candidate.mesh(mesh), &self.written(candidate), verdict.upright(), control)?;
+        Ok((found, start.elapsed().as_secs_f64()))
     }
 
     /// The numbers that are written of a candidate.
