@@ -246,6 +246,21 @@ fn on_a_grid_gauge_pins_move_to_where_the_equations_depend_on_each_other() {
 }
 
 #[test]
+fn constraints_are_factored_once_where_their_equations_depend_on_the_others_and_again_on_a_grid() {
+    let settings = natural(Family::MeanValue);
+    let mesh = disk(Example::Face.mesh());
+    let pins = |pinned: [usize; 3]| hard_pins(pinned.map(|v| (VertexId::from_index(v), DVec2::new(v as f64, 1.0))));
+    let (count, solution) = factored(&mesh, &settings, &pins([3, 40, 90]));
+    assert_eq!(count, 1);
+    assert!(solution.expect("solvable").linear.expect("linear").keeps_equations);
+    // The two corners of a grid where the kernel does not live.
+    let grid = disk(regular(20, 20, Diagonals::OneWay, 0.0));
+    let (count, solution) = factored(&grid, &settings, &pins([20, 20 * 21, 220]));
+    assert!((2..=3).contains(&count), "factored {count} times");
+    assert!(solution.expect("solvable").linear.expect("linear").keeps_equations);
+}
+
+#[test]
 fn two_pins_of_the_users_keep_all_equations_where_theirs_do_not_depend_on_the_others() {
     let sheet = Sheet::new(40, 40, Diagonals::OneWay, 0.0);
     let pins = hard_pins([40, 40 * 41].map(|v| (VertexId::from_index(v), sheet.plane[v])));
