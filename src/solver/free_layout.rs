@@ -74,7 +74,7 @@ impl Layout {
         }
     }
 
-    /// What least squares has to treat, if anything. For `unit` see [`Setup::unit`].
+    /// What least squares has to treat, if anything. For `unit` see `Numbers` of `free_solve`.
     pub(super) fn rest(&self, unit: f64) -> Option<Rest> {
         let spring = |(&vertex, hold): (&VertexId, &Hold)| match hold {
             Hold::Fixed | Hold::Hard => None,
