@@ -72,10 +72,9 @@ impl FreeProblem<'_> {
             let gauge = match &outcome {
                 Ok(FreeReady { system, solve, .. }) => solve.better_gauge(Site { mesh: self.mesh, system }, control)?,
                 Err(Unsolved::WithoutGauge(Some(gauge))) => Some(*gauge),
-                Err(
-                    Unsolved::WithoutGauge(None)
-                    | Unsolved::Error(SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. }),
-                ) => Some(gauge_of(self.mesh, &self.equations(control)?, control)?),
+                Err(Unsolved::WithoutGauge(None) | Unsolved::Error(SolveError::Singular { .. })) => {
+                    Some(gauge_of(self.mesh, &self.equations(control)?, control)?)
+                }
                 Err(Unsolved::Error(_)) => None,
             };
             // The same again would end as this did.
@@ -92,11 +91,9 @@ impl FreeProblem<'_> {
         if self.is_hermitian() || way.gauge.is_some() {
             return false;
         }
-        let exact = self.asked.values().filter(|pin| pin.hold.is_exact()).count();
-        let are_only_held = self.asked.len() == GAUGE_PINS && exact == GAUGE_PINS;
+        let are_only_held = self.asked.len() == GAUGE_PINS && self.asked.values().all(|pin| pin.hold.is_exact());
         let may_keep_equations = self.settings.treatment.is_none() && are_only_held;
-        let keeps_equations = way.treatment != Treatment::Eliminate || exact < GAUGE_PINS;
-        own_places.is_some() || may_keep_equations || keeps_equations
+        own_places.is_some() || may_keep_equations || way.keeps_equations(self.asked)
     }
 
     fn with_gauge(self, Try { own_places, way }: Try, gauge: [VertexId; 2]) -> Try {

@@ -23,6 +23,15 @@ pub(super) struct Way {
     pub(super) gauge: Option<[VertexId; 2]>,
 }
 
+impl Way {
+    /// Whether the equations of these pins are kept. One exact pin alone does not fix the similarity: the rest without its
+    /// equation would still be singular.
+    pub(super) fn keeps_equations(self, pins: &Pins) -> bool {
+        let exact = pins.values().filter(|pin| pin.hold.is_exact()).count();
+        self.treatment != Treatment::Eliminate || exact < GAUGE_PINS
+    }
+}
+
 /// How pins enter a system.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layout {
@@ -42,8 +51,7 @@ impl Layout {
         let holds: BTreeMap<VertexId, Hold> = pins.iter().map(|(&v, pin)| (v, pin.hold)).collect();
         let exact = pins.iter().filter(|(_, pin)| pin.hold.is_exact());
         let mut left_out: Vec<VertexId> = exact.map(|(&v, _)| v).collect();
-        // One pin alone does not fix the similarity: the rest without its equation would still be singular.
-        let keeps_equations = way.treatment != Treatment::Eliminate || left_out.len() < GAUGE_PINS;
+        let keeps_equations = way.keeps_equations(pins);
         let springs = pins.len() - left_out.len();
         let has_many = springs + if keeps_equations { pins.len() } else { 0 } > FEW;
         if keeps_equations && !has_many {

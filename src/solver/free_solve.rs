@@ -126,7 +126,14 @@ impl FreeSolve {
             Some(many) => many.named(site, error),
             None => site.system.named(error),
         };
-        let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
+        let unsolved = |error| match named(error) {
+            // The equations that are factored may depend on each other.
+            SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } if laid_out.may_want_gauge() => {
+                Unsolved::WithoutGauge(None)
+            }
+            error => Unsolved::Error(error),
+        };
+        let factor = analysis.factor(&matrix, control.cancel()).map_err(unsolved)?;
         if let Some(rest) = rest.as_ref().filter(|_| laid_out.may_want_gauge()) {
             let is_known = may_be_kept(system.free().len(), rest.left_out.len());
             let look = || better_gauge(site, &equations, &factor, &rest.left_out, control);
@@ -137,7 +144,8 @@ impl FreeSolve {
             }
         }
         let factored = Factored { matrix: &matrix, factor: &factor, cancel: control.cancel() };
-        let few = rest.map(|rest| LeastSquares::new(site, &equations, rest, &factored).map_err(named)).transpose()?;
+        let few =
+            rest.map(|rest| LeastSquares::new(site, &equations, rest, &factored).map_err(unsolved)).transpose()?;
         let least_squares = few.map(Ways::Few).or(many.map(Ways::Many));
         seconds.factor += start.elapsed().as_secs_f64();
         let eliminated = if layout.keeps_equations { Vec::new() } else { layout.left_out.clone() };

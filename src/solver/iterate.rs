@@ -101,15 +101,9 @@ impl Iteration {
             seconds.assemble += start.elapsed().as_secs_f64();
             Numbers { equations, unit }
         };
-        let may_want_gauge = self.laid_out.may_want_gauge();
         let gauge = match FreeSolve::new(mesh, &self.laid_out, numbers(seconds), seconds, control) {
             Ok(solve) => return Ok(solve),
             Err(Unsolved::WithoutGauge(gauge)) => gauge,
-            Err(Unsolved::Error(SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. }))
-                if may_want_gauge =>
-            {
-                None
-            }
             Err(Unsolved::Error(error)) => return Err(error),
         };
         let gauge = match gauge {
