@@ -204,8 +204,8 @@ impl<T: Scalar> Factor<T> {
     }
 
     /// Solves Aᴴ X = B, otherwise as [`Factor::solve`]. The adjoint systems of this project have single rows on their
-    /// right, and answers larger than those by up to the condition number: so an answer with a backward error of a few
-    /// units of rounding is accepted whatever its residual.
+    /// right, and answers larger than those by up to the condition number: so an answer with a backward error of some
+    /// units of rounding is accepted whatever its residual, and no more refined.
     ///
     /// # Errors
     ///
@@ -216,7 +216,7 @@ impl<T: Scalar> Factor<T> {
         rhs: &[T],
         cancel: &AtomicBool,
     ) -> Result<Solved<T>, LinalgError> {
-        self.run(Ask { matrix, rhs, operation: Operation::Adjoint, accept: Accept::BackwardError }, cancel)
+        self.run(Ask { matrix, rhs, operation: Operation::Adjoint, accept: Accept::SmallBackwardError }, cancel)
     }
 
     /// Size of the factors and number of replaced pivots.
@@ -228,7 +228,8 @@ impl<T: Scalar> Factor<T> {
         }
     }
 
-    /// Solves A X = B for corrections of answers whose residuals are B, judged as those of [`Factor::solve_adjoint`].
+    /// Solves A X = B for corrections of answers whose residuals are B: accepted as those of [`Factor::solve_adjoint`], but refined
+    /// as far as it goes.
     ///
     /// # Errors
     ///

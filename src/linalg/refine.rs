@@ -28,6 +28,9 @@ const STALLED: f64 = 1e3 * f64::EPSILON;
 /// A componentwise backward error of so many units of rounding cannot be bettered in working precision.
 const GOOD_BACKWARD_ERROR: f64 = 2.0 * f64::EPSILON;
 
+/// One of so many is what substitution mostly leaves.
+const SMALL_BACKWARD_ERROR: f64 = 64.0 * f64::EPSILON;
+
 /// A step must at least halve the backward error to be followed by another.
 const WORTHWHILE: f64 = 0.5;
 
@@ -62,6 +65,19 @@ pub(super) enum Accept {
     /// That, or a backward error of a few units of rounding by faithful factors. For right-hand sides that are far
     /// smaller than ‖A‖‖x‖, where ‖A‖‖x‖ε alone can pass the limit of the relative residual.
     BackwardError,
+    /// The same, and not refined where substitution leaves a small backward error. For answers that others are made of, and
+    /// these are refined.
+    SmallBackwardError,
+}
+
+impl Accept {
+    /// The backward error at which refinement ends.
+    fn goal(self) -> f64 {
+        match self {
+            Self::Residual | Self::BackwardError => GOOD_BACKWARD_ERROR,
+            Self::SmallBackwardError => SMALL_BACKWARD_ERROR,
+        }
+    }
 }
 
 pub(super) struct System<'a, T> {
@@ -125,7 +141,7 @@ fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Resu
     let mut relative = measure(column.x)?;
     // Written so that a NaN counts as stalled.
     let converged = column.backward_error <= STALLED;
-    let at_the_floor = converged && system.accept == Accept::BackwardError && system.is_faithful;
+    let at_the_floor = converged && system.accept != Accept::Residual && system.is_faithful;
     if !good(GOAL, relative) && !converged {
         column.steps += gmres(system, column.x, column.b)?;
         relative = measure(column.x)?;
@@ -198,5 +214,5 @@ fn judge<T: Scalar>(
     *steps = step;
     let worthwhile = now <= WORTHWHILE * *before;
     *before = now;
-    Ok(worthwhile && now > GOOD_BACKWARD_ERROR)
+    Ok(worthwhile && now > system.accept.goal())
 }

@@ -32,14 +32,15 @@
 //! ⎣ Sᴴ        Mᴴ         0 ⎦ ⎣ s   ⎦   ⎣ 0       ⎦
 //! ```
 //!
-//! It depends on the pinned vertices and their weights alone: other targets cost two solves, and a third one where W is too
-//! large to keep. Where pins are eliminated, their equations are not kept, and g is empty.
+//! It depends on the pinned vertices and their weights alone: other targets cost one solve, for the rows along u are Wᴴ D, and
+//! three where W is too large to keep. Where pins are eliminated, their equations are not kept, and g is empty.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
+use rayon::prelude::*;
 
 use super::equations::Equations;
 use super::system::Site;
@@ -152,12 +153,10 @@ impl LeastSquares {
     ) -> Result<Vec<C64>, LinalgError> {
         let free = site.system.free();
         let mut terms: Vec<C64> = free.iter().map(|v| residuals[v.index()]).collect();
-        let still = factored.factor.solve_correction(factored.matrix, &terms, factored.cancel)?.x;
         let (k, g) = (self.rows.len(), self.rest.left_out.len());
         let mut rhs = DVector::zeros(k + self.rest.movers.len());
-        for (i, row) in self.rows.iter().enumerate() {
-            rhs[i] =
-                along(row, &still) + if i < g { residuals[self.rest.left_out[i].index()] } else { -to_targets[i - g] };
+        for (i, still) in self.along_still(&terms, factored)?.into_iter().enumerate() {
+            rhs[i] = still + if i < g { residuals[self.rest.left_out[i].index()] } else { -to_targets[i - g] };
         }
         let answer = self.dense.solve(&rhs).ok_or(LinalgError::Singular { row: 0 })?;
         let residual = self.residual_of(answer.as_slice(), factored)?;
@@ -174,6 +173,16 @@ impl LeastSquares {
             all[vertex.index()] = z;
         }
         Ok(all)
+    }
+
+    /// The rows along u = N⁻¹ D, which is Wᴴ D.
+    fn along_still(&self, terms: &[C64], factored: &Factored<'_>) -> Result<Vec<C64>, LinalgError> {
+        if let Some(columns) = self.columns.as_ref().filter(|_| !terms.is_empty()) {
+            let columns: Vec<&[C64]> = columns.chunks_exact(terms.len()).collect();
+            return Ok(columns.into_par_iter().map(|column| inner(column, terms)).collect());
+        }
+        let still = factored.factor.solve_correction(factored.matrix, terms, factored.cancel)?.x;
+        Ok(self.rows.iter().map(|row| along(row, &still)).collect())
     }
 
     /// W times the answer of the dense system: the residual of the equations of the factors, negated.
@@ -207,6 +216,11 @@ fn add_adjoint(row: &Row, weight: C64, into: &mut [C64]) {
 
 fn along(row: &Row, column: &[C64]) -> C64 {
     row.iter().map(|&(at, value)| value * column[at]).sum()
+}
+
+/// xᴴ y.
+fn inner(x: &[C64], y: &[C64]) -> C64 {
+    x.iter().zip(y).map(|(x, y)| x.conj() * y).sum()
 }
 
 /// W: a solve for every row.

@@ -64,7 +64,7 @@ impl Rung for Match {
                 (found, looks)
             }
             Stage::Refined { found: before, looks_left } => {
-                let Matched { refinement, embedding } = relaxed(before, task, *looks_left, control)?;
+                let Matched { refinement, embedding } = relaxed(before, task, control)?;
                 let bare = bare(Matched { embedding: sheet.written(&embedding).into_owned(), refinement });
                 let found = with_room_made_on_sheet(mesh, bare, task, control)?;
                 let count = before.refinement.new_vertices().len();
@@ -108,12 +108,10 @@ pub(super) fn is_tangle(refinement: &Refinement) -> bool {
 }
 
 /// The same with its embedding relaxed.
-fn relaxed(found: &Matched, task: &Task, looks_left: usize, control: Control<'_>) -> Result<Matched, SolveError> {
+fn relaxed(found: &Matched, task: &Task, control: Control<'_>) -> Result<Matched, SolveError> {
     let disk: &DiskMesh = found.refinement.disk();
     let sheet = Arc::clone(&task.sheet);
-    let relaxing = Relaxing::new(disk, found.embedding.clone(), &task.held()).written_on(sheet);
-    // Where a coarse disk is no way the first time, it is none later.
-    let mut relaxing = if looks_left == REMOVALS { relaxing.after_straight_paths() } else { relaxing };
+    let mut relaxing = Relaxing::new(disk, found.embedding.clone(), &task.held()).written_on(sheet);
     let mut embedding = found.embedding.clone();
     for _ in 0..ROUNDS_BEFORE_REMOVAL {
         embedding = relaxing.round(disk, control)?.solution.embedding;

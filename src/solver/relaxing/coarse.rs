@@ -5,9 +5,9 @@ use super::super::{Control, Embedding, Pins, SolveError};
 use super::Relaxing;
 use crate::mesh::{DiskMesh, VertexId};
 
-/// An energy up to this is lowered directly; and where paths were made straight, which leaves whole regions out of shape.
-pub(super) const HUGE: f64 = 1000.0;
-const OF_STRAIGHT_PATHS: f64 = 30.0;
+/// An energy up to this is lowered directly. Of 20 real disks none ends with more energy for it than with 1000, five end with
+/// less, and three take two thirds of the time.
+pub(super) const MOST_DIRECTLY: f64 = 30.0;
 
 /// About how many vertices the coarsest disk has, and so many more for each pin.
 const COARSE_VERTICES: usize = 400;
@@ -31,12 +31,7 @@ impl Relaxing {
         Self { coarse_from, ..self }
     }
 
-    /// The same from where paths were made straight.
-    pub(in crate::solver) fn after_straight_paths(self) -> Self {
-        Self { coarse_from: OF_STRAIGHT_PATHS, ..self }
-    }
-
-    /// Takes in what relaxing fewer vertices leads to, where the energy is huge and falls by that.
+    /// Takes in what relaxing fewer vertices leads to, where the energy is high and falls by that.
     pub(super) fn go_by_way_of_coarse(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<(), SolveError> {
         let target = COARSE_VERTICES + VERTICES_A_PIN * self.pins.len();
         if self.standing.faces.energy < self.coarse_from || mesh.used_vertex_count() < 2 * target {

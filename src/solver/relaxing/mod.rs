@@ -107,7 +107,7 @@ impl Relaxing {
             measure: Measure::AsItBegins,
             has_converged: false,
             sheet: Arc::default(),
-            coarse_from: coarse::HUGE,
+            coarse_from: coarse::MOST_DIRECTLY,
         }
     }
 
