@@ -41,6 +41,7 @@
 //! search is that of J. Smith, S. Schaefer, "Bijective parameterization with free boundaries", 2015.
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::equations::length_scale;
 use super::foldover_energy::{Element, Model, conjugate, flat};
@@ -143,8 +144,8 @@ pub(super) fn tutte(mesh: &DiskMesh, control: Control<'_>) -> Result<(Solution, 
 }
 
 fn is_unfolded(mesh: &DiskMesh, embedding: &Embedding) -> bool {
-    mesh.faces().all(|face| {
-        let [a, b, c] = embedding.corners(mesh, face);
+    (0..mesh.face_count()).into_par_iter().all(|face| {
+        let [a, b, c] = embedding.corners(mesh, FaceId::from_index(face));
         orientation(a, b, c) == Some(Orientation::CounterClockwise)
     })
 }
@@ -173,19 +174,19 @@ impl Slim {
             return Err(SolveError::NotPlanar);
         }
         let scale = length_scale(mesh);
-        let shapes: Vec<[DVec2; 3]> =
-            mesh.faces().map(|face| laid_flat(mesh.shape(mesh.face(face)).map(|x| scale * x))).collect();
+        let flat = |face: usize| laid_flat(mesh.shape(mesh.face(FaceId::from_index(face))).map(|x| scale * x));
+        let shapes: Vec<[DVec2; 3]> = control.each(mesh.face_count(), flat)?;
         let real_faces = mesh.mesh().real_face_count();
         let on_surface: f64 = shapes[..real_faces].iter().copied().map(double_area).sum();
         let in_plane: f64 = mesh.real_faces().map(|face| double_area(start.corners(mesh, face))).sum();
         let size = (on_surface / in_plane).sqrt();
         let z: Vec<DVec2> = start.iter().map(|z| size * *z).collect();
-        let element = |(face, shape): (FaceId, [DVec2; 3])| {
-            let kind = if face.index() < real_faces { 1.0 } else { FILLING_WEIGHT };
-            let weight = kind * double_area(shape) / on_surface;
-            Element::new(mesh.face(face).map(VertexId::number), shape, (weight, THINNEST))
+        let element = |face: usize| {
+            let kind = if face < real_faces { 1.0 } else { FILLING_WEIGHT };
+            let weight = kind * double_area(shapes[face]) / on_surface;
+            Element::new(mesh.face(FaceId::from_index(face)).map(VertexId::number), shapes[face], (weight, THINNEST))
         };
-        let elements = mesh.faces().zip(shapes).map(element).collect();
+        let elements = control.each(mesh.face_count(), element)?;
         let held = mesh.boundary_loop()[0].number();
         let planning = Planning { order: None, control };
         let membrane = Membrane::new(z.len(), elements, Vec::new(), |point| point == held, planning)?;

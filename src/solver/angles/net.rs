@@ -8,8 +8,8 @@ use std::f64::consts::{PI, TAU};
 use rayon::prelude::*;
 
 use crate::mesh::{DiskMesh, FaceId, VertexId};
-use crate::solver::SolveError;
 use crate::solver::block_pattern::HELD;
+use crate::solver::{Control, SolveError};
 
 /// The least angle on the surface that counts, radians: below, 64 bits hold no more than its order of magnitude.
 const LEAST_ANGLE: f64 = 1e-14;
@@ -63,17 +63,20 @@ impl<'a> Net<'a> {
     }
 
     /// What is left of the conditions around each inner vertex: the sum beyond 2π, and the wheel.
-    pub(super) fn gaps(&self, angles: &[[f64; 3]]) -> Vec<[f64; 2]> {
-        let logarithms: Vec<[f64; 3]> = angles.par_iter().map(|angles| angles.map(|angle| angle.sin().ln())).collect();
+    pub(super) fn gaps(&self, angles: &[[f64; 3]], control: Control<'_>) -> Result<Vec<[f64; 2]>, SolveError> {
+        let logarithms = control.each(angles.len(), |face| angles[face].map(|angle| angle.sin().ln()))?;
         let mut gaps = vec![[-TAU, 0.0]; self.inner.len()];
-        for ((corners, angles), logarithms) in self.corners.iter().zip(angles).zip(&logarithms) {
-            for (k, &place) in corners.iter().enumerate().filter(|(_, place)| **place != HELD) {
-                let [sum, wheel] = &mut gaps[place as usize];
-                *sum += angles[k];
-                *wheel += logarithms[(k + 1) % 3] - logarithms[(k + 2) % 3];
+        for run in control.runs(angles.len()) {
+            for face in run? {
+                let (angles, logarithms): (_, [f64; 3]) = (angles[face], logarithms[face]);
+                for (k, &place) in self.corners[face].iter().enumerate().filter(|(_, place)| **place != HELD) {
+                    let [sum, wheel] = &mut gaps[place as usize];
+                    *sum += angles[k];
+                    *wheel += logarithms[(k + 1) % 3] - logarithms[(k + 2) % 3];
+                }
             }
         }
-        gaps
+        Ok(gaps)
     }
 }
 

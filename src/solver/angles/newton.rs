@@ -170,13 +170,13 @@ impl<'a> Newton<'a> {
                 }
                 Stage::Arrived => {
                     self.kept = None;
-                    return Ok(self.found(Stop::Converged));
+                    return self.found(Stop::Converged, control);
                 }
                 Stage::Blocked if self.kept.is_none() && self.barrier == 0.0 => self.start_behind_barrier(),
-                Stage::Blocked => return Ok(self.found(Stop::Stalled)),
+                Stage::Blocked => return self.found(Stop::Stalled, control),
             }
         }
-        Ok(self.found(Stop::Limit))
+        self.found(Stop::Limit, control)
     }
 
     /// Starts again, with a barrier.
@@ -189,7 +189,7 @@ impl<'a> Newton<'a> {
 
     /// The end. What converged with the least barrier, and has not without it, is as it was with it: the least of the energy
     /// with that barrier.
-    fn found(self, stop: Stop) -> Found {
+    fn found(self, stop: Stop, control: Control<'_>) -> Result<Found, SolveError> {
         let Self { net, angles, barrier, kept, steps, .. } = self;
         let (angles, barrier, stop) = match kept {
             Some(kept) => (kept.angles, kept.barrier, Stop::Converged),
@@ -200,17 +200,19 @@ impl<'a> Newton<'a> {
         let most = if stop == Stop::Converged { (barrier / 2.0).sqrt() } else { 0.0 };
         let held = pairs().filter(|(angle, target)| **angle < most * **target).count();
         let energy = pairs().map(|(angle, target)| (angle / target - 1.0).powi(2)).sum();
-        let residual = largest(net.gaps(&angles).as_flattened()).max(largest(&face_gaps(&angles)));
-        Found { angles, convergence: Convergence { steps, residual, stop }, energy, barrier, held }
+        let gaps = net.gaps(&angles, control)?;
+        let residual = largest(gaps.as_flattened()).max(largest(&face_gaps(&angles)));
+        Ok(Found { angles, convergence: Convergence { steps, residual, stop }, energy, barrier, held })
     }
 
     fn step(&mut self, control: Control<'_>) -> Result<Stage, SolveError> {
         self.steps += 1;
-        let at = self.linearised();
+        let at = self.linearised(control)?;
         let direction = match &self.system {
             System::Full(full) => full.direction(&at, control)?,
             System::Reduced(reduced) => reduced.direction(&at, control)?,
         };
+        control.go_on()?;
         let before = Before { descent: descent(&at, &direction), gaps: at.gaps };
         let longest = self.longest(&direction);
         if self.barrier == 0.0 && longest < SHORT {
@@ -222,35 +224,47 @@ impl<'a> Newton<'a> {
         } else {
             largest(direction.angles.as_flattened()) <= STILL
         };
-        Ok(match self.take(&direction, &before, longest) {
+        control.go_on()?;
+        Ok(match self.take(&direction, &before, longest, control)? {
             None => Stage::Blocked,
             Some(taken) if taken >= 1.0 && is_still => Stage::Arrived,
             Some(_) => Stage::GoesOn,
         })
     }
 
-    fn linearised(&self) -> Linearised<'_> {
+    fn linearised(&self, control: Control<'_>) -> Result<Linearised<'_>, SolveError> {
         let (net, barrier) = (self.net, self.barrier);
-        let count = self.angles.len();
-        let (mut gradient, mut curvatures) = (Vec::with_capacity(count), Vec::with_capacity(count));
-        for ((angles, targets), corners) in self.angles.iter().zip(&net.targets).zip(&net.corners) {
-            let wheels = corners.map(|place| self.multipliers.get(place as usize).map_or(0.0, |pair| pair[1]));
-            gradient.push([0, 1, 2].map(|k| {
+        let gradient = |face: usize| {
+            let (angles, targets) = (self.angles[face], net.targets[face]);
+            [0, 1, 2].map(|k| {
                 let (angle, target) = (angles[k], targets[k]);
                 2.0 * (angle / target - 1.0) / target + barrier * (1.0 / target - 1.0 / angle)
-            }));
-            curvatures.push([0, 1, 2].map(|k| {
+            })
+        };
+        let curvature = |face: usize| {
+            let (angles, targets) = (self.angles[face], net.targets[face]);
+            let wheels =
+                net.corners[face].map(|place| self.multipliers.get(place as usize).map_or(0.0, |pair| pair[1]));
+            [0, 1, 2].map(|k| {
                 let own = 2.0 / (targets[k] * targets[k]) + barrier / (angles[k] * angles[k]);
                 let bend = (wheels[(k + 1) % 3] - wheels[(k + 2) % 3]) / angles[k].sin().powi(2);
                 (own + bend).max(LEAST_CURVATURE * own)
-            }));
-        }
-        let gaps = net.gaps(&self.angles);
-        Linearised { net, angles: &self.angles, gradient, curvatures, gaps, face_gaps: face_gaps(&self.angles) }
+            })
+        };
+        let count = self.angles.len();
+        let (gradient, curvatures) = (control.each(count, gradient)?, control.each(count, curvature)?);
+        let gaps = net.gaps(&self.angles, control)?;
+        Ok(Linearised { net, angles: &self.angles, gradient, curvatures, gaps, face_gaps: face_gaps(&self.angles) })
     }
 
     /// Takes as much of a step as serves. Returns how much, none where nothing does.
-    fn take(&mut self, direction: &Direction, before: &Before, longest: f64) -> Option<f64> {
+    fn take(
+        &mut self,
+        direction: &Direction,
+        before: &Before,
+        longest: f64,
+        control: Control<'_>,
+    ) -> Result<Option<f64>, SolveError> {
         let multipliers = direction.multipliers.as_flattened();
         for (penalty, multiplier) in self.penalties.as_flattened_mut().iter_mut().zip(multipliers) {
             let wanted = PENALTY * multiplier.abs();
@@ -263,16 +277,16 @@ impl<'a> Newton<'a> {
         for _ in 0..HALVINGS {
             let trial = moved(&self.angles, &direction.angles, step);
             let most = merit - DECREASE * step * before.descent + ROUNDING * merit;
-            if is_still || self.merit(&trial, &self.net.gaps(&trial)) <= most {
+            if is_still || self.merit(&trial, &self.net.gaps(&trial, control)?) <= most {
                 self.angles = trial;
                 for (old, new) in self.multipliers.as_flattened_mut().iter_mut().zip(multipliers) {
                     *old += step * (new - *old);
                 }
-                return Some(step);
+                return Ok(Some(step));
             }
             step *= 0.5;
         }
-        None
+        Ok(None)
     }
 
     /// The longest part of a step, up to all of it, that leaves every angle some of what it has to 0 and π.

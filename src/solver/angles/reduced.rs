@@ -91,21 +91,26 @@ impl Reduced {
     /// The step from where the problem was linearised.
     pub(super) fn direction(&self, at: &Linearised<'_>, control: Control<'_>) -> Result<Direction, SolveError> {
         let net = at.net;
-        let parts: Vec<Part> = at.angles.iter().zip(&at.curvatures).map(|(a, w)| Part::new(a, w)).collect();
+        let count = at.angles.len();
+        let parts = control.each(count, |face| Part::new(&at.angles[face], &at.curvatures[face]))?;
         let mut values = vec![0.0; self.pattern.nnz()];
         let mut rhs = at.gaps.as_flattened().to_vec();
-        for (face, part) in parts.iter().enumerate() {
-            let kept = part.keep(&at.gradient[face]);
-            let moved = [0, 1, 2].map(|k| kept[k] + part.spread[k] * at.face_gaps[face]);
-            for (k, &place) in net.corners[face].iter().enumerate().filter(|(_, place)| **place != HELD) {
-                for (which, row) in part.rows[k].iter().enumerate() {
-                    rhs[2 * place as usize + which] -= dot(row, &moved);
+        for run in control.runs(count) {
+            for face in run? {
+                let part = &parts[face];
+                let kept = part.keep(&at.gradient[face]);
+                let moved = [0, 1, 2].map(|k| kept[k] + part.spread[k] * at.face_gaps[face]);
+                for (k, &place) in net.corners[face].iter().enumerate().filter(|(_, place)| **place != HELD) {
+                    for (which, row) in part.rows[k].iter().enumerate() {
+                        rhs[2 * place as usize + which] -= dot(row, &moved);
+                    }
                 }
+                self.add(face, net.corners[face], part, &mut values);
             }
-            self.add(face, net.corners[face], part, &mut values);
         }
         let multipliers = self.multipliers(net, values, &rhs, control)?;
-        let angles = parts.iter().enumerate().map(|(face, part)| {
+        let angles = |face: usize| {
+            let part = &parts[face];
             let mut pull = at.gradient[face];
             for (k, &place) in net.corners[face].iter().enumerate().filter(|(_, place)| **place != HELD) {
                 for (row, multiplier) in part.rows[k].iter().zip(multipliers[place as usize]) {
@@ -114,8 +119,8 @@ impl Reduced {
             }
             let kept = part.keep(&pull);
             [0, 1, 2].map(|k| -kept[k] - part.spread[k] * at.face_gaps[face])
-        });
-        Ok(Direction { angles: angles.collect(), multipliers })
+        };
+        Ok(Direction { angles: control.each(count, angles)?, multipliers })
     }
 
     /// Adds a face's R G Rᵀ.

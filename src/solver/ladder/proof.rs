@@ -24,10 +24,14 @@ impl Ladder {
     /// begins with its proof.
     pub(super) fn proved(
         &mut self,
-        candidate: Candidate,
+        mut candidate: Candidate,
         mesh: &DiskMesh,
         control: Control<'_>,
     ) -> Result<Step, SolveError> {
+        if self.plan.part().aim == Aim::PlanarStart || !self.hands_on_factors {
+            // Factors are the largest part of all memory: what follows shall not come on top.
+            candidate.prepared = None;
+        }
         self.unproved = Some(candidate.clone());
         let step = self.placed_and_proved(candidate, mesh, control);
         if !matches!(step, Err(SolveError::Cancelled)) {
@@ -78,9 +82,6 @@ impl Ladder {
         self.notes.say(candidate.note.take());
         self.notes.say(placing);
         candidate.note = self.notes.take();
-        if is_start || !self.hands_on_factors {
-            candidate.prepared = None;
-        }
         let set_aside = if is_start { self.asked.held() } else { Pins::new() };
         let lies_as_given = task.start.is_some();
         let (index, goes_on) = (self.step_count, self.plan.part().goes_on());

@@ -99,7 +99,9 @@ impl Membrane {
             springs.into_iter().filter(|spring| unknown_of[spring.point as usize] != HELD).collect();
         let of_corners: Vec<[u32; 3]> =
             elements.iter().map(|element| element.corners.map(|corner| unknown_of[corner as usize])).collect();
+        planning.control.go_on()?;
         let neighbours = Neighbours::new(&of_corners, unknowns.len());
+        planning.control.go_on()?;
         let slot =
             |row: u32, column: u32| if row == HELD || column == HELD { HELD } else { neighbours.slot(row, column) };
         let slots_of = |of: &[u32; 3]| of.map(|row| of.map(|column| slot(row, column)));
@@ -108,6 +110,7 @@ impl Membrane {
         let diagonal = (0..number(unknowns.len())).map(|unknown| neighbours.slot(unknown, unknown)).collect();
         let of_parts = elements_of_parts(&of_corners, unknowns.len());
         drop(of_corners);
+        planning.control.go_on()?;
         let pattern = neighbours.block_pattern();
         drop(neighbours);
         let cancel = planning.control.cancel();
