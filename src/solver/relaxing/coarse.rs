@@ -5,7 +5,7 @@ use super::super::{Control, Embedding, Pins, SolveError};
 use super::Relaxing;
 use crate::mesh::{DiskMesh, VertexId};
 
-/// An energy up to this is lowered directly. Of 20 real disks none ends with more energy for it than with 1000, five end with
+/// An energy up to this is lowered directly. Of 20 real disks none ends with more energy for it than with 1000, six end with
 /// less, and three take two thirds of the time.
 pub(super) const MOST_DIRECTLY: f64 = 30.0;
 
