@@ -174,12 +174,16 @@ impl Membrane {
         control: Control<'_>,
     ) -> Result<Option<[f64; 2]>, SolveError> {
         let before = self.energy(z, energies);
+        control.go_on()?;
         let (gradient, hessian) = self.linearise(z, energies, None);
+        control.go_on()?;
         let direction = self.direction(&gradient, hessian, memory, control)?;
+        control.go_on()?;
         let along = |(&point, g): (&u32, &[f64])| DVec2::new(g[0], g[1]).dot(direction[point as usize]);
         let slope: f64 = self.unknowns.iter().zip(gradient.chunks_exact(2)).map(along).sum();
         let mut step = (STEP_SHARE * self.longest_within_barriers(z, &direction, energies)).min(1.0);
         for _ in 0..HALVINGS {
+            control.go_on()?;
             for ((trial, z), direction) in trial.iter_mut().zip(&*z).zip(&direction) {
                 *trial = *z + step * *direction;
             }
