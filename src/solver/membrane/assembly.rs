@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::super::block_pattern::{HELD, number};
 use super::super::foldover_energy::{Element, Model};
+use super::super::{Control, SolveError};
 use super::{CHUNK, Membrane, Spring};
 
 /// Elements whose models are held at one time.
@@ -56,12 +57,14 @@ impl Membrane {
         z: &[DVec2],
         model_of: impl Fn(usize, &Element) -> Model + Sync,
         shift: Option<&[DVec2]>,
-    ) -> (Vec<f64>, Vec<f64>) {
+        control: Control<'_>,
+    ) -> Result<(Vec<f64>, Vec<f64>), SolveError> {
         let mut gradient = vec![0.0; 2 * self.unknowns.len()];
         let mut values = vec![0.0; self.columns[self.unknowns.len()] as usize];
         let mut parts = self.parts(&mut gradient, &mut values);
         let mut models: Vec<Model> = Vec::new();
         for (first, block) in (0..).step_by(MODELS).zip(self.elements.chunks(MODELS)) {
+            control.go_on()?;
             let model = |(at, element): (usize, &Element)| {
                 let model = model_of(first + at, element);
                 match shift {
@@ -80,7 +83,7 @@ impl Membrane {
             });
         }
         self.add_springs(z, &mut gradient, &mut values);
-        (gradient, values)
+        Ok((gradient, values))
     }
 
     /// Cuts the unknowns into parts.

@@ -175,7 +175,7 @@ impl Membrane {
     ) -> Result<Option<[f64; 2]>, SolveError> {
         let before = self.energy(z, energies);
         control.go_on()?;
-        let (gradient, hessian) = self.linearise(z, energies, None);
+        let (gradient, hessian) = self.linearise(z, energies, None, control)?;
         control.go_on()?;
         let direction = self.direction(&gradient, hessian, memory, control)?;
         control.go_on()?;

@@ -112,7 +112,7 @@ impl Membrane {
         shift: &[DVec2],
         control: Control<'_>,
     ) -> Result<Vec<DVec2>, SolveError> {
-        let (gradient, hessian) = self.linearise(z, &Energies::all(Energy::Foldover(0.0)), Some(shift));
+        let (gradient, hessian) = self.linearise(z, &Energies::all(Energy::Foldover(0.0)), Some(shift), control)?;
         let mut moves = self.direction(&gradient, hessian, &mut self.no_memory(), control)?;
         for (move_, shift) in moves.iter_mut().zip(shift) {
             *move_ += *shift;
@@ -154,7 +154,8 @@ mod tests {
     #[test]
     fn a_direction_of_either_precision_promises_the_same_energy() {
         let (membrane, z) = sheared();
-        let (gradient, hessian) = membrane.linearise(&z, &Energies::all(Energy::SymmetricDirichlet), None);
+        let (gradient, hessian) =
+            membrane.linearise(&z, &Energies::all(Energy::SymmetricDirichlet), None, Control::unattended()).unwrap();
         let [single, double] = [Precision::Single, Precision::Double].map(|precision| {
             let mut memory = Memory { factor: None, precision };
             let direction = membrane.direction(&gradient, hessian.clone(), &mut memory, Control::unattended()).unwrap();
@@ -168,7 +169,8 @@ mod tests {
     #[test]
     fn where_single_precision_is_no_good_double_takes_over_for_good() {
         let (membrane, z) = sheared();
-        let (gradient, mut hessian) = membrane.linearise(&z, &Energies::all(Energy::SymmetricDirichlet), None);
+        let (gradient, mut hessian) =
+            membrane.linearise(&z, &Energies::all(Energy::SymmetricDirichlet), None, Control::unattended()).unwrap();
         // Indefinite: no shift that rounding could call for mends it.
         let place = membrane.diagonal[40] as usize;
         hessian[place] *= -0.1;

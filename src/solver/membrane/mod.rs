@@ -178,7 +178,13 @@ impl Membrane {
 
     /// Gradient by unknown, and the Hessian's values. Where points are moved by `shift`, the gradient is that of the model
     /// there.
-    fn linearise(&self, z: &[DVec2], energies: &Energies, shift: Option<&[DVec2]>) -> (Vec<f64>, Vec<f64>) {
-        self.assembled(z, |at, element| element.model(Self::corners(element, z), energies.of(at)), shift)
+    fn linearise(
+        &self,
+        z: &[DVec2],
+        energies: &Energies,
+        shift: Option<&[DVec2]>,
+        control: Control<'_>,
+    ) -> Result<(Vec<f64>, Vec<f64>), SolveError> {
+        self.assembled(z, |at, element| element.model(Self::corners(element, z), energies.of(at)), shift, control)
     }
 }

@@ -41,17 +41,19 @@ impl Membrane {
         control.enter(Phase::Assemble)?;
         let energy = |z: &[DVec2]| self.energy(z, &Energies::all(Energy::SymmetricDirichlet));
         let before = energy(z);
+        control.go_on()?;
         let proxy = |_: usize, element: &Element| {
             let corners = Self::corners(element, z);
             Proxy::at(element, corners).model(element, corners)
         };
-        let (gradient, hessian) = self.assembled(z, proxy, None);
+        let (gradient, hessian) = self.assembled(z, proxy, None, control)?;
         control.enter(Phase::Factor)?;
         let direction = self.direction(&gradient, hessian, &mut self.no_memory(), control)?;
         control.enter(Phase::Solve)?;
         let to_fold = self.longest_step(z, &direction, self.elements.len());
         let mut step = (SHARE_BEFORE_FOLD * to_fold).min(1.0);
         for _ in 0..HALVINGS {
+            control.go_on()?;
             let trial: Vec<DVec2> = z.iter().zip(&direction).map(|(z, direction)| *z + step * *direction).collect();
             let after = energy(&trial);
             if after < before {
