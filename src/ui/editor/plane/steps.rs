@@ -102,12 +102,13 @@ impl PlaneView {
         }
     }
 
-    /// How long a glide from one sheet to another takes; none where there is none.
+    /// How long a glide from one sheet to another takes; none where there is none, as while something follows a pin.
     fn glide_to(&self, target: &PlaneScene, before: &PlaneScene, around: Surroundings) -> Option<f64> {
         let is_same_mesh = Arc::ptr_eq(&before.mesh, &target.mesh);
         let shows_stage = self.hull_scene().is_some_and(|hull| hull.plane().is_some());
         let is_smooth = |seconds: &f64| around.host.frame_seconds() * LEAST_FRAMES <= *seconds;
-        around.glide.filter(is_smooth).filter(|_| is_same_mesh && !shows_stage)
+        let follows_pin = around.session.preview().is_some();
+        around.glide.filter(is_smooth).filter(|_| is_same_mesh && !shows_stage && !follows_pin)
     }
 
     /// A step is on the screen, at rest.
