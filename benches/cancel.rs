@@ -42,7 +42,7 @@ const METHODS: [(Method, Family, bool); 11] = [
     (Method::Natural, Family::MeanValue, false),
     (Method::Natural, Family::MeanValue, true),
     (Method::Iterate, Family::Conformal, true),
-    (Method::VirtualBoundary, Family::Conformal, true),
+    (Method::VirtualBoundary, Family::Conformal, false),
     (Method::Spectral, Family::Conformal, false),
     (Method::AbfPlusPlus, Family::Conformal, false),
     (Method::Slim, Family::Conformal, false),

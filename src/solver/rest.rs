@@ -77,11 +77,12 @@ impl Rest {
     /// Triangles, and by how much of its area each counts.
     fn of(mesh: &DiskMesh, triangles: impl Iterator<Item = ([VertexId; 3], f64)>) -> Self {
         let scale = length_scale(mesh);
-        let shape = |(corners, part): ([VertexId; 3], f64)| {
+        let shape = |&(corners, part): &([VertexId; 3], f64)| {
             let flat = laid_flat(mesh.shape(corners).map(|x| scale * x));
             Shape { corners, flat, share: part * 0.5 * double_area(flat) }
         };
-        let mut shapes: Vec<Shape> = triangles.map(shape).collect();
+        let triangles: Vec<([VertexId; 3], f64)> = triangles.collect();
+        let mut shapes: Vec<Shape> = triangles.par_iter().with_min_len(TRIANGLES_PER_TASK).map(shape).collect();
         let area: f64 = shapes.iter().map(|shape| shape.share).sum();
         for shape in &mut shapes {
             shape.share /= area;
@@ -141,11 +142,15 @@ impl Rest {
         points.extend(&outside.frame);
         let mut elements = Vec::with_capacity(self.shapes.len() + self.filling.len() + outside.triangles.len());
         let element = self.element_beside(mesh, embedding);
-        elements.extend(self.shapes.iter().map(element));
+        for run in planning.control.runs(self.shapes.len()) {
+            elements.par_extend(self.shapes[run?].par_iter().map(&element));
+        }
+        planning.control.go_on()?;
         let around = self.filling.iter().chain(&outside.triangles);
         elements.extend(outside_elements(around, &points, weight));
         let is_pulled = pins.values().any(|pin| !pin.hold.is_exact());
         let unit = if is_pulled { spring_unit(mesh, embedding) } else { 0.0 };
+        planning.control.go_on()?;
         let springs = pins.iter().filter_map(|(vertex, pin)| match pin.hold {
             Hold::Weighted(weight) => {
                 let stiffness = weight * weight * unit;
@@ -176,7 +181,7 @@ impl Rest {
     }
 
     /// The energy of a triangle, at rest when all are as large as the embedding is now.
-    fn element_beside(&self, mesh: &DiskMesh, embedding: &Embedding) -> impl Fn(&Shape) -> Element {
+    fn element_beside(&self, mesh: &DiskMesh, embedding: &Embedding) -> impl Fn(&Shape) -> Element + Sync {
         let flat: f64 = mesh.real_faces().map(|face| 0.5 * double_area(embedding.corners(mesh, face))).sum();
         let scale = (flat / self.area).sqrt();
         move |shape| {

@@ -47,6 +47,7 @@ impl Continuation {
             return Ok(None);
         }
         let keeps = |vertex: VertexId| self.pins.contains_key(&vertex);
+        control.go_on()?;
         let Some(hierarchy) = Hierarchy::new(mesh, &self.embedding, keeps, target, control)? else { return Ok(None) };
         let Some(coarse) = arrived(hierarchy.coarsest(), &self.embedding, &self.pins, control)? else {
             return Ok(None);
@@ -55,9 +56,12 @@ impl Continuation {
         let improve = |level: &Level, embedding| on_the_way.of(level, embedding);
         let fine = Fine { mesh, embedding: &self.embedding, pins: &self.pins };
         let Some(lifted) = hierarchy.lifted(fine, &coarse, improve, control)? else { return Ok(None) };
-        let Some(outside) = self.outside_of(mesh, &lifted).filter(|_| self.sheet.is_one_to_one(mesh, &lifted)) else {
+        let Some(outside) = self.outside_of(mesh, &lifted) else { return Ok(None) };
+        control.go_on()?;
+        if !self.sheet.is_one_to_one(mesh, &lifted) {
             return Ok(None);
-        };
+        }
+        control.go_on()?;
         (self.embedding, self.jumps) = (lifted, false);
         let progress = self.progress(mesh);
         self.sound = (self.embedding.clone(), progress.energy);

@@ -69,6 +69,7 @@ impl Continuation {
             return Ok(false);
         };
         membrane.descend(&mut points, downhill(LOOSE_STEPS), control)?;
+        control.go_on()?;
         let z = Embedding::of_mesh(mesh, &points);
         let is_taken = self.sheet.is_one_to_one(mesh, &z);
         if is_taken {

@@ -176,6 +176,7 @@ impl Continuation {
         if !has_jumped && !self.loosen_or_advance(mesh, &settled, &moves, control)? {
             return Err(SolveError::Unmet);
         }
+        control.go_on()?;
         let progress = self.progress(mesh);
         if progress.energy <= CRUSHED * self.sound.1 {
             self.sound = (self.embedding.clone(), self.sound.1.min(progress.energy));
@@ -218,6 +219,7 @@ impl Continuation {
         planning: Planning<'_>,
     ) -> Result<Option<Settled>, SolveError> {
         let Some(outside) = self.outside_of(mesh, embedding) else { return Ok(None) };
+        planning.control.go_on()?;
         let surrounded = Surrounded { embedding, outside: &outside, weight: OUTSIDE_WEIGHT };
         let (membrane, points) = self.rest.membrane(mesh, surrounded, pins, planning)?;
         Ok(Some(Settled { membrane, points, outside: Arc::new(outside) }))
@@ -235,6 +237,7 @@ impl Continuation {
         let limits = Limits { unfolding: Unfolding::Alone, ..downhill(UNFOLD_STEPS) };
         let is_unfolded = membrane.descend(&mut z, limits, control)?.least_determinant > 0.0;
         let z = Embedding::of_mesh(mesh, &z);
+        control.go_on()?;
         Ok(is_unfolded && self.sheet.is_one_to_one(mesh, &z) && self.settle(mesh, z, membrane, control)?)
     }
 
@@ -252,6 +255,7 @@ impl Continuation {
         let whole = (longest > 1.0 && first < 1.0).then_some(1.0);
         let halved = successors(Some(first), |share| Some(0.5 * share)).take_while(|share| *share > SMALLEST_ADVANCE);
         for share in whole.into_iter().chain(halved) {
+            control.go_on()?;
             let z = Embedding::of_mesh(mesh, &self.moved(points, moves, share));
             if self.sheet.is_one_to_one(mesh, &z) {
                 return self.settle(mesh, z, membrane, control);
@@ -268,6 +272,7 @@ impl Continuation {
         similar: &Membrane,
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
+        control.go_on()?;
         let Some(mut settled) =
             self.surround(mesh, &embedding, &self.pins, Planning { order: similar.order().as_ref(), control })?
         else {
@@ -275,6 +280,7 @@ impl Continuation {
         };
         let mut z = settled.points.clone();
         settled.membrane.descend(&mut z, downhill(SETTLE_STEPS), control)?;
+        control.go_on()?;
         let lower = Embedding::of_mesh(mesh, &z);
         if self.sheet.is_one_to_one(mesh, &lower) {
             self.embedding = lower;

@@ -42,6 +42,7 @@ impl Rung for Fit {
         let start = self.start.clone().or_else(of_latest).ok_or(SolveError::NotPlanar)?;
         let held = task.held();
         let embedding = fitted(task, mesh, &start.embedding, control)?;
+        control.go_on()?;
         self.is_done = true;
         let progress = Continuation::new(mesh, embedding.clone(), &held).progress(mesh);
         let candidate = Candidate::one_to_one(Method::Continuation, embedding, &held);
@@ -127,6 +128,7 @@ impl Rung for Continue {
         }
         if let Stage::Begin = self.stage {
             let start = latest.ok_or(SolveError::NotPlanar)?.embedding.clone();
+            control.go_on()?;
             let sheet = Arc::clone(&task.sheet);
             let mut continuation = Box::new(Continuation::new(mesh, start, &held).written_on(sheet));
             let met = continuation.by_way_of_coarse(mesh, control)?;
