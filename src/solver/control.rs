@@ -106,10 +106,25 @@ impl<'a> Control<'a> {
     /// [`SolveError::Cancelled`].
     pub(super) fn each<T: Send>(self, count: usize, of: impl Fn(usize) -> T + Sync) -> Result<Vec<T>, SolveError> {
         let mut found = Vec::with_capacity(count);
+        self.extend(&mut found, count, of)?;
+        Ok(found)
+    }
+
+    /// The same, put behind what is there.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    pub(super) fn extend<T: Send>(
+        self,
+        found: &mut Vec<T>,
+        count: usize,
+        of: impl Fn(usize) -> T + Sync,
+    ) -> Result<(), SolveError> {
         for run in self.runs(count) {
             found.par_extend(run?.into_par_iter().map(&of));
         }
-        Ok(found)
+        Ok(())
     }
 
     /// The same with something to work in, made by `begin` once for many numbers.

@@ -142,9 +142,7 @@ impl Rest {
         points.extend(&outside.frame);
         let mut elements = Vec::with_capacity(self.shapes.len() + self.filling.len() + outside.triangles.len());
         let element = self.element_beside(mesh, embedding);
-        for run in planning.control.runs(self.shapes.len()) {
-            elements.par_extend(self.shapes[run?].par_iter().map(&element));
-        }
+        planning.control.extend(&mut elements, self.shapes.len(), |i| element(&self.shapes[i]))?;
         planning.control.go_on()?;
         let around = self.filling.iter().chain(&outside.triangles);
         elements.extend(outside_elements(around, &points, weight));

@@ -72,6 +72,7 @@ impl Continuation {
         control.go_on()?;
         let z = Embedding::of_mesh(mesh, &points);
         let is_taken = self.sheet.is_one_to_one(mesh, &z);
+        control.go_on()?;
         if is_taken {
             (self.embedding, self.settled) = (z, None);
         }

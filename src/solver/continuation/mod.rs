@@ -176,7 +176,6 @@ impl Continuation {
         if !has_jumped && !self.loosen_or_advance(mesh, &settled, &moves, control)? {
             return Err(SolveError::Unmet);
         }
-        control.go_on()?;
         let progress = self.progress(mesh);
         if progress.energy <= CRUSHED * self.sound.1 {
             self.sound = (self.embedding.clone(), self.sound.1.min(progress.energy));
@@ -282,7 +281,9 @@ impl Continuation {
         settled.membrane.descend(&mut z, downhill(SETTLE_STEPS), control)?;
         control.go_on()?;
         let lower = Embedding::of_mesh(mesh, &z);
-        if self.sheet.is_one_to_one(mesh, &lower) {
+        let is_lower_sound = self.sheet.is_one_to_one(mesh, &lower);
+        control.go_on()?;
+        if is_lower_sound {
             self.embedding = lower;
             settled.points = z;
         } else {
