@@ -68,7 +68,7 @@ pub(super) enum Symbolic {
 
 /// A factored matrix. It keeps what it needs of its [`Analysis`], but not the matrix.
 #[derive(Debug)]
-pub struct Factor<T> {
+pub struct Factor<T: Scalar> {
     shared: Arc<Shared>,
     numeric: Numeric<T>,
 }
@@ -86,7 +86,7 @@ struct Ask<'a, T> {
 }
 
 #[derive(Debug)]
-enum Numeric<T> {
+enum Numeric<T: Scalar> {
     Llt(Llt<T>),
     Ldlt(Ldlt<T>),
     Lu(Lu<T>),

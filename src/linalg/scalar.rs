@@ -4,31 +4,78 @@ use num_complex::Complex;
 
 /// A number that a Cholesky factor can be made of.
 pub trait Number: faer::traits::ComplexField + nalgebra::ComplexField<RealField: Copy> + Copy {
+    /// What its real part is: itself where it has no imaginary one.
+    type Part: Number<Part = Self::Part>;
     /// Additive identity.
     const ZERO: Self;
     /// Multiplicative identity.
     const ONE: Self;
+    /// Whether there is an imaginary part.
+    const IS_COMPLEX: bool;
+
+    /// The real and the imaginary part.
+    fn parts(self) -> [Self::Part; 2];
+
+    /// The number with these parts; of a real number the imaginary one is not looked at.
+    fn from_parts(parts: [Self::Part; 2]) -> Self;
+
+    /// The number with this real part alone.
+    fn from_real_part(part: Self::Part) -> Self {
+        Self::from_parts([part, Self::Part::ZERO])
+    }
 }
 
 /// An entry of a matrix: `f64` or `Complex<f64>`.
-pub trait Scalar: Number + faer::traits::ComplexField<Real = f64> + nalgebra::ComplexField<RealField = f64> {
+pub trait Scalar:
+    Number<Part = f64> + faer::traits::ComplexField<Real = f64> + nalgebra::ComplexField<RealField = f64>
+{
     /// The larger of |re| and |im|: within √2 of the modulus, and it neither overflows nor underflows.
     fn size(self) -> f64;
 }
 
 impl Number for f32 {
+    type Part = Self;
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
+    const IS_COMPLEX: bool = false;
+
+    fn parts(self) -> [Self; 2] {
+        [self, 0.0]
+    }
+
+    fn from_parts([real, _]: [Self; 2]) -> Self {
+        real
+    }
 }
 
 impl Number for f64 {
+    type Part = Self;
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
+    const IS_COMPLEX: bool = false;
+
+    fn parts(self) -> [Self; 2] {
+        [self, 0.0]
+    }
+
+    fn from_parts([real, _]: [Self; 2]) -> Self {
+        real
+    }
 }
 
 impl Number for Complex<f64> {
+    type Part = f64;
     const ZERO: Self = Self::new(0.0, 0.0);
     const ONE: Self = Self::new(1.0, 0.0);
+    const IS_COMPLEX: bool = true;
+
+    fn parts(self) -> [f64; 2] {
+        [self.re, self.im]
+    }
+
+    fn from_parts([real, imaginary]: [f64; 2]) -> Self {
+        Self::new(real, imaginary)
+    }
 }
 
 impl Scalar for f64 {

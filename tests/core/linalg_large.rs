@@ -7,16 +7,20 @@ use num_complex::Complex;
 use rayon::ThreadPoolBuilder;
 
 use crate::linalg::bits;
-use crate::linalg_matrices::{Draw, GO_ON, factored, hermitian, laplacian, scale_rows};
+use crate::linalg_matrices::{Draw, GO_ON, dominant, factored, hermitian, laplacian, scale_rows};
 use crate::makers::Random;
 
 /// Side of a grid of 25,600 unknowns: cut in two.
 const SIDE: usize = 160;
 
-/// The pattern of a grid with one diagonal a cell, its vertices renumbered without order.
+/// The number of a grid's vertex: without order.
+fn number(x: usize, y: usize) -> usize {
+    (y * SIDE + x) * 7919 % (SIDE * SIDE)
+}
+
+/// The pattern of a grid with one diagonal a cell, its vertices renumbered.
 fn pattern() -> SparsityPattern {
     let count = SIDE * SIDE;
-    let number = |x: usize, y: usize| (y * SIDE + x) * 7919 % count;
     let mut columns: Vec<Vec<usize>> = (0..count).map(|k| vec![k]).collect();
     for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
         for (u, v) in [(x + 1, y), (x, y + 1), (x + 1, y + 1)].into_iter().filter(|&(u, v)| u < SIDE && v < SIDE) {
@@ -112,4 +116,53 @@ fn a_large_unsymmetric_system_is_solved_alike_on_any_number_of_threads() {
     let mut matrix = laplacian(&pattern(), 0.01, &mut Random(7));
     scale_rows(&mut matrix, |row| 1.0 + (row % 17) as f64);
     known_answers_come_back(Kind::General, &matrix, 1e-8);
+}
+
+/// The same with imaginary parts between the vertices of the grid's first row alone, as the equations of a free boundary
+/// have them.
+fn complex_along_one_side(matrix: &CscMatrix<Complex<f64>>) -> CscMatrix<Complex<f64>> {
+    let mut is_of_side = vec![false; matrix.nrows()];
+    (0..SIDE).for_each(|x| is_of_side[number(x, 0)] = true);
+    let entries: Vec<(usize, usize)> = matrix.pattern().entries().collect();
+    let mut partly = matrix.clone();
+    for (&(column, row), value) in entries.iter().zip(partly.values_mut()) {
+        if !(is_of_side[column] && is_of_side[row]) {
+            value.im = 0.0;
+        }
+    }
+    partly
+}
+
+/// Factors take the memory of complex numbers only where these are, and answers are as good.
+fn only_one_side_takes_the_memory_of_complex_numbers(kind: Kind, whole: &CscMatrix<Complex<f64>>) {
+    let partly = complex_along_one_side(whole);
+    let in_pattern = |values: Vec<f64>| {
+        CscMatrix::try_from_pattern_and_values(whole.pattern().clone(), values).expect("one value an entry")
+    };
+    let real = in_pattern(whole.values().iter().map(|value| value.re).collect());
+    let mut without = whole.clone();
+    without.values_mut().iter_mut().for_each(|value| value.im = 0.0);
+    let of_whole = known_answers_come_back(kind, whole, 1e-12);
+    let of_partly = known_answers_come_back(kind, &partly, 1e-12);
+    let of_real = known_answers_come_back(kind, &real, 1e-12);
+    assert_eq!(of_whole, 2 * of_real);
+    assert_eq!(
+        known_answers_come_back(kind, &without, 1e-12),
+        of_real,
+        "no imaginary part is stored where there is none"
+    );
+    // Of a nested dissection's fronts with a side of 1/2^k of the grid's, that of the side lies in or below one in 2^k.
+    assert!(of_real < of_partly && 4 * of_partly < 3 * of_whole, "{of_real} < {of_partly} < 3/4 of {of_whole} bytes");
+}
+
+#[test]
+fn a_definite_system_that_is_complex_along_one_side_takes_the_memory_of_a_real_one_elsewhere() {
+    let whole = hermitian(&pattern(), 1.0, &mut Random(8));
+    only_one_side_takes_the_memory_of_complex_numbers(Kind::Hermitian, &whole);
+}
+
+#[test]
+fn an_unsymmetric_system_that_is_complex_along_one_side_takes_the_memory_of_a_real_one_elsewhere() {
+    let whole = dominant(&pattern(), &mut Random(9));
+    only_one_side_takes_the_memory_of_complex_numbers(Kind::General, &whole);
 }

@@ -5,9 +5,14 @@ use faer::{MatMut, MatRef};
 use crate::linalg::scalar::Number;
 
 /// Adds numbers to the rows `rows` of a column whose first row is `first`.
-pub(in crate::linalg) fn scatter_add<T: Number>(target: &mut [T], rows: &[u32], first: usize, source: &[T]) {
-    for (&row, &value) in rows.iter().zip(source) {
-        target[row as usize - first] += value;
+pub(in crate::linalg) fn scatter_add<T: Number>(
+    target: &mut [T],
+    rows: &[u32],
+    first: usize,
+    numbers: impl Iterator<Item = T>,
+) {
+    for (&row, number) in rows.iter().zip(numbers) {
+        target[row as usize - first] += number;
     }
 }
 

@@ -9,12 +9,14 @@
 //! |---|---|
 //! | `supernodes.rs` | columns → relaxed supernodes, their order |
 //! | `symbolic.rs` | patterns of the fronts, where every entry goes |
+//! | `places.rs` | which fronts are real, and where their numbers are kept |
 //! | `units.rs` | what runs one after another, what side by side |
 //! | `tree.rs` | the way up the tree, on all threads |
 //! | `substitution.rs` | the way of right-hand sides up the tree and down again |
 //! | `dense.rs` | slices as matrices, and adding rows of one front to another's |
 
 mod dense;
+mod places;
 mod substitution;
 mod supernodes;
 mod symbolic;
@@ -22,8 +24,9 @@ mod tree;
 mod units;
 
 pub(super) use dense::{mat, mat_mut, scatter_add};
+pub(super) use places::{Kept, Numbers, Panel, Places, appended};
 pub(super) use substitution::{
     LARGE_PANEL, Part, Substitution, TOGETHER, dot, split_panel, substitute, subtract_product,
 };
 pub(super) use symbolic::{FrontAnalysis, Shape, Sides, threads_for};
-pub(super) use tree::{Kernel, Tree, Update};
+pub(super) use tree::{Kernel, Room, Tree, Update};

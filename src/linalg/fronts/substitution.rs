@@ -54,6 +54,16 @@ impl<T: Number> Part<'_, T> {
         (mat_mut(self.own, columns, count), mat_mut(self.outer, below, count))
     }
 
+    /// Lets `act` treat real and imaginary parts as right-hand sides of their own: a real front tells them nothing of each
+    /// other.
+    pub(in crate::linalg) fn by_parts(self, act: impl FnOnce(Part<'_, T::Part>)) {
+        let Shape { columns, below } = self.shape;
+        let (mut own, mut outer) = (parted(self.own, columns), parted(self.outer, below));
+        act(Part { shape: self.shape, own: &mut own, outer: &mut outer });
+        joined(&own, columns, self.own);
+        joined(&outer, below, self.outer);
+    }
+
     /// One right-hand side after another.
     pub(in crate::linalg) fn each(&mut self) -> impl Iterator<Item = (&mut [T], &mut [T])> {
         let Shape { columns, below } = self.shape;
@@ -64,6 +74,27 @@ impl<T: Number> Part<'_, T> {
             (own, outer) = (rest, rest_outer);
             Some((first, first_outer))
         })
+    }
+}
+
+/// The real parts of each column of this length, and then its imaginary ones.
+fn parted<T: Number>(columns: &[T], length: usize) -> Vec<T::Part> {
+    let mut parts = Vec::with_capacity(2 * columns.len());
+    for column in columns.chunks_exact(length.max(1)) {
+        parts.extend(column.iter().map(|number| number.parts()[0]));
+        parts.extend(column.iter().map(|number| number.parts()[1]));
+    }
+    parts
+}
+
+/// Puts the parts back together.
+fn joined<T: Number>(parts: &[T::Part], length: usize, columns: &mut [T]) {
+    let length = length.max(1);
+    for (column, parts) in columns.chunks_exact_mut(length).zip(parts.chunks_exact(2 * length)) {
+        let (real, imaginary) = parts.split_at(length);
+        for (number, parts) in column.iter_mut().zip(real.iter().zip(imaginary)) {
+            *number = T::from_parts([*parts.0, *parts.1]);
+        }
     }
 }
 

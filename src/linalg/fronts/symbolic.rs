@@ -88,8 +88,6 @@ pub(in crate::linalg) struct FrontAnalysis {
     pub(in crate::linalg) children: Pattern,
     pub(in crate::linalg) units: Vec<Unit>,
     pub(in crate::linalg) unit_of: Vec<u32>,
-    /// Where the numbers of each supernode begin among those that are kept of its unit.
-    starts: Vec<usize>,
 }
 
 impl FrontAnalysis {
@@ -118,7 +116,6 @@ impl FrontAnalysis {
             children,
             units: Vec::new(),
             unit_of: Vec::new(),
-            starts: Vec::new(),
         };
         // Places inside a front are counted in 32 bits: fronts up to order 65,535.
         let too_large = |s| u32::try_from(this.shape(s).height().pow(2)).is_err();
@@ -129,7 +126,6 @@ impl FrontAnalysis {
         this.place_entries(pattern, cancel)?;
         let work: Vec<f64> = (0..this.count()).map(|s| this.shape(s).work()).collect();
         (this.units, this.unit_of) = units(&this.parent, &work);
-        this.starts = this.starts();
         Ok(this)
     }
 
@@ -154,24 +150,6 @@ impl FrontAnalysis {
             Sides::Lower => shape.left_len(),
             Sides::Both => shape.left_len() + shape.columns * shape.below,
         }
-    }
-
-    /// The place of a supernode's numbers among those that are kept of its unit.
-    pub(in crate::linalg) fn kept_range(&self, supernode: usize) -> std::ops::Range<usize> {
-        let start = self.starts[supernode];
-        start..start + self.kept_len(supernode)
-    }
-
-    fn starts(&self) -> Vec<usize> {
-        let mut starts = Vec::with_capacity(self.count());
-        for unit in &self.units {
-            let mut start = 0;
-            for supernode in unit.range.clone() {
-                starts.push(start);
-                start += self.kept_len(supernode);
-            }
-        }
-        starts
     }
 
     /// The same rows as positions in the parent's front.

@@ -5,36 +5,46 @@ use std::sync::{Mutex, OnceLock};
 
 use rayon::Scope;
 
+use super::places::{Numbers, Places};
 use super::symbolic::FrontAnalysis;
 use crate::linalg::LinalgError;
 use crate::linalg::order::{NONE, narrow};
 use crate::linalg::scalar::Number;
 
 /// What is done at each front.
-pub(in crate::linalg) trait Kernel<T>: Sync {
+pub(in crate::linalg) trait Kernel<T: Number>: Sync {
     /// What is kept of a unit's fronts.
     type Kept: Send + Sync;
 
-    /// Makes room for what is kept of a unit: so many numbers and columns.
-    fn room(&self, unit: usize, numbers: usize, columns: usize) -> Self::Kept;
+    /// Makes room for what is kept of a unit.
+    fn room(&self, unit: usize, room: Room) -> Self::Kept;
 
     /// Assembles a front from its entries and its children's updates, eliminates its columns, and leaves the Schur
-    /// complement in `update`, which is all zero.
+    /// complement in `update`, which is all zero, and real where the front is.
     fn eliminate(
         &self,
         supernode: usize,
         children: &[Update<T>],
         kept: &mut Self::Kept,
-        update: &mut [T],
+        update: &mut Numbers<T>,
     ) -> Result<(), LinalgError>;
 }
 
+/// How much is kept of a unit.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::linalg) struct Room {
+    /// Whole numbers, and real parts.
+    pub(in crate::linalg) numbers: [usize; 2],
+    pub(in crate::linalg) columns: usize,
+}
+
 /// A supernode's update on its way to the parent.
-pub(in crate::linalg) type Update<T> = (u32, Vec<T>);
+pub(in crate::linalg) type Update<T> = (u32, Numbers<T>);
 
 /// What the threads of one factorization share.
-pub(in crate::linalg) struct Tree<'a, T, K: Kernel<T>> {
+pub(in crate::linalg) struct Tree<'a, T: Number, K: Kernel<T>> {
     analysis: &'a FrontAnalysis,
+    places: &'a Places,
     kernel: &'a K,
     cancel: &'a AtomicBool,
     done: Vec<OnceLock<K::Kept>>,
@@ -44,6 +54,7 @@ pub(in crate::linalg) struct Tree<'a, T, K: Kernel<T>> {
     failed: Mutex<Option<(usize, LinalgError)>>,
     memory: Memory,
     spare: Spare<T>,
+    spare_real: Spare<T::Part>,
 }
 
 /// Memory of updates that have arrived, for others: asking the system for large pieces again and again costs more than to
@@ -73,10 +84,12 @@ impl<T: Number> Spare<T> {
         Some(pieces.swap_remove(at))
     }
 
-    fn give(&self, pieces: Vec<Update<T>>) {
-        let large = pieces.into_iter().map(|(_, piece)| piece).filter(|piece| piece.capacity() >= LARGE_UPDATE);
+    fn give(&self, piece: Vec<T>) {
+        if piece.capacity() < LARGE_UPDATE {
+            return;
+        }
         let mut spare = self.0.lock().expect("no task panics while it holds this");
-        spare.extend(large);
+        spare.push(piece);
         spare.sort_unstable_by_key(|piece| std::cmp::Reverse(piece.capacity()));
         spare.truncate(MOST_SPARE);
     }
@@ -107,11 +120,13 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
     /// cannot eliminate.
     pub(in crate::linalg) fn run(
         analysis: &'a FrontAnalysis,
+        places: &'a Places,
         kernel: &'a K,
         cancel: &'a AtomicBool,
     ) -> Result<(Vec<K::Kept>, usize), LinalgError> {
         let tree = Self {
             analysis,
+            places,
             kernel,
             cancel,
             done: analysis.units.iter().map(|_| OnceLock::new()).collect(),
@@ -120,6 +135,7 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
             failed: Mutex::default(),
             memory: Memory::default(),
             spare: Spare(Mutex::default()),
+            spare_real: Spare(Mutex::default()),
         };
         rayon::scope(|scope| {
             // A thread takes its newest task first, so the last spawned here is the first unit in postorder.
@@ -139,13 +155,13 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
     fn run_unit<'scope>(&'scope self, unit: usize, scope: &Scope<'scope>) {
         let analysis = self.analysis;
         let range = analysis.units[unit].range.clone();
-        let numbers: usize = range.clone().map(|s| analysis.kept_len(s)).sum();
-        let columns = analysis.begin[range.end] - analysis.begin[range.start];
-        self.memory.take(numbers * size_of::<T>());
-        let mut kept = self.kernel.room(unit, numbers, columns as usize);
+        let numbers = self.places.room(analysis, range.clone());
+        let columns = (analysis.begin[range.end] - analysis.begin[range.start]) as usize;
+        self.memory.take(numbers[0] * size_of::<T>() + numbers[1] * size_of::<T::Part>());
+        let mut kept = self.kernel.room(unit, Room { numbers, columns });
         let mut arrived = std::mem::take(&mut *self.inboxes[unit].lock().expect("no task panics while it holds this"));
         arrived.sort_unstable_by_key(|&(child, _)| child);
-        let mut waiting: Vec<Option<Vec<T>>> = range.clone().map(|_| None).collect();
+        let mut waiting: Vec<Option<Numbers<T>>> = range.clone().map(|_| None).collect();
         for supernode in range.clone() {
             if self.cancel.load(Ordering::Relaxed) || self.has_failed_before(supernode) {
                 return;
@@ -153,21 +169,31 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
             let children = analysis.children.column(supernode).iter().map(|&child| {
                 let update = if (child as usize) < range.start {
                     let place = arrived.binary_search_by_key(&child, |&(child, _)| child);
-                    place.ok().map(|place| std::mem::take(&mut arrived[place].1))
+                    place.ok().map(|place| std::mem::replace(&mut arrived[place].1, Numbers::Whole(Vec::new())))
                 } else {
                     waiting[child as usize - range.start].take()
                 };
                 (child, update.expect("children come before their parent"))
             });
             let children: Vec<Update<T>> = children.collect();
-            let mut update = self.spare.zeros(analysis.shape(supernode).update_len());
-            self.memory.take(size_of_val(update.as_slice()));
+            let length = analysis.shape(supernode).update_len();
+            let mut update = if self.places.is_real(supernode) {
+                Numbers::Real(self.spare_real.zeros(length))
+            } else {
+                Numbers::Whole(self.spare.zeros(length))
+            };
+            self.memory.take(update.bytes());
             if let Err(error) = self.kernel.eliminate(supernode, &children, &mut kept, &mut update) {
                 self.fail(supernode, error);
                 return;
             }
-            self.memory.give_back(children.iter().map(|(_, update)| size_of_val(update.as_slice())).sum());
-            self.spare.give(children);
+            self.memory.give_back(children.iter().map(|(_, update)| update.bytes()).sum());
+            for (_, update) in children {
+                match update {
+                    Numbers::Whole(update) => self.spare.give(update),
+                    Numbers::Real(update) => self.spare_real.give(update),
+                }
+            }
             match analysis.parent[supernode] {
                 NONE => {}
                 parent if (parent as usize) < range.end => waiting[supernode - range.start] = Some(update),
@@ -194,7 +220,7 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
     }
 
     /// Hands an update to another unit, and starts that unit if this was the last it waited for.
-    fn send<'scope>(&'scope self, supernode: usize, parent: u32, update: Vec<T>, scope: &Scope<'scope>) {
+    fn send<'scope>(&'scope self, supernode: usize, parent: u32, update: Numbers<T>, scope: &Scope<'scope>) {
         let unit = self.analysis.unit_of[parent as usize] as usize;
         self.inboxes[unit].lock().expect("no task panics while it holds this").push((narrow(supernode), update));
         if self.awaited[unit].fetch_sub(1, Ordering::AcqRel) == 1 {

@@ -4,25 +4,26 @@ use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
 use super::front::Front;
-use crate::linalg::fronts::{FrontAnalysis, Kernel, Tree, Update};
+use crate::linalg::fronts::{FrontAnalysis, Kept, Kernel, Numbers, Places, Room, Tree, Update, appended};
 use crate::linalg::scalar::Number;
 use crate::linalg::{FactorStats, LinalgError};
 
 /// The L panels of every unit's supernodes, and the sign that made the matrix positive.
 #[derive(Debug)]
-pub(crate) struct Llt<T> {
-    pub(super) units: Vec<Vec<T>>,
+pub(crate) struct Llt<T: Number> {
+    pub(super) units: Vec<Kept<T>>,
+    pub(super) places: Places,
     pub(super) sign: T,
     peak_bytes: usize,
 }
 
 /// What the threads of one factorization share.
-struct Job<'a, T, V> {
+struct Job<'a, T: Number, V> {
     analysis: &'a FrontAnalysis,
     /// An entry by its place among the matrix's values, and its column.
     value: &'a V,
     /// Memory of an earlier factor's units.
-    spare: Vec<Mutex<Vec<T>>>,
+    spare: Vec<Mutex<Kept<T>>>,
     cancel: &'a AtomicBool,
 }
 
@@ -33,11 +34,14 @@ impl<T: Number> Llt<T> {
         let is_negative = values.first().is_some_and(|value| value.real() < T::ZERO.real());
         let sign = if is_negative { -T::ONE } else { T::ONE };
         let value = |source: usize, _: usize| values[source].scale(sign.real());
-        Ok(Self { sign, ..Self::of(analysis, &value, None, cancel)? })
+        let places = Places::new(analysis, |source| values[source]);
+        let factor = Job { analysis, value: &value, spare: Vec::new(), cancel }.run(places)?;
+        Ok(Self { sign, ..factor })
     }
 
-    /// Factors a positive matrix whose entries `value` gives by their places in the analysed pattern, and their columns; in
-    /// the memory of an earlier factor, where there is one: new memory costs a good part of the time of a factorization.
+    /// Factors a positive matrix of real numbers, whose entries `value` gives by their places in the analysed pattern, and
+    /// their columns; in the memory of an earlier factor, where there is one: new memory costs a good part of the time of a
+    /// factorization.
     pub(crate) fn of(
         analysis: &FrontAnalysis,
         value: &(impl Fn(usize, usize) -> T + Sync),
@@ -45,44 +49,34 @@ impl<T: Number> Llt<T> {
         cancel: &AtomicBool,
     ) -> Result<Self, LinalgError> {
         let spare = earlier.into_iter().flat_map(|earlier| earlier.units).map(Mutex::new).collect();
-        let (units, peak_bytes) = Tree::run(analysis, &Job { analysis, value, spare, cancel }, cancel)?;
-        Ok(Self { units, sign: T::ONE, peak_bytes })
+        Job { analysis, value, spare, cancel }.run(Places::whole(analysis))
     }
 }
 
-impl<T: Number, V: Fn(usize, usize) -> T + Sync> Kernel<T> for Job<'_, T, V> {
-    type Kept = Vec<T>;
-
-    fn room(&self, unit: usize, numbers: usize, _: usize) -> Vec<T> {
-        let spare = self.spare.get(unit).map(|spare| spare.lock().expect("no task panics while it holds this"));
-        let mut room = spare.map_or_else(Vec::new, |mut spare| std::mem::take(&mut *spare));
-        room.clear();
-        room.reserve_exact(numbers);
-        room
+impl<T: Number, V: Fn(usize, usize) -> T + Sync> Job<'_, T, V> {
+    fn run(self, places: Places) -> Result<Llt<T>, LinalgError> {
+        let (units, peak_bytes) = Tree::run(self.analysis, &places, &self, self.cancel)?;
+        Ok(Llt { units, places, sign: T::ONE, peak_bytes })
     }
 
-    fn eliminate(
+    /// Assembles and eliminates a front of whole numbers or real parts, into its kept numbers and its update.
+    fn eliminate_in<N: Number>(
         &self,
         supernode: usize,
-        children: &[Update<T>],
-        factor: &mut Vec<T>,
-        update: &mut [T],
+        (left, update): (&mut [N], &mut [N]),
+        number: impl Fn(T) -> N,
+        add_children: impl FnOnce(&mut Front<'_, N>),
     ) -> Result<(), LinalgError> {
         let analysis = self.analysis;
         let shape = analysis.shape(supernode);
-        let start = factor.len();
-        factor.resize(start + analysis.kept_len(supernode), T::ZERO);
-        let left = &mut factor[start..];
         let begin = analysis.begin[supernode] as usize;
         let columns = &analysis.order.new_to_old[begin..begin + shape.columns];
         for entry in analysis.entries(supernode) {
             let (source, target) = (entry.source as usize, entry.target as usize);
-            left[target] = (self.value)(source, columns[target / shape.height()] as usize);
+            left[target] = number((self.value)(source, columns[target / shape.height()] as usize));
         }
         let mut front = Front { shape, left, update };
-        for (child, childs_update) in children {
-            front.extend_add(childs_update, analysis.relative(*child as usize));
-        }
+        add_children(&mut front);
         front.eliminate(shape.threads(), self.cancel).map_err(|error| match error {
             LinalgError::NotPositiveDefinite { row } => LinalgError::NotPositiveDefinite { row: columns[row] as usize },
             other => other,
@@ -90,9 +84,64 @@ impl<T: Number, V: Fn(usize, usize) -> T + Sync> Kernel<T> for Job<'_, T, V> {
     }
 }
 
-impl<T> Llt<T> {
+impl<T: Number, V: Fn(usize, usize) -> T + Sync> Kernel<T> for Job<'_, T, V> {
+    type Kept = Kept<T>;
+
+    fn room(&self, unit: usize, room: Room) -> Kept<T> {
+        let Some(spare) = self.spare.get(unit) else { return Kept::with_room(room.numbers) };
+        let mut spare = spare.lock().expect("no task panics while it holds this");
+        let mut kept = std::mem::take(&mut *spare);
+        kept.whole.clear();
+        kept.whole.reserve_exact(room.numbers[0]);
+        kept
+    }
+
+    fn eliminate(
+        &self,
+        supernode: usize,
+        children: &[Update<T>],
+        kept: &mut Kept<T>,
+        update: &mut Numbers<T>,
+    ) -> Result<(), LinalgError> {
+        let length = self.analysis.kept_len(supernode);
+        let relative = |child: &u32| self.analysis.relative(*child as usize);
+        match update {
+            Numbers::Whole(update) => {
+                let left = appended(&mut kept.whole, length);
+                self.eliminate_in(
+                    supernode,
+                    (left, update),
+                    |whole| whole,
+                    |front| {
+                        for (child, update) in children {
+                            match update {
+                                Numbers::Whole(update) => front.extend_add(update, relative(child), |whole| whole),
+                                Numbers::Real(update) => front.extend_add(update, relative(child), T::from_real_part),
+                            }
+                        }
+                    },
+                )
+            }
+            Numbers::Real(update) => {
+                let left = appended(&mut kept.real, length);
+                self.eliminate_in(
+                    supernode,
+                    (left, update),
+                    |whole| whole.parts()[0],
+                    |front| {
+                        for (child, update) in children {
+                            front.extend_add(update.real(), relative(child), |real| real);
+                        }
+                    },
+                )
+            }
+        }
+    }
+}
+
+impl<T: Number> Llt<T> {
     pub(crate) fn stats(&self) -> FactorStats {
-        let factor_bytes = self.units.iter().map(|unit| size_of_val(unit.as_slice())).sum();
+        let factor_bytes = self.units.iter().map(Kept::bytes).sum();
         FactorStats { replaced_pivots: 0, factor_bytes, peak_bytes: self.peak_bytes }
     }
 }

@@ -25,15 +25,16 @@ pub(super) struct Front<'a, T> {
 }
 
 impl<T: Number> Front<'_, T> {
-    /// Adds a child's update; `relative` are its rows in this front, ascending.
-    pub(super) fn extend_add(&mut self, update: &[T], relative: &[u32]) {
+    /// Adds a child's update of such numbers; `relative` are its rows in this front, ascending.
+    pub(super) fn extend_add<S: Copy>(&mut self, update: &[S], relative: &[u32], number: impl Fn(S) -> T + Copy) {
         let Shape { columns, below } = self.shape;
         let height = self.shape.height();
         if relative.is_empty() {
             return;
         }
         for (k, (source, &column)) in update.chunks_exact(relative.len()).zip(relative).enumerate() {
-            let (column, source, rows) = (column as usize, &source[k..], &relative[k..]);
+            let (column, rows) = (column as usize, &relative[k..]);
+            let source = source[k..].iter().copied().map(number);
             if column < columns {
                 scatter_add(&mut self.left[column * height..][..height], rows, 0, source);
             } else {

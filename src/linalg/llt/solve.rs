@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::factor::Llt;
 use crate::linalg::LinalgError;
 use crate::linalg::fronts::{
-    FrontAnalysis, LARGE_PANEL, Part, Substitution, TOGETHER, split_panel, substitute, subtract_product,
+    FrontAnalysis, LARGE_PANEL, Panel, Part, Substitution, TOGETHER, split_panel, substitute, subtract_product,
 };
 use crate::linalg::order::go_on_unless;
 use crate::linalg::scalar::Number;
@@ -55,59 +55,72 @@ impl<T: Number> Llt<T> {
 }
 
 /// The L panels of all fronts.
-struct Panels<'a, T> {
+struct Panels<'a, T: Number> {
     analysis: &'a FrontAnalysis,
     factor: &'a Llt<T>,
 }
 
-impl<T> Panels<'_, T> {
-    fn left(&self, supernode: usize) -> &[T] {
+impl<T: Number> Panels<'_, T> {
+    fn left(&self, supernode: usize) -> Panel<'_, T> {
         let unit = self.analysis.unit_of[supernode] as usize;
-        &self.factor.units[unit][self.analysis.kept_range(supernode)]
+        self.factor.places.panel(self.analysis, supernode, &self.factor.units[unit])
     }
 }
 
 impl<T: Number> Substitution<T> for Panels<'_, T> {
-    /// L y = b.
-    fn up(&self, supernode: usize, mut part: Part<'_, T>) {
-        let (left, shape) = (self.left(supernode), part.shape);
-        if left.len() >= LARGE_PANEL {
-            let (diagonal, lower) = split_panel(left, shape);
-            let (mut own, outer) = part.matrices();
-            solve_lower_triangular_in_place(diagonal, own.as_mut(), Par::Seq);
-            subtract_product(outer, lower, own.as_ref());
-            return;
-        }
-        for (own, outer) in part.each() {
-            for (k, column) in left.chunks_exact(shape.height()).enumerate() {
-                let value = own[k].unscale(column[k].real());
-                own[k] = value;
-                let (diagonal, below) = column.split_at(shape.columns);
-                own[k + 1..].iter_mut().zip(&diagonal[k + 1..]).for_each(|(x, &l)| *x -= l * value);
-                outer.iter_mut().zip(below).for_each(|(x, &l)| *x -= l * value);
-            }
+    fn up(&self, supernode: usize, part: Part<'_, T>) {
+        match self.left(supernode) {
+            Panel::Whole(left) => forward(left, part),
+            Panel::Real(left) => part.by_parts(|part| forward(left, part)),
         }
     }
 
-    /// Lᴴ x = y.
-    fn down(&self, supernode: usize, mut part: Part<'_, T>) {
-        let (left, shape) = (self.left(supernode), part.shape);
-        if left.len() >= LARGE_PANEL {
-            let (diagonal, lower) = split_panel(left, shape);
-            let (mut own, outer) = part.matrices();
-            subtract_product(own.as_mut(), lower.adjoint(), outer.as_ref());
-            solve_upper_triangular_in_place(diagonal.adjoint(), own, Par::Seq);
-            return;
+    fn down(&self, supernode: usize, part: Part<'_, T>) {
+        match self.left(supernode) {
+            Panel::Whole(left) => backward(left, part),
+            Panel::Real(left) => part.by_parts(|part| backward(left, part)),
         }
-        for (own, outer) in part.each() {
-            for (k, column) in left.chunks_exact(shape.height()).enumerate().rev() {
-                let (diagonal, below) = column.split_at(shape.columns);
-                let inside = own[k + 1..].iter().zip(&diagonal[k + 1..]);
-                let inside = inside.fold(T::ZERO, |sum, (&x, &l)| sum + l.conjugate() * x);
-                let outside = outer.iter().zip(below);
-                let sum = outside.fold(inside, |sum, (&x, &l)| sum + l.conjugate() * x);
-                own[k] = (own[k] - sum).unscale(column[k].real());
-            }
+    }
+}
+
+/// L y = b.
+fn forward<T: Number>(left: &[T], mut part: Part<'_, T>) {
+    let shape = part.shape;
+    if left.len() >= LARGE_PANEL {
+        let (diagonal, lower) = split_panel(left, shape);
+        let (mut own, outer) = part.matrices();
+        solve_lower_triangular_in_place(diagonal, own.as_mut(), Par::Seq);
+        subtract_product(outer, lower, own.as_ref());
+        return;
+    }
+    for (own, outer) in part.each() {
+        for (k, column) in left.chunks_exact(shape.height()).enumerate() {
+            let value = own[k].unscale(column[k].real());
+            own[k] = value;
+            let (diagonal, below) = column.split_at(shape.columns);
+            own[k + 1..].iter_mut().zip(&diagonal[k + 1..]).for_each(|(x, &l)| *x -= l * value);
+            outer.iter_mut().zip(below).for_each(|(x, &l)| *x -= l * value);
+        }
+    }
+}
+
+/// Lᴴ x = y.
+fn backward<T: Number>(left: &[T], mut part: Part<'_, T>) {
+    let shape = part.shape;
+    if left.len() >= LARGE_PANEL {
+        let (diagonal, lower) = split_panel(left, shape);
+        let (mut own, outer) = part.matrices();
+        subtract_product(own.as_mut(), lower.adjoint(), outer.as_ref());
+        solve_upper_triangular_in_place(diagonal.adjoint(), own, Par::Seq);
+        return;
+    }
+    for (own, outer) in part.each() {
+        for (k, column) in left.chunks_exact(shape.height()).enumerate().rev() {
+            let inside = own[k + 1..].iter().zip(&column[k + 1..shape.columns]);
+            let inside = inside.fold(T::ZERO, |sum, (&x, &l)| sum + l.conjugate() * x);
+            let outside = outer.iter().zip(&column[shape.columns..]);
+            let sum = outside.fold(inside, |sum, (&x, &l)| sum + l.conjugate() * x);
+            own[k] = (own[k] - sum).unscale(column[k].real());
         }
     }
 }

@@ -6,9 +6,9 @@ use nalgebra_sparse::CscMatrix;
 
 use super::front::Front;
 use super::pivot::Pivots;
-use crate::linalg::fronts::{FrontAnalysis, Kernel, Tree, Update};
+use crate::linalg::fronts::{FrontAnalysis, Kept, Kernel, Numbers, Places, Room, Tree, Update, appended};
 use crate::linalg::order::{Pattern, go_on_unless, narrow};
-use crate::linalg::scalar::Scalar;
+use crate::linalg::scalar::{Number, Scalar};
 use crate::linalg::sparse::power_of_two_near;
 use crate::linalg::{FactorStats, LinalgError};
 
@@ -16,8 +16,9 @@ use crate::linalg::{FactorStats, LinalgError};
 const TINY_PIVOT: f64 = 1.490_116_119_384_765_6e-8;
 
 #[derive(Debug)]
-pub(crate) struct Lu<T> {
+pub(crate) struct Lu<T: Number> {
     pub(super) units: Vec<UnitFactor<T>>,
+    pub(super) places: Places,
     /// 1/R, by the caller's rows.
     pub(crate) row_scale: Vec<f64>,
     /// The caller's rows whose pivot was replaced, in the order of elimination.
@@ -26,9 +27,9 @@ pub(crate) struct Lu<T> {
 }
 
 /// The blocks of a unit's supernodes, one after another, and the row swaps inside each.
-#[derive(Debug, Default)]
-pub(super) struct UnitFactor<T> {
-    pub(super) values: Vec<T>,
+#[derive(Debug)]
+pub(super) struct UnitFactor<T: Number> {
+    pub(super) values: Kept<T>,
     pub(super) swaps: Vec<u32>,
     replaced: Vec<u32>,
 }
@@ -55,18 +56,20 @@ impl<T: Scalar> Lu<T> {
         go_on_unless(cancel)?;
         let values = matrix.values();
         let job = Job { analysis, pattern, values, row_scale: &row_scale, thresholds: &thresholds, cancel };
-        let (units, peak_bytes) = Tree::run(analysis, &job, cancel)?;
+        let places = Places::new(analysis, |source| values[source]);
+        let (units, peak_bytes) = Tree::run(analysis, &places, &job, cancel)?;
         let replaced = units.iter().flat_map(|unit| &unit.replaced);
         let replaced_rows = replaced.map(|&row| analysis.order.new_to_old[row as usize]).collect();
-        Ok(Self { units, row_scale, replaced_rows, peak_bytes })
+        Ok(Self { units, places, row_scale, replaced_rows, peak_bytes })
     }
 }
 
 impl<T: Scalar> Kernel<T> for Job<'_, T> {
     type Kept = UnitFactor<T>;
 
-    fn room(&self, _: usize, numbers: usize, columns: usize) -> UnitFactor<T> {
-        UnitFactor { values: Vec::with_capacity(numbers), swaps: Vec::with_capacity(columns), replaced: Vec::new() }
+    fn room(&self, _: usize, room: Room) -> UnitFactor<T> {
+        let values = Kept::with_room(room.numbers);
+        UnitFactor { values, swaps: Vec::with_capacity(room.columns), replaced: Vec::new() }
     }
 
     fn eliminate(
@@ -74,39 +77,88 @@ impl<T: Scalar> Kernel<T> for Job<'_, T> {
         supernode: usize,
         children: &[Update<T>],
         factor: &mut UnitFactor<T>,
-        update: &mut [T],
+        update: &mut Numbers<T>,
     ) -> Result<(), LinalgError> {
         let analysis = self.analysis;
-        let shape = analysis.shape(supernode);
-        let start = factor.values.len();
-        factor.values.resize(start + analysis.kept_len(supernode), T::ZERO);
-        let block = &mut factor.values[start..];
-        for entry in analysis.entries(supernode) {
-            let source = entry.source as usize;
-            let scale = self.row_scale[self.pattern.rows[source] as usize];
-            block[entry.target as usize] = self.values[source].scale(scale);
-        }
-        let (left, right) = block.split_at_mut(shape.left_len());
-        let mut front = Front { shape, left, right, update };
-        for (child, childs_update) in children {
-            front.extend_add(childs_update, analysis.relative(*child as usize));
-        }
-        let begin = analysis.begin[supernode] as usize;
-        let rows = &analysis.order.new_to_old[begin..begin + shape.columns];
-        let mut thresholds: Vec<f64> = rows.iter().map(|&row| self.thresholds[row as usize]).collect();
+        let length = analysis.kept_len(supernode);
         let first = factor.swaps.len();
-        factor.swaps.resize(first + shape.columns, 0);
+        factor.swaps.resize(first + analysis.shape(supernode).columns, 0);
         let swaps = &mut factor.swaps[first..];
-        let mut pivots = Pivots { thresholds: &mut thresholds, swaps, replaced: Vec::new() };
-        front.eliminate(&mut pivots, shape.threads(), self.cancel)?;
-        factor.replaced.extend(pivots.replaced.iter().map(|&k| analysis.begin[supernode] + narrow(k)));
+        let relative = |child: &u32| analysis.relative(*child as usize);
+        let replaced = match update {
+            Numbers::Whole(update) => {
+                let block = appended(&mut factor.values.whole, length);
+                self.eliminate_in(
+                    supernode,
+                    Memory { block, update, swaps },
+                    |whole| whole,
+                    |front| {
+                        for (child, update) in children {
+                            match update {
+                                Numbers::Whole(update) => front.extend_add(update, relative(child), |whole| whole),
+                                Numbers::Real(update) => front.extend_add(update, relative(child), T::from_real_part),
+                            }
+                        }
+                    },
+                )
+            }
+            Numbers::Real(update) => {
+                let block = appended(&mut factor.values.real, length);
+                self.eliminate_in(
+                    supernode,
+                    Memory { block, update, swaps },
+                    |whole| whole.parts()[0],
+                    |front| {
+                        for (child, update) in children {
+                            front.extend_add(update.real(), relative(child), |real| real);
+                        }
+                    },
+                )
+            }
+        };
+        factor.replaced.extend(replaced?.iter().map(|&k| analysis.begin[supernode] + narrow(k)));
         Ok(())
     }
 }
 
-impl<T> Lu<T> {
+/// What a front is written to.
+struct Memory<'a, N> {
+    block: &'a mut [N],
+    update: &'a mut [N],
+    swaps: &'a mut [u32],
+}
+
+impl<T: Scalar> Job<'_, T> {
+    /// Assembles and eliminates a front of whole numbers or real parts. Returns the columns whose pivots were replaced.
+    fn eliminate_in<N: Scalar>(
+        &self,
+        supernode: usize,
+        Memory { block, update, swaps }: Memory<'_, N>,
+        number: impl Fn(T) -> N,
+        add_children: impl FnOnce(&mut Front<'_, N>),
+    ) -> Result<Vec<usize>, LinalgError> {
+        let analysis = self.analysis;
+        let shape = analysis.shape(supernode);
+        for entry in analysis.entries(supernode) {
+            let source = entry.source as usize;
+            let scale = self.row_scale[self.pattern.rows[source] as usize];
+            block[entry.target as usize] = number(self.values[source].scale(scale));
+        }
+        let (left, right) = block.split_at_mut(shape.left_len());
+        let mut front = Front { shape, left, right, update };
+        add_children(&mut front);
+        let begin = analysis.begin[supernode] as usize;
+        let rows = &analysis.order.new_to_old[begin..begin + shape.columns];
+        let mut thresholds: Vec<f64> = rows.iter().map(|&row| self.thresholds[row as usize]).collect();
+        let mut pivots = Pivots { thresholds: &mut thresholds, swaps, replaced: Vec::new() };
+        front.eliminate(&mut pivots, shape.threads(), self.cancel)?;
+        Ok(pivots.replaced)
+    }
+}
+
+impl<T: Number> Lu<T> {
     pub(crate) fn stats(&self) -> FactorStats {
-        let factor_bytes = self.units.iter().map(|unit| size_of_val(unit.values.as_slice())).sum();
+        let factor_bytes = self.units.iter().map(|unit| unit.values.bytes()).sum();
         FactorStats { replaced_pivots: self.replaced_rows.len(), factor_bytes, peak_bytes: self.peak_bytes }
     }
 }

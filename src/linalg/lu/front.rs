@@ -22,8 +22,8 @@ pub(super) struct Front<'a, T> {
 }
 
 impl<T: Scalar> Front<'_, T> {
-    /// Adds a child's update; `relative` are its rows in this front, ascending.
-    pub(super) fn extend_add(&mut self, update: &[T], relative: &[u32]) {
+    /// Adds a child's update of such numbers; `relative` are its rows in this front, ascending.
+    pub(super) fn extend_add<S: Copy>(&mut self, update: &[S], relative: &[u32], number: impl Fn(S) -> T + Copy) {
         let Shape { columns, below } = self.shape;
         let height = self.shape.height();
         if relative.is_empty() {
@@ -34,10 +34,16 @@ impl<T: Scalar> Front<'_, T> {
         for (source, &column) in update.chunks_exact(relative.len()).zip(relative) {
             let column = column as usize;
             if column < columns {
-                scatter_add(&mut self.left[column * height..][..height], relative, 0, source);
+                scatter_add(
+                    &mut self.left[column * height..][..height],
+                    relative,
+                    0,
+                    source.iter().copied().map(number),
+                );
             } else {
                 let column = column - columns;
                 let (upper, lower) = source.split_at(inside);
+                let [upper, lower] = [upper, lower].map(|some| some.iter().copied().map(number));
                 scatter_add(&mut self.right[column * columns..][..columns], upper_rows, 0, upper);
                 scatter_add(&mut self.update[column * below..][..below], lower_rows, columns, lower);
             }

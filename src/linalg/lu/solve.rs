@@ -15,7 +15,8 @@ use rayon::prelude::*;
 use super::factor::Lu;
 use crate::linalg::LinalgError;
 use crate::linalg::fronts::{
-    FrontAnalysis, LARGE_PANEL, Part, Substitution, TOGETHER, dot, mat, split_panel, substitute, subtract_product,
+    FrontAnalysis, LARGE_PANEL, Panel, Part, Shape, Substitution, TOGETHER, dot, mat, split_panel, substitute,
+    subtract_product,
 };
 use crate::linalg::order::go_on_unless;
 use crate::linalg::scalar::Scalar;
@@ -89,47 +90,77 @@ impl<T: Scalar> Lu<T> {
 }
 
 /// The blocks of all fronts.
-struct Blocks<'a, T> {
+struct Blocks<'a, T: Scalar> {
     analysis: &'a FrontAnalysis,
     factor: &'a Lu<T>,
 }
 
 /// L U x = b.
-struct Plain<'a, T>(Blocks<'a, T>);
+struct Plain<'a, T: Scalar>(Blocks<'a, T>);
 
 /// Uᵀ Lᵀ x = b.
-struct Transposed<'a, T>(Blocks<'a, T>);
+struct Transposed<'a, T: Scalar>(Blocks<'a, T>);
 
 impl<T: Scalar> Blocks<'_, T> {
-    fn block(&self, supernode: usize) -> Block<'_, T> {
-        let analysis = self.analysis;
+    /// Lets a front's block act on its part of the right-hand sides, as whole numbers or by parts.
+    fn act(&self, act: Act, supernode: usize, part: Part<'_, T>) {
+        let (analysis, shape) = (self.analysis, part.shape);
         let unit = analysis.unit_of[supernode] as usize;
-        let (factor, shape) = (&self.factor.units[unit], analysis.shape(supernode));
-        let (left, right) = factor.values[analysis.kept_range(supernode)].split_at(shape.left_len());
-        let first = analysis.begin[supernode] - analysis.begin[analysis.units[unit].range.start];
-        Block { left, right, swaps: &factor.swaps[first as usize..][..shape.columns] }
+        let factor = &self.factor.units[unit];
+        let first = (analysis.begin[supernode] - analysis.begin[analysis.units[unit].range.start]) as usize;
+        let swaps = &factor.swaps[first..][..shape.columns];
+        match self.factor.places.panel(analysis, supernode, &factor.values) {
+            Panel::Whole(numbers) => Block::new(numbers, shape, swaps).act(act, part),
+            Panel::Real(numbers) => part.by_parts(|part| Block::new(numbers, shape, swaps).act(act, part)),
+        }
     }
+}
+
+/// What a block does to right-hand sides.
+#[derive(Clone, Copy)]
+enum Act {
+    Forward,
+    Backward,
+    ForwardTranspose,
+    BackwardTranspose,
 }
 
 impl<T: Scalar> Substitution<T> for Plain<'_, T> {
     fn up(&self, supernode: usize, part: Part<'_, T>) {
-        self.0.block(supernode).forward(part);
+        self.0.act(Act::Forward, supernode, part);
     }
     fn down(&self, supernode: usize, part: Part<'_, T>) {
-        self.0.block(supernode).backward(part);
+        self.0.act(Act::Backward, supernode, part);
     }
 }
 
 impl<T: Scalar> Substitution<T> for Transposed<'_, T> {
     fn up(&self, supernode: usize, part: Part<'_, T>) {
-        self.0.block(supernode).forward_transpose(part);
+        self.0.act(Act::ForwardTranspose, supernode, part);
     }
     fn down(&self, supernode: usize, part: Part<'_, T>) {
-        self.0.block(supernode).backward_transpose(part);
+        self.0.act(Act::BackwardTranspose, supernode, part);
+    }
+}
+
+impl<'a, T> Block<'a, T> {
+    /// Of numbers that are those of the L panel and then those of the U panel.
+    fn new(numbers: &'a [T], shape: Shape, swaps: &'a [u32]) -> Self {
+        let (left, right) = numbers.split_at(shape.left_len());
+        Self { left, right, swaps }
     }
 }
 
 impl<T: Scalar> Block<'_, T> {
+    fn act(&self, act: Act, part: Part<'_, T>) {
+        match act {
+            Act::Forward => self.forward(part),
+            Act::Backward => self.backward(part),
+            Act::ForwardTranspose => self.forward_transpose(part),
+            Act::BackwardTranspose => self.backward_transpose(part),
+        }
+    }
+
     fn is_large(&self) -> bool {
         self.left.len() >= LARGE_PANEL
     }
