@@ -26,7 +26,10 @@ const NONE: u32 = u32::MAX;
 pub struct FreeSystem {
     free: Vec<VertexId>,
     row_of_vertex: Vec<u32>,
-    pattern: SparsityPattern,
+    /// Where each column's entries begin, and the end of the last.
+    starts: Vec<u32>,
+    /// The row of each entry, ascending in every column.
+    rows: Vec<u32>,
     /// For each entry (tail, head) its link; `NONE` on the diagonal.
     links: Vec<u32>,
     /// For each row the place of its diagonal entry.
@@ -39,7 +42,7 @@ pub struct FreeSystem {
 #[derive(Default)]
 struct Columns {
     shapes: Vec<ColumnShape>,
-    rows: Vec<usize>,
+    rows: Vec<u32>,
     /// As [`FreeSystem::links`].
     links: Vec<u32>,
     to_pinned: Vec<HalfedgeId>,
@@ -71,7 +74,7 @@ impl Columns {
             column.sort_unstable_by_key(|&(row, _)| row);
             let above = column.partition_point(|&(row, _)| row < own);
             this.shapes.push(ColumnShape { entries: column.len(), above });
-            this.rows.extend(column.iter().map(|&(row, _)| row as usize));
+            this.rows.extend(column.iter().map(|&(row, _)| row));
             this.links.extend(column.iter().map(|&(_, link)| link));
         }
         this
@@ -102,10 +105,11 @@ impl FreeSystem {
         let columns: Result<Vec<Columns>, SolveError> = free.par_chunks(COLUMNS_PER_TASK).map(of_task).collect();
         let columns = columns?;
         let (mut starts, mut slot_of_diagonal) = (vec![0], Vec::with_capacity(free.len()));
-        let mut begin = 0_usize;
+        let mut begin = 0_u32;
+        let narrow = |count: usize| u32::try_from(count).expect("neighbours fit");
         for count in columns.iter().flat_map(|some| &some.shapes) {
-            slot_of_diagonal.push(u32::try_from(begin + count.above).expect("entries fit"));
-            begin += count.entries;
+            slot_of_diagonal.push(begin + narrow(count.above));
+            begin = begin.checked_add(narrow(count.entries)).expect("entries fit");
             starts.push(begin);
         }
         control.go_on()?;
@@ -114,9 +118,7 @@ impl FreeSystem {
         let links = columns.iter().map(|some| &some.links[..]).collect::<Vec<_>>().concat();
         let to_pinned = columns.iter().flat_map(|some| some.to_pinned.iter().copied()).collect();
         control.go_on()?;
-        let pattern = SparsityPattern::try_from_offsets_and_indices(free.len(), free.len(), starts, rows)
-            .expect("columns were sorted and neighbours are distinct");
-        Ok(Self { free, row_of_vertex, pattern, links, slot_of_diagonal, to_pinned })
+        Ok(Self { free, row_of_vertex, starts, rows, links, slot_of_diagonal, to_pinned })
     }
 
     /// The vertices whose positions are unknown, in the order of the rows.
@@ -135,9 +137,13 @@ impl FreeSystem {
         self.slot_of_diagonal[row] as usize
     }
 
-    /// Where the matrix has entries. Symmetric, with a full diagonal.
-    pub fn pattern(&self) -> &SparsityPattern {
-        &self.pattern
+    /// Where the matrix has entries. Symmetric, with a full diagonal. Made anew each time: it takes twice the memory of what
+    /// is kept for it.
+    pub fn pattern(&self) -> SparsityPattern {
+        let wide = |indices: &[u32]| indices.par_iter().map(|&index| index as usize).collect();
+        let order = self.free.len();
+        SparsityPattern::try_from_offsets_and_indices(order, order, wide(&self.starts), wide(&self.rows))
+            .expect("columns were sorted and neighbours are distinct")
     }
 
     /// The matrix `−A_FF`; positive definite where the coefficients are conformal.
@@ -173,7 +179,7 @@ impl FreeSystem {
             values[slot as usize] = sum;
         }
         control.go_on()?;
-        let matrix = CscMatrix::try_from_pattern_and_values(self.pattern.clone(), values);
+        let matrix = CscMatrix::try_from_pattern_and_values(self.pattern(), values);
         Ok(matrix.expect("one value per entry was made"))
     }
 
@@ -217,7 +223,7 @@ impl FreeSystem {
 
     /// Orders and analyses its pattern.
     pub(super) fn analysis(&self, kind: Kind, control: Control<'_>) -> Result<Analysis, SolveError> {
-        Analysis::new(kind, &self.pattern, control.cancel()).map_err(|error| self.named(error))
+        Analysis::new(kind, &self.pattern(), control.cancel()).map_err(|error| self.named(error))
     }
 
     /// Says a linear solver's error in terms of the mesh: its rows are the free vertices.

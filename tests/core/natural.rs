@@ -205,7 +205,7 @@ fn the_lu_finds_manufactured_solutions_on_the_disks_of_the_corpus() {
         let mesh = entry.disk();
         let pins = fixed_pins(gauge_pins(&mesh));
         let system = FreeSystem::new(&mesh, |v| pins.contains_key(&v), Control::unattended()).unwrap();
-        let analysis = Analysis::new(Kind::General, system.pattern(), &AtomicBool::new(false)).unwrap();
+        let analysis = Analysis::new(Kind::General, &system.pattern(), &AtomicBool::new(false)).unwrap();
         let mut random = Random(11);
         let wanted: Vec<Complex<f64>> =
             system.free().iter().map(|_| Complex::new(random.unit() - 0.5, random.unit() - 0.5)).collect();
