@@ -20,6 +20,7 @@ const LONG: Duration = Duration::from_mins(1);
 
 /// How often a process is killed.
 const KILLS: u32 = 36;
+const MOST_KILLS: u32 = 10 * KILLS;
 
 /// Polls at a time until the copies in a folder have so many pins each.
 fn until_copies(session: &mut Session, now: Instant, (store, pins): (&Path, &[usize])) {
@@ -213,7 +214,11 @@ fn a_project_is_whole_whenever_its_writer_is_killed() {
     write_dome(&folder.path().join("dome.obj"), 6, 4);
     let (path, sign) = (folder.path().join("work.freebound"), folder.path().join("sign"));
     let mut seen = [0, 0];
-    for round in 0..KILLS {
+    // A machine with much other work may give all kills to one of the projects: then there are more, later ones.
+    for round in 0..MOST_KILLS {
+        if round >= KILLS && !seen.contains(&0) {
+            break;
+        }
         fs::remove_file(&sign).ok();
         killed(child("session_recovery::child_saves_two_projects_by_turns", folder.path()), &sign, round);
         let project = ProjectFile::read(&path).unwrap_or_else(|error| panic!("round {round}: {error}"));
