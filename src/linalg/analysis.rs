@@ -112,8 +112,7 @@ impl Analysis {
     /// [`LinalgError::NotSquare`], [`LinalgError::PatternNotSymmetric`] (which includes a missing diagonal entry)
     /// [`LinalgError::TooLarge`] and [`LinalgError::Cancelled`].
     pub fn new(kind: Kind, pattern: &SparsityPattern, cancel: &AtomicBool) -> Result<Self, LinalgError> {
-        let pattern = Pattern::checked(pattern)?;
-        go_on_unless(cancel)?;
+        let pattern = Pattern::checked(pattern, cancel)?;
         let elimination = match kind {
             Kind::Augmented { .. } => order(&pattern, cancel)?,
             Kind::Hermitian | Kind::General => dissected(&pattern, cancel)?,
@@ -143,7 +142,7 @@ impl Analysis {
     ) -> Result<Self, LinalgError> {
         let EliminationOrder { order, work } = order;
         if order.new_to_old.len() == pattern.major_dim() {
-            let pattern = Pattern::checked(pattern)?;
+            let pattern = Pattern::checked(pattern, cancel)?;
             let elimination = in_order(&pattern, order, cancel)?;
             let analysis = FrontAnalysis::new(&pattern, &elimination, Sides::Lower, cancel)?;
             if analysis.work() <= TOO_MUCH_WORK * work {

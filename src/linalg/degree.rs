@@ -1,21 +1,16 @@
 //! Approximate minimum degree (Amestoy, Davis and Duff 1996, through faer), and stopping it.
 
 use std::sync::atomic::AtomicBool;
-use std::sync::mpsc::{RecvTimeoutError, sync_channel};
-use std::thread::Builder;
-use std::time::Duration;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
 
 use super::LinalgError;
-use super::order::{Order, Pattern, go_on_unless};
+use super::apart::apart;
+use super::order::{Order, Pattern};
 
 /// Patterns of so many unknowns take AMD some hundredths of a second.
 const WORTH_LEAVING: usize = 50_000;
-
-/// How often the wish to stop is looked at meanwhile.
-const LOOKS: Duration = Duration::from_millis(5);
 
 /// AMD cannot be stopped. For large patterns it runs on a thread of its own, which a caller who gives up leaves behind:
 /// it ends by itself, in half a second at a million faces.
@@ -23,21 +18,8 @@ pub(super) fn minimum_degree(pattern: &Pattern, cancel: &AtomicBool) -> Result<O
     if pattern.order() < WORTH_LEAVING {
         return minimum_degree_to_the_end(pattern);
     }
-    let (send, receive) = sync_channel(1);
     let own = pattern.clone();
-    let here = || minimum_degree_to_the_end(pattern);
-    let started = Builder::new().name("order".to_owned()).spawn(move || send.send(minimum_degree_to_the_end(&own)));
-    if started.is_err() {
-        return here();
-    }
-    loop {
-        go_on_unless(cancel)?;
-        match receive.recv_timeout(LOOKS) {
-            Ok(order) => return order,
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return here(),
-        }
-    }
+    apart(move || minimum_degree_to_the_end(&own), cancel)?
 }
 
 /// The same, whatever the caller wishes meanwhile.
@@ -69,7 +51,7 @@ mod tests {
         });
         let offsets = std::iter::once(0).chain(ends).collect();
         let pattern = SparsityPattern::try_from_offsets_and_indices(n, n, offsets, lanes.concat()).expect("a band");
-        Pattern::checked(&pattern).expect("symmetric")
+        Pattern::checked(&pattern, &AtomicBool::new(false)).expect("symmetric")
     }
 
     #[test]

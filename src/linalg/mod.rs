@@ -11,7 +11,8 @@
 //! |---|---|
 //! | `analysis.rs` | the interface |
 //! | `order.rs` | fill-reducing order (dissection, AMD), elimination tree, postorder |
-//! | `degree.rs` | minimum degree, and stopping it |
+//! | `degree.rs` | minimum degree |
+//! | `apart.rs` | work that cannot be stopped, on a thread that is left behind |
 //! | `dissection/` | separators of large patterns |
 //! | `fronts/` | the tree of dense fronts that both multifrontal factorizations go up |
 //! | `llt/` | Hermitian definite: our multifrontal Cholesky |
@@ -23,6 +24,7 @@
 //! | `sparse.rs`, `scalar.rs`, `error.rs` | products, norms and inner products; real and complex numbers alike; what can go wrong |
 
 mod analysis;
+mod apart;
 mod degree;
 mod dissection;
 mod error;
@@ -39,6 +41,7 @@ mod scalar;
 mod sparse;
 
 pub use analysis::{Analysis, Answer, EliminationOrder, Factor, FactorStats, Kind};
+pub use apart::apart;
 pub use error::LinalgError;
 pub use lanczos::{EigenLimits, Eigenpair, greatest_eigenpair};
 pub use refine::Solved;

@@ -34,7 +34,7 @@ pub(super) struct Pattern {
 
 impl Pattern {
     /// Copies a pattern after checking that it is square and symmetric and has its diagonal.
-    pub(super) fn checked(pattern: &SparsityPattern) -> Result<Self, LinalgError> {
+    pub(super) fn checked(pattern: &SparsityPattern, cancel: &AtomicBool) -> Result<Self, LinalgError> {
         let order = pattern.major_dim();
         if pattern.minor_dim() != order {
             return Err(LinalgError::NotSquare { rows: pattern.minor_dim(), columns: order });
@@ -45,7 +45,9 @@ impl Pattern {
         }
         let narrowed = |indices: &[usize]| indices.iter().map(|&index| narrow(index)).collect();
         let this = Self { offsets: narrowed(pattern.major_offsets()), rows: narrowed(pattern.minor_indices()) };
-        this.check_symmetric()?;
+        go_on_unless(cancel)?;
+        this.check_symmetric(cancel)?;
+        go_on_unless(cancel)?;
         Ok(this)
     }
 
@@ -87,9 +89,12 @@ impl Pattern {
     }
 
     /// Walks the columns once: entry (i, j) of column j must be the next unread entry of row j in column i.
-    fn check_symmetric(&self) -> Result<(), LinalgError> {
+    fn check_symmetric(&self, cancel: &AtomicBool) -> Result<(), LinalgError> {
         let mut next: Vec<u32> = self.offsets[..self.order()].to_vec();
         for column in 0..self.order() {
+            if column % COLUMNS_PER_TASK == 0 {
+                go_on_unless(cancel)?;
+            }
             let fault = |row: u32| LinalgError::PatternNotSymmetric { row: row as usize, column };
             let rows = self.column(column);
             if rows.binary_search(&narrow(column)).is_err() {

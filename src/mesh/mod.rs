@@ -51,7 +51,7 @@ pub(crate) use measure::triangle_of_sides;
 pub use parts::{Part, parts};
 pub use polygon::PolygonMesh;
 pub use polygons::Polygon;
-pub use refinement::{NewVertex, Refinement};
+pub use refinement::{CutMesh, NewVertex, Refinement};
 pub use repair::{
     Chart, Charts, Done, EdgePaths, Form, HoleTreatment, PartFaces, PathTree, Repair, Repaired, Repairs, Seams,
     WeldDistance, borders, creases, near_vertices,

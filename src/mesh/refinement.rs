@@ -6,6 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::measure::Measure;
 use super::{Diagnosis, DiskMesh, FaceId, Polygon, TriMesh, VertexId};
 
 /// A vertex on an edge of the mesh as given.
@@ -26,6 +27,35 @@ pub struct Refinement {
     source: Vec<FaceId>,
 }
 
+/// A mesh whose faces are cut into parts, before these are joined.
+#[derive(Debug)]
+pub struct CutMesh {
+    mesh: TriMesh,
+    measure: Measure,
+    /// The polygons of the mesh as given, by their numbers in the file.
+    old_polygons: BTreeSet<u32>,
+    new_vertices: Vec<NewVertex>,
+    source: Vec<FaceId>,
+}
+
+impl CutMesh {
+    /// Joins the parts.
+    ///
+    /// # Errors
+    ///
+    /// What keeps them from being a disk together.
+    pub fn joined(self) -> Result<Refinement, Box<Diagnosis>> {
+        let Self { mesh, measure, old_polygons, new_vertices, source } = self;
+        let old_count = mesh.vertex_count() - new_vertices.len();
+        let disk = DiskMesh::of_topology(mesh)?.measured_by(measure);
+        let is_whole = |polygon: &Polygon<'_>, of: &TriMesh| {
+            let is_old = polygon.corners.iter().all(|corner| corner.index() < old_count);
+            is_old && old_polygons.contains(&of.polygon(polygon.first_face))
+        };
+        Ok(Refinement { disk: disk.with_polygons_where(is_whole), new_vertices, source })
+    }
+}
+
 impl Refinement {
     /// Cuts faces of a mesh into parts, whose corners are numbered with the new vertices after the old ones. The parts
     /// stand where their face stood; faces without an entry stay whole.
@@ -38,7 +68,12 @@ impl Refinement {
         new_vertices: Vec<NewVertex>,
         parts: &BTreeMap<FaceId, Vec<[VertexId; 3]>>,
     ) -> Result<Self, Box<Diagnosis>> {
-        let old = mesh.mesh();
+        Self::cut(mesh, new_vertices, parts).joined()
+    }
+
+    /// The same before its faces are joined.
+    pub fn cut(mesh: &DiskMesh, new_vertices: Vec<NewVertex>, parts: &BTreeMap<FaceId, Vec<[VertexId; 3]>>) -> CutMesh {
+        let (old, measure) = (mesh.mesh(), mesh.measure());
         let mut positions = old.positions.clone();
         positions.extend(new_vertices.iter().map(|new| {
             let [a, b] = new.edge.map(|v| mesh.position(v));
@@ -52,14 +87,9 @@ impl Refinement {
             source.extend(std::iter::repeat_n(face, parts.len()));
         }
         let polygon_of = Some(source.iter().map(|&face| old.polygon(face)).collect());
-        let disk = DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of })?.measured_by(mesh.measure());
-        let old_count = mesh.vertex_count();
-        let was_whole: BTreeSet<u32> = mesh.polygons().map(|polygon| old.polygon(polygon.first_face)).collect();
-        let is_whole = |polygon: &Polygon<'_>, of: &TriMesh| {
-            let is_old = polygon.corners.iter().all(|corner| corner.index() < old_count);
-            is_old && was_whole.contains(&of.polygon(polygon.first_face))
-        };
-        Ok(Self { disk: disk.with_polygons_where(is_whole), new_vertices, source })
+        let old_polygons = mesh.polygons().map(|polygon| old.polygon(polygon.first_face)).collect();
+        let mesh = TriMesh { positions, triangles, polygon_of };
+        CutMesh { mesh, measure, old_polygons, new_vertices, source }
     }
 
     /// A mesh some of whose polygons are but their triangles: those that begin with one of these faces, which ascend.

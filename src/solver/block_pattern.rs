@@ -3,6 +3,8 @@
 use nalgebra_sparse::pattern::SparsityPattern;
 use rayon::prelude::*;
 
+use super::{Control, SolveError};
+
 /// A point without an unknown of its own, and an entry that the matrix does not have.
 pub(super) const HELD: u32 = u32::MAX;
 
@@ -85,18 +87,28 @@ impl Neighbours {
     }
 
     /// The pattern with a 2×2 block for every pair of neighbours.
-    pub(super) fn block_pattern(&self) -> SparsityPattern {
+    ///
+    /// # Errors
+    ///
+    /// The caller's wish to stop.
+    pub(super) fn block_pattern(&self, control: Control<'_>) -> Result<SparsityPattern, SolveError> {
         let count = self.starts.len() - 1;
         let mut offsets = Vec::with_capacity(2 * count + 1);
         let mut rows = Vec::with_capacity(4 * self.list.len());
         offsets.push(0);
-        for pair in self.starts.windows(2) {
-            for _ in 0..2 {
-                let of_column = &self.list[pair[0]..pair[1]];
-                rows.extend(of_column.iter().flat_map(|&row| [2 * row as usize, 2 * row as usize + 1]));
-                offsets.push(rows.len());
+        for unknowns in control.runs(count) {
+            let unknowns = unknowns?;
+            for pair in self.starts[unknowns.start..=unknowns.end].windows(2) {
+                for _ in 0..2 {
+                    let of_column = &self.list[pair[0]..pair[1]];
+                    rows.extend(of_column.iter().flat_map(|&row| [2 * row as usize, 2 * row as usize + 1]));
+                    offsets.push(rows.len());
+                }
             }
         }
-        SparsityPattern::try_from_offsets_and_indices(2 * count, 2 * count, offsets, rows).expect("sorted and distinct")
+        control.go_on()?;
+        let pattern = SparsityPattern::try_from_offsets_and_indices(2 * count, 2 * count, offsets, rows);
+        control.go_on()?;
+        Ok(pattern.expect("sorted and distinct"))
     }
 }

@@ -5,9 +5,10 @@
 
 use glam::DVec2;
 
-use super::Embedding;
 use super::foldover_energy::Element;
+use super::{Control, Embedding, SolveError};
 use crate::geom::{Bounds, double_area, outside_triangles};
+use crate::linalg::apart;
 use crate::mesh::{DiskMesh, TriMesh, VertexId};
 
 /// Points on each side of a frame that vertices move within.
@@ -68,6 +69,20 @@ pub(super) fn triangles_around(mesh: &DiskMesh, boundary: &[DVec2], frame: &[DVe
 pub(super) fn disk_in_plane(points: &[DVec2], triangles: Vec<[VertexId; 3]>) -> Option<DiskMesh> {
     let positions = points.iter().map(|z| z.extend(0.0)).collect();
     DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of: None }).ok()
+}
+
+/// The same, left behind where the caller gives up.
+///
+/// # Errors
+///
+/// [`SolveError::Cancelled`].
+pub(super) fn disk_in_plane_unless(
+    points: &[DVec2],
+    triangles: Vec<[VertexId; 3]>,
+    control: Control<'_>,
+) -> Result<Option<DiskMesh>, SolveError> {
+    let points = points.to_vec();
+    Ok(apart(move || disk_in_plane(&points, triangles), control.cancel())?)
 }
 
 /// The energies of triangles outside a mesh, at rest as they lie: all together weigh so much.

@@ -31,7 +31,7 @@ fn new_vertices_are_all_needless_where_the_map_is_flat() {
     // With the places that the vertices have on the flat surface itself no new one is needed.
     let positions = &matched.refinement.disk().mesh().positions;
     let embedding: Embedding = positions.iter().map(|x| x.truncate()).collect();
-    let bare = without_needless_vertices(&mesh, Matched { embedding, ..matched });
+    let bare = without_needless_vertices(&mesh, Matched { embedding, ..matched }, Control::unattended()).unwrap();
     assert_eq!(bare.refinement.new_vertices(), []);
     assert_eq!(bare.refinement.disk().face_count(), mesh.face_count());
     assert_eq!(bare.embedding, flat);
@@ -43,7 +43,7 @@ fn new_vertices_that_are_needed_stay() {
     let pins = pins(&[(6, flat[18]), (18, flat[6]), (0, flat[0]), (24, flat[24])]);
     let matched = matched(&mesh, &flat, &pins, Control::unattended()).unwrap();
     let before = matched.refinement.new_vertices().len();
-    let bare = without_needless_vertices(&mesh, matched);
+    let bare = without_needless_vertices(&mesh, matched, Control::unattended()).unwrap();
     let after = bare.refinement.new_vertices().len();
     assert!(0 < after && after < before, "{before} {after}");
     assert!(verdict(bare.refinement.disk(), &bare.embedding).planar);

@@ -18,7 +18,8 @@ fn sheet(columns: u32, rows: u32) -> (DiskMesh, Embedding) {
 
 /// Met with new vertices, the needless ones taken out.
 fn bare(mesh: &DiskMesh, flat: &Embedding, pins: &Pins) -> Matched {
-    without_needless_vertices(mesh, matched(mesh, flat, pins, Control::unattended()).unwrap())
+    without_needless_vertices(mesh, matched(mesh, flat, pins, Control::unattended()).unwrap(), Control::unattended())
+        .unwrap()
 }
 
 /// Makes room, and checks all that must hold: pins to the last bit, one-to-one, new vertices on old edges, the surface as it

@@ -77,7 +77,7 @@ fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 impl Reduced {
     pub(super) fn new(net: &Net<'_>, control: Control<'_>) -> Result<Self, SolveError> {
         let neighbours = Neighbours::new(&net.corners, net.inner.len());
-        let pattern = neighbours.block_pattern();
+        let pattern = neighbours.block_pattern(control)?;
         let slot = |row: u32, column: u32| {
             if row == HELD || column == HELD { HELD } else { neighbours.slot(row, column) }
         };

@@ -89,10 +89,11 @@ fn with_new_vertices(
         continuation.step(disk, control)?;
         if continuation.is_at_its_end() {
             let embedding = continuation.embedding;
-            let Matched { refinement, embedding } = without_needless_vertices(mesh, Matched { refinement, embedding });
+            let refined = Matched { refinement: Arc::new(refinement), embedding };
+            let Matched { refinement, embedding } = without_needless_vertices(mesh, refined, control)?;
             let candidate = Candidate::one_to_one(Method::Matchmaker, embedding, &held);
             let note = Some("new vertices on edges between boundary vertices".to_owned());
-            return Ok(Some(Candidate { refinement: Some(Arc::new(refinement)), note, ..candidate }));
+            return Ok(Some(Candidate { refinement: Some(refinement), note, ..candidate }));
         }
     }
     Ok(None)

@@ -49,23 +49,23 @@ impl Rung for Match {
         let Footing { task, mesh, latest } = from;
         let (began, held, sheet) = (Instant::now(), task.held(), &*task.sheet);
         // What lies on one line, or folds, is judged in the numbers that are written.
-        let bare = |written: Matched| {
-            let Matched { refinement, embedding } = without_needless_vertices(mesh, written);
+        let bare = |written: Matched| -> Result<Matched, SolveError> {
+            let Matched { refinement, embedding } = without_needless_vertices(mesh, written, control)?;
             let embedding = if sheet.is_plain() { embedding } else { sheet.in_plane(&embedding, &held) };
-            Matched { refinement, embedding }
+            Ok(Matched { refinement, embedding })
         };
         let (found, looks_left) = match &self.stage {
             Stage::Begin => {
                 let latest = latest.ok_or(SolveError::NotPlanar)?;
                 let start = latest.onward.as_ref().unwrap_or(&latest.embedding);
                 let pins = sheet.written_pins(&held);
-                let found = bare(matched(mesh, &sheet.written(start), &pins, control)?);
+                let found = bare(matched(mesh, &sheet.written(start), &pins, control)?)?;
                 let looks = if is_tangle(&found.refinement) { 0 } else { REMOVALS };
                 (found, looks)
             }
             Stage::Refined { found: before, looks_left } => {
                 let Matched { refinement, embedding } = relaxed(before, task, control)?;
-                let bare = bare(Matched { embedding: sheet.written(&embedding).into_owned(), refinement });
+                let bare = bare(Matched { embedding: sheet.written(&embedding).into_owned(), refinement })?;
                 let found = with_room_made_on_sheet(mesh, bare, task, control)?;
                 let count = before.refinement.new_vertices().len();
                 let taken_out = count - found.refinement.new_vertices().len();
@@ -78,7 +78,7 @@ impl Rung for Match {
         let count = found.refinement.new_vertices().len();
         let tangled = || format!("its paths wind around each other, with {count} new vertices: hardly relaxed");
         let note = is_tangle(&found.refinement).then(tangled);
-        let refinement = Some(Arc::new(found.refinement.clone()));
+        let refinement = Some(Arc::clone(&found.refinement));
         self.stage = if looks_left > 0 { Stage::Refined { found: Box::new(found), looks_left } } else { Stage::End };
         Ok(Candidate { refinement, note, ..candidate })
     }
@@ -119,7 +119,7 @@ fn relaxed(found: &Matched, task: &Task, control: Control<'_>) -> Result<Matched
             break;
         }
     }
-    Ok(Matched { refinement: found.refinement.clone(), embedding })
+    Ok(Matched { refinement: Arc::clone(&found.refinement), embedding })
 }
 
 /// The same without new vertices for whose removal room can be made, if it is as good in the numbers that are written.

@@ -31,6 +31,7 @@ mod target_graph;
 mod triangulate;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -43,9 +44,10 @@ use self::straighten::{Weights, held_places, straightened};
 use self::subdivision::Subdivision;
 use self::target_graph::TargetGraph;
 use self::triangulate::{Parts, split_collapsing_edges, triangulate};
-use super::outside::{disk_in_plane, outside_of};
+use super::outside::{disk_in_plane_unless, outside_of};
 use super::rest::mean_edge_length;
 use super::{Control, Embedding, Outside, Phase, Pins, SolveError, is_one_to_one};
+use crate::linalg::apart;
 use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, VertexId};
 
 /// Length that a new vertex counts for, in mean lengths of an edge.
@@ -75,7 +77,7 @@ const WORTHWHILE: [usize; 2] = [4, 5];
 #[derive(Clone, Debug)]
 pub struct Matched {
     /// The mesh with its new vertices.
-    pub refinement: Refinement,
+    pub refinement: Arc<Refinement>,
     /// An embedding of it.
     pub embedding: Embedding,
 }
@@ -108,7 +110,7 @@ struct Search<'a> {
 pub fn matched(mesh: &DiskMesh, start: &Embedding, pins: &Pins, control: Control<'_>) -> Result<Matched, SolveError> {
     let exact = || pins.iter().filter(|(_, pin)| pin.hold.is_exact());
     let targets: Vec<DVec2> = exact().map(|(_, pin)| pin.target).collect();
-    let surroundings = Surroundings::new(mesh, start, &targets)?;
+    let surroundings = Surroundings::new(mesh, start, &targets, control)?;
     let frame = surroundings.frame.len();
     let corners = (mesh.vertex_count()..).take(frame).map(VertexId::from_index);
     let vertices = exact().map(|(&v, _)| v).chain(corners).map(VertexId::number).collect();
@@ -145,12 +147,12 @@ fn manners(mesh: &DiskMesh) -> Vec<Manner> {
 }
 
 impl Surroundings {
-    fn new(mesh: &DiskMesh, start: &Embedding, targets: &[DVec2]) -> Result<Self, SolveError> {
+    fn new(mesh: &DiskMesh, start: &Embedding, targets: &[DVec2], control: Control<'_>) -> Result<Self, SolveError> {
         let Outside { frame, triangles } =
             outside_of(mesh, start, targets.iter().copied(), 1).ok_or(SolveError::NotPlanar)?;
         let triangles = mesh.mesh().triangles.iter().copied().chain(triangles);
         let places: Vec<DVec2> = start.iter().chain(&frame).copied().collect();
-        let disk = disk_in_plane(&places, triangles.collect()).ok_or(SolveError::NotPlanar)?;
+        let disk = disk_in_plane_unless(&places, triangles.collect(), control)?.ok_or(SolveError::NotPlanar)?;
         Ok(Self { disk, places, frame })
     }
 
@@ -208,8 +210,8 @@ impl Surroundings {
         let parts = triangulate(&mut cells, &graph, &self.disk);
         control.enter(Phase::Assemble)?;
         let held = held_places(&cells, &graph, &lines);
-        let whole = self.refined(&cells, &parts);
-        let (refinement, vertices) = refined(mesh, &self.disk, &cells, &parts);
+        let whole = self.refined(&cells, &parts, control)?;
+        let (refinement, vertices) = refined(mesh, &Cut { whole: &self.disk, cells: &cells, parts: &parts }, control)?;
         for weights in [Weights::MeanValue, Weights::Uniform] {
             let places = match straightened(&whole, &cells, &held, weights, control) {
                 Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
@@ -225,19 +227,31 @@ impl Surroundings {
     }
 
     /// Mesh and outside, cut into parts.
-    fn refined(&self, cells: &Subdivision, parts: &Parts) -> DiskMesh {
+    fn refined(&self, cells: &Subdivision, parts: &Parts, control: Control<'_>) -> Result<DiskMesh, SolveError> {
         let of_face = |face: FaceId| match parts.get(&face) {
             Some(parts) => parts.iter().map(|t| t.map(VertexId::new)).collect(),
             None => vec![self.disk.face(face)],
         };
         let triangles = self.disk.faces().flat_map(of_face).collect();
-        disk_in_plane(&cells.places, triangles).expect("the parts of a disk's faces are a disk")
+        let disk = disk_in_plane_unless(&cells.places, triangles, control)?;
+        Ok(disk.expect("the parts of a disk's faces are a disk"))
     }
+}
+
+/// Mesh and outside, and how they are cut.
+struct Cut<'a> {
+    whole: &'a DiskMesh,
+    cells: &'a Subdivision,
+    parts: &'a Parts,
 }
 
 /// Takes the mesh with its new vertices out of the subdivision of mesh and outside. Returns also which vertex of that
 /// each of its vertices is.
-fn refined(mesh: &DiskMesh, whole: &DiskMesh, cells: &Subdivision, parts: &Parts) -> (Refinement, Vec<u32>) {
+fn refined(
+    mesh: &DiskMesh,
+    &Cut { whole, cells, parts }: &Cut<'_>,
+    control: Control<'_>,
+) -> Result<(Arc<Refinement>, Vec<u32>), SolveError> {
     let is_of_mesh = |edge: &EdgeId| {
         let h = whole.halfedge(*edge);
         [h, whole.twin(h)].iter().any(|h: &HalfedgeId| h.index() < 3 * mesh.face_count())
@@ -259,6 +273,17 @@ fn refined(mesh: &DiskMesh, whole: &DiskMesh, cells: &Subdivision, parts: &Parts
     let renumbered = |v: u32| number_of_point.get(&v).copied().unwrap_or(VertexId::new(v));
     let of_mesh = parts.range(..FaceId::from_index(mesh.face_count()));
     let parts = of_mesh.map(|(&face, parts)| (face, parts.iter().map(|t| t.map(renumbered)).collect())).collect();
-    let refinement = Refinement::new(mesh, new_vertices, &parts).expect("the parts of a disk's faces are a disk");
-    (refinement, vertices)
+    Ok((refinement(mesh, new_vertices, &parts, control)?, vertices))
+}
+
+/// A mesh with new vertices and its faces in such parts.
+fn refinement(
+    mesh: &DiskMesh,
+    new_vertices: Vec<NewVertex>,
+    parts: &BTreeMap<FaceId, Vec<[VertexId; 3]>>,
+    control: Control<'_>,
+) -> Result<Arc<Refinement>, SolveError> {
+    let cut = Refinement::cut(mesh, new_vertices, parts);
+    let joined = apart(move || cut.joined(), control.cancel())?;
+    Ok(Arc::new(joined.expect("the parts of a disk's faces are a disk")))
 }

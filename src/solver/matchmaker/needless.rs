@@ -7,22 +7,31 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::triangulate::shortest_triangulation;
-use super::{Embedding, Matched};
+use super::{Control, Embedding, Matched, SolveError, refinement};
 use crate::geom::{Orientation, orientation, segments_meet};
-use crate::mesh::{DiskMesh, FaceId, HalfedgeId, NewVertex, Refinement, VertexId};
+use crate::mesh::{DiskMesh, FaceId, HalfedgeId, NewVertex, VertexId};
 
 /// Takes out new vertices without which every face stays positive and the boundary simple.
-pub fn without_needless_vertices(mesh: &DiskMesh, matched: Matched) -> Matched {
+///
+/// # Errors
+///
+/// The caller's wish to stop.
+pub fn without_needless_vertices(
+    mesh: &DiskMesh,
+    matched: Matched,
+    control: Control<'_>,
+) -> Result<Matched, SolveError> {
     let mut removal = Removal::new(mesh, &matched);
     let old = matched.refinement.old_vertex_count();
     let mut waiting: BTreeSet<VertexId> = (old..matched.embedding.len()).map(VertexId::from_index).collect();
     while let Some(vertex) = waiting.pop_first() {
+        control.go_on()?;
         if let Some(around) = removal.remove(vertex) {
             waiting.extend(around.into_iter().filter(|v| v.index() >= old));
         }
     }
     let Removal { parts, removed, .. } = removal;
-    if removed.is_empty() { matched } else { without(mesh, &matched, &removed, parts) }
+    if removed.is_empty() { Ok(matched) } else { without(mesh, &matched, &removed, parts, control) }
 }
 
 /// Triangles by the old face that they are parts of.
@@ -157,7 +166,17 @@ pub(super) fn sides_of(mesh: &DiskMesh, new_vertices: &[NewVertex], face: FaceId
 }
 
 /// The mesh without the removed new vertices.
-pub(super) fn without(mesh: &DiskMesh, matched: &Matched, removed: &BTreeSet<VertexId>, parts: Parts) -> Matched {
+///
+/// # Errors
+///
+/// The caller's wish to stop.
+pub(super) fn without(
+    mesh: &DiskMesh,
+    matched: &Matched,
+    removed: &BTreeSet<VertexId>,
+    parts: Parts,
+    control: Control<'_>,
+) -> Result<Matched, SolveError> {
     let old = mesh.vertex_count();
     let kept: Vec<VertexId> = matched.refinement.disk().vertices().filter(|v| !removed.contains(v)).collect();
     let mut number = vec![VertexId::default(); matched.embedding.len()];
@@ -168,6 +187,5 @@ pub(super) fn without(mesh: &DiskMesh, matched: &Matched, removed: &BTreeSet<Ver
     let new_vertices = kept[old..].iter().map(|v| matched.refinement.new_vertices()[v.index() - old]).collect();
     let renumbered = |t: [VertexId; 3]| t.map(|v| number[v.index()]);
     let parts = parts.into_iter().map(|(face, parts)| (face, parts.into_iter().map(renumbered).collect())).collect();
-    let refinement = Refinement::new(mesh, new_vertices, &parts).expect("the parts of a disk's faces are a disk");
-    Matched { refinement, embedding }
+    Ok(Matched { refinement: refinement(mesh, new_vertices, &parts, control)?, embedding })
 }

@@ -8,6 +8,7 @@
 
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_3;
+use std::sync::Arc;
 
 use glam::DVec2;
 
@@ -56,7 +57,7 @@ pub fn with_room_made(
             waiting.extend(around.into_iter().filter(|&v| room.is_new(v)));
         }
     }
-    Ok(room.into_matched())
+    room.into_matched(control)
 }
 
 /// The refined mesh and its outside on the way.
@@ -249,7 +250,7 @@ impl<'a> Room<'a> {
     }
 
     /// The mesh without the removed vertices.
-    fn into_matched(self) -> Matched {
+    fn into_matched(self, control: Control<'_>) -> Result<Matched, SolveError> {
         let Self { mesh, matched, patchwork, removed, .. } = self;
         let mut parts = Parts::new();
         for triangle in patchwork.all().filter(|triangle| triangle.source != OUTSIDE) {
@@ -257,7 +258,8 @@ impl<'a> Room<'a> {
         }
         parts.retain(|&face, triangles| *triangles != [mesh.face(face)]);
         let embedding = patchwork.places[..matched.embedding.len()].iter().copied().collect();
-        without(mesh, &Matched { refinement: matched.refinement.clone(), embedding }, &removed, parts)
+        let matched = Matched { refinement: Arc::clone(&matched.refinement), embedding };
+        without(mesh, &matched, &removed, parts, control)
     }
 }
 

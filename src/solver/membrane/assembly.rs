@@ -15,7 +15,7 @@ use super::super::{Control, SolveError};
 use super::{CHUNK, Membrane, Spring};
 
 /// Elements whose models are held at one time.
-const MODELS: usize = 4 * CHUNK;
+const MODELS: usize = 2 * CHUNK;
 
 /// Parts that the unknowns are cut into: work for so many threads.
 const PARTS: usize = 16;

@@ -111,7 +111,7 @@ impl Membrane {
         let of_parts = elements_of_parts(&of_corners, unknowns.len());
         drop(of_corners);
         planning.control.go_on()?;
-        let pattern = neighbours.block_pattern();
+        let pattern = neighbours.block_pattern(planning.control)?;
         drop(neighbours);
         let cancel = planning.control.cancel();
         let analysis = match planning.order {
