@@ -9,6 +9,8 @@
 
 use std::fmt;
 
+use rayon::prelude::*;
+
 use super::area::is_zero_area;
 use super::coincident::coincident_vertices;
 use super::edges::{EdgeTable, side_ends};
@@ -251,12 +253,16 @@ fn ascending(mut corners: [VertexId; 3]) -> [VertexId; 3] {
     corners
 }
 
+/// Faces whose areas are looked at by one task at least.
+const FACES_PER_TASK: usize = 4096;
+
 fn zero_area_faces(mesh: &TriMesh, sound: &Sound) -> FaceList {
     let flat = |&f: &FaceId| {
         let corners = mesh.corners(f);
         corners.iter().all(|p| p.is_finite()) && is_zero_area(corners)
     };
-    FaceList::new(mesh, (0..sound.triangles(mesh).len()).map(|f| sound.face(f)).filter(flat).collect())
+    let faces = (0..sound.triangles(mesh).len()).into_par_iter().with_min_len(FACES_PER_TASK);
+    FaceList::new(mesh, faces.map(|f| sound.face(f)).filter(flat).collect())
 }
 
 fn describe(diagnosis: &mut Diagnosis, mesh: &TriMesh, sound: &Sound, topology: &Topology) {

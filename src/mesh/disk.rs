@@ -9,7 +9,7 @@
 use glam::DVec3;
 
 use super::diagonals::Diagonals;
-use super::edges::{EdgeTable, number_edges, side_ends};
+use super::edges::{EdgeTable, first_of_fans, number_edges, side_ends};
 use super::measure::Measure;
 use super::polygons::{Polygon, Polygons};
 use super::{EdgeId, FaceId, HalfedgeId, TriMesh, VertexId};
@@ -68,15 +68,8 @@ impl DiskMesh {
             twin.push(side);
             side = outer_of_tail[head.index()];
         }
-        let (edge, halfedge_of_edge) = number_edges(&twin);
-        let mut halfedge_of_vertex = vec![u32::MAX; mesh.vertex_count()];
-        for side in (0..u32::try_from(side_count).expect("a side fits")).rev() {
-            let (tail, _) = side_ends(&mesh.triangles, side);
-            let held = &mut halfedge_of_vertex[tail.index()];
-            if outer_of_tail[tail.index()] == u32::MAX || outer_of_tail[tail.index()] == side {
-                *held = side;
-            }
-        }
+        let ((edge, halfedge_of_edge), halfedge_of_vertex) =
+            rayon::join(|| number_edges(&twin), || first_of_fans(&mesh.triangles, &outer_of_tail));
         let first = mesh.positions[boundary_loop[0].index()];
         for (position, &side) in mesh.positions.iter_mut().zip(&halfedge_of_vertex) {
             if side == u32::MAX {

@@ -53,19 +53,23 @@ pub(super) struct Topology {
 impl Topology {
     pub(super) fn explore(table: EdgeTable, vertex_count: usize, triangles: &[[VertexId; 3]]) -> Self {
         let mut fans = Fans::new(vertex_count, triangles);
-        let mut topology = Self { table, ..Self::default() };
-        for sides in topology.table.edges() {
-            let (tail, head) = side_ends(triangles, sides[0]);
-            match *sides {
-                [side] => topology.boundary.push(side),
-                [a, b] if tail == side_ends(triangles, b).0 => topology.clashes.push([a, b]),
-                [_, _] => {}
-                _ => topology.crowded_edges.push([tail.min(head), tail.max(head)]),
+        let mut topology = Self::default();
+        let look_at_edges = || {
+            for sides in table.edges() {
+                let (tail, head) = side_ends(triangles, sides[0]);
+                match *sides {
+                    [side] => topology.boundary.push(side),
+                    [a, b] if tail == side_ends(triangles, b).0 => topology.clashes.push([a, b]),
+                    [_, _] => {}
+                    _ => topology.crowded_edges.push([tail.min(head), tail.max(head)]),
+                }
+                for pair in sides.windows(2) {
+                    fans.join_across(pair[0], pair[1]);
+                }
             }
-            for pair in sides.windows(2) {
-                fans.join_across(pair[0], pair[1]);
-            }
-        }
+        };
+        let ((), labels) = rayon::join(look_at_edges, || label_faces(&table, triangles.len()));
+        topology.table = table;
         for (v, &fan_count) in fans.count.iter().enumerate() {
             match fan_count {
                 0 => topology.unreferenced.push(VertexId::from_index(v)),
@@ -74,12 +78,11 @@ impl Topology {
             }
         }
         topology.referenced_count = vertex_count - topology.unreferenced.len();
-        topology.find_components(triangles, &mut fans);
+        topology.find_components(&labels, triangles, &mut fans);
         topology
     }
 
-    fn find_components(&mut self, triangles: &[[VertexId; 3]], fans: &mut Fans<'_>) {
-        let labels = label_faces(&self.table, triangles.len());
+    fn find_components(&mut self, labels: &[u32], triangles: &[[VertexId; 3]], fans: &mut Fans<'_>) {
         let label = |side: u32| labels[side as usize / 3] as usize;
         for (f, &label) in labels.iter().enumerate() {
             if label as usize == self.components.len() {
