@@ -191,7 +191,9 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
             for (_, update) in children {
                 match update {
                     Numbers::Whole(update) => self.spare.give(update),
-                    Numbers::Real(update) => self.spare_real.give(update),
+                    Numbers::Real(update) if self.places.is_real(supernode) => self.spare_real.give(update),
+                    // On the way to the root there are hardly any real ones to come, and none so large.
+                    Numbers::Real(_) => {}
                 }
             }
             match analysis.parent[supernode] {

@@ -53,6 +53,12 @@ impl<T: Number> Llt<T> {
     }
 }
 
+/// What a front is written to.
+struct Memory<'a, N> {
+    left: &'a mut [N],
+    update: &'a mut [N],
+}
+
 impl<T: Number, V: Fn(usize, usize) -> T + Sync> Job<'_, T, V> {
     fn run(self, places: Places) -> Result<Llt<T>, LinalgError> {
         let (units, peak_bytes) = Tree::run(self.analysis, &places, &self, self.cancel)?;
@@ -63,7 +69,7 @@ impl<T: Number, V: Fn(usize, usize) -> T + Sync> Job<'_, T, V> {
     fn eliminate_in<N: Number>(
         &self,
         supernode: usize,
-        (left, update): (&mut [N], &mut [N]),
+        Memory { left, update }: Memory<'_, N>,
         number: impl Fn(T) -> N,
         add_children: impl FnOnce(&mut Front<'_, N>),
     ) -> Result<(), LinalgError> {
@@ -110,7 +116,7 @@ impl<T: Number, V: Fn(usize, usize) -> T + Sync> Kernel<T> for Job<'_, T, V> {
                 let left = appended(&mut kept.whole, length);
                 self.eliminate_in(
                     supernode,
-                    (left, update),
+                    Memory { left, update },
                     |whole| whole,
                     |front| {
                         for (child, update) in children {
@@ -126,7 +132,7 @@ impl<T: Number, V: Fn(usize, usize) -> T + Sync> Kernel<T> for Job<'_, T, V> {
                 let left = appended(&mut kept.real, length);
                 self.eliminate_in(
                     supernode,
-                    (left, update),
+                    Memory { left, update },
                     |whole| whole.parts()[0],
                     |front| {
                         for (child, update) in children {
