@@ -43,7 +43,7 @@ enum Values {
     /// A free boundary couples x and y: one complex unknown per vertex.
     Free(Box<FreeSolve>),
     /// A prescribed boundary does not: one real matrix, two right-hand sides.
-    Fixed(FixedSolve),
+    Fixed(Box<FixedSolve>),
 }
 
 /// Solves for an embedding once, by a linear method or the first rung of another: that of SLIM is Tutte's map. Nothing is
@@ -123,7 +123,7 @@ impl Prepared {
                 let start = Instant::now();
                 let fixed = FixedSolve::new(Site { mesh, system: &system }, equations, &analysis, control)?;
                 seconds.factor = start.elapsed().as_secs_f64();
-                (system, Values::Fixed(fixed))
+                (system, Values::Fixed(Box::new(fixed)))
             }
             _ => {
                 seconds.assemble = start.elapsed().as_secs_f64();

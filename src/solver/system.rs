@@ -139,6 +139,10 @@ impl FreeSystem {
 
     /// Where the matrix has entries. Symmetric, with a full diagonal. Made anew each time: it takes twice the memory of what
     /// is kept for it.
+    ///
+    /// # Panics
+    ///
+    /// Never: columns are sorted, and neighbours are distinct.
     pub fn pattern(&self) -> SparsityPattern {
         let wide = |indices: &[u32]| indices.par_iter().map(|&index| index as usize).collect();
         let order = self.free.len();
