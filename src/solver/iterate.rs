@@ -67,7 +67,7 @@ impl Iteration {
         let start = Instant::now();
         let pins = held_in(embedding, &self.pins);
         let is_pulled = |(v, pin): (&VertexId, &Pin)| embedding[v] != pin.target;
-        let residuals = residuals_in_plane(mesh, embedding);
+        let residuals = residuals_in_plane(mesh, embedding, control)?;
         if residuals.iter().all(|residual| *residual == Complex::ZERO) && !pins.iter().any(is_pulled) {
             // The embedding meets its equations, and no pin pulls: it is the answer.
             let seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
@@ -96,23 +96,23 @@ impl Iteration {
     ) -> Result<FreeSolve, SolveError> {
         let numbers = |seconds: &mut PhaseSeconds| {
             let start = Instant::now();
-            let equations = natural_in_plane(mesh, embedding);
+            let equations = natural_in_plane(mesh, embedding, control)?;
             let unit = mean_edge_length_in_plane(mesh, embedding);
             seconds.assemble += start.elapsed().as_secs_f64();
-            Numbers { equations, unit }
+            Ok::<_, SolveError>(Numbers { equations, unit })
         };
-        let gauge = match FreeSolve::new(mesh, &self.laid_out, numbers(seconds), seconds, control) {
+        let gauge = match FreeSolve::new(mesh, &self.laid_out, numbers(seconds)?, seconds, control) {
             Ok(solve) => return Ok(solve),
             Err(Unsolved::WithoutGauge(gauge)) => gauge,
             Err(Unsolved::Error(error)) => return Err(error),
         };
         let gauge = match gauge {
             Some(gauge) => gauge,
-            None => gauge_of(mesh, &numbers(seconds).equations, control)?,
+            None => gauge_of(mesh, &numbers(seconds)?.equations, control)?,
         };
         let way = Way { gauge: Some(gauge), ..self.laid_out.way };
         self.laid_out = LaidOut::new(mesh, &self.pins, way, Kind::General, control)?;
-        FreeSolve::new(mesh, &self.laid_out, numbers(seconds), seconds, control).map_err(SolveError::from)
+        FreeSolve::new(mesh, &self.laid_out, numbers(seconds)?, seconds, control).map_err(SolveError::from)
     }
 
     /// Seconds that the analysis took, once for all steps.

@@ -20,16 +20,14 @@
 //! the face as it is. It counts as a thin face instead, a thousandth of its longest edge high, and its corners are
 //! counted.
 
-use std::convert::Infallible;
-
 use glam::DVec2;
 use num_complex::Complex;
 use rayon::prelude::*;
 
-use super::Embedding;
 use super::equations::{Equations, mean_length};
 use super::pieces::{Piece, in_pieces};
 use super::weights::bounded;
+use super::{Control, Embedding, SolveError};
 use crate::geom::{Orientation, orientation, power_of_two_near};
 use crate::mesh::{DiskMesh, FaceId};
 
@@ -108,14 +106,23 @@ pub(super) fn mean_edge_length_in_plane(mesh: &DiskMesh, embedding: &Embedding) 
 
 /// A(x) x: the residual of every vertex's equation, the natural boundary's i-terms included, found without rounding
 /// where faces are positive.
-pub fn residuals_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex<f64>> {
+///
+/// # Errors
+///
+/// [`SolveError::Cancelled`].
+pub fn residuals_in_plane(
+    mesh: &DiskMesh,
+    embedding: &Embedding,
+    control: Control<'_>,
+) -> Result<Vec<Complex<f64>>, SolveError> {
     let scale = scale_of(embedding, mesh.face_count());
     let is_folded = |piece: &Piece| {
         let [a, b, c] = piece.corners.map(|v| embedding[v]);
         orientation(a, b, c) != Some(Orientation::CounterClockwise)
     };
     let mut residuals = vec![Complex::ZERO; mesh.vertex_count()];
-    let Ok(()) = in_pieces(mesh, |pieces| {
+    in_pieces(mesh, |pieces| {
+        control.go_on()?;
         let folded: Vec<&Piece> = pieces.par_iter().filter(|piece| is_folded(piece)).collect();
         for piece in folded {
             let corners = piece.corners.map(|v| embedding[v] * scale);
@@ -123,9 +130,9 @@ pub fn residuals_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex
                 residuals[vertex.index()] += piece.share * share / scale;
             }
         }
-        Ok::<_, Infallible>(())
-    });
-    residuals
+        Ok::<_, SolveError>(())
+    })?;
+    Ok(residuals)
 }
 
 /// Shares of a face that is not positive in the residuals of its corners.
@@ -144,13 +151,22 @@ fn residual_shares(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
 }
 
 /// The mean-value equations of an embedding without the boundary's i-terms: paper eq. (2) with d = 1.
-pub fn mean_value_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Equations<f64> {
+///
+/// # Errors
+///
+/// [`SolveError::Cancelled`].
+pub fn mean_value_in_plane(
+    mesh: &DiskMesh,
+    embedding: &Embedding,
+    control: Control<'_>,
+) -> Result<Equations<f64>, SolveError> {
     let scale = scale_of(embedding, mesh.face_count());
     let weights = |piece: &Piece| face_weights(piece.corners.map(|v| embedding[v] * scale), 1.0);
     let mut found: Vec<FaceWeights> = Vec::new();
     let mut coefficients = vec![0.0; mesh.link_count()];
     let mut bounded_corners = 0;
-    let Ok(()) = in_pieces(mesh, |pieces| {
+    in_pieces(mesh, |pieces| {
+        control.go_on()?;
         pieces.par_iter().map(weights).collect_into_vec(&mut found);
         for (Piece { links, share, .. }, weights) in pieces.iter().zip(&found) {
             bounded_corners += weights.bounded_corners;
@@ -159,18 +175,27 @@ pub fn mean_value_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Equations<
                 coefficients[mesh.twin(links[(k + 2) % 3]).index()] += share * to_previous;
             }
         }
-        Ok::<_, Infallible>(())
-    });
-    Equations { coefficients, bounded_corners }
+        Ok::<_, SolveError>(())
+    })?;
+    Ok(Equations { coefficients, bounded_corners })
 }
 
 /// The mean-value equations of an embedding with its natural boundary: paper eq. (2) and (3) with d = 1.
-pub fn natural_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Equations<Complex<f64>> {
+///
+/// # Errors
+///
+/// [`SolveError::Cancelled`].
+pub fn natural_in_plane(
+    mesh: &DiskMesh,
+    embedding: &Embedding,
+    control: Control<'_>,
+) -> Result<Equations<Complex<f64>>, SolveError> {
     let scale = scale_of(embedding, mesh.face_count());
-    let mut equations = mean_value_in_plane(mesh, embedding).to_complex();
+    let mut equations = mean_value_in_plane(mesh, embedding, control)?.to_complex();
+    control.go_on()?;
     equations.add_boundary_terms(mesh, |inner| {
         let corners = mesh.face(FaceId::from_index(inner.index() / 3)).map(|v| embedding[v] * scale);
         1.0 / radii_of(edges_of(corners), 1.0).0[inner.index() % 3]
     });
-    equations
+    Ok(equations)
 }

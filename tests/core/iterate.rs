@@ -50,7 +50,7 @@ fn crumpled(columns: u32, random: &mut Random) -> (DiskMesh, Embedding) {
 
 /// The minimiser of ‖A z‖ with the pins at their places, from all n equations as a dense matrix.
 fn dense_least_squares(mesh: &DiskMesh, embedding: &Embedding, pins: &Pins) -> Embedding {
-    let equations = natural_in_plane(mesh, embedding);
+    let equations = natural_in_plane(mesh, embedding, Control::unattended()).unwrap();
     let free: Vec<VertexId> = mesh.vertices().filter(|v| !pins.contains_key(v)).collect();
     let column = |v: VertexId| free.binary_search(&v).ok();
     let mut matrix: Mat<Complex<f64>> = Mat::zeros(mesh.vertex_count(), free.len());
@@ -225,10 +225,13 @@ fn a_planar_embedding_satisfies_its_own_equations() {
     let dome = disk(Example::Dome.mesh());
     let solved = solve_once(&dome, &Settings::default(), &Pins::new(), Control::unattended()).unwrap().embedding;
     for (mesh, embedding) in [(spiral, flat), (dome, solved)] {
-        let equations = natural_in_plane(&mesh, &embedding);
+        let equations = natural_in_plane(&mesh, &embedding, Control::unattended()).unwrap();
         let left = equations.residual(&mesh, &embedding, |_| true, Control::unattended()).unwrap();
         assert!(left <= 1e-14, "summed up from the weights: {left:.1e}");
-        assert!(residuals_in_plane(&mesh, &embedding).iter().all(|left| left.norm() == 0.0), "found without rounding");
+        assert!(
+            residuals_in_plane(&mesh, &embedding, Control::unattended()).unwrap().iter().all(|left| left.norm() == 0.0),
+            "found without rounding"
+        );
     }
 }
 
@@ -273,8 +276,8 @@ fn what_an_embedding_leaves_is_what_its_equations_leave() {
         // A face without area, and one with a short edge of length zero.
         embedding[1] = embedding[0].midpoint(embedding[2]);
         embedding[5] = embedding[6];
-        let equations = natural_in_plane(&mesh, &embedding);
-        let left = residuals_in_plane(&mesh, &embedding);
+        let equations = natural_in_plane(&mesh, &embedding, Control::unattended()).unwrap();
+        let left = residuals_in_plane(&mesh, &embedding, Control::unattended()).unwrap();
         let size = |v: VertexId| {
             let term = |h: HalfedgeId| equations.coefficients[h.index()].norm();
             mesh.outgoing(v).map(term).sum::<f64>() * embedding.bounds().diameter()

@@ -99,7 +99,7 @@ fn each_equation_on_polygons_is_a_row_of_the_system_with_their_diagonals() {
                 assert_is_row(&mesh, &equation(&mesh, &step, vertex), &all, &after, vertex);
             }
             step.candidate.rung = Method::Iterate;
-            let all = natural_in_plane(&mesh, &before);
+            let all = natural_in_plane(&mesh, &before, Control::unattended()).unwrap();
             for vertex in mesh.vertices() {
                 let (found, _) = equation_of_step(&mesh, &step, Some(&before), vertex).unwrap();
                 assert_is_row(&mesh, &found, &all, &after, vertex);
@@ -112,7 +112,7 @@ fn each_equation_on_polygons_is_a_row_of_the_system_with_their_diagonals() {
 fn each_equation_of_an_iteration_is_a_row_of_its_system() {
     let mesh = disk(Example::Cube.mesh());
     let (before, after) = (at_random(mesh.vertex_count(), 2), at_random(mesh.vertex_count(), 3));
-    let all = natural_in_plane(&mesh, &before);
+    let all = natural_in_plane(&mesh, &before, Control::unattended()).unwrap();
     let mut step = step_with(&mesh, Family::Conformal, after.clone());
     step.candidate.rung = Method::Iterate;
     for vertex in mesh.vertices() {

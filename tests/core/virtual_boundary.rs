@@ -23,7 +23,7 @@ fn flat(mesh: &DiskMesh) -> Embedding {
 
 /// Solved within the outline and peeled.
 fn solved(mesh: &DiskMesh, extended: &Extended) -> Embedding {
-    let equations = mean_value_in_plane(&extended.disk, &extended.embedding);
+    let equations = mean_value_in_plane(&extended.disk, &extended.embedding, Control::unattended()).unwrap();
     // Summed up from the equations, so that the answer does not lean on what is known of positive faces.
     let (positions, numbers) = extended.solve(equations, &extended.embedding, None, Control::unattended()).unwrap();
     assert!(numbers.residual <= 1e-10, "{:.1e}", numbers.residual);
@@ -190,8 +190,8 @@ fn a_larger_flap_folded_inward_unfolds() {
 fn what_a_flipped_embedding_leaves_is_the_same_both_ways() {
     let (mesh, embedding) = grid_with_ears(5, &[(1, 0.4), (3, 0.2)]);
     let extended = Extended::new(&mesh, &embedding).unwrap();
-    let equations = mean_value_in_plane(&extended.disk, &extended.embedding);
-    let left = residuals_in_plane(&extended.disk, &extended.embedding);
+    let equations = mean_value_in_plane(&extended.disk, &extended.embedding, Control::unattended()).unwrap();
+    let left = residuals_in_plane(&extended.disk, &extended.embedding, Control::unattended()).unwrap();
     let (positions, _) = extended.solve(equations, &extended.embedding, Some(&left), Control::unattended()).unwrap();
     let apart = largest_move(&solved(&mesh, &extended), &positions[..mesh.vertex_count()]);
     assert!(apart <= 1e-10 * embedding.bounds().diameter(), "{apart:.1e}");

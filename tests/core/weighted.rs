@@ -170,7 +170,7 @@ fn a_step_of_the_iteration_with_weighted_constraints_agrees_with_dense_least_squ
     let lengths: Vec<f64> = edges.map(|[a, b]| start[a.index()].distance(start[b.index()])).collect();
     let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
     let flat: Embedding = start.iter().map(|z| *z / mean).collect();
-    let equations = natural_in_plane(&mesh, &flat);
+    let equations = natural_in_plane(&mesh, &flat, Control::unattended()).unwrap();
     // Coefficients come at a size that is a power of two near mean edge length 1; a mean-value row is a length's inverse.
     let probe = mesh.halfedges().find(|&h| !mesh.is_boundary_edge(mesh.edge_of(h))).unwrap();
     let unit = raw_coefficient(&mesh, &flat, probe) / equations.coefficients[probe.index()].re;

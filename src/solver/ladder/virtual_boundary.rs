@@ -192,7 +192,10 @@ impl Bend {
             // The theorem is about triangles.
             Weights::Surface if !has_pockets => (barycentric(&mesh.without_polygons(), 0.0, control)?, None),
             Weights::Uniform => (uniform(&extended.disk), None),
-            _ => (mean_value_in_plane(&extended.disk, from), Some(residuals_in_plane(&extended.disk, from))),
+            _ => (
+                mean_value_in_plane(&extended.disk, from, control)?,
+                Some(residuals_in_plane(&extended.disk, from, control)?),
+            ),
         };
         let (solved, linear) = extended.solve(equations, from, residuals.as_deref(), control)?;
         let embedding = Embedding::of_mesh(mesh, &solved);

@@ -57,7 +57,7 @@ pub(super) fn straightened(
 ) -> Result<Embedding, SolveError> {
     let system = FreeSystem::new(mesh, |v| cells.roles[v.index()] != Role::Free, control)?;
     let (equations, kind) = match weights {
-        Weights::MeanValue => (mean_value_in_plane(mesh, &cells.places.clone().into()), Kind::General),
+        Weights::MeanValue => (mean_value_in_plane(mesh, &cells.places.clone().into(), control)?, Kind::General),
         Weights::Uniform => (uniform(mesh), Kind::Hermitian),
     };
     let site = Site { mesh, system: &system };

@@ -168,7 +168,8 @@ fn least_distance(subject: &Subject<'_>, trial: &Trial) -> f64 {
 fn rest_of(mesh: &DiskMesh, step: &Step, trial: &Trial) -> Rest {
     let embedding = &step.solution.embedding;
     let (mut free_residual, mut pinned_residual) = (0.0_f64, 0.0_f64);
-    for (vertex, residual) in mesh.vertices().zip(residuals_in_plane(mesh, embedding)) {
+    let residuals = residuals_in_plane(mesh, embedding, Control::unattended()).expect("nobody stops it");
+    for (vertex, residual) in mesh.vertices().zip(residuals) {
         let side = if trial.pins.contains_key(&vertex) { &mut pinned_residual } else { &mut free_residual };
         *side = side.max(Complex::norm(residual));
     }
