@@ -1,10 +1,11 @@
-//! Work that cannot be stopped, on a thread of its own, which a caller who gives up leaves behind.
+//! Work that cannot be stopped, on threads of its own, which a caller who gives up leaves behind.
 
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::Builder;
 use std::time::Duration;
+
+use rayon::ThreadPoolBuilder;
 
 use super::LinalgError;
 use super::order::go_on_unless;
@@ -12,8 +13,9 @@ use super::order::go_on_unless;
 /// How often the wish to stop is looked at meanwhile.
 const LOOKS: Duration = Duration::from_millis(5);
 
-/// What `work` gives, unless the caller gives up before: then the work ends by itself, and nobody hears of it. Where there
-/// is no thread to be had, it is done here.
+/// What `work` gives, unless the caller gives up before: then it ends by itself, with its memory and its share of the
+/// processor until then, and nobody hears of it. It has as many threads as the caller's, but none of these: those may all
+/// be waiting here. Where there are none to be had, it is done by the caller.
 ///
 /// # Errors
 ///
@@ -22,48 +24,43 @@ const LOOKS: Duration = Duration::from_millis(5);
 /// # Panics
 ///
 /// Where the work does.
-pub fn apart<T: Send + 'static>(
+pub(crate) fn run_apart<T: Send + 'static>(
     work: impl FnOnce() -> T + Send + 'static,
     cancel: &AtomicBool,
 ) -> Result<T, LinalgError> {
     go_on_unless(cancel)?;
+    let threads = ThreadPoolBuilder::new().num_threads(rayon::current_num_threads());
+    let Ok(pool) = threads.thread_name(|_| "apart".to_owned()).build() else { return Ok(work()) };
     let (send, receive) = sync_channel(1);
-    // Whoever comes first does it.
-    let work = Arc::new(Mutex::new(Some(work)));
-    let there = Arc::clone(&work);
-    let take = |work: &Mutex<Option<_>>| work.lock().unwrap_or_else(PoisonError::into_inner).take();
-    let started = Builder::new().name("apart".to_owned()).spawn(move || {
-        let work = take(&there);
+    pool.spawn(move || {
+        let found = catch_unwind(AssertUnwindSafe(work));
         // A caller who gave up does not listen.
-        work.map(|work| send.send(work()))
+        send.send(found).ok();
     });
-    let Ok(thread) = started else {
-        let work = take(&work).expect("no thread has taken it");
-        return Ok(work());
-    };
     loop {
         match receive.recv_timeout(LOOKS) {
-            Ok(found) => return Ok(found),
+            Ok(Ok(found)) => return Ok(found),
+            Ok(Err(panic)) => resume_unwind(panic),
             Err(RecvTimeoutError::Timeout) => go_on_unless(cancel)?,
-            Err(RecvTimeoutError::Disconnected) => match thread.join() {
-                Err(panic) => std::panic::resume_unwind(panic),
-                Ok(_) => unreachable!("it sends what it has found"),
-            },
+            Err(RecvTimeoutError::Disconnected) => unreachable!("it sends what it has found"),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
     use std::sync::atomic::Ordering;
+
+    use rayon::prelude::*;
 
     use super::*;
 
     #[test]
     fn what_is_done_apart_comes_back_and_its_panics_too() {
         let flag = AtomicBool::new(false);
-        assert_eq!(apart(|| 6 * 7, &flag), Ok(42));
-        let panicked = std::panic::catch_unwind(|| apart(|| panic!("of the work's own"), &AtomicBool::new(false)));
+        assert_eq!(run_apart(|| 6 * 7, &flag), Ok(42));
+        let panicked = catch_unwind(|| run_apart(|| panic!("of the work's own"), &AtomicBool::new(false)));
         assert_eq!(panicked.map(|_: Result<(), _>| ()).unwrap_err().downcast_ref(), Some(&"of the work's own"));
     }
 
@@ -77,7 +74,17 @@ mod tests {
             // The caller lets go of the other end.
             assert!(wait.recv().is_err());
         };
-        assert_eq!(apart(work, &flag), Err(LinalgError::Cancelled));
+        assert_eq!(run_apart(work, &flag), Err(LinalgError::Cancelled));
         drop(caller_is_back);
+    }
+
+    /// All threads of the pool that everybody shares wait for work that shares itself out.
+    #[test]
+    fn work_on_all_threads_is_done_while_all_threads_wait_for_it() {
+        let flag = AtomicBool::new(false);
+        let sum = || (0..1000_u64).into_par_iter().sum::<u64>();
+        let count = 4 * rayon::current_num_threads();
+        let sums: Vec<_> = (0..count).into_par_iter().map(|_| run_apart(sum, &flag)).collect();
+        assert!(sums.iter().all(|sum| *sum == Ok(499_500)));
     }
 }

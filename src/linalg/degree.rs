@@ -6,7 +6,7 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
 
 use super::LinalgError;
-use super::apart::apart;
+use super::apart::run_apart;
 use super::order::{Order, Pattern};
 
 /// Patterns of so many unknowns take AMD some hundredths of a second.
@@ -19,7 +19,7 @@ pub(super) fn minimum_degree(pattern: &Pattern, cancel: &AtomicBool) -> Result<O
         return minimum_degree_to_the_end(pattern);
     }
     let own = pattern.clone();
-    apart(move || minimum_degree_to_the_end(&own), cancel)?
+    run_apart(move || minimum_degree_to_the_end(&own), cancel)?
 }
 
 /// The same, whatever the caller wishes meanwhile.

@@ -12,7 +12,7 @@
 //! | `analysis.rs` | the interface |
 //! | `order.rs` | fill-reducing order (dissection, AMD), elimination tree, postorder |
 //! | `degree.rs` | minimum degree |
-//! | `apart.rs` | work that cannot be stopped, on a thread that is left behind |
+//! | `apart.rs` | work that cannot be stopped, on threads that are left behind |
 //! | `dissection/` | separators of large patterns |
 //! | `fronts/` | the tree of dense fronts that both multifrontal factorizations go up |
 //! | `llt/` | Hermitian definite: our multifrontal Cholesky |
@@ -41,7 +41,7 @@ mod scalar;
 mod sparse;
 
 pub use analysis::{Analysis, Answer, EliminationOrder, Factor, FactorStats, Kind};
-pub use apart::apart;
+pub(crate) use apart::run_apart;
 pub use error::LinalgError;
 pub use lanczos::{EigenLimits, Eigenpair, greatest_eigenpair};
 pub use refine::Solved;

@@ -21,6 +21,9 @@ use super::topology::Topology;
 use super::unit::take_unit;
 use super::{DiskMesh, FaceId, TriMesh, VertexId};
 
+/// Faces whose areas are looked at by one task at least.
+const FACES_PER_TASK: usize = 4096;
+
 /// Everything that can be said about a mesh before it is flattened.
 ///
 /// Counts of edges, loops and components are those of the mesh without the faces that are set aside: see [`Fault`].
@@ -252,9 +255,6 @@ fn ascending(mut corners: [VertexId; 3]) -> [VertexId; 3] {
     corners.sort_unstable();
     corners
 }
-
-/// Faces whose areas are looked at by one task at least.
-const FACES_PER_TASK: usize = 4096;
 
 fn zero_area_faces(mesh: &TriMesh, sound: &Sound) -> FaceList {
     let flat = |&f: &FaceId| {

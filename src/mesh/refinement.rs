@@ -44,7 +44,7 @@ impl CutMesh {
     /// # Errors
     ///
     /// What keeps them from being a disk together.
-    pub fn joined(self) -> Result<Refinement, Box<Diagnosis>> {
+    pub fn join(self) -> Result<Refinement, Box<Diagnosis>> {
         let Self { mesh, measure, old_polygons, new_vertices, source } = self;
         let old_count = mesh.vertex_count() - new_vertices.len();
         let disk = DiskMesh::of_topology(mesh)?.measured_by(measure);
@@ -68,7 +68,7 @@ impl Refinement {
         new_vertices: Vec<NewVertex>,
         parts: &BTreeMap<FaceId, Vec<[VertexId; 3]>>,
     ) -> Result<Self, Box<Diagnosis>> {
-        Self::cut(mesh, new_vertices, parts).joined()
+        Self::cut(mesh, new_vertices, parts).join()
     }
 
     /// The same before its faces are joined.

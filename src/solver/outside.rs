@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::foldover_energy::Element;
 use super::{Control, Embedding, SolveError};
 use crate::geom::{Bounds, double_area, outside_triangles};
-use crate::linalg::apart;
+use crate::linalg::run_apart;
 use crate::mesh::{DiskMesh, TriMesh, VertexId};
 
 /// Points on each side of a frame that vertices move within.
@@ -76,13 +76,13 @@ pub(super) fn disk_in_plane(points: &[DVec2], triangles: Vec<[VertexId; 3]>) -> 
 /// # Errors
 ///
 /// [`SolveError::Cancelled`].
-pub(super) fn disk_in_plane_unless(
+pub(super) fn disk_in_plane_apart(
     points: &[DVec2],
     triangles: Vec<[VertexId; 3]>,
     control: Control<'_>,
 ) -> Result<Option<DiskMesh>, SolveError> {
     let points = points.to_vec();
-    Ok(apart(move || disk_in_plane(&points, triangles), control.cancel())?)
+    Ok(run_apart(move || disk_in_plane(&points, triangles), control.cancel())?)
 }
 
 /// The energies of triangles outside a mesh, at rest as they lie: all together weigh so much.

@@ -53,6 +53,24 @@ fn an_indefinite_matrix_is_not_factored_as_a_definite_one() {
 }
 
 #[test]
+fn a_pivot_is_named_alike_in_a_real_matrix_and_in_one_that_is_complex_elsewhere() {
+    let mut real: CscMatrix<f64> = hermitian(&grid_pattern(30), 1.0, &mut Random(1));
+    if let Some(nalgebra_sparse::SparseEntryMut::NonZero(value)) = real.get_entry_mut(700, 700) {
+        *value = -*value;
+    }
+    let values = real.values().iter().map(|&value| Complex::new(value, 0.0)).collect();
+    let mut complex = CscMatrix::try_from_pattern_and_values(real.pattern().clone(), values).expect("the same pattern");
+    for (row, column, imaginary) in [(0, 1, 0.1), (1, 0, -0.1)] {
+        if let Some(nalgebra_sparse::SparseEntryMut::NonZero(value)) = complex.get_entry_mut(row, column) {
+            value.im = imaginary;
+        }
+    }
+    let [error, other] = [factored(Kind::Hermitian, &real).err(), factored(Kind::Hermitian, &complex).err()];
+    assert!(matches!(error, Some(LinalgError::NotPositiveDefinite { .. })), "{error:?}");
+    assert_eq!(error, other);
+}
+
+#[test]
 fn a_nan_is_named_by_its_row() {
     for kind in [Kind::General, Kind::Hermitian] {
         let mut matrix: CscMatrix<f64> = hermitian(&grid_pattern(6), 1.0, &mut Random(1));

@@ -151,7 +151,7 @@ fn only_one_side_takes_the_memory_of_complex_numbers(kind: Kind, whole: &CscMatr
         of_real,
         "no imaginary part is stored where there is none"
     );
-    // Of a nested dissection's fronts with a side of 1/2^k of the grid's, that of the side lies in or below one in 2^k.
+    // A grid that is cut in 4^k squares has 2^k of them at the side: at every depth of the tree most fronts are real.
     assert!(of_real < of_partly && 4 * of_partly < 3 * of_whole, "{of_real} < {of_partly} < 3/4 of {of_whole} bytes");
 }
 

@@ -18,7 +18,7 @@ const FOLDER_OF_CHILD: &str = "FREEBOUND_TEST_FOLDER";
 /// More than the time between two copies.
 const LONG: Duration = Duration::from_mins(1);
 
-/// How often a process is killed.
+/// How often a process is killed: at least, and at most where one of its two projects was not seen yet.
 const KILLS: u32 = 36;
 const MOST_KILLS: u32 = 10 * KILLS;
 

@@ -55,9 +55,11 @@ fn length_of_run(program: &Program, arguments: &[&str]) -> Duration {
         std::thread::sleep(Duration::from_millis(5));
     }
     let length = start.elapsed();
-    // It may be over by now.
-    let _ = child.kill();
-    child.wait_with_output().expect("it ends");
+    if child.try_wait().expect("it can be waited for").is_none() {
+        send(&child, "-TERM");
+    }
+    let run = Run::from(child.wait_with_output().expect("it ends"));
+    assert!(matches!(run.status, Some(0 | 130)), "{arguments:?}: {run:?}");
     length
 }
 

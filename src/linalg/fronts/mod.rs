@@ -24,9 +24,9 @@ mod tree;
 mod units;
 
 pub(super) use dense::{mat, mat_mut, scatter_add};
-pub(super) use places::{Kept, Numbers, Panel, Places, appended};
+pub(super) use places::{FrontNumbers, Gather, Kept, Numbers, Places, Room, append_zeros, gather_in_full, gather_real};
 pub(super) use substitution::{
     LARGE_PANEL, Part, Substitution, TOGETHER, dot, split_panel, substitute, subtract_product,
 };
 pub(super) use symbolic::{FrontAnalysis, Shape, Sides, threads_for};
-pub(super) use tree::{Kernel, Room, Tree, Update};
+pub(super) use tree::{Kernel, Tree, Update};

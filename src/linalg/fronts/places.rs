@@ -1,14 +1,17 @@
 //! What is kept of fronts: complex numbers, or real ones where nothing else occurs.
 //!
-//! A matrix may be complex in a few places alone, as the equations of a free boundary are, and then so are its factors in the
-//! fronts that such an entry lies in or below. All others take half the memory as real ones, and a quarter of the
-//! multiplications. A matrix of real numbers has no use for that: its fronts hold what they are given.
+//! A matrix may be complex in a few places alone, as the equations of a free boundary are along the boundary. Then its
+//! factors are complex in the fronts that such an entry lies in and in those above them. All others take half the memory
+//! as real ones, and a quarter of the multiplications. A matrix of real numbers has no use for that: all its fronts hold
+//! their numbers in full.
 
+use std::convert::identity;
 use std::ops::Range;
 
 use rayon::prelude::*;
 
 use super::symbolic::FrontAnalysis;
+use super::tree::Update;
 use crate::linalg::order::NONE;
 use crate::linalg::scalar::Number;
 
@@ -25,28 +28,43 @@ pub(in crate::linalg) struct Places {
 /// Numbers of one front.
 #[derive(Debug)]
 pub(in crate::linalg) enum Numbers<T: Number> {
-    Whole(Vec<T>),
+    Full(Vec<T>),
     /// Real parts, where all imaginary ones are zero.
     Real(Vec<T::Part>),
 }
 
 /// The numbers of a front among others.
 #[derive(Clone, Copy)]
-pub(in crate::linalg) enum Panel<'a, T: Number> {
-    Whole(&'a [T]),
+pub(in crate::linalg) enum FrontNumbers<'a, T: Number> {
+    Full(&'a [T]),
     Real(&'a [T::Part]),
 }
 
 /// The numbers of a unit's fronts, one after another.
 #[derive(Debug)]
 pub(in crate::linalg) struct Kept<T: Number> {
-    pub(in crate::linalg) whole: Vec<T>,
+    pub(in crate::linalg) full: Vec<T>,
     pub(in crate::linalg) real: Vec<T::Part>,
+}
+
+/// How many numbers are kept of some fronts.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::linalg) struct Room {
+    /// Of those that hold them in full.
+    pub(in crate::linalg) full: usize,
+    /// Of real ones.
+    pub(in crate::linalg) real: usize,
+}
+
+impl Room {
+    fn of_kind(&mut self, is_real: bool) -> &mut usize {
+        if is_real { &mut self.real } else { &mut self.full }
+    }
 }
 
 impl Places {
     /// Those where every front holds what it is given.
-    pub(in crate::linalg) fn whole(analysis: &FrontAnalysis) -> Self {
+    pub(in crate::linalg) fn all_full(analysis: &FrontAnalysis) -> Self {
         Self::of(analysis, vec![false; analysis.count()])
     }
 
@@ -72,11 +90,11 @@ impl Places {
     fn of(analysis: &FrontAnalysis, is_real: Vec<bool>) -> Self {
         let mut starts = Vec::with_capacity(analysis.count());
         for unit in &analysis.units {
-            let mut next = [0; 2];
+            let mut room = Room::default();
             for front in unit.range.clone() {
-                let next = &mut next[usize::from(is_real[front])];
-                starts.push(*next);
-                *next += analysis.kept_len(front);
+                let count = room.of_kind(is_real[front]);
+                starts.push(*count);
+                *count += analysis.kept_len(front);
             }
         }
         Self { is_real, starts }
@@ -87,66 +105,86 @@ impl Places {
         self.is_real[front]
     }
 
-    /// How many numbers are kept of some fronts: whole ones, and real parts.
-    pub(super) fn room(&self, analysis: &FrontAnalysis, fronts: Range<usize>) -> [usize; 2] {
-        let mut room = [0; 2];
-        fronts.for_each(|front| room[usize::from(self.is_real[front])] += analysis.kept_len(front));
+    /// How many numbers are kept of some fronts.
+    pub(super) fn room(&self, analysis: &FrontAnalysis, fronts: Range<usize>) -> Room {
+        let mut room = Room::default();
+        fronts.for_each(|front| *room.of_kind(self.is_real[front]) += analysis.kept_len(front));
         room
     }
 
     /// The numbers of a front among those of its unit.
-    pub(in crate::linalg) fn panel<'a, T: Number>(
+    pub(in crate::linalg) fn numbers_of<'a, T: Number>(
         &self,
         analysis: &FrontAnalysis,
         front: usize,
         unit: &'a Kept<T>,
-    ) -> Panel<'a, T> {
+    ) -> FrontNumbers<'a, T> {
         let start = self.starts[front];
         let range = start..start + analysis.kept_len(front);
-        if self.is_real[front] { Panel::Real(&unit.real[range]) } else { Panel::Whole(&unit.whole[range]) }
+        if self.is_real[front] { FrontNumbers::Real(&unit.real[range]) } else { FrontNumbers::Full(&unit.full[range]) }
     }
 }
 
 impl<T: Number> Kept<T> {
-    /// Room for so many whole numbers and real parts.
-    pub(in crate::linalg) fn with_room([whole, real]: [usize; 2]) -> Self {
-        Self { whole: Vec::with_capacity(whole), real: Vec::with_capacity(real) }
+    pub(in crate::linalg) fn with_room(Room { full, real }: Room) -> Self {
+        Self { full: Vec::with_capacity(full), real: Vec::with_capacity(real) }
     }
 
     pub(in crate::linalg) fn bytes(&self) -> usize {
-        size_of_val(&self.whole[..]) + size_of_val(&self.real[..])
+        size_of_val(&self.full[..]) + size_of_val(&self.real[..])
     }
 }
 
 impl<T: Number> Default for Kept<T> {
     fn default() -> Self {
-        Self { whole: Vec::new(), real: Vec::new() }
+        Self { full: Vec::new(), real: Vec::new() }
     }
 }
 
 impl<T: Number> Numbers<T> {
-    /// The real parts that a front has which lies in a real one.
-    ///
-    /// # Panics
-    ///
-    /// If it has others.
-    pub(in crate::linalg) fn real(&self) -> &[T::Part] {
-        match self {
-            Self::Real(numbers) => numbers,
-            Self::Whole(_) => unreachable!("what lies in a real front is real"),
-        }
-    }
-
     pub(super) fn bytes(&self) -> usize {
         match self {
-            Self::Whole(numbers) => size_of_val(&numbers[..]),
+            Self::Full(numbers) => size_of_val(&numbers[..]),
             Self::Real(numbers) => size_of_val(&numbers[..]),
         }
     }
 }
 
-/// Appends so many zeros, and returns them.
-pub(in crate::linalg) fn appended<T: Number>(numbers: &mut Vec<T>, count: usize) -> &mut [T] {
+/// A front that its children's updates are added to.
+pub(in crate::linalg) trait Gather<N> {
+    /// Adds a child's update, of whose numbers `number` makes the front's; `relative` are its rows in this front, ascending.
+    fn extend_add<S: Copy>(&mut self, update: &[S], relative: &[u32], number: impl Fn(S) -> N + Copy);
+}
+
+/// Adds the updates of all children to a front that holds its numbers in full.
+pub(in crate::linalg) fn gather_in_full<T: Number>(
+    analysis: &FrontAnalysis,
+    children: &[Update<T>],
+    front: &mut impl Gather<T>,
+) {
+    for (child, update) in children {
+        let relative = analysis.relative(*child as usize);
+        match update {
+            Numbers::Full(update) => front.extend_add(update, relative, identity),
+            Numbers::Real(update) => front.extend_add(update, relative, T::from_real_part),
+        }
+    }
+}
+
+/// Adds the updates of all children to a real front: they are real, too.
+pub(in crate::linalg) fn gather_real<T: Number>(
+    analysis: &FrontAnalysis,
+    children: &[Update<T>],
+    front: &mut impl Gather<T::Part>,
+) {
+    for (child, update) in children {
+        let Numbers::Real(update) = update else { unreachable!("what lies in a real front is real") };
+        front.extend_add(update, analysis.relative(*child as usize), identity);
+    }
+}
+
+/// Appends so many zeros, and returns these.
+pub(in crate::linalg) fn append_zeros<T: Number>(numbers: &mut Vec<T>, count: usize) -> &mut [T] {
     let start = numbers.len();
     numbers.resize(start + count, T::ZERO);
     &mut numbers[start..]

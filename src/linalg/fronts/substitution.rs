@@ -58,10 +58,10 @@ impl<T: Number> Part<'_, T> {
     /// other.
     pub(in crate::linalg) fn by_parts(self, act: impl FnOnce(Part<'_, T::Part>)) {
         let Shape { columns, below } = self.shape;
-        let (mut own, mut outer) = (parted(self.own, columns), parted(self.outer, below));
+        let (mut own, mut outer) = (split_parts(self.own, columns), split_parts(self.outer, below));
         act(Part { shape: self.shape, own: &mut own, outer: &mut outer });
-        joined(&own, columns, self.own);
-        joined(&outer, below, self.outer);
+        join_parts(&own, columns, self.own);
+        join_parts(&outer, below, self.outer);
     }
 
     /// One right-hand side after another.
@@ -78,7 +78,7 @@ impl<T: Number> Part<'_, T> {
 }
 
 /// The real parts of each column of this length, and then its imaginary ones.
-fn parted<T: Number>(columns: &[T], length: usize) -> Vec<T::Part> {
+fn split_parts<T: Number>(columns: &[T], length: usize) -> Vec<T::Part> {
     let mut parts = Vec::with_capacity(2 * columns.len());
     for column in columns.chunks_exact(length.max(1)) {
         parts.extend(column.iter().map(|number| number.parts()[0]));
@@ -88,7 +88,7 @@ fn parted<T: Number>(columns: &[T], length: usize) -> Vec<T::Part> {
 }
 
 /// Puts the parts back together.
-fn joined<T: Number>(parts: &[T::Part], length: usize, columns: &mut [T]) {
+fn join_parts<T: Number>(parts: &[T::Part], length: usize, columns: &mut [T]) {
     let length = length.max(1);
     for (column, parts) in columns.chunks_exact_mut(length).zip(parts.chunks_exact(2 * length)) {
         let (real, imaginary) = parts.split_at(length);

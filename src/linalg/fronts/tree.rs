@@ -5,7 +5,7 @@ use std::sync::{Mutex, OnceLock};
 
 use rayon::Scope;
 
-use super::places::{Numbers, Places};
+use super::places::{Numbers, Places, Room};
 use super::symbolic::FrontAnalysis;
 use crate::linalg::LinalgError;
 use crate::linalg::order::{NONE, narrow};
@@ -16,8 +16,8 @@ pub(in crate::linalg) trait Kernel<T: Number>: Sync {
     /// What is kept of a unit's fronts.
     type Kept: Send + Sync;
 
-    /// Makes room for what is kept of a unit.
-    fn room(&self, unit: usize, room: Room) -> Self::Kept;
+    /// Makes room for what is kept of a unit: so many numbers and columns.
+    fn room(&self, unit: usize, room: Room, columns: usize) -> Self::Kept;
 
     /// Assembles a front from its entries and its children's updates, eliminates its columns, and leaves the Schur
     /// complement in `update`, which is all zero, and real where the front is.
@@ -28,14 +28,6 @@ pub(in crate::linalg) trait Kernel<T: Number>: Sync {
         kept: &mut Self::Kept,
         update: &mut Numbers<T>,
     ) -> Result<(), LinalgError>;
-}
-
-/// How much is kept of a unit.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::linalg) struct Room {
-    /// Whole numbers, and real parts.
-    pub(in crate::linalg) numbers: [usize; 2],
-    pub(in crate::linalg) columns: usize,
 }
 
 /// A supernode's update on its way to the parent.
@@ -155,10 +147,10 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
     fn run_unit<'scope>(&'scope self, unit: usize, scope: &Scope<'scope>) {
         let analysis = self.analysis;
         let range = analysis.units[unit].range.clone();
-        let numbers = self.places.room(analysis, range.clone());
+        let room = self.places.room(analysis, range.clone());
         let columns = (analysis.begin[range.end] - analysis.begin[range.start]) as usize;
-        self.memory.take(numbers[0] * size_of::<T>() + numbers[1] * size_of::<T::Part>());
-        let mut kept = self.kernel.room(unit, Room { numbers, columns });
+        self.memory.take(room.full * size_of::<T>() + room.real * size_of::<T::Part>());
+        let mut kept = self.kernel.room(unit, room, columns);
         let mut arrived = std::mem::take(&mut *self.inboxes[unit].lock().expect("no task panics while it holds this"));
         arrived.sort_unstable_by_key(|&(child, _)| child);
         let mut waiting: Vec<Option<Numbers<T>>> = range.clone().map(|_| None).collect();
@@ -169,7 +161,7 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
             let children = analysis.children.column(supernode).iter().map(|&child| {
                 let update = if (child as usize) < range.start {
                     let place = arrived.binary_search_by_key(&child, |&(child, _)| child);
-                    place.ok().map(|place| std::mem::replace(&mut arrived[place].1, Numbers::Whole(Vec::new())))
+                    place.ok().map(|place| std::mem::replace(&mut arrived[place].1, Numbers::Full(Vec::new())))
                 } else {
                     waiting[child as usize - range.start].take()
                 };
@@ -180,7 +172,7 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
             let mut update = if self.places.is_real(supernode) {
                 Numbers::Real(self.spare_real.zeros(length))
             } else {
-                Numbers::Whole(self.spare.zeros(length))
+                Numbers::Full(self.spare.zeros(length))
             };
             self.memory.take(update.bytes());
             if let Err(error) = self.kernel.eliminate(supernode, &children, &mut kept, &mut update) {
@@ -190,7 +182,7 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
             self.memory.give_back(children.iter().map(|(_, update)| update.bytes()).sum());
             for (_, update) in children {
                 match update {
-                    Numbers::Whole(update) => self.spare.give(update),
+                    Numbers::Full(update) => self.spare.give(update),
                     Numbers::Real(update) if self.places.is_real(supernode) => self.spare_real.give(update),
                     // On the way to the root there are hardly any real ones to come, and none so large.
                     Numbers::Real(_) => {}

@@ -1,10 +1,13 @@
 //! Numeric factorization: every front of the tree.
 
+use std::convert::identity;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
 use super::front::Front;
-use crate::linalg::fronts::{FrontAnalysis, Kept, Kernel, Numbers, Places, Room, Tree, Update, appended};
+use crate::linalg::fronts::{
+    FrontAnalysis, Kept, Kernel, Numbers, Places, Room, Tree, Update, append_zeros, gather_in_full, gather_real,
+};
 use crate::linalg::scalar::Number;
 use crate::linalg::{FactorStats, LinalgError};
 
@@ -49,12 +52,12 @@ impl<T: Number> Llt<T> {
         cancel: &AtomicBool,
     ) -> Result<Self, LinalgError> {
         let spare = earlier.into_iter().flat_map(|earlier| earlier.units).map(Mutex::new).collect();
-        Job { analysis, value, spare, cancel }.run(Places::whole(analysis))
+        Job { analysis, value, spare, cancel }.run(Places::all_full(analysis))
     }
 }
 
 /// What a front is written to.
-struct Memory<'a, N> {
+struct Target<'a, N> {
     left: &'a mut [N],
     update: &'a mut [N],
 }
@@ -65,11 +68,11 @@ impl<T: Number, V: Fn(usize, usize) -> T + Sync> Job<'_, T, V> {
         Ok(Llt { units, places, sign: T::ONE, peak_bytes })
     }
 
-    /// Assembles and eliminates a front of whole numbers or real parts, into its kept numbers and its update.
+    /// Assembles and eliminates a front of numbers in full or real parts, into its kept numbers and its update.
     fn eliminate_in<N: Number>(
         &self,
         supernode: usize,
-        Memory { left, update }: Memory<'_, N>,
+        Target { left, update }: Target<'_, N>,
         number: impl Fn(T) -> N,
         add_children: impl FnOnce(&mut Front<'_, N>),
     ) -> Result<(), LinalgError> {
@@ -93,12 +96,14 @@ impl<T: Number, V: Fn(usize, usize) -> T + Sync> Job<'_, T, V> {
 impl<T: Number, V: Fn(usize, usize) -> T + Sync> Kernel<T> for Job<'_, T, V> {
     type Kept = Kept<T>;
 
-    fn room(&self, unit: usize, room: Room) -> Kept<T> {
-        let Some(spare) = self.spare.get(unit) else { return Kept::with_room(room.numbers) };
+    fn room(&self, unit: usize, room: Room, _: usize) -> Kept<T> {
+        let Some(spare) = self.spare.get(unit) else { return Kept::with_room(room) };
         let mut spare = spare.lock().expect("no task panics while it holds this");
         let mut kept = std::mem::take(&mut *spare);
-        kept.whole.clear();
-        kept.whole.reserve_exact(room.numbers[0]);
+        kept.full.clear();
+        kept.full.reserve_exact(room.full);
+        kept.real.clear();
+        kept.real.reserve_exact(room.real);
         kept
     }
 
@@ -110,35 +115,20 @@ impl<T: Number, V: Fn(usize, usize) -> T + Sync> Kernel<T> for Job<'_, T, V> {
         update: &mut Numbers<T>,
     ) -> Result<(), LinalgError> {
         let length = self.analysis.kept_len(supernode);
-        let relative = |child: &u32| self.analysis.relative(*child as usize);
         match update {
-            Numbers::Whole(update) => {
-                let left = appended(&mut kept.whole, length);
-                self.eliminate_in(
-                    supernode,
-                    Memory { left, update },
-                    |whole| whole,
-                    |front| {
-                        for (child, update) in children {
-                            match update {
-                                Numbers::Whole(update) => front.extend_add(update, relative(child), |whole| whole),
-                                Numbers::Real(update) => front.extend_add(update, relative(child), T::from_real_part),
-                            }
-                        }
-                    },
-                )
+            Numbers::Full(update) => {
+                let left = append_zeros(&mut kept.full, length);
+                self.eliminate_in(supernode, Target { left, update }, identity, |front| {
+                    gather_in_full(self.analysis, children, front);
+                })
             }
             Numbers::Real(update) => {
-                let left = appended(&mut kept.real, length);
+                let left = append_zeros(&mut kept.real, length);
                 self.eliminate_in(
                     supernode,
-                    Memory { left, update },
-                    |whole| whole.parts()[0],
-                    |front| {
-                        for (child, update) in children {
-                            front.extend_add(update.real(), relative(child), |real| real);
-                        }
-                    },
+                    Target { left, update },
+                    |number| number.parts()[0],
+                    |front| gather_real(self.analysis, children, front),
                 )
             }
         }

@@ -8,7 +8,7 @@ use faer::{Accum, Par};
 use nalgebra::ComplexField as _;
 
 use crate::linalg::LinalgError;
-use crate::linalg::fronts::{Shape, mat, mat_mut, scatter_add, threads_for};
+use crate::linalg::fronts::{Gather, Shape, mat, mat_mut, scatter_add, threads_for};
 use crate::linalg::order::go_on_unless;
 use crate::linalg::scalar::Number;
 
@@ -24,9 +24,8 @@ pub(super) struct Front<'a, T> {
     pub(super) update: &'a mut [T],
 }
 
-impl<T: Number> Front<'_, T> {
-    /// Adds a child's update of such numbers; `relative` are its rows in this front, ascending.
-    pub(super) fn extend_add<S: Copy>(&mut self, update: &[S], relative: &[u32], number: impl Fn(S) -> T + Copy) {
+impl<T: Number> Gather<T> for Front<'_, T> {
+    fn extend_add<S: Copy>(&mut self, update: &[S], relative: &[u32], number: impl Fn(S) -> T + Copy) {
         let Shape { columns, below } = self.shape;
         let height = self.shape.height();
         if relative.is_empty() {
@@ -42,7 +41,9 @@ impl<T: Number> Front<'_, T> {
             }
         }
     }
+}
 
+impl<T: Number> Front<'_, T> {
     /// Eliminates the front's columns and leaves the Schur complement in `update`. An error's row is the first column
     /// without a positive pivot.
     pub(super) fn eliminate(&mut self, par: Par, cancel: &AtomicBool) -> Result<(), LinalgError> {

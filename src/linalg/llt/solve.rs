@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::factor::Llt;
 use crate::linalg::LinalgError;
 use crate::linalg::fronts::{
-    FrontAnalysis, LARGE_PANEL, Panel, Part, Substitution, TOGETHER, split_panel, substitute, subtract_product,
+    FrontAnalysis, FrontNumbers, LARGE_PANEL, Part, Substitution, TOGETHER, split_panel, substitute, subtract_product,
 };
 use crate::linalg::order::go_on_unless;
 use crate::linalg::scalar::Number;
@@ -61,24 +61,24 @@ struct Panels<'a, T: Number> {
 }
 
 impl<T: Number> Panels<'_, T> {
-    fn left(&self, supernode: usize) -> Panel<'_, T> {
+    fn left(&self, supernode: usize) -> FrontNumbers<'_, T> {
         let unit = self.analysis.unit_of[supernode] as usize;
-        self.factor.places.panel(self.analysis, supernode, &self.factor.units[unit])
+        self.factor.places.numbers_of(self.analysis, supernode, &self.factor.units[unit])
     }
 }
 
 impl<T: Number> Substitution<T> for Panels<'_, T> {
     fn up(&self, supernode: usize, part: Part<'_, T>) {
         match self.left(supernode) {
-            Panel::Whole(left) => forward(left, part),
-            Panel::Real(left) => part.by_parts(|part| forward(left, part)),
+            FrontNumbers::Full(left) => forward(left, part),
+            FrontNumbers::Real(left) => part.by_parts(|part| forward(left, part)),
         }
     }
 
     fn down(&self, supernode: usize, part: Part<'_, T>) {
         match self.left(supernode) {
-            Panel::Whole(left) => backward(left, part),
-            Panel::Real(left) => part.by_parts(|part| backward(left, part)),
+            FrontNumbers::Full(left) => backward(left, part),
+            FrontNumbers::Real(left) => part.by_parts(|part| backward(left, part)),
         }
     }
 }

@@ -1,12 +1,15 @@
 //! Numeric factorization: every front of the tree.
 
+use std::convert::identity;
 use std::sync::atomic::AtomicBool;
 
 use nalgebra_sparse::CscMatrix;
 
 use super::front::Front;
 use super::pivot::Pivots;
-use crate::linalg::fronts::{FrontAnalysis, Kept, Kernel, Numbers, Places, Room, Tree, Update, appended};
+use crate::linalg::fronts::{
+    FrontAnalysis, Kept, Kernel, Numbers, Places, Room, Tree, Update, append_zeros, gather_in_full, gather_real,
+};
 use crate::linalg::order::{Pattern, go_on_unless, narrow};
 use crate::linalg::scalar::{Number, Scalar};
 use crate::linalg::sparse::power_of_two_near;
@@ -67,9 +70,8 @@ impl<T: Scalar> Lu<T> {
 impl<T: Scalar> Kernel<T> for Job<'_, T> {
     type Kept = UnitFactor<T>;
 
-    fn room(&self, _: usize, room: Room) -> UnitFactor<T> {
-        let values = Kept::with_room(room.numbers);
-        UnitFactor { values, swaps: Vec::with_capacity(room.columns), replaced: Vec::new() }
+    fn room(&self, _: usize, room: Room, columns: usize) -> UnitFactor<T> {
+        UnitFactor { values: Kept::with_room(room), swaps: Vec::with_capacity(columns), replaced: Vec::new() }
     }
 
     fn eliminate(
@@ -84,35 +86,20 @@ impl<T: Scalar> Kernel<T> for Job<'_, T> {
         let first = factor.swaps.len();
         factor.swaps.resize(first + analysis.shape(supernode).columns, 0);
         let swaps = &mut factor.swaps[first..];
-        let relative = |child: &u32| analysis.relative(*child as usize);
         let replaced = match update {
-            Numbers::Whole(update) => {
-                let block = appended(&mut factor.values.whole, length);
-                self.eliminate_in(
-                    supernode,
-                    Memory { block, update, swaps },
-                    |whole| whole,
-                    |front| {
-                        for (child, update) in children {
-                            match update {
-                                Numbers::Whole(update) => front.extend_add(update, relative(child), |whole| whole),
-                                Numbers::Real(update) => front.extend_add(update, relative(child), T::from_real_part),
-                            }
-                        }
-                    },
-                )
+            Numbers::Full(update) => {
+                let block = append_zeros(&mut factor.values.full, length);
+                self.eliminate_in(supernode, Target { block, update, swaps }, identity, |front| {
+                    gather_in_full(analysis, children, front);
+                })
             }
             Numbers::Real(update) => {
-                let block = appended(&mut factor.values.real, length);
+                let block = append_zeros(&mut factor.values.real, length);
                 self.eliminate_in(
                     supernode,
-                    Memory { block, update, swaps },
-                    |whole| whole.parts()[0],
-                    |front| {
-                        for (child, update) in children {
-                            front.extend_add(update.real(), relative(child), |real| real);
-                        }
-                    },
+                    Target { block, update, swaps },
+                    |number| number.parts()[0],
+                    |front| gather_real(analysis, children, front),
                 )
             }
         };
@@ -122,18 +109,18 @@ impl<T: Scalar> Kernel<T> for Job<'_, T> {
 }
 
 /// What a front is written to.
-struct Memory<'a, N> {
+struct Target<'a, N> {
     block: &'a mut [N],
     update: &'a mut [N],
     swaps: &'a mut [u32],
 }
 
 impl<T: Scalar> Job<'_, T> {
-    /// Assembles and eliminates a front of whole numbers or real parts. Returns the columns whose pivots were replaced.
+    /// Assembles and eliminates a front of numbers in full or real parts. Returns the columns whose pivots were replaced.
     fn eliminate_in<N: Scalar>(
         &self,
         supernode: usize,
-        Memory { block, update, swaps }: Memory<'_, N>,
+        Target { block, update, swaps }: Target<'_, N>,
         number: impl Fn(T) -> N,
         add_children: impl FnOnce(&mut Front<'_, N>),
     ) -> Result<Vec<usize>, LinalgError> {

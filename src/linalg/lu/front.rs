@@ -6,7 +6,7 @@ use faer::{Accum, Par, linalg};
 
 use super::pivot::{Pivots, factor_block};
 use crate::linalg::LinalgError;
-use crate::linalg::fronts::{Shape, mat_mut, scatter_add};
+use crate::linalg::fronts::{Gather, Shape, mat_mut, scatter_add};
 use crate::linalg::order::go_on_unless;
 use crate::linalg::scalar::Scalar;
 
@@ -21,9 +21,8 @@ pub(super) struct Front<'a, T> {
     pub(super) update: &'a mut [T],
 }
 
-impl<T: Scalar> Front<'_, T> {
-    /// Adds a child's update of such numbers; `relative` are its rows in this front, ascending.
-    pub(super) fn extend_add<S: Copy>(&mut self, update: &[S], relative: &[u32], number: impl Fn(S) -> T + Copy) {
+impl<T: Scalar> Gather<T> for Front<'_, T> {
+    fn extend_add<S: Copy>(&mut self, update: &[S], relative: &[u32], number: impl Fn(S) -> T + Copy) {
         let Shape { columns, below } = self.shape;
         let height = self.shape.height();
         if relative.is_empty() {
@@ -49,7 +48,9 @@ impl<T: Scalar> Front<'_, T> {
             }
         }
     }
+}
 
+impl<T: Scalar> Front<'_, T> {
     /// Eliminates the front's columns and leaves the Schur complement in `update`.
     pub(super) fn eliminate(
         &mut self,

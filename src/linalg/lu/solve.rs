@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use super::factor::Lu;
 use crate::linalg::LinalgError;
 use crate::linalg::fronts::{
-    FrontAnalysis, LARGE_PANEL, Panel, Part, Shape, Substitution, TOGETHER, dot, mat, split_panel, substitute,
+    FrontAnalysis, FrontNumbers, LARGE_PANEL, Part, Shape, Substitution, TOGETHER, dot, mat, split_panel, substitute,
     subtract_product,
 };
 use crate::linalg::order::go_on_unless;
@@ -102,16 +102,16 @@ struct Plain<'a, T: Scalar>(Blocks<'a, T>);
 struct Transposed<'a, T: Scalar>(Blocks<'a, T>);
 
 impl<T: Scalar> Blocks<'_, T> {
-    /// Lets a front's block act on its part of the right-hand sides, as whole numbers or by parts.
+    /// Lets a front's block act on its part of the right-hand sides, as numbers in full or by parts.
     fn act(&self, act: Act, supernode: usize, part: Part<'_, T>) {
         let (analysis, shape) = (self.analysis, part.shape);
         let unit = analysis.unit_of[supernode] as usize;
         let factor = &self.factor.units[unit];
         let first = (analysis.begin[supernode] - analysis.begin[analysis.units[unit].range.start]) as usize;
         let swaps = &factor.swaps[first..][..shape.columns];
-        match self.factor.places.panel(analysis, supernode, &factor.values) {
-            Panel::Whole(numbers) => Block::new(numbers, shape, swaps).act(act, part),
-            Panel::Real(numbers) => part.by_parts(|part| Block::new(numbers, shape, swaps).act(act, part)),
+        match self.factor.places.numbers_of(analysis, supernode, &factor.values) {
+            FrontNumbers::Full(numbers) => Block::new(numbers, shape, swaps).act(act, part),
+            FrontNumbers::Real(numbers) => part.by_parts(|part| Block::new(numbers, shape, swaps).act(act, part)),
         }
     }
 }

@@ -44,10 +44,10 @@ use self::straighten::{Weights, held_places, straightened};
 use self::subdivision::Subdivision;
 use self::target_graph::TargetGraph;
 use self::triangulate::{Parts, split_collapsing_edges, triangulate};
-use super::outside::{disk_in_plane_unless, outside_of};
+use super::outside::{disk_in_plane_apart, outside_of};
 use super::rest::mean_edge_length;
 use super::{Control, Embedding, Outside, Phase, Pins, SolveError, is_one_to_one};
-use crate::linalg::apart;
+use crate::linalg::run_apart;
 use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, VertexId};
 
 /// Length that a new vertex counts for, in mean lengths of an edge.
@@ -152,7 +152,7 @@ impl Surroundings {
             outside_of(mesh, start, targets.iter().copied(), 1).ok_or(SolveError::NotPlanar)?;
         let triangles = mesh.mesh().triangles.iter().copied().chain(triangles);
         let places: Vec<DVec2> = start.iter().chain(&frame).copied().collect();
-        let disk = disk_in_plane_unless(&places, triangles.collect(), control)?.ok_or(SolveError::NotPlanar)?;
+        let disk = disk_in_plane_apart(&places, triangles.collect(), control)?.ok_or(SolveError::NotPlanar)?;
         Ok(Self { disk, places, frame })
     }
 
@@ -233,7 +233,7 @@ impl Surroundings {
             None => vec![self.disk.face(face)],
         };
         let triangles = self.disk.faces().flat_map(of_face).collect();
-        let disk = disk_in_plane_unless(&cells.places, triangles, control)?;
+        let disk = disk_in_plane_apart(&cells.places, triangles, control)?;
         Ok(disk.expect("the parts of a disk's faces are a disk"))
     }
 }
@@ -284,6 +284,6 @@ fn refinement(
     control: Control<'_>,
 ) -> Result<Arc<Refinement>, SolveError> {
     let cut = Refinement::cut(mesh, new_vertices, parts);
-    let joined = apart(move || cut.joined(), control.cancel())?;
+    let joined = run_apart(move || cut.join(), control.cancel())?;
     Ok(Arc::new(joined.expect("the parts of a disk's faces are a disk")))
 }
