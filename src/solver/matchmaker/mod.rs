@@ -115,6 +115,7 @@ pub fn matched(mesh: &DiskMesh, start: &Embedding, pins: &Pins, control: Control
     let corners = (mesh.vertex_count()..).take(frame).map(VertexId::from_index);
     let vertices = exact().map(|(&v, _)| v).chain(corners).map(VertexId::number).collect();
     let graph = TargetGraph::new(&targets, &surroundings.frame);
+    control.go_on()?;
     let crossing = CROSSING * mean_edge_length(mesh, start);
     let search = Search { ends: Ends { graph, vertices, frame }, crossing, control };
     let mut manners = manners(mesh);
@@ -150,6 +151,7 @@ impl Surroundings {
     fn new(mesh: &DiskMesh, start: &Embedding, targets: &[DVec2], control: Control<'_>) -> Result<Self, SolveError> {
         let Outside { frame, triangles } =
             outside_of(mesh, start, targets.iter().copied(), 1).ok_or(SolveError::NotPlanar)?;
+        control.go_on()?;
         let triangles = mesh.mesh().triangles.iter().copied().chain(triangles);
         let places: Vec<DVec2> = start.iter().chain(&frame).copied().collect();
         let disk = disk_in_plane_apart(&places, triangles.collect(), control)?.ok_or(SolveError::NotPlanar)?;
@@ -199,7 +201,7 @@ impl Surroundings {
     fn laid(&self, search: &Search<'_>, manner: Manner, at_most: usize) -> (Paths, Result<(), SolveError>) {
         let mut router = Router::new(search.crossing, search.control);
         let mut paths = Paths::new(Subdivision::new(&self.disk, &self.places), search.ends.clone(), manner);
-        let end = paths.lay_all(&mut router, at_most);
+        let end = search.control.go_on().and_then(|()| paths.lay_all(&mut router, at_most));
         (paths, end)
     }
 
@@ -207,9 +209,11 @@ impl Surroundings {
     fn straightened(&self, mesh: &DiskMesh, paths: Paths, control: Control<'_>) -> Result<Matched, SolveError> {
         let Paths { mut cells, graph, lines, .. } = paths;
         split_collapsing_edges(&mut cells, &graph);
+        control.go_on()?;
         let parts = triangulate(&mut cells, &graph, &self.disk);
         control.enter(Phase::Assemble)?;
         let held = held_places(&cells, &graph, &lines);
+        control.go_on()?;
         let whole = self.refined(&cells, &parts, control)?;
         let (refinement, vertices) = refined(mesh, &Cut { whole: &self.disk, cells: &cells, parts: &parts }, control)?;
         for weights in [Weights::MeanValue, Weights::Uniform] {
@@ -219,6 +223,7 @@ impl Surroundings {
                 Ok(places) => places,
             };
             let embedding: Embedding = vertices.iter().map(|&v| places[v as usize]).collect();
+            control.go_on()?;
             if is_one_to_one(refinement.disk(), &embedding) {
                 return Ok(Matched { refinement, embedding });
             }
