@@ -12,8 +12,8 @@ use super::order::{Order, Pattern};
 /// Patterns of so many unknowns take AMD some hundredths of a second.
 const WORTH_LEAVING: usize = 50_000;
 
-/// AMD cannot be stopped. For large patterns it runs on a thread of its own, which a caller who gives up leaves behind:
-/// it ends by itself, in half a second at a million faces.
+/// AMD cannot be stopped. For large patterns it runs apart, and a caller who gives up leaves it behind: it ends by itself,
+/// in half a second at a million faces.
 pub(super) fn minimum_degree(pattern: &Pattern, cancel: &AtomicBool) -> Result<Order, LinalgError> {
     if pattern.order() < WORTH_LEAVING {
         return minimum_degree_to_the_end(pattern);

@@ -12,7 +12,9 @@
 //!   p  | L₂₁        S  |     S, p by p, goes to the parent and is freed there
 //! ```
 //!
-//! Panels are real where nothing complex is below (see `fronts/places.rs`). There is no pivoting between fronts. A pivot that is too small against its row is replaced and counted; refinement
+//! Panels are real where nothing complex is below (see `fronts/places.rs`).
+//!
+//! There is no pivoting between fronts. A pivot that is too small against its row is replaced and counted; refinement
 //! against the original A repairs what that changed, or the solve is an error.
 //!
 //! | file | what |
