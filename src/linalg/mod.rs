@@ -9,8 +9,8 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `analysis.rs` | the interface |
-//! | `order.rs` | fill-reducing order (dissection, AMD), elimination tree, postorder |
+//! | `analysis.rs`, `factor.rs` | the interface |
+//! | `order.rs`, `elimination.rs` | fill-reducing order (dissection, AMD); elimination tree, column counts, postorder |
 //! | `degree.rs` | minimum degree |
 //! | `apart.rs` | work that cannot be stopped, on threads that are left behind |
 //! | `dissection/` | separators of large patterns |
@@ -27,7 +27,9 @@ mod analysis;
 mod apart;
 mod degree;
 mod dissection;
+mod elimination;
 mod error;
+mod factor;
 mod fronts;
 mod gmres;
 mod lanczos;
@@ -40,10 +42,12 @@ mod rough;
 mod scalar;
 mod sparse;
 
-pub use analysis::{Analysis, Answer, EliminationOrder, Factor, FactorStats, Kind};
+pub use analysis::{Analysis, EliminationOrder, Kind};
 pub(crate) use apart::run_apart;
 pub use error::LinalgError;
+pub use factor::{Answer, Factor, FactorStats};
 pub use lanczos::{EigenLimits, Eigenpair, greatest_eigenpair};
+pub(crate) use order::Pattern;
 pub use refine::Solved;
 pub use rough::{Precision, RoughFactor};
 pub use scalar::{Number, Scalar};

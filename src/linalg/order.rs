@@ -1,15 +1,10 @@
 //! The order of elimination: a shallow dissection of large patterns with approximate minimum degree in its parts, made a
-//! postorder of the elimination tree.
-//!
-//! AMD (Amestoy, Davis and Duff 1996, through faer) keeps the fill small; a postorder of the elimination tree changes
-//! neither fill nor flops but numbers every subtree contiguously, which supernodes and parallel subtrees need.
+//! postorder of the elimination tree. And the patterns and orders that all of this is about.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
 use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::cholesky::simplicial;
 use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
 use rayon::prelude::*;
@@ -17,19 +12,20 @@ use rayon::prelude::*;
 use super::LinalgError;
 use super::degree::{minimum_degree, minimum_degree_to_the_end};
 use super::dissection::Dissection;
+use super::elimination::Elimination;
 
-/// Columns of a pattern that share the work of one task.
-const COLUMNS_PER_TASK: usize = 16_384;
+/// Columns of a pattern between two looks at the flag.
+pub(super) const COLUMNS_AT_ONCE: usize = 16_384;
 
 /// "No parent" in a tree of `u32`.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// Lists of 32-bit indices, one after another: the sorted columns of a symmetric pattern, the children of a tree's nodes.
 #[derive(Clone, Debug)]
-pub(super) struct Pattern {
+pub(crate) struct Pattern {
     /// Where each list begins, and the end of the last.
-    pub(super) offsets: Vec<u32>,
-    pub(super) rows: Vec<u32>,
+    pub(crate) offsets: Vec<u32>,
+    pub(crate) rows: Vec<u32>,
 }
 
 impl Pattern {
@@ -45,10 +41,16 @@ impl Pattern {
         }
         let narrowed = |indices: &[usize]| indices.iter().map(|&index| narrow(index)).collect();
         let this = Self { offsets: narrowed(pattern.major_offsets()), rows: narrowed(pattern.minor_indices()) };
-        go_on_unless(cancel)?;
         this.check_symmetric(cancel)?;
         go_on_unless(cancel)?;
         Ok(this)
+    }
+
+    /// The same in as many bits as indices of matrices have.
+    pub(crate) fn widened(&self) -> SparsityPattern {
+        let wide = |indices: &[u32]| indices.par_iter().map(|&index| index as usize).collect();
+        SparsityPattern::try_from_offsets_and_indices(self.order(), self.order(), wide(&self.offsets), wide(&self.rows))
+            .expect("columns are sorted, and have no row twice")
     }
 
     pub(super) fn order(&self) -> usize {
@@ -67,7 +69,7 @@ impl Pattern {
     /// Whether a matrix has just these entries.
     pub(super) fn is_that_of<T>(&self, matrix: &CscMatrix<T>) -> bool {
         let same = |narrow: &[u32], wide: &[usize]| {
-            narrow.len() == wide.len() && narrow.iter().zip(wide).all(|(&narrow, &wide)| narrow as usize == wide)
+            narrow.len() == wide.len() && narrow.par_iter().zip(wide).all(|(&narrow, &wide)| narrow as usize == wide)
         };
         matrix.nrows() == self.order()
             && same(&self.offsets, matrix.pattern().major_offsets())
@@ -89,10 +91,10 @@ impl Pattern {
     }
 
     /// Walks the columns once: entry (i, j) of column j must be the next unread entry of row j in column i.
-    fn check_symmetric(&self, cancel: &AtomicBool) -> Result<(), LinalgError> {
+    pub(super) fn check_symmetric(&self, cancel: &AtomicBool) -> Result<(), LinalgError> {
         let mut next: Vec<u32> = self.offsets[..self.order()].to_vec();
         for column in 0..self.order() {
-            if column % COLUMNS_PER_TASK == 0 {
+            if column % COLUMNS_AT_ONCE == 0 {
                 go_on_unless(cancel)?;
             }
             let fault = |row: u32| LinalgError::PatternNotSymmetric { row: row as usize, column };
@@ -121,33 +123,10 @@ impl Pattern {
         self.rows.iter().map(place).collect()
     }
 
-    /// The upper triangle of the pattern renumbered by `order`, columns sorted.
-    ///
-    /// # Errors
-    ///
-    /// [`LinalgError::Cancelled`].
-    pub(super) fn permuted_upper(&self, order: &Order, cancel: &AtomicBool) -> Result<Self, LinalgError> {
-        let upper = |column: usize| {
-            let lane = self.column(order.new_to_old[column] as usize);
-            lane.iter().map(|&old| order.old_to_new[old as usize]).filter(move |&row| row as usize <= column)
-        };
-        let parts: Result<Vec<_>, LinalgError> = (0..self.order().div_ceil(COLUMNS_PER_TASK))
-            .into_par_iter()
-            .map(|task| {
-                go_on_unless(cancel)?;
-                let columns = task * COLUMNS_PER_TASK..self.order().min((task + 1) * COLUMNS_PER_TASK);
-                let (mut counts, mut rows) = (Vec::with_capacity(columns.len()), Vec::new());
-                for column in columns {
-                    let start = rows.len();
-                    rows.extend(upper(column));
-                    rows[start..].sort_unstable();
-                    counts.push(narrow(rows.len() - start));
-                }
-                Ok((counts, rows))
-            })
-            .collect();
-        let (counts, rows): (Vec<_>, Vec<_>) = parts?.into_iter().unzip();
-        Ok(Self { offsets: running_sum(&counts.concat()), rows: rows.concat() })
+    /// The rows of a column of the pattern renumbered by `order`, in no order.
+    pub(super) fn renumbered(&self, order: &Order, column: usize) -> impl Iterator<Item = u32> {
+        let rows = self.column(order.new_to_old[column] as usize);
+        rows.iter().map(|&old| order.old_to_new[old as usize])
     }
 }
 
@@ -200,16 +179,6 @@ impl Order {
     }
 }
 
-/// Elimination order with its tree: `parent[j]` is the first row below the diagonal of column j of the factor, and
-/// `counts[j]` the number of entries of that column, diagonal included.
-pub(super) struct Elimination {
-    pub(super) order: Order,
-    pub(super) parent: Vec<u32>,
-    pub(super) counts: Vec<u32>,
-    /// The pattern of pairs, where unknowns come in pairs: then all of this is about pairs.
-    pub(super) pairs: Option<Pattern>,
-}
-
 /// Orders a pattern by AMD and a postorder of the elimination tree.
 pub(super) fn order(pattern: &Pattern, cancel: &AtomicBool) -> Result<Elimination, LinalgError> {
     let pairs = pattern.of_pairs();
@@ -251,66 +220,6 @@ pub(super) fn in_order(pattern: &Pattern, given: &Order, cancel: &AtomicBool) ->
     Elimination::new(pattern, pairs, &Order::from_new_to_old(of_pairs), cancel)
 }
 
-impl Elimination {
-    /// The order of the unknowns themselves.
-    pub(super) fn order(self) -> Order {
-        if self.pairs.is_some() { self.order.of_pairs() } else { self.order }
-    }
-
-    fn new(
-        pattern: &Pattern,
-        pairs: Option<Pattern>,
-        degree: &Order,
-        cancel: &AtomicBool,
-    ) -> Result<Self, LinalgError> {
-        go_on_unless(cancel)?;
-        let upper = pairs.as_ref().unwrap_or(pattern).permuted_upper(degree, cancel)?;
-        go_on_unless(cancel)?;
-        let (parent, counts) = elimination_tree(&upper);
-        go_on_unless(cancel)?;
-        let children = children(&parent);
-        let roots = (0..).zip(&parent).filter(|&(_, &above)| above == NONE).map(|(node, _)| node).collect();
-        let post = postorder(roots, |node| children.column(node as usize));
-        let mut position = vec![0u32; parent.len()];
-        for (new, &old) in post.iter().enumerate() {
-            position[old as usize] = narrow(new);
-        }
-        let renamed =
-            |old: u32| if parent[old as usize] == NONE { NONE } else { position[parent[old as usize] as usize] };
-        go_on_unless(cancel)?;
-        Ok(Self {
-            order: degree.then(&post),
-            parent: post.iter().map(|&old| renamed(old)).collect(),
-            counts: post.iter().map(|&old| counts[old as usize]).collect(),
-            pairs,
-        })
-    }
-}
-
-/// Parent and column count of every column, from the upper triangle (faer's walk over row subtrees).
-fn elimination_tree(upper: &Pattern) -> (Vec<u32>, Vec<u32>) {
-    let n = upper.order();
-    let (mut tree, mut counts) = (vec![0i32; n], vec![0u32; n]);
-    let scratch = simplicial::prefactorize_symbolic_cholesky_scratch::<u32>(n, upper.rows.len());
-    let mut memory = MemBuffer::new(scratch);
-    let stack = MemStack::new(&mut memory);
-    simplicial::prefactorize_symbolic_cholesky::<u32>(&mut tree, &mut counts, upper.as_faer(), stack);
-    // faer writes −1 for a root, which is `NONE` in two's complement.
-    (tree.into_iter().map(i32::cast_unsigned).collect(), counts)
-}
-
-/// A postorder of a forest: children before parents, subtrees contiguous, siblings in their given order.
-pub(super) fn postorder<'a>(roots: Vec<u32>, children: impl Fn(u32) -> &'a [u32]) -> Vec<u32> {
-    // Parents first and siblings last to first: reversed, it is the postorder.
-    let (mut sequence, mut stack) = (Vec::new(), roots);
-    while let Some(node) = stack.pop() {
-        sequence.push(node);
-        stack.extend(children(node));
-    }
-    sequence.reverse();
-    sequence
-}
-
 /// 2k and 2k + 1 for every k of a list.
 pub(super) fn in_pairs(list: &[u32]) -> Vec<u32> {
     list.iter().flat_map(|&k| [2 * k, 2 * k + 1]).collect()
@@ -324,18 +233,4 @@ pub(super) fn running_sum(counts: &[u32]) -> Vec<u32> {
         narrow(total)
     });
     std::iter::once(0).chain(later).collect()
-}
-
-/// Children of every node, ascending.
-pub(super) fn children(parent: &[u32]) -> Pattern {
-    let mut counts = vec![0u32; parent.len()];
-    parent.iter().filter(|&&above| above != NONE).for_each(|&above| counts[above as usize] += 1);
-    let offsets = running_sum(&counts);
-    let mut next = offsets.clone();
-    let mut rows = vec![0u32; offsets[parent.len()] as usize];
-    for (node, &above) in parent.iter().enumerate().filter(|(_, above)| **above != NONE) {
-        rows[next[above as usize] as usize] = narrow(node);
-        next[above as usize] += 1;
-    }
-    Pattern { offsets, rows }
 }

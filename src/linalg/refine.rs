@@ -92,19 +92,24 @@ pub(super) struct System<'a, T> {
 }
 
 impl<T: Scalar> System<'_, T> {
-    /// ‖r‖/‖b‖, plain and with scaled rows; 0 where both are 0.
-    fn relative(&self, r: &[T], b: &[T]) -> (f64, f64) {
+    /// ‖v‖, plain and with scaled rows.
+    fn sizes(&self, v: &[T]) -> (f64, f64) {
+        let plain = norm(v.iter().copied());
+        let scaled = |scale: &[f64]| norm(v.iter().zip(scale).map(|(&v, &scale)| v.scale(scale)));
+        (plain, self.row_scale.map_or(plain, scaled))
+    }
+
+    /// The relative residuals that `r` is of.
+    fn relative(&self, r: &[T], b: (f64, f64)) -> (f64, f64) {
         let ratio = |r: f64, b: f64| if r == 0.0 { 0.0 } else { r / b };
-        let plain = ratio(norm(r.iter().copied()), norm(b.iter().copied()));
-        let Some(scale) = self.row_scale else { return (plain, plain) };
-        let scaled = |v: &[T]| norm(v.iter().zip(scale).map(|(&v, &scale)| v.scale(scale)));
-        (plain, ratio(scaled(r), scaled(b)))
+        let (plain, scaled) = self.sizes(r);
+        (ratio(plain, b.0), ratio(scaled, b.1))
     }
 }
 
 /// Solves for every column of `rhs` and refines each.
 pub(super) fn refined<T: Scalar>(system: &System<'_, T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-    let mut x = rhs.to_vec();
+    let mut x: Vec<T> = rhs.par_iter().copied().collect();
     let mut all =
         Solved { x: Vec::new(), residual: 0.0, scaled_residual: 0.0, backward_error: 0.0, refinement_steps: 0 };
     if rhs.is_empty() {
@@ -113,9 +118,8 @@ pub(super) fn refined<T: Scalar>(system: &System<'_, T>, rhs: &[T]) -> Result<So
     let n = system.operator.matrix.nrows();
     for (x, b) in x.chunks_mut(GROUP * n).zip(rhs.chunks(GROUP * n)) {
         (system.solve)(x)?;
-        let columns = x.chunks_exact_mut(n).zip(b.chunks_exact(n));
-        let mut columns: Vec<Column<'_, T>> =
-            columns.map(|(x, b)| Column { x, b, backward_error: f64::INFINITY, steps: 0 }).collect();
+        let columns = x.par_chunks_exact_mut(n).zip(b.par_chunks_exact(n));
+        let mut columns: Vec<Column<'_, T>> = columns.map(|(x, b)| Column::new(system, x, b)).collect();
         refine(system, &mut columns)?;
         for column in &mut columns {
             let (plain, scaled) = accept(system, column)?;
@@ -134,11 +138,11 @@ fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Resu
     let measure = |x: &[T]| {
         let mut r = vec![T::ZERO; x.len()];
         system.operator.residual(x, column.b, &mut r)?;
-        Ok(system.relative(&r, column.b))
+        Ok(system.relative(&r, column.b_sizes))
     };
     // A NaN is not good, and neither is an infinity on one side.
     let good = |limit: f64, (plain, scaled): (f64, f64)| plain.min(scaled) <= limit && (plain + scaled).is_finite();
-    let mut relative = measure(column.x)?;
+    let mut relative = column.relative;
     // Written so that a NaN counts as stalled.
     let converged = column.backward_error <= STALLED;
     let at_the_floor = converged && system.accept != Accept::Residual && system.is_faithful;
@@ -156,8 +160,19 @@ fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Resu
 struct Column<'a, T> {
     x: &'a mut [T],
     b: &'a [T],
+    /// ‖b‖, plain and with scaled rows.
+    b_sizes: (f64, f64),
     backward_error: f64,
+    /// The relative residuals of `x`; no numbers before it was judged.
+    relative: (f64, f64),
     steps: usize,
+}
+
+impl<'a, T: Scalar> Column<'a, T> {
+    fn new(system: &System<'_, T>, x: &'a mut [T], b: &'a [T]) -> Self {
+        let b_sizes = system.sizes(b);
+        Self { x, b, b_sizes, backward_error: f64::INFINITY, relative: (f64::NAN, f64::NAN), steps: 0 }
+    }
 }
 
 /// Refines the answers in place, all that still gain by it together.
@@ -201,7 +216,7 @@ fn judge<T: Scalar>(
     r: &mut [T],
     step: usize,
 ) -> Result<bool, LinalgError> {
-    let Column { x, b, backward_error: before, steps } = column;
+    let Column { x, b, b_sizes, backward_error: before, relative, steps } = column;
     let previous = (step > 0).then(|| r.to_vec());
     let now = system.operator.backward_error(x, b, r)?;
     let better = now < *before;
@@ -211,6 +226,7 @@ fn judge<T: Scalar>(
         }
         return Ok(false);
     }
+    *relative = system.relative(r, *b_sizes);
     *steps = step;
     let worthwhile = now <= WORTHWHILE * *before;
     *before = now;

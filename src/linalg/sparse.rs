@@ -54,7 +54,7 @@ pub(super) fn power_of_two_near(value: f64) -> f64 {
 
 /// The first row that holds an entry which is not finite, as an error.
 pub(super) fn check_finite<T: Scalar>(matrix: &CscMatrix<T>) -> Result<(), LinalgError> {
-    let broken = matrix.row_indices().iter().zip(matrix.values()).filter(|(_, value)| !value.is_finite());
+    let broken = matrix.row_indices().par_iter().zip(matrix.values()).filter(|(_, value)| !value.is_finite());
     broken.map(|(&row, _)| row).min().map_or(Ok(()), |row| Err(LinalgError::NotFinite { row }))
 }
 

@@ -178,8 +178,11 @@ fn examine(mesh: &TriMesh) -> (Diagnosis, Option<EdgeTable>) {
     diagnosis.add(Fault::MissingVertices(FaceList::new(mesh, missing.clone())));
     diagnosis.add(Fault::RepeatedVertices(FaceList::new(mesh, repeated)));
     diagnosis.add(Fault::DuplicateFaces(FaceList::new(mesh, duplicates)));
-    diagnosis.add(Fault::ZeroArea(zero_area_faces(mesh, &sound)));
-    let topology = Topology::explore(table, mesh.vertex_count(), sound.triangles(mesh));
+    let (zero_area, topology) = rayon::join(
+        || zero_area_faces(mesh, &sound),
+        || Topology::explore(table, mesh.vertex_count(), sound.triangles(mesh)),
+    );
+    diagnosis.add(Fault::ZeroArea(zero_area));
     describe(&mut diagnosis, mesh, &sound, &topology);
     let table = sound.kept.is_none().then_some(topology.table);
     (diagnosis, table)

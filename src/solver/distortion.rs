@@ -131,8 +131,7 @@ pub fn distortion(mesh: &DiskMesh, embedding: &Embedding) -> Distortion {
     let scale = area / area_in_embedding;
     let faces: Vec<FaceDistortion> =
         maps.par_iter().with_min_len(FACES_PER_TASK).map(|map| map.distortion(scale)).collect();
-    let weights: Vec<f64> = maps.iter().map(|map| map.double_area).collect();
-    let summary = summary(&faces, &weights);
+    let summary = summary(&faces, &maps);
     Distortion { faces, summary }
 }
 
@@ -211,28 +210,33 @@ impl FaceMap {
     }
 }
 
-fn summary(faces: &[FaceDistortion], weights: &[f64]) -> DistortionSummary {
+fn summary(faces: &[FaceDistortion], maps: &[FaceMap]) -> DistortionSummary {
     // Without a list of them: new memory would cost more time than the numbers.
     fn weighted<'a>(
         faces: &'a [FaceDistortion],
-        weights: &'a [f64],
+        maps: &'a [FaceMap],
         of: fn(&FaceDistortion) -> f64,
     ) -> impl Iterator<Item = (f64, f64)> + Clone {
-        faces.iter().zip(weights).filter(|&(_, &weight)| weight > 0.0).map(move |(face, &w)| (of(face), w))
+        let counts = |&(_, map): &(&FaceDistortion, &FaceMap)| map.double_area > 0.0;
+        faces.iter().zip(maps).filter(counts).map(move |(face, map)| (of(face), map.double_area))
     }
-    let weighted = |of: fn(&FaceDistortion) -> f64| weighted(faces, weights, of);
-    let (angle, (area, stretch_l2)) = rayon::join(
-        || Spread::new(weighted(|face| face.angle).collect()),
-        || {
-            let area = Spread::new(weighted(|face| face.area.max(face.area.recip())).collect());
-            (area, mean(weighted(|face| face.stretch_l2.powi(2))).sqrt())
-        },
-    );
+    let weighted = |of: fn(&FaceDistortion) -> f64| weighted(faces, maps, of);
+    let spreads = || {
+        rayon::join(
+            || Spread::new(weighted(|face| face.angle).collect()),
+            || Spread::new(weighted(|face| face.area.max(face.area.recip())).collect()),
+        )
+    };
+    let means = || {
+        rayon::join(
+            || mean(weighted(|face| face.stretch_l2.powi(2))).sqrt(),
+            // A quarter is 1 where nothing is distorted, as all other values are.
+            || mean(weighted(|face| face.symmetric_dirichlet() / 4.0)),
+        )
+    };
+    let ((angle, area), (stretch_l2, quarter)) = rayon::join(spreads, means);
     let stretch_linf = weighted(|face| face.stretch_linf).map(|(value, _)| value).fold(1.0, f64::max);
-    // A quarter is 1 where nothing is distorted, as all other values are.
-    let quarter = mean(weighted(|face| face.symmetric_dirichlet() / 4.0));
-    let symmetric_dirichlet = Mean { mean: 4.0 * quarter };
-    DistortionSummary { angle, area, stretch_l2, stretch_linf, symmetric_dirichlet }
+    DistortionSummary { angle, area, stretch_l2, stretch_linf, symmetric_dirichlet: Mean { mean: 4.0 * quarter } }
 }
 
 /// The mean of values with positive weights; 1 where there are none.

@@ -14,12 +14,12 @@ use glam::DVec3;
 use num_complex::Complex;
 use rayon::prelude::*;
 
-use super::pieces::{Piece, in_pieces};
+use super::pieces::{Fans, Piece};
 use super::weights::{Corner, CornerWeights, three_point_weights};
 use super::{Control, Embedding, Family, SolveError};
 use crate::geom::power_of_two_near;
 use crate::linalg::Scalar;
-use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
+use crate::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
 
 /// Coefficients of all vertex equations.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub struct Equations<T> {
 impl Equations<f64> {
     /// The same equations with complex coefficients.
     pub fn to_complex(&self) -> Equations<Complex<f64>> {
-        let coefficients = self.coefficients.iter().map(|&a| Complex::new(a, 0.0)).collect();
+        let coefficients = self.coefficients.par_iter().map(|&a| Complex::new(a, 0.0)).collect();
         Equations { coefficients, bounded_corners: self.bounded_corners }
     }
 }
@@ -84,7 +84,7 @@ impl Equations<Complex<f64>> {
             let add = |(sum, size): (Complex<f64>, f64), h: HalfedgeId| {
                 let along = embedding[mesh.head(h)] - embedding[vertex];
                 let term = self.coefficients[h.index()] * Complex::new(along.x, along.y);
-                (sum + term, size + term.norm())
+                (sum + term, size + modulus(term))
             };
             let (sum, size) = mesh.links_from(vertex).fold((Complex::ZERO, 0.0), add);
             (sum.norm_sqr(), size * size)
@@ -94,6 +94,12 @@ impl Equations<Complex<f64>> {
         let (residual, whole) = of_vertices.iter().fold((0.0, 0.0), add);
         Ok(if whole > 0.0 { f64::sqrt(residual / whole) } else { 0.0 })
     }
+}
+
+/// |z|, several times faster than by a hypotenuse where squares neither overflow nor underflow.
+pub(super) fn modulus(z: Complex<f64>) -> f64 {
+    let square = z.norm_sqr();
+    if square.is_normal() { square.sqrt() } else { z.norm() }
 }
 
 /// Three-point weights with offset d = rᵖ, without the boundary's i-terms: paper eq. (2).
@@ -117,13 +123,14 @@ pub fn barycentric(mesh: &DiskMesh, power: f64, control: Control<'_>) -> Result<
 /// Hermitian to the last bit, and so what refinement measures is what Cholesky factored.
 fn cotangents(mesh: &DiskMesh, control: Control<'_>) -> Result<Equations<f64>, SolveError> {
     let scale = length_scale(mesh);
-    let of_corner = |piece: &Piece, k: usize| {
+    let of_piece = |piece: &Piece| {
         let corners = mesh.shape(piece.corners).map(|x| x * scale);
-        let (cotangent, bounded) = Corner::at(from_corner(corners, k)).cotangent();
-        let opposite = piece.links[(k + 1) % 3];
-        ([(opposite, cotangent), (mesh.twin(opposite), cotangent)], bounded)
+        // That of the corner opposite each side.
+        let cotangents = [2, 0, 1].map(|k| Corner::at(from_corner(corners, k)).cotangent());
+        let along = cotangents.map(|(cotangent, _)| cotangent);
+        Sides { along, back: along, bounded_corners: cotangents.map(|(_, bounded)| u8::from(bounded)).iter().sum() }
     };
-    sum_pieces(mesh, of_corner, control)
+    sum_of_sides(mesh, of_piece, control)
 }
 
 /// The natural boundary equations for offset d = rᵖ: paper eq. (2) inside and eq. (3) on the boundary.
@@ -204,11 +211,16 @@ pub(super) fn sum_corners_of<T: Scalar>(
     weights: impl Fn([DVec3; 3]) -> CornerWeights<T> + Sync,
     control: Control<'_>,
 ) -> Result<Equations<T>, SolveError> {
-    let of_corner = |piece: &Piece, k: usize| {
-        let CornerWeights { shares: [to_next, to_previous], bounded } = weights(from_corner(shape(piece.corners), k));
-        ([(piece.links[k], to_next), (mesh.twin(piece.links[(k + 2) % 3]), to_previous)], bounded)
+    let of_piece = |piece: &Piece| {
+        let corners = shape(piece.corners);
+        let at = [0, 1, 2].map(|k| weights(from_corner(corners, k)));
+        Sides {
+            along: [0, 1, 2].map(|k| at[k].shares[0]),
+            back: [1, 2, 0].map(|k| at[k].shares[1]),
+            bounded_corners: at.iter().map(|weights| u8::from(weights.bounded)).sum(),
+        }
     };
-    sum_pieces(mesh, of_corner, control)
+    sum_of_sides(mesh, of_piece, control)
 }
 
 /// The corners of a triangle from one of them on.
@@ -216,31 +228,67 @@ fn from_corner(x: [DVec3; 3], k: usize) -> [DVec3; 3] {
     [x[k], x[(k + 1) % 3], x[(k + 2) % 3]]
 }
 
-/// What a corner adds to two links, and whether its weight was bounded.
-type Parts<T> = ([(HalfedgeId, T); 2], bool);
+/// What a piece gives to the links of its sides.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sides<T> {
+    /// To those from each corner to the next.
+    pub(super) along: [T; 3],
+    /// To those that lead back.
+    pub(super) back: [T; 3],
+    /// Corners whose weight was bounded.
+    pub(super) bounded_corners: u8,
+}
 
-/// Adds up what each corner of each piece gives to two links. Looks at the flag at every some thousand pieces.
-fn sum_pieces<T: Scalar>(
+impl<T: Scalar> Sides<T> {
+    /// Of a face that is no piece.
+    const NONE: Self = Self { along: [T::ZERO; 3], back: [T::ZERO; 3], bounded_corners: 0 };
+
+    fn are_finite(&self) -> bool {
+        self.along.iter().chain(&self.back).all(|part| part.is_finite())
+    }
+}
+
+/// Adds up what the pieces give to every link. A link is a side of two faces at most: its sum is gathered from them, not scattered
+/// by them, and so all are found side by side. What the fans of averaged polygons give comes on top, in their order.
+///
+/// # Errors
+///
+/// [`SolveError::NotFinite`] for the first piece that gives what is no number; [`SolveError::Cancelled`].
+pub(super) fn sum_of_sides<T: Scalar>(
     mesh: &DiskMesh,
-    of_corner: impl Fn(&Piece, usize) -> Parts<T> + Sync,
+    of_piece: impl Fn(&Piece) -> Sides<T> + Sync,
     control: Control<'_>,
 ) -> Result<Equations<T>, SolveError> {
-    let mut found: Vec<[Parts<T>; 3]> = Vec::new();
-    let mut coefficients = vec![T::ZERO; mesh.link_count()];
-    let mut bounded_corners = 0;
-    in_pieces(mesh, |pieces| {
+    let fans = Fans::of(mesh);
+    let of_face = |face: usize| match fans.has_face(face) {
+        false => of_piece(&Piece::of_face(mesh, FaceId::from_index(face))),
+        true => Sides::NONE,
+    };
+    let of_faces: Vec<Sides<T>> = control.each(mesh.face_count(), of_face)?;
+    if let Some(face) = of_faces.par_iter().position_first(|sides| !sides.are_finite()) {
+        return Err(SolveError::NotFinite { face: FaceId::from_index(face) });
+    }
+    let mut bounded_corners = of_faces.par_iter().map(|sides| usize::from(sides.bounded_corners)).sum();
+    let side =
+        |link: usize, of: fn(&Sides<T>) -> &[T; 3]| of_faces.get(link / 3).map_or(T::ZERO, |sides| of(sides)[link % 3]);
+    let of_link = |link: usize| {
+        let twin = mesh.twin(HalfedgeId::from_index(link));
+        side(link, |sides| &sides.along) + side(twin.index(), |sides| &sides.back)
+    };
+    let mut coefficients: Vec<T> = control.each(mesh.halfedge_count(), of_link)?;
+    coefficients.resize(mesh.link_count(), T::ZERO);
+    fans.in_pieces(mesh, |pieces| {
         control.go_on()?;
-        pieces.par_iter().map(|piece| [0, 1, 2].map(|k| of_corner(piece, k))).collect_into_vec(&mut found);
-        for (piece, corners) in pieces.iter().zip(&found) {
-            for (parts, bounded) in corners {
-                for &(link, part) in parts {
-                    if !part.is_finite() {
-                        return Err(SolveError::NotFinite { face: piece.face });
-                    }
-                    coefficients[link.index()] += part.scale(piece.share);
-                }
-                bounded_corners += usize::from(*bounded);
+        let found: Vec<Sides<T>> = pieces.par_iter().map(&of_piece).collect();
+        for (piece, sides) in pieces.iter().zip(found) {
+            if !sides.are_finite() {
+                return Err(SolveError::NotFinite { face: piece.face });
             }
+            for (k, &link) in piece.links.iter().enumerate() {
+                coefficients[link.index()] += sides.along[k].scale(piece.share);
+                coefficients[mesh.twin(link).index()] += sides.back[k].scale(piece.share);
+            }
+            bounded_corners += usize::from(sides.bounded_corners);
         }
         Ok(())
     })?;

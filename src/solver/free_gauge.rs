@@ -19,8 +19,8 @@ use glam::DVec2;
 use num_complex::Complex;
 
 use super::equations::{self, Equations, mean_edge_length};
-use super::free_layout::{LaidOut, Way};
-use super::free_solve::{FreeSolve, Numbers, Unsolved};
+use super::free_layout::{Unanalysed, Way};
+use super::free_solve::{FreeSolve, Unsolved};
 use super::left_kernel::gauge_of;
 use super::pins::{GAUGE_PINS, PinPositions, Pins, farthest_pair, fixed_pins};
 use super::system::{FreeSystem, Site};
@@ -116,15 +116,18 @@ impl FreeProblem<'_> {
         let (mesh, start) = (self.mesh, Instant::now());
         let kind = if self.is_hermitian() { Kind::Hermitian } else { Kind::General };
         let pins = choice.own_places.clone().map_or_else(|| self.asked.clone(), fixed_pins);
+        let laid_out = Unanalysed::new(mesh, &pins, choice.way, kind, control)?;
         // What the equations are does not matter to the order.
-        let laid_out = || LaidOut::new(mesh, &pins, choice.way, kind, control);
-        let (equations, laid_out) = rayon::join(|| self.equations(control), laid_out);
-        let (equations, laid_out) = (equations?, laid_out?);
+        let numbers = || laid_out.numbers(mesh, self.equations(control)?, control);
+        let (numbers, analysis) = rayon::join(numbers, || laid_out.analysis(mesh, control));
+        let (mut numbers, (analysis, analysis_seconds)) = (numbers?, analysis?);
+        if laid_out.has_springs() {
+            numbers.unit = mean_edge_length(mesh).powf(1.0 - self.power());
+        }
+        let laid_out = laid_out.analysed(analysis, analysis_seconds);
         seconds.analyze += laid_out.seconds;
         seconds.assemble += start.elapsed().as_secs_f64() - laid_out.seconds;
-        let has_springs = laid_out.layout.has_springs();
-        let unit = if has_springs { mean_edge_length(mesh).powf(1.0 - self.power()) } else { 1.0 };
-        let solve = FreeSolve::new(mesh, &laid_out, Numbers { equations, unit }, seconds, control)?;
+        let solve = FreeSolve::new(mesh, &laid_out, numbers, seconds, control)?;
         Ok(FreeReady { system: laid_out.system, solve, own_places: choice.own_places.clone() })
     }
 

@@ -3,6 +3,10 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
+use nalgebra_sparse::CscMatrix;
+use num_complex::Complex;
+
+use super::equations::Equations;
 use super::least_squares::{Rest, Spring};
 use super::many_pins::ManyPins;
 use super::pins::GAUGE_PINS;
@@ -65,11 +69,6 @@ impl Layout {
         Self { left_out, keeps_equations, has_many, holds }
     }
 
-    /// Whether pins pull by a weight.
-    pub(super) fn has_springs(&self) -> bool {
-        self.holds.values().any(|hold| !hold.is_exact())
-    }
-
     fn system(&self, mesh: &DiskMesh, control: Control<'_>) -> Result<FreeSystem, SolveError> {
         FreeSystem::new(mesh, |v| self.left_out.binary_search(&v).is_ok(), control)
     }
@@ -96,7 +95,26 @@ impl Layout {
     }
 }
 
-/// A system laid out and analysed.
+/// The numbers of a system.
+pub(super) struct Numbers {
+    pub(super) equations: Equations<Complex<f64>>,
+    /// Their matrix, where it is there already.
+    pub(super) matrix: Option<CscMatrix<Complex<f64>>>,
+    /// What the rows are to be multiplied by so that they are those of a geometry whose edges have length 1 on average.
+    pub(super) unit: f64,
+}
+
+/// A system laid out.
+#[derive(Debug)]
+pub(super) struct Unanalysed {
+    way: Way,
+    layout: Layout,
+    system: FreeSystem,
+    /// What is known of its matrix.
+    kind: Kind,
+}
+
+/// The same, analysed.
 #[derive(Debug)]
 pub(super) struct LaidOut {
     pub(super) way: Way,
@@ -109,7 +127,7 @@ pub(super) struct LaidOut {
     pub(super) seconds: f64,
 }
 
-impl LaidOut {
+impl Unanalysed {
     pub(super) fn new(
         mesh: &DiskMesh,
         pins: &Pins,
@@ -119,11 +137,52 @@ impl LaidOut {
     ) -> Result<Self, SolveError> {
         let layout = Layout::new(mesh, pins, way);
         let system = layout.system(mesh, control)?;
+        Ok(Self { way, layout, system, kind })
+    }
+
+    /// The numbers of equations for its factors; with the matrix, which does not wait for the analysis, where pins have no rows in
+    /// it.
+    pub(super) fn numbers(
+        &self,
+        mesh: &DiskMesh,
+        equations: Equations<Complex<f64>>,
+        control: Control<'_>,
+    ) -> Result<Numbers, SolveError> {
+        let made = || self.system.negated_matrix(mesh, &equations, control);
+        let matrix = (!self.layout.has_many).then(made).transpose()?;
+        Ok(Numbers { equations, matrix, unit: 1.0 })
+    }
+
+    /// Orders and analyses it. Returns also the seconds that took.
+    pub(super) fn analysis(&self, mesh: &DiskMesh, control: Control<'_>) -> Result<(Analysis, f64), SolveError> {
         control.enter(Phase::Analyze)?;
         let start = Instant::now();
-        let analysis = layout.analysis(Site { mesh, system: &system }, kind, control)?;
-        let seconds = start.elapsed().as_secs_f64();
-        Ok(Self { way, layout, system, kind, analysis, seconds })
+        let analysis = self.layout.analysis(Site { mesh, system: &self.system }, self.kind, control)?;
+        Ok((analysis, start.elapsed().as_secs_f64()))
+    }
+
+    pub(super) fn analysed(self, analysis: Analysis, seconds: f64) -> LaidOut {
+        let Self { way, layout, system, kind } = self;
+        LaidOut { way, layout, system, kind, analysis, seconds }
+    }
+
+    /// Whether pins pull by a weight.
+    pub(super) fn has_springs(&self) -> bool {
+        self.layout.holds.values().any(|hold| !hold.is_exact())
+    }
+}
+
+impl LaidOut {
+    pub(super) fn new(
+        mesh: &DiskMesh,
+        pins: &Pins,
+        way: Way,
+        kind: Kind,
+        control: Control<'_>,
+    ) -> Result<Self, SolveError> {
+        let laid_out = Unanalysed::new(mesh, pins, way, kind, control)?;
+        let (analysis, seconds) = laid_out.analysis(mesh, control)?;
+        Ok(laid_out.analysed(analysis, seconds))
     }
 
     /// Whether all equations are kept, and it was not looked at yet where they depend on each other. Conformal ones do so all

@@ -6,8 +6,8 @@ use glam::DVec2;
 use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
 
-use super::equations::Equations;
-use super::free_layout::LaidOut;
+use super::equations::{Equations, modulus};
+use super::free_layout::{LaidOut, Numbers};
 use super::least_squares::{Factored, LeastSquares, Spring, may_be_kept};
 use super::left_kernel::better_gauge;
 use super::many_pins::ManyPins;
@@ -53,13 +53,6 @@ impl Ways {
             Self::Many(many) => &many.springs,
         }
     }
-}
-
-/// The numbers of a system.
-pub(super) struct Numbers {
-    pub(super) equations: Equations<Complex<f64>>,
-    /// What the rows are to be multiplied by so that they are those of a geometry whose edges have length 1 on average.
-    pub(super) unit: f64,
 }
 
 /// An embedding that a solve moves from.
@@ -109,14 +102,15 @@ impl FreeSolve {
         control: Control<'_>,
     ) -> Result<Self, Unsolved> {
         let LaidOut { layout, system, kind, analysis, .. } = laid_out;
-        let Numbers { equations, unit } = numbers;
+        let Numbers { equations, matrix, unit } = numbers;
         let site = Site { mesh, system };
         let start = Instant::now();
         let mut rest = layout.rest(unit);
         let many = rest.take_if(|_| layout.has_many).map(|rest| ManyPins::new(site, rest));
-        let matrix = match &many {
-            Some(many) => many.matrix(site, &equations),
-            None => site.system.negated_matrix(site.mesh, &equations, control)?,
+        let matrix = match (&many, matrix) {
+            (Some(many), _) => many.matrix(site, &equations),
+            (None, Some(matrix)) => matrix,
+            (None, None) => site.system.negated_matrix(site.mesh, &equations, control)?,
         };
         control.go_on()?;
         seconds.assemble += start.elapsed().as_secs_f64();
@@ -285,7 +279,8 @@ impl FreeSolve {
             if self.eliminated.binary_search(&v).is_ok() {
                 return (Complex::ZERO, 0.0);
             }
-            let bound = |h| coefficients[HalfedgeId::index(h)].norm() * embedding[mesh.head(h)].distance(embedding[v]);
+            let bound =
+                |h| modulus(coefficients[HalfedgeId::index(h)]) * embedding[mesh.head(h)].distance(embedding[v]);
             (self.equations.residual_of(mesh, embedding, v), mesh.links_from(v).map(bound).sum::<f64>())
         };
         let equations: Vec<(Complex<f64>, f64)> =
@@ -295,7 +290,10 @@ impl FreeSolve {
             mesh.links_from(v).fold((Complex::<f64>::ZERO, 0.0_f64), |(sum, total), h| {
                 let (there, back) = (coefficients[h.index()], coefficients[mesh.twin(h).index()]);
                 let (other, bound) = equations[mesh.head(h).index()];
-                (sum + back.conj() * other - there.conj() * own, total + back.norm() * bound + there.norm() * own_bound)
+                (
+                    sum + back.conj() * other - there.conj() * own,
+                    total + modulus(back) * bound + modulus(there) * own_bound,
+                )
             })
         };
         let mut sums: Vec<(Complex<f64>, f64)> = control.each(mesh.vertex_count(), |v| sum(VertexId::from_index(v)))?;

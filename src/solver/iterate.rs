@@ -10,8 +10,8 @@ use std::time::Instant;
 use glam::DVec2;
 use num_complex::Complex;
 
-use super::free_layout::{LaidOut, Way};
-use super::free_solve::{FreeSolve, Numbers, Start, Unsolved};
+use super::free_layout::{LaidOut, Numbers, Way};
+use super::free_solve::{FreeSolve, Start, Unsolved};
 use super::left_kernel::gauge_of;
 use super::pins::targets_of;
 use super::plane_weights::{mean_edge_length_in_plane, natural_in_plane, residuals_in_plane};
@@ -99,7 +99,7 @@ impl Iteration {
             let equations = natural_in_plane(mesh, embedding, control)?;
             let unit = mean_edge_length_in_plane(mesh, embedding);
             seconds.assemble += start.elapsed().as_secs_f64();
-            Ok::<_, SolveError>(Numbers { equations, unit })
+            Ok::<_, SolveError>(Numbers { equations, matrix: None, unit })
         };
         let gauge = match FreeSolve::new(mesh, &self.laid_out, numbers(seconds)?, seconds, control) {
             Ok(solve) => return Ok(solve),

@@ -55,6 +55,9 @@ const GROUP: usize = 8;
 /// Bytes that the columns of W may take together; beyond, they are solved for once more instead of being kept.
 const COLUMNS_KEPT: usize = 256_000_000;
 
+/// Rows of columns that share the work of one task.
+const ROWS_PER_TASK: usize = 4096;
+
 /// Entries of a row, by column.
 type Row = Vec<(usize, C64)>;
 
@@ -111,7 +114,7 @@ impl LeastSquares {
         let equation = |&v: &VertexId| equation_of(site, equations, v);
         let rows: Vec<Row> = left_out.iter().map(equation).chain(springs.iter().map(unit)).collect();
         let from_movers: Vec<Vec<C64>> = movers.iter().map(|&v| column_of(site, equations, v)).collect();
-        let by_movers = factored.factor.solve_correction(factored.matrix, &from_movers.concat(), factored.cancel)?.x;
+        let by_movers = factored.factor.solve_columns(factored.matrix, &from_movers.concat(), factored.cancel)?.x;
         let n = site.system.free().len();
         let (k, g, m) = (rows.len(), left_out.len(), movers.len());
         let mut matrix: DMatrix<C64> = DMatrix::zeros(k + m, k + m);
@@ -160,12 +163,12 @@ impl LeastSquares {
         }
         let answer = self.dense.solve(&rhs).ok_or(LinalgError::Singular { row: 0 })?;
         let residual = self.residual_of(answer.as_slice(), factored)?;
-        for (i, term) in terms.iter_mut().enumerate() {
+        terms.par_iter_mut().with_min_len(ROWS_PER_TASK).enumerate().for_each(|(i, term)| {
             for (column, &moved) in self.from_movers.iter().zip(answer.iter().skip(k)) {
                 *term += column[i] * moved;
             }
             *term -= residual[i];
-        }
+        });
         let moves = factored.factor.solve_correction(factored.matrix, &terms, factored.cancel)?.x;
         let mut all = vec![C64::ZERO; site.mesh.vertex_count()];
         let by_movers = self.rest.movers.iter().zip(answer.iter().skip(k));
@@ -188,17 +191,16 @@ impl LeastSquares {
     /// W times the answer of the dense system: the residual of the equations of the factors, negated.
     fn residual_of(&self, answer: &[C64], factored: &Factored<'_>) -> Result<Vec<C64>, LinalgError> {
         let n = factored.matrix.nrows();
-        let mut sum = vec![C64::ZERO; n];
         let Some(columns) = self.columns.as_ref().filter(|_| n > 0) else {
+            let mut sum = vec![C64::ZERO; n];
             for (row, &force) in self.rows.iter().zip(answer) {
                 add_adjoint(row, force, &mut sum);
             }
             return Ok(factored.factor.solve_adjoint(factored.matrix, &sum, factored.cancel)?.x);
         };
-        for (column, &force) in columns.chunks_exact(n).zip(answer) {
-            sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += value * force);
-        }
-        Ok(sum)
+        let parts = || columns.chunks_exact(n).zip(answer);
+        let sum_at = |i: usize| parts().fold(C64::ZERO, |sum, (column, force)| sum + column[i] * force);
+        Ok((0..n).into_par_iter().with_min_len(ROWS_PER_TASK).map(sum_at).collect())
     }
 }
 
@@ -225,6 +227,9 @@ fn inner(x: &[C64], y: &[C64]) -> C64 {
 
 /// W: a solve for every row.
 fn columns_of(rows: &[Row], n: usize, factored: &Factored<'_>) -> Result<Vec<C64>, LinalgError> {
+    if rows.len() <= GROUP {
+        return columns_of_group(rows, n, factored);
+    }
     let mut columns = Vec::with_capacity(n * rows.len());
     for group in rows.chunks(GROUP) {
         columns.extend(columns_of_group(group, n, factored)?);

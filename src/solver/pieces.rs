@@ -22,7 +22,7 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    fn of_face(mesh: &DiskMesh, face: FaceId) -> Self {
+    pub(super) fn of_face(mesh: &DiskMesh, face: FaceId) -> Self {
         let side = |k| HalfedgeId::from_index(3 * face.index() + k);
         Self { corners: mesh.face(face), links: [0, 1, 2].map(side), share: 1.0, face }
     }
@@ -32,29 +32,57 @@ impl Piece {
 /// to compute what they give.
 const AT_ONCE: usize = 1 << 15;
 
+/// The averaged polygons of a mesh.
+pub(super) struct Fans<'a> {
+    polygons: Vec<Polygon<'a>>,
+    /// For each face whether it belongs to one of them; empty where there are none.
+    has_face: Vec<bool>,
+}
+
+impl<'a> Fans<'a> {
+    pub(super) fn of(mesh: &'a DiskMesh) -> Self {
+        let polygons: Vec<Polygon<'_>> = mesh.polygons().filter(Polygon::is_averaged).collect();
+        let mut has_face = vec![false; if polygons.is_empty() { 0 } else { mesh.face_count() }];
+        for face in polygons.iter().flat_map(Polygon::faces) {
+            has_face[face.index()] = true;
+        }
+        Self { polygons, has_face }
+    }
+
+    /// Whether a face belongs to an averaged polygon: then it is no piece.
+    pub(super) fn has_face(&self, face: usize) -> bool {
+        self.has_face.get(face) == Some(&true)
+    }
+
+    /// Hands over the pieces of all fans, some at a time.
+    pub(super) fn in_pieces<E>(
+        &self,
+        mesh: &DiskMesh,
+        mut take: impl FnMut(&[Piece]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut pieces: Vec<Piece> = Vec::new();
+        for some in self.polygons.chunks(AT_ONCE) {
+            pieces.clear();
+            pieces.par_extend(some.par_iter().flat_map_iter(|polygon| fans(mesh, polygon)));
+            take(&pieces)?;
+        }
+        Ok(())
+    }
+}
+
 /// Hands over all pieces, some at a time: the faces in their order, but for those of averaged polygons; then the fans of
 /// these.
 pub(super) fn in_pieces<E>(mesh: &DiskMesh, mut take: impl FnMut(&[Piece]) -> Result<(), E>) -> Result<(), E> {
-    let averaged: Vec<Polygon<'_>> = mesh.polygons().filter(Polygon::is_averaged).collect();
-    let mut is_in_fans = vec![false; if averaged.is_empty() { 0 } else { mesh.face_count() }];
-    for face in averaged.iter().flat_map(Polygon::faces) {
-        is_in_fans[face.index()] = true;
-    }
-    let is_whole = |&face: &usize| is_in_fans.get(face) != Some(&true);
+    let of = Fans::of(mesh);
     let mut pieces: Vec<Piece> = Vec::new();
     for first in (0..mesh.face_count()).step_by(AT_ONCE) {
         let faces = first..mesh.face_count().min(first + AT_ONCE);
         pieces.clear();
-        let whole = faces.into_par_iter().filter(is_whole);
+        let whole = faces.into_par_iter().filter(|&face| !of.has_face(face));
         pieces.par_extend(whole.map(|face| Piece::of_face(mesh, FaceId::from_index(face))));
         take(&pieces)?;
     }
-    for some in averaged.chunks(AT_ONCE) {
-        pieces.clear();
-        pieces.par_extend(some.par_iter().flat_map_iter(|polygon| fans(mesh, polygon)));
-        take(&pieces)?;
-    }
-    Ok(())
+    of.in_pieces(mesh, take)
 }
 
 /// The pieces with a corner at a vertex; where it has no averaged polygon, its faces counter-clockwise.

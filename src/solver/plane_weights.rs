@@ -24,7 +24,7 @@ use glam::DVec2;
 use num_complex::Complex;
 use rayon::prelude::*;
 
-use super::equations::{Equations, mean_length};
+use super::equations::{Equations, Sides, mean_length, sum_of_sides};
 use super::pieces::{Piece, in_pieces};
 use super::weights::bounded;
 use super::{Control, Embedding, SolveError};
@@ -40,7 +40,7 @@ struct FaceWeights {
     at_corner: [[f64; 2]; 3],
     degenerate: bool,
     /// Corners whose weight is not what the geometry gives.
-    bounded_corners: usize,
+    bounded_corners: u8,
 }
 
 /// The lengths of a face's edges, `radii[k]` from corner k to the next, made positive.
@@ -74,7 +74,7 @@ fn face_weights(corners: [DVec2; 3], mean_length: f64) -> FaceWeights {
         // The form that does not cancel.
         let tan_half = if dot > 0.0 { cross / (product + dot) } else { (product - dot) / cross };
         let (tan_half, is_bounded) = bounded(tan_half);
-        bounded_corners += usize::from(is_bounded || degenerate);
+        bounded_corners += u8::from(is_bounded || degenerate);
         [tan_half / to_next, tan_half / to_previous]
     });
     FaceWeights { at_corner, degenerate, bounded_corners }
@@ -161,23 +161,15 @@ pub fn mean_value_in_plane(
     control: Control<'_>,
 ) -> Result<Equations<f64>, SolveError> {
     let scale = scale_of(embedding, mesh.face_count());
-    let weights = |piece: &Piece| face_weights(piece.corners.map(|v| embedding[v] * scale), 1.0);
-    let mut found: Vec<FaceWeights> = Vec::new();
-    let mut coefficients = vec![0.0; mesh.link_count()];
-    let mut bounded_corners = 0;
-    in_pieces(mesh, |pieces| {
-        control.go_on()?;
-        pieces.par_iter().map(weights).collect_into_vec(&mut found);
-        for (Piece { links, share, .. }, weights) in pieces.iter().zip(&found) {
-            bounded_corners += weights.bounded_corners;
-            for (k, &[to_next, to_previous]) in weights.at_corner.iter().enumerate() {
-                coefficients[links[k].index()] += share * to_next;
-                coefficients[mesh.twin(links[(k + 2) % 3]).index()] += share * to_previous;
-            }
+    let of_piece = |piece: &Piece| {
+        let weights = face_weights(piece.corners.map(|v| embedding[v] * scale), 1.0);
+        Sides {
+            along: weights.at_corner.map(|[to_next, _]| to_next),
+            back: [1, 2, 0].map(|k| weights.at_corner[k][1]),
+            bounded_corners: weights.bounded_corners,
         }
-        Ok::<_, SolveError>(())
-    })?;
-    Ok(Equations { coefficients, bounded_corners })
+    };
+    sum_of_sides(mesh, of_piece, control)
 }
 
 /// The mean-value equations of an embedding with its natural boundary: paper eq. (2) and (3) with d = 1.

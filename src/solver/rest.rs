@@ -77,11 +77,11 @@ impl Rest {
     /// Triangles, and by how much of its area each counts.
     fn of(mesh: &DiskMesh, triangles: impl Iterator<Item = ([VertexId; 3], f64)>) -> Self {
         let scale = length_scale(mesh);
-        let shape = |&(corners, part): &([VertexId; 3], f64)| {
-            let flat = laid_flat(mesh.shape(corners).map(|x| scale * x));
-            Shape { corners, flat, share: part * 0.5 * double_area(flat) }
-        };
         let triangles: Vec<([VertexId; 3], f64)> = triangles.collect();
+        let shape = |&(corners, part): &([VertexId; 3], f64)| {
+            let shape = Shape::new(mesh, scale, corners);
+            Shape { share: part * shape.share, ..shape }
+        };
         let mut shapes: Vec<Shape> = triangles.par_iter().with_min_len(TRIANGLES_PER_TASK).map(shape).collect();
         let area: f64 = shapes.iter().map(|shape| shape.share).sum();
         for shape in &mut shapes {
@@ -89,6 +89,22 @@ impl Rest {
         }
         let filling = mesh.mesh().triangles[mesh.mesh().real_face_count()..].to_vec();
         Self { shapes, filling, area }
+    }
+
+    /// How distorted an embedding is that has no way to go. The shapes are found twice: memory for all of them would cost more
+    /// time.
+    pub(super) fn progress_at_end(mesh: &DiskMesh, embedding: &Embedding) -> Progress {
+        let (scale, faces) = (length_scale(mesh), mesh.mesh().real_triangles());
+        let areas: Vec<f64> = measured_of(faces, |&corners| Shape::new(mesh, scale, corners).share);
+        let area: f64 = areas.iter().sum();
+        let element = element_beside(mesh, embedding, area);
+        let measure = |&corners: &[VertexId; 3]| {
+            let shape = Shape::new(mesh, scale, corners);
+            let element = element(&Shape { share: shape.share / area, ..shape });
+            let z = corners.map(|vertex| embedding[vertex]);
+            (element.energy(z, Energy::SymmetricDirichlet), element.determinant(z))
+        };
+        progress_of(&measured_of(faces, measure))
     }
 
     /// How distorted an embedding is whose pins have so far to go.
@@ -113,9 +129,7 @@ impl Rest {
             let counted = counts(&element).then(|| element.energy(z, Energy::SymmetricDirichlet));
             counted.map_or((0.0, f64::INFINITY), |energy| (energy, element.determinant(z)))
         });
-        let half: f64 = measured.iter().map(|(energy, _)| energy).sum();
-        let least_determinant = measured.iter().map(|&(_, determinant)| determinant).fold(f64::INFINITY, f64::min);
-        Progress { energy: 2.0 * half, least_determinant, distance_left: 0.0 }
+        progress_of(&measured)
     }
 
     /// An energy of an embedding at its own size, of the triangles alone.
@@ -141,7 +155,7 @@ impl Rest {
         let mut points = embedding.to_vec();
         points.extend(&outside.frame);
         let mut elements = Vec::with_capacity(self.shapes.len() + self.filling.len() + outside.triangles.len());
-        let element = self.element_beside(mesh, embedding);
+        let element = element_beside(mesh, embedding, self.area);
         planning.control.extend(&mut elements, self.shapes.len(), |i| element(&self.shapes[i]))?;
         planning.control.go_on()?;
         let around = self.filling.iter().chain(&outside.triangles);
@@ -173,19 +187,38 @@ impl Rest {
         embedding: &Embedding,
         of: impl Fn(Element, [DVec2; 3]) -> T + Sync,
     ) -> Vec<T> {
-        let element = self.element_beside(mesh, embedding);
-        let measure = |shape: &Shape| of(element(shape), shape.corners.map(|vertex| embedding[vertex]));
-        self.shapes.par_iter().with_min_len(TRIANGLES_PER_TASK).map(measure).collect()
+        let element = element_beside(mesh, embedding, self.area);
+        measured_of(&self.shapes, |shape| of(element(shape), shape.corners.map(|vertex| embedding[vertex])))
     }
+}
 
-    /// The energy of a triangle, at rest when all are as large as the embedding is now.
-    fn element_beside(&self, mesh: &DiskMesh, embedding: &Embedding) -> impl Fn(&Shape) -> Element + Sync {
-        let flat: f64 = mesh.real_faces().map(|face| 0.5 * double_area(embedding.corners(mesh, face))).sum();
-        let scale = (flat / self.area).sqrt();
-        move |shape| {
-            Element::new(shape.corners.map(VertexId::number), shape.flat.map(|z| scale * z), (shape.share, THINNEST))
-        }
+impl Shape {
+    /// A triangle, with its area for a share.
+    fn new(mesh: &DiskMesh, scale: f64, corners: [VertexId; 3]) -> Self {
+        let flat = laid_flat(mesh.shape(corners).map(|x| scale * x));
+        Self { corners, flat, share: 0.5 * double_area(flat) }
     }
+}
+
+/// The energy of a triangle, at rest when all, of this area together, are as large as the embedding is now.
+fn element_beside(mesh: &DiskMesh, embedding: &Embedding, area: f64) -> impl Fn(&Shape) -> Element + Sync {
+    let flat =
+        measured_of(mesh.mesh().real_triangles(), |face| 0.5 * double_area(face.map(|vertex| embedding[vertex])));
+    let scale = (flat.iter().sum::<f64>() / area).sqrt();
+    move |shape| {
+        Element::new(shape.corners.map(VertexId::number), shape.flat.map(|z| scale * z), (shape.share, THINNEST))
+    }
+}
+
+fn measured_of<T: Sync, M: Send>(triangles: &[T], of: impl Fn(&T) -> M + Sync) -> Vec<M> {
+    triangles.par_iter().with_min_len(TRIANGLES_PER_TASK).map(&of).collect()
+}
+
+/// What energies and determinants of triangles say of them all.
+fn progress_of(measured: &[(f64, f64)]) -> Progress {
+    let half: f64 = measured.iter().map(|(energy, _)| energy).sum();
+    let least_determinant = measured.iter().map(|&(_, determinant)| determinant).fold(f64::INFINITY, f64::min);
+    Progress { energy: 2.0 * half, least_determinant, distance_left: 0.0 }
 }
 
 /// Area of a triangle in space.

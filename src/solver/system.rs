@@ -4,6 +4,7 @@
 //! vertices are pinned; weights and targets only change values.
 
 use std::ops::{AddAssign, Mul};
+use std::sync::Arc;
 
 use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
@@ -12,7 +13,7 @@ use rayon::prelude::*;
 
 use super::equations::Equations;
 use super::{Control, Embedding, SolveError};
-use crate::linalg::{Analysis, Kind, LinalgError, Scalar};
+use crate::linalg::{Analysis, Kind, LinalgError, Pattern, Scalar};
 use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
 /// Columns that share the work of one task.
@@ -26,10 +27,8 @@ const NONE: u32 = u32::MAX;
 pub struct FreeSystem {
     free: Vec<VertexId>,
     row_of_vertex: Vec<u32>,
-    /// Where each column's entries begin, and the end of the last.
-    starts: Vec<u32>,
-    /// The row of each entry, ascending in every column.
-    rows: Vec<u32>,
+    /// Where the matrix has entries.
+    pattern: Arc<Pattern>,
     /// For each entry (tail, head) its link; `NONE` on the diagonal.
     links: Vec<u32>,
     /// For each row the place of its diagonal entry.
@@ -104,13 +103,13 @@ impl FreeSystem {
         let of_task = |own: &[VertexId]| control.go_on().map(|()| Columns::new(mesh, own, &row_of_vertex));
         let columns: Result<Vec<Columns>, SolveError> = free.par_chunks(COLUMNS_PER_TASK).map(of_task).collect();
         let columns = columns?;
-        let (mut starts, mut slot_of_diagonal) = (vec![0], Vec::with_capacity(free.len()));
+        let (mut offsets, mut slot_of_diagonal) = (vec![0], Vec::with_capacity(free.len()));
         let mut begin = 0_u32;
         let narrow = |count: usize| u32::try_from(count).expect("neighbours fit");
         for count in columns.iter().flat_map(|some| &some.shapes) {
             slot_of_diagonal.push(begin + narrow(count.above));
             begin = begin.checked_add(narrow(count.entries)).expect("entries fit");
-            starts.push(begin);
+            offsets.push(begin);
         }
         control.go_on()?;
         let rows = columns.iter().map(|some| &some.rows[..]).collect::<Vec<_>>().concat();
@@ -118,7 +117,8 @@ impl FreeSystem {
         let links = columns.iter().map(|some| &some.links[..]).collect::<Vec<_>>().concat();
         let to_pinned = columns.iter().flat_map(|some| some.to_pinned.iter().copied()).collect();
         control.go_on()?;
-        Ok(Self { free, row_of_vertex, starts, rows, links, slot_of_diagonal, to_pinned })
+        let pattern = Arc::new(Pattern { offsets, rows });
+        Ok(Self { free, row_of_vertex, pattern, links, slot_of_diagonal, to_pinned })
     }
 
     /// The vertices whose positions are unknown, in the order of the rows.
@@ -144,10 +144,7 @@ impl FreeSystem {
     ///
     /// Never: columns are sorted, and neighbours are distinct.
     pub fn pattern(&self) -> SparsityPattern {
-        let wide = |indices: &[u32]| indices.par_iter().map(|&index| index as usize).collect();
-        let order = self.free.len();
-        SparsityPattern::try_from_offsets_and_indices(order, order, wide(&self.starts), wide(&self.rows))
-            .expect("columns were sorted and neighbours are distinct")
+        self.pattern.widened()
     }
 
     /// The matrix `−A_FF`; positive definite where the coefficients are conformal.
@@ -227,7 +224,7 @@ impl FreeSystem {
 
     /// Orders and analyses its pattern.
     pub(super) fn analysis(&self, kind: Kind, control: Control<'_>) -> Result<Analysis, SolveError> {
-        Analysis::new(kind, &self.pattern(), control.cancel()).map_err(|error| self.named(error))
+        Analysis::of(kind, Arc::clone(&self.pattern), control.cancel()).map_err(|error| self.named(error))
     }
 
     /// Says a linear solver's error in terms of the mesh: its rows are the free vertices.

@@ -13,7 +13,7 @@
 
 use std::ops::Add;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4, Vec4Swizzles as _};
 use rayon::prelude::*;
 
 use super::equations::length_scale;
@@ -72,11 +72,27 @@ fn nearest_quarter(turn: DVec2) -> DVec2 {
     if along_x { DVec2::new(1.0_f64.copysign(turn.x), 0.0) } else { DVec2::new(0.0, 1.0_f64.copysign(turn.y)) }
 }
 
-/// A face as the sum takes it.
-struct Part {
+/// Sums over the faces, by twice their areas in space.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    normal: DVec3,
     area: f64,
+    /// Of centroids in the plane and in space.
     in_plane: DVec2,
-    in_view: DVec2,
+    in_space: DVec3,
+}
+
+impl Add for Sums {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            normal: self.normal + other.normal,
+            area: self.area + other.area,
+            in_plane: self.in_plane + other.in_plane,
+            in_space: self.in_space + other.in_space,
+        }
+    }
 }
 
 fn upright_turn(mesh: &DiskMesh, embedding: &Embedding, control: Control<'_>) -> Result<Option<DVec2>, SolveError> {
@@ -84,62 +100,48 @@ fn upright_turn(mesh: &DiskMesh, embedding: &Embedding, control: Control<'_>) ->
     let in_space = length_scale(mesh);
     let in_plane = power_of_two_near(embedding.bounds().size().max_element()).recip();
     let origin = mesh.mesh().positions[0];
-    let corners = |face: FaceId| mesh.mesh().corners(face).map(|x| (x - origin) * in_space);
-    let doubled_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
-    let of_normal = |face| {
-        let doubled = doubled_area(corners(face));
-        (doubled, doubled.length())
-    };
-    let (normal, area) = sum_over_faces(mesh, control, of_normal)?;
-    let [right, up] = front_view(normal / area);
-    let part = |face| {
-        let at = corners(face);
-        let middle = at.iter().sum::<DVec3>() / 3.0;
-        let z = embedding.corners(mesh, face).iter().sum::<DVec2>() / 3.0;
-        Part {
-            area: doubled_area(at).length(),
-            in_plane: z * in_plane,
-            in_view: DVec2::new(right.dot(middle), up.dot(middle)),
-        }
+    // Twice a face with its area for a length, and its centroids in the plane and in space.
+    let face_of = |face: FaceId| {
+        let [a, b, c] = mesh.mesh().corners(face).map(|x| (x - origin) * in_space);
+        let z = embedding.corners(mesh, face).iter().sum::<DVec2>() / 3.0 * in_plane;
+        ((b - a).cross(c - a), z, (a + b + c) / 3.0)
     };
     let weighted = |face| {
-        let Part { area, in_plane, in_view } = part(face);
-        (area * in_plane, area * in_view)
+        let (normal, z, middle) = face_of(face);
+        let area = normal.length();
+        Sums { normal, area, in_plane: area * z, in_space: area * middle }
     };
-    let (z_sum, w_sum) = sum_over_faces(mesh, control, weighted)?;
-    let (z_mean, w_mean) = (z_sum / area, w_sum / area);
+    let sums = sum_over_faces(mesh, control, weighted)?;
+    let view = front_view(sums.normal / sums.area);
+    let in_view = |x: DVec3| DVec2::from(view.map(|axis| axis.dot(x)));
+    let (z_mean, w_mean) = (sums.in_plane / sums.area, in_view(sums.in_space / sums.area));
     let of_products = |face| {
-        let Part { area, in_plane, in_view } = part(face);
-        let (z, w) = (in_plane - z_mean, in_view - w_mean);
-        // The conjugate of z, times w.
-        let product = DVec2::new(z.dot(w), z.perp_dot(w));
-        (area * product, area * DVec2::new(z.length_squared(), w.length_squared()))
+        let (normal, z, middle) = face_of(face);
+        let (z, w) = (z - z_mean, in_view(middle) - w_mean);
+        // The conjugate of z, times w; and both squares.
+        normal.length() * DVec4::new(z.dot(w), z.perp_dot(w), z.length_squared(), w.length_squared())
     };
-    let (sum, squares) = sum_over_faces(mesh, control, of_products)?;
-    let is_clear = sum.length() > LEAST_AGREEMENT * (squares.x * squares.y).sqrt();
+    let products = sum_over_faces(mesh, control, of_products)?;
+    let sum = products.xy();
+    let is_clear = sum.length() > LEAST_AGREEMENT * (products.z * products.w).sqrt();
     Ok(sum.try_normalize().filter(|_| is_clear))
 }
 
-/// The sums of two quantities over the faces of the surface, the same for any number of threads.
-fn sum_over_faces<A, B>(
+/// The sum of a quantity over the faces of the surface, the same for any number of threads.
+fn sum_over_faces<T: Add<Output = T> + Default + Send>(
     mesh: &DiskMesh,
     control: Control<'_>,
-    of: impl Fn(FaceId) -> (A, B) + Sync,
-) -> Result<(A, B), SolveError>
-where
-    A: Add<Output = A> + Default + Send,
-    B: Add<Output = B> + Default + Send,
-{
-    let add = |(a, b): (A, B), (c, d): (A, B)| (a + c, b + d);
+    of: impl Fn(FaceId) -> T + Sync,
+) -> Result<T, SolveError> {
     let count = mesh.mesh().real_face_count();
     let of_task = |task: usize| {
         control.go_on()?;
         let faces = task * FACES_PER_TASK..count.min((task + 1) * FACES_PER_TASK);
-        Ok(faces.map(|face| of(FaceId::from_index(face))).fold(Default::default(), add))
+        Ok(faces.map(|face| of(FaceId::from_index(face))).fold(T::default(), T::add))
     };
     let tasks = (0..count.div_ceil(FACES_PER_TASK)).into_par_iter();
-    let sums: Result<Vec<(A, B)>, SolveError> = tasks.map(of_task).collect();
-    Ok(sums?.into_iter().fold(Default::default(), add))
+    let sums: Result<Vec<T>, SolveError> = tasks.map(of_task).collect();
+    Ok(sums?.into_iter().fold(T::default(), T::add))
 }
 
 /// Right and up of the view from the side that a surface faces. `mean_normal` has length 1 for a plane sheet and 0 for a

@@ -17,9 +17,6 @@ const LANDMARKS: usize = 6;
 /// The least share of the vertices on either side of a cut.
 const LEAST_SHARE: f64 = 0.44;
 
-/// A distance beyond all others.
-const FAR: i64 = 1 << 30;
-
 /// The patches of a graph and the edges between them.
 pub(super) struct Quotient {
     /// Patches beside each patch.
@@ -50,7 +47,7 @@ impl Quotient {
             pairs.extend(others.map(|other| u64::from(own) << 32 | u64::from(other)));
         }
         go_on_unless(cancel)?;
-        pairs.sort_unstable();
+        pairs.par_sort_unstable();
         go_on_unless(cancel)?;
         let (mut counts, mut rows, mut edges) = (vec![0; count], Vec::new(), Vec::new());
         for run in pairs.chunk_by(|a, b| a == b) {
@@ -101,16 +98,15 @@ impl Quotient {
     fn second_half(&self, list: &[u32], part: &[u32]) -> Vec<u32> {
         let Some(&first) = list.first() else { return Vec::new() };
         let fields = self.fields(first, list, part);
-        let sums: Vec<i64> = list.iter().map(|&patch| fields.iter().map(|field| field[patch as usize]).sum()).collect();
+        let sum = |&patch: &u32| fields.iter().map(|field| field[patch as usize]).sum::<i32>();
+        let mut by_sum = list.to_vec();
+        by_sum.sort_by_cached_key(sum);
         let differences: Vec<(usize, Option<usize>)> =
             (0..fields.len()).flat_map(|one| (0..one).map(Some).chain([None]).map(move |other| (one, other))).collect();
-        let sorted = |&(one, other): &(usize, Option<usize>)| {
-            let value = |patch: usize| fields[one][patch] - other.map_or(0, |other| fields[other][patch]);
-            // With their values beside them, the patches are sorted in a fraction of the time.
-            let mut keyed: Vec<(i64, i64, u32)> =
-                list.iter().zip(&sums).map(|(&patch, &sum)| (value(patch as usize), sum, patch)).collect();
-            keyed.sort_unstable();
-            keyed.into_iter().map(|(.., patch)| patch).collect::<Vec<u32>>()
+        let sorted = |(one, other): (usize, Option<usize>)| {
+            let value =
+                |patch: u32| fields[one][patch as usize] - other.map_or(0, |other| fields[other][patch as usize]);
+            sorted_by(&by_sum, value)
         };
         let cut = |difference| {
             let mut sorted = sorted(difference);
@@ -118,7 +114,7 @@ impl Quotient {
             Some((cost, sorted.split_off(at)))
         };
         // The first of those that cost the least.
-        let cuts: Vec<Option<(f64, Vec<u32>)>> = differences.par_iter().map(cut).collect();
+        let cuts: Vec<Option<(f64, Vec<u32>)>> = differences.into_par_iter().map(cut).collect();
         let best = cuts.into_iter().flatten().reduce(|best, cut| if cut.0 < best.0 { cut } else { best });
         best.map_or_else(|| list[list.len() / 2..].to_vec(), |(_, half)| half)
     }
@@ -146,29 +142,30 @@ impl Quotient {
         best
     }
 
-    /// Distances from far patches of a list to all of it, in patches.
-    fn fields(&self, first: u32, list: &[u32], part: &[u32]) -> Vec<Vec<i64>> {
-        let farthest = |fields: &[Vec<i64>]| {
+    /// Distances from far patches of a list to all of it, in patches; those that are out of reach are farther than all others.
+    fn fields(&self, first: u32, list: &[u32], part: &[u32]) -> Vec<Vec<i32>> {
+        let far = i32::try_from(list.len()).expect("fewer patches than vertices");
+        let farthest = |fields: &[Vec<i32>]| {
             let nearest = |patch: u32| fields.iter().map(|field| field[patch as usize]).min();
             list.iter().copied().max_by_key(|&patch| (nearest(patch), Reverse(patch))).unwrap_or(first)
         };
-        let mut from = farthest(&[self.distances(first, part)]);
+        let mut from = farthest(&[self.distances(first, far, part)]);
         let mut fields = Vec::with_capacity(LANDMARKS);
         for _ in 0..LANDMARKS {
-            fields.push(self.distances(from, part));
+            fields.push(self.distances(from, far, part));
             from = farthest(&fields);
         }
         fields
     }
 
-    fn distances(&self, from: u32, part: &[u32]) -> Vec<i64> {
-        let mut distances = vec![FAR; self.size.len()];
+    fn distances(&self, from: u32, far: i32, part: &[u32]) -> Vec<i32> {
+        let mut distances = vec![far; self.size.len()];
         distances[from as usize] = 0;
         let (mut queue, mut next) = (vec![from], 0);
         while let Some(&patch) = queue.get(next) {
             next += 1;
             for (other, _) in self.beside(patch) {
-                if part[other as usize] == part[patch as usize] && distances[other as usize] == FAR {
+                if part[other as usize] == part[patch as usize] && distances[other as usize] == far {
                     distances[other as usize] = distances[patch as usize] + 1;
                     queue.push(other);
                 }
@@ -176,6 +173,25 @@ impl Quotient {
         }
         distances
     }
+}
+
+/// A list sorted by small numbers; equal ones stay in their order. Counting takes a fraction of the time of comparing.
+fn sorted_by(list: &[u32], value: impl Fn(u32) -> i32) -> Vec<u32> {
+    let (least, greatest) = list
+        .iter()
+        .map(|&patch| value(patch))
+        .fold((i32::MAX, i32::MIN), |(least, greatest), value| (least.min(value), greatest.max(value)));
+    let place = |patch: u32| value(patch).abs_diff(least) as usize;
+    let mut counts = vec![0; greatest.abs_diff(least) as usize + 1];
+    list.iter().for_each(|&patch| counts[place(patch)] += 1);
+    let mut next = running_sum(&counts);
+    let mut sorted = vec![0; list.len()];
+    for &patch in list {
+        let next = &mut next[place(patch)];
+        sorted[*next as usize] = patch;
+        *next += 1;
+    }
+    sorted
 }
 
 /// The patch of every vertex: that of the nearest seed.

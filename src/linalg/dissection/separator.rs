@@ -1,17 +1,20 @@
 //! The least separator in a band around a cut.
 //!
 //! By Menger's theorem the fewest vertices that part two sets are as many as there are paths between these without a common
-//! vertex. The paths are found as a greatest flow (Dinic 1970) in the graph in which every vertex of the band is two, with
-//! an arc of capacity 1 from one to the other.
+//! vertex. The paths are found as a greatest flow (Ford and Fulkerson 1956) in the graph in which every vertex of the band is
+//! two, with an arc of capacity 1 from one to the other. The separator is where what the source still reaches ends: the same
+//! for all greatest flows.
+
+use std::cmp::Reverse;
 
 use super::Cut;
-use crate::linalg::order::{NONE, Pattern, narrow, running_sum};
+use crate::linalg::order::{Pattern, narrow, running_sum};
 
 /// Layers of vertices on either side of the cut among which the separator is sought: a patch is less than twice as wide.
-const LAYERS: usize = 5;
+const LAYERS: i8 = 5;
 
 /// The most of a band, in vertices beside the cut: thin parts have few layers, and are not taken up whole.
-const MOST_TIMES: usize = 2 * LAYERS;
+const MOST_TIMES: usize = 2 * LAYERS as usize;
 
 /// More than any flow.
 const ENDLESS: u32 = 1 << 30;
@@ -27,10 +30,8 @@ pub(super) struct Moved {
 pub(super) fn least_separator(graph: &Pattern, labels: &[u32], cut: &Cut) -> Vec<Moved> {
     let band = Band::around(graph, labels, cut);
     let mut network = Network::of(graph, &band);
-    while network.level_up() {
-        network.augment();
-    }
-    let side = |place: usize| match [2 * place, 2 * place + 1].map(|node| network.level[node] != NONE) {
+    while network.send_paths() {}
+    let side = |place: usize| match [2 * place, 2 * place + 1].map(|node| network.is_reached[node]) {
         [true, false] => None,
         [_, true] => Some(0),
         [false, false] => Some(1),
@@ -44,25 +45,28 @@ struct Band {
     vertices: Vec<u32>,
     /// The place of a vertex of the graph among them, from 1; 0 elsewhere.
     place: Vec<u32>,
+    /// Layers from the cut to each, negative on the first side, where paths begin.
+    layer: Vec<i8>,
     /// Whether it is one of the outermost layer of either side: it stays there.
     rim: Vec<Option<usize>>,
 }
 
 impl Band {
     fn around(graph: &Pattern, labels: &[u32], cut: &Cut) -> Self {
-        let mut band = Self { vertices: Vec::new(), place: vec![0; graph.order()], rim: Vec::new() };
+        let mut band = Self { vertices: Vec::new(), place: vec![0; graph.order()], layer: Vec::new(), rim: Vec::new() };
         for (side, beside) in cut.beside.iter().enumerate() {
+            let away = if side == 0 { -1 } else { 1 };
             let mut layer = beside.clone();
             for &vertex in &layer {
-                band.push(vertex);
+                band.push(vertex, away);
             }
             let mut taken = layer.len();
-            for _ in 1..LAYERS {
+            for number in 2..=LAYERS {
                 let mut next = Vec::new();
                 for &vertex in &layer {
                     for &other in graph.column(vertex as usize) {
                         if band.place[other as usize] == 0 && cut.side(labels[other as usize]) == Some(side) {
-                            band.push(other);
+                            band.push(other, away * number);
                             next.push(other);
                         }
                     }
@@ -82,8 +86,9 @@ impl Band {
         band
     }
 
-    fn push(&mut self, vertex: u32) {
+    fn push(&mut self, vertex: u32, layer: i8) {
         self.vertices.push(vertex);
+        self.layer.push(layer);
         self.place[vertex as usize] = narrow(self.vertices.len());
     }
 }
@@ -104,8 +109,8 @@ struct Network {
     begin: Vec<u32>,
     /// The arc of each node that comes next.
     at: Vec<u32>,
-    /// Arcs from the source; none for nodes that no path reaches.
-    level: Vec<u32>,
+    /// Whether the last search came to a node.
+    is_reached: Vec<bool>,
     source: usize,
     sink: usize,
 }
@@ -115,6 +120,7 @@ impl Network {
         let nodes = 2 * band.vertices.len() + 2;
         let (source, sink) = (nodes - 2, nodes - 1);
         let mut edges: Vec<Edge> = Vec::new();
+        let mut around: Vec<u32> = Vec::new();
         for (k, &vertex) in band.vertices.iter().enumerate() {
             let rim = band.rim[k];
             edges.push(Edge::new(2 * k, 2 * k + 1, if rim.is_some() { ENDLESS } else { 1 }));
@@ -123,11 +129,12 @@ impl Network {
                 Some(_) => edges.push(Edge::new(2 * k + 1, sink, ENDLESS)),
                 None => {}
             }
-            for &other in graph.column(vertex as usize).iter().filter(|&&other| other != vertex) {
-                if let Some(other) = band.place[other as usize].checked_sub(1) {
-                    edges.push(Edge::new(2 * k + 1, 2 * other as usize, ENDLESS));
-                }
-            }
+            around.clear();
+            let others = graph.column(vertex as usize).iter().filter(|&&other| other != vertex);
+            around.extend(others.filter_map(|&other| band.place[other as usize].checked_sub(1)));
+            // Those nearer to the sink come first: so most paths lead straight there.
+            around.sort_by_key(|&other| Reverse(band.layer[other as usize]));
+            edges.extend(around.iter().map(|&other| Edge::new(2 * k + 1, 2 * other as usize, ENDLESS)));
         }
         let mut counts = vec![0; nodes];
         for end in edges.iter().flat_map(|edge| edge.ends) {
@@ -144,61 +151,45 @@ impl Network {
             arcs[forth as usize] = Arc { head, capacity, reverse: back };
             arcs[back as usize] = Arc { head: tail, capacity: 0, reverse: forth };
         }
-        Self { arcs, at: begin[..nodes].to_vec(), begin, level: vec![NONE; nodes], source, sink }
+        Self { arcs, at: begin[..nodes].to_vec(), begin, is_reached: vec![false; nodes], source, sink }
     }
 
-    /// Finds the level of every node that a shortest way to the sink may go through; of all that are reached, where the sink
-    /// is not. Whether it is.
-    fn level_up(&mut self) -> bool {
-        self.level.fill(NONE);
-        self.level[self.source] = 0;
-        let mut queue = vec![self.source];
-        let mut next = 0;
-        while let Some(&node) = queue.get(next).filter(|&&node| self.level[node] < self.level[self.sink]) {
-            next += 1;
-            for &Arc { head, capacity, .. } in &self.arcs[self.begin[node] as usize..self.begin[node + 1] as usize] {
-                if capacity > 0 && self.level[head as usize] == NONE {
-                    self.level[head as usize] = self.level[node] + 1;
-                    queue.push(head as usize);
-                }
-            }
-        }
-        self.at.copy_from_slice(&self.begin[..self.level.len()]);
-        self.level[self.sink] != NONE
-    }
-
-    /// Sends paths from level to level as long as there are any.
-    fn augment(&mut self) {
-        let mut path: Vec<u32> = Vec::new();
-        let mut node = self.source;
+    /// Sends paths as long as a search that comes to each node once finds any. Whether it did; if not, it came to all nodes that
+    /// the source reaches.
+    fn send_paths(&mut self) -> bool {
+        self.is_reached.fill(false);
+        self.is_reached[self.source] = true;
+        self.at.copy_from_slice(&self.begin[..self.is_reached.len()]);
+        let (mut path, mut node, mut found): (Vec<u32>, usize, bool) = (Vec::new(), self.source, false);
         loop {
             if node == self.sink {
-                for &arc in &path {
+                found = true;
+                for arc in path.drain(..) {
                     let Arc { reverse, .. } = self.arcs[arc as usize];
                     self.arcs[arc as usize].capacity -= 1;
                     self.arcs[reverse as usize].capacity += 1;
                 }
-                path.clear();
+                self.is_reached[self.sink] = false;
                 node = self.source;
             }
             if let Some(arc) = self.onward(node) {
                 path.push(arc);
                 node = self.arcs[arc as usize].head as usize;
+                self.is_reached[node] = true;
             } else if let Some(arc) = path.pop() {
                 let Arc { reverse, .. } = self.arcs[arc as usize];
                 node = self.arcs[reverse as usize].head as usize;
-                self.at[node] += 1;
             } else {
-                return;
+                return found;
             }
         }
     }
 
-    /// The next arc of a node that leads on.
+    /// The next arc of a node that leads to where the search was not yet.
     fn onward(&mut self, node: usize) -> Option<u32> {
         while self.at[node] < self.begin[node + 1] {
             let Arc { head, capacity, .. } = self.arcs[self.at[node] as usize];
-            if capacity > 0 && self.level[head as usize] == self.level[node] + 1 {
+            if capacity > 0 && !self.is_reached[head as usize] {
                 return Some(self.at[node]);
             }
             self.at[node] += 1;

@@ -3,7 +3,10 @@
 //! A child is merged into its parent when the explicit zeros this stores are few for the size of the result (Ashcraft
 //! and Grimes 1989, "The influence of relaxed supernode partitions on the multifrontal method").
 
-use crate::linalg::order::{Elimination, NONE, narrow, postorder};
+use std::cmp::Reverse;
+
+use crate::linalg::elimination::{Elimination, postorder};
+use crate::linalg::order::{NONE, narrow};
 
 /// Columns up to which a merged supernode may hold the given share of zeros. The steps are those of CHOLMOD and faer.
 const RELAXATION: [(u64, f64); 4] = [(4, 1.0), (16, 0.8), (48, 0.1), (u64::MAX, 0.05)];
@@ -74,31 +77,63 @@ fn maximal(elimination: &Elimination) -> (Vec<u32>, Vec<u32>, Vec<Group>) {
     (first, parents, groups)
 }
 
+/// The children of every supernode, in lists that are changed without new memory.
+struct Broods {
+    first: Vec<u32>,
+    /// The sibling that follows each.
+    next: Vec<u32>,
+}
+
+impl Broods {
+    fn new(count: usize) -> Self {
+        Self { first: vec![NONE; count], next: vec![NONE; count] }
+    }
+
+    fn of(&self, parent: u32) -> impl Iterator<Item = u32> {
+        let some = |node: u32| (node != NONE).then_some(node);
+        std::iter::successors(some(self.first[parent as usize]), move |&child| some(self.next[child as usize]))
+    }
+
+    /// Puts a child before the others.
+    fn push(&mut self, parent: u32, child: u32) {
+        self.next[child as usize] = std::mem::replace(&mut self.first[parent as usize], child);
+    }
+
+    /// Has just these children, in this order.
+    fn set(&mut self, parent: u32, children: impl DoubleEndedIterator<Item = u32>) {
+        self.first[parent as usize] = NONE;
+        children.rev().for_each(|child| self.push(parent, child));
+    }
+}
+
 /// Merges children into parents, bottom up. Returns for every supernode the one it ended in (itself if it stands).
 fn relax(parent: &mut [u32], groups: &mut [Group]) -> Vec<u32> {
     let count = groups.len();
-    let mut children: Vec<Vec<u32>> = vec![Vec::new(); count];
-    let mut merged_into: Vec<u32> = (0..count).map(narrow).collect();
-    for node in 0..count {
+    let mut broods = Broods::new(count);
+    let mut merged_into: Vec<u32> = (0..narrow(count)).collect();
+    let (mut brood, mut kept) = (Vec::new(), Vec::new());
+    for node in 0..narrow(count) {
         // The child nearest in size comes last in postorder, and wastes least.
-        let mut kept = Vec::new();
-        for child in std::mem::take(&mut children[node]).into_iter().rev() {
-            match groups[node].merged(&groups[child as usize]) {
+        brood.clear();
+        brood.extend(broods.of(node));
+        kept.clear();
+        for &child in &brood {
+            match groups[node as usize].merged(&groups[child as usize]) {
                 Some(merged) => {
-                    groups[node] = merged;
-                    merged_into[child as usize] = narrow(node);
-                    kept.append(&mut children[child as usize]);
+                    groups[node as usize] = merged;
+                    merged_into[child as usize] = node;
+                    kept.extend(broods.of(child));
                 }
                 None => kept.push(child),
             }
         }
         for &child in &kept {
-            parent[child as usize] = narrow(node);
+            parent[child as usize] = node;
         }
         kept.sort_unstable();
-        children[node] = kept;
-        if parent[node] != NONE {
-            children[parent[node] as usize].push(narrow(node));
+        broods.set(node, kept.iter().copied().rev());
+        if parent[node as usize] != NONE {
+            broods.push(parent[node as usize], node);
         }
     }
     // Parents have higher numbers, so from the top every chain is followed in one step.
@@ -112,45 +147,55 @@ fn relax(parent: &mut [u32], groups: &mut [Group]) -> Vec<u32> {
 /// update (Liu 1986, "On the storage requirement in the out-of-core multifrontal method").
 fn order_for_memory(parent: &[u32], groups: &[Group], merged_into: &[u32]) -> Vec<u32> {
     let count = groups.len();
-    let standing: Vec<u32> = (0..narrow(count)).filter(|&node| merged_into[node as usize] == node).collect();
-    let mut children: Vec<Vec<u32>> = vec![Vec::new(); count];
+    let standing = || (0..narrow(count)).filter(|&node| merged_into[node as usize] == node);
+    let mut broods = Broods::new(count);
     let mut peak = vec![0u64; count];
     let update_len = |node: u32| groups[node as usize].below.pow(2);
-    for &node in &standing {
-        let brood = &mut children[node as usize];
-        brood.sort_by_key(|&child| (std::cmp::Reverse(peak[child as usize] - update_len(child)), child));
+    let mut brood: Vec<u32> = Vec::new();
+    for node in standing() {
+        brood.clear();
+        brood.extend(broods.of(node));
+        brood.sort_unstable_by_key(|&child| (Reverse(peak[child as usize] - update_len(child)), child));
         let (mut waiting, mut highest) = (0, 0);
-        for &child in brood.iter() {
+        for &child in &brood {
             highest = highest.max(waiting + peak[child as usize]);
             waiting += update_len(child);
         }
         peak[node as usize] = highest.max(waiting + update_len(node));
+        broods.set(node, brood.iter().copied());
         if parent[node as usize] != NONE {
-            children[parent[node as usize] as usize].push(node);
+            broods.push(parent[node as usize], node);
         }
     }
-    let roots = standing.into_iter().filter(|&node| parent[node as usize] == NONE).collect();
-    postorder(roots, |node| &children[node as usize])
+    let roots = standing().filter(|&node| parent[node as usize] == NONE).collect();
+    postorder(roots, |node| broods.of(node))
 }
 
 /// Renumbers the standing supernodes, `first` being the first columns of all.
 fn number(first: &[u32], merged_into: &[u32], parent: &[u32], groups: &[Group], sequence: &[u32]) -> Supernodes {
-    // The columns of every standing supernode, in elimination order.
-    let mut members = vec![Vec::new(); merged_into.len()];
-    for (node, pair) in first.windows(2).enumerate() {
-        members[merged_into[node] as usize].extend(pair[0]..pair[1]);
-    }
     let mut position = vec![NONE; groups.len()];
-    for (place, &node) in sequence.iter().enumerate() {
-        position[node as usize] = narrow(place);
-    }
+    // Where the next column of each standing supernode goes.
+    let mut next = vec![0; groups.len()];
+    let mut total = 0;
     let mut this = Supernodes { begin: vec![0], parent: Vec::new(), below: Vec::new(), columns: Vec::new() };
-    for &node in sequence {
-        this.columns.extend(&members[node as usize]);
-        this.begin.push(narrow(this.columns.len()));
-        this.below.push(u32::try_from(groups[node as usize].below).expect("at most the order of the matrix"));
-        let above = parent[node as usize];
-        this.parent.push(if above == NONE { NONE } else { position[above as usize] });
+    for (place, &node) in (0..).zip(sequence) {
+        let Group { columns, below, .. } = groups[node as usize];
+        position[node as usize] = place;
+        next[node as usize] = total;
+        total += u32::try_from(columns).expect("at most the order of the matrix");
+        this.begin.push(total);
+        this.below.push(u32::try_from(below).expect("at most the order of the matrix"));
+    }
+    let above = |&node: &u32| parent[node as usize];
+    this.parent
+        .extend(sequence.iter().map(above).map(|above| if above == NONE { NONE } else { position[above as usize] }));
+    this.columns.resize(total as usize, 0);
+    for (node, pair) in first.windows(2).enumerate() {
+        let next = &mut next[merged_into[node] as usize];
+        for column in pair[0]..pair[1] {
+            this.columns[*next as usize] = column;
+            *next += 1;
+        }
     }
     this
 }

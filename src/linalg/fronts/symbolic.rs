@@ -12,7 +12,8 @@ use rayon::prelude::*;
 use super::supernodes::{Supernodes, supernodes};
 use super::units::{Unit, units};
 use crate::linalg::LinalgError;
-use crate::linalg::order::{Elimination, NONE, Order, Pattern, children, go_on_unless, in_pairs, narrow, running_sum};
+use crate::linalg::elimination::{Elimination, children};
+use crate::linalg::order::{COLUMNS_AT_ONCE, NONE, Order, Pattern, go_on_unless, in_pairs, narrow, running_sum};
 
 /// Less work than this, in multiplications, is not worth more than one thread.
 const PARALLEL_WORK: f64 = 2e6;
@@ -265,9 +266,7 @@ impl Plan {
         let Supernodes { begin, parent, below, columns } = supernodes(elimination);
         go_on_unless(cancel)?;
         let order = elimination.order.then(&columns);
-        let upper = pattern.permuted_upper(&order, cancel)?;
-        go_on_unless(cancel)?;
-        let rows = front_rows(&upper, &begin, &parent, running_sum(&below));
+        let rows = front_rows(Renumbered { pattern, order: &order }, &begin, &parent, &below, cancel)?;
         Ok(Self { order, begin, parent, rows })
     }
 
@@ -283,29 +282,48 @@ impl Plan {
     }
 }
 
-/// The rows of every front below its diagonal block: row k lies in the fronts on the way up the tree from each
-/// entry (k, i), i < k, of A to the supernode of k itself.
-fn front_rows(upper: &Pattern, begin: &[u32], parent: &[u32], offsets: Vec<u32>) -> Pattern {
-    let mut owner = Vec::with_capacity(upper.order());
+/// A pattern in an order of elimination.
+#[derive(Clone, Copy)]
+struct Renumbered<'a> {
+    pattern: &'a Pattern,
+    order: &'a Order,
+}
+
+/// The rows of every front below its diagonal block, so many `below` each: row k lies in the fronts on the way up the tree from
+/// each entry (k, i), i < k, of A to the supernode of k itself.
+fn front_rows(
+    of: Renumbered<'_>,
+    begin: &[u32],
+    parent: &[u32],
+    below: &[u32],
+    cancel: &AtomicBool,
+) -> Result<Pattern, LinalgError> {
+    let n = of.pattern.order();
+    let mut owner = Vec::with_capacity(n);
     for (supernode, pair) in begin.windows(2).enumerate() {
         owner.resize(pair[1] as usize, narrow(supernode));
     }
+    let offsets = running_sum(below);
     let mut next = offsets.clone();
     let mut rows = vec![0u32; next[parent.len()] as usize];
     let mut seen = vec![NONE; parent.len()];
-    for row in 0..upper.order() {
-        for &column in upper.column(row) {
+    for row in 0..n {
+        if row % COLUMNS_AT_ONCE == 0 {
+            go_on_unless(cancel)?;
+        }
+        let own = narrow(row);
+        for column in of.pattern.renumbered(of.order, row).filter(|&column| column < own) {
             let mut supernode = owner[column as usize] as usize;
-            while supernode != owner[row] as usize && seen[supernode] != narrow(row) {
-                seen[supernode] = narrow(row);
-                rows[next[supernode] as usize] = narrow(row);
+            while supernode != owner[row] as usize && seen[supernode] != own {
+                seen[supernode] = own;
+                rows[next[supernode] as usize] = own;
                 next[supernode] += 1;
                 supernode = parent[supernode] as usize;
             }
         }
     }
     debug_assert!(next[..parent.len()] == offsets[1..], "counts and patterns agree");
-    Pattern { offsets, rows }
+    Ok(Pattern { offsets, rows })
 }
 
 /// For every entry (i, j) the position of the entry (j, i).

@@ -62,7 +62,7 @@ fn by_few(Footing { mesh, latest, .. }: Footing<'_>, control: Control<'_>) -> Re
     let lifted =
         hierarchy.lifted(fine, &coarse.embedding, |level, embedding| on_the_way.of(level, embedding), control)?;
     let Some(embedding) = lifted else { return Ok(None) };
-    let progress = Rest::new(mesh).progress(mesh, &embedding, 0.0);
+    let progress = Rest::progress_at_end(mesh, &embedding);
     let (few, all) = (coarsest.disk.vertex_count(), mesh.used_vertex_count());
     Ok(Some(Candidate {
         progress: Some(progress),

@@ -64,7 +64,7 @@ impl Ladder {
         control.go_on()?;
         if candidate.progress.is_none() && verdict.planar && self.plan.part().rounds_until_it_serves() > 0 {
             let of = candidate.mesh(mesh);
-            candidate.progress = Some(Rest::new(of).progress(of, &candidate.solution.embedding, 0.0));
+            candidate.progress = Some(Rest::progress_at_end(of, &candidate.solution.embedding));
         }
         let verify_seconds = start.elapsed().as_secs_f64();
         control.go_on()?;

@@ -27,10 +27,13 @@ use std::io::{self, Write};
 use std::ops::Range;
 use std::sync::OnceLock;
 
+use rayon::prelude::*;
+
 use self::added::Added;
 use self::corner::{CornerWord, Indices};
+use self::pieces::PIECE;
 use super::line::{word_ranges, words};
-use super::lines::{Line, Lines, split_mark};
+use super::lines::{Line, Lines, pieces, split_mark};
 use super::parse::resolve;
 use super::write::write_numbers;
 use crate::io::mesh_file::{MeshFile, NO_TEXTURE, Source, Texture};
@@ -74,14 +77,20 @@ pub(super) fn write_carried(
 
 /// Where the first line stands that texture coordinates come before: one of their own, or a face.
 fn place_of_texture(lines: &[u8]) -> usize {
-    let (mut at, mut joined) = (0, Vec::new());
-    for line in Lines::of(lines) {
-        if matches!(words(line.as_one(&mut joined)).next(), Some(b"vt" | b"f")) {
-            break;
+    let pieces = pieces(lines, PIECE);
+    let place_in = |(number, piece): (usize, &&[u8])| {
+        let (mut at, mut joined) = (0, Vec::new());
+        for line in Lines::of(piece) {
+            if matches!(words(line.as_one(&mut joined)).next(), Some(b"vt" | b"f")) {
+                return Some((number, at));
+            }
+            at += line.whole.len();
         }
-        at += line.whole.len();
-    }
-    at
+        None
+    };
+    let found = pieces.par_iter().enumerate().find_map_first(place_in);
+    let before = |(number, at): (usize, usize)| pieces[..number].iter().map(|piece| piece.len()).sum::<usize>() + at;
+    found.map_or(lines.len(), before)
 }
 
 /// What is written otherwise than the text has it.

@@ -12,7 +12,7 @@ use super::{All, Buffers, Seen, Writer};
 use crate::io::mesh_file::Source;
 
 /// Bytes of a piece of the text: enough to outweigh the handing out.
-const PIECE: usize = 256 << 10;
+pub(super) const PIECE: usize = 256 << 10;
 
 /// Texture coordinates of a piece.
 const COORDINATES: usize = 8192;
