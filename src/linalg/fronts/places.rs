@@ -189,3 +189,11 @@ pub(in crate::linalg) fn append_zeros<T: Number>(numbers: &mut Vec<T>, count: us
     numbers.resize(start + count, T::ZERO);
     &mut numbers[start..]
 }
+
+/// So many zeros that have been written. Memory that the system only promises to be zero costs two page faults, and a message to
+/// the other cores, where it is read before it is written.
+pub(in crate::linalg) fn written_zeros<T: Number>(count: usize) -> Vec<T> {
+    let mut numbers = Vec::with_capacity(count);
+    append_zeros(&mut numbers, count);
+    numbers
+}

@@ -5,7 +5,7 @@ use std::sync::{Mutex, OnceLock};
 
 use rayon::Scope;
 
-use super::places::{Numbers, Places, Room};
+use super::places::{Numbers, Places, Room, written_zeros};
 use super::symbolic::FrontAnalysis;
 use crate::linalg::LinalgError;
 use crate::linalg::order::{NONE, narrow};
@@ -45,46 +45,6 @@ pub(in crate::linalg) struct Tree<'a, T: Number, K: Kernel<T>> {
     /// The first front in the order of elimination that could not be eliminated.
     failed: Mutex<Option<(usize, LinalgError)>>,
     memory: Memory,
-    spare: Spare<T>,
-    spare_real: Spare<T::Part>,
-}
-
-/// Memory of updates that have arrived, for others: asking the system for large pieces again and again costs more than to
-/// fill them.
-struct Spare<T>(Mutex<Vec<Vec<T>>>);
-
-/// Updates of fewer numbers are left to the allocator, which keeps such pieces itself.
-const LARGE_UPDATE: usize = 4096;
-
-/// Updates grow on the way up the tree: of those that have arrived only the largest are of use.
-const MOST_SPARE: usize = 8;
-
-impl<T: Number> Spare<T> {
-    /// So many zeros.
-    fn zeros(&self, length: usize) -> Vec<T> {
-        let mut found = if length < LARGE_UPDATE { None } else { self.take(length) }.unwrap_or_default();
-        found.clear();
-        found.resize(length, T::ZERO);
-        found
-    }
-
-    /// The smallest piece that is large enough.
-    fn take(&self, length: usize) -> Option<Vec<T>> {
-        let mut pieces = self.0.lock().expect("no task panics while it holds this");
-        let large = pieces.iter().enumerate().filter(|(_, piece)| piece.capacity() >= length);
-        let (at, _) = large.min_by_key(|(_, piece)| piece.capacity())?;
-        Some(pieces.swap_remove(at))
-    }
-
-    fn give(&self, piece: Vec<T>) {
-        if piece.capacity() < LARGE_UPDATE {
-            return;
-        }
-        let mut spare = self.0.lock().expect("no task panics while it holds this");
-        spare.push(piece);
-        spare.sort_unstable_by_key(|piece| std::cmp::Reverse(piece.capacity()));
-        spare.truncate(MOST_SPARE);
-    }
 }
 
 #[derive(Default)]
@@ -126,8 +86,6 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
             awaited: analysis.units.iter().map(|unit| AtomicUsize::new(unit.awaited)).collect(),
             failed: Mutex::default(),
             memory: Memory::default(),
-            spare: Spare(Mutex::default()),
-            spare_real: Spare(Mutex::default()),
         };
         rayon::scope(|scope| {
             // A thread takes its newest task first, so the last spawned here is the first unit in postorder.
@@ -170,9 +128,9 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
             let children: Vec<Update<T>> = children.collect();
             let length = analysis.shape(supernode).update_len();
             let mut update = if self.places.is_real(supernode) {
-                Numbers::Real(self.spare_real.zeros(length))
+                Numbers::Real(written_zeros(length))
             } else {
-                Numbers::Full(self.spare.zeros(length))
+                Numbers::Full(written_zeros(length))
             };
             self.memory.take(update.bytes());
             if let Err(error) = self.kernel.eliminate(supernode, &children, &mut kept, &mut update) {
@@ -180,14 +138,7 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
                 return;
             }
             self.memory.give_back(children.iter().map(|(_, update)| update.bytes()).sum());
-            for (_, update) in children {
-                match update {
-                    Numbers::Full(update) => self.spare.give(update),
-                    Numbers::Real(update) if self.places.is_real(supernode) => self.spare_real.give(update),
-                    // On the way to the root there are hardly any real ones to come, and none so large.
-                    Numbers::Real(_) => {}
-                }
-            }
+            drop(children);
             match analysis.parent[supernode] {
                 NONE => {}
                 parent if (parent as usize) < range.end => waiting[supernode - range.start] = Some(update),
