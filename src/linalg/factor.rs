@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use nalgebra_sparse::CscMatrix;
+use rayon::prelude::*;
 
 use super::LinalgError;
 use super::analysis::{Shared, Symbolic};
@@ -162,7 +163,7 @@ impl<T: Scalar> Factor<T> {
         if rhs.len().checked_rem(order).unwrap_or(rhs.len()) != 0 {
             return Err(LinalgError::WrongLength { order, found: rhs.len() });
         }
-        if let Some(place) = rhs.iter().position(|value| !value.is_finite()) {
+        if let Some(place) = rhs.par_iter().position_first(|value| !value.is_finite()) {
             return Err(LinalgError::NotFinite { row: place % order });
         }
         let solve = |columns: &mut [T]| self.solve_in_place(operation, columns, cancel);

@@ -5,6 +5,7 @@ use std::time::Instant;
 use glam::DVec2;
 use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
+use rayon::prelude::*;
 
 use super::equations::{Equations, modulus};
 use super::free_layout::{LaidOut, Numbers};
@@ -258,9 +259,9 @@ impl FreeSolve {
             Ways::Many(many) => many.moves(site, &factored, residuals, &to_targets)?,
         };
         // Adding nothing would still make a zero of a negative zero.
-        for (z, by) in embedding.iter_mut().zip(moves).filter(|(_, by)| *by != Complex::ZERO) {
+        embedding.par_iter_mut().zip(moves).filter(|(_, by)| *by != Complex::ZERO).for_each(|(z, by)| {
             *z += DVec2::new(by.re, by.im);
-        }
+        });
         let residual = self.gradient_residual(asked, &embedding, least_squares.springs())?;
         Ok((embedding, residual))
     }

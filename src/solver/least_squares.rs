@@ -155,7 +155,7 @@ impl LeastSquares {
         to_targets: &[C64],
     ) -> Result<Vec<C64>, LinalgError> {
         let free = site.system.free();
-        let mut terms: Vec<C64> = free.iter().map(|v| residuals[v.index()]).collect();
+        let mut terms: Vec<C64> = free.par_iter().map(|v| residuals[v.index()]).collect();
         let (k, g) = (self.rows.len(), self.rest.left_out.len());
         let mut rhs = DVector::zeros(k + self.rest.movers.len());
         for (i, still) in self.along_still(&terms, factored)?.into_iter().enumerate() {
