@@ -83,6 +83,10 @@ impl Analysis {
     ///
     /// [`LinalgError::TooLarge`] and [`LinalgError::Cancelled`].
     pub(crate) fn of(kind: Kind, pattern: Arc<Pattern>, cancel: &AtomicBool) -> Result<Self, LinalgError> {
+        // faer keeps a sign bit to itself.
+        if i32::try_from(pattern.rows.len()).is_err() {
+            return Err(LinalgError::TooLarge { order: pattern.order() });
+        }
         debug_assert!(
             pattern.check_symmetric(&AtomicBool::new(false)).is_ok(),
             "the caller knows that it is symmetric"
@@ -115,8 +119,8 @@ impl Analysis {
         cancel: &AtomicBool,
     ) -> Result<Self, LinalgError> {
         let EliminationOrder { order, work } = order;
-        if order.new_to_old.len() == pattern.major_dim() {
-            let pattern = Arc::new(Pattern::checked(pattern, cancel)?);
+        let pattern = Arc::new(Pattern::checked(pattern, cancel)?);
+        if order.new_to_old.len() == pattern.order() {
             let elimination = in_order(&pattern, order, cancel)?;
             let analysis = FrontAnalysis::new(&pattern, &elimination, Sides::Lower, cancel)?;
             if analysis.work() <= TOO_MUCH_WORK * work {
@@ -124,7 +128,7 @@ impl Analysis {
                 return Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) });
             }
         }
-        Self::new(Kind::Hermitian, pattern, cancel)
+        Self::of(Kind::Hermitian, pattern, cancel)
     }
 
     /// The order of elimination of a Hermitian matrix; none of others.

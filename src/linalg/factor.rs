@@ -23,7 +23,7 @@ pub struct Factor<T: Scalar> {
     pub(super) numeric: Numeric<T>,
 }
 
-/// How a factor answers: [`Factor::solve`], [`Factor::solve_correction`].
+/// How a factor answers: [`Factor::solve`], [`Factor::solve_correction`], [`Factor::solve_columns`].
 pub type Answer<T> = fn(&Factor<T>, &CscMatrix<T>, &[T], &AtomicBool) -> Result<Solved<T>, LinalgError>;
 
 /// What a factor is asked.

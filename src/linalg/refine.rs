@@ -133,7 +133,7 @@ pub(super) fn refined<T: Scalar>(system: &System<'_, T>, rhs: &[T]) -> Result<So
     Ok(all)
 }
 
-/// Measures a refined answer, betters it by GMRES if need be, and returns its relative residuals if they are good.
+/// Betters a refined answer by GMRES if need be, and returns its relative residuals if they are good.
 fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Result<(f64, f64), LinalgError> {
     let measure = |x: &[T]| {
         let mut r = vec![T::ZERO; x.len()];

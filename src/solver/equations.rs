@@ -260,9 +260,8 @@ pub(super) fn sum_of_sides<T: Scalar>(
     control: Control<'_>,
 ) -> Result<Equations<T>, SolveError> {
     let fans = Fans::of(mesh);
-    let of_face = |face: usize| match fans.has_face(face) {
-        false => of_piece(&Piece::of_face(mesh, FaceId::from_index(face))),
-        true => Sides::NONE,
+    let of_face = |face: usize| {
+        if fans.has_face(face) { Sides::NONE } else { of_piece(&Piece::of_face(mesh, FaceId::from_index(face))) }
     };
     let of_faces: Vec<Sides<T>> = control.each(mesh.face_count(), of_face)?;
     if let Some(face) = of_faces.par_iter().position_first(|sides| !sides.are_finite()) {
@@ -277,6 +276,7 @@ pub(super) fn sum_of_sides<T: Scalar>(
     };
     let mut coefficients: Vec<T> = control.each(mesh.halfedge_count(), of_link)?;
     coefficients.resize(mesh.link_count(), T::ZERO);
+    drop(of_faces);
     fans.in_pieces(mesh, |pieces| {
         control.go_on()?;
         let found: Vec<Sides<T>> = pieces.par_iter().map(&of_piece).collect();

@@ -1,4 +1,4 @@
-//! A system of a free boundary before it has numbers: which vertices the factors leave out, and what the pins add.
+//! A system of a free boundary before it is factored: which vertices the factors leave out, what the pins add, its numbers.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -81,7 +81,7 @@ impl Layout {
         }
     }
 
-    /// What least squares has to treat, if anything. For `unit` see `Numbers` of `free_solve`.
+    /// What least squares has to treat, if anything. For `unit` see [`Numbers`].
     pub(super) fn rest(&self, unit: f64) -> Option<Rest> {
         let spring = |(&vertex, hold): (&VertexId, &Hold)| match hold {
             Hold::Fixed | Hold::Hard => None,

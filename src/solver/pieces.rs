@@ -28,8 +28,7 @@ impl Piece {
     }
 }
 
-/// Faces, or averaged polygons, whose pieces are in memory at one time: new memory for all of them would cost more time than
-/// to compute what they give.
+/// Faces, or averaged polygons, whose pieces are handed over at one time.
 const AT_ONCE: usize = 1 << 15;
 
 /// The averaged polygons of a mesh.

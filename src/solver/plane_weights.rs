@@ -154,7 +154,7 @@ fn residual_shares(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
 ///
 /// # Errors
 ///
-/// [`SolveError::Cancelled`].
+/// [`SolveError::NotFinite`] where the embedding is not; [`SolveError::Cancelled`].
 pub fn mean_value_in_plane(
     mesh: &DiskMesh,
     embedding: &Embedding,
@@ -176,7 +176,7 @@ pub fn mean_value_in_plane(
 ///
 /// # Errors
 ///
-/// [`SolveError::Cancelled`].
+/// [`SolveError::NotFinite`] where the embedding is not; [`SolveError::Cancelled`].
 pub fn natural_in_plane(
     mesh: &DiskMesh,
     embedding: &Embedding,

@@ -106,7 +106,7 @@ fn a_cancelled_solve_stops() {
     let rhs = vec![1.0; matrix.nrows()];
     for kind in [Kind::General, Kind::Hermitian] {
         let factor = factored(kind, &matrix).expect("regular");
-        for answer in [Factor::solve, Factor::solve_adjoint, Factor::solve_correction] {
+        for answer in [Factor::solve, Factor::solve_adjoint, Factor::solve_correction, Factor::solve_columns] {
             assert_eq!(answer(&factor, &matrix, &rhs, &raised).expect_err("cancelled"), LinalgError::Cancelled);
         }
         assert_eq!(factor.substitute(&rhs, &raised), Err(LinalgError::Cancelled));

@@ -98,7 +98,7 @@ impl Quotient {
     fn second_half(&self, list: &[u32], part: &[u32]) -> Vec<u32> {
         let Some(&first) = list.first() else { return Vec::new() };
         let fields = self.fields(first, list, part);
-        let sum = |&patch: &u32| fields.iter().map(|field| field[patch as usize]).sum::<i32>();
+        let sum = |&patch: &u32| (fields.iter().map(|field| i64::from(field[patch as usize])).sum::<i64>(), patch);
         let mut by_sum = list.to_vec();
         by_sum.sort_by_cached_key(sum);
         let differences: Vec<(usize, Option<usize>)> =

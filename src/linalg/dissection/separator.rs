@@ -6,9 +6,11 @@
 //! for all greatest flows.
 
 use std::cmp::Reverse;
+use std::sync::atomic::AtomicBool;
 
 use super::Cut;
-use crate::linalg::order::{Pattern, narrow, running_sum};
+use crate::linalg::LinalgError;
+use crate::linalg::order::{Pattern, go_on_unless, narrow, running_sum};
 
 /// Layers of vertices on either side of the cut among which the separator is sought: a patch is less than twice as wide.
 const LAYERS: i8 = 5;
@@ -27,17 +29,33 @@ pub(super) struct Moved {
 }
 
 /// The vertices of a band around a cut with their sides: no vertex of one is beside one of the other.
-pub(super) fn least_separator(graph: &Pattern, labels: &[u32], cut: &Cut) -> Vec<Moved> {
+///
+/// # Errors
+///
+/// [`LinalgError::Cancelled`].
+pub(super) fn least_separator(
+    graph: &Pattern,
+    labels: &[u32],
+    cut: &Cut,
+    cancel: &AtomicBool,
+) -> Result<Vec<Moved>, LinalgError> {
     let band = Band::around(graph, labels, cut);
-    let mut network = Network::of(graph, &band);
-    while network.send_paths() {}
+    let Some(mut network) = Network::of(graph, &band) else {
+        // There is no band between the sides.
+        let [first, second] = &cut.beside;
+        let narrower = if first.len() <= second.len() { first } else { second };
+        return Ok(narrower.iter().map(|&vertex| Moved { vertex, side: None }).collect());
+    };
+    while network.send_paths() {
+        go_on_unless(cancel)?;
+    }
     let side = |place: usize| match [2 * place, 2 * place + 1].map(|node| network.is_reached[node]) {
         [true, false] => None,
         [_, true] => Some(0),
         [false, false] => Some(1),
     };
     let vertices = band.vertices.iter().enumerate();
-    vertices.map(|(place, &vertex)| Moved { vertex, side: side(place) }).collect()
+    Ok(vertices.map(|(place, &vertex)| Moved { vertex, side: side(place) }).collect())
 }
 
 /// Vertices around a cut.
@@ -116,7 +134,8 @@ struct Network {
 }
 
 impl Network {
-    fn of(graph: &Pattern, band: &Band) -> Self {
+    /// None where the rims of both sides touch: such a way is not cut by any vertex that may go.
+    fn of(graph: &Pattern, band: &Band) -> Option<Self> {
         let nodes = 2 * band.vertices.len() + 2;
         let (source, sink) = (nodes - 2, nodes - 1);
         let mut edges: Vec<Edge> = Vec::new();
@@ -132,6 +151,9 @@ impl Network {
             around.clear();
             let others = graph.column(vertex as usize).iter().filter(|&&other| other != vertex);
             around.extend(others.filter_map(|&other| band.place[other as usize].checked_sub(1)));
+            if rim == Some(0) && around.iter().any(|&other| band.rim[other as usize] == Some(1)) {
+                return None;
+            }
             // Those nearer to the sink come first: so most paths lead straight there.
             around.sort_by_key(|&other| Reverse(band.layer[other as usize]));
             edges.extend(around.iter().map(|&other| Edge::new(2 * k + 1, 2 * other as usize, ENDLESS)));
@@ -151,7 +173,7 @@ impl Network {
             arcs[forth as usize] = Arc { head, capacity, reverse: back };
             arcs[back as usize] = Arc { head: tail, capacity: 0, reverse: forth };
         }
-        Self { arcs, at: begin[..nodes].to_vec(), begin, is_reached: vec![false; nodes], source, sink }
+        Some(Self { arcs, at: begin[..nodes].to_vec(), begin, is_reached: vec![false; nodes], source, sink })
     }
 
     /// Sends paths as long as a search that comes to each node once finds any. Whether it did; if not, it came to all nodes that

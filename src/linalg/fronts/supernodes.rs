@@ -113,7 +113,7 @@ fn relax(parent: &mut [u32], groups: &mut [Group]) -> Vec<u32> {
     let mut merged_into: Vec<u32> = (0..narrow(count)).collect();
     let (mut brood, mut kept) = (Vec::new(), Vec::new());
     for node in 0..narrow(count) {
-        // The child nearest in size comes last in postorder, and wastes least.
+        // Children descend here: the last in postorder is nearest in size, and wastes least.
         brood.clear();
         brood.extend(broods.of(node));
         kept.clear();

@@ -16,7 +16,8 @@ use crate::solver::{Control, Embedding, Phase, SolveError};
 
 /// The mean-value equations of an embedding, each divided by the sum of its weights.
 pub(super) fn normalized(disk: &DiskMesh, embedding: &Embedding) -> Equations<f64> {
-    let mut equations = mean_value_in_plane(disk, embedding, Control::unattended()).expect("nobody stops it");
+    let mut equations = mean_value_in_plane(disk, embedding, Control::unattended())
+        .expect("nobody stops it, and a planar embedding is finite");
     let mut sums = vec![0.0; disk.vertex_count()];
     for (link, weight) in disk.links().zip(&equations.coefficients) {
         sums[disk.tail(link).index()] += weight;
