@@ -244,7 +244,7 @@ impl<T: Scalar> Sides<T> {
     const NONE: Self = Self { along: [T::ZERO; 3], back: [T::ZERO; 3], bounded_corners: 0 };
 
     fn are_finite(&self) -> bool {
-        self.along.iter().chain(&self.back).all(|part| part.is_finite())
+        self.along.iter().chain(&self.back).all(nalgebra::ComplexField::is_finite)
     }
 }
 

@@ -183,7 +183,9 @@ fn sorted_by(list: &[u32], value: impl Fn(u32) -> i32) -> Vec<u32> {
         .fold((i32::MAX, i32::MIN), |(least, greatest), value| (least.min(value), greatest.max(value)));
     let place = |patch: u32| value(patch).abs_diff(least) as usize;
     let mut counts = vec![0; greatest.abs_diff(least) as usize + 1];
-    list.iter().for_each(|&patch| counts[place(patch)] += 1);
+    for &patch in list {
+        counts[place(patch)] += 1;
+    }
     let mut next = running_sum(&counts);
     let mut sorted = vec![0; list.len()];
     for &patch in list {
