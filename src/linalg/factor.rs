@@ -16,7 +16,7 @@ use super::refine::{Accept, Solved, System, refined};
 use super::scalar::Scalar;
 use super::sparse::{Operation, Operator};
 
-/// A factored matrix. It keeps what it needs of its [`Analysis`], but not the matrix.
+/// A factored matrix. It keeps what it needs of its [`Analysis`](super::Analysis), but not the matrix.
 #[derive(Debug)]
 pub struct Factor<T: Scalar> {
     pub(super) shared: Arc<Shared>,
