@@ -161,9 +161,16 @@ impl Unanalysed {
         Ok((analysis, start.elapsed().as_secs_f64()))
     }
 
+    /// With what [`analysis`](Self::analysis) returned.
     pub(super) fn analysed(self, analysis: Analysis, seconds: f64) -> LaidOut {
         let Self { way, layout, system, kind } = self;
         LaidOut { way, layout, system, kind, analysis, seconds }
+    }
+
+    /// Orders and analyses it here and now.
+    pub(super) fn analysed_now(self, mesh: &DiskMesh, control: Control<'_>) -> Result<LaidOut, SolveError> {
+        let (analysis, seconds) = self.analysis(mesh, control)?;
+        Ok(self.analysed(analysis, seconds))
     }
 
     /// Whether pins pull by a weight.
@@ -173,18 +180,6 @@ impl Unanalysed {
 }
 
 impl LaidOut {
-    pub(super) fn new(
-        mesh: &DiskMesh,
-        pins: &Pins,
-        way: Way,
-        kind: Kind,
-        control: Control<'_>,
-    ) -> Result<Self, SolveError> {
-        let laid_out = Unanalysed::new(mesh, pins, way, kind, control)?;
-        let (analysis, seconds) = laid_out.analysis(mesh, control)?;
-        Ok(laid_out.analysed(analysis, seconds))
-    }
-
     /// Whether all equations are kept, and it was not looked at yet where they depend on each other. Conformal ones do so all
     /// over the mesh.
     pub(super) fn may_want_gauge(&self) -> bool {

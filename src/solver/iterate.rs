@@ -10,7 +10,7 @@ use std::time::Instant;
 use glam::DVec2;
 use num_complex::Complex;
 
-use super::free_layout::{LaidOut, Numbers, Way};
+use super::free_layout::{LaidOut, Numbers, Unanalysed, Way};
 use super::free_solve::{FreeSolve, Start, Unsolved};
 use super::left_kernel::gauge_of;
 use super::pins::targets_of;
@@ -46,7 +46,7 @@ impl Iteration {
     ) -> Result<Self, SolveError> {
         check_pins(mesh, &held_in(embedding, pins))?;
         let way = Way { treatment, gauge: None };
-        let laid_out = LaidOut::new(mesh, pins, way, Kind::General, control)?;
+        let laid_out = Unanalysed::new(mesh, pins, way, Kind::General, control)?.analysed_now(mesh, control)?;
         Ok(Self { pins: pins.clone(), laid_out })
     }
 
@@ -111,7 +111,7 @@ impl Iteration {
             None => gauge_of(mesh, &numbers(seconds)?.equations, control)?,
         };
         let way = Way { gauge: Some(gauge), ..self.laid_out.way };
-        self.laid_out = LaidOut::new(mesh, &self.pins, way, Kind::General, control)?;
+        self.laid_out = Unanalysed::new(mesh, &self.pins, way, Kind::General, control)?.analysed_now(mesh, control)?;
         FreeSolve::new(mesh, &self.laid_out, numbers(seconds)?, seconds, control).map_err(SolveError::from)
     }
 

@@ -184,7 +184,7 @@ impl FrontAnalysis {
     }
 
     fn place_entries(&mut self, pattern: &Pattern, cancel: &AtomicBool) -> Result<(), LinalgError> {
-        let mirror = if self.sides == Sides::Both { mirrored_positions(pattern) } else { Vec::new() };
+        let mirror = if self.sides == Sides::Both { pattern.transposed() } else { Vec::new() };
         go_on_unless(cancel)?;
         let parts = in_tasks(self.count(), cancel, |supernodes| {
             let mut local = vec![0u32; pattern.order()];
@@ -324,14 +324,4 @@ fn front_rows(
     }
     debug_assert!(next[..parent.len()] == offsets[1..], "counts and patterns agree");
     Ok(Pattern { offsets, rows })
-}
-
-/// For every entry (i, j) the position of the entry (j, i).
-fn mirrored_positions(pattern: &Pattern) -> Vec<u32> {
-    let mut next: Vec<u32> = pattern.offsets[..pattern.order()].to_vec();
-    let position = |&row: &u32| {
-        next[row as usize] += 1;
-        next[row as usize] - 1
-    };
-    pattern.rows.iter().map(position).collect()
 }

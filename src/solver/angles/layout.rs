@@ -24,7 +24,7 @@ use num_complex::Complex;
 use crate::linalg::Kind;
 use crate::mesh::{DiskMesh, HalfedgeId};
 use crate::solver::equations::Equations;
-use crate::solver::free_layout::{LaidOut, Numbers, Way};
+use crate::solver::free_layout::{Numbers, Unanalysed, Way};
 use crate::solver::free_solve::{FreeSolve, Start};
 use crate::solver::pins::{fixed_pins, gauge_pins};
 use crate::solver::system::Site;
@@ -43,7 +43,8 @@ pub(super) fn laid_out(mesh: &DiskMesh, angles: &[[f64; 3]], control: Control<'_
     let targets = gauge_pins(mesh);
     let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
     let way = Way { treatment: Treatment::Eliminate, gauge: None };
-    let laid_out = LaidOut::new(mesh, &fixed_pins(targets.clone()), way, Kind::Hermitian, control)?;
+    let pins = fixed_pins(targets.clone());
+    let laid_out = Unanalysed::new(mesh, &pins, way, Kind::Hermitian, control)?.analysed_now(mesh, control)?;
     seconds.analyze = laid_out.seconds;
     let solve = FreeSolve::new(mesh, &laid_out, Numbers { equations, matrix: None, unit: 1.0 }, &mut seconds, control)?;
     let site = Site { mesh, system: &laid_out.system };
