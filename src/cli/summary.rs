@@ -163,6 +163,7 @@ pub(super) fn atlas_summary(report: &Report) -> String {
     if charts.len() > NAMED {
         lines.push(format!("and {} more charts, less distorted", charts.len() - NAMED));
     }
+    lines.extend(relaxing_words_of_charts(report));
     lines.extend(report.packing.map(|PackingReport { picture: [width, height], gap, density, covered }| {
         let percent = 100.0 * covered;
         format!(
@@ -175,14 +176,23 @@ pub(super) fn atlas_summary(report: &Report) -> String {
 
 /// What can be done about areas that differ badly, where the map is planar.
 fn relaxing_words(report: &Report) -> Option<String> {
-    let ratio = report.distortion.as_ref()?.bad_ratio_of_areas()?;
     let is_planar = report.verdict.as_ref().is_some_and(|verdict| verdict.planar);
+    let distortion = report.distortion.as_ref().filter(|_| is_planar && report.method.is_some())?;
+    distortion.bad_ratio_of_areas().map(|ratio| areas_words(ratio, "mesh and map"))
+}
+
+/// The same of the chart whose areas differ most, where all are planar.
+fn relaxing_words_of_charts(report: &Report) -> Option<String> {
+    let is_planar = report.atlas.as_ref().is_some_and(|atlas| atlas.planar);
+    let charts = report.charts.iter().filter(|_| is_planar && report.method.is_some());
+    let ratios = charts.filter_map(|chart| Some((chart.distortion.bad_ratio_of_areas()?, chart.first_face)));
+    let (ratio, face) = ratios.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    Some(areas_words(ratio, &format!("mesh and map in the chart of face {}", face.number())))
+}
+
+fn areas_words(ratio: f64, between: &str) -> String {
     let ratio = if ratio < 1e6 { format!("{ratio:.0}") } else { format!("{ratio:.0e}") };
-    (is_planar && report.method.is_some()).then(|| {
-        format!(
-            "areas differ {ratio} : 1 between mesh and map: --relax 20 lowers the distortion, one-to-one throughout"
-        )
-    })
+    format!("areas differ {ratio} : 1 between {between}: --relax 20 lowers the distortion, one-to-one throughout")
 }
 
 /// What methods that were compared came to: a table, and below it why some failed.

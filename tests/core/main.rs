@@ -142,6 +142,7 @@ mod stretch;
 mod study;
 mod study_cli;
 mod study_counterexamples;
+mod summary_cli;
 mod upright;
 mod verdict;
 mod verdict_cases;

@@ -107,6 +107,23 @@ fn where_the_ladder_has_no_step_left_it_is_said_what_can_still_be_changed() {
 }
 
 #[test]
+fn where_constraints_are_not_met_without_new_vertices_these_are_offered() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.0));
+    window.editor_mut().session.handle(Action::SetSettings(Settings { new_vertices: false, ..Settings::default() }));
+    // Vertices, and those on whose places they are to lie: too many in each other's way.
+    for (vertex, place) in [(28, 12), (39, 28), (40, 40), (20, 67), (24, 39), (12, 24), (15, 15), (67, 20)] {
+        let at = DVec2::new(f64::from(place % 9), f64::from(place / 9)) / 8.0;
+        window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), target: Target::hard(at) });
+    }
+    window.settle();
+    assert!(window.verdict().contains("constraints not met"), "{}", window.verdict());
+    assert_eq!(accents(&window), 1);
+    window.click("Allow new vertices");
+    assert!(window.is_proved() && window.outcome().new_vertex_count() > 0, "{}", window.verdict());
+    assert_eq!((accents(&window), window.has_button("Allow new vertices")), (0, false));
+}
+
+#[test]
 fn an_older_step_at_fault_gets_no_advice_once_the_run_has_ended_planar() {
     let mut window = Window::with_example(Example::Face);
     assert!(window.is_proved(), "{}", window.verdict());

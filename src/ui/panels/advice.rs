@@ -1,5 +1,5 @@
 //! What to do next, beside the verdict: repair an embedding that is at fault, or change what it was asked for where the
-//! ladder has ended with a fault; relax one that is planar but distorted.
+//! ladder has ended with a fault, or with constraints that are not met; relax one that is planar but distorted.
 
 use eframe::egui::{self, Button, RichText};
 
@@ -15,7 +15,7 @@ const ROOMY: f32 = 1000.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Advice {
     Repair,
-    /// The ladder has ended with a fault: what can still be done.
+    /// The ladder has ended with a fault, or without all constraints met: what can still be done.
     Change(Change),
     /// With the greatest ratio of a face's area in the plane to that on the mesh, or the other way round.
     Relax(f64),
@@ -27,8 +27,9 @@ impl Advice {
         let is_at_rest = matches!(session.status(), Status::Held | Status::Current) && !editor.plane.is_moving(session);
         let step = editor.step_on_screen().filter(|_| is_at_rest && editor.tools.dragged().is_none())?;
         if step.step.verdict.planar {
+            let change = Change::of(session).filter(|_| !step.step.unmet().is_empty());
             let ratio = step.distortion.summary.bad_ratio_of_areas().filter(|_| session.can_relax());
-            ratio.map(Self::Relax)
+            change.map(Self::Change).or(ratio.map(Self::Relax))
         } else if session.can_repair() {
             Some(Self::Repair)
         } else {
