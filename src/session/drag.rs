@@ -5,9 +5,10 @@
 //!
 //! The first solve is complex-linear in the targets: z = Φ t. Moving pins by δ adds δ times their columns of Φ, one
 //! multiply-add a vertex, at any size. So when a drag begins, the column of what is dragged is solved for once, in the
-//! background; from then on every move shows at once, as what was on the screen plus that change, so that nothing jumps. The
-//! exact verdict on it lags behind, and says so. Where the method does not begin with that solve, nothing follows the
-//! pointer until it rests.
+//! background; from then on every move shows at once, as what was on the screen plus that change, so that nothing jumps; as the
+//! first solve plus that change where the screen shows new vertices, or where the pin was the solver's own. The exact verdict
+//! on it lags behind, and says so. Where the method does not begin with that solve, nothing follows the pointer until it
+//! rests.
 //!
 //! ```text
 //! first move ──▶ job: column ──▶ Follow

@@ -27,7 +27,7 @@ use super::LinalgError;
 use super::order::{Pattern, go_on_unless, narrow};
 
 /// Vertices of a part, at most twice as many: below twice this nothing is cut. At 30 k vertices order, factor and solve together
-/// take as long as without, from 50 k on less (`--bench linalg`).
+/// took as long as without when that was tried, from 50 k on less.
 const PART: usize = 10_000;
 
 /// The most levels: parts for as many threads as there may be, and more.
