@@ -2,7 +2,7 @@
 //!
 //! | file | what it makes |
 //! |---|---|
-//! | `plain.rs` | small meshes with known numbers: grid, fan, tetrahedron, band |
+//! | `plain.rs` | small meshes with known numbers: grid, tower, fan, tetrahedron, band |
 //! | `corpus.rs` | where the corpus lies: meshes of others, beside the project |
 //! | `deep.rs` | disks whose inside is far from a small boundary: stacked, tube, hand |
 //! | `sheet.rs` | an irregular sheet of any size |
@@ -53,7 +53,7 @@ pub(crate) use deep::{hand, stacked, tube};
 pub(crate) use delaunay::{coord, triangulate};
 pub(crate) use head::head;
 pub(crate) use landmarks::landmarks;
-pub(crate) use plain::{band, disk, fan, grid, shaped, sheet, tetrahedron, write_obj};
+pub(crate) use plain::{band, disk, fan, grid, shaped, sheet, tetrahedron, tower, write_obj};
 pub(crate) use portrait::{PORTRAIT_SIZE, picture_from_sculpture, plane, portrait, sculpture_from_plane};
 pub(crate) use quads::{honeycomb, quad_sheet};
 pub(crate) use seamed::{Relief, seamed_ball};

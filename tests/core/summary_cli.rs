@@ -1,31 +1,24 @@
 //! What `freebound flatten` says of a map that is planar, but serves badly.
 
-use std::fmt::Write as _;
+use freebound::mesh::{TriMesh, VertexId};
+use glam::DVec3;
 
-use crate::program::Program;
+use crate::makers::{sheet, tower};
+use crate::program::{Program, obj_text};
 
-/// Vertices along a side of a sheet.
-const SIDE: usize = 9;
+const CONVEX: [&str; 8] = ["flatten", "in.obj", "-o", "out.obj", "--method", "convex", "--family", "uniform"];
 
-/// Sheets with a thin tower on each, which no map without cuts lays flat without shrinking it.
-fn towers(count: usize) -> String {
-    let mut text = String::new();
-    for sheet in 0..count {
-        for vertex in 0..SIDE * SIDE {
-            let (x, y) = (vertex % SIDE, vertex / SIDE);
-            let height = if (3..=5).contains(&x) && (3..=5).contains(&y) { 2000 } else { 0 };
-            writeln!(text, "v {} {y} {height}", x + 20 * sheet).expect("memory");
-        }
-        for (x, y) in (0..SIDE - 1).flat_map(|y| (0..SIDE - 1).map(move |x| (x, y))) {
-            let a = sheet * SIDE * SIDE + y * SIDE + x + 1;
-            let [b, c, d] = [a + 1, a + SIDE, a + SIDE + 1];
-            writeln!(text, "f {a} {b} {d}\nf {a} {d} {c}").expect("memory");
-        }
-    }
-    text
+/// A program with two sheets in its file, one beside the other: the faces of the first come first.
+fn with_both(first: &TriMesh, second: &TriMesh) -> Program {
+    let offset = u32::try_from(first.positions.len()).expect("a small mesh");
+    let moved = second.positions.iter().map(|p| *p + 2.0 * DVec3::X);
+    let positions = first.positions.iter().copied().chain(moved).collect();
+    let of_second = second.triangles.iter().map(|t| t.map(|v| v.number() + offset));
+    let triangles: Vec<[u32; 3]> = first.triangles.iter().map(|t| t.map(VertexId::number)).chain(of_second).collect();
+    let program = Program::new();
+    program.write("in.obj", &obj_text(&(&TriMesh::new(positions, &triangles)).into()));
+    program
 }
-
-const CONVEX: [&str; 8] = ["flatten", "towers.obj", "-o", "out.obj", "--method", "convex", "--family", "uniform"];
 
 /// The line on areas that differ, if there is one.
 fn areas(program: &Program, further: &[&str]) -> Option<String> {
@@ -36,24 +29,17 @@ fn areas(program: &Program, further: &[&str]) -> Option<String> {
 #[test]
 fn areas_that_differ_badly_are_told_with_what_can_be_done() {
     let program = Program::new();
-    program.write("towers.obj", &towers(1));
+    program.write("in.obj", &obj_text(&(&tower()).into()));
     let line = areas(&program, &["--relax", "0"]).expect("a line on areas");
     assert!(line.contains(" : 1 between mesh and map: --relax 20"), "{line}");
 }
 
 #[test]
 fn of_several_charts_the_one_is_named_whose_areas_differ_most() {
-    let program = Program::new();
-    // The second sheet is no tower, and its chart is that of face 128.
-    let second = towers(1).lines().count();
-    let flat = towers(2).lines().enumerate().fold(String::new(), |mut text, (number, line)| {
-        let line = if number >= second { line.replace(" 2000", " 0") } else { line.to_owned() };
-        writeln!(text, "{line}").expect("memory");
-        text
-    });
-    program.write("towers.obj", &flat);
-    let line = areas(&program, &["--relax", "0", "--cut", "auto"]).expect("a line on areas");
-    assert!(line.contains("in the chart of face 0: --relax 20"), "{line}");
-    program.write("towers.obj", &flat.replace(" 2000", " 0"));
-    assert_eq!(areas(&program, &["--cut", "auto"]), None, "nothing is distorted");
+    let flat = sheet(8, 0.0);
+    for (first, second, face) in [(&tower(), &flat, 0), (&flat, &tower(), flat.triangles.len())] {
+        let line = areas(&with_both(first, second), &["--relax", "0", "--cut", "auto"]).expect("a line on areas");
+        assert!(line.contains(&format!("in the chart of face {face}: --relax 20")), "{line}");
+    }
+    assert_eq!(areas(&with_both(&flat, &flat), &["--cut", "auto"]), None, "nothing is distorted");
 }

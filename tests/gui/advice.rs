@@ -4,14 +4,15 @@ use eframe::egui;
 use egui::{Key, Modifiers};
 use freebound::examples::Example;
 use freebound::io::Target;
-use freebound::mesh::{TriMesh, VertexId};
+use freebound::mesh::VertexId;
 use freebound::session::Action;
 use freebound::solver::{Method, Settings};
 use freebound::ui::theme;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use crate::defects::fold;
 use crate::harness::{Window, sheet};
+use crate::makers::tower;
 
 /// How many areas of the accent's colour were painted in the last frame.
 fn accents(window: &Window) -> usize {
@@ -44,18 +45,6 @@ fn repair_is_in_sight_in_the_least_window() {
     window.settle();
     let rect = window.rect(egui::accesskit::Role::Button, "Repair");
     assert!(rect.left() > 0.0 && rect.right() < 640.0 && rect.bottom() <= 30.0, "{rect:?}");
-}
-
-/// A sheet with a thin tower on it, which no map without cuts lays flat without shrinking it.
-fn tower() -> TriMesh {
-    let flat = sheet(8, 0.0);
-    let lifted = flat.positions.iter().enumerate().map(|(i, x)| {
-        let (row, column) = (i / 9, i % 9);
-        let is_on_top = (3..=5).contains(&row) && (3..=5).contains(&column);
-        if is_on_top { DVec3::new(x.x, x.y, 2000.0) } else { *x }
-    });
-    let triangles: Vec<[u32; 3]> = flat.triangles.iter().map(|t| t.map(VertexId::number)).collect();
-    TriMesh::new(lifted.collect(), &triangles)
 }
 
 #[test]
