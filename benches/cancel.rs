@@ -5,17 +5,16 @@
 //! names, and a number the faces.
 
 mod common;
-#[path = "../examples/makers/mod.rs"]
-mod makers;
 
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{
-    Choice as _, Control, Embedding, Family, Ladder, Method, Phase, Pins, Settings, SolveError, hard_pins,
+use freebound_core::flatten::Flattener;
+use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::problem::{
+    Control, Embedding, Family, Method, NamedOption as _, Phase, Pins, Settings, SolveError, hard_pins,
 };
 use glam::DVec2;
 
@@ -23,7 +22,7 @@ use common::machine::print_machine;
 use common::stop::within;
 use common::table::{Table, seconds, target};
 use common::{Times, arguments};
-use makers::bumpy_cap_of;
+use freebound_testkit::bumpy_cap_of;
 
 const FACES: usize = 1_000_000;
 
@@ -66,7 +65,8 @@ fn main() {
         }
         let settings = Settings::new(method, family);
         let pins = if is_constrained { pins(&mesh, &flat) } else { Pins::new() };
-        let waits = Waits::of(|control| Ladder::new(settings, pins.clone()).finish(&mesh, control, |_| {}).map(|_| ()));
+        let waits =
+            Waits::of(|control| Flattener::new(settings, pins.clone()).finish(&mesh, control, |_| {}).map(|_| ()));
         let worst = waits.worst.as_ref();
         let row = [
             method.name().to_owned(),
@@ -88,7 +88,7 @@ fn main() {
 
 /// The mesh flattened without pins.
 fn flat(mesh: &DiskMesh) -> Embedding {
-    let step = Ladder::new(Settings::new(Method::Natural, Family::Conformal), Pins::new())
+    let step = Flattener::new(Settings::new(Method::Natural, Family::Conformal), Pins::new())
         .step(mesh, Control::unattended())
         .expect("a cap is flattened");
     step.candidate.solution.embedding

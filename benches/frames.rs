@@ -11,9 +11,9 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 use egui::{Event, Modifiers, PointerButton, Pos2, Vec2};
 use egui_kittest::Harness;
-use freebound::app::{App, Start};
+use freebound::app::{App, LaunchFile};
 use freebound::session::Action;
-use freebound::ui::{Pane, Request, Shading};
+use freebound::ui::{Pane, Request, ShadingMode};
 
 /// Frames measured of each kind.
 const FRAMES: usize = 60;
@@ -23,13 +23,15 @@ const PATIENCE: Duration = Duration::from_mins(2);
 
 fn main() {
     let file = std::env::args().nth(1).filter(|argument| !argument.starts_with("--")).map(PathBuf::from);
-    let start = Start { file, dialogs_inside: true, ..Start::default() };
+    let start = LaunchFile { file, dialogs_inside: true, ..LaunchFile::default() };
     let mut window = Harness::builder()
         .with_size(Vec2::new(1280.0, 800.0))
         .wgpu()
         .build_eframe(move |context| App::new(context, start));
     let begin = Instant::now();
-    while window.state().editor().look.paint(Pane::Mesh).is_none() || window.state().editor().plane.scene().is_none() {
+    while window.state().editor().pane_shading.paint(Pane::Mesh).is_none()
+        || window.state().editor().plane.scene().is_none()
+    {
         assert!(begin.elapsed() < PATIENCE, "the mesh was not opened and solved in time");
         window.step();
         std::thread::sleep(Duration::from_millis(5));
@@ -55,7 +57,7 @@ fn main() {
     });
     window.event(button(middle, false));
     measure(&mut window, "the shading changes", |window, frame| {
-        let shading = Shading::ALL[frame % Shading::ALL.len()];
+        let shading = ShadingMode::ALL[frame % ShadingMode::ALL.len()];
         window.state_mut().editor_mut().handle(Request::SetShading(shading));
     });
     measure(&mut window, "a run goes on", |window, _| {

@@ -3,23 +3,20 @@
 //! `cargo bench --bench iterate -- VERTICES…` takes other sizes.
 
 mod common;
-#[path = "../examples/makers/mod.rs"]
-mod makers;
 
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use freebound::mesh::DiskMesh;
-use freebound::solver::{
-    Control, Embedding, Family, Iteration, Method, Pins, Settings, SolveError, Treatment, fixed_pins, largest_move,
-    solve_once,
-};
+use freebound_core::flatten::{largest_move, solve_once};
+use freebound_core::linear::Iteration;
+use freebound_core::mesh::DiskMesh;
+use freebound_core::problem::{Control, Embedding, Family, Method, Pins, Settings, SolveError, Treatment, fixed_pins};
 
 use common::machine::{print_machine, processor_seconds};
 use common::stop::within;
 use common::table::{Table, seconds};
 use common::{Times, arguments, time};
-use makers::sheet_of_faces;
+use freebound_testkit::sheet_of_faces;
 
 /// Vertices of the meshes.
 const SIZES: [usize; 3] = [20_000, 100_000, 500_000];

@@ -1,27 +1,26 @@
-//! Where the ladder ends: `cargo bench --bench ladder`.
+//! Where the flattener ends: `cargo bench --bench ladder`.
 //!
 //! `auto` on the twenty disks of `../shared/corpus`, each from twenty random pairs of boundary pins and with three
-//! families: 1200 runs. One line a mesh: how many ended planar on which rung, how many steps that took, and the time.
+//! families: 1200 runs. One line a mesh: how many ended planar on which stage, how many steps that took, and the time.
 //!
 //! `cargo bench --bench ladder -- PAIRS [NAME] [trace]` takes so many pairs, on meshes whose name contains NAME, and
 //! prints every step.
 
 mod common;
-#[path = "../examples/makers/mod.rs"]
-mod makers;
 
 use std::fs;
 use std::path::PathBuf;
 
-use freebound::io::{StepReport, read_mesh};
-use freebound::mesh::DiskMesh;
-use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings, Step, fixed_pins};
+use freebound_core::flatten::{Flattener, Step};
+use freebound_core::mesh::DiskMesh;
+use freebound_core::problem::{Control, Family, Method, Pins, Settings, Stage, fixed_pins};
+use freebound_io::{StepReport, read_mesh};
 use glam::DVec2;
 
 use common::machine::print_machine;
 use common::table::Table;
 use common::{arguments, time};
-use makers::{Random, corpus};
+use freebound_testkit::{Random, corpus};
 
 const PAIRS: usize = 20;
 
@@ -97,7 +96,7 @@ fn main() {
 
 /// The disks of the corpus whose name contains `name`, small ones first.
 fn meshes(name: &str) -> Vec<PathBuf> {
-    let Some(entries) = corpus().and_then(|folder| fs::read_dir(folder).ok()) else { return Vec::new() };
+    let entries = fs::read_dir(corpus()).expect("the corpus is a folder");
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "obj"));
     paths.retain(|path| path.file_name().is_some_and(|file| file.to_string_lossy().contains(name)));
@@ -131,7 +130,7 @@ fn random_pins(mesh: &DiskMesh, random: &mut Random) -> Pins {
 
 /// One run: where it ended, and after how many steps.
 fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool) -> Count {
-    let mut run = Ladder::new(Settings::new(Method::Auto, family), pins.clone());
+    let mut run = Flattener::new(Settings::new(Method::Auto, family), pins.clone());
     let mut steps: Vec<StepReport> = Vec::new();
     let outcome = run.finish(mesh, Control::unattended(), |step: Step| {
         let report = StepReport::of(&step);
@@ -146,20 +145,20 @@ fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool) -> Count {
     }
     let mut ends = [0; ENDS.len()];
     ends[end_of(&steps) as usize] = 1;
-    let relaxed = usize::from(last.is_some_and(|last| last.rung == Method::Relax));
+    let relaxed = usize::from(last.is_some_and(|last| last.stage == Stage::Relax));
     Count { runs: 1, ends, relaxed, steps: steps.len(), most_steps: steps.len(), seconds: 0.0 }
 }
 
-/// The rung whose step was planar first, where the last one is.
+/// The stage whose step was planar first, where the last one is.
 fn end_of(steps: &[StepReport]) -> End {
     let is_planar = steps.last().is_some_and(|last| last.planar);
     let Some(first) = steps.iter().position(|step| step.planar).filter(|_| is_planar) else { return End::NotPlanar };
-    let has_begun_again = |step: &StepReport| step.rung == Method::Natural && (step.index > 0 || step.note.is_some());
-    match steps[first].rung {
-        Method::Natural | Method::Iterate if steps[..=first].iter().any(has_begun_again) => End::StartedAgain,
-        Method::Natural => End::Natural,
-        Method::Iterate => End::Iterate,
-        Method::Schnyder => End::Grid,
+    let has_begun_again = |step: &StepReport| step.stage == Stage::Natural && (step.index > 0 || step.note.is_some());
+    match steps[first].stage {
+        Stage::Natural | Stage::Iterate if steps[..=first].iter().any(has_begun_again) => End::StartedAgain,
+        Stage::Natural => End::Natural,
+        Stage::Iterate => End::Iterate,
+        Stage::Schnyder => End::Grid,
         _ if steps[first].bent_vertices == 0 => End::FreeVirtualBoundary,
         _ => End::Convex,
     }

@@ -5,21 +5,21 @@
 //! have the same pattern and the same order, so that their times and memory compare. They are run in turns.
 
 mod common;
-#[path = "../examples/makers/mod.rs"]
-mod makers;
 
 use std::sync::atomic::AtomicBool;
 
-use freebound::linalg::{Analysis, Factor, FactorStats, Kind, Solved};
-use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Control, FreeSystem, equations, gauge_pins};
+use freebound_core::linalg::{Analysis, Factor, FactorStats, Kind, Solved};
+use freebound_core::linear::FreeSystem;
+use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::problem::{Control, gauge_pins};
+use freebound_core::weights::equations;
 use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
 
 use common::machine::{print_machine, processor_seconds};
 use common::table::{Table, megabytes, ratio, seconds, target};
 use common::{Times, arguments};
-use makers::jittered_sheet;
+use freebound_testkit::jittered_sheet;
 
 type C = Complex<f64>;
 

@@ -7,20 +7,20 @@
 //! `cargo bench --bench terrain -- FILE.obj` writes the terrain, to be opened in the editor.
 
 mod common;
-#[path = "../examples/makers/mod.rs"]
-mod makers;
 
 use std::path::Path;
 
-use freebound::io::{MeshFile, Texture, write_atomically, write_obj};
-use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::solver::{Control, Family, Method, Pins, Settings, distortion, solve_once, verdict};
+use freebound_core::flatten::solve_once;
+use freebound_core::mesh::{DiskMesh, TriMesh};
+use freebound_core::problem::{Control, Family, Method, Pins, Settings};
+use freebound_core::verify::{distortion, verdict};
+use freebound_io::{MeshFile, Texture, write_atomically, write_obj};
 use glam::{DVec2, DVec3};
 
 use common::machine::print_machine;
 use common::table::Table;
 use common::{arguments, time};
-use makers::{Random, sheet_of_faces};
+use freebound_testkit::{Random, sheet_of_faces};
 
 const FACES: usize = 100_000;
 

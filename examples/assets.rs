@@ -2,13 +2,11 @@
 //!
 //! OBJ files have the fewest digits that read back as the same numbers.
 
-mod makers;
-
 use std::fs;
 use std::path::Path;
 
-use freebound::examples::{Example, Landmark};
-use freebound::io::{MeshFile, Texture, write_obj};
+use freebound_io::{MeshFile, Texture, write_obj};
+use freebound_testkit::{BuiltIn, PlacedLandmark};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
 
@@ -19,10 +17,9 @@ fn main() {
         fs::write(folder.join(name), bytes).expect("the file can be written");
         println!("{:>9} bytes: {name}", bytes.len());
     };
-    for example in Example::ALL {
+    for example in BuiltIn::ALL {
         let mut text = Vec::new();
-        write_obj(&mut text, &MeshFile::from(&makers::example_mesh(example)), &Texture::default())
-            .expect("memory takes it");
+        write_obj(&mut text, &MeshFile::from(&example.mesh()), &Texture::default()).expect("memory takes it");
         write(&format!("{}.obj", example.name()), &text);
     }
     write("face-landmarks.txt", landmarks().as_bytes());
@@ -32,17 +29,17 @@ fn main() {
 /// The landmarks as a constraint file, each with its name.
 fn landmarks() -> String {
     let head = "# vertex u v # name; vertices count from 0, left and right are the person's".to_owned();
-    let line = |landmark: Landmark| {
+    let line = |landmark: PlacedLandmark| {
         let [u, v] = landmark.target;
         format!("{} {u:?} {v:?} # {}", landmark.vertex.number(), landmark.name)
     };
-    let lines = makers::landmarks().into_iter().map(line);
+    let lines = freebound_testkit::landmarks().into_iter().map(line);
     std::iter::once(head).chain(lines).map(|line| line + "\n").collect()
 }
 
 /// The portrait as a PNG file without opacity.
 fn portrait() -> Vec<u8> {
-    let picture = makers::portrait(makers::PORTRAIT_SIZE);
+    let picture = freebound_testkit::portrait(freebound_testkit::PORTRAIT_SIZE);
     let pixels = RgbaImage::from_raw(picture.width, picture.height, picture.pixels).expect("four bytes a pixel");
     let mut bytes = Vec::new();
     let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use eframe::egui;
 
 use crate::examples::Example;
-use crate::io::machine_memory_bytes;
 use crate::render;
 use crate::session::{Action, Preferences, RecentFiles, recovery_folder};
 use crate::ui::{Dialogs, Editor, theme, window_ui};
+use freebound_io::machine_memory_bytes;
 
 /// Size of the window at the start, points.
 const WINDOW_SIZE: [f32; 2] = [1280.0, 800.0];
@@ -29,7 +29,7 @@ pub struct App {
 
 /// What to open at the start, and how.
 #[derive(Clone, Debug, Default)]
-pub struct Start {
+pub struct LaunchFile {
     /// A mesh; the built-in face without one.
     pub file: Option<PathBuf>,
     /// Where the list of recent files is kept; nowhere in tests.
@@ -46,13 +46,13 @@ pub struct Start {
 
 impl App {
     /// An editor that opens what `start` says.
-    pub fn new(context: &eframe::CreationContext<'_>, start: Start) -> Self {
+    pub fn new(context: &eframe::CreationContext<'_>, start: LaunchFile) -> Self {
         theme::install(&context.egui_ctx);
         let recent = start.recent_store.map_or_else(RecentFiles::default, RecentFiles::load);
         let mut editor = Editor::new(&context.egui_ctx, recent);
         if let Some(state) = &context.wgpu_render_state {
             render::install(state);
-            editor.host.use_gpu();
+            editor.gpu.use_gpu();
         }
         if let Some(path) = &start.preferences {
             editor.put_on(&Preferences::load(path));
@@ -92,7 +92,7 @@ impl eframe::App for App {
         }
         self.editor.session.finish_writing();
         // Where the person was not asked, such as at the end of a session of the system's, the copy stays.
-        if self.editor.host.is_quitting() || !self.editor.session.has_unsaved_work() {
+        if self.editor.gpu.is_quitting() || !self.editor.session.has_unsaved_work() {
             self.editor.session.close();
         }
     }
@@ -124,7 +124,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
         renderer: eframe::Renderer::Wgpu,
         ..eframe::NativeOptions::default()
     };
-    let start = Start {
+    let start = LaunchFile {
         file,
         recent_store: RecentFiles::default_store(),
         preferences,

@@ -3,9 +3,9 @@
 //! `cargo run --release --example assets` makes the files; a test says that they are what it makes. Every mesh is a disk of
 //! good triangles, counter-clockwise seen from outside.
 
-use crate::geom::Picture;
-use crate::io::{decode_picture, read_stream};
-use crate::mesh::{TriMesh, VertexId};
+use freebound_core::geom::Picture;
+use freebound_core::mesh::{TriMesh, VertexId};
+use freebound_io::{decode_picture, read_stream};
 
 /// A built-in mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

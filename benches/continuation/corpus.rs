@@ -3,15 +3,18 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use freebound::geom::PictureFrame;
-use freebound::io::{Constraints, pins_in_plane, read_mesh};
-use freebound::mesh::DiskMesh;
-use freebound::solver::{Choice as _, Embedding, Pins, Settings, Step, distortion, verdict};
+use freebound_core::flatten::Step;
+use freebound_core::geom::PictureFrame;
+use freebound_core::mesh::DiskMesh;
+use freebound_core::pipeline::pins_in_plane;
+use freebound_core::problem::{Embedding, Pins, Settings};
+use freebound_core::verify::{distortion, verdict};
+use freebound_io::{Constraints, read_mesh};
 use glam::DVec2;
 
 use crate::common::table::{Table, seconds};
-use crate::makers::corpus;
 use crate::outcome::Outcome;
+use freebound_testkit::corpus;
 
 /// Rounds of relaxing at the end.
 const RELAX_ROUNDS: usize = 20;
@@ -56,9 +59,7 @@ pub(crate) fn run(is_quick: bool) {
 
 /// The constraint files, in the order of their names.
 pub(crate) fn sets() -> Vec<PathBuf> {
-    let Some(entries) = corpus().and_then(|folder| fs::read_dir(folder.join("constrained")).ok()) else {
-        return Vec::new();
-    };
+    let entries = fs::read_dir(corpus().join("constrained")).expect("the corpus has constrained sets");
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.retain(|path| mesh_of(path).is_file() && !name_of(path).ends_with(".publishedmap"));
     paths.sort();
@@ -98,13 +99,13 @@ fn row(path: &Path) -> Result<[String; 13], String> {
         mesh.vertex_count().to_string(),
         pins.len().to_string(),
         if found.solved.is_some() { "yes" } else { "NO" }.to_owned(),
-        shown.map_or("–", |step| step.rung.name()).to_owned(),
+        shown.map_or("–", |step| step.candidate.stage.name()).to_owned(),
         found.steps.to_string(),
         shown.map_or("–".to_owned(), |step| format!("{:e}", largest_error(step, &pins))),
         found.new_vertices().map_or("–".to_owned(), |count| count.to_string()),
         seconds(found.seconds_to_solve()),
         seconds(found.seconds),
-        relaxed.map_or("–".to_owned(), |step| energy(step.mesh(&mesh), &step.solution.embedding)),
+        relaxed.map_or("–".to_owned(), |step| energy(step.candidate.mesh(&mesh), &step.candidate.solution.embedding)),
         published(path, &mesh).unwrap_or_else(|| "–".to_owned()),
         found.ending,
     ])
@@ -112,8 +113,8 @@ fn row(path: &Path) -> Result<[String; 13], String> {
 
 /// The largest distance of an exactly pinned vertex from its target.
 fn largest_error(step: &Step, pins: &Pins) -> f64 {
-    let exact = pins.iter().filter(|(_, pin)| pin.hold.is_exact());
-    exact.map(|(vertex, pin)| step.solution.embedding[vertex].distance(pin.target)).fold(0.0, f64::max)
+    let exact = pins.iter().filter(|(_, pin)| pin.kind.is_hard());
+    exact.map(|(vertex, pin)| step.candidate.solution.embedding[vertex].distance(pin.target)).fold(0.0, f64::max)
 }
 
 /// Mean symmetric Dirichlet energy.

@@ -1,4 +1,4 @@
-//! How the ladder meets constraints: `cargo bench --bench continuation`.
+//! How the flattener meets constraints: `cargo bench --bench continuation`.
 //!
 //! Words behind `--` choose the parts: `corpus` (the constrained problems of `../shared/corpus`), `synthetic` (bumpy caps
 //! with displaced, swirled, stretched and permuted pins), `size` (time and memory by the number of faces), `relax` (from
@@ -12,8 +12,6 @@
 mod common;
 
 mod corpus;
-#[path = "../../examples/makers/mod.rs"]
-mod makers;
 mod matchmaker;
 mod outcome;
 mod relax;

@@ -1,20 +1,21 @@
 //! New vertices: how many, and how distorted maps are that need them.
 //!
 //! The constrained sets of the corpus with their targets given to one another, whole boundaries held that cross
-//! themselves, and the sets as they are by rung 5 alone, beside rung 4, which needs no new vertex.
+//! themselves, and the sets as they are by stage 5 alone, beside stage 4, which needs no new vertex.
 
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Choice as _, Method, Pin, Pins, Settings, distortion, hard_pins};
+use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::problem::{Method, Pin, Pins, Settings, hard_pins};
+use freebound_core::verify::distortion;
 use glam::DVec2;
 
 use crate::common::table::{Table, ratio, seconds};
 use crate::corpus::{name_of, read_set, sets};
-use crate::makers::Random;
 use crate::outcome::Outcome;
 use crate::synthetic::{Cap, below};
+use freebound_testkit::Random;
 
 /// Vertices of the caps whose boundaries are held.
 const CAPS: [usize; 3] = [300, 1_000, 4_000];
@@ -92,7 +93,7 @@ pub(crate) fn run(is_quick: bool) {
     beside_rung_4(&few);
 }
 
-/// The sets as they are by rung 5 and by rung 4.
+/// The sets as they are by stage 5 and by stage 4.
 fn beside_rung_4(few: &dyn Fn(&Path) -> bool) {
     let heads = ["set", "new", "s", "energy", "s by rung 4", "energy by rung 4", "times"];
     let mut table = Table::new("rung 5 on sets that rung 4 can do", &heads);
@@ -121,7 +122,7 @@ fn row(name: &str, mesh: &DiskMesh, pins: &Pins, settings: Settings) -> Vec<Stri
         name.to_owned(),
         mesh.vertex_count().to_string(),
         pins.len().to_string(),
-        step.map_or("–", |step| step.rung.name()).to_owned(),
+        step.map_or("–", |step| step.candidate.stage.name()).to_owned(),
         found.new_vertices().map_or("–".to_owned(), |count| count.to_string()),
         new_at_end(&found),
         seconds(found.seconds_to_solve()),
@@ -134,14 +135,15 @@ fn row(name: &str, mesh: &DiskMesh, pins: &Pins, settings: Settings) -> Vec<Stri
 /// New vertices of the last step, where that meets the pins.
 fn new_at_end(found: &Outcome) -> String {
     let solved = found.last.as_ref().filter(|step| step.verdict.planar && step.unmet().is_empty());
-    let count = solved.map(|step| step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len()));
+    let count =
+        solved.map(|step| step.candidate.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len()));
     count.map_or("–".to_owned(), |count| count.to_string())
 }
 
 /// Mean symmetric Dirichlet energy of the last step, where that is planar and meets the pins.
 fn energy(mesh: &DiskMesh, found: &Outcome) -> Option<f64> {
     let step = found.last.as_ref().filter(|step| step.verdict.planar && step.unmet().is_empty())?;
-    Some(distortion(step.mesh(mesh), &step.solution.embedding).summary.symmetric_dirichlet.mean)
+    Some(distortion(step.candidate.mesh(mesh), &step.candidate.solution.embedding).summary.symmetric_dirichlet.mean)
 }
 
 fn shown(energy: Option<f64>) -> String {

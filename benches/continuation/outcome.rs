@@ -4,8 +4,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use freebound::mesh::DiskMesh;
-use freebound::solver::{Choice as _, Control, Ladder, Pins, Settings, SolveError, Step};
+use freebound_core::flatten::{Flattener, Step};
+use freebound_core::mesh::DiskMesh;
+use freebound_core::problem::{Control, Pins, Settings, SolveError};
 
 use crate::common::stop::within;
 
@@ -38,7 +39,7 @@ impl Outcome {
         let start = Instant::now();
         let mut found = Self { ending: String::new(), solved: None, last: None, steps: 0, seconds: 0.0 };
         let (ending, _) = within(LIMIT, &cancel, || {
-            let mut run = Ladder::new(settings, pins.clone());
+            let mut run = Flattener::new(settings, pins.clone());
             let take = |step: Step| {
                 found.steps += usize::from(!step.is_of_planar_start());
                 if SHOWS_STEPS.load(Ordering::Relaxed) {
@@ -64,7 +65,7 @@ impl Outcome {
     /// New vertices of the solved step.
     pub(crate) fn new_vertices(&self) -> Option<usize> {
         let (_, step) = self.solved.as_ref()?;
-        Some(step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len()))
+        Some(step.candidate.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len()))
     }
 
     /// Seconds until the solved step, or until the run gave up.
@@ -75,8 +76,14 @@ impl Outcome {
 
 /// A step in a line.
 pub(crate) fn show(step: &Step) {
-    let progress = step.progress.map_or_else(String::new, |progress| {
+    let progress = step.candidate.progress.map_or_else(String::new, |progress| {
         format!(", energy {:.4}, distance left {:.3e}", progress.energy, progress.distance_left)
     });
-    println!("    {} {}: {:.3} s, {}{progress}", step.index, step.rung.name(), step.seconds(), step.verdict.summary());
+    println!(
+        "    {} {}: {:.3} s, {}{progress}",
+        step.index,
+        step.candidate.stage.name(),
+        step.seconds(),
+        step.verdict.summary()
+    );
 }

@@ -7,15 +7,17 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
-use freebound::io::peak_memory_bytes;
-use freebound::mesh::DiskMesh;
-use freebound::solver::{Control, Family, Ladder, Method, Phase, Pins, Settings, Step, distortion};
+use freebound_core::flatten::{Flattener, Step};
+use freebound_core::mesh::DiskMesh;
+use freebound_core::problem::{Control, Family, Method, Phase, Pins, Settings, Stage};
+use freebound_core::verify::distortion;
+use freebound_io::peak_memory_bytes;
 
 use crate::common::machine::processor_seconds;
 use crate::common::table::{Table, megabytes, seconds, target};
-use crate::makers::bumpy_cap_of;
 use crate::outcome::{SHOWS_STEPS, show};
 use crate::size::forget_peak;
+use freebound_testkit::bumpy_cap_of;
 
 /// The most rounds.
 const MOST_ROUNDS: usize = 30;
@@ -119,15 +121,16 @@ impl Relaxed {
                 show(&step);
             }
             assert!(step.verdict.planar, "relaxing keeps it planar");
-            if step.rung == Method::Relax {
+            if step.candidate.stage == Stage::Relax {
                 found.rounds.push(Round { seconds, processor, steps });
-                found.energy = step.progress.map_or(f64::NAN, |progress| progress.energy);
+                found.energy = step.candidate.progress.map_or(f64::NAN, |progress| progress.energy);
             } else {
-                found.energy_before = distortion(mesh, &step.solution.embedding).summary.symmetric_dirichlet.mean;
+                found.energy_before =
+                    distortion(mesh, &step.candidate.solution.embedding).summary.symmetric_dirichlet.mean;
             }
             before = (Instant::now(), processor_seconds());
         };
-        let ending = Ladder::new(settings, Pins::new()).finish(mesh, Control::new(&cancel, &count), take);
+        let ending = Flattener::new(settings, Pins::new()).finish(mesh, Control::new(&cancel, &count), take);
         ending.expect("relaxing does not fail");
         found
     }

@@ -3,14 +3,15 @@
 
 use std::f64::consts::{PI, TAU};
 
-use freebound::geom::Bounds;
-use freebound::mesh::DiskMesh;
-use freebound::solver::{Choice as _, Pins, Settings, distortion, hard_pins};
+use freebound_core::geom::Bounds;
+use freebound_core::mesh::DiskMesh;
+use freebound_core::problem::{Pins, Settings, hard_pins};
+use freebound_core::verify::distortion;
 use glam::DVec2;
 
 use crate::common::table::{Table, seconds, target};
-use crate::makers::{Relief, bumpy_cap_of, seamed_ball};
 use crate::outcome::Outcome;
+use freebound_testkit::{Relief, bumpy_cap_of, seamed_ball};
 
 /// A disk: its name, the maker's numbers, and the seconds that it may take on two cores.
 enum Surface {
@@ -133,8 +134,11 @@ fn row(surface: &Surface, mesh: &DiskMesh, Asked { held, pins, at_most }: Asked)
     let last = found.last.as_ref();
     // What is shown is the end, relaxed, where nothing is held: until then it takes.
     let taken = if pins.is_empty() { found.seconds } else { found.seconds_to_solve() };
-    let energy = |step: &freebound::solver::Step| {
-        format!("{:.3}", distortion(step.mesh(mesh), &step.solution.embedding).summary.symmetric_dirichlet.mean)
+    let energy = |step: &freebound_core::flatten::Step| {
+        format!(
+            "{:.3}",
+            distortion(step.candidate.mesh(mesh), &step.candidate.solution.embedding).summary.symmetric_dirichlet.mean
+        )
     };
     [
         surface.name(),
@@ -142,7 +146,7 @@ fn row(surface: &Surface, mesh: &DiskMesh, Asked { held, pins, at_most }: Asked)
         mesh.boundary_loop().len().to_string(),
         held,
         if solved.is_some() { "yes" } else { "NO" }.to_owned(),
-        solved.or(last).map_or("–", |step| step.rung.name()).to_owned(),
+        solved.or(last).map_or("–", |step| step.candidate.stage.name()).to_owned(),
         found.steps.to_string(),
         seconds(taken),
         target(taken, at_most),
@@ -189,7 +193,7 @@ fn on_circle(mesh: &DiskMesh) -> Vec<DVec2> {
 fn moved(mesh: &DiskMesh, map: impl Fn(DVec2, f64) -> DVec2) -> Option<Vec<DVec2>> {
     let found = Outcome::of(mesh, Settings::default(), &Pins::new());
     let step = found.last.filter(|step| step.verdict.planar)?;
-    let boundary = step.solution.embedding.boundary(mesh);
+    let boundary = step.candidate.solution.embedding.boundary(mesh);
     let bounds = Bounds::of(boundary.iter().copied());
     let (middle, size) = (bounds.middle(), bounds.size().max_element());
     Some(boundary.iter().map(|&z| middle + map(z - middle, size)).collect())

@@ -2,13 +2,13 @@
 
 use std::fs;
 
-use freebound::io::peak_memory_bytes;
-use freebound::solver::{Choice as _, Settings};
+use freebound_core::problem::Settings;
+use freebound_io::peak_memory_bytes;
 
 use crate::common::table::{Table, megabytes, seconds, target};
-use crate::makers::Random;
 use crate::outcome::Outcome;
 use crate::synthetic::{Cap, Change};
+use freebound_testkit::Random;
 
 /// Pins displaced by a part of the size, and the numbers of faces with the seconds that they may take on two cores.
 struct Growth {
@@ -58,7 +58,7 @@ impl Growth {
         Ok([
             cap.mesh.face_count().to_string(),
             if found.solved.is_some() { "yes" } else { "NO" }.to_owned(),
-            shown.map_or("–", |step| step.rung.name()).to_owned(),
+            shown.map_or("–", |step| step.candidate.stage.name()).to_owned(),
             found.steps.to_string(),
             found.new_vertices().map_or("–".to_owned(), |count| count.to_string()),
             seconds(found.seconds_to_solve()),

@@ -7,15 +7,16 @@
 
 use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
-use crate::makers::bumpy_cap_of;
-use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Choice as _, Control, Embedding, Ladder, Pins, Settings, Step, hard_pins};
+use freebound_core::flatten::{Flattener, Step};
+use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::problem::{Control, Embedding, Pins, Settings, hard_pins};
+use freebound_testkit::bumpy_cap_of;
 use glam::DVec2;
 
 use crate::common::Times;
 use crate::common::table::{Table, seconds};
-use crate::makers::Random;
 use crate::outcome::Outcome;
+use freebound_testkit::Random;
 
 const VERTICES: [usize; 3] = [800, 5_000, 20_000];
 const PINS: [usize; 4] = [3, 6, 12, 24];
@@ -59,7 +60,7 @@ impl Cap {
     pub(crate) fn of(vertices: usize, seed: u64) -> Result<Self, String> {
         let mesh = DiskMesh::try_from(bumpy_cap_of(vertices, seed)).map_err(|diagnosis| diagnosis.to_string())?;
         let mut last = None::<Step>;
-        let mut run = Ladder::new(Settings::default(), Pins::new());
+        let mut run = Flattener::new(Settings::default(), Pins::new());
         run.finish(&mesh, Control::unattended(), |step| last = Some(step)).map_err(|error| error.to_string())?;
         let step = last.filter(|step| step.verdict.planar).ok_or("no planar embedding without constraints")?;
         Ok(Self { mesh, embedding: step.candidate.solution.embedding })
@@ -190,8 +191,11 @@ fn over(caps: &[Cap], change: Change) -> Count {
             let found = Outcome::of(&cap.mesh, Settings::default(), &pins);
             if found.solved.is_none() {
                 let (vertices, name) = (cap.mesh.vertex_count(), change.name());
-                let rung = found.last.as_ref().map_or("–", |step| step.rung.name());
-                println!("FAILED: {vertices} vertices, {pin_count} pins {name}, seed {seed}: {rung}: {}", found.ending);
+                let stage = found.last.as_ref().map_or("–", |step| step.candidate.stage.name());
+                println!(
+                    "FAILED: {vertices} vertices, {pin_count} pins {name}, seed {seed}: {stage}: {}",
+                    found.ending
+                );
             }
             count.add(&found);
         }

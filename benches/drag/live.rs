@@ -1,4 +1,4 @@
-//! A planar embedding under a pointer: `Live` along a path that is the same at every run.
+//! A planar embedding under a pointer: `DragSolver` along a path that is the same at every run.
 //!
 //! Eight hard constraints on a bumpy sheet, seen from above; one of them is dragged. The path is that of a hand: it sets out
 //! slowly, turns, and comes back, in as many moves as a screen has frames in two seconds. A *near* path stays within a fortieth of the
@@ -9,13 +9,15 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Aim, Control, Embedding, Live, Pin, hard_pins, verdict};
+use freebound_core::bijective::{DragSolver, DragTarget};
+use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::problem::{Control, Embedding, Pin, hard_pins};
+use freebound_core::verify::verdict;
 use glam::DVec2;
 
 use crate::common::table::{Table, seconds};
 use crate::common::time;
-use crate::makers::{disk, sheet_of_faces};
+use freebound_testkit::{disk, sheet_of_faces};
 
 /// Faces of the meshes.
 const SIZES: [usize; 3] = [20_000, 100_000, 1_000_000];
@@ -64,7 +66,7 @@ fn drag(mesh: &DiskMesh, name: &str, way: f64) -> [String; 8] {
     let around = (0..7).map(|k| 0.35 * size * DVec2::from_angle(0.3 + f64::from(k) * TAU / 7.0));
     let vertices: Vec<VertexId> = std::iter::once(DVec2::new(-0.05, -0.1) * size).chain(around).map(nearest).collect();
     let pins = hard_pins(vertices.iter().map(|&v| (v, begin[v])));
-    let (pin, aim) = (vertices[0], Aim { pins, sheet: Arc::default() });
+    let (pin, aim) = (vertices[0], DragTarget { pins, sheet: Arc::default() });
     let target = |k: u32| begin[pin] + way * size * pointer(f64::from(k) / f64::from(MOVES));
     let aimed = |k: u32| {
         let mut aim = aim.clone();
@@ -72,22 +74,22 @@ fn drag(mesh: &DiskMesh, name: &str, way: f64) -> [String; 8] {
         aim
     };
     let (mut met, mut proved) = (0, 0);
-    let mut look_at = |live: &Live, k: u32, found: &freebound::solver::Verdict| {
+    let mut observe = |live: &DragSolver, k: u32, found: &freebound_core::verify::Verdict| {
         met += usize::from(live.embedding()[pin] == target(k));
         proved += usize::from(found.planar && *found == verdict(mesh, live.embedding()));
     };
     let (first, (mut live, moved)) = time(|| {
-        let mut live = Live::new(mesh, begin.clone(), &[pin], aim.clone()).expect("a planar sheet");
+        let mut live = DragSolver::new(mesh, begin.clone(), &[pin], aim.clone()).expect("a planar sheet");
         let moved = live.drag(mesh, &aimed(1), Control::unattended()).expect("nobody stops it");
         (live, moved)
     });
-    look_at(&live, 1, &moved.verdict);
+    observe(&live, 1, &moved.verdict);
     let (mut sum, mut worst) = (0.0, 0.0_f64);
     for k in 2..=MOVES {
         let aim = aimed(k);
         let (taken, moved) = time(|| live.drag(mesh, &aim, Control::unattended()).expect("nobody stops it"));
         (sum, worst) = (sum + taken, worst.max(taken));
-        look_at(&live, k, &moved.verdict);
+        observe(&live, k, &moved.verdict);
     }
     [
         mesh.face_count().to_string(),

@@ -11,23 +11,23 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod live;
-#[path = "../../examples/makers/mod.rs"]
-mod makers;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use freebound::io::{MeshFile, Target, Texture, write_obj};
-use freebound::mesh::VertexId;
 use freebound::session::{Action, RecentFiles, Session};
-use freebound::solver::{Family, Hold, Method, Settings, verdict};
 use freebound::view::{PlaneArrays, UnitPlane, bounds_of};
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Target;
+use freebound_core::problem::{Family, Method, PinKind, Settings};
+use freebound_core::verify::verdict;
+use freebound_io::{MeshFile, Texture, write_obj};
 use glam::DVec2;
 
 use common::machine::print_machine;
 use common::table::{Table, seconds};
 use common::{Times, arguments};
-use makers::sheet_of_faces;
+use freebound_testkit::sheet_of_faces;
 
 /// Vertices of the meshes.
 const SIZES: [usize; 2] = [20_000, 100_000];
@@ -87,17 +87,17 @@ fn opened(vertices: usize) -> Session {
 
 fn drag(vertices: usize) -> [String; 7] {
     let mut session = opened(vertices);
-    // The ladder would iterate after every drag, which is not what is measured here.
+    // The flattener would iterate after every drag, which is not what is measured here.
     session.handle(Action::SetSettings(Settings::new(Method::Natural, Family::Conformal)));
     settle(&mut session);
     let mesh = Arc::clone(session.model().and_then(|model| model.disk()).expect("the sheet is a disk"));
-    let flat = session.outcome().expect("solved").step.solution.embedding.clone();
+    let flat = session.outcome().expect("solved").step.candidate.solution.embedding.clone();
     let extent = bounds_of(&flat).extent();
     for k in 0..CONSTRAINTS {
         let vertex = VertexId::from_index((2 * k + 1) * mesh.vertex_count() / (2 * CONSTRAINTS));
-        let hold = if k % 6 == 5 { Hold::Weighted(10.0) } else { Hold::Hard };
+        let kind = if k % 6 == 5 { PinKind::Soft(10.0) } else { PinKind::Hard };
         let target = flat[vertex.index()] + DVec2::from_angle(k as f64) * (0.01 * extent);
-        session.handle(Action::Place { vertex, target: Target { uv: target, hold } });
+        session.handle(Action::Place { vertex, target: Target { uv: target, kind } });
     }
     settle(&mut session);
     let (mut first, mut move_, mut arrays, mut proof) =

@@ -4,13 +4,13 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use freebound::io::{MeshFile, Texture, write_atomically, write_obj};
+use freebound_io::{MeshFile, Texture, write_atomically, write_obj};
 
 use crate::common::Times;
 use crate::common::machine::PeakWatch;
 use crate::common::table::{Table, seconds, target};
-use crate::makers::sheet_of_faces;
 use crate::{COMMON_FACES, LARGE_FACES};
+use freebound_testkit::sheet_of_faces;
 
 /// Faces, runs, the most seconds, and the most memory in millions of bytes where there is a limit.
 const CASES: [(usize, usize, f64, Option<f64>); 2] =

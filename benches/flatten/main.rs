@@ -15,17 +15,15 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod end;
-#[path = "../../examples/makers/mod.rs"]
-mod makers;
 mod methods;
 mod phases;
 mod solve;
 
-use freebound::mesh::DiskMesh;
+use freebound_core::mesh::DiskMesh;
 
 use common::arguments;
 use common::machine::print_machine;
-use makers::sheet_of_faces;
+use freebound_testkit::sheet_of_faces;
 
 /// The size that an editor must handle with ease.
 const COMMON_FACES: usize = 100_000;

@@ -4,13 +4,13 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use freebound::io::{MeshFile, Texture, write_atomically, write_obj};
+use freebound_io::{MeshFile, Texture, write_atomically, write_obj};
 use serde_json::Value;
 
 use crate::common::Times;
 use crate::common::machine::{PeakWatch, processor_seconds_of_children};
 use crate::common::table::{Table, megabytes, seconds, target};
-use crate::makers::sheet_of_faces;
+use freebound_testkit::sheet_of_faces;
 
 /// The size that figures of angle based and stretch minimising methods are quoted for.
 const FACES: usize = 40_000;

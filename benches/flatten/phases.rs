@@ -2,15 +2,17 @@
 
 use std::path::Path;
 
-use freebound::io::{MeshFile, Texture, read_mesh, write_atomically, write_obj, write_ply};
-use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::solver::{Control, Embedding, PhaseSeconds, Pins, Prepared, Settings, distortion, verdict};
+use freebound_core::flatten::Prepared;
+use freebound_core::mesh::{DiskMesh, TriMesh};
+use freebound_core::problem::{Control, Embedding, PhaseSeconds, Pins, Settings};
+use freebound_core::verify::{distortion, verdict};
+use freebound_io::{MeshFile, Texture, read_mesh, write_atomically, write_obj, write_ply};
 use glam::DVec3;
 
 use crate::common::table::{Table, megabytes, seconds, target};
 use crate::common::{Times, time};
-use crate::makers::{jittered_sheet, sheet_of_faces};
 use crate::{COMMON_FACES, LARGE_FACES, disk_of_faces};
+use freebound_testkit::{jittered_sheet, sheet_of_faces};
 
 /// Sizes, in thousands of vertices.
 const THOUSANDS: [usize; 5] = [25, 50, 100, 250, 500];

@@ -2,9 +2,12 @@
 
 use std::sync::atomic::AtomicBool;
 
-use freebound::linalg::{Analysis, FactorStats, Kind};
-use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Control, FreeSystem, Pins, Prepared, Settings, equations, fixed_pins, gauge_pins};
+use freebound_core::flatten::Prepared;
+use freebound_core::linalg::{Analysis, FactorStats, Kind};
+use freebound_core::linear::FreeSystem;
+use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::problem::{Control, Pins, Settings, fixed_pins, gauge_pins};
+use freebound_core::weights::equations;
 use glam::DVec2;
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 use num_complex::Complex;
@@ -81,7 +84,7 @@ fn realified(matrix: &CscMatrix<C>, coupled: impl Fn(f64) -> bool) -> CscMatrix<
 }
 
 /// Orders, factors, and solves where there is a right-hand side.
-fn run<T: freebound::linalg::Scalar>(matrix: &CscMatrix<T>, rhs: Option<&[T]>) -> FactorStats {
+fn run<T: freebound_core::linalg::Scalar>(matrix: &CscMatrix<T>, rhs: Option<&[T]>) -> FactorStats {
     let analysis =
         Analysis::new(Kind::Hermitian, matrix.pattern(), &AtomicBool::new(false)).expect("a symmetric pattern");
     let factor = analysis.factor(matrix, &GO_ON).expect("positive definite");

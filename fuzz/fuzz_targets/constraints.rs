@@ -1,7 +1,7 @@
 //! Any text as a constraint file.
 #![no_main]
 
-use freebound::io::Constraints;
+use freebound_io::Constraints;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

@@ -1,8 +1,8 @@
 //! Any text as an edges file, of a sheet of quads.
 #![no_main]
 
-use freebound::io::{parse_edges, write_edges};
-use freebound::mesh::{PolygonMesh, VertexId};
+use freebound_io::{parse_edges, write_edges};
+use freebound_core::mesh::{PolygonMesh, VertexId};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

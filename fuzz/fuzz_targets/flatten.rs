@@ -1,9 +1,9 @@
 //! Any bytes as a mesh: what can be read and mended is flattened, every chart of it, and what is planar is proved again.
 #![no_main]
 
-use freebound::mesh::Form;
+use freebound_core::mesh::Preparation;
 use freebound::session::Model;
-use freebound::{Options, flatten};
+use freebound_core::flatten::{Options, flatten};
 use libfuzzer_sys::fuzz_target;
 
 /// Larger meshes only take longer.
@@ -11,7 +11,7 @@ const MOST_FACES: usize = 120;
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(model) = Model::read_stream("bytes", bytes, &|| false) else { return };
-    let model = model.in_form(Form::default().mended());
+    let model = model.in_form(Preparation::default().with_all_repairs());
     if model.source.polygons.corners.len() > 3 * MOST_FACES {
         return;
     }
@@ -20,9 +20,9 @@ fuzz_target!(|bytes: &[u8]| {
         if let Some(disk) = chart.disk()
             && let Ok(step) = flatten(disk, &Options::default())
         {
-            let mesh = step.mesh(disk);
+            let mesh = step.candidate.mesh(disk);
             let embedding = &step.candidate.solution.embedding;
-            assert_eq!(step.verdict.planar, freebound::solver::verdict(mesh, embedding).planar);
+            assert_eq!(step.verdict.planar, freebound_core::verify::verdict(mesh, embedding).planar);
         }
     }
 });

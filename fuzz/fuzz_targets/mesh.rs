@@ -1,8 +1,8 @@
 //! Any bytes as a mesh file of any format: read or refused, mended where that can be, and written again.
 #![no_main]
 
-use freebound::io::{Texture, read_stream, write_obj};
-use freebound::mesh::Form;
+use freebound_io::{Texture, read_stream, write_obj};
+use freebound_core::mesh::Preparation;
 use libfuzzer_sys::fuzz_target;
 
 /// Larger meshes only take longer.
@@ -18,7 +18,7 @@ fuzz_target!(|bytes: &[u8]| {
     }
     write_obj(&mut Vec::new(), &file, &texture).expect("memory takes all");
     drop(file.texture_mesh());
-    let repaired = Form::default().mended().repaired(&file.polygons);
+    let repaired = Preparation::default().with_all_repairs().repaired(&file.polygons);
     let coordinates = repaired.polygons().positions.iter().map(|at| at.truncate()).collect();
     let texture = Texture::of_repaired(&repaired, &file.polygons, &coordinates);
     write_obj(&mut Vec::new(), &file, &texture).expect("memory takes all");

@@ -1,7 +1,7 @@
 //! Any bytes as a project file: read or refused; what is read is written and read again as it was.
 #![no_main]
 
-use freebound::io::{PathStyle, ProjectFile};
+use freebound_io::{PathStyle, ProjectFile};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

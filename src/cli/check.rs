@@ -3,23 +3,23 @@
 use std::time::Instant;
 
 use super::args::CheckArguments;
-use super::failed::await_report;
-use super::flatten::go_on;
+use super::awaited::await_report;
+use super::error::{CommandError, CommandOutcome};
 use super::opened::disk_of;
-use super::places::Places;
-use super::standard::{Sizes, read_model};
+use super::places::OutputPaths;
+use super::progress::go_on;
+use super::standard::{MemoryLimit, read_model};
 use super::summary::deliver;
-use super::{Failure, Status};
-use crate::io::{MeshReport, Report, Seconds, TextureError, TextureMesh, verdict_as_in_file};
-use crate::mesh::{DiskMesh, Form, parts};
-use crate::solver::{atlas_verdict, distortion, verdict};
+use freebound_core::mesh::{DiskMesh, Preparation, parts};
+use freebound_core::verify::{atlas_verdict, distortion, verdict};
+use freebound_io::{MeshReport, Report, Seconds, TextureError, TextureMesh, verdict_as_in_file};
 
-pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
+pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandError> {
     let start = Instant::now();
-    let places = Places::of_check(arguments);
+    let places = OutputPaths::of_check(arguments);
     places.spare(&arguments.mesh, "the mesh")?;
     await_report(arguments.report.as_deref());
-    let model = read_model(&arguments.mesh, Sizes::typed(arguments.large))?.in_form(Form::default());
+    let model = read_model(&arguments.mesh, MemoryLimit::typed(arguments.large))?.in_form(Preparation::default());
     places.spare_materials(&model.source, &arguments.mesh)?;
     let path = model.path_words();
     let mut texture = match model.source.texture_mesh() {
@@ -40,9 +40,9 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
                 notes.path, notes.vertices, notes.faces, notes.boundary_vertices, notes.dividing_edges, notes.ears
             );
             deliver(&report, arguments.report.as_deref(), || words)?;
-            return Ok(Status::Fine);
+            return Ok(CommandOutcome::Fine);
         }
-        Err(error) => return Err(Failure::Texture { path, error }),
+        Err(error) => return Err(CommandError::Texture { path, error }),
     };
     let disk = DiskMesh::try_from(texture.mesh.clone()).or_else(|_| {
         // Looked at again without faces that add nothing, which a repair leaves in the file.
@@ -57,7 +57,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     let read = start.elapsed().as_secs_f64();
     go_on()?;
     let mut verdict = verdict(&mesh, &texture.embedding);
-    verdict.holds_in_f32 |= verdict.planar && model.source.is_turned_over();
+    verdict.planar_in_f32 |= verdict.planar && model.source.is_turned_over();
     let distortion = distortion(&mesh, &texture.embedding);
     go_on()?;
     let in_f32 = verdict.summary_in_f32().map(|words| format!("; {words}")).unwrap_or_default();
@@ -68,7 +68,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
         ..report(MeshReport::new(path, &mesh), start, read)
     };
     deliver(&report, arguments.report.as_deref(), || words)?;
-    Ok(if verdict.planar { Status::Fine } else { Status::FallsShort })
+    Ok(if verdict.planar { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
 }
 
 /// The texture coordinates of a file.
@@ -85,8 +85,8 @@ fn check_charts(
     Layout { texture, is_of_32_bits }: Layout<'_>,
     path: String,
     start: Instant,
-) -> Result<Status, Failure> {
-    let charts = parts(&texture.mesh).map_err(|diagnosis| Failure::NotADisk {
+) -> Result<CommandOutcome, CommandError> {
+    let charts = parts(&texture.mesh).map_err(|diagnosis| CommandError::NotADisk {
         path: format!("{path} (cut along the seams of its texture coordinates)"),
         diagnosis,
         remedy: None,
@@ -94,12 +94,12 @@ fn check_charts(
     let read = start.elapsed().as_secs_f64();
     go_on()?;
     let mut verdict = atlas_verdict(&charts, &texture.embedding).as_in_file(&texture.mesh);
-    verdict.holds_in_f32 |= verdict.planar && is_of_32_bits;
+    verdict.planar_in_f32 |= verdict.planar && is_of_32_bits;
     go_on()?;
-    let in_f32 = if verdict.holds_in_f32 { "; holds in 32 bits" } else { "; does not hold in 32 bits" };
+    let in_f32 = if verdict.planar_in_f32 { "; holds in 32 bits" } else { "; does not hold in 32 bits" };
     let in_f32 = if verdict.planar { in_f32 } else { "" };
     let words = format!("{path}: texture coordinates: {}{in_f32}", verdict.summary());
-    let status = if verdict.planar { Status::Fine } else { Status::FallsShort };
+    let status = if verdict.planar { CommandOutcome::Fine } else { CommandOutcome::FallsShort };
     let atlas = Some(verdict);
     let report =
         Report { atlas, ..report(MeshReport::of_charts(path, texture.mesh.vertex_count(), &charts), start, read) };

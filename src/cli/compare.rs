@@ -3,33 +3,36 @@
 
 use std::io::{self, Write};
 use std::path::Path;
-use std::sync::Arc;
 use std::time::Instant;
 
 use super::args::{CompareArguments, ComparisonFile};
-use super::failed::await_report;
-use super::flatten::{go_on, set_threads};
+use super::awaited::await_report;
+use super::error::is_standard;
+use super::error::{CommandError, CommandOutcome};
 use super::morph::tour_of;
-use super::opened::{Opened, Wanted, failure_of_layout};
-use super::places::Places;
-use super::progress::{INTERRUPTED, Progress};
+use super::opened::{InputSpec, LoadedMesh, failure_of_layout};
+use super::places::OutputPaths;
+use super::progress::go_on;
+use super::progress::{INTERRUPTED, ProgressLine};
+use super::report_file::put_report;
 use super::say::say;
-use super::standard::is_standard;
-use super::summary::{comparison_summary, put_report};
-use super::{Failure, Status};
-use crate::io::{
-    ComparisonReport, ComparisonSeconds, Targets, TimedStep, WriteError, write_atomically, write_to_standard_output,
-};
-use crate::session::{Compared, Document, Model, MorphTour, Problem, comparison_report};
-use crate::solver::{Choice as _, Control, Family, Method, Phase, Start, Variant};
+use super::summary::comparison_summary;
+use super::threads::set_threads;
+use crate::session::{Compared, Model, MorphTour, comparison_report};
 use crate::view::{ComparisonPicture, MorphPicture};
+use freebound_core::geom::PictureFrame;
+use freebound_core::pipeline::{Problem, Targets};
+use freebound_core::problem::{Control, Family, Method, NamedOption as _, Phase, Start, Variant};
+use freebound_io::{
+    ComparisonReport, ComparisonSeconds, PictureFile, TimedStep, WriteError, write_atomically, write_to_standard_output,
+};
 
 /// Pixels per point of the picture.
 const PIXELS: f64 = 2.0;
 
-pub(super) fn run(arguments: &CompareArguments) -> Result<Status, Failure> {
+pub(super) fn run(arguments: &CompareArguments) -> Result<CommandOutcome, CommandError> {
     let CompareArguments { input, solve, .. } = arguments;
-    let places = Places::of_compare(arguments);
+    let places = OutputPaths::of_compare(arguments);
     places.keep_apart()?;
     places.spare_inputs(input, solve)?;
     if let Some(picture) = &arguments.picture {
@@ -37,26 +40,22 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<Status, Failure> {
     }
     let is_drawn = [&arguments.png, &arguments.svg, &arguments.morph].iter().any(|path| path.is_some());
     if arguments.shading.is_some() && !is_drawn {
-        return Err(Failure::Usage("--shading is of the picture: give --png, --svg or --morph, too".into()));
+        return Err(CommandError::Usage("--shading is of the picture: give --png, --svg or --morph, too".into()));
     }
     await_report(arguments.report.as_deref());
     set_threads(solve.threads)?;
-    let progress = Progress::default();
+    let progress = ProgressLine::default();
     progress.follow(|| {
         let start = Instant::now();
-        let wanted = Wanted { input, solve, picture: arguments.picture.as_deref() };
-        let Opened { model: whole, picture, targets } = wanted.open(&places, &progress)?;
+        let wanted = InputSpec { input, solve, picture: arguments.picture.as_deref() };
+        let LoadedMesh { model: whole, picture, targets } = wanted.open(&places, &progress)?;
         let model = chart_of(&whole, arguments.chart)?;
-        let document = Document {
-            targets: targets_of_chart(&model, targets)?,
-            settings: arguments.settings(),
-            picture: picture.map(Arc::new),
-            aspect: solve.aspect,
-            ..Document::default()
-        };
-        let problem = document.problem();
+        let aspect = picture.as_ref().map(PictureFile::aspect).or(solve.aspect);
+        let frame = PictureFrame { aspect: aspect.unwrap_or(1.0), ..PictureFrame::default() };
+        let targets = targets_of_chart(&model, targets)?;
+        let problem = Problem::new(&arguments.settings(), frame, aspect.is_some(), targets);
         if problem.settings.start == Start::File {
-            problem.ladder_on(&model).map_err(|error| failure_of_layout(&model, error))?;
+            model.flattener(&problem).map_err(|error| failure_of_layout(&model, error))?;
         }
         let problems = problems(arguments, &problem)?;
         let read = start.elapsed().as_secs_f64();
@@ -73,35 +72,37 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<Status, Failure> {
 }
 
 /// The chart that is asked for, or the largest; the mesh itself, where it is one.
-fn chart_of(model: &Model, wanted: Option<usize>) -> Result<Model, Failure> {
+fn chart_of(model: &Model, wanted: Option<usize>) -> Result<Model, CommandError> {
     let count = model.chart_count();
     match wanted {
         Some(number) if number >= count => {
             let has = if count == 1 { "one chart".to_owned() } else { format!("charts 0 to {}", count - 1) };
-            Err(Failure::Usage(format!("{}: --chart {number}: the mesh has {has}", model.path_words())))
+            Err(CommandError::Usage(format!("{}: --chart {number}: the mesh has {has}", model.path_words())))
         }
         Some(number) => Ok(model.of_chart(number)),
-        None => Ok(model.chart.as_ref().map_or_else(|| model.clone(), |of| model.of_chart(of.charts.pick(None)))),
+        None => {
+            Ok(model.prepared.chart.as_ref().map_or_else(|| model.clone(), |of| model.of_chart(of.charts.pick(None))))
+        }
     }
 }
 
 /// The targets by the vertices of the chart.
-fn targets_of_chart(model: &Model, targets: Targets) -> Result<Targets, Failure> {
+fn targets_of_chart(model: &Model, targets: Targets) -> Result<Targets, CommandError> {
     let own = |(vertex, target)| match model.vertex_of_file(vertex) {
         Some(own) => Ok((own, target)),
         // What no mesh has the solver refuses.
-        None if model.chart.is_none() => Ok((vertex, target)),
+        None if model.prepared.chart.is_none() => Ok((vertex, target)),
         None => {
-            let number = model.chart.as_ref().map_or(0, |of| of.number);
+            let number = model.prepared.chart.as_ref().map_or(0, |of| of.number);
             let text = format!("vertex {vertex} is pinned, but lies on another chart than {number}, which is compared");
-            Err(Failure::Usage(format!("{}: {text}: choose that one with --chart", model.path_words())))
+            Err(CommandError::Usage(format!("{}: {text}: choose that one with --chart", model.path_words())))
         }
     };
     targets.into_iter().map(own).collect()
 }
 
 /// The problem of each method that is asked for; of all that suit the pins, where none is.
-fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Problem>, Failure> {
+fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Problem>, CommandError> {
     let suited = || Method::ALL.iter().filter(|&&method| problem.suits(method));
     let mut variants = arguments.methods.clone();
     if variants.is_empty() {
@@ -109,19 +110,22 @@ fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Probl
     }
     let methods: Vec<Method> = variants.iter().map(|variant| variant.method).collect();
     if arguments.morph.is_some() && methods.len() < 2 {
-        return Err(Failure::Usage("--morph goes from one method's map to another's: name two or more".into()));
+        return Err(CommandError::Usage("--morph goes from one method's map to another's: name two or more".into()));
     }
     if let Some((option, why)) = arguments.solve.idle_option(&methods) {
-        return Err(Failure::Usage(format!("no method that is compared takes {option}: {}: {why}", methods[0].name())));
+        return Err(CommandError::Usage(format!(
+            "no method that is compared takes {option}: {}: {why}",
+            methods[0].name()
+        )));
     }
     if let Some(family) = arguments.solve.family {
         give_weights(&mut variants, family)?;
     }
     let problems: Vec<Problem> = variants.into_iter().map(|variant| problem.by(variant)).collect();
     for (count, second) in problems.iter().enumerate() {
-        if problems[..count].iter().any(|first| first.settings.amounts_to(&second.settings)) {
+        if problems[..count].iter().any(|first| first.settings.resolves_to(&second.settings)) {
             let name = Variant::of(&second.settings);
-            return Err(Failure::Usage(format!("--methods: {name} would run twice: leave out one of them")));
+            return Err(CommandError::Usage(format!("--methods: {name} would run twice: leave out one of them")));
         }
     }
     Ok(problems)
@@ -132,7 +136,7 @@ fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Probl
 /// # Errors
 ///
 /// Where there are none of these.
-fn give_weights(variants: &mut [Variant], family: Family) -> Result<(), Failure> {
+fn give_weights(variants: &mut [Variant], family: Family) -> Result<(), CommandError> {
     let mut refused = None;
     let mut are_given = false;
     for variant in variants.iter_mut().filter(|variant| variant.method.uses_family() && variant.family.is_none()) {
@@ -144,7 +148,9 @@ fn give_weights(variants: &mut [Variant], family: Family) -> Result<(), Failure>
     match refused {
         _ if are_given => Ok(()),
         Some(error) => Err(error.into()),
-        None => Err(Failure::Usage("no method that is compared takes --family: all name their own weights".into())),
+        None => {
+            Err(CommandError::Usage("no method that is compared takes --family: all name their own weights".into()))
+        }
     }
 }
 
@@ -153,7 +159,7 @@ fn give_weights(variants: &mut [Variant], family: Family) -> Result<(), Failure>
 /// # Errors
 ///
 /// Where the user asked to stop, or pins that no method can take.
-fn run_all(model: &Model, problems: Vec<Problem>, progress: &Progress) -> Result<Vec<Compared>, Failure> {
+fn run_all(model: &Model, problems: Vec<Problem>, progress: &ProgressLine) -> Result<Vec<Compared>, CommandError> {
     let report_phase = |phase: Phase| progress.enter(phase.words());
     let control = Control::new(&INTERRUPTED, &report_phase);
     let mut methods = Vec::new();
@@ -180,7 +186,7 @@ struct Found<'a> {
 }
 
 /// Writes all files but the report. The picture is drawn once, where it is asked for.
-fn write(arguments: &CompareArguments, report: &ComparisonReport, found: &Found<'_>) -> Result<(), Failure> {
+fn write(arguments: &CompareArguments, report: &ComparisonReport, found: &Found<'_>) -> Result<(), CommandError> {
     let Found { model, methods, tour } = *found;
     let shading = arguments.shading.unwrap_or_default();
     let is_drawn = arguments.png.is_some() || arguments.svg.is_some();
@@ -191,7 +197,7 @@ fn write(arguments: &CompareArguments, report: &ComparisonReport, found: &Found<
         put(path, |mut out| match (file, &page, &morph) {
             (ComparisonFile::Table, ..) => report.write_csv(arguments.sort, out),
             (ComparisonFile::Steps, ..) => report.write_steps(out),
-            (ComparisonFile::Png, Some(page), _) => page.picture(PIXELS).write_png(out),
+            (ComparisonFile::Png, Some(page), _) => freebound_io::raster::write_png(&page.picture(PIXELS), out),
             (ComparisonFile::Svg, Some(page), _) => page.write_svg(&mut out),
             (ComparisonFile::Morph, _, Some(morph)) => morph.write(out),
             (ComparisonFile::Png | ComparisonFile::Svg | ComparisonFile::Morph, ..) => Ok(()),
@@ -210,12 +216,12 @@ fn put(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Res
 }
 
 /// Says the table, and writes the report. What goes to standard output as a file stands there alone.
-fn conclude(arguments: &CompareArguments, report: &ComparisonReport) -> Result<Status, Failure> {
+fn conclude(arguments: &CompareArguments, report: &ComparisonReport) -> Result<CommandOutcome, CommandError> {
     let to = arguments.report.as_deref();
     let is_taken = arguments.outputs().iter().any(|(_, _, path)| is_standard(path)) || to.is_some_and(is_standard);
     if !is_taken {
         say(comparison_summary(report, arguments.sort))?;
     }
     to.map_or(Ok(()), |path| put_report(report, path))?;
-    Ok(Status::Fine)
+    Ok(CommandOutcome::Fine)
 }

@@ -7,67 +7,71 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::args::{FlattenArguments, ThreadArguments};
+use super::args::FlattenArguments;
+use super::awaited::await_report;
+use super::error::is_standard;
+use super::error::{CommandError, CommandOutcome};
 use super::exit::conclude;
-use super::failed::await_report;
 use super::job::HeadlessJob;
-use super::opened::{Opened, Wanted};
-use super::places::Places;
-use super::progress::{Progress, is_interrupted, stop_on_interrupt};
+use super::opened::{InputSpec, LoadedMesh};
+use super::places::OutputPaths;
+use super::progress::{ProgressLine, stop_on_interrupt};
 use super::say::say;
-use super::standard::is_standard;
+use super::threads::set_threads;
 use super::typed::ChartSize;
-use super::{Failure, Status};
 use crate::examples::Example;
-use crate::geom::PackingOptions;
-use crate::io::{Materials, OutputFit, OutputKind, Precision, Targets, WriteError};
-use crate::mesh::FaceId;
-use crate::session::{Arrangement, Document, Model};
-use crate::solver::{Choice as _, SolveError};
+use crate::session::{Model, example_picture};
+use freebound_core::geom::PictureFrame;
+use freebound_core::mesh::FaceId;
+use freebound_core::pipeline::{Fit, PipelineOptions, Targets, hard_targets};
+use freebound_core::problem::NamedOption as _;
+use freebound_io::{Materials, OutputKind, PictureFile, Precision, WriteError};
 
 /// Folder that the example is written into, in the current one.
 const FOLDER: &str = "freebound-example";
 
-pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
+pub(super) fn run(arguments: &FlattenArguments) -> Result<CommandOutcome, CommandError> {
     let FlattenArguments { input, solve, .. } = arguments;
     if let Some((option, why)) = arguments.idle_option() {
         let name = arguments.settings().method.name();
-        return Err(Failure::Usage(format!("--method {name} takes no {option}: {why}")));
+        return Err(CommandError::Usage(format!("--method {name} takes no {option}: {why}")));
     }
-    if arguments.fit == Some(OutputFit::True) && (solve.aspect.is_some() || arguments.picture.is_some()) {
-        return Err(Failure::Usage(
+    if arguments.fit == Some(Fit::True) && (solve.aspect.is_some() || arguments.picture.is_some()) {
+        return Err(CommandError::Usage(
             "--fit true makes no texture coordinates of a picture: leave out one of them".into(),
         ));
     }
-    if solve.start.is_some() && arguments.fit == Some(OutputFit::Unit) {
-        return Err(Failure::Usage("--start keeps the place of the layout: leave out --fit unit".into()));
+    if solve.start.is_some() && arguments.fit == Some(Fit::Unit) {
+        return Err(CommandError::Usage("--start keeps the place of the layout: leave out --fit unit".into()));
     }
     refuse_unwritten_formats(arguments.output.as_deref())?;
-    let places = Places::of_flatten(arguments);
+    let places = OutputPaths::of_flatten(arguments);
     refuse_clashes(arguments, &places)?;
     await_report(arguments.report.as_deref());
     set_threads(solve.threads)?;
-    let progress = Progress::default();
+    let progress = ProgressLine::default();
     progress.follow(|| {
         let start = Instant::now();
-        let wanted = Wanted { input, solve, picture: arguments.picture.as_deref() };
-        let Opened { model, picture, targets } = wanted.open(&places, &progress)?;
+        let wanted = InputSpec { input, solve, picture: arguments.picture.as_deref() };
+        let LoadedMesh { model, picture, targets } = wanted.open(&places, &progress)?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
         let packing = arguments.packing(picture.as_ref());
-        let document = Document {
+        let aspect = picture.as_ref().map(PictureFile::aspect).or(solve.aspect);
+        let options = PipelineOptions {
+            preparation: model.prepared.form.clone(),
+            settings: arguments.settings(),
+            frame: PictureFrame { aspect: aspect.unwrap_or(1.0), ..PictureFrame::default() },
+            has_picture: aspect.is_some(),
             sizes: sizes(&arguments.chart_size, &model, &targets)?,
             targets,
-            settings: arguments.settings(),
-            picture: picture.map(Arc::new),
-            aspect: solve.aspect,
-            ..Document::default()
-        };
-        let job = HeadlessJob {
-            document,
-            fit: arguments.fit.unwrap_or_default(),
-            svg_fit: arguments.svg_scale.or(arguments.fit).unwrap_or_default(),
             packing,
             arrangement: arguments.arrangement(),
+        };
+        let job = HeadlessJob {
+            options,
+            picture: picture.map(Arc::new),
+            fit: arguments.fit.unwrap_or_default(),
+            svg_fit: arguments.svg_scale.or(arguments.fit).unwrap_or_default(),
             outputs: arguments.outputs(),
             precision: arguments.precision,
             materials: if arguments.copy_materials { Materials::Copied } else { Materials::Stay },
@@ -79,19 +83,19 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
 }
 
 /// Refuses names that belong to formats which are read and not written.
-fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), Failure> {
+fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), CommandError> {
     let extension = output.and_then(Path::extension).unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     if matches!(extension.as_str(), "gltf" | "off" | "stl") {
         let text = format!("-o: .{extension} files are not written: end the name in .obj, .ply or .glb");
-        return Err(Failure::Usage(text));
+        return Err(CommandError::Usage(text));
     }
     Ok(())
 }
 
 /// How many times as large as the others charts are packed, by their first faces. Those with targets are not packed.
-fn sizes(given: &[ChartSize], model: &Model, targets: &Targets) -> Result<BTreeMap<FaceId, f64>, Failure> {
+fn sizes(given: &[ChartSize], model: &Model, targets: &Targets) -> Result<BTreeMap<FaceId, f64>, CommandError> {
     let count = model.chart_count();
-    let charts = model.chart.as_ref().map(|of| &of.charts);
+    let charts = model.prepared.chart.as_ref().map(|of| &of.charts);
     let first_face = |chart: usize| {
         charts.filter(|charts| chart < charts.count()).map(|charts| charts.first_face(chart)).ok_or_else(|| {
             let why = if count == 1 {
@@ -99,7 +103,7 @@ fn sizes(given: &[ChartSize], model: &Model, targets: &Targets) -> Result<BTreeM
             } else {
                 format!("charts 0 to {}", count - 1)
             };
-            Failure::Usage(format!("--chart-size {chart}: the mesh has {why}"))
+            CommandError::Usage(format!("--chart-size {chart}: the mesh has {why}"))
         })
     };
     let held: BTreeSet<usize> =
@@ -112,14 +116,14 @@ fn sizes(given: &[ChartSize], model: &Model, targets: &Targets) -> Result<BTreeM
             (held.contains(&chart), "pins hold the chart, and it is not packed: leave out its size or its pins"),
         ];
         if let Some((_, why)) = faults.into_iter().find(|(is_so, _)| *is_so) {
-            return Err(Failure::Usage(format!("--chart-size {chart}: {why}")));
+            return Err(CommandError::Usage(format!("--chart-size {chart}: {why}")));
         }
     }
     Ok(sizes)
 }
 
 /// Refuses files that would be written over, by the run itself or as results of one another.
-fn refuse_clashes(arguments: &FlattenArguments, places: &Places) -> Result<(), Failure> {
+fn refuse_clashes(arguments: &FlattenArguments, places: &OutputPaths) -> Result<(), CommandError> {
     places.keep_apart()?;
     places.spare_inputs(&arguments.input, &arguments.solve)?;
     let polygon = arguments.boundary.as_ref().and_then(|typed| typed.file.as_deref());
@@ -131,7 +135,7 @@ fn refuse_clashes(arguments: &FlattenArguments, places: &Places) -> Result<(), F
     let beside = [(arguments.picture.is_some(), "--picture"), (arguments.copy_materials, "--copy-materials")];
     match beside.into_iter().find(|(given, _)| *given && arguments.output.as_deref().is_some_and(is_standard)) {
         Some((_, option)) => {
-            Err(Failure::Usage(format!("standard output: -o has no folder there for {option}: name a file")))
+            Err(CommandError::Usage(format!("standard output: -o has no folder there for {option}: name a file")))
         }
         None => Ok(()),
     }
@@ -143,40 +147,32 @@ pub fn run_example() -> ExitCode {
     conclude(flatten_example(), None)
 }
 
-fn flatten_example() -> Result<Status, Failure> {
+fn flatten_example() -> Result<CommandOutcome, CommandError> {
     let folder = Path::new(FOLDER);
     std::fs::create_dir_all(folder).map_err(|source| WriteError::writing(folder, source))?;
     let [mesh, picture, report] = ["face.obj", "face.png", "face.json"].map(|name| folder.join(name));
+    let landmarks = Example::Face.landmarks().into_iter();
+    let picture_of_face = example_picture(Example::Face).expect("the face has a portrait");
     let job = HeadlessJob {
-        document: Document::of_example(Example::Face),
-        fit: OutputFit::Unit,
-        svg_fit: OutputFit::Unit,
-        packing: PackingOptions::default(),
-        arrangement: Arrangement::Packed,
+        options: PipelineOptions {
+            frame: PictureFrame { aspect: picture_of_face.aspect(), ..PictureFrame::default() },
+            has_picture: true,
+            targets: hard_targets(landmarks.map(|landmark| (landmark.vertex, landmark.target.into()))),
+            ..PipelineOptions::default()
+        },
+        picture: Some(picture_of_face),
+        fit: Fit::Unit,
+        svg_fit: Fit::Unit,
         outputs: vec![(OutputKind::Obj, &mesh), (OutputKind::Png, &picture)],
         precision: Precision::default(),
         materials: Materials::Stay,
         report: Some(&report),
         steps: None,
     };
-    let progress = Progress::default();
+    let progress = ProgressLine::default();
     let status = progress.follow(|| job.run(&Model::example(Example::Face), Instant::now(), &progress))?;
     say(format_args!(
         "wrote face.obj with its material and picture, face.json and face.png (before and after) into {FOLDER}/"
     ))?;
     Ok(status)
-}
-
-/// An error where the user asked to stop.
-pub(super) fn go_on() -> Result<(), SolveError> {
-    if is_interrupted() { Err(SolveError::Cancelled) } else { Ok(()) }
-}
-
-/// Has all work done by so many threads.
-pub(super) fn set_threads(threads: ThreadArguments) -> Result<(), Failure> {
-    let Some(count) = threads.count else { return Ok(()) };
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(count.into())
-        .build_global()
-        .map_err(|error| Failure::Usage(format!("cannot run {count} threads: {error}")))
 }

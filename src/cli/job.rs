@@ -1,33 +1,33 @@
 //! A flattening without a screen: solve, prove, write, sum up. One chart, or several.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::flatten::go_on;
+use super::error::is_standard;
+use super::error::{CommandError, CommandOutcome};
 use super::opened::{disk_of, failure_of_layout};
-use super::progress::{INTERRUPTED, Progress};
-use super::standard::is_standard;
-use super::summary::{atlas_summary, deliver, ending_words, put_report, step_words, summary, warn_of};
-use super::{Failure, Status};
-use crate::geom::PackingOptions;
-use crate::io::{Materials, Output, OutputFit, OutputKind, Precision, StepReport, StepsFolder, Targets};
-use crate::session::{Arrangement, Document, Model, Outcome, Problem, SolvedChart, atlas};
-use crate::solver::{Conflict, Control, Ending, Phase, SolveError, Step, conflicts};
+use super::progress::{INTERRUPTED, ProgressLine, go_on};
+use super::report_file::put_report;
+use super::summary::{atlas_summary, deliver, ending_words, step_words, summary, warn_of};
+use crate::session::{Model, SolvedModel, finished_atlas};
+use freebound_core::pipeline::{Fit, PipelineOptions, Problem, SolvedProblem};
+use freebound_core::problem::{Control, Phase, SolveError};
+use freebound_core::verify::{Conflict, conflicts};
+use freebound_io::{Materials, Output, OutputKind, PictureFile, Precision, StepReport, StepsFolder};
 
 /// A flattening without a screen, the mesh already read.
 pub(super) struct HeadlessJob<'a> {
     /// Targets are of the vertices of the mesh, however many charts it has.
-    pub(super) document: Document,
+    pub(super) options: PipelineOptions,
+    /// The picture that is mapped on the mesh.
+    pub(super) picture: Option<Arc<PictureFile>>,
     /// Size of the texture coordinates.
-    pub(super) fit: OutputFit,
+    pub(super) fit: Fit,
     /// Size of the drawing.
-    pub(super) svg_fit: OutputFit,
-    /// How several charts are packed.
-    pub(super) packing: PackingOptions,
-    /// Whether they are packed at all.
-    pub(super) arrangement: Arrangement,
+    pub(super) svg_fit: Fit,
     pub(super) outputs: Vec<(OutputKind, &'a Path)>,
     pub(super) precision: Precision,
     pub(super) materials: Materials,
@@ -37,47 +37,57 @@ pub(super) struct HeadlessJob<'a> {
 
 impl HeadlessJob<'_> {
     /// Flattens, proves, writes, and prints the summary. `start` is when reading began.
-    pub(super) fn run(&self, model: &Model, start: Instant, progress: &Progress) -> Result<Status, Failure> {
+    pub(super) fn run(
+        &self,
+        model: &Model,
+        start: Instant,
+        progress: &ProgressLine,
+    ) -> Result<CommandOutcome, CommandError> {
         let read = start.elapsed().as_secs_f64();
-        if model.chart.is_some() {
+        if model.prepared.chart.is_some() {
             return self.run_atlas(model, start, progress);
         }
         let mut folder = self.steps.map(StepsFolder::begin).transpose()?;
-        let problem = self.document.problem();
+        let problem = self.options.problem();
         warn_of_conflicts(model, &problem)?;
-        let mut solved = solve(model, problem, folder.as_mut(), progress)?;
-        let records = std::mem::take(&mut solved.records);
-        let mut output = solved.outcome.finished(model, records, self.fit);
+        let SolvedChart { solved, records } = solve(model, problem, folder.as_mut(), progress)?;
+        let mut output = model.finished(&solved.outcome, records, self.fit);
         output.report.seconds.read = read;
         self.write(&mut output, folder, start, progress)?;
         self.conclude(&output, || summary(&output.report, &ending_words(&solved, &output)))
     }
 
     /// The same for a mesh of several charts, which are solved side by side.
-    fn run_atlas(&self, model: &Model, start: Instant, progress: &Progress) -> Result<Status, Failure> {
+    fn run_atlas(
+        &self,
+        model: &Model,
+        start: Instant,
+        progress: &ProgressLine,
+    ) -> Result<CommandOutcome, CommandError> {
         let read = start.elapsed().as_secs_f64();
         self.refuse_idle_options()?;
         let models: Vec<Model> = (0..model.chart_count()).into_par_iter().map(|chart| model.of_chart(chart)).collect();
-        let problems = self.problems(&models);
+        let prepared: Vec<_> = models.iter().map(|model| &model.prepared).collect();
+        let problems = self.options.problems(&prepared);
         models.iter().zip(&problems).try_for_each(|(model, problem)| warn_of_conflicts(model, problem))?;
         let work = models.par_iter().zip(problems);
-        let solved: Vec<Result<Solved, Failure>> =
+        let solved: Vec<Result<SolvedChart, CommandError>> =
             work.map(|(model, problem)| solve(model, problem, None, progress)).collect();
         // In the order of the charts: which of them fails first depends on the threads.
-        let solved: Vec<Solved> = solved.into_iter().collect::<Result<_, _>>()?;
+        let solved: Vec<SolvedChart> = solved.into_iter().collect::<Result<_, _>>()?;
         progress.enter("packing");
-        let charts: Vec<SolvedChart<'_>> = models
+        let charts: Vec<SolvedModel<'_>> = models
             .iter()
             .zip(&solved)
-            .map(|(model, solved)| SolvedChart {
+            .map(|(model, solved)| SolvedModel {
                 model,
-                outcome: &solved.outcome,
+                outcome: &solved.solved.outcome,
                 steps: &solved.records,
-                size: model.chart.as_ref().map_or(1.0, |of| self.document.size_of(&of.charts, of.number)),
+                size: model.prepared.chart.as_ref().map_or(1.0, |of| self.options.size_of(&of.charts, of.number)),
             })
             .collect();
         let before = Instant::now();
-        let mut output = atlas(&charts, self.packing, self.arrangement);
+        let mut output = finished_atlas(&charts, self.options.packing, self.options.arrangement);
         output.report.seconds.read = read;
         output.report.seconds.verify = before.elapsed().as_secs_f64();
         self.write(&mut output, None, start, progress)?;
@@ -85,15 +95,15 @@ impl HeadlessJob<'_> {
     }
 
     /// Refuses what means nothing to several charts.
-    fn refuse_idle_options(&self) -> Result<(), Failure> {
-        let of_size = self.fit == OutputFit::True || self.svg_fit == OutputFit::True;
+    fn refuse_idle_options(&self) -> Result<(), CommandError> {
+        let of_size = self.fit == Fit::True || self.svg_fit == Fit::True;
         let cases = [
             (of_size, "--fit true and --svg-scale true", "they are packed into the unit square"),
             (self.steps.is_some(), "--steps", "it draws the steps of one"),
         ];
         match cases.into_iter().find(|(given, ..)| *given) {
             Some((_, option, why)) => {
-                Err(Failure::Usage(format!("the mesh has several charts, which take no {option}: {why}")))
+                Err(CommandError::Usage(format!("the mesh has several charts, which take no {option}: {why}")))
             }
             None => Ok(()),
         }
@@ -105,13 +115,13 @@ impl HeadlessJob<'_> {
         output: &mut Output<'b>,
         folder: Option<StepsFolder>,
         start: Instant,
-        progress: &Progress,
-    ) -> Result<(), Failure> {
-        let method = self.document.settings.method;
+        progress: &ProgressLine,
+    ) -> Result<(), CommandError> {
+        let method = self.options.settings.method;
         for chart in &output.charts {
-            chart.coordinates.check_finite().map_err(|error| Failure::of_method(method, error))?;
+            chart.coordinates.check_finite().map_err(|error| CommandError::of_method(method, error))?;
         }
-        output.picture = self.document.picture.as_deref();
+        output.picture = self.picture.as_deref();
         output.svg_fit = self.svg_fit;
         output.materials = self.materials;
         let mesh = self.outputs.iter().map(|&(kind, _)| kind).find(|kind| kind.is_mesh());
@@ -136,7 +146,7 @@ impl HeadlessJob<'_> {
     }
 
     /// Says what came of it, and writes the report.
-    fn conclude(&self, output: &Output<'_>, words: impl FnOnce() -> String) -> Result<Status, Failure> {
+    fn conclude(&self, output: &Output<'_>, words: impl FnOnce() -> String) -> Result<CommandOutcome, CommandError> {
         let report = &output.report;
         if self.outputs.iter().any(|(_, path)| is_standard(path)) {
             self.report.map_or(Ok(()), |path| put_report(report, path))?;
@@ -145,27 +155,12 @@ impl HeadlessJob<'_> {
         }
         let of_charts = report.charts.iter().map(|chart| &chart.pins);
         let are_met = report.pins.iter().chain(of_charts).all(|pins| pins.unmet.is_empty());
-        Ok(if output.is_planar() && are_met { Status::Fine } else { Status::FallsShort })
-    }
-
-    /// The problem of each chart of a mesh, with the targets of its own vertices.
-    fn problems(&self, charts: &[Model]) -> Vec<Problem> {
-        let Problem { settings, frame, targets } = self.document.problem();
-        let mut of_chart = vec![Targets::new(); charts.len()];
-        let all = charts.first().and_then(|model| model.chart.as_ref()).map(|of| &of.charts);
-        for (vertex, target) in targets {
-            if let Some(number) = all.and_then(|all| all.chart_of_vertex(vertex))
-                && let Some(own) = charts[number].vertex_of_file(vertex)
-            {
-                of_chart[number].insert(own, target);
-            }
-        }
-        of_chart.into_iter().map(|targets| Problem { settings, frame, targets }).collect()
+        Ok(if output.is_planar() && are_met { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
     }
 }
 
 /// Says which constraints on a mesh or chart contradict each other.
-fn warn_of_conflicts(model: &Model, problem: &Problem) -> Result<(), Failure> {
+fn warn_of_conflicts(model: &Model, problem: &Problem) -> Result<(), CommandError> {
     let Problem { settings, .. } = problem;
     if settings.method.uses_pins() && !problem.targets.is_empty() {
         let found = conflicts(disk_of(model)?, &settings.held(&problem.pins()));
@@ -181,48 +176,36 @@ fn solve(
     model: &Model,
     problem: Problem,
     mut folder: Option<&mut StepsFolder>,
-    progress: &Progress,
-) -> Result<Solved, Failure> {
+    progress: &ProgressLine,
+) -> Result<SolvedChart, CommandError> {
     let mesh = disk_of(model)?;
     let report_phase = |phase: Phase| progress.enter(phase.words());
     let control = Control::new(&INTERRUPTED, &report_phase);
     let method = problem.settings.method;
-    let mut run = problem.ladder_on(model).map_err(|error| failure_of_layout(model, error))?;
-    let placed = |step: Step| Outcome::new(mesh, problem, step);
+    let flattener = model.flattener(&problem).map_err(|error| failure_of_layout(model, error))?;
     let mut records: Vec<StepReport> = Vec::new();
-    let mut last: Option<Step> = None;
-    loop {
-        let step = match run.step(mesh, control) {
-            Ok(step) => step,
-            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
-            // Where a rung fails, the steps before it are written.
-            Err(error) => {
-                let Some(before) = last else {
-                    let in_file = error.renumbered(|vertex| model.vertex_in_file(vertex));
-                    return Err(Failure::of_method(method, in_file));
-                };
-                return Ok(Solved { outcome: placed(before), records, ending: Err(error) });
-            }
-        };
-        progress.reach(step_words(&step));
-        records.push(StepReport::of(&step));
+    let solved = problem.solve(mesh, flattener, control, |step| {
+        progress.reach(step_words(step));
+        records.push(StepReport::of(step));
         if let Some(folder) = folder.as_deref_mut() {
             progress.enter("drawing the step");
-            folder.add(mesh, &step)?;
+            folder.add(mesh, step).map_err(CommandError::from)?;
         }
-        if let Some(ending) = run.ending() {
-            return Ok(Solved { outcome: placed(step), records, ending: Ok(ending) });
+        Ok(())
+    });
+    let in_file = |error: SolveError| error.renumbered(|vertex| model.vertex_in_file(vertex));
+    match solved {
+        Ok(solved) => Ok(SolvedChart { solved, records }),
+        Err(CommandError::Solve(error)) if error != SolveError::Cancelled => {
+            Err(CommandError::of_method(method, in_file(error)))
         }
-        if !step.is_of_planar_start() {
-            last = Some(step);
-        }
+        Err(error) => Err(error),
     }
 }
 
-/// A run at its end.
-pub(super) struct Solved {
-    pub(super) outcome: Outcome,
+/// A chart at the end of its run.
+struct SolvedChart {
+    solved: SolvedProblem,
+    /// Numbers of each step.
     records: Vec<StepReport>,
-    /// Why it ended; the error, where a rung failed.
-    pub(super) ending: Result<Ending, SolveError>,
 }

@@ -22,11 +22,17 @@
 //! | `seams`       | the form that a mesh is asked for in, with its seams                   |
 //! | `standard`    | `-` as a file: standard input and output                               |
 //! | `say`         | words on standard output and standard error                            |
-//! | `exit`        | exit status and last words                                             |
+//! | `error`       | errors of a command: their words and their exit status                 |
+//! | `exit`        | the end of a command: last words, report, exit status                  |
+//! | `report_file` | the report as a file                                                   |
+//! | `awaited`     | the report file of a run under way                                     |
+//! | `threads`     | the threads of a run                                                   |
 
 mod args;
+mod awaited;
 mod check;
 mod compare;
+mod error;
 mod exit;
 mod failed;
 mod figures;
@@ -38,47 +44,49 @@ mod parts;
 mod pins;
 mod places;
 mod progress;
+mod report_file;
 mod say;
 mod seams;
 mod standard;
 mod study;
 mod summary;
+mod threads;
 mod typed;
 
 use std::process::ExitCode;
 
-use self::failed::Subject;
-use crate::solver::{Choice, Family, Method, Words};
+use self::failed::ReportTarget;
+use freebound_core::problem::{Family, Labels, Method, NamedOption};
 
 pub use args::{
-    Arguments, Command, CompareArguments, ComparisonFile, Cut, FlattenArguments, MeshArguments, SeamKind,
-    SolveArguments, StartOf, StudyArguments, ThreadArguments, TypedShape,
+    Arguments, CompareArguments, ComparisonFile, Cut, FlattenArguments, MeshArguments, SeamKind, SolveArguments,
+    StartOf, StudyArguments, Subcommands, ThreadArguments, TypedShape,
 };
-pub use exit::{Failure, Remedy, Status};
+pub use error::{CommandError, CommandOutcome, Remedy};
 pub use figures::pairs;
 pub use flatten::run_example;
 pub use say::warn;
 
 /// Runs a command and says how it ended.
-pub fn run(command: &Command) -> ExitCode {
+pub fn run(command: &Subcommands) -> ExitCode {
     progress::stop_on_interrupt();
     let (outcome, subject) = match command {
-        Command::Flatten(arguments) => (flatten::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
-        Command::Compare(arguments) => (compare::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
-        Command::Check(arguments) => (check::run(arguments), Some((&arguments.mesh, &arguments.report))),
-        Command::Figures(arguments) => (figures::run(&arguments.folder), None),
-        Command::Study(arguments) => (study::run(arguments), None),
-        Command::Methods => {
+        Subcommands::Flatten(arguments) => (flatten::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
+        Subcommands::Compare(arguments) => (compare::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
+        Subcommands::Check(arguments) => (check::run(arguments), Some((&arguments.mesh, &arguments.report))),
+        Subcommands::Figures(arguments) => (figures::run(&arguments.folder), None),
+        Subcommands::Study(arguments) => (study::run(arguments), None),
+        Subcommands::Methods => {
             let lists = [list::<Method>("Methods (--method)"), list::<Family>("Families of weights (--family)")];
-            (say::say(lists.join("\n\n")).map(|()| Status::Fine), None)
+            (say::say(lists.join("\n\n")).map(|()| CommandOutcome::Fine), None)
         }
     };
-    exit::conclude(outcome, subject.map(|(mesh, report)| Subject { mesh, report: report.as_deref() }))
+    exit::conclude(outcome, subject.map(|(mesh, report)| ReportTarget { mesh, report: report.as_deref() }))
 }
 
 /// Names on the left; beside each what it does, and below that where it comes from.
-fn list<C: Choice>(title: &str) -> String {
-    let entry = |Words { name, about, source, .. }| format!("  {name:<17} {about}\n  {:<17} {source}", "");
-    let entries = C::ALL.iter().map(|choice| entry(choice.words()));
+fn list<C: NamedOption>(title: &str) -> String {
+    let entry = |Labels { name, about, source, .. }| format!("  {name:<17} {about}\n  {:<17} {source}", "");
+    let entries = C::ALL.iter().map(|choice| entry(choice.labels()));
     std::iter::once(title.to_owned()).chain(entries).collect::<Vec<_>>().join("\n")
 }

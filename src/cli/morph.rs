@@ -1,11 +1,12 @@
 //! The planar morph through the maps that methods have come to.
 
-use super::Failure;
 use super::args::CompareArguments;
-use super::progress::{INTERRUPTED, Progress};
-use crate::io::{LeftOutReport, machine_memory_bytes};
+use super::error::CommandError;
+use super::progress::{INTERRUPTED, ProgressLine};
 use crate::session::{Compared, MORPH_FRAMES, MissingLeg, Model, MorphStops, MorphTour};
-use crate::solver::{Control, NoMorph, Phase, SolveError};
+use freebound_core::bijective::NoMorph;
+use freebound_core::problem::{Control, Phase, SolveError};
+use freebound_io::{LeftOutReport, machine_memory_bytes};
 
 /// Finds the morphs that are asked for, from each planar map to the next; none where none are asked for.
 ///
@@ -20,19 +21,19 @@ pub(super) fn tour_of(
     arguments: &CompareArguments,
     model: &Model,
     methods: &[&Compared],
-    progress: &Progress,
-) -> Result<Option<MorphTour>, Failure> {
+    progress: &ProgressLine,
+) -> Result<Option<MorphTour>, CommandError> {
     if arguments.morph.is_none() {
         return Ok(None);
     }
     let mesh = model.disk().expect("methods run on disks only");
     let stops = MorphStops::of(methods);
-    let failure = |what: String| Failure::NoMorph { path: model.path_words(), what };
+    let failure = |what: String| CommandError::NoMorph { path: model.path_words(), what };
     if stops.stops.len() < 2 {
         return Err(failure(too_few(&stops)));
     }
     let frames = arguments.frames.map_or(MORPH_FRAMES, usize::from);
-    let too_many = |shortage| Failure::MorphMemory { path: model.path_words(), shortage };
+    let too_many = |shortage| CommandError::MorphMemory { path: model.path_words(), shortage };
     stops.check_memory(mesh, frames, machine_memory_bytes()).map_err(too_many)?;
     let report_phase = |phase: Phase| progress.enter(phase.words());
     progress.reach("morph".to_owned());

@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::Failure;
+use super::error::CommandError;
 use super::typed::Parts;
-use crate::mesh::{Form, PartFaces};
 use crate::session::Model;
+use freebound_core::mesh::{PartFaces, Preparation};
 
 /// The mesh without the parts that are not asked for.
-pub(super) fn with_parts(model: Model, wanted: Option<&Parts>) -> Result<Model, Failure> {
+pub(super) fn with_parts(model: Model, wanted: Option<&Parts>) -> Result<Model, CommandError> {
     let Some(wanted) = wanted else { return Ok(model) };
     let parts = model.parts();
     let kept = match wanted {
@@ -20,13 +20,13 @@ pub(super) fn with_parts(model: Model, wanted: Option<&Parts>) -> Result<Model, 
     if let Some(missing) = kept.iter().find(|&&number| number >= parts.len()) {
         let count = parts.len();
         let text = format!("--parts: there is no part {missing}: the mesh has {count}, numbered from 0");
-        return Err(Failure::Usage(format!("{}: {text}", model.path_words())));
+        return Err(CommandError::Usage(format!("{}: {text}", model.path_words())));
     }
     let unwanted = parts.iter().enumerate().filter(|(part, _)| !kept.contains(part));
     let left_out: BTreeSet<u32> = unwanted.map(|(_, PartFaces { first_face, .. })| *first_face).collect();
     if left_out.is_empty() {
         return Ok(model);
     }
-    let form = Form { left_out: Arc::new(left_out), ..model.form.clone() };
+    let form = Preparation { left_out: Arc::new(left_out), ..model.prepared.form.clone() };
     Ok(model.in_form(form))
 }

@@ -2,20 +2,21 @@
 
 use std::path::Path;
 
-use super::Failure;
 use super::args::SolveArguments;
-use super::standard::name_of_input;
-use crate::io::{Constraints, Target, Targets};
-use crate::mesh::VertexId;
+use super::error::CommandError;
+use super::error::name_of_input;
 use crate::session::Model;
-use crate::solver::SolveError;
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::{Target, Targets};
+use freebound_core::problem::SolveError;
+use freebound_io::Constraints;
 
 /// The targets of all pins, by the vertices of the mesh, however many charts it has. `input` is its file.
 ///
 /// # Errors
 ///
 /// A file that cannot be used, a pin that clashes with another one, or one of a vertex that cannot be pinned.
-pub(super) fn targets_on(model: &Model, input: &Path, arguments: &SolveArguments) -> Result<Targets, Failure> {
+pub(super) fn targets_on(model: &Model, input: &Path, arguments: &SolveArguments) -> Result<Targets, CommandError> {
     let targets = gather(input, arguments, model.vertex_count_in_file())?;
     refuse_pins_of_joined_vertices(model, &targets)?;
     refuse_pins_of_no_face(model, &targets)?;
@@ -27,7 +28,7 @@ pub(super) fn targets_on(model: &Model, input: &Path, arguments: &SolveArguments
 /// # Errors
 ///
 /// A file that cannot be used, or a pin that clashes with another one; where that stands in the file, with its line.
-fn gather(input: &Path, arguments: &SolveArguments, vertex_count: usize) -> Result<Targets, Failure> {
+fn gather(input: &Path, arguments: &SolveArguments, vertex_count: usize) -> Result<Targets, CommandError> {
     let file = match &arguments.constraints {
         Some(path) => Constraints::read(path, vertex_count)?,
         None => Constraints::default(),
@@ -37,36 +38,41 @@ fn gather(input: &Path, arguments: &SolveArguments, vertex_count: usize) -> Resu
     for (vertex, target) in &arguments.pins {
         if let Some(line) = file.lines.get(vertex) {
             let text = format!("line {line}: vertex {vertex} is pinned by --pin, too: leave out one of them");
-            return Err(Failure::Usage(format!("{}: {text}", place.display())));
+            return Err(CommandError::Usage(format!("{}: {text}", place.display())));
         }
         if let Some(first) = in_the_way(&file.targets, target) {
             let line = file.lines[&first];
             let text = format!("line {line}: vertex {first} has the target that --pin gives to vertex {vertex}");
-            return Err(Failure::Usage(format!("{}: {text}: move one of them, or give a weight", place.display())));
+            return Err(CommandError::Usage(format!(
+                "{}: {text}: move one of them, or give a weight",
+                place.display()
+            )));
         }
         if targets.insert(*vertex, *target).is_some() {
             let mesh = name_of_input(input);
-            return Err(Failure::Usage(format!("{mesh}: vertex {vertex} is pinned twice: leave out one of the --pin")));
+            return Err(CommandError::Usage(format!(
+                "{mesh}: vertex {vertex} is pinned twice: leave out one of the --pin"
+            )));
         }
     }
     Ok(targets)
 }
 
 /// Refuses pins of vertices that were joined with others: these stand for them.
-fn refuse_pins_of_joined_vertices(model: &Model, targets: &Targets) -> Result<(), Failure> {
+fn refuse_pins_of_joined_vertices(model: &Model, targets: &Targets) -> Result<(), CommandError> {
     let Some(repaired) = model.whole_repaired() else { return Ok(()) };
     match targets.keys().find_map(|&vertex| Some((vertex, repaired.stands_for(vertex)?))) {
         Some((vertex, other)) => {
             let text = format!("vertex {vertex} is pinned, but was joined with vertex {other}: pin {other}");
-            Err(Failure::Usage(format!("{}: {text}", model.path_words())))
+            Err(CommandError::Usage(format!("{}: {text}", model.path_words())))
         }
         None => Ok(()),
     }
 }
 
 /// Refuses pins of vertices that belong to no chart, where the mesh has several.
-fn refuse_pins_of_no_face(model: &Model, targets: &Targets) -> Result<(), Failure> {
-    let Some(of) = &model.chart else { return Ok(()) };
+fn refuse_pins_of_no_face(model: &Model, targets: &Targets) -> Result<(), CommandError> {
+    let Some(of) = &model.prepared.chart else { return Ok(()) };
     let count = model.vertex_count_in_file();
     match targets.keys().find(|&&vertex| of.charts.chart_of_vertex(vertex).is_none()) {
         Some(&vertex) if vertex.index() >= count => Err(SolveError::NoSuchVertex { vertex, count }.into()),
@@ -77,6 +83,6 @@ fn refuse_pins_of_no_face(model: &Model, targets: &Targets) -> Result<(), Failur
 
 /// The exact pin that has the target of another exact one.
 fn in_the_way(targets: &Targets, target: &Target) -> Option<VertexId> {
-    let clashes = |other: &Target| target.hold.is_exact() && other.hold.is_exact() && other.uv == target.uv;
+    let clashes = |other: &Target| target.kind.is_hard() && other.kind.is_hard() && other.uv == target.uv;
     targets.iter().find(|(_, other)| clashes(other)).map(|(&vertex, _)| vertex)
 }

@@ -2,59 +2,59 @@
 
 use std::path::{Path, PathBuf};
 
-use super::Failure;
 use super::args::{
     CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments, SolveArguments, StartOf, StudyArguments,
 };
-use super::standard::is_standard;
-use crate::io::{
+use super::error::CommandError;
+use super::error::is_standard;
+use freebound_io::{
     MeshFile, PictureFile, StepsFolder, copies_of_materials, is_same_file, is_standard_input, material_files,
     would_replace,
 };
 
 /// A file that is written.
-struct Place {
+struct OutputPath {
     /// The option that asks for it.
     option: &'static str,
     path: PathBuf,
 }
 
 /// Where a run writes.
-pub(super) struct Places {
-    files: Vec<Place>,
+pub(super) struct OutputPaths {
+    files: Vec<OutputPath>,
     steps: Option<PathBuf>,
 }
 
-impl Places {
+impl OutputPaths {
     pub(super) fn of_flatten(arguments: &FlattenArguments) -> Self {
         let FlattenArguments { output, svg, png, report, .. } = arguments;
         let library = output.as_deref().filter(|path| arguments.picture.is_some() && !is_standard(path));
         let library = library.map(PictureFile::library_beside);
         let asked = [("-o", output), ("--svg", svg), ("--png", png), ("--report", report), ("--picture", &library)];
-        let place = |(option, path): (_, &Option<PathBuf>)| Some(Place { option, path: path.clone()? });
+        let place = |(option, path): (_, &Option<PathBuf>)| Some(OutputPath { option, path: path.clone()? });
         Self { files: asked.into_iter().filter_map(place).collect(), steps: arguments.steps.clone() }
     }
 
     pub(super) fn of_compare(arguments: &CompareArguments) -> Self {
         let report = arguments.report.as_deref().map(|path| ("--report", path));
         let outputs = arguments.outputs().into_iter().map(|(_, option, path)| (option, path));
-        let files = outputs.chain(report).map(|(option, path)| Place { option, path: path.to_owned() });
+        let files = outputs.chain(report).map(|(option, path)| OutputPath { option, path: path.to_owned() });
         Self { files: files.collect(), steps: None }
     }
 
     pub(super) fn of_check(arguments: &CheckArguments) -> Self {
-        let files = arguments.report.iter().map(|path| Place { option: "--report", path: path.clone() });
+        let files = arguments.report.iter().map(|path| OutputPath { option: "--report", path: path.clone() });
         Self { files: files.collect(), steps: None }
     }
 
     pub(super) fn of_study(arguments: &StudyArguments) -> Self {
         let asked = [("--csv", &arguments.csv), ("--svg", &arguments.svg)];
-        let place = |(option, path): (_, &Option<PathBuf>)| Some(Place { option, path: path.clone()? });
+        let place = |(option, path): (_, &Option<PathBuf>)| Some(OutputPath { option, path: path.clone()? });
         Self { files: asked.into_iter().filter_map(place).collect(), steps: None }
     }
 
     /// Refuses two results in one place.
-    pub(super) fn keep_apart(&self) -> Result<(), Failure> {
+    pub(super) fn keep_apart(&self) -> Result<(), CommandError> {
         for (count, second) in self.files.iter().enumerate() {
             let Some(first) = self.files[..count].iter().find(|first| clash(&first.path, &second.path)) else {
                 continue;
@@ -77,7 +77,7 @@ impl Places {
         arguments: &FlattenArguments,
         source: &MeshFile,
         picture: Option<&PictureFile>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), CommandError> {
         let Some(mesh) = arguments.output.as_deref().filter(|path| !is_standard(path)) else { return Ok(()) };
         let (option, copies) = match picture {
             Some(picture) => ("--picture", picture.copies_beside(mesh)?),
@@ -105,12 +105,12 @@ impl Places {
     }
 
     /// Refuses to write over files that the mesh's materials name.
-    pub(super) fn spare_materials(&self, source: &MeshFile, mesh: &Path) -> Result<(), Failure> {
+    pub(super) fn spare_materials(&self, source: &MeshFile, mesh: &Path) -> Result<(), CommandError> {
         material_files(source, mesh).iter().try_for_each(|file| self.spare(file, "a file that belongs to the mesh"))
     }
 
     /// Refuses to write over the files that say what is solved: mesh, constraints, edges.
-    pub(super) fn spare_inputs(&self, input: &MeshArguments, solve: &SolveArguments) -> Result<(), Failure> {
+    pub(super) fn spare_inputs(&self, input: &MeshArguments, solve: &SolveArguments) -> Result<(), CommandError> {
         self.spare(&input.mesh, "the mesh")?;
         if let Some(constraints) = &solve.constraints {
             self.spare(constraints, "the constraints")?;
@@ -125,14 +125,14 @@ impl Places {
     }
 
     /// Refuses to write over a file that is read. `what` it is, in words.
-    pub(super) fn spare(&self, input: &Path, what: &str) -> Result<(), Failure> {
+    pub(super) fn spare(&self, input: &Path, what: &str) -> Result<(), CommandError> {
         let over = |option: &str| {
             let input = input.display();
-            Err(Failure::Usage(format!("{input}: {option} would write over {what}: choose another place for it")))
+            Err(CommandError::Usage(format!("{input}: {option} would write over {what}: choose another place for it")))
         };
         if is_standard(input) {
             return match self.files.iter().find(|place| !is_standard(&place.path) && is_standard_input(&place.path)) {
-                Some(Place { option, path }) => Err(Failure::Usage(format!(
+                Some(OutputPath { option, path }) => Err(CommandError::Usage(format!(
                     "{}: {option} would write over {what}, which standard input comes from: choose another place for it",
                     path.display()
                 ))),
@@ -155,8 +155,8 @@ fn clash(a: &Path, b: &Path) -> bool {
 }
 
 /// The words for two results in one place.
-fn both_write(path: &Path, [first, second]: [&str; 2]) -> Failure {
-    Failure::Usage(if is_standard(path) {
+fn both_write(path: &Path, [first, second]: [&str; 2]) -> CommandError {
+    CommandError::Usage(if is_standard(path) {
         format!("standard output: {first} and {second} cannot both go there: name a file for one of them")
     } else {
         format!("{}: {first} and {second} would both write it: give one of them another name", path.display())

@@ -6,11 +6,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
-use super::exit::INTERRUPTED as INTERRUPTED_CODE;
-use super::failed::forget_awaited;
+use super::awaited::forget_awaited;
+use super::error::INTERRUPTED as INTERRUPTED_CODE;
 use super::say::warn;
-use crate::io::discard_unfinished;
-use crate::solver::SolveError;
+use freebound_core::problem::SolveError;
+use freebound_io::discard_unfinished;
 
 /// Work shorter than this goes by without a word.
 const QUIET: Duration = Duration::from_millis(500);
@@ -66,7 +66,7 @@ fn end() {
 
 /// What the program is doing, shown on a terminal once it takes over half a second.
 #[derive(Debug, Default)]
-pub(super) struct Progress {
+pub(super) struct ProgressLine {
     words: Mutex<Words>,
 }
 
@@ -79,7 +79,7 @@ struct Words {
     doing: &'static str,
 }
 
-impl Progress {
+impl ProgressLine {
     /// Names what begins now.
     pub(super) fn enter(&self, words: &'static str) {
         if let Ok(mut line) = self.words.lock() {
@@ -132,4 +132,13 @@ impl Progress {
         write!(terminal, "\r\x1b[K{} … {:.1} s", self.line(), elapsed.as_secs_f64()).ok();
         terminal.flush().ok();
     }
+}
+
+/// Stops the run if the user asked for it.
+///
+/// # Errors
+///
+/// [`SolveError::Cancelled`].
+pub(super) fn go_on() -> Result<(), SolveError> {
+    if is_interrupted() { Err(SolveError::Cancelled) } else { Ok(()) }
 }

@@ -3,17 +3,17 @@
 use std::fmt::Display;
 use std::io::{ErrorKind, Write as _, stderr, stdout};
 
-use super::Failure;
+use super::error::CommandError;
 
 /// Writes a line to standard output. A reader who has had enough and closed the pipe is no fault.
 ///
 /// # Errors
 ///
 /// Where it cannot be written: on a full disk, say.
-pub(super) fn say(text: impl Display) -> Result<(), Failure> {
+pub(super) fn say(text: impl Display) -> Result<(), CommandError> {
     let mut out = stdout().lock();
     match writeln!(out, "{text}").and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::StandardOutput(error)),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CommandError::StandardOutput(error)),
         _ => Ok(()),
     }
 }

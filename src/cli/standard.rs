@@ -6,13 +6,10 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::Builder;
 use std::time::Duration;
 
-use super::Failure;
+use super::error::{CommandError, STANDARD_INPUT, is_standard, name_of_input};
 use super::progress::is_interrupted;
-use crate::io::{ReadError, check_memory, machine_memory_bytes};
 use crate::session::Model;
-
-/// What a mesh from standard input is called.
-const STANDARD_INPUT: &str = "standard input";
+use freebound_io::{ReadError, check_memory, machine_memory_bytes};
 
 /// Bytes read at once.
 const CHUNK: usize = 256 << 10;
@@ -20,26 +17,16 @@ const CHUNK: usize = 256 << 10;
 /// Time between two looks whether to stop, while nothing comes.
 const TICK: Duration = Duration::from_millis(20);
 
-/// Whether a path stands for standard input or output.
-pub(super) fn is_standard(path: &Path) -> bool {
-    path == Path::new("-")
-}
-
-/// What a mesh is called in messages.
-pub(super) fn name_of_input(path: &Path) -> String {
-    if is_standard(path) { STANDARD_INPUT.to_owned() } else { path.display().to_string() }
-}
-
 /// Which files are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Sizes {
+pub(super) enum MemoryLimit {
     /// Those that half of the machine's memory is enough for.
     WithinMemory,
     /// All.
     Any,
 }
 
-impl Sizes {
+impl MemoryLimit {
     /// As `--large` says.
     pub(super) const fn typed(large: bool) -> Self {
         if large { Self::Any } else { Self::WithinMemory }
@@ -47,13 +34,13 @@ impl Sizes {
 }
 
 /// Reads a mesh from a file or from standard input. It has no form yet.
-pub(super) fn read_model(path: &Path, sizes: Sizes) -> Result<Model, Failure> {
-    if sizes == Sizes::WithinMemory && !is_standard(path) {
-        let large = |shortage| Failure::Memory { path: name_of_input(path), shortage };
+pub(super) fn read_model(path: &Path, sizes: MemoryLimit) -> Result<Model, CommandError> {
+    if sizes == MemoryLimit::WithinMemory && !is_standard(path) {
+        let large = |shortage| CommandError::Memory { path: name_of_input(path), shortage };
         check_memory(path, machine_memory_bytes()).map_err(large)?;
     }
     let read = if is_standard(path) { read_standard_input() } else { Model::read_formless(path, &is_interrupted) };
-    read.map_err(|error| Failure::Read { path: name_of_input(path), error })
+    read.map_err(|error| CommandError::Read { path: name_of_input(path), error })
 }
 
 fn read_standard_input() -> Result<Model, ReadError> {
@@ -84,7 +71,7 @@ fn hand_on(sender: &SyncSender<io::Result<Vec<u8>>>) {
     loop {
         let mut bytes = vec![0; CHUNK];
         let read = input.read(&mut bytes);
-        let goes_on = match &read {
+        let is_continued = match &read {
             Ok(count) => *count > 0,
             Err(error) => error.kind() == io::ErrorKind::Interrupted,
         };
@@ -92,7 +79,7 @@ fn hand_on(sender: &SyncSender<io::Result<Vec<u8>>>) {
             bytes.truncate(count);
             bytes
         });
-        if sender.send(chunk).is_err() || !goes_on {
+        if sender.send(chunk).is_err() || !is_continued {
             return;
         }
     }

@@ -5,23 +5,27 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::args::StudyArguments;
-use super::flatten::{go_on, set_threads};
+use super::error::{CommandError, CommandOutcome};
+use super::error::{is_standard, name_of_input};
 use super::opened::disk_of;
-use super::places::Places;
-use super::progress::{INTERRUPTED, Progress};
+use super::places::OutputPaths;
+use super::progress::go_on;
+use super::progress::{INTERRUPTED, ProgressLine};
 use super::say::say;
-use super::standard::{Sizes, is_standard, name_of_input, read_model};
-use super::{Failure, Status};
-use crate::io::{read_study, study_plots, try_place, write_atomically, write_study};
-use crate::mesh::Form;
-use crate::solver::Control;
-use crate::solver::study::{Group, Limits, Patience, Studied, Subject, summary};
+use super::standard::{MemoryLimit, read_model};
+use super::threads::set_threads;
+use freebound_core::mesh::Preparation;
+use freebound_core::pipeline::study::{Group, Limits, Patience, Studied, StudySubject, summary};
+use freebound_core::problem::Control;
+use freebound_io::{read_study, study_plots, try_place, write_atomically, write_study};
 
-pub(super) fn run(arguments: &StudyArguments) -> Result<Status, Failure> {
-    let places = Places::of_study(arguments);
+pub(super) fn run(arguments: &StudyArguments) -> Result<CommandOutcome, CommandError> {
+    let places = OutputPaths::of_study(arguments);
     refuse_standard(arguments)?;
     if let Some(option) = arguments.idle_option() {
-        return Err(Failure::Usage(format!("--add takes no {option}: its runs are made: give a mesh to run on, too")));
+        return Err(CommandError::Usage(format!(
+            "--add takes no {option}: its runs are made: give a mesh to run on, too"
+        )));
     }
     places.keep_apart()?;
     arguments.meshes.iter().try_for_each(|mesh| places.spare(mesh, "a mesh"))?;
@@ -29,7 +33,7 @@ pub(super) fn run(arguments: &StudyArguments) -> Result<Status, Failure> {
     // Tried before all work: runs that nobody can write down are lost.
     arguments.csv.iter().chain(&arguments.svg).try_for_each(|path| try_place(path))?;
     set_threads(arguments.threads)?;
-    let progress = Progress::default();
+    let progress = ProgressLine::default();
     progress.follow(|| {
         let mut studied = Vec::new();
         for table in &arguments.add {
@@ -56,24 +60,24 @@ pub(super) fn run(arguments: &StudyArguments) -> Result<Status, Failure> {
             })?;
         }
         say(table(&summary(&studied)))?;
-        Ok(Status::Fine)
+        Ok(CommandOutcome::Fine)
     })
 }
 
 /// Refuses runs on a mesh from two places: they may be the same.
-fn refuse_doubles(added: &[Studied], meshes: &[PathBuf]) -> Result<(), Failure> {
+fn refuse_doubles(added: &[Studied], meshes: &[PathBuf]) -> Result<(), CommandError> {
     let mut names: Vec<String> = added.iter().map(|studied| studied.mesh.clone()).collect();
     names.extend(meshes.iter().map(|path| name_of_input(path)));
     names.sort();
     match names.windows(2).find(|pair| pair[0] == pair[1]) {
-        Some(pair) => Err(Failure::Usage(format!("{}: the mesh is there twice: leave out one of them", pair[0]))),
+        Some(pair) => Err(CommandError::Usage(format!("{}: the mesh is there twice: leave out one of them", pair[0]))),
         None => Ok(()),
     }
 }
 
 /// Refuses runs that might go on for longer than others: shares and steps of all would mean nothing. `table` is the one
 /// that was read last.
-fn refuse_other_limits(arguments: &StudyArguments, studied: &[Studied], table: &Path) -> Result<(), Failure> {
+fn refuse_other_limits(arguments: &StudyArguments, studied: &[Studied], table: &Path) -> Result<(), CommandError> {
     let own = (!arguments.meshes.is_empty()).then(|| arguments.limits());
     let Some(first) = own.or(studied.first().map(|studied| studied.limits)) else { return Ok(()) };
     let Some(other) = studied.iter().find(|studied| studied.limits != first) else { return Ok(()) };
@@ -82,15 +86,15 @@ fn refuse_other_limits(arguments: &StudyArguments, studied: &[Studied], table: &
         format!("--max-steps {}{past_stall}", limits.max_steps)
     };
     let text = format!("its runs are of {}, others of {}", typed(other.limits), typed(first));
-    Err(Failure::Usage(format!("{}: {text}: leave it out, or make both with the same", table.display())))
+    Err(CommandError::Usage(format!("{}: {text}: leave it out, or make both with the same", table.display())))
 }
 
 /// Tables and drawings go into files: standard output has the summary.
-fn refuse_standard(arguments: &StudyArguments) -> Result<(), Failure> {
+fn refuse_standard(arguments: &StudyArguments) -> Result<(), CommandError> {
     let asked = [("--csv", &arguments.csv), ("--svg", &arguments.svg)];
     match asked.into_iter().find(|(_, path)| path.as_deref().is_some_and(is_standard)) {
         Some((option, _)) => {
-            Err(Failure::Usage(format!("standard output: the summary goes there, not {option}: name a file")))
+            Err(CommandError::Usage(format!("standard output: the summary goes there, not {option}: name a file")))
         }
         None => Ok(()),
     }
@@ -98,21 +102,21 @@ fn refuse_standard(arguments: &StudyArguments) -> Result<(), Failure> {
 
 fn studied_mesh(
     arguments: &StudyArguments,
-    places: &Places,
+    places: &OutputPaths,
     path: &Path,
-    progress: &Progress,
-) -> Result<Studied, Failure> {
-    let model = read_model(path, Sizes::typed(arguments.large))?.in_form(Form::default());
+    progress: &ProgressLine,
+) -> Result<Studied, CommandError> {
+    let model = read_model(path, MemoryLimit::typed(arguments.large))?.in_form(Preparation::default());
     places.spare_materials(&model.source, path)?;
     let mesh = disk_of(&model)?;
     if model.chart_count() > 1 {
         let text = format!("the mesh has {} charts, and study takes one disk", model.chart_count());
-        return Err(Failure::Usage(format!("{}: {text}: give a file with one of them alone", model.path_words())));
+        return Err(CommandError::Usage(format!("{}: {text}: give a file with one of them alone", model.path_words())));
     }
     let quiet = |_| {};
     let control = Control::new(&INTERRUPTED, &quiet);
     progress.enter("solving");
-    let subject = Subject::new(mesh, control)?;
+    let subject = StudySubject::new(mesh, control)?;
     let study = arguments.study(subject.form.faces);
     let done = AtomicU64::new(0);
     let name = name_of_input(path);

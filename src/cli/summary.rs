@@ -2,19 +2,19 @@
 
 use std::path::Path;
 
-use serde::Serialize;
-
-use super::Failure;
-use super::job::Solved;
+use super::error::CommandError;
+use super::error::is_standard;
+use super::report_file::put_report;
 use super::say::{say, warn};
-use super::standard::is_standard;
-use crate::io::{
-    ChartNumber, ChartReport, Column, ComparisonReport, ComparisonSeconds, MeshReport, MorphReport, Output,
-    PackingReport, PinsReport, Placement, Report, Seconds, WriteError, write_atomically, write_report,
-    write_to_standard_output,
+use freebound_core::flatten::{Ending, Step};
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::{PackingSummary, PinsSummary, Placement, SolvedProblem};
+use freebound_core::problem::{Method, NamedOption as _, SolveError, Stage};
+use freebound_core::verify::{Conflict, Verdict};
+use freebound_io::{
+    ChartNumber, ChartReport, Column, ComparisonReport, ComparisonSeconds, MeshReport, MorphReport, Output, Report,
+    Seconds,
 };
-use crate::mesh::VertexId;
-use crate::solver::{Choice as _, Conflict, Ending, Method, SolveError, Step, Verdict};
 
 /// Most vertices or conflicts that are named; the others are only counted.
 const NAMED: usize = 10;
@@ -40,20 +40,20 @@ pub(super) fn warn_of(file: &str, conflicts: &[Conflict]) {
 
 /// What a step reached, for the line that follows the work.
 pub(super) fn step_words(step: &Step) -> String {
-    let number = if step.rung == Method::Iterate { format!(" {}", step.index) } else { String::new() };
-    let left = step.progress.map(|progress| progress.distance_left).filter(|&distance| distance > 0.0);
+    let number = if step.candidate.stage == Stage::Iterate { format!(" {}", step.index) } else { String::new() };
+    let left = step.candidate.progress.map(|progress| progress.distance_left).filter(|&distance| distance > 0.0);
     let left = left.map(|distance| format!(", {distance:.2e} from the targets")).unwrap_or_default();
-    format!("{}{number}: {}{left}", step.rung.as_rung(), step.verdict.summary())
+    format!("{}{number}: {}{left}", step.candidate.stage.words(), step.verdict.summary())
 }
 
-/// The verdict, and after how many steps and on which rung a run of several came to it.
-pub(super) fn ending_words(solved: &Solved, output: &Output) -> String {
+/// The verdict, and after how many steps and on which stage a run of several came to it.
+pub(super) fn ending_words(solved: &SolvedProblem, output: &Output) -> String {
     let mut words = output.summary();
-    let Solved { outcome, ending, .. } = solved;
+    let SolvedProblem { outcome, ending } = solved;
     let step = &outcome.step;
     if outcome.problem.settings.method.takes_steps() {
         let count = output.report.steps.len();
-        let boundary = if step.has_convex_boundary() { ", boundary convex" } else { "" };
+        let boundary = if step.candidate.has_convex_boundary() { ", boundary convex" } else { "" };
         let why = match ending {
             Ok(Ending::Planar | Ending::Done) => String::new(),
             Ok(Ending::Unmet) | Err(SolveError::Unmet) => ", constraints not met".to_owned(),
@@ -62,8 +62,8 @@ pub(super) fn ending_words(solved: &Solved, output: &Output) -> String {
             Err(error) => format!("; the next gave nothing: {error}"),
         };
         let steps = if count == 1 { "step" } else { "steps" };
-        let rung = step.rung.as_rung();
-        words = format!("{words} after {count} {steps} ({rung}{boundary}{why})");
+        let stage = step.candidate.stage.words();
+        words = format!("{words} after {count} {steps} ({stage}{boundary}{why})");
     }
     if output.report.placement == Some(Placement::Unmoved) {
         words += "; not moved into the unit square, whose numbers would fold it";
@@ -91,34 +91,25 @@ fn rounding_words(report: &Report) -> Option<String> {
 }
 
 /// What became of the user's pins.
-fn pins_words(pins: &PinsReport) -> Option<String> {
+fn pins_words(pins: &PinsSummary) -> Option<String> {
     let hard = pins.max_hard_error.map(|error| {
-        let count = pins.count - pins.weighted.len();
+        let count = pins.count - pins.soft.len();
         if error == 0.0 {
             return format!("{count} hard met exactly");
         }
         format!("{count} hard missed by up to {error:.1e}, {} not met: {}", pins.unmet.len(), listed(&pins.unmet))
     });
-    let worst = pins.weighted.iter().max_by(|a, b| a.error.total_cmp(&b.error));
+    let worst = pins.soft.iter().max_by(|a, b| a.error.total_cmp(&b.error));
     let weighted = worst.map(|worst| {
-        let count = pins.weighted.len();
+        let count = pins.soft.len();
         format!("{count} weighted met within {:.1e} (the farthest is vertex {})", worst.error, worst.vertex)
     });
     let parts: Vec<String> = hard.into_iter().chain(weighted).collect();
     (!parts.is_empty()).then(|| format!("constraints: {}", parts.join(", ")))
 }
 
-/// Writes a report into a file, or to standard output for `-`.
-pub(super) fn put_report(report: &impl Serialize, path: &Path) -> Result<(), WriteError> {
-    if is_standard(path) {
-        write_to_standard_output(|out| write_report(out, report))
-    } else {
-        write_atomically(path, |out| write_report(out, report))
-    }
-}
-
 /// Says the words for a person, and writes the report where one is wanted. On standard output a report stands alone.
-pub(super) fn deliver(report: &Report, to: Option<&Path>, words: impl FnOnce() -> String) -> Result<(), Failure> {
+pub(super) fn deliver(report: &Report, to: Option<&Path>, words: impl FnOnce() -> String) -> Result<(), CommandError> {
     if !to.is_some_and(is_standard) {
         say(words())?;
     }
@@ -152,7 +143,7 @@ pub(super) fn atlas_summary(report: &Report) -> String {
     lines.extend(mesh_words(&report.mesh));
     let family = report.family.map(|family| format!(", {family} weights")).unwrap_or_default();
     if let Some(atlas) = &report.atlas {
-        let holds = if atlas.holds_in_f32 { "; holds in 32 bits" } else { "; does not hold in 32 bits" };
+        let holds = if atlas.planar_in_f32 { "; holds in 32 bits" } else { "; does not hold in 32 bits" };
         let holds = if atlas.planar { holds } else { "" };
         lines.push(format!("{}{family}: {}{holds}", report.method.map_or("check", Method::name), atlas.summary()));
     }
@@ -164,7 +155,7 @@ pub(super) fn atlas_summary(report: &Report) -> String {
         lines.push(format!("and {} more charts, less distorted", charts.len() - NAMED));
     }
     lines.extend(relaxing_words_of_charts(report));
-    lines.extend(report.packing.map(|PackingReport { picture: [width, height], gap, density, covered }| {
+    lines.extend(report.packing.map(|PackingSummary { picture: [width, height], gap, density, covered }| {
         let percent = 100.0 * covered;
         format!(
             "packed into {width} x {height} pixels, {gap} apart: {percent:.0} % covered, {density:.4} pixels per unit"
@@ -209,17 +200,17 @@ pub(super) fn comparison_summary(report: &ComparisonReport, by: Option<Column>) 
     lines.join("\n")
 }
 
-fn chart_words(chart: &ChartReport, packing: Option<PackingReport>) -> String {
+fn chart_words(chart: &ChartReport, packing: Option<PackingSummary>) -> String {
     let face = chart.first_face.number();
     let steps = if chart.steps.len() == 1 { "1 step".to_owned() } else { format!("{} steps", chart.steps.len()) };
-    let rung = chart.steps.last().map(|step| format!(" ({})", step.rung.as_rung())).unwrap_or_default();
+    let stage = chart.steps.last().map(|step| format!(" ({})", step.stage.words())).unwrap_or_default();
     let faces = if chart.faces == 1 { "1 face".to_owned() } else { format!("{} faces", chart.faces) };
     let energy = chart.distortion.symmetric_dirichlet.mean;
     let pins = pins_words(&chart.pins).map(|words| format!("; {words}")).unwrap_or_default();
     // Most charts have the density that all are packed at.
     let is_own = packing.is_none_or(|packing| (chart.density / packing.density - 1.0).abs() > 1e-6);
     let density = if is_own { format!("; {:.4} pixels per unit", chart.density) } else { String::new() };
-    format!("chart of face {face}: {faces}, {steps}{rung}; symmetric Dirichlet energy {energy:.3}{density}{pins}")
+    format!("chart of face {face}: {faces}, {steps}{stage}; symmetric Dirichlet energy {energy:.3}{density}{pins}")
 }
 
 fn seconds_words(seconds: &Seconds) -> String {

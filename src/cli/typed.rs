@@ -6,15 +6,16 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec2, UVec2};
 
 use super::args::SeamKind;
-use crate::geom::PackingOptions;
-use crate::io::{ConstraintFault, Target};
-use crate::mesh::{VertexId, WeldDistance};
 use crate::session::Model;
-use crate::solver::{Choice, Hold};
+use freebound_core::geom::PackingOptions;
+use freebound_core::mesh::{VertexId, WeldDistance};
+use freebound_core::pipeline::Target;
+use freebound_core::problem::{NamedOption, PinKind};
+use freebound_io::ConstraintFault;
 
 /// Takes one of a few choices by its name, and lists them with a line on each.
-pub(super) fn choice<C: Choice>() -> impl TypedValueParser<Value = C> {
-    let values = C::ALL.iter().map(|choice| PossibleValue::new(choice.name()).help(choice.words().about));
+pub(super) fn choice<C: NamedOption>() -> impl TypedValueParser<Value = C> {
+    let values = C::ALL.iter().map(|choice| PossibleValue::new(choice.name()).help(choice.labels().about));
     PossibleValuesParser::new(values).map(|name| C::named(&name).expect("only these names pass"))
 }
 
@@ -23,15 +24,15 @@ pub(super) fn parse_pin(text: &str) -> Result<(VertexId, Target), String> {
         let (vertex, place) = text.split_once(':')?;
         let (place, weight) = place.split_once(':').map_or((place, None), |(place, weight)| (place, Some(weight)));
         let (u, v) = place.split_once(',')?;
-        let hold = match weight {
-            None => Hold::Hard,
-            Some(weight) => Hold::Weighted(weight.trim().parse().ok()?),
+        let kind = match weight {
+            None => PinKind::Hard,
+            Some(weight) => PinKind::Soft(weight.trim().parse().ok()?),
         };
         let uv = DVec2::new(u.trim().parse().ok()?, v.trim().parse().ok()?);
-        Some((VertexId::new(vertex.trim().parse().ok()?), Target { uv, hold }))
+        Some((VertexId::new(vertex.trim().parse().ok()?), Target { uv, kind }))
     };
     let (vertex, target) = parsed().ok_or("write VERTEX:U,V or VERTEX:U,V:WEIGHT, for example 12:0.25,0.75")?;
-    match target.hold.invalid_weight() {
+    match target.kind.invalid_weight() {
         Some(weight) => Err(ConstraintFault::WeightNotPositive { vertex, weight }.to_string()),
         None => Ok((vertex, target)),
     }

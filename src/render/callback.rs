@@ -1,12 +1,11 @@
 //! The way into egui.
 
-use eframe::egui;
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
-use eframe::wgpu;
+use eframe::{egui, wgpu};
 use egui::epaint::ViewportInPixels;
 
 use super::frame::{MeshFrame, PaneId, PictureLayer, PlaneFrame};
-use super::gpu::{Gpu, Io, Place, Stats};
+use super::gpu::{BufferSlot, GpuResources, Io, Stats};
 use super::plan::{Plan, Planner};
 use super::uniforms::PaneSize;
 
@@ -14,13 +13,13 @@ use super::uniforms::PaneSize;
 ///
 /// egui's own pass must be as it is by default: without multisampling and without a depth buffer.
 pub fn install(state: &RenderState) {
-    let gpu = Gpu::new(&state.device, &state.queue, state.target_format);
+    let gpu = GpuResources::new(&state.device, &state.queue, state.target_format);
     state.renderer.write().callback_resources.insert(gpu);
 }
 
 /// What the renderer has done since [`install`]; `None` before it.
 pub fn stats(state: &RenderState) -> Option<Stats> {
-    state.renderer.read().callback_resources.get::<Gpu>().map(Gpu::stats)
+    state.renderer.read().callback_resources.get::<GpuResources>().map(GpuResources::stats)
 }
 
 /// The 3D pane, to be added to a painter. The rectangle must lie within the window.
@@ -53,9 +52,9 @@ impl CallbackTrait for PaneCallback {
         encoder: &mut wgpu::CommandEncoder,
         resources: &mut CallbackResources,
     ) -> Vec<wgpu::CommandBuffer> {
-        if let Some(gpu) = resources.get_mut::<Gpu>() {
+        if let Some(gpu) = resources.get_mut::<GpuResources>() {
             let mut io = Io { device, queue, encoder };
-            let place = Place { pane: self.pane, size: pane_size(self.rect, screen) };
+            let place = BufferSlot { pane: self.pane, size: pane_size(self.rect, screen) };
             gpu.prepare(&mut io, place, self.picture.as_ref(), &self.plan);
         }
         Vec::new()
@@ -67,7 +66,7 @@ impl CallbackTrait for PaneCallback {
         render_pass: &mut wgpu::RenderPass<'static>,
         resources: &CallbackResources,
     ) {
-        if let Some(gpu) = resources.get::<Gpu>() {
+        if let Some(gpu) = resources.get::<GpuResources>() {
             gpu.paint(self.pane, render_pass);
         }
     }

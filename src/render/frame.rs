@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::geom::Bounds;
 use crate::view::{
-    EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneCamera, Srgb,
+    DrawnFaces, EdgeList, FacePaint, MeshArrays, OrbitCamera, Palette, PictureQuad, PlaneArrays, PlaneCamera, Srgb,
 };
+use freebound_core::geom::Bounds;
 
 /// Tells panes apart, so that each keeps its own target. Two panes in one window must not share a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -13,7 +13,7 @@ pub struct PaneId(pub &'static str);
 
 /// Where the colours of the faces come from. Flipped faces show in their own colour in all of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Shading {
+pub enum FaceShading {
     /// Clay on the mesh, one flat colour in the plane.
     #[default]
     Plain,
@@ -39,7 +39,7 @@ pub enum Normals {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
     /// Where the colours come from.
-    pub shading: Shading,
+    pub shading: FaceShading,
     /// How the mesh's light is computed.
     pub normals: Normals,
     /// Width of the wireframe in points, 0 for none.
@@ -55,7 +55,7 @@ pub struct Style {
 impl Default for Style {
     fn default() -> Self {
         Self {
-            shading: Shading::Plain,
+            shading: FaceShading::Plain,
             normals: Normals::Smooth,
             wire_in_points: 0.0,
             flipped_outline_in_points: 1.5,
@@ -80,7 +80,7 @@ pub struct LineLayer {
 #[derive(Clone, Debug)]
 pub struct FillLayer {
     /// Which faces.
-    pub faces: Arc<FaceList>,
+    pub faces: Arc<DrawnFaces>,
     /// Their colour.
     pub colour: Srgb,
 }
@@ -108,7 +108,7 @@ pub enum Sampling {
 #[derive(Clone, Debug)]
 pub struct PictureLayer {
     /// The pixels.
-    pub picture: Arc<Picture>,
+    pub picture: Arc<PictureQuad>,
     /// Where the picture lies, embedding units: the unit square, unless the embedding is kept otherwise.
     pub bounds: Bounds,
     /// Opacity behind the embedding, 0 to 1. On faces it is opaque.
@@ -141,7 +141,7 @@ pub struct MeshFrame {
     pub lines: Vec<LineLayer>,
     /// Lines on what stands around the mesh.
     pub around_lines: Vec<LineLayer>,
-    /// The picture for [`Shading::Picture`].
+    /// The picture for [`FaceShading::Picture`].
     pub picture: Option<PictureLayer>,
     /// From where it is seen.
     pub camera: OrbitCamera,

@@ -10,8 +10,8 @@ use super::frame::{PaneId, PictureLayer, Sampling};
 use super::pipelines::{Pipelines, Target};
 use super::plan::{Draw, Faces, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape};
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
-use crate::geom::Picture;
 use crate::view::Revision;
+use freebound_core::geom::Picture;
 
 /// Distance of two lines' uniforms in their buffer: the largest alignment that a device may ask for.
 const LINE_STRIDE: u64 = 256;
@@ -34,7 +34,7 @@ pub struct Stats {
 }
 
 /// All of it, kept among egui's callback resources.
-pub(super) struct Gpu {
+pub(super) struct GpuResources {
     pipelines: Pipelines,
     cache: Cache,
     pictures: BTreeMap<Option<Revision>, wgpu::TextureView>,
@@ -56,7 +56,7 @@ struct PaneState {
     last_tick: u64,
 }
 
-impl Gpu {
+impl GpuResources {
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, window_format: wgpu::TextureFormat) -> Self {
         let sampler = |magnified| {
             device.create_sampler(&wgpu::SamplerDescriptor {
@@ -90,7 +90,7 @@ impl Gpu {
     pub(super) fn prepare(
         &mut self,
         io: &mut Io<'_>,
-        Place { pane, size }: Place,
+        BufferSlot { pane, size }: BufferSlot,
         picture: Option<&PictureLayer>,
         plan: impl FnOnce(&mut Planner<'_>) -> Plan,
     ) {
@@ -174,7 +174,7 @@ pub(super) struct Io<'a> {
 }
 
 #[derive(Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct BufferSlot {
     pub(super) pane: PaneId,
     pub(super) size: PaneSize,
 }

@@ -31,8 +31,8 @@ mod uniforms;
 
 pub use callback::{install, mesh_pane, plane_pane, stats};
 pub use frame::{
-    FillLayer, GhostLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Sampling, Shading, Style,
-    Surroundings,
+    FaceShading, FillLayer, GhostLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Sampling,
+    Style, Surroundings,
 };
 pub use gpu::Stats;
 pub use pipelines::{SHADERS, ShaderFile};

@@ -8,8 +8,8 @@ use eframe::wgpu;
 use super::cache::{Cache, Key};
 use super::frame::{LineLayer, MeshFrame, PictureLayer, PlaneFrame, Sampling, Style};
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
-use crate::mesh::VertexId;
 use crate::view::{EdgeList, FacePaint, MeshArrays, Palette, PlaneArrays};
+use freebound_core::mesh::VertexId;
 
 /// Share of its distance by which a line comes nearer to the eye than the surface that it lies on.
 const LIFT: f32 = 0.0015;

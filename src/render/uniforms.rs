@@ -3,9 +3,9 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, Vec3};
 
-use super::frame::{MeshFrame, Normals, PictureLayer, PlaneFrame, Shading, Style};
-use crate::geom::Bounds;
+use super::frame::{FaceShading, MeshFrame, Normals, PictureLayer, PlaneFrame, Style};
 use crate::view::{OrbitCamera, Palette, PlaneCamera, Sphere, Srgb, UnitPlane};
+use freebound_core::geom::Bounds;
 
 /// Pixel coordinates beyond this are far outside any pane and need no digits.
 const FAR_PIXEL: f64 = 1e7;
@@ -78,9 +78,9 @@ impl PaneUniforms {
             }
         }
         // Without coordinates, or without a picture, there is nothing to carry over.
-        let bare = frame.plane.is_none() || (frame.picture.is_none() && frame.style.shading == Shading::Picture);
-        if bare && matches!(frame.style.shading, Shading::Checker | Shading::Picture) {
-            uniforms.choice[0] = Shading::Plain as u32;
+        let bare = frame.plane.is_none() || (frame.picture.is_none() && frame.style.shading == FaceShading::Picture);
+        if bare && matches!(frame.style.shading, FaceShading::Checker | FaceShading::Picture) {
+            uniforms.choice[0] = FaceShading::Plain as u32;
         }
         uniforms
     }
@@ -99,8 +99,8 @@ impl PaneUniforms {
             uniforms.set_picture(unit, center, layer);
             uniforms.picture_box = pixel_box(layer.bounds, &frame.camera, size);
             uniforms.strength[1] = layer.opacity.clamp(0.0, 1.0);
-        } else if frame.style.shading == Shading::Picture {
-            uniforms.choice[0] = Shading::Plain as u32;
+        } else if frame.style.shading == FaceShading::Picture {
+            uniforms.choice[0] = FaceShading::Plain as u32;
         }
         uniforms
     }

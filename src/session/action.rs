@@ -7,10 +7,11 @@ use glam::DVec2;
 
 use super::StopConditions;
 use crate::examples::Example;
-use crate::geom::{PackingOptions, VAxis};
-use crate::io::{OutputFit, OutputKind, Target};
-use crate::mesh::{HoleTreatment, Repair, Seams, VertexId, WeldDistance};
-use crate::solver::{Hold, Settings, Variant};
+use freebound_core::geom::{PackingOptions, VAxis};
+use freebound_core::mesh::{HoleTreatment, Repair, Seams, VertexId, WeldDistance};
+use freebound_core::pipeline::{Fit, Target};
+use freebound_core::problem::{PinKind, Settings, Variant};
+use freebound_io::OutputKind;
 
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,12 +21,12 @@ pub struct SaveRequest {
     /// What.
     pub kind: OutputKind,
     /// At which size, where the user's pins do not say.
-    pub fit: OutputFit,
+    pub fit: Fit,
 }
 
 /// Files that are opened together.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Together {
+pub struct UndoGroup {
     /// The mesh, or the project.
     pub mesh: PathBuf,
     /// A picture for it.
@@ -42,7 +43,7 @@ pub enum Action {
     /// Opens a mesh file, or a project.
     Open(PathBuf),
     /// Opens a mesh file or a project, and what belongs to it.
-    OpenTogether(Together),
+    OpenTogether(UndoGroup),
     /// Opens a built-in mesh.
     OpenExample(Example),
     /// Opens the file that waits for a word, for it may take more than half of the machine's memory.
@@ -111,18 +112,18 @@ pub enum Action {
     /// The pointer rests in the middle of a drag: the steps after the first are worth taking.
     Rest,
     /// Holds pins in another way.
-    SetHold {
+    SetPinKind {
         /// The pinned vertices.
         vertices: Vec<VertexId>,
         /// How they are to be held.
-        hold: Hold,
+        kind: PinKind,
     },
     /// The same as part of a drag of a slider.
     SlideHold {
         /// The pinned vertices.
         vertices: Vec<VertexId>,
         /// How they are to be held.
-        hold: Hold,
+        kind: PinKind,
     },
     /// Mirrors all targets left to right, within the box around them.
     MirrorTargets,
@@ -154,7 +155,7 @@ pub enum Action {
     Undo,
     /// Repeats the last edit taken back.
     Redo,
-    /// Solves afresh: goes on from nothing that was there.
+    /// Solves from scratch: goes on from nothing that was there.
     Solve,
     /// Takes one further step.
     Step,
@@ -162,7 +163,7 @@ pub enum Action {
     Run,
     /// Lowers the distortion of a planar embedding, one-to-one throughout, constraints exact.
     Relax,
-    /// Takes all steps of the ladder where the newest one is at fault.
+    /// Takes all steps of the flattener where the newest one is at fault.
     Repair,
     /// Stops what is going on in the background. The steps that there are stay.
     Cancel,

@@ -1,15 +1,14 @@
-//! What errands bring for the document: pictures and constraints that were read, the mesh in another form.
+//! What background jobs bring for the document: pictures and constraints that were read, the mesh in another form.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::background_jobs::{BackgroundJob, FORMING, RESHAPING};
 use super::edits::pin;
-use super::errands::Errand;
-use super::forming::FORMING;
 use super::open_mesh::Near;
-use super::reshaping::RESHAPING;
-use super::{Command, Message, Place, Session};
-use crate::io::{Constraints, ConstraintsError, PictureFile, Targets};
+use super::{Command, Message, MessagePlace, Session};
+use freebound_core::pipeline::Targets;
+use freebound_io::{Constraints, ConstraintsError, PictureFile};
 
 impl Session {
     /// Reads a picture.
@@ -17,7 +16,7 @@ impl Session {
         if self.model().is_none() {
             return self.complain("a picture needs a mesh: open one first", None);
         }
-        self.errands.send("reading the picture", move |_| Errand::Picture(PictureFile::read(&path)));
+        self.jobs.send("reading the picture", move |_| BackgroundJob::Picture(PictureFile::read(&path)));
     }
 
     /// Reads constraints.
@@ -26,46 +25,46 @@ impl Session {
             return self.complain("constraints need a mesh: open one first", None);
         }
         let count = self.model().map_or(0, |model| model.vertex_count_in_file());
-        self.errands.send("reading the constraints", move |_| {
+        self.jobs.send("reading the constraints", move |_| {
             let read = Constraints::read(&path, count);
-            Errand::Constraints { path, read }
+            BackgroundJob::Constraints { path, read }
         });
     }
 
-    /// Takes in the errands that came back.
-    pub(super) fn poll_errands(&mut self) {
+    /// Takes in the jobs that came back.
+    pub(super) fn poll_jobs(&mut self) {
         loop {
-            let is_forming = !self.has_form_as_wanted() && self.errands.is_under_way(FORMING);
-            match self.errands.poll(is_forming || self.history.is_in_gesture()) {
+            let is_forming = !self.has_form_as_wanted() && self.jobs.is_under_way(FORMING);
+            match self.jobs.poll(is_forming || self.history.is_in_gesture()) {
                 None => break,
-                Some((_, Ok(errand))) => self.take_errand(errand),
+                Some((_, Ok(job))) => self.take_job(job),
                 Some((what, Err(failure))) => {
                     if what == RESHAPING {
                         self.mesh.want(None);
                     }
-                    self.messages.fail_background(Place::Embedding, what, &failure);
+                    self.messages.fail_background(MessagePlace::Embedding, what, &failure);
                 }
             }
         }
         self.follow_form();
     }
 
-    fn take_errand(&mut self, errand: Errand) {
-        match errand {
-            Errand::Picture(Ok(picture)) => self.edit(vec![Command::SetPicture(Some(Arc::new(picture)))]),
-            Errand::Picture(Err(error)) => self.complain(error.to_string(), Some("choose a PNG or JPEG file")),
-            Errand::Constraints { path, read: Ok(constraints) } => {
+    fn take_job(&mut self, job: BackgroundJob) {
+        match job {
+            BackgroundJob::Picture(Ok(picture)) => self.edit(vec![Command::SetPicture(Some(Arc::new(picture)))]),
+            BackgroundJob::Picture(Err(error)) => self.complain(error.to_string(), Some("choose a PNG or JPEG file")),
+            BackgroundJob::Constraints { path, read: Ok(constraints) } => {
                 self.files.remember_constraints(path);
                 self.take_constraints(constraints.targets);
             }
-            Errand::Constraints { read: Err(error), .. } => self.tell_constraints(&error),
-            Errand::Near { distance, count } => self.mesh.take_near(Near { distance, count: Some(count) }),
-            Errand::Flat(flat) => self.take_flat(&flat),
-            Errand::Seams(read) => self.take_seams(read),
-            Errand::Reshaped(reshaped) => self.take_reshaped(*reshaped),
-            Errand::Formed(model) => {
+            BackgroundJob::Constraints { read: Err(error), .. } => self.tell_constraints(&error),
+            BackgroundJob::Near { distance, count } => self.mesh.take_near(Near { distance, count: Some(count) }),
+            BackgroundJob::Flat(flat) => self.take_flat(&flat),
+            BackgroundJob::Seams(read) => self.take_seams(read),
+            BackgroundJob::Reshaped(reshaped) => self.take_reshaped(*reshaped),
+            BackgroundJob::Formed(model) => {
                 self.mesh.take_other(Arc::from(model));
-                if self.errands.is_stopped() {
+                if self.jobs.is_stopped() {
                     self.bring_form();
                 } else if !self.has_form_as_wanted() {
                     self.solve();
@@ -79,7 +78,7 @@ impl Session {
         let model = self.model();
         let of_chart = |vertex| model.and_then(|model| model.vertex_of_file(vertex));
         let vertices = error.vertices().into_iter().filter_map(of_chart).collect();
-        let message = Message::error(Place::Embedding, error.to_string()).with_vertices(vertices);
+        let message = Message::error(MessagePlace::Embedding, error.to_string()).with_vertices(vertices);
         self.messages.say(message.with_remedy("mend the file and import it again: nothing of it was taken"));
     }
 
@@ -94,7 +93,7 @@ impl Session {
         }
         if self.takes_pins() {
             let mut by_chart = model.by_chart(targets);
-            let shown = model.chart.as_ref().map_or(0, |of| of.charts.pick(self.document.chart));
+            let shown = model.prepared.chart.as_ref().map_or(0, |of| of.charts.pick(self.document.chart));
             let here = by_chart.remove(&shown).unwrap_or_default();
             let known = &self.document.targets;
             let fresh = here.into_iter().filter(|(vertex, target)| known.get(vertex) != Some(target));

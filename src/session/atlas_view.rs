@@ -4,26 +4,27 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Arrangement, Background, ChartState, Model, Outcome, Session, SolvedChart, Timeline, Wake, atlas};
-use crate::geom::PackingOptions;
-use crate::io::{Output, PackingReport, StepReport};
-use crate::solver::AtlasVerdict;
+use super::{Background, Model, SolvedModel, Wake, finished_atlas};
+use freebound_core::geom::PackingOptions;
+use freebound_core::pipeline::{Arrangement, Outcome, PackingSummary};
+use freebound_core::verify::AtlasVerdict;
+use freebound_io::{Output, StepReport};
 
 /// All charts of a mesh, each with the step that is written.
 #[derive(Clone, Debug)]
 pub(super) struct SolvedAtlas {
-    charts: Vec<Solved>,
+    charts: Vec<ChartResult>,
     options: PackingOptions,
     arrangement: Arrangement,
 }
 
 /// One of them.
 #[derive(Clone, Debug)]
-struct Solved {
-    model: Arc<Model>,
-    outcome: Arc<Outcome>,
-    steps: Vec<StepReport>,
-    size: f64,
+pub(super) struct ChartResult {
+    pub(super) model: Arc<Model>,
+    pub(super) outcome: Arc<Outcome>,
+    pub(super) steps: Vec<StepReport>,
+    pub(super) size: f64,
 }
 
 /// The layout as it would be written.
@@ -34,29 +35,29 @@ pub struct AtlasView {
     /// The verdict on all charts together.
     pub verdict: AtlasVerdict,
     /// How they are packed; none where pins hold them all.
-    pub packing: Option<PackingReport>,
+    pub packing: Option<PackingSummary>,
     /// Pixels of the picture per unit of length on the surface, of each chart.
     pub densities: Vec<f64>,
 }
 
 /// Layouts that are made, by what they are made of.
 pub(super) struct AtlasViews {
-    making: Background<Made, AtlasView>,
-    made: Option<(Made, AtlasView)>,
+    job: Background<AtlasKey, AtlasView>,
+    made: Option<(AtlasKey, AtlasView)>,
     /// What no layout could be made of: it is not tried again.
-    failed: Option<Made>,
+    failed: Option<AtlasKey>,
 }
 
 /// What a layout is made of: steps by their places in memory, which they keep while they are shown.
 #[derive(Clone, Debug)]
-struct Made {
-    outcomes: Vec<Arc<Outcome>>,
-    sizes: Vec<f64>,
-    options: PackingOptions,
+pub(super) struct AtlasKey {
+    pub(super) outcomes: Vec<Arc<Outcome>>,
+    pub(super) sizes: Vec<f64>,
+    pub(super) options: PackingOptions,
 }
 
-impl Made {
-    fn is(&self, other: &Self) -> bool {
+impl AtlasKey {
+    pub(super) fn is(&self, other: &Self) -> bool {
         let mut outcomes = self.outcomes.iter().zip(&other.outcomes);
         self.options == other.options
             && self.sizes == other.sizes
@@ -65,22 +66,27 @@ impl Made {
     }
 }
 
-impl Solved {
-    fn chart(&self) -> SolvedChart<'_> {
-        SolvedChart { model: &self.model, outcome: &self.outcome, steps: &self.steps, size: self.size }
+impl ChartResult {
+    fn chart(&self) -> SolvedModel<'_> {
+        SolvedModel { model: &self.model, outcome: &self.outcome, steps: &self.steps, size: self.size }
     }
 }
 
 impl SolvedAtlas {
+    /// All charts with their results, packed with these options.
+    pub(super) fn new(charts: Vec<ChartResult>, options: PackingOptions) -> Self {
+        Self { charts, options, arrangement: Arrangement::AsGiven }
+    }
+
     /// The layout, proved as it is written.
     pub(super) fn output(&self) -> Output<'_> {
-        let charts: Vec<SolvedChart<'_>> = self.charts.iter().map(Solved::chart).collect();
-        atlas(&charts, self.options, self.arrangement)
+        let charts: Vec<SolvedModel<'_>> = self.charts.iter().map(ChartResult::chart).collect();
+        finished_atlas(&charts, self.options, self.arrangement)
     }
 
     fn view(&self) -> AtlasView {
         let output = self.output();
-        let outline = |chart: &crate::io::OutputChart<'_>| {
+        let outline = |chart: &freebound_core::pipeline::LaidChart<'_>| {
             chart.mesh.boundary_loop().iter().map(|&vertex| chart.coordinates[vertex]).collect()
         };
         AtlasView {
@@ -94,86 +100,40 @@ impl SolvedAtlas {
 
 impl AtlasViews {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { making: Background::new("atlas", wake), made: None, failed: None }
-    }
-}
-
-impl Session {
-    /// How charts are packed: into the picture, where there is one.
-    pub fn packing(&self) -> PackingOptions {
-        let pixels = self.document().picture.as_ref().map(|picture| &picture.pixels);
-        let picture = pixels.map(|pixels| [pixels.width, pixels.height]);
-        let options = self.document().packing;
-        PackingOptions { picture: picture.unwrap_or(options.picture), ..options }
+        Self { job: Background::new("atlas", wake), made: None, failed: None }
     }
 
-    /// All charts, each with its step.
-    ///
-    /// # Errors
-    ///
-    /// How many charts have none for the document as it is.
-    pub(super) fn solved_atlas(&self) -> Result<SolvedAtlas, usize> {
-        let solved = |(model, outcome, timeline): (&Arc<Model>, Arc<Outcome>, &Timeline)| {
-            let steps = timeline.records()[..=outcome.step.index].to_vec();
-            let size = model.chart.as_ref().map_or(1.0, |of| self.document().size_of(&of.charts, of.number));
-            Solved { model: Arc::clone(model), outcome, steps, size }
-        };
-        let charts: Vec<Solved> = self.solved_charts().map(solved).collect();
-        match self.charts().map_or(0, |charts| charts.count()) - charts.len() {
-            0 => Ok(SolvedAtlas { charts, options: self.packing(), arrangement: Arrangement::AsGiven }),
-            missing => Err(missing),
-        }
-    }
-
-    /// The charts that are solved for the document as it is.
-    fn solved_charts(&self) -> impl Iterator<Item = (&Arc<Model>, Arc<Outcome>, &Timeline)> {
-        let count = self.charts().map_or(0, |charts| charts.count());
-        (0..count).filter_map(|number| self.solved_chart(number))
-    }
-
-    fn solved_chart(&self, number: usize) -> Option<(&Arc<Model>, Arc<Outcome>, &Timeline)> {
-        let ChartState::Solved(newest) = self.chart_state(number) else { return None };
-        if self.chart_on_screen() == Some(number) {
-            let shown = self.outcome().filter(|_| self.is_current())?;
-            return Some((self.model()?, Arc::clone(shown), self.timeline()));
-        }
-        let (model, timeline) = self.charts.other(number)?;
-        Some((model, newest, timeline))
-    }
-
-    /// What the layout of all charts is to be made of, once each is solved.
-    fn to_be_made(&self) -> Option<Made> {
-        let outcomes: Vec<Arc<Outcome>> = self.solved_charts().map(|(_, outcome, _)| outcome).collect();
-        let is_whole = self.charts().is_some_and(|charts| charts.count() == outcomes.len());
-        is_whole.then(|| Made { outcomes, sizes: self.sizes(), options: self.packing() })
-    }
-
-    /// Has the layout of all charts made, once each is solved.
-    pub(super) fn poll_atlas(&mut self) {
-        match self.charts.views.making.poll() {
-            Some((key, Ok(view))) => self.charts.views.made = Some((key, view)),
-            Some((key, Err(_))) => self.charts.views.failed = Some(key),
+    /// Takes in a layout that was made, or could not be made.
+    pub(super) fn poll(&mut self) {
+        match self.job.poll() {
+            Some((key, Ok(view))) => self.made = Some((key, view)),
+            Some((key, Err(_))) => self.failed = Some(key),
             None => {}
         }
-        if self.charts().is_none() {
-            self.charts.views.made = None;
-            return;
-        }
-        // One after the other: steps may come faster than layouts.
-        let Some(key) = self.to_be_made().filter(|_| !self.charts.views.making.is_busy()) else { return };
-        let views = &self.charts.views;
-        let known = views.made.iter().map(|(key, _)| key).chain(&views.failed);
-        if known.into_iter().any(|known| known.is(&key)) {
-            return;
-        }
-        if let Ok(solved) = self.solved_atlas() {
-            self.charts.views.making.start(key, move |_| solved.view());
-        }
     }
 
-    /// The layout of all charts, where each is solved and it was made.
-    pub fn atlas(&self) -> Option<&AtlasView> {
-        let (key, view) = self.charts.views.made.as_ref()?;
-        self.to_be_made().is_some_and(|now| key.is(&now)).then_some(view)
+    /// Forgets the layout that was made.
+    pub(super) fn forget(&mut self) {
+        self.made = None;
+    }
+
+    /// True while a layout is being made.
+    pub(super) fn is_busy(&self) -> bool {
+        self.job.is_busy()
+    }
+
+    /// True if a layout was made of this, or could not be made.
+    pub(super) fn knows(&self, key: &AtlasKey) -> bool {
+        self.made.iter().map(|(key, _)| key).chain(&self.failed).any(|known| known.is(key))
+    }
+
+    /// Makes a layout in the background.
+    pub(super) fn make(&mut self, key: AtlasKey, solved: SolvedAtlas) {
+        self.job.start(key, move |_| solved.view());
+    }
+
+    /// The key of the layout that was made, and the layout.
+    pub(super) fn made(&self) -> Option<(&AtlasKey, &AtlasView)> {
+        self.made.as_ref().map(|(key, view)| (key, view))
     }
 }

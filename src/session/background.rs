@@ -5,27 +5,26 @@
 //! ```
 //!
 //! The key says what a piece of work is for; its owner compares it on arrival and drops what is out of date. A thread
-//! that panicked, or that could not be started, arrives as a [`Failure`].
+//! that panicked, or that could not be started, arrives as a [`JobFailure`].
 
-use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
-use std::thread;
+use std::{fmt, thread};
 
 /// Asks the screen to look again; called from background threads.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 /// Why work gave no outcome.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Failure {
+pub enum JobFailure {
     /// The operating system started no thread, for this reason.
     NoThread(String),
     /// The thread panicked.
     Lost,
 }
 
-impl Failure {
+impl JobFailure {
     /// What to tell a person, where `work` is a noun, such as "saving".
     pub fn words(&self, work: &str) -> String {
         match self {
@@ -54,7 +53,7 @@ pub struct Background<K, T> {
 struct Job<K, T> {
     key: K,
     cancel: CancelOnDrop,
-    outcome: Result<Receiver<T>, Failure>,
+    outcome: Result<Receiver<T>, JobFailure>,
 }
 
 impl<K, T> Background<K, T> {
@@ -96,14 +95,14 @@ impl<K, T> Background<K, T> {
     }
 
     /// The outcome of a piece of work that has ended, each once. Call once per frame.
-    pub fn poll(&mut self) -> Option<(K, Result<T, Failure>)> {
+    pub fn poll(&mut self) -> Option<(K, Result<T, JobFailure>)> {
         let ended = |(index, job): (usize, &Job<K, T>)| Some((index, job.outcome()?));
         let (index, outcome) = self.jobs.iter().enumerate().find_map(ended)?;
         Some((self.jobs.remove(index).key, outcome))
     }
 
     /// As [`poll`](Self::poll); of pieces of work with the same key, the one that began first comes first.
-    pub(super) fn poll_in_order(&mut self) -> Option<(K, Result<T, Failure>)>
+    pub(super) fn poll_in_order(&mut self) -> Option<(K, Result<T, JobFailure>)>
     where
         K: PartialEq,
     {
@@ -136,19 +135,19 @@ impl<K, T: Send + 'static> Background<K, T> {
             wake();
         };
         let thread = thread::Builder::new().name(self.name.to_owned()).spawn(run);
-        let outcome = thread.map(|_| receiver).map_err(|error| Failure::NoThread(error.to_string()));
+        let outcome = thread.map(|_| receiver).map_err(|error| JobFailure::NoThread(error.to_string()));
         self.jobs.push(Job { key, cancel, outcome });
     }
 }
 
 impl<K, T> Job<K, T> {
-    fn outcome(&self) -> Option<Result<T, Failure>> {
+    fn outcome(&self) -> Option<Result<T, JobFailure>> {
         match &self.outcome {
             Err(failure) => Some(Err(failure.clone())),
             Ok(receiver) => match receiver.try_recv() {
                 Ok(outcome) => Some(Ok(outcome)),
                 Err(TryRecvError::Empty) => None,
-                Err(TryRecvError::Disconnected) => Some(Err(Failure::Lost)),
+                Err(TryRecvError::Disconnected) => Some(Err(JobFailure::Lost)),
             },
         }
     }

@@ -4,19 +4,19 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{ChartEdits, Document, Model};
-use crate::io::{Target, Targets};
-use crate::mesh::VertexId;
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::{Target, Targets};
 
 impl Model {
     /// How many vertices a file of pins can name: those of the repaired mesh, where it has several charts.
     pub fn vertex_count_in_file(&self) -> usize {
-        let whole = self.chart.as_ref().map(|of| of.charts.whole().polygons().positions.len());
+        let whole = self.prepared.chart.as_ref().map(|of| of.charts.whole().polygons().positions.len());
         whole.unwrap_or_else(|| self.vertex_count())
     }
 
     /// The targets of each chart, of those of the mesh; what is of no chart is left out.
     pub(super) fn by_chart(&self, of_mesh: Targets) -> BTreeMap<usize, Targets> {
-        let Some(of) = &self.chart else { return BTreeMap::from([(0, of_mesh)]) };
+        let Some(of) = &self.prepared.chart else { return BTreeMap::from([(0, of_mesh)]) };
         let mut found: BTreeMap<usize, Targets> = BTreeMap::new();
         for (vertex, target) in of_mesh {
             if let Some(chart) = of.charts.chart_of_vertex(vertex) {
@@ -33,7 +33,7 @@ impl Model {
 
     /// The targets of all charts, of the vertices of the mesh.
     pub(super) fn all_targets(&self, document: &Document) -> Targets {
-        let Some(of) = &self.chart else { return document.targets.clone() };
+        let Some(of) = &self.prepared.chart else { return document.targets.clone() };
         let here = (of.charts.pick(document.chart), &document.targets);
         let elsewhere = document.elsewhere.iter().map(|(&number, edits)| (number, &edits.targets));
         let mut all = Targets::new();
@@ -51,7 +51,7 @@ impl Document {
     /// Takes over what a project says of the charts of its mesh: pins by the mesh's vertices, and rounds of relaxing of charts that
     /// are not on the screen.
     pub(super) fn take_charts(&mut self, model: &Model, targets: Targets, relaxed: &BTreeMap<usize, usize>) {
-        let here = model.chart.as_ref().map_or(0, |of| of.number);
+        let here = model.prepared.chart.as_ref().map_or(0, |of| of.number);
         let mut by_chart = model.by_chart(targets);
         self.targets = by_chart.remove(&here).unwrap_or_default();
         let numbers: std::collections::BTreeSet<usize> = by_chart.keys().chain(relaxed.keys()).copied().collect();

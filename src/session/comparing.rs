@@ -4,9 +4,9 @@
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::morphing::Morphing;
-use super::{Background, Compared, Model, Problem, Session, Wake};
-use crate::solver::{Control, Phase, SolveError, Variant};
+use super::{Background, Compared, Model, Wake};
+use freebound_core::pipeline::Problem;
+use freebound_core::problem::{Control, Phase, SolveError, Variant};
 
 /// Methods that are compared.
 pub(super) struct Comparing {
@@ -17,8 +17,6 @@ pub(super) struct Comparing {
     running: Option<Running>,
     /// Counts what has come in.
     revision: u64,
-    /// The morph between two of them.
-    pub(super) morphing: Morphing,
 }
 
 /// A method in a comparison.
@@ -84,12 +82,11 @@ struct RunProgress {
 
 impl Comparing {
     pub(super) fn new(wake: &Wake) -> Self {
-        let (wake, morphing) = (Arc::clone(wake), Morphing::new(wake));
-        Self { wake, contenders: Vec::new(), model: None, running: None, revision: 0, morphing }
+        Self { wake: Arc::clone(wake), contenders: Vec::new(), model: None, running: None, revision: 0 }
     }
 
     /// Compares these methods, in this order; none ends the comparison. What is known of them stays.
-    fn choose(&mut self, variants: &[Variant]) {
+    pub(super) fn choose(&mut self, variants: &[Variant]) {
         let mut before = std::mem::take(&mut self.contenders);
         for &variant in variants {
             if self.contenders.iter().any(|contender| contender.variant == variant) {
@@ -104,7 +101,7 @@ impl Comparing {
     }
 
     /// Drops what belongs to another mesh.
-    fn look_at_mesh(&mut self, revision: u64) {
+    pub(super) fn follow_mesh(&mut self, revision: u64) {
         if self.model.replace(revision) != Some(revision) {
             self.running = None;
             for contender in &mut self.contenders {
@@ -115,7 +112,7 @@ impl Comparing {
     }
 
     /// Has all run again whose problem is another one now.
-    fn look_at_problem(&mut self, problem: &Problem) {
+    pub(super) fn restart_outdated(&mut self, problem: &Problem) {
         let of = |variant: Variant| problem.by(variant);
         let is_outdated = |running: &mut Running| {
             let is_of_problem = running.job.key().is_some_and(|key| key.has_steps_of(&of(running.variant)));
@@ -138,7 +135,7 @@ impl Comparing {
     }
 
     /// Takes in what has come to its end.
-    fn poll(&mut self) {
+    pub(super) fn poll(&mut self) {
         let Some(running) = &mut self.running else { return };
         let Some((problem, outcome)) = running.job.poll() else { return };
         let variant = running.variant;
@@ -149,13 +146,13 @@ impl Comparing {
             Ok(Ok(compared)) => (State::Done, Some(Arc::new(compared))),
             // Nobody asked it to stop that still waits for it.
             Ok(Err(_)) => (State::Waiting, contender.found.take()),
-            Err(failure) => (State::Lost(problem, failure.words(variant.method.as_rung())), None),
+            Err(failure) => (State::Lost(problem, failure.words(variant.method.words())), None),
         };
     }
 
     /// Begins with the next method, where none runs.
-    fn begin_next(&mut self, model: &Arc<Model>, problem: &Problem) {
-        if self.running.is_some() || self.morphing.is_running() {
+    pub(super) fn begin_next(&mut self, model: &Arc<Model>, problem: &Problem) {
+        if self.running.is_some() {
             return;
         }
         let is_waiting = |contender: &&mut Contender| matches!(contender.state, State::Waiting);
@@ -176,64 +173,34 @@ impl Comparing {
         self.running = Some(Running { variant, job, progress });
         self.revision += 1;
     }
-}
 
-impl Session {
-    /// The methods that are compared, in the order in which they were chosen; none where there is no comparison.
-    pub fn contenders(&self) -> &[Contender] {
-        &self.comparing.contenders
+    /// The methods, in the order in which they were chosen.
+    pub(super) fn contenders(&self) -> &[Contender] {
+        &self.contenders
     }
 
-    /// Changes with what is known of them.
-    pub fn comparison_revision(&self) -> u64 {
-        self.comparing.revision
+    /// The count of what has come in.
+    pub(super) fn revision(&self) -> u64 {
+        self.revision
     }
 
-    /// How one of them stands to the document.
-    pub fn contender_state(&self, contender: &Contender) -> ContenderState {
-        let is_there = self.disk().is_some() && self.has_form_as_wanted();
+    /// True if some methods are still to be run.
+    pub(super) fn is_open(&self) -> bool {
+        self.contenders.iter().any(|contender| matches!(contender.state, State::Waiting | State::Running))
+    }
+
+    /// The state of a method; one that is done counts only if the document has come to rest.
+    pub(super) fn state_of(&self, contender: &Contender, is_at_rest: bool) -> ContenderState {
         match &contender.state {
             State::Running => {
-                let running = self.comparing.running.as_ref().filter(|of| of.variant == contender.variant);
+                let running = self.running.as_ref().filter(|of| of.variant == contender.variant);
                 let progress = running.map(|of| *of.progress.lock().unwrap_or_else(PoisonError::into_inner));
                 let RunProgress { phase, steps } = progress.unwrap_or_default();
                 ContenderState::Running(phase, steps)
             }
-            State::Done if is_there && !self.history.is_in_gesture() => ContenderState::Done,
+            State::Done if is_at_rest => ContenderState::Done,
             State::Lost(_, words) => ContenderState::Lost(words.clone()),
             State::Done | State::Waiting => ContenderState::Waiting,
-        }
-    }
-
-    /// Whether some of them are still to be run, and can be.
-    pub fn is_comparing(&self) -> bool {
-        let is_open = |contender: &Contender| matches!(contender.state, State::Waiting | State::Running);
-        self.disk().is_some() && self.comparing.contenders.iter().any(is_open)
-    }
-
-    /// Compares these methods, or none any more.
-    pub(super) fn compare_methods(&mut self, variants: &[Variant]) {
-        self.comparing.choose(variants);
-        self.poll_comparing();
-    }
-
-    /// Takes in what the methods have come to, and has the next one run: while nothing else is solved on the mesh, so that the
-    /// machine is its own and times can be compared.
-    pub(super) fn poll_comparing(&mut self) {
-        if self.comparing.contenders.is_empty() {
-            return;
-        }
-        self.comparing.look_at_mesh(self.model_revision());
-        self.comparing.poll();
-        // In a gesture the document changes from moment to moment.
-        if self.history.is_in_gesture() || !self.has_form_as_wanted() {
-            return;
-        }
-        let problem = self.document.problem();
-        self.comparing.look_at_problem(&problem);
-        let model = self.model().filter(|model| model.disk().is_some()).cloned();
-        if let Some(model) = model.filter(|_| !self.is_running() && self.busy().is_none()) {
-            self.comparing.begin_next(&model, &problem);
         }
     }
 }

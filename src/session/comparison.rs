@@ -4,13 +4,14 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::outcome::pins_report;
-use super::{Model, Outcome, Problem};
-use crate::io::{
+use super::Model;
+use freebound_core::flatten::{Ending, Step};
+use freebound_core::pipeline::{Outcome, Problem, pins_summary};
+use freebound_core::problem::{Control, SolveError, Variant};
+use freebound_io::{
     ChartNumber, ComparisonReport, MeshReport, MethodError, MethodReport, MethodSeconds, ResultReport, StepReport,
     TimedStep, VerdictCounts,
 };
-use crate::solver::{Control, Ending, Method, SolveError, Step, Variant};
 
 /// A method that has come to its end.
 #[derive(Clone, Debug)]
@@ -19,7 +20,7 @@ pub struct Compared {
     pub problem: Problem,
     /// The last step in which the constraints had a part; none where there is none.
     pub outcome: Option<Arc<Outcome>>,
-    /// Why it came to its end; the error, where a rung failed.
+    /// Why it came to its end; the error, where a stage failed.
     pub ending: Result<Ending, SolveError>,
     /// What is reported of it. Vertices are those of the file that the model came from.
     pub report: MethodReport,
@@ -43,7 +44,7 @@ impl Compared {
         mut take: impl FnMut(&TimedStep),
     ) -> Result<Self, SolveError> {
         let mesh = model.disk().expect("only a disk is solved");
-        let mut ladder = problem.ladder_on(model).unwrap_or_else(|_| problem.ladder());
+        let mut ladder = model.flattener(&problem).unwrap_or_else(|_| problem.flattener());
         let (mut seconds, mut steps, mut last) = (MethodSeconds::default(), Vec::new(), None);
         let mut since = Instant::now();
         let ending = ladder.finish(mesh, control, |step| {
@@ -61,7 +62,7 @@ impl Compared {
             // What was measured for the comparison does not count.
             since = Instant::now();
         });
-        // What a rung tried in vain counts too.
+        // What a stage tried in vain counts too.
         seconds.solve += since.elapsed().as_secs_f64();
         if ending == Err(SolveError::Cancelled) {
             return Err(SolveError::Cancelled);
@@ -81,7 +82,7 @@ pub fn comparison_report(model: &Model, methods: &[&Compared]) -> ComparisonRepo
     let disk = model.disk().expect("methods run on disks only");
     let repairs = model.whole_repaired().map(|repaired| repaired.done().to_vec()).unwrap_or_default();
     let mesh = MeshReport { repairs, ..MeshReport::new(model.path_words(), disk) };
-    let chart = model.chart.as_ref().map(|of| ChartNumber { number: of.number, of: of.charts.count() });
+    let chart = model.prepared.chart.as_ref().map(|of| ChartNumber { number: of.number, of: of.charts.count() });
     let aspect = methods.first().map_or(1.0, |method| method.problem.frame.aspect);
     let mut report = ComparisonReport::new(mesh, chart, aspect);
     report.methods = methods.iter().map(|method| method.report.clone()).collect();
@@ -90,7 +91,7 @@ pub fn comparison_report(model: &Model, methods: &[&Compared]) -> ComparisonRepo
 
 /// What a run came to, its embedding aside.
 struct Numbers {
-    /// The error, where a rung failed.
+    /// The error, where a stage failed.
     ending: Result<Ending, SolveError>,
     steps: Vec<TimedStep>,
     seconds: MethodSeconds,
@@ -133,30 +134,12 @@ fn timed(outcome: &Outcome, seconds: MethodSeconds) -> TimedStep {
 fn result(model: &Model, outcome: &Outcome) -> ResultReport {
     let step: &Step = &outcome.step;
     let frame = outcome.problem.frame;
-    let coordinates = step.solution.embedding.iter().map(|&z| frame.uv_from_plane(z)).collect();
+    let coordinates = step.candidate.solution.embedding.iter().map(|&z| frame.uv_from_plane(z)).collect();
     ResultReport {
         verdict: VerdictCounts::from(&step.verdict),
-        boundary: if step.has_convex_boundary() { "convex" } else { "free" },
-        pins: pins_report(outcome, &coordinates).renumbered(|vertex| model.vertex_in_file(vertex)),
+        boundary: if step.candidate.has_convex_boundary() { "convex" } else { "free" },
+        pins: pins_summary(outcome, &coordinates).renumbered(|vertex| model.vertex_in_file(vertex)),
         distortion: outcome.distortion.summary,
         new_vertices: outcome.new_vertex_count(),
-    }
-}
-
-impl Problem {
-    /// The same problem for another method.
-    #[must_use]
-    pub fn by(&self, variant: Variant) -> Self {
-        Self { settings: variant.settings(&self.settings), ..self.clone() }
-    }
-
-    /// Whether a method has something of its own to do here: not one that takes no constraints where there are some, nor one
-    /// that does nothing but meet them where there are none.
-    pub fn suits(&self, method: Method) -> bool {
-        if self.settings.are_constraints(&self.pins()) {
-            method.takes_constraints()
-        } else {
-            !method.only_meets_constraints()
-        }
     }
 }

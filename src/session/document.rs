@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::Problem;
-use super::model::{ChartOf, example_picture};
+use super::model::example_picture;
 use crate::examples::Example;
-use crate::geom::{Bounds, PackingOptions, PictureFrame, VAxis};
-use crate::io::{PictureFile, Target, Targets, hard_targets, pins_in_plane};
-use crate::mesh::{Charts, FaceId, Form, VertexId};
-use crate::solver::{GaugeSize, Pins, Settings};
+use freebound_core::geom::{PackingOptions, PictureFrame, VAxis};
+use freebound_core::mesh::{Charts, FaceId, Preparation, VertexId};
+use freebound_core::pipeline::{ChartOf, Problem, Target, Targets, hard_targets, pins_in_plane};
+use freebound_core::problem::{Pins, Settings};
+use freebound_io::PictureFile;
 
 /// What the user edits. Small: mesh and pictures are immutable and kept elsewhere.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,7 +25,7 @@ pub struct Document {
     /// Where v = 0 is on the picture.
     pub v_axis: VAxis,
     /// What is made of the mesh's faces.
-    pub form: Form,
+    pub form: Preparation,
     /// The chart on the screen, where the mesh has several; none stands for the largest.
     pub chart: Option<usize>,
     /// How several charts are packed, where there is no picture that they go on.
@@ -54,7 +54,7 @@ pub struct ChartEdits {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shape {
     /// As [`Document::form`].
-    pub form: Form,
+    pub form: Preparation,
     /// As [`Document::chart`].
     pub chart: Option<usize>,
     /// What is edited of the chart on the screen, or of the mesh.
@@ -106,11 +106,8 @@ impl Document {
 
     /// The same with other targets.
     pub(super) fn problem_with(&self, targets: Targets) -> Problem {
-        let frame = self.frame();
-        let [low, high] = frame.corners();
         let has_picture = self.picture.is_some() || self.aspect.is_some();
-        let size = if has_picture { GaugeSize::Within(Bounds { low, high }) } else { GaugeSize::TrueArea };
-        Problem { settings: Settings { size, ..self.settings }, frame, targets }
+        Problem::new(&self.settings, self.frame(), has_picture, targets)
     }
 
     /// How many times as large as the others a chart is packed.
@@ -148,7 +145,7 @@ pub enum Command {
     /// Chooses where v = 0 is.
     SetVAxis(VAxis),
     /// Takes the mesh's faces in another form.
-    SetForm(Form),
+    SetForm(Preparation),
     /// Takes the mesh in another form, with all that is edited of its vertices.
     Reshape(Box<Shape>),
     /// Chooses how many rounds of relaxing follow a run.

@@ -21,11 +21,16 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
+use super::drag_request::{DragRequest, Screen};
 use super::live::{Frame, LiveDrag};
 use super::solving::Task;
-use super::{Background, Problem, Session, Wake};
-use crate::mesh::{DiskMesh, VertexId};
-use crate::solver::{Control, Embedding, Obstacle, Prepared, SolveError, Verdict, verdict};
+use super::{Background, Wake};
+use freebound_core::bijective::Blocker;
+use freebound_core::flatten::Prepared;
+use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::pipeline::Problem;
+use freebound_core::problem::{Control, Embedding, SolveError};
+use freebound_core::verify::{Verdict, verdict};
 
 /// Pins moved together may differ in their way by this share of it: rounding of the pointer's place.
 const SAME_WAY: f64 = 1e-9;
@@ -39,44 +44,51 @@ pub struct Preview {
     pub revision: u64,
     /// Where it is a planar embedding that stays so: how far it has followed.
     pub live: Option<LivePreview>,
+    /// The vertices that may have moved, if it is a planar embedding that stays so.
+    moved: Option<MovedVertices>,
     /// The problem that it follows to.
     problem: Problem,
     /// The newest verdict that there is, with the revision that it is on.
     checked: Option<(u64, Arc<Verdict>)>,
 }
 
+/// Vertices that may have moved since a drag began; all others lie where they did.
+#[derive(Clone, Debug)]
+pub struct MovedVertices {
+    begin: Arc<Embedding>,
+    vertices: Vec<VertexId>,
+}
+
+impl MovedVertices {
+    /// The embedding that the drag began with. It stays the same object during the drag.
+    pub fn begin(&self) -> &Arc<Embedding> {
+        &self.begin
+    }
+
+    /// The vertices.
+    pub fn vertices(&self) -> &[VertexId] {
+        &self.vertices
+    }
+}
+
 /// How far a planar embedding has followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LivePreview {
     /// What is in the way of a pin that cannot follow.
-    pub obstacle: Option<Obstacle>,
-}
-
-/// What the screen shows when pins begin to move, and the problem that it was made for.
-#[derive(Clone, Debug)]
-pub(super) struct Screen {
-    pub(super) embedding: Arc<Embedding>,
-    pub(super) problem: Problem,
-    /// Whether it is proved planar as it lies.
-    pub(super) is_planar: bool,
-}
-
-/// Pins on their way: the task with their targets, what is dragged, ascending, and what the screen shows.
-pub(super) struct Pull {
-    pub(super) task: Task,
-    pub(super) dragged: Vec<VertexId>,
-    pub(super) screen: Option<Screen>,
-}
-
-impl Pull {
-    /// What is on the screen, where it differs from what is wanted in the dragged pins' targets alone.
-    pub(super) fn base(&self) -> Option<&Screen> {
-        let problem = &self.task.problem;
-        self.screen.as_ref().filter(|screen| screen.problem.differs_in_targets_of(problem, &self.dragged))
-    }
+    pub obstacle: Option<Blocker>,
 }
 
 impl Preview {
+    /// The vertices that may have moved since the drag began, if it is a planar embedding that stays so.
+    pub fn moved(&self) -> Option<&MovedVertices> {
+        self.moved.as_ref()
+    }
+
+    /// The problem that it follows to.
+    pub(super) fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
     /// The verdict on this very embedding, once it is there.
     pub fn verdict(&self) -> Option<&Arc<Verdict>> {
         self.checked.as_ref().filter(|(revision, _)| *revision == self.revision).map(|(_, verdict)| verdict)
@@ -84,7 +96,7 @@ impl Preview {
 }
 
 /// What is solved for once, for all moves of a drag.
-struct Follow {
+pub(super) struct Follow {
     /// The problem that the base is of.
     problem: Problem,
     /// The pins that are dragged, ascending.
@@ -95,6 +107,19 @@ struct Follow {
 }
 
 impl Follow {
+    pub(super) fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// The pins that are dragged, ascending.
+    pub(super) fn dragged(&self) -> &[VertexId] {
+        &self.dragged
+    }
+
+    pub(super) fn prepared(&self) -> &Arc<Prepared> {
+        &self.prepared
+    }
+
     /// Whether it serves a drag of these pins in this problem: only their targets differ.
     fn serves(&self, problem: &Problem, dragged: &[VertexId]) -> bool {
         self.dragged == dragged && self.problem.differs_in_targets_of(problem, dragged)
@@ -116,7 +141,7 @@ impl Follow {
         }
         let moved = |(base, column): (&DVec2, &DVec2)| *base + by.rotate(*column);
         let mut embedding: Embedding = self.base.par_iter().zip(&self.column).map(moved).collect::<Vec<_>>().into();
-        for (vertex, pin) in to.iter().filter(|(_, pin)| problem.settings.is_exact(pin.hold)) {
+        for (vertex, pin) in to.iter().filter(|(_, pin)| problem.settings.is_hard(pin.kind)) {
             // What was met stays met, to the last bit.
             if from.get(vertex).is_some_and(|before| before.target == self.base[vertex]) {
                 embedding[*vertex] = pin.target;
@@ -127,7 +152,7 @@ impl Follow {
 }
 
 /// What a column is solved for.
-struct Wanted {
+struct WantedPreview {
     problem: Problem,
     dragged: Vec<VertexId>,
 }
@@ -137,9 +162,9 @@ pub(super) struct Drag {
     preview: Option<Preview>,
     /// Counts previews.
     revision: u64,
-    pub(super) live: LiveDrag,
+    live: LiveDrag,
     follow: Option<Follow>,
-    following: Background<Wanted, Result<Follow, SolveError>>,
+    following: Background<WantedPreview, Result<Follow, SolveError>>,
     /// Proves previews, by their revisions, one at a time.
     proving: Background<u64, Verdict>,
 }
@@ -163,29 +188,30 @@ impl Drag {
 
     /// Lets the embedding follow pins that were moved, at once where their column is known; otherwise that is solved
     /// for first, unless it is under way.
-    pub(super) fn follow(&mut self, pull: Pull, prepared: Option<&Arc<Prepared>>) {
+    pub(super) fn follow(&mut self, request: DragRequest, prepared: Option<&Arc<Prepared>>) {
         if self.preview.is_none()
-            && let (Some(follow), Some(screen)) = (&mut self.follow, pull.base())
+            && let (Some(follow), Some(screen)) = (&mut self.follow, request.base())
         {
             follow.go_on_from(screen);
         }
-        let (task, dragged) = (&pull.task, &pull.dragged);
+        let (task, dragged) = (&request.task, &request.dragged);
         let is_served = self.follow.as_ref().is_some_and(|follow| follow.serves(&task.problem, dragged));
         if is_served && self.show_linear(task) {
             return;
         }
-        let is_under_way =
-            |wanted: &Wanted| wanted.dragged == *dragged && wanted.problem.differs_in_targets_alone(&task.problem);
+        let is_under_way = |wanted: &WantedPreview| {
+            wanted.dragged == *dragged && wanted.problem.differs_in_targets_alone(&task.problem)
+        };
         if !self.following.key().is_some_and(is_under_way) {
-            self.solve_column(pull, prepared.cloned());
+            self.solve_column(request, prepared.cloned());
         }
     }
 
     /// Solves for the column in the background, and for a base where there is none on the screen.
-    fn solve_column(&mut self, pull: Pull, prepared: Option<Arc<Prepared>>) {
-        let base = pull.base().cloned();
-        let Pull { task: Task { mesh, problem, .. }, dragged, .. } = pull;
-        let wanted = Wanted { problem: problem.clone(), dragged: dragged.clone() };
+    fn solve_column(&mut self, request: DragRequest, prepared: Option<Arc<Prepared>>) {
+        let base = request.base().cloned();
+        let DragRequest { task: Task { mesh, problem, .. }, dragged, .. } = request;
+        let wanted = WantedPreview { problem: problem.clone(), dragged: dragged.clone() };
         self.following.start(wanted, move |cancel| {
             let control = Control::new(cancel, &|_| {});
             let pins = problem.pins();
@@ -206,35 +232,53 @@ impl Drag {
     fn show_linear(&mut self, task: &Task) -> bool {
         let embedding = self.follow.as_ref().and_then(|follow| follow.embedding(&task.problem));
         let Some(embedding) = embedding else { return false };
-        self.show(Arc::new(embedding), task.problem.clone(), None);
+        self.show(Arc::new(embedding), task.problem.clone());
         self.prove(&task.mesh);
         true
     }
 
     /// Shows an embedding.
-    fn show(&mut self, embedding: Arc<Embedding>, problem: Problem, live: Option<LivePreview>) {
+    fn show(&mut self, embedding: Arc<Embedding>, problem: Problem) {
         self.revision += 1;
         let checked = self.preview.take().and_then(|before| before.checked);
-        self.preview = Some(Preview { embedding, revision: self.revision, live, problem, checked });
+        self.preview = Some(Preview { embedding, revision: self.revision, live: None, moved: None, problem, checked });
     }
 
-    /// Shows a frame of a planar embedding, with its verdict.
+    /// Shows a frame of a planar embedding, with its verdict. What is shown already of the same drag changes in place.
     pub(super) fn show_live(&mut self, frame: Frame) {
-        let live = LivePreview { obstacle: frame.moved.obstacle };
-        let before = self.preview.as_ref().and_then(|preview| preview.checked.as_ref()).map(|(_, verdict)| verdict);
+        let Frame { begin, moved, problem, result } = frame;
+        let before = self.preview.take();
+        let checked = before.as_ref().and_then(|preview| preview.checked.as_ref()).map(|(_, verdict)| verdict);
         // The same verdict stays the same to a screen that looks at it: nothing is coloured anew.
-        let verdict = match before {
-            Some(before) if **before == frame.moved.verdict => Arc::clone(before),
-            _ => Arc::new(frame.moved.verdict),
+        let verdict = match checked {
+            Some(before) if **before == result.verdict => Arc::clone(before),
+            _ => Arc::new(result.verdict),
         };
-        self.show(frame.embedding, frame.problem, Some(live));
-        if let Some(preview) = &mut self.preview {
-            preview.checked = Some((self.revision, verdict));
+        let of_drag = before.and_then(|Preview { embedding, moved, .. }| Some((embedding, moved?)));
+        let (mut embedding, known) = match of_drag.filter(|(_, known)| Arc::ptr_eq(&known.begin, &begin)) {
+            Some((embedding, known)) => (embedding, known.vertices),
+            None => (Arc::clone(&begin), Vec::new()),
+        };
+        let places = Arc::make_mut(&mut embedding);
+        for &(vertex, place) in &moved {
+            places[vertex] = place;
         }
+        // The neighbourhood that moves never shrinks during a drag; without one, nothing has moved in this frame.
+        let vertices =
+            if moved.len() < known.len() { known } else { moved.into_iter().map(|(vertex, _)| vertex).collect() };
+        self.revision += 1;
+        self.preview = Some(Preview {
+            embedding,
+            revision: self.revision,
+            live: Some(LivePreview { obstacle: result.obstacle }),
+            moved: Some(MovedVertices { begin, vertices }),
+            problem,
+            checked: Some((self.revision, verdict)),
+        });
     }
 
     /// Proves the newest preview in the background, one at a time.
-    fn prove(&mut self, mesh: &Arc<DiskMesh>) {
+    pub(super) fn prove(&mut self, mesh: &Arc<DiskMesh>) {
         let Some(preview) = self.preview.as_ref().filter(|preview| preview.verdict().is_none()) else { return };
         if !self.proving.is_busy() {
             let (mesh, embedding) = (Arc::clone(mesh), Arc::clone(&preview.embedding));
@@ -261,62 +305,34 @@ impl Drag {
         self.follow = None;
         self.following.cancel();
     }
-}
 
-impl Session {
-    /// What the screen shows while pins are dragged.
-    pub fn preview(&self) -> Option<&Preview> {
-        self.drag.preview.as_ref()
+    /// The map that the screen shows while pins are dragged.
+    pub(super) fn preview(&self) -> Option<&Preview> {
+        self.preview.as_ref()
     }
 
-    /// Lets the embedding follow pins that were moved.
-    pub(super) fn follow(&mut self, dragged: Vec<VertexId>) {
-        let Some(task) = self.task() else { return };
-        let pull = Pull { task, dragged, screen: self.screen() };
-        let Some(pull) = self.drag.live.follow(pull) else { return };
-        // Where the method begins with something else than the solve that follows pins, the screen keeps what is proved. Where
-        // the mesh is to be turned around, a solve follows by itself.
-        if pull.task.problem.settings.begin_with_pins_held() {
-            self.drag.follow(pull, self.solving.prepared());
-        }
+    /// The planar embedding that follows the pointer.
+    pub(super) fn live_mut(&mut self) -> &mut LiveDrag {
+        &mut self.live
     }
 
-    /// What the screen shows, of the mesh as given.
-    pub(super) fn screen(&self) -> Option<Screen> {
-        if let Some(preview) = self.preview() {
-            let (embedding, problem) = (Arc::clone(&preview.embedding), preview.problem.clone());
-            return Some(Screen { embedding, problem, is_planar: preview.live.is_some() });
-        }
-        let outcome = self.outcome().filter(|outcome| outcome.step.refinement.is_none())?;
-        Screen::of(outcome, outcome.step.solution.embedding.len())
+    /// A column that was solved for. If its solve failed, the run at the end of the drag says why.
+    pub(super) fn poll_column(&mut self) -> Option<Follow> {
+        self.following.poll()?.1.ok()?.ok()
     }
 
-    /// Takes in what a drag has waited for.
-    pub(super) fn poll_drag(&mut self) {
-        self.poll_live();
-        // Where the solve for a column failed, the run at the end of the drag says why.
-        if let Some((_, Ok(Ok(follow)))) = self.drag.following.poll() {
-            self.take_column(follow);
-        }
-        let Some((revision, verdict)) = self.drag.proving.poll() else { return };
-        if let Some(preview) = &mut self.drag.preview {
+    /// Takes a column for the moves that follow.
+    pub(super) fn take_column(&mut self, follow: Follow) {
+        self.follow = Some(follow);
+    }
+
+    /// Takes in the verdict on a preview. Returns whether there was one.
+    pub(super) fn poll_proof(&mut self) -> bool {
+        let Some((revision, verdict)) = self.proving.poll() else { return false };
+        if let Some(preview) = &mut self.preview {
             let found = verdict.ok().map(|verdict| (revision, Arc::new(verdict)));
             preview.checked = found.or(preview.checked.take());
         }
-        if let Some(mesh) = self.disk().cloned() {
-            self.drag.prove(&mesh);
-        }
-    }
-
-    fn take_column(&mut self, follow: Follow) {
-        if !follow.problem.differs_in_targets_alone(&self.document.problem()) {
-            return;
-        }
-        self.solving.keep_prepared(Arc::clone(&follow.prepared));
-        let dragged = follow.dragged.clone();
-        self.drag.follow = Some(follow);
-        if self.history.is_in_gesture() && !self.is_running() && !self.is_current() {
-            self.follow(dragged);
-        }
+        true
     }
 }

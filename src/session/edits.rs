@@ -2,22 +2,14 @@
 
 use glam::DVec2;
 
-use super::errands::Errand;
-use super::{ChartEdits, Command, Document, Message, Place, Session};
-use crate::geom::{Bounds, PictureFrame, Similarity};
-use crate::io::{Target, Targets};
-use crate::mesh::{Form, VertexId};
-use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Ladder, Method, Pins, Settings, SolveError};
-
-/// The mesh flattened without pins, upright in the middle of the picture.
-pub(super) struct Flat {
-    /// The picture's frame.
-    frame: PictureFrame,
-    /// The form that the mesh had, and the chart that it was.
-    form: Form,
-    chart: Option<usize>,
-    embedding: Result<Embedding, SolveError>,
-}
+use super::background_jobs::{BackgroundJob, Flat};
+use super::v_axis::TurnedV;
+use super::{ChartEdits, Command, Document, Message, MessagePlace, Session};
+use freebound_core::flatten::Flattener;
+use freebound_core::geom::{Bounds, PictureFrame, Similarity, VAxis};
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::{Target, Targets};
+use freebound_core::problem::{Control, Family, GaugeSize, Method, PinKind, Pins, Settings};
 
 /// Edits.
 impl Session {
@@ -101,7 +93,7 @@ impl Session {
         let Some(outcome) = self.outcome().cloned().filter(|_| self.takes_pins()) else { return };
         // What the screen shows is the preview, where there is one.
         let preview = self.preview().map(|preview| (self.document.frame(), &*preview.embedding));
-        let (frame, shown) = preview.unwrap_or((outcome.problem.frame, &outcome.step.solution.embedding));
+        let (frame, shown) = preview.unwrap_or((outcome.problem.frame, &outcome.step.candidate.solution.embedding));
         // New vertices belong to one embedding alone: they cannot be pinned.
         let count = self.vertex_count();
         let fresh = vertices.iter().filter(|v| v.index() < count && !self.document.targets.contains_key(v));
@@ -114,7 +106,7 @@ impl Session {
     /// Pins a vertex, or places its pin anew.
     pub(super) fn place(&mut self, vertex: VertexId, target: Target) {
         let is_valid =
-            vertex.index() < self.vertex_count() && target.uv.is_finite() && target.hold.invalid_weight().is_none();
+            vertex.index() < self.vertex_count() && target.uv.is_finite() && target.kind.invalid_weight().is_none();
         if is_valid && self.takes_pins() {
             self.edit(vec![pin(vertex, target)]);
         }
@@ -128,8 +120,10 @@ impl Session {
         let is_users = |(vertex, _): &(VertexId, DVec2)| self.document.targets.contains_key(vertex);
         if !moves.iter().all(is_users) {
             // Where the solver chose no gauge, those it has are pins of the user's that are freed by now.
-            let Some(outcome) = self.outcome().filter(|outcome| outcome.step.solution.gauge_completed) else { return };
-            let adopted = adopted(&self.document, &outcome.step.solution.pins, outcome.problem.frame);
+            let Some(outcome) = self.outcome().filter(|outcome| outcome.step.candidate.solution.gauge_completed) else {
+                return;
+            };
+            let adopted = adopted(&self.document, &outcome.step.candidate.solution.pins, outcome.problem.frame);
             if !moves.iter().all(|(vertex, _)| adopted.contains_key(vertex)) {
                 return;
             }
@@ -153,25 +147,25 @@ impl Session {
     }
 
     /// Holds pins in another way, as an edit of its own.
-    pub(super) fn set_hold(&mut self, vertices: &[VertexId], hold: Hold) {
-        let commands = self.holds(vertices, hold);
+    pub(super) fn set_pin_kind(&mut self, vertices: &[VertexId], kind: PinKind) {
+        let commands = self.holds(vertices, kind);
         self.edit(commands);
     }
 
     /// Holds pins in another way as part of a drag.
-    pub(super) fn slide_hold(&mut self, vertices: &[VertexId], hold: Hold) {
-        let commands = self.holds(vertices, hold);
+    pub(super) fn slide_hold(&mut self, vertices: &[VertexId], kind: PinKind) {
+        let commands = self.holds(vertices, kind);
         if !commands.is_empty() {
             self.slide(Command::Together(commands));
         }
     }
 
-    fn holds(&self, vertices: &[VertexId], hold: Hold) -> Vec<Command> {
+    fn holds(&self, vertices: &[VertexId], kind: PinKind) -> Vec<Command> {
         let command = |&vertex: &VertexId| {
-            let before = self.document.targets.get(&vertex).filter(|before| before.hold != hold)?;
-            Some(pin(vertex, Target { hold, ..*before }))
+            let before = self.document.targets.get(&vertex).filter(|before| before.kind != kind)?;
+            Some(pin(vertex, Target { kind, ..*before }))
         };
-        let is_valid = hold.invalid_weight().is_none() && self.has_form_as_wanted();
+        let is_valid = kind.invalid_weight().is_none() && self.has_form_as_wanted();
         vertices.iter().filter(|_| is_valid).filter_map(command).collect()
     }
 
@@ -207,16 +201,22 @@ impl Session {
             return self.complain(text, Some("place another constraint"));
         }
         let model = self.model();
-        let Some((disk, form)) = model.and_then(|model| Some((model.disk()?.clone(), model.form.clone()))) else {
+        let Some((disk, form)) = model.and_then(|model| Some((model.disk()?.clone(), model.prepared.form.clone())))
+        else {
             return self.complain("a mesh with faults has nothing to fit to", None);
         };
         let (frame, chart) = (self.document.frame(), self.chart_on_screen());
         let [low, high] = frame.corners();
         let size = GaugeSize::Within(Bounds { low, high });
         let settings = Settings { size, ..Settings::new(Method::Natural, Family::Conformal) };
-        self.errands.send("fitting the targets", move |cancel| {
-            let step = Ladder::new(settings, Pins::new()).step(&disk, Control::new(cancel, &|_| {}));
-            Errand::Flat(Flat { frame, form, chart, embedding: step.map(|step| step.candidate.solution.embedding) })
+        self.jobs.send("fitting the targets", move |cancel| {
+            let step = Flattener::new(settings, Pins::new()).step(&disk, Control::new(cancel, &|_| {}));
+            BackgroundJob::Flat(Flat {
+                frame,
+                form,
+                chart,
+                embedding: step.map(|step| step.candidate.solution.embedding),
+            })
         });
     }
 
@@ -225,7 +225,7 @@ impl Session {
         let embedding = match &flat.embedding {
             Ok(embedding) => embedding,
             Err(error) => {
-                let message = Message::error(Place::Embedding, format!("there is nothing to fit to: {error}"));
+                let message = Message::error(MessagePlace::Embedding, format!("there is nothing to fit to: {error}"));
                 self.messages.say(message.with_vertices(error.vertices()));
                 return;
             }
@@ -250,6 +250,27 @@ impl Session {
     fn move_targets(&mut self, targets: &[DVec2]) {
         let moved = self.document.targets.iter().zip(targets).filter(|((_, before), uv)| before.uv != **uv);
         self.edit(moved.map(|((&vertex, before), &uv)| pin(vertex, Target { uv, ..*before })).collect());
+    }
+}
+
+/// The side of the picture that v starts from.
+impl Session {
+    /// Chooses where v = 0 is. The targets keep their places on the picture; chosen back, they are as they were.
+    pub(super) fn set_v_axis(&mut self, v_axis: VAxis) {
+        if v_axis == self.document.v_axis {
+            return;
+        }
+        let mut into = TurnedV::default();
+        let shown = self.charts().map_or(0, |charts| charts.pick(self.document.chart));
+        let here = self.turned_v.targets(shown, &self.document.targets, &mut into);
+        let mut commands = vec![Command::SetVAxis(v_axis)];
+        commands.extend(here.into_iter().map(|(vertex, target)| Command::SetPin { vertex, target: Some(target) }));
+        for (&chart, edits) in &self.document.elsewhere {
+            let targets = self.turned_v.targets(chart, &edits.targets, &mut into);
+            commands.push(Command::SetElsewhere { chart, edits: ChartEdits { targets, ..edits.clone() } });
+        }
+        self.turned_v = into;
+        self.edit(commands);
     }
 }
 

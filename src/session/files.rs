@@ -3,82 +3,63 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use super::action::Together;
-use super::large::{LargeFile, Wanted};
+use super::action::UndoGroup;
+use super::folder::FolderViewer;
+use super::large::{LargeFile, OpenRequest};
+use super::open_project::OpenProject;
 use super::opened::{OpenError, Opened, Origin};
 use super::recovery::Autosave;
-use super::saving::{ProjectSaves, Request, picture_source, source_of};
-use super::{Background, Document, Messages, Model, Place, RecentFiles, Session, Wake, Written};
+use super::saving::{ProjectSaves, Request, project_of};
+use super::{Background, Document, MessagePlace, Messages, Model, RecentFiles, Wake, Written};
 use crate::examples::Example;
-use crate::io::{ProjectFile, ProjectSource, ProjectView, RecoveryNote, WriteError};
-use crate::mesh::Form;
+use freebound_io::{ProjectFile, ProjectView, RecoveryNote, WriteError};
 
-/// How long the end of a session waits for files that a person asked for, which may be large.
+/// Patience of the end of a session with files that a person asked for, which may be large.
 const PATIENCE: Duration = Duration::from_mins(1);
-
-/// What is open, apart from what is edited: what an edit is compared with.
-#[derive(Debug, Default)]
-struct OnTable {
-    /// Counts what was opened.
-    opening: u64,
-    /// What to call work that no project and no mesh names.
-    name: Option<String>,
-    /// The project that it is saved to.
-    project: Option<PathBuf>,
-    /// The document as it was opened or saved; none where it is nowhere but here.
-    saved: Option<Document>,
-    /// The file of constraints that was imported last.
-    constraints: Option<PathBuf>,
-    /// The project's picture, where it could not be read: it stays in the project until there is another.
-    missing_picture: Option<ProjectSource>,
-    /// How the person looks at it, to be saved with it.
-    view: ProjectView,
-}
 
 /// What is open, read and written.
 pub(super) struct Files {
-    table: OnTable,
+    table: OpenProject,
     /// What is being opened.
-    loading: Background<Wanted, Result<Opened, OpenError>>,
+    loading: Background<OpenRequest, Result<Opened, OpenError>>,
     /// The machine's memory, bytes: what may take more than half of it is opened once a person has said so.
-    pub(super) memory: Option<u64>,
+    memory: Option<u64>,
     /// What waits for that.
-    pub(super) large: Option<LargeFile>,
+    large: Option<LargeFile>,
     /// What follows once that is open.
-    together: Option<Together>,
+    together: Option<UndoGroup>,
     /// Results being written.
     outputs: Background<(), Result<Written, WriteError>>,
     projects: ProjectSaves,
-    /// The file whose folder is being shown.
-    pub(super) shown: Background<PathBuf, Result<(), String>>,
-    pub(super) autosave: Autosave,
-    pub(super) recent: RecentFiles,
+    folder: FolderViewer,
+    autosave: Autosave,
+    recent: RecentFiles,
 }
 
 impl Files {
     pub(super) fn new(wake: &Wake, recent: RecentFiles) -> Self {
         Self {
-            table: OnTable::default(),
+            table: OpenProject::default(),
             loading: Background::new("load", wake),
             memory: None,
             large: None,
             together: None,
             outputs: Background::new("save", wake),
             projects: ProjectSaves::new(wake),
-            shown: Background::new("folder", wake),
+            folder: FolderViewer::new(wake),
             autosave: Autosave::new(wake),
             recent,
         }
     }
 
     /// What to call what is open.
-    fn name(&self, model: Option<&Model>) -> Option<String> {
+    pub(super) fn name(&self, model: Option<&Model>) -> Option<String> {
         let stem = self.table.project.as_ref().and_then(|path| path.file_stem());
         let stem = stem.map(|stem| stem.to_string_lossy().into_owned());
         stem.or_else(|| self.table.name.clone()).or_else(|| model.map(|model| model.name.clone()))
     }
 
-    fn has_saved(&self, document: &Document) -> bool {
+    pub(super) fn has_saved(&self, document: &Document) -> bool {
         self.table.saved.as_ref() == Some(document)
     }
 
@@ -103,26 +84,100 @@ impl Files {
 
     /// The document as a project file holds it.
     pub(super) fn project_file(&self, model: &Model, document: &Document) -> Option<ProjectFile> {
-        let mut project = ProjectFile::new(source_of(model)?, &document.settings);
-        let Form { faces_turned, repair, holes, cut, seams, left_out } = document.form.clone();
-        project.left_out_parts = left_out.iter().copied().collect();
-        (project.faces_turned, project.repair, project.cut, project.seams) = (faces_turned, repair, cut, seams);
-        project.weld_distance = repair.weld_distance();
-        project.holes = Some(holes);
-        project.relaxed = document.relaxed;
-        project.picture = match &document.picture {
-            Some(picture) => picture_source(picture, model),
-            None => self.table.missing_picture.clone(),
-        };
-        project.v_axis = document.v_axis;
-        project.targets = model.all_targets(document);
-        project.chart = document.chart;
-        project.packing = document.packing;
-        project.sizes = document.sizes.iter().map(|(face, &size)| (face.number(), size)).collect();
-        let relaxed = document.elsewhere.iter().filter(|(_, edits)| edits.relaxed > 0);
-        project.relaxed_elsewhere = relaxed.map(|(&chart, edits)| (chart, edits.relaxed)).collect();
+        let mut project = project_of(model, document)?;
+        if document.picture.is_none() {
+            project.picture.clone_from(&self.table.missing_picture);
+        }
         project.view.clone_from(&self.table.view);
         Some(project)
+    }
+
+    /// The count of what was opened.
+    pub(super) fn opening(&self) -> u64 {
+        self.table.opening
+    }
+
+    /// The project that the document is saved to.
+    pub(super) fn project(&self) -> Option<&PathBuf> {
+        self.table.project.as_ref()
+    }
+
+    /// The view that is saved with the project.
+    pub(super) fn view(&self) -> &ProjectView {
+        &self.table.view
+    }
+
+    /// Takes the view that is saved with the project.
+    pub(super) fn set_view(&mut self, view: ProjectView) {
+        self.table.view = view;
+    }
+
+    /// True while a project is being written.
+    pub(super) fn is_saving_project(&self) -> bool {
+        self.projects.is_busy()
+    }
+
+    /// The machine's memory, bytes.
+    pub(super) fn memory(&self) -> Option<u64> {
+        self.memory
+    }
+
+    /// Takes the machine's memory, bytes.
+    pub(super) fn set_memory(&mut self, bytes: u64) {
+        self.memory = Some(bytes);
+    }
+
+    /// The file that waits for a person's word.
+    pub(super) fn large(&self) -> Option<&LargeFile> {
+        self.large.as_ref()
+    }
+
+    /// The files opened last.
+    pub(super) fn recent(&self) -> &RecentFiles {
+        &self.recent
+    }
+
+    /// The files opened last, to be changed.
+    pub(super) fn recent_mut(&mut self) -> &mut RecentFiles {
+        &mut self.recent
+    }
+
+    /// Shows the folder of a file.
+    pub(super) fn show_folder(&mut self, file: PathBuf) {
+        self.folder.show(file);
+    }
+
+    /// The copies for recovery.
+    pub(super) fn autosave(&self) -> &Autosave {
+        &self.autosave
+    }
+
+    /// The copies for recovery, to be changed.
+    pub(super) fn autosave_mut(&mut self) -> &mut Autosave {
+        &mut self.autosave
+    }
+
+    /// Waits until all files are written that were asked for, or the disk hangs.
+    pub(super) fn finish_writing(&mut self, messages: &mut Messages) {
+        let begun = Instant::now();
+        while self.is_saving() && begun.elapsed() < PATIENCE {
+            std::thread::sleep(Duration::from_millis(1));
+            self.poll_saving(messages);
+        }
+    }
+
+    /// Opens what waits for a word.
+    pub(super) fn open_large(&mut self) {
+        if let Some(large) = self.large.take() {
+            self.load(large.wanted, None);
+        }
+    }
+
+    /// Leaves it.
+    pub(super) fn leave_large(&mut self) {
+        if self.large.take().is_some() {
+            self.end_opening();
+        }
     }
 }
 
@@ -130,44 +185,44 @@ impl Files {
 impl Files {
     /// Opens a mesh file or a project.
     pub(super) fn open(&mut self, path: PathBuf) {
-        self.begin(Wanted::File(path));
+        self.begin(OpenRequest::File(path));
     }
 
     /// Opens something, with nothing that follows, and nothing else.
-    fn begin(&mut self, wanted: Wanted) {
+    fn begin(&mut self, wanted: OpenRequest) {
         self.together = None;
         self.load(wanted, self.memory);
     }
 
-    pub(super) fn load(&mut self, wanted: Wanted, memory: Option<u64>) {
+    fn load(&mut self, wanted: OpenRequest, memory: Option<u64>) {
         self.large = None;
         self.loading.start(wanted.clone(), move |_| wanted.open(memory));
     }
 
     /// Nothing came of what was to be opened.
-    pub(super) fn end_opening(&mut self) {
+    fn end_opening(&mut self) {
         self.together = None;
         self.autosave.give_up_claim();
     }
 
     /// Opens a mesh or a project; what belongs to it follows.
-    pub(super) fn open_together(&mut self, files: Together) {
+    pub(super) fn open_together(&mut self, files: UndoGroup) {
         self.open(files.mesh.clone());
         self.together = Some(files);
     }
 
     /// Opens a built-in mesh.
     pub(super) fn open_example(&mut self, example: Example) {
-        self.begin(Wanted::Example(example));
+        self.begin(OpenRequest::Example(example));
     }
 
     /// Opens what a session before has left. It belongs to this session from now on.
     pub(super) fn recover(&mut self, path: PathBuf, messages: &mut Messages) {
         if self.autosave.claim(&path) {
-            self.begin(Wanted::Recovery(path));
+            self.begin(OpenRequest::Recovery(path));
         } else {
             let text = format!("another session works with it already, or it is gone: {}", path.display());
-            messages.fail(Place::Mesh, text, None);
+            messages.fail(MessagePlace::Mesh, text, None);
         }
     }
 
@@ -183,7 +238,7 @@ impl Files {
         let (wanted, loaded) = self.loading.poll()?;
         match loaded {
             Ok(Ok(opened)) => {
-                if let Wanted::File(path) = wanted {
+                if let OpenRequest::File(path) = wanted {
                     self.recent.remember(&path);
                 }
                 return Some(opened);
@@ -192,15 +247,15 @@ impl Files {
                 self.large = Some(LargeFile { wanted, path, shortage: source });
                 return None;
             }
-            Ok(Err(error)) => messages.fail(Place::Mesh, error.to_string(), Some(error.remedy())),
-            Err(failure) => messages.fail_background(Place::Mesh, "loading", &failure),
+            Ok(Err(error)) => messages.fail(MessagePlace::Mesh, error.to_string(), Some(error.remedy())),
+            Err(failure) => messages.fail_background(MessagePlace::Mesh, "loading", &failure),
         }
         self.end_opening();
         None
     }
 
     /// What is to follow what was opened.
-    pub(super) fn take_together(&mut self) -> Option<Together> {
+    pub(super) fn take_together(&mut self) -> Option<UndoGroup> {
         self.together.take()
     }
 
@@ -214,7 +269,7 @@ impl Files {
             Origin::Project(path) => (None, Some(path.clone())),
             Origin::Recovery(note) => (Some(note.name.clone()), note.project.clone()),
         };
-        self.table = OnTable {
+        self.table = OpenProject {
             opening: self.table.opening + 1,
             name,
             // What is left out, the file keeps: saving asks for another place.
@@ -245,11 +300,11 @@ impl Files {
         while let Some(((), written)) = self.outputs.poll() {
             match written {
                 Ok(Ok(written)) => messages.note("wrote", written),
-                Ok(Err(error)) => messages.fail(Place::Embedding, error.to_string(), None),
-                Err(failure) => messages.fail_background(Place::Embedding, "saving", &failure),
+                Ok(Err(error)) => messages.fail(MessagePlace::Embedding, error.to_string(), None),
+                Err(failure) => messages.fail_background(MessagePlace::Embedding, "saving", &failure),
             }
         }
-        self.poll_folder(messages);
+        self.folder.poll(messages);
         while let Some(Request { path, document, opening }) = self.projects.poll(messages) {
             self.recent.remember(&path);
             messages.note("saved", Written::file(path.clone()));
@@ -277,60 +332,6 @@ impl Files {
             let at = self.table.project.as_ref().map(|path| std::path::absolute(path).unwrap_or_else(|_| path.clone()));
             project.recovery = Some(RecoveryNote { name, project: at });
             self.autosave.begin_copy(now, project, document, messages);
-        }
-    }
-}
-
-impl Session {
-    /// Changes whenever something was opened. Unlike [`model_revision`](Self::model_revision) it stays where the same
-    /// mesh is turned around, when no camera is to move.
-    pub fn opening_revision(&self) -> u64 {
-        self.files.table.opening
-    }
-
-    /// The files opened last.
-    pub fn recent(&self) -> &RecentFiles {
-        &self.files.recent
-    }
-
-    /// The project that the document is saved to.
-    pub fn project_path(&self) -> Option<&PathBuf> {
-        self.files.table.project.as_ref()
-    }
-
-    /// What to call what is open.
-    pub fn project_name(&self) -> Option<String> {
-        self.files.name(self.model().map(AsRef::as_ref))
-    }
-
-    /// Whether something would be lost if the session ended now.
-    pub fn has_unsaved_work(&self) -> bool {
-        self.model().is_some() && !self.files.has_saved(&self.document)
-    }
-
-    /// Whether a project is being written.
-    pub fn is_saving_project(&self) -> bool {
-        self.files.projects.is_busy()
-    }
-
-    /// How the person looked at it when it was saved: for the screen to take over when
-    /// [`opening_revision`](Self::opening_revision) changes.
-    pub fn view(&self) -> &ProjectView {
-        &self.files.table.view
-    }
-
-    /// Says how the person looks at it, to be saved with the project. A view alone is no unsaved work.
-    pub fn set_view(&mut self, view: ProjectView) {
-        self.files.table.view = view;
-    }
-
-    /// Waits until all files are written that were asked for, or the disk hangs. For the end of the program, which
-    /// would break them off.
-    pub fn finish_writing(&mut self) {
-        let begun = Instant::now();
-        while self.files.is_saving() && begun.elapsed() < PATIENCE {
-            std::thread::sleep(Duration::from_millis(1));
-            self.files.poll_saving(&mut self.messages);
         }
     }
 }

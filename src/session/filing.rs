@@ -3,13 +3,14 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::action::Together;
+use super::action::UndoGroup;
 use super::in_use::Role;
 use super::opened::{Opened, Origin};
 use super::stop::Goal;
-use super::{History, Message, Place, SaveRequest, Session, Surface, Written};
-use crate::io::{EXTENSIONS, OutputFit, OutputKind, Precision, write_atomically, write_constraints, write_durably};
-use crate::solver::{Settings, Start};
+use super::{History, Message, MessagePlace, SaveRequest, Session, Written};
+use freebound_core::pipeline::{Fit, Surface};
+use freebound_core::problem::{Settings, Start};
+use freebound_io::{EXTENSIONS, OutputKind, Precision, write_atomically, write_constraints, write_durably};
 
 /// The most faults with a bar each, where all can be mended.
 const FAULTS_TOLD: usize = 2;
@@ -20,7 +21,7 @@ impl Session {
         let is_mesh = matches!(opened.origin, Origin::Mesh);
         if is_mesh {
             // A layout to start from was one of the mesh before.
-            opened.document.settings = Settings { start: Start::Afresh, ..self.document.settings };
+            opened.document.settings = Settings { start: Start::FromScratch, ..self.document.settings };
         }
         self.files.put_on_table(&opened);
         let Opened { model, document, remarks, .. } = opened;
@@ -28,7 +29,7 @@ impl Session {
         let waits = model.example.is_some() && is_mesh;
         self.document = document;
         self.history = History::default();
-        self.errands.forget();
+        self.jobs.forget();
         self.mesh.open(model);
         self.charts.forget();
         self.forget_steps();
@@ -49,7 +50,7 @@ impl Session {
     }
 
     /// Opens what belongs to the mesh that was opened, and says what is not opened.
-    fn open_beside(&mut self, Together { picture, constraints, left, .. }: Together) {
+    fn open_beside(&mut self, UndoGroup { picture, constraints, left, .. }: UndoGroup) {
         if let Some(path) = picture {
             self.open_picture(path);
         }
@@ -60,19 +61,19 @@ impl Session {
             let name = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let names: Vec<String> = left.iter().map(name).collect();
             let text = format!("one mesh is open at a time, with one picture; not opened: {}", names.join(", "));
-            self.messages.say(Message::error(Place::Mesh, text).with_remedy("drop it by itself to open it"));
+            self.messages.say(Message::error(MessagePlace::Mesh, text).with_remedy("drop it by itself to open it"));
         }
     }
 
     pub(super) fn tell_faults(&mut self) {
         let Some(model) = self.model().cloned() else { return };
-        let Surface::Faulty(_, diagnosis) = &model.surface else { return };
+        let Surface::Faulty(_, diagnosis) = &model.prepared.surface else { return };
         // More of them would hide the mesh behind bars; the tab of defects lists them all, and one click mends them.
-        if model.remedy.is_some() && diagnosis.faults.len() > FAULTS_TOLD {
+        if model.prepared.remedy.is_some() && diagnosis.faults.len() > FAULTS_TOLD {
             return;
         }
         for fault in &diagnosis.faults {
-            let message = Message::error(Place::Mesh, fault.message()).with_remedy(fault.remedy());
+            let message = Message::error(MessagePlace::Mesh, fault.message()).with_remedy(fault.remedy());
             self.messages.say(message.with_vertices(fault.vertices_of(0, model.mesh())));
         }
     }
@@ -89,13 +90,13 @@ impl Session {
         if self.refuses_to_replace(&request.path, None) {
             return;
         }
-        if model.chart.is_some() {
+        if model.prepared.chart.is_some() {
             return self.save_atlas(request);
         }
         let records = self.timeline().records()[..=outcome.step.index].to_vec();
         let picture = self.document.picture.clone();
         self.files.write(move || {
-            let mut output = outcome.finished(&model, records, request.fit);
+            let mut output = model.finished(&outcome, records, request.fit);
             output.picture = picture.as_deref();
             output.round_to(Precision::default(), request.kind);
             let files = output.write(request.kind, &request.path)?;
@@ -105,7 +106,7 @@ impl Session {
 
     /// Writes the layout of all charts.
     fn save_atlas(&mut self, SaveRequest { path, kind, fit }: SaveRequest) {
-        if kind == OutputKind::Svg && fit == OutputFit::True {
+        if kind == OutputKind::Svg && fit == Fit::True {
             let text = "several charts are drawn as they are packed: none at true scale";
             return self.complain(text, Some("export the layout in the unit square"));
         }

@@ -3,8 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use super::files::Files;
-use super::{Messages, Place};
+use super::{Background, MessagePlace, Messages, Wake};
 
 /// The program that shows a folder.
 const PROGRAM: &str = if cfg!(target_os = "windows") {
@@ -24,22 +23,33 @@ fn show(program: &str, folder: &Path) -> Result<(), String> {
     if status.success() || cfg!(target_os = "windows") { Ok(()) } else { Err(format!("{program} failed: {status}")) }
 }
 
-impl Files {
+/// The folder of a file that is being shown.
+pub(super) struct FolderViewer {
+    shown: Background<PathBuf, Result<(), String>>,
+}
+
+impl FolderViewer {
+    pub(super) fn new(wake: &Wake) -> Self {
+        Self { shown: Background::new("folder", wake) }
+    }
+
     /// Shows the folder of a file, in the background: the program may take its time.
-    pub(super) fn show_folder(&mut self, file: PathBuf) {
+    pub(super) fn show(&mut self, file: PathBuf) {
         let folder = std::path::absolute(&file).ok().and_then(|file| file.parent().map(PathBuf::from));
         let folder = folder.unwrap_or_else(|| PathBuf::from("."));
         self.shown.start(file, move |_| show(PROGRAM, &folder));
     }
 
     /// Says where a folder could not be shown.
-    pub(super) fn poll_folder(&mut self, messages: &mut Messages) {
+    pub(super) fn poll(&mut self, messages: &mut Messages) {
         match self.shown.poll() {
             Some((file, Ok(Err(reason)))) => {
                 let text = format!("the folder of {} cannot be shown: {reason}", file.display());
-                messages.fail(Place::Embedding, text, Some("open it by hand"));
+                messages.fail(MessagePlace::Embedding, text, Some("open it by hand"));
             }
-            Some((_, Err(failure))) => messages.fail_background(Place::Embedding, "showing the folder", &failure),
+            Some((_, Err(failure))) => {
+                messages.fail_background(MessagePlace::Embedding, "showing the folder", &failure);
+            }
             Some((_, Ok(Ok(())))) | None => {}
         }
     }

@@ -3,16 +3,14 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::errands::Errand;
+use super::background_jobs::{BackgroundJob, FORMING, RESHAPING};
 use super::open_mesh::Near;
-use super::{Command, Place, Session};
-use crate::mesh::{Form, HoleTreatment, WeldDistance, near_vertices};
-use crate::solver::{Method, Settings, Start};
+use super::reshaping::Reshaped;
+use super::{Command, Document, MessagePlace, Session};
+use freebound_core::mesh::{HoleTreatment, Preparation, WeldDistance, near_vertices};
+use freebound_core::problem::{Method, Settings, Start};
 
-/// The errand that brings the mesh into another form, or takes a chart out of it.
-pub(super) const FORMING: &str = "turning or mending the faces";
-
-/// The errand that counts vertices near each other.
+/// The job that counts vertices near each other.
 const COUNTING: &str = "counting near vertices";
 
 impl Session {
@@ -21,20 +19,20 @@ impl Session {
         if self.model().is_some() {
             let form = self.document.form.clone();
             self.mesh.turn_wanted();
-            self.edit(vec![Command::SetForm(Form { faces_turned: !form.faces_turned, ..form })]);
+            self.edit(vec![Command::SetForm(Preparation { faces_turned: !form.faces_turned, ..form })]);
         }
     }
 
     /// Mends the mesh as far as that can be done, and cuts it open.
     pub(super) fn mend(&mut self) {
-        if self.model().is_some_and(|model| model.remedy.is_some()) {
-            self.want_form(self.form_to_be().mended());
+        if self.model().is_some_and(|model| model.prepared.remedy.is_some()) {
+            self.want_form(self.form_to_be().with_all_repairs());
         }
     }
 
     /// Leaves out the parts with these first faces, and no others.
     pub(super) fn leave_out(&mut self, first_faces: BTreeSet<u32>) {
-        self.want_form(Form { left_out: Arc::new(first_faces), ..self.form_to_be().clone() });
+        self.want_form(Preparation { left_out: Arc::new(first_faces), ..self.form_to_be().clone() });
     }
 
     /// Fills holes while the mesh is flattened, or cuts it open from them to the outside.
@@ -42,7 +40,7 @@ impl Session {
         let form = self.form_to_be().clone();
         if holes != form.holes {
             let cut = form.cut || holes == HoleTreatment::Cut;
-            self.want_form(Form { holes, cut, ..form });
+            self.want_form(Preparation { holes, cut, ..form });
         }
     }
 
@@ -52,35 +50,35 @@ impl Session {
         let Some(model) = self.model() else { return };
         let is_torn = match model.source.has_texture_seams() {
             Ok(is_torn) => is_torn,
-            Err(error) => return self.messages.fail(Place::Mesh, error.to_string(), None),
+            Err(error) => return self.messages.fail(MessagePlace::Mesh, error.to_string(), None),
         };
         let (form, before) = (self.form_to_be().clone(), self.document.settings);
         let mut seams = form.seams.clone();
         seams.of_texture |= is_torn;
-        let method = if before.method.goes_on_from_layout() { before.method } else { Method::Auto };
+        let method = if before.method.continues_from_layout() { before.method } else { Method::Auto };
         let family = before.family.filter(|family| family.power().is_some());
         let settings = Settings { method, family, start: Start::File, ..before };
         if !self.is_bare() {
             self.choose(settings);
             return self.set_seams(seams);
         }
-        self.edit(vec![Command::SetForm(Form { seams, ..form }), Command::SetSettings(settings)]);
+        self.edit(vec![Command::SetForm(Preparation { seams, ..form }), Command::SetSettings(settings)]);
     }
 
     /// Joins vertices that lie within a distance; or does not.
     pub(super) fn weld(&mut self, within: Option<WeldDistance>) {
         let form = self.form_to_be().clone();
-        self.want_form(Form { repair: form.repair.welding(within), ..form });
+        self.want_form(Preparation { repair: form.repair.welding(within), ..form });
     }
 
     /// Counts the vertices that a distance would join, in the background: one distance at a time, and once.
     pub(super) fn count_near(&mut self, distance: WeldDistance) {
         let Some(source) = self.model().map(|model| Arc::clone(&model.source)) else { return };
         let is_known = self.mesh.near().is_some_and(|near| near.distance == distance);
-        if !is_known && !self.errands.is_under_way(COUNTING) {
+        if !is_known && !self.jobs.is_under_way(COUNTING) {
             self.mesh.take_near(Near { distance, count: None });
             let count = move || near_vertices(&source.polygons, distance).len();
-            self.errands.send(COUNTING, move |_| Errand::Near { distance, count: count() });
+            self.jobs.send(COUNTING, move |_| BackgroundJob::Near { distance, count: count() });
         }
     }
 
@@ -97,7 +95,8 @@ impl Session {
         }
         let Some(model) = self.model().cloned() else { return true };
         let (form, chart) = (self.document.form.clone(), self.document.chart);
-        let wanted = model.chart.as_ref().filter(|_| model.form == form).map(|of| of.charts.pick(chart));
+        let wanted =
+            model.prepared.chart.as_ref().filter(|_| model.prepared.form == form).map(|of| of.charts.pick(chart));
         if let Some(other) = wanted.and_then(|number| self.charts.model(number)) {
             self.mesh.take_other(Arc::clone(other));
         }
@@ -118,14 +117,64 @@ impl Session {
             self.tell_faults();
             return true;
         }
-        self.errands.go_on();
-        if !self.errands.is_under_way(FORMING) {
+        self.jobs.go_on();
+        if !self.jobs.is_under_way(FORMING) {
             let formed = move |number: Option<usize>| match number {
                 Some(number) => model.of_chart(number),
                 None => model.in_form(form).with_chart(chart),
             };
-            self.errands.send(FORMING, move |_| Errand::Formed(Box::new(formed(wanted))));
+            self.jobs.send(FORMING, move |_| BackgroundJob::Formed(Box::new(formed(wanted))));
         }
         false
+    }
+}
+
+/// The mesh in another form, as an edit.
+impl Session {
+    /// The form that the document has, or is to have next.
+    pub(super) fn form_to_be(&self) -> &Preparation {
+        self.mesh.wanted().unwrap_or(&self.document.form)
+    }
+
+    /// Takes the mesh in another form, as one edit.
+    pub(super) fn want_form(&mut self, form: Preparation) {
+        if self.model().is_none() || form == *self.form_to_be() {
+            return;
+        }
+        if self.is_bare() {
+            self.edit(vec![Command::SetForm(form)]);
+        } else {
+            self.mesh.want(Some(form).filter(|form| *form != self.document.form));
+            self.follow_form();
+        }
+    }
+
+    /// Whether nothing is edited of vertices and charts, so that the mesh takes another form at once.
+    pub(super) fn is_bare(&self) -> bool {
+        let Document { targets, elsewhere, relaxed, chart, .. } = &self.document;
+        let is_bare = targets.is_empty() && elsewhere.is_empty() && *relaxed == 0 && chart.is_none();
+        is_bare && self.mesh.wanted().is_none()
+    }
+
+    /// Has the mesh formed as it is wanted, once it has the form that the document has.
+    pub(super) fn follow_form(&mut self) {
+        let is_free = self.has_form_as_wanted() && !self.jobs.is_under_way(RESHAPING);
+        let wanted = self.mesh.wanted().filter(|_| is_free);
+        if let (Some(form), Some(model)) = (wanted.cloned(), self.model().cloned()) {
+            self.jobs.send(RESHAPING, move |_| BackgroundJob::Reshaped(Box::new(Reshaped::new(model, form))));
+        }
+    }
+
+    /// Takes in the mesh as it was formed, where that is still what is wanted.
+    pub(super) fn take_reshaped(&mut self, reshaped: Reshaped) {
+        let is_of_screen = self.model().is_some_and(|model| Arc::ptr_eq(model, reshaped.before()));
+        let is_wanted = self.mesh.wanted() == Some(reshaped.form());
+        if !(is_of_screen && is_wanted && self.has_form_as_wanted()) {
+            return;
+        }
+        self.mesh.want(None);
+        let shape = reshaped.shape(&self.document);
+        self.mesh.take_other(Arc::new(reshaped.into_model()));
+        self.edit(vec![Command::Reshape(Box::new(shape))]);
     }
 }

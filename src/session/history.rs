@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::past::Past;
 use super::{Command, Document};
-use crate::mesh::VertexId;
+use freebound_core::mesh::VertexId;
 
 /// Undo and redo stacks. Edits of one gesture, such as a drag, are one step.
 #[derive(Debug, Default)]
@@ -18,7 +18,7 @@ pub struct History {
     /// How far a person has taken the document's run, step by step: as far as this step of it; 0 where nobody did.
     taken_to: usize,
     /// What was solved for the documents that it leads to.
-    pub(super) past: Past,
+    past: Past,
 }
 
 /// A step of the history.
@@ -170,6 +170,11 @@ impl History {
     pub fn redo(&mut self, document: &mut Document) -> bool {
         self.end_gesture(document);
         replay([&mut self.redo, &mut self.undo], document, &mut self.taken_to)
+    }
+
+    /// Solutions of the documents that it leads to.
+    pub(super) fn past_mut(&mut self) -> &mut Past {
+        &mut self.past
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::Session;
-use crate::io::{material_files, would_replace};
+use freebound_io::{material_files, would_replace};
 
 /// What a file is to the session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,45 +11,56 @@
 
 use std::sync::Arc;
 
-use super::drag::{Pull, Screen};
-use super::{Background, Place, Problem, Session, Wake};
-use crate::io::Target;
-use crate::mesh::{DiskMesh, VertexId};
-use crate::solver::{Aim, Control, Embedding, Live, Moved};
+use glam::DVec2;
+
+use super::drag_request::{DragRequest, Screen};
+use super::{Background, JobFailure, Wake};
+use freebound_core::bijective::{DragFrame, DragSolver};
+use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::pipeline::Problem;
+use freebound_core::problem::{Control, Embedding};
 
 /// Frames under way, and the embedding between them.
 pub(super) struct LiveDrag {
-    held: Option<Held>,
+    held: Option<HeldPins>,
     /// Whether what was on the screen is no embedding to begin with.
     has_no_beginning: bool,
-    frames: Background<Towards, Option<(Held, Frame)>>,
+    frames: Background<DragGoal, Option<(HeldPins, Frame)>>,
 }
 
 /// What a frame goes to, and the pins that are dragged there, ascending.
 #[derive(Clone)]
-struct Towards {
+struct DragGoal {
     problem: Problem,
     dragged: Vec<VertexId>,
 }
 
 /// An embedding between two frames.
-struct Held {
-    live: Live,
+pub(super) struct HeldPins {
+    live: DragSolver,
+    /// The embedding that the drag began with.
+    begin: Arc<Embedding>,
     /// The problem that the drag began with.
     problem: Problem,
 }
 
+/// A frame that has ended: with the solver for the next one, or nothing if the drag has no start.
+type EndedFrame = Result<Option<(HeldPins, Frame)>, JobFailure>;
+
 /// A frame.
 pub(super) struct Frame {
-    pub(super) embedding: Arc<Embedding>,
+    /// The embedding that the drag began with.
+    pub(super) begin: Arc<Embedding>,
+    /// The vertices that may have moved since then, and where they lie now.
+    pub(super) moved: Vec<(VertexId, DVec2)>,
     /// The problem that it goes to.
     pub(super) problem: Problem,
-    pub(super) moved: Moved,
+    pub(super) result: DragFrame,
 }
 
 /// What a frame begins with.
-enum Beginning {
-    Held(Box<Held>),
+enum DragStart {
+    Held(Box<HeldPins>),
     Screen(Screen),
 }
 
@@ -69,87 +80,57 @@ impl LiveDrag {
     }
 
     /// Lets a planar embedding follow. Gives the pins back where there is none.
-    pub(super) fn follow(&mut self, pull: Pull) -> Option<Pull> {
-        let problem = &pull.task.problem;
+    pub(super) fn follow(&mut self, request: DragRequest) -> Option<DragRequest> {
+        let problem = &request.task.problem;
         let is_under_way =
-            |to: &Towards| to.dragged == pull.dragged && to.problem.differs_in_targets_of(problem, &to.dragged);
+            |to: &DragGoal| to.dragged == request.dragged && to.problem.differs_in_targets_of(problem, &to.dragged);
         if self.frames.key().is_some_and(is_under_way) {
             // Its end takes the targets up.
             return None;
         }
         self.frames.cancel();
-        let serves = |held: &Held| {
-            held.live.dragged() == pull.dragged && held.problem.differs_in_targets_of(problem, &pull.dragged)
+        let serves = |held: &HeldPins| {
+            held.live.dragged() == request.dragged && held.problem.differs_in_targets_of(problem, &request.dragged)
         };
         let held = self.held.take().filter(serves);
-        let can_begin = !self.has_no_beginning && problem.settings.continues(&problem.pins());
-        let begin = || pull.base().filter(|screen| can_begin && screen.is_planar).cloned().map(Beginning::Screen);
-        let Some(beginning) = held.map(Box::new).map(Beginning::Held).or_else(begin) else { return Some(pull) };
-        let mesh = Arc::clone(&pull.task.mesh);
-        self.start(mesh, beginning, Towards { problem: pull.task.problem, dragged: pull.dragged });
+        let can_begin = || !self.has_no_beginning && problem.settings.continues(&problem.pins());
+        let begin = || request.base().filter(|screen| screen.is_planar && can_begin()).cloned().map(DragStart::Screen);
+        let Some(beginning) = held.map(Box::new).map(DragStart::Held).or_else(begin) else { return Some(request) };
+        let mesh = Arc::clone(&request.task.mesh);
+        self.start(mesh, beginning, DragGoal { problem: request.task.problem, dragged: request.dragged });
         None
     }
 
-    fn start(&mut self, mesh: Arc<DiskMesh>, beginning: Beginning, to: Towards) {
+    fn start(&mut self, mesh: Arc<DiskMesh>, beginning: DragStart, to: DragGoal) {
         self.frames.start(to.clone(), move |cancel| {
-            let Towards { problem, dragged } = to;
+            let DragGoal { problem, dragged } = to;
             let mut held = match beginning {
-                Beginning::Held(held) => *held,
-                Beginning::Screen(Screen { embedding, problem, .. }) => {
-                    let live = Live::new(&mesh, Embedding::clone(&embedding), &dragged, problem.aim())?;
-                    Held { live, problem }
+                DragStart::Held(held) => *held,
+                DragStart::Screen(Screen { embedding, problem, .. }) => {
+                    let live = DragSolver::new(&mesh, Embedding::clone(&embedding), &dragged, problem.drag_target())?;
+                    HeldPins { live, begin: embedding, problem }
                 }
             };
-            let moved = held.live.drag(&mesh, &problem.aim(), Control::new(cancel, &|_| {})).ok()?;
-            let embedding = Arc::new(held.live.embedding().clone());
-            Some((held, Frame { embedding, problem, moved }))
+            let result = held.live.drag(&mesh, &problem.drag_target(), Control::new(cancel, &|_| {})).ok()?;
+            let embedding = held.live.embedding();
+            let moved = held.live.moving().iter().map(|&vertex| (vertex, embedding[vertex])).collect();
+            let begin = Arc::clone(&held.begin);
+            Some((held, Frame { begin, moved, problem, result }))
         });
     }
-}
 
-impl Problem {
-    /// Where its pins are to be, as they are held, and how embeddings are written.
-    pub(super) fn aim(&self) -> Aim {
-        Aim { pins: self.settings.held(&self.pins()), sheet: Arc::new(self.sheet()) }
+    /// A frame that has ended, with the pins that are dragged; none inside if what was on the screen is no beginning.
+    pub(super) fn poll(&mut self) -> Option<(Vec<VertexId>, EndedFrame)> {
+        self.frames.poll().map(|(goal, outcome)| (goal.dragged, outcome))
     }
 
-    /// Whether it differs from another problem in the targets of these pins alone.
-    pub(super) fn differs_in_targets_of(&self, other: &Self, moved: &[VertexId]) -> bool {
-        let is_moved = |vertex: &VertexId| moved.binary_search(vertex).is_ok();
-        let stays = |(vertex, target): (&VertexId, &Target)| {
-            is_moved(vertex) || self.targets.get(vertex).is_some_and(|before| before.uv == target.uv)
-        };
-        let have_all = moved.iter().all(|vertex| self.targets.contains_key(vertex));
-        have_all && other.targets.iter().all(stays) && self.differs_in_targets_alone(other)
+    /// Keeps the embedding for the next frame.
+    pub(super) fn hold(&mut self, held: HeldPins) {
+        self.held = Some(held);
     }
-}
 
-impl Session {
-    /// Takes in a frame, and has the next one follow as long as something moves.
-    pub(super) fn poll_live(&mut self) {
-        let Some((Towards { dragged, .. }, outcome)) = self.drag.live.frames.poll() else { return };
-        if !self.history.is_in_gesture() || self.is_running() {
-            return;
-        }
-        let wanted = self.document.problem();
-        match outcome {
-            Ok(Some((held, frame))) if frame.problem.differs_in_targets_of(&wanted, &dragged) => {
-                let is_at_rest = frame.moved.is_at_rest && frame.problem == wanted;
-                self.drag.live.held = Some(held);
-                self.drag.show_live(frame);
-                if !is_at_rest {
-                    self.follow(dragged);
-                }
-            }
-            Ok(None) => {
-                self.drag.live.has_no_beginning = true;
-                self.follow(dragged);
-            }
-            Ok(Some(_)) => {}
-            Err(failure) => {
-                self.drag.live.has_no_beginning = true;
-                self.messages.fail_background(Place::Embedding, "moving the pins", &failure);
-            }
-        }
+    /// Notes that what is on the screen is no embedding to begin with.
+    pub(super) fn give_up(&mut self) {
+        self.has_no_beginning = true;
     }
 }

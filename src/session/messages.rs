@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::{Failure, Session};
-use crate::mesh::VertexId;
+use super::JobFailure;
+use freebound_core::mesh::VertexId;
 
 /// The most vertices that are named one by one.
 const MOST_NAMED: usize = 4;
@@ -28,7 +28,7 @@ pub enum Severity {
 
 /// The pane that a message belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum MessagePlace {
     /// The mesh in space.
     Mesh,
     /// Its embedding.
@@ -43,7 +43,7 @@ pub struct Message {
     /// How bad it is.
     pub severity: Severity,
     /// Where it belongs.
-    pub place: Place,
+    pub place: MessagePlace,
     /// What happened.
     pub text: String,
     /// What to do about it.
@@ -79,7 +79,7 @@ impl Written {
 
 impl Message {
     /// A failure. [`Messages::say`] gives it its number.
-    pub(super) fn error(place: Place, text: impl Into<String>) -> Self {
+    pub(super) fn error(place: MessagePlace, text: impl Into<String>) -> Self {
         let (text, vertices, files) = (text.into(), Vec::new(), Vec::new());
         Self { id: 0, severity: Severity::Error, place, text, remedy: None, vertices, files }
     }
@@ -123,18 +123,18 @@ impl Messages {
         texts.push(news);
         files.extend(written.files);
         self.forget_notes();
-        let message = Message::error(Place::Embedding, texts.join("; "));
+        let message = Message::error(MessagePlace::Embedding, texts.join("; "));
         self.say(Message { severity: Severity::Note, files, ..message });
     }
 
     /// Says that something did not work, and what to do about it.
-    pub(super) fn fail(&mut self, place: Place, text: impl Into<String>, remedy: Option<&str>) {
+    pub(super) fn fail(&mut self, place: MessagePlace, text: impl Into<String>, remedy: Option<&str>) {
         let message = Message::error(place, text);
         self.say(Message { remedy: remedy.map(str::to_owned), ..message });
     }
 
     /// Says that work in the background gave no outcome. `work` is a noun, such as "saving".
-    pub(super) fn fail_background(&mut self, place: Place, work: &str, failure: &Failure) {
+    pub(super) fn fail_background(&mut self, place: MessagePlace, work: &str, failure: &JobFailure) {
         self.fail(place, failure.words(work), failure.remedy());
     }
 
@@ -144,7 +144,7 @@ impl Messages {
 
     /// Takes away what was said of the mesh: it is another one now.
     pub(super) fn forget_mesh(&mut self) {
-        self.list.retain(|message| message.place != Place::Mesh);
+        self.list.retain(|message| message.place != MessagePlace::Mesh);
     }
 
     /// Takes away what went well.
@@ -155,21 +155,9 @@ impl Messages {
     pub(super) fn clear(&mut self) {
         self.list.clear();
     }
-}
 
-impl Session {
-    /// What has been said and not dismissed, oldest first.
-    pub fn messages(&self) -> &[Message] {
-        &self.messages.list
-    }
-
-    /// Says that work in the background gave no outcome. `work` is a noun, such as "drawing".
-    pub fn tell_failure(&mut self, place: Place, work: &str, failure: &Failure) {
-        self.messages.fail_background(place, work, failure);
-    }
-
-    /// Says beside the embedding that something did not work, and what to do about it.
-    pub(super) fn complain(&mut self, text: impl Into<String>, remedy: Option<&str>) {
-        self.messages.fail(Place::Embedding, text, remedy);
+    /// Messages that were not dismissed, oldest first.
+    pub(super) fn list(&self) -> &[Message] {
+        &self.list
     }
 }

@@ -4,14 +4,11 @@
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::{
-    Background, Compared, ContenderState, MORPH_FRAMES, MissingLeg, Model, MorphShortage, MorphStops, MorphTour,
-    Session, Wake, morph_end,
-};
-use crate::solver::{Control, Phase, Variant};
+use super::{Background, Compared, MORPH_FRAMES, MissingLeg, Model, MorphShortage, MorphStops, MorphTour, Wake};
+use freebound_core::problem::{Control, Phase, Variant};
 
 /// The maps of a morph.
-type Ends = [Arc<Compared>; 2];
+pub(super) type Ends = [Arc<Compared>; 2];
 
 /// What is known of the morph that is wanted.
 #[derive(Clone, Debug, Default)]
@@ -70,7 +67,7 @@ impl Morphing {
     }
 
     /// Takes in what the background has found.
-    fn poll(&mut self) {
+    pub(super) fn poll(&mut self) {
         let Some(((), outcome)) = self.job.poll() else { return };
         self.state = match outcome {
             Ok(Ok(tour)) => MorphState::Done(Arc::new(tour)),
@@ -80,7 +77,7 @@ impl Morphing {
     }
 
     /// Finds the morph between two maps of a model's disk.
-    fn begin(&mut self, model: Arc<Model>, ends: Ends) {
+    pub(super) fn begin(&mut self, model: Arc<Model>, ends: Ends) {
         let progress = Arc::new(Mutex::new(Progress::default()));
         let (of_job, wake) = (Arc::clone(&progress), Arc::clone(&self.wake));
         let maps = ends.clone();
@@ -98,82 +95,50 @@ impl Morphing {
         });
         (self.progress, self.ends) = (progress, Some(ends));
     }
-}
 
-impl Session {
-    /// What is known of the morph that is wanted.
-    pub fn morph(&self) -> MorphState {
-        let morphing = &self.comparing.morphing;
-        if morphing.is_running() {
-            let Progress { phase, frames } = *morphing.progress.lock().unwrap_or_else(PoisonError::into_inner);
+    /// The state of the morph.
+    pub(super) fn state(&self) -> MorphState {
+        if self.is_running() {
+            let Progress { phase, frames } = *self.progress.lock().unwrap_or_else(PoisonError::into_inner);
             return MorphState::Running(phase, frames);
         }
-        morphing.state.clone()
+        self.state.clone()
     }
 
-    /// The methods whose maps are wanted as ends of a morph.
-    pub fn morph_between(&self) -> Option<[Variant; 2]> {
-        self.comparing.morphing.between
-    }
-
-    /// Whether a morph is yet to be found, and can be.
-    pub fn is_morphing(&self) -> bool {
-        let is_open = matches!(self.morph(), MorphState::Waiting | MorphState::Running(..));
-        is_open && self.ends_of_morph().is_some()
-    }
-
-    /// The methods that have a map, in their order, that a morph can begin or end with.
-    pub fn morph_ends(&self) -> Vec<(Variant, Arc<Compared>)> {
-        let of = |contender: &super::Contender| {
-            let found = contender.found().filter(|_| self.contender_state(contender) == ContenderState::Done)?;
-            morph_end(found).is_ok().then(|| (contender.variant(), Arc::clone(found)))
-        };
-        self.contenders().iter().filter_map(of).collect()
+    /// The methods whose maps are wanted as ends.
+    pub(super) fn between(&self) -> Option<[Variant; 2]> {
+        self.between
     }
 
     /// Wants the morph between two methods, or none any more.
-    pub(super) fn want_morph(&mut self, between: Option<[Variant; 2]>) {
-        if self.comparing.morphing.between != between {
-            self.comparing.morphing.between = between;
-            self.comparing.morphing.forget();
+    pub(super) fn want(&mut self, between: Option<[Variant; 2]>) {
+        if self.between != between {
+            self.between = between;
+            self.forget();
         }
-        self.poll_morph();
     }
 
-    /// What both methods have come to, once they have.
-    fn ends_of_morph(&self) -> Option<Ends> {
-        let [first, second] = self.comparing.morphing.between?;
-        let found = |variant: Variant| {
-            let contender = self.contenders().iter().find(|contender| contender.variant() == variant)?;
-            contender.found().filter(|_| self.contender_state(contender) == ContenderState::Done).cloned()
-        };
-        Some([found(first)?, found(second)?])
-    }
-
-    /// Takes in what was found, drops what belongs to other maps, and begins where all is there and the machine is free.
-    pub(super) fn poll_morph(&mut self) {
-        let now = self.ends_of_morph();
-        let morphing = &mut self.comparing.morphing;
+    /// Drops what belongs to other maps than these.
+    pub(super) fn keep_of(&mut self, now: Option<&Ends>) {
         let is_of = |[a, b]: &Ends, [c, d]: &Ends| Arc::ptr_eq(a, c) && Arc::ptr_eq(b, d);
-        if morphing.ends.as_ref().is_some_and(|of| now.as_ref().is_none_or(|now| !is_of(of, now))) {
-            morphing.forget();
+        if self.ends.as_ref().is_some_and(|of| now.is_none_or(|now| !is_of(of, now))) {
+            self.forget();
         }
-        morphing.poll();
-        let Some(ends) = now.filter(|_| morphing.ends.is_none()) else { return };
-        let Some(model) = self.model().cloned() else { return };
-        if let Some(refused) = refused(&model, &ends, self.files.memory) {
-            let morphing = &mut self.comparing.morphing;
-            (morphing.state, morphing.ends) = (refused, Some(ends));
-            return;
-        }
-        if !self.is_comparing() && !self.is_running() && self.busy().is_none() {
-            self.comparing.morphing.begin(model, ends);
-        }
+    }
+
+    /// True if the morph was neither begun nor refused.
+    pub(super) fn is_open(&self) -> bool {
+        self.ends.is_none()
+    }
+
+    /// Refuses the morph between two maps.
+    pub(super) fn refuse(&mut self, state: MorphState, ends: Ends) {
+        (self.state, self.ends) = (state, Some(ends));
     }
 }
 
 /// Why no morph between two maps is sought within half of this memory, bytes; none where one is.
-fn refused(model: &Model, ends: &Ends, memory: Option<u64>) -> Option<MorphState> {
+pub(super) fn refused(model: &Model, ends: &Ends, memory: Option<u64>) -> Option<MorphState> {
     let stops = MorphStops::of(&[&ends[0], &ends[1]]);
     if let Some(left_out) = stops.left_out.first() {
         return Some(MorphState::Failed(format!("{}: {}", left_out.name, left_out.why)));

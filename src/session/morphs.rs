@@ -8,10 +8,13 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use super::{Compared, Outcome};
-use crate::io::{LeftOutReport, LegReport, MorphReport, bytes_in_words};
-use crate::mesh::DiskMesh;
-use crate::solver::{Control, Embedding, MorphOptions, NoMorph, Route, Verdict, distortion, morph, verdict};
+use super::Compared;
+use freebound_core::bijective::{MorphOptions, NoMorph, Route, morph};
+use freebound_core::mesh::DiskMesh;
+use freebound_core::pipeline::Outcome;
+use freebound_core::problem::{Control, Embedding};
+use freebound_core::verify::{Verdict, distortion, verdict};
+use freebound_io::{LeftOutReport, LegReport, MorphReport, bytes_in_words};
 
 /// Frames of a morph between two maps where nobody says how many, both maps included: an odd number, so that one is half way.
 pub const MORPH_FRAMES: usize = 49;
@@ -100,7 +103,7 @@ pub fn morph_end(method: &Compared) -> Result<&Arc<Outcome>, &'static str> {
     match &step.verdict {
         verdict if !verdict.planar => Err("not planar"),
         verdict if !verdict.is_one_to_one() => Err("the filling of a hole folds"),
-        _ if step.refinement.is_some() => Err("new vertices: of another mesh"),
+        _ if step.candidate.refinement.is_some() => Err("new vertices: of another mesh"),
         _ => Ok(outcome),
     }
 }
@@ -138,7 +141,7 @@ impl MorphLeg {
     ) -> Result<Self, NoMorph> {
         let start = Instant::now();
         let options = MorphOptions { frame_count, ..MorphOptions::default() };
-        let found = morph(mesh, ends.map(|end| &end.step.solution.embedding), &options, control)?;
+        let found = morph(mesh, ends.map(|end| &end.step.candidate.solution.embedding), &options, control)?;
         let mut verdicts = Vec::with_capacity(found.frames.len());
         let mut least_determinant = f64::INFINITY;
         for frame in &found.frames {

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{Model, Session};
-use crate::mesh::{DiskMesh, Form, WeldDistance};
+use super::Model;
+use freebound_core::mesh::{Preparation, WeldDistance};
 
 /// How many vertices of the mesh lie within a distance of another.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +20,7 @@ pub(super) struct OpenMesh {
     /// The same mesh in the form that was wanted before, or is wanted next; or another chart of it.
     other: Option<Arc<Model>>,
     /// The form that a person asked for, while the mesh is brought into it for an edit.
-    wanted: Option<Form>,
+    wanted: Option<Preparation>,
     /// The vertices near each other that were to be counted last.
     near: Option<Near>,
     /// Counts the meshes opened, and their changes of form.
@@ -33,12 +33,12 @@ impl OpenMesh {
     }
 
     /// The form that a person asked for, while the mesh is brought into it for an edit.
-    pub(super) fn wanted(&self) -> Option<&Form> {
+    pub(super) fn wanted(&self) -> Option<&Preparation> {
         self.wanted.as_ref()
     }
 
     /// Notes the form that a person asks for; or that none is asked for any more.
-    pub(super) fn want(&mut self, form: Option<Form>) {
+    pub(super) fn want(&mut self, form: Option<Preparation>) {
         self.wanted = form;
     }
 
@@ -65,49 +65,20 @@ impl OpenMesh {
 
     /// Shows the mesh in another form, or another chart of it. Returns the one that was there before; none where the one
     /// wanted is not at hand.
-    pub(super) fn change(&mut self, form: &Form, chart: Option<usize>) -> Option<Arc<Model>> {
-        let other = self.other.take_if(|other| other.form == *form && other.is_chart(chart))?;
+    pub(super) fn change(&mut self, form: &Preparation, chart: Option<usize>) -> Option<Arc<Model>> {
+        let other = self.other.take_if(|other| other.prepared.form == *form && other.is_chart(chart))?;
         self.other = self.model.replace(other);
         self.revision += 1;
         self.other.clone()
     }
-}
 
-impl Session {
     /// The open mesh.
-    pub fn model(&self) -> Option<&Arc<Model>> {
-        self.mesh.model.as_ref()
+    pub(super) fn model(&self) -> Option<&Arc<Model>> {
+        self.model.as_ref()
     }
 
-    /// Changes whenever another mesh is open, or the same one in another form.
-    pub fn model_revision(&self) -> u64 {
-        self.mesh.revision
-    }
-
-    /// The open mesh, where it is a disk.
-    pub(super) fn disk(&self) -> Option<&Arc<DiskMesh>> {
-        self.model()?.disk()
-    }
-
-    /// How many vertices the open mesh has; none where nothing is open.
-    pub(super) fn vertex_count(&self) -> usize {
-        self.model().map_or(0, |model| model.vertex_count())
-    }
-
-    /// Whether the chart on the screen is the one that the document wants.
-    pub(super) fn has_chart_as_wanted(&self) -> bool {
-        self.model().is_none_or(|model| model.is_chart(self.document.chart))
-    }
-
-    /// Whether the mesh has the form that the document wants, and is the chart that it wants. Where nothing is open,
-    /// there is none.
-    pub(super) fn has_form_as_wanted(&self) -> bool {
-        self.has_numbers_as_wanted() && self.has_chart_as_wanted()
-    }
-
-    /// Whether the mesh has the form that the document wants, so that vertices and charts have the numbers that the document has
-    /// for them, whichever chart is on the screen.
-    pub(super) fn has_numbers_as_wanted(&self) -> bool {
-        self.model().is_none_or(|model| model.form == self.document.form)
+    /// The count of the meshes opened, and of their changes of form.
+    pub(super) fn revision(&self) -> u64 {
+        self.revision
     }
 }

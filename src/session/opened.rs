@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use super::messages::named;
 use super::model::example_picture;
-use super::{Document, Message, Model, Place};
+use super::{Document, Message, MessagePlace, Model};
 use crate::examples::Example;
-use crate::io::{
+use freebound_core::mesh::{FaceId, Preparation, VertexId};
+use freebound_core::pipeline::{Target, Targets};
+use freebound_io::{
     FileStamp, MemoryShortage, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectSource, ProjectView,
-    ReadError, RecoveryNote, Target, Targets, check_memory, material_picture,
+    ReadError, RecoveryNote, check_memory, material_picture,
 };
-use crate::mesh::{FaceId, Form, VertexId};
 
 /// Something that was opened, ready to be put on the table.
 #[derive(Debug)]
@@ -74,7 +75,7 @@ impl Opened {
         if is_project {
             return Self::project(ProjectFile::read(path)?, Origin::Project(path.to_owned()), memory);
         }
-        let model = read_model(path, Form::default(), memory)?;
+        let model = read_model(path, Preparation::default(), memory)?;
         let mut remarks = Vec::new();
         let picture = material_picture(&model.source, path).and_then(|picture| {
             let found = PictureFile::read(&picture);
@@ -115,7 +116,7 @@ impl Opened {
         remarks.extend(change);
         let model = mesh.with_chart(project.chart);
         let form = with_seams_there_are(&asked, &model, &mut remarks);
-        let model = Model { form: form.clone(), ..model };
+        let model = model.asking_for(form.clone());
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
         let (settings, pin_count) = (project.settings(), project.targets.len());
         let targets = targets_there_are(project.targets, &model, &mut remarks);
@@ -141,7 +142,7 @@ impl Opened {
 }
 
 /// Reads a mesh, within half of this memory, bytes.
-fn read_model(path: &Path, form: Form, memory: Option<u64>) -> Result<Model, OpenError> {
+fn read_model(path: &Path, form: Preparation, memory: Option<u64>) -> Result<Model, OpenError> {
     check_memory(path, memory).map_err(|source| OpenError::Memory { path: path.to_owned(), source })?;
     Model::read(path, form).map_err(|source| OpenError::Mesh { path: path.to_owned(), source })
 }
@@ -149,7 +150,7 @@ fn read_model(path: &Path, form: Form, memory: Option<u64>) -> Result<Model, Ope
 /// The mesh of a project, with what there is to say where it has changed since.
 fn project_mesh(
     source: &ProjectSource,
-    form: Form,
+    form: Preparation,
     memory: Option<u64>,
 ) -> Result<(Model, Option<Message>), OpenError> {
     match source {
@@ -171,7 +172,7 @@ fn change_remark(path: &Path, stamp: Option<&FileStamp>, mesh: &Model) -> Option
     has_changed(stamp, mesh.stamp.as_ref()).then(|| {
         let text = format!("{}: the mesh has changed since the project was saved", path.display());
         let remedy = "check that the pins are on the right vertices, then save the project";
-        Message::error(Place::Mesh, text).with_remedy(remedy)
+        Message::error(MessagePlace::Mesh, text).with_remedy(remedy)
     })
 }
 
@@ -199,7 +200,7 @@ fn project_picture(source: &ProjectSource, remarks: &mut Vec<Message>) -> Option
 }
 
 fn picture_remark(text: String, remedy: &str) -> Message {
-    Message::error(Place::Embedding, text).with_remedy(remedy)
+    Message::error(MessagePlace::Embedding, text).with_remedy(remedy)
 }
 
 /// Whether a file is in another state than it was. Where one of the two is not known there is nothing to say.
@@ -212,7 +213,7 @@ fn example_called(name: &str) -> Option<Example> {
 }
 
 /// The form without edges of seams that no face has, with a remark about them. Nothing is cut there, whether they are listed or not.
-fn with_seams_there_are(form: &Form, model: &Model, remarks: &mut Vec<Message>) -> Form {
+fn with_seams_there_are(form: &Preparation, model: &Model, remarks: &mut Vec<Message>) -> Preparation {
     let lost = form.seams.missing_in(&model.source.polygons);
     if lost.is_empty() {
         return form.clone();
@@ -223,15 +224,16 @@ fn with_seams_there_are(form: &Form, model: &Model, remarks: &mut Vec<Message>) 
         "{count} of the project's {before} seam edges are left out ({a}–{b}{others}): the mesh has no such edges"
     );
     let remedy = "draw them again, or put the mesh back as it was and open the project again";
-    remarks.push(Message::error(Place::Mesh, text).with_remedy(remedy));
-    Form { seams: form.seams.without(lost), ..form.clone() }
+    remarks.push(Message::error(MessagePlace::Mesh, text).with_remedy(remedy));
+    Preparation { seams: form.seams.without(lost), ..form.clone() }
 }
 
 /// The targets of vertices that the mesh has, with a remark about the others.
 fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Message>) -> Targets {
     let count = model.vertex_count_in_file();
     let before = targets.len();
-    let has_face = |vertex: VertexId| model.chart.as_ref().is_none_or(|of| of.charts.chart_of_vertex(vertex).is_some());
+    let has_face =
+        |vertex: VertexId| model.prepared.chart.as_ref().is_none_or(|of| of.charts.chart_of_vertex(vertex).is_some());
     let is_there =
         |vertex: &VertexId, target: &Target| vertex.index() < count && target.uv.is_finite() && has_face(*vertex);
     let lost: Vec<VertexId> = targets.iter().filter(|(v, target)| !is_there(v, target)).map(|(&v, _)| v).collect();
@@ -243,7 +245,7 @@ fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Mess
             named(&lost)
         );
         let remedy = "place them again, or put the mesh back as it was and open the project again";
-        remarks.push(Message::error(Place::Embedding, text).with_remedy(remedy));
+        remarks.push(Message::error(MessagePlace::Embedding, text).with_remedy(remedy));
     }
     targets
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::recovery::state_folder;
-use crate::io::write_atomically;
+use freebound_io::write_atomically;
 
 /// How the window was left. What is not there, or makes no sense, is as at the first start.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

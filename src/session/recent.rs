@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::recovery::system_folder;
-use crate::io::write_atomically;
+use freebound_io::write_atomically;
 
 /// How many are remembered.
 const CAPACITY: usize = 10;

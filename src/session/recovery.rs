@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
-use super::{Background, Document, Messages, Place, Session, Wake};
-use crate::io::{PROJECT_EXTENSION, PathStyle, ProjectFile, WriteError};
+use super::{Background, Document, MessagePlace, Messages, Wake};
+use freebound_io::{PROJECT_EXTENSION, PathStyle, ProjectFile, WriteError};
 
 /// Time from one copy to the next: what a crash may cost.
 const INTERVAL: Duration = Duration::from_secs(5);
@@ -206,36 +206,31 @@ impl Autosave {
     fn tell_no_copy(&mut self, reason: &str, messages: &mut Messages) {
         if !std::mem::replace(&mut self.has_failed, true) {
             let text = format!("no copy is kept for recovery: {reason}");
-            messages.fail(Place::Embedding, text, Some("save the project by hand"));
+            messages.fail(MessagePlace::Embedding, text, Some("save the project by hand"));
         }
     }
-}
 
-impl Session {
-    /// Makes copies for recovery in a folder from now on, and looks at what is there.
-    pub fn keep_copies_in(&mut self, folder: PathBuf) {
-        let autosave = &mut self.files.autosave;
-        autosave.found = left_behind(&folder);
-        autosave.folder = Some(folder);
+    /// Makes copies in a folder from now on, and looks at what is there.
+    pub(super) fn keep_in(&mut self, folder: PathBuf) {
+        self.found = left_behind(&folder);
+        self.folder = Some(folder);
     }
 
-    /// Work that sessions before have left unsaved, newest first.
-    pub fn recoverable(&self) -> &[Recoverable] {
-        &self.files.autosave.found
+    /// Copies that dead sessions have left, newest first.
+    pub(super) fn found(&self) -> &[Recoverable] {
+        &self.found
     }
 
-    /// Ends the session as a person wishes: what is not saved is not wanted, so the copy is deleted, and no further one
-    /// made. A session that is merely dropped leaves its copy behind.
-    pub fn close(&mut self) {
-        let autosave = &mut self.files.autosave;
-        autosave.leave_slot();
+    /// Deletes the copy, and makes no further one.
+    pub(super) fn close(&mut self) {
+        self.leave_slot();
         let begun = Instant::now();
-        autosave.clear_left();
-        while !autosave.leaving.is_empty() && begun.elapsed() < PATIENCE {
+        self.clear_left();
+        while !self.leaving.is_empty() && begun.elapsed() < PATIENCE {
             std::thread::sleep(Duration::from_millis(1));
-            autosave.clear_left();
+            self.clear_left();
         }
-        autosave.folder = None;
+        self.folder = None;
     }
 }
 

@@ -8,13 +8,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::errands::Errand;
-use super::{ChartEdits, Command, Document, Model, Session, Shape};
-use crate::io::Targets;
-use crate::mesh::{FaceId, Form, Repaired, VertexId};
-
-/// The errand that forms the mesh for an edit of its form.
-pub(super) const RESHAPING: &str = "cutting or mending the mesh";
+use super::{ChartEdits, Document, Model, Shape};
+use freebound_core::mesh::{FaceId, Preparation, Repaired, VertexId};
+use freebound_core::pipeline::Targets;
 
 /// The open mesh in another form, its faces the same way around.
 pub(super) struct Reshaped {
@@ -28,71 +24,22 @@ pub(super) struct Reshaped {
     charts_before: Vec<Option<usize>>,
 }
 
-impl Session {
-    /// The form that the document has, or is to have next.
-    pub(super) fn form_to_be(&self) -> &Form {
-        self.mesh.wanted().unwrap_or(&self.document.form)
-    }
-
-    /// Takes the mesh in another form, as one edit.
-    pub(super) fn want_form(&mut self, form: Form) {
-        if self.model().is_none() || form == *self.form_to_be() {
-            return;
-        }
-        if self.is_bare() {
-            self.edit(vec![Command::SetForm(form)]);
-        } else {
-            self.mesh.want(Some(form).filter(|form| *form != self.document.form));
-            self.follow_form();
-        }
-    }
-
-    /// Whether nothing is edited of vertices and charts, so that the mesh takes another form at once.
-    pub(super) fn is_bare(&self) -> bool {
-        let Document { targets, elsewhere, relaxed, chart, .. } = &self.document;
-        let is_bare = targets.is_empty() && elsewhere.is_empty() && *relaxed == 0 && chart.is_none();
-        is_bare && self.mesh.wanted().is_none()
-    }
-
-    /// Has the mesh formed as it is wanted, once it has the form that the document has.
-    pub(super) fn follow_form(&mut self) {
-        let is_free = self.has_form_as_wanted() && !self.errands.is_under_way(RESHAPING);
-        let wanted = self.mesh.wanted().filter(|_| is_free);
-        if let (Some(form), Some(model)) = (wanted.cloned(), self.model().cloned()) {
-            self.errands.send(RESHAPING, move |_| Errand::Reshaped(Box::new(Reshaped::new(model, form))));
-        }
-    }
-
-    /// Takes in the mesh as it was formed, where that is still what is wanted.
-    pub(super) fn take_reshaped(&mut self, reshaped: Reshaped) {
-        let is_of_screen = self.model().is_some_and(|model| Arc::ptr_eq(model, &reshaped.before));
-        let is_wanted = self.mesh.wanted() == Some(&reshaped.now.form);
-        if !(is_of_screen && is_wanted && self.has_form_as_wanted()) {
-            return;
-        }
-        self.mesh.want(None);
-        let shape = reshaped.shape(&self.document);
-        self.mesh.take_other(Arc::new(reshaped.now));
-        self.edit(vec![Command::Reshape(Box::new(shape))]);
-    }
-}
-
 impl Reshaped {
-    fn new(before: Arc<Model>, form: Form) -> Self {
+    pub(super) fn new(before: Arc<Model>, form: Preparation) -> Self {
         let now = before.in_form(form);
         let [were, are] = [at_corners(&before), at_corners(&now)];
         // The chart on the screen stays there, or the one that has its first face.
-        let first = before.chart.as_ref().map(|of| of.charts.first_face(of.number));
+        let first = before.prepared.chart.as_ref().map(|of| of.charts.first_face(of.number));
         let chart = first.and_then(|face| chart_at(&now, &are, face));
-        let count = now.chart.as_ref().map_or(0, |of| of.charts.count());
-        let first_faces = (0..count).filter_map(|number| Some(now.chart.as_ref()?.charts.first_face(number)));
+        let count = now.prepared.chart.as_ref().map_or(0, |of| of.charts.count());
+        let first_faces = (0..count).filter_map(|number| Some(now.prepared.chart.as_ref()?.charts.first_face(number)));
         let charts_before = first_faces.map(|face| chart_at(&before, &were, face)).collect();
         let vertices_now = vertices_now(&before, &were, &are);
         Self { now: now.with_chart(chart), chart, vertices_now, charts_before, before }
     }
 
     /// The form with what the document says of the mesh as it was.
-    fn shape(&self, document: &Document) -> Shape {
+    pub(super) fn shape(&self, document: &Document) -> Shape {
         let mut pins = Targets::new();
         for (vertex, target) in self.before.all_targets(document) {
             if let Some(now) = self.vertices_now.get(vertex.index()).copied().flatten() {
@@ -104,19 +51,36 @@ impl Reshaped {
             targets: by_chart.remove(&number).unwrap_or_default(),
             relaxed: self.rounds(document, number),
         };
-        let here = self.now.chart.as_ref().map_or(0, |of| of.number);
+        let here = self.now.prepared.chart.as_ref().map_or(0, |of| of.number);
         let shown = edits(here);
         let others = (0..self.now.chart_count()).filter(|&number| number != here).map(|number| (number, edits(number)));
         let elsewhere: BTreeMap<usize, ChartEdits> =
             others.filter(|(_, edits)| *edits != ChartEdits::default()).collect();
-        Shape { form: self.now.form.clone(), chart: self.chart, shown, elsewhere }
+        Shape { form: self.now.prepared.form.clone(), chart: self.chart, shown, elsewhere }
     }
 
     /// The rounds of relaxing that were asked for of what a chart was before.
     fn rounds(&self, document: &Document, number: usize) -> usize {
-        let (Some(before), Some(_)) = (&self.before.chart, &self.now.chart) else { return document.relaxed };
+        let (Some(before), Some(_)) = (&self.before.prepared.chart, &self.now.prepared.chart) else {
+            return document.relaxed;
+        };
         let chart = self.charts_before.get(number).copied().flatten();
         chart.map_or(0, |chart| document.edits_of(chart, before).relaxed)
+    }
+
+    /// The mesh as it was.
+    pub(super) fn before(&self) -> &Arc<Model> {
+        &self.before
+    }
+
+    /// The form of the mesh now.
+    pub(super) fn form(&self) -> &Preparation {
+        &self.now.prepared.form
+    }
+
+    /// The mesh in its new form.
+    pub(super) fn into_model(self) -> Model {
+        self.now
     }
 }
 
@@ -141,9 +105,9 @@ fn vertices_now(before: &Model, were: &[Option<VertexId>], are: &[Option<VertexI
 /// The vertex of all charts together at each corner of the file.
 fn at_corners(model: &Model) -> Vec<Option<VertexId>> {
     let source = &model.source.polygons;
-    let whole: Option<&Repaired> = match &model.chart {
+    let whole: Option<&Repaired> = match &model.prepared.chart {
         Some(of) => Some(of.charts.whole()),
-        None => model.repaired.as_deref(),
+        None => model.prepared.repaired.as_deref(),
     };
     match whole {
         Some(whole) => whole.vertices_at_corners(source),
@@ -153,7 +117,7 @@ fn at_corners(model: &Model) -> Vec<Option<VertexId>> {
 
 /// The chart that a face of the file is of, by the vertices at its corners.
 fn chart_at(model: &Model, at_corners: &[Option<VertexId>], face: FaceId) -> Option<usize> {
-    let charts = &model.chart.as_ref()?.charts;
+    let charts = &model.prepared.chart.as_ref()?.charts;
     let corners = model.source.polygons.corner_range(face.index());
     at_corners[corners].iter().flatten().find_map(|&vertex| charts.chart_of_vertex(vertex))
 }

@@ -1,9 +1,10 @@
 //! How the document is solved: a run takes its steps.
 
-use super::solving::{Beginning, Next, Rest, Task};
+use super::past::{BUDGET_OF_ONE, State};
+use super::solving::{Beginning, Next, StopReason, Task};
 use super::stop::Goal;
 use super::{Command, Session};
-use crate::solver::{Method, Settings};
+use freebound_core::problem::{Method, Settings};
 
 /// The most rounds of relaxing that are asked for at once.
 const RELAX_ROUNDS: usize = 20;
@@ -142,7 +143,7 @@ impl Session {
         self.history.set_taken_to(self.history.taken_to().min(newest));
     }
 
-    /// Takes all steps of the ladder, until the embedding is planar or nothing is left to try. Another method gives way
+    /// Takes all steps of the flattener, until the embedding is planar or nothing is left to try. Another method gives way
     /// to it, as an edit.
     pub(super) fn repair(&mut self) {
         if !self.can_repair() {
@@ -170,8 +171,8 @@ impl Session {
         }
     }
 
-    /// Solves afresh what is asked for, whatever was there, and without the relaxing that was asked for afterwards.
-    pub(super) fn solve_afresh(&mut self) {
+    /// Solves from scratch what is asked for, whatever was there, and without the relaxing that was asked for afterwards.
+    pub(super) fn solve_from_scratch(&mut self) {
         self.apply(Command::SetRelaxed(0));
         self.history.set_taken_to(0);
         self.solve_from(None);
@@ -228,8 +229,8 @@ impl Session {
         match (news.next, news.rest) {
             (Some(Next::Anew), _) => self.solve(),
             (Some(Next::On(goal)), _) => self.go_on(goal),
-            (None, Some(Rest::ByItself)) if !self.history.is_in_gesture() => self.go_on_as_before(),
-            (None, Some(Rest::Elsewhere)) => self.stay_here(),
+            (None, Some(StopReason::ByItself)) if !self.history.is_in_gesture() => self.go_on_as_before(),
+            (None, Some(StopReason::Elsewhere)) => self.stay_here(),
             (None, _) => {}
         }
     }
@@ -245,7 +246,7 @@ impl Session {
         self.disk().is_some() && !(self.is_current() && self.solving.stopped_for_good().is_some())
     }
 
-    /// Whether the newest step is at fault, and the ladder has steps left that it has not taken.
+    /// Whether the newest step is at fault, and the flattener has steps left that it has not taken.
     pub fn can_repair(&self) -> bool {
         let is_at_rest = !self.is_running() && self.preview().is_none() && !self.history.is_in_gesture();
         is_at_rest && self.is_current() && self.solving.can_go_on_from_fault(&self.document.problem())
@@ -254,5 +255,35 @@ impl Session {
     /// Whether the newest step is one-to-one, its constraints met, and its run waits to be taken on.
     pub fn can_relax(&self) -> bool {
         self.is_current() && self.solving.can_relax(&self.document.problem())
+    }
+}
+
+/// Solutions of earlier documents.
+impl Session {
+    /// Keeps what is solved for the document as it is, where a run has come to rest with it: it is about to become another.
+    pub(super) fn remember(&mut self) {
+        let place = self.history.depth();
+        if !self.history.can_redo() {
+            self.history.past_mut().forget_beyond(place);
+        }
+        if self.history.is_in_gesture() && !self.is_current() {
+            return;
+        }
+        self.history.past_mut().forget(place);
+        let mesh = self.disk().filter(|_| self.has_form_as_wanted()).cloned();
+        let solved = self.solving.solved(&self.document.problem(), BUDGET_OF_ONE);
+        if let (Some(mesh), Some(solved)) = (mesh, solved) {
+            self.history.past_mut().keep(place, State { mesh, relaxed: self.document.relaxed, solved });
+        }
+    }
+
+    /// Shows what was solved for the document when it was as it is again. Returns whether that is kept.
+    pub(super) fn recall(&mut self) -> bool {
+        let Some(task) = self.task() else { return false };
+        let (place, relaxed) = (self.history.depth(), self.document.relaxed);
+        let Some(solved) = self.history.past_mut().take(place, &task, relaxed) else { return false };
+        self.drag.end();
+        self.solving.show_again(solved, task, &mut self.messages);
+        true
     }
 }

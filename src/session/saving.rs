@@ -3,8 +3,9 @@
 use std::collections::VecDeque;
 use std::path::PathBuf;
 
-use super::{Background, Document, Messages, Model, Place, Wake};
-use crate::io::{PathStyle, PictureFile, ProjectFile, ProjectSource, WriteError};
+use super::{Background, Document, MessagePlace, Messages, Model, Wake};
+use freebound_core::mesh::Preparation;
+use freebound_io::{PathStyle, PictureFile, ProjectFile, ProjectSource, WriteError};
 
 /// A wish to save a project.
 #[derive(Debug)]
@@ -54,25 +55,45 @@ impl ProjectSaves {
         match result {
             Ok(Ok(())) => return Some(request),
             Ok(Err(error)) => {
-                messages.fail(Place::Embedding, error.to_string(), Some("save the project in another place"));
+                messages.fail(MessagePlace::Embedding, error.to_string(), Some("save the project in another place"));
             }
-            Err(failure) => messages.fail_background(Place::Embedding, "saving", &failure),
+            Err(failure) => messages.fail_background(MessagePlace::Embedding, "saving", &failure),
         }
         None
     }
 }
 
 /// Where a mesh comes from.
-pub(super) fn source_of(model: &Model) -> Option<ProjectSource> {
+fn source_of(model: &Model) -> Option<ProjectSource> {
     let example = model.example.map(|example| ProjectSource::Example(example.name().to_owned()));
     let file = || Some(ProjectSource::File { path: model.path.clone()?, stamp: model.stamp.clone() });
     example.or_else(file)
 }
 
 /// Where a picture comes from. One without a file belongs to the built-in mesh.
-pub(super) fn picture_source(picture: &PictureFile, model: &Model) -> Option<ProjectSource> {
+fn picture_source(picture: &PictureFile, model: &Model) -> Option<ProjectSource> {
     match &picture.path {
         Some(path) => Some(ProjectSource::File { path: path.clone(), stamp: picture.stamp.clone() }),
         None => model.example.map(|example| ProjectSource::Example(example.name().to_owned())),
     }
+}
+
+/// The project file of a document, without the view and without a picture that could not be read.
+pub(super) fn project_of(model: &Model, document: &Document) -> Option<ProjectFile> {
+    let mut project = ProjectFile::new(source_of(model)?, &document.settings);
+    let Preparation { faces_turned, repair, holes, cut, seams, left_out } = document.form.clone();
+    project.left_out_parts = left_out.iter().copied().collect();
+    (project.faces_turned, project.repair, project.cut, project.seams) = (faces_turned, repair, cut, seams);
+    project.weld_distance = repair.weld_distance();
+    project.holes = Some(holes);
+    project.relaxed = document.relaxed;
+    project.picture = document.picture.as_ref().and_then(|picture| picture_source(picture, model));
+    project.v_axis = document.v_axis;
+    project.targets = model.all_targets(document);
+    project.chart = document.chart;
+    project.packing = document.packing;
+    project.sizes = document.sizes.iter().map(|(face, &size)| (face.number(), size)).collect();
+    let relaxed = document.elsewhere.iter().filter(|(_, edits)| edits.relaxed > 0);
+    project.relaxed_elsewhere = relaxed.map(|(&chart, edits)| (chart, edits.relaxed)).collect();
+    Some(project)
 }

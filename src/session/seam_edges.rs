@@ -1,8 +1,8 @@
 //! Edges of a mesh that seams follow as a rule.
 
 use super::Model;
-use crate::io::LabelError;
-use crate::mesh::{VertexId, borders, creases};
+use freebound_core::mesh::{VertexId, borders, creases};
+use freebound_io::LabelError;
 
 /// Edges for seams, by the file's vertices, each edge once, in their order.
 impl Model {
@@ -11,7 +11,7 @@ impl Model {
 
     /// The edges whose faces meet at an angle of so many degrees or more between their normals: 0 where they lie in one plane.
     pub fn crease_edges(&self, degrees: f64) -> Vec<[VertexId; 2]> {
-        creases(&self.source.polygons, self.form.repair, degrees)
+        creases(&self.source.polygons, self.prepared.form.repair, degrees)
     }
 
     /// The edges between faces of different materials.
@@ -20,7 +20,7 @@ impl Model {
     ///
     /// Where the file gives its faces no materials.
     pub fn material_borders(&self) -> Result<Vec<[VertexId; 2]>, LabelError> {
-        self.source.material_labels().map(|labels| borders(&self.source.polygons, self.form.repair, &labels))
+        self.source.material_labels().map(|labels| borders(&self.source.polygons, self.prepared.form.repair, &labels))
     }
 
     /// The edges between faces of different groups, or of different objects.
@@ -29,6 +29,6 @@ impl Model {
     ///
     /// Where the file has none.
     pub fn group_borders(&self) -> Result<Vec<[VertexId; 2]>, LabelError> {
-        self.source.group_labels().map(|labels| borders(&self.source.polygons, self.form.repair, &labels))
+        self.source.group_labels().map(|labels| borders(&self.source.polygons, self.prepared.form.repair, &labels))
     }
 }

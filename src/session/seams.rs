@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::errands::Errand;
-use super::{Message, Place, Session, Written};
-use crate::io::{EdgesError, read_edges, write_durably, write_edges};
-use crate::mesh::{Form, Seams, VertexId};
+use super::background_jobs::BackgroundJob;
+use super::{Message, MessagePlace, Session, Written};
+use freebound_core::mesh::{Preparation, Seams, VertexId};
+use freebound_io::{EdgesError, read_edges, write_durably, write_edges};
 
 impl Session {
     /// The seams that the mesh is cut along, or is to be next.
@@ -16,7 +16,7 @@ impl Session {
 
     /// Cuts the mesh along these seams, and no others, as one edit.
     pub(super) fn set_seams(&mut self, seams: Seams) {
-        self.want_form(Form { seams, ..self.form_to_be().clone() });
+        self.want_form(Preparation { seams, ..self.form_to_be().clone() });
     }
 
     /// Reads seams; those that there are stay.
@@ -24,7 +24,7 @@ impl Session {
         let Some(source) = self.model().map(|model| Arc::clone(&model.source)) else {
             return self.complain("seams need a mesh: open one first", None);
         };
-        self.errands.send("reading the seams", move |_| Errand::Seams(read_edges(&path, &source.polygons)));
+        self.jobs.send("reading the seams", move |_| BackgroundJob::Seams(read_edges(&path, &source.polygons)));
     }
 
     /// Takes in seams that were read.
@@ -36,7 +36,7 @@ impl Session {
                 let model = self.model();
                 let of_chart = |vertex| model.and_then(|model| model.vertex_of_file(vertex));
                 let vertices = error.vertices().into_iter().filter_map(of_chart).collect();
-                let message = Message::error(Place::Mesh, error.to_string()).with_vertices(vertices);
+                let message = Message::error(MessagePlace::Mesh, error.to_string()).with_vertices(vertices);
                 self.messages.say(message.with_remedy("mend the file and import it again: nothing of it was taken"));
             }
         }

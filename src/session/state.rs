@@ -2,11 +2,13 @@
 
 use std::time::Instant;
 
+use super::atlas_view::AtlasViews;
+use super::background_jobs::BackgroundJobs;
 use super::charts::OtherCharts;
 use super::comparing::Comparing;
 use super::drag::Drag;
-use super::errands::Errands;
 use super::files::Files;
+use super::morphing::Morphing;
 use super::open_mesh::OpenMesh;
 use super::solving::Solving;
 use super::target_checks::TargetChecks;
@@ -21,9 +23,11 @@ pub struct Session {
     /// The steps of the document's run.
     pub(super) solving: Solving,
     pub(super) charts: OtherCharts,
+    pub(super) atlas_views: AtlasViews,
     pub(super) comparing: Comparing,
+    pub(super) morphing: Morphing,
     pub(super) drag: Drag,
-    pub(super) errands: Errands,
+    pub(super) jobs: BackgroundJobs,
     pub(super) target_checks: TargetChecks,
     pub(super) files: Files,
     pub(super) messages: Messages,
@@ -44,9 +48,11 @@ impl Session {
             document: Document::default(),
             history: History::default(),
             charts: OtherCharts::new(&wake),
+            atlas_views: AtlasViews::new(&wake),
             comparing: Comparing::new(&wake),
+            morphing: Morphing::new(&wake),
             drag: Drag::new(&wake),
-            errands: Errands::new(&wake),
+            jobs: BackgroundJobs::new(&wake),
             target_checks: TargetChecks::new(&wake),
             files: Files::new(&wake, recent),
             messages: Messages::default(),
@@ -75,15 +81,15 @@ impl Session {
             Action::OpenLarge => self.files.open_large(),
             Action::LeaveLarge => self.files.leave_large(),
             Action::Recover(path) => self.files.recover(path, &mut self.messages),
-            Action::DiscardRecovery(path) => self.files.autosave.discard(&path),
-            Action::ClearRecent => self.files.recent.clear(),
+            Action::DiscardRecovery(path) => self.files.autosave_mut().discard(&path),
+            Action::ClearRecent => self.files.recent_mut().clear(),
             Action::Save(request) => self.save(request),
             Action::SaveProject(path) => self.save_project(path),
             Action::ExportConstraints(path) => self.export_constraints(path),
             Action::RefuseName(path) => self.refuse_name(&path),
             Action::ShowFolder(file) => self.files.show_folder(file),
             Action::Dismiss(id) => self.messages.dismiss(id),
-            Action::Solve => self.solve_afresh(),
+            Action::Solve => self.solve_from_scratch(),
             Action::Step => self.step(),
             Action::Run => self.run_on(),
             Action::Relax => self.relax(),
@@ -107,7 +113,7 @@ impl Session {
             Action::Mend => self.mend(),
             Action::SetHoles(holes) => self.set_holes(holes),
             Action::TakeLayout => self.take_layout(),
-            Action::AllowRepair(repair) => self.want_form(self.form_to_be().allowing(repair)),
+            Action::AllowRepair(repair) => self.want_form(self.form_to_be().with_repair(repair)),
             Action::LeaveOut(parts) => self.leave_out(parts),
             Action::Weld(within) => self.weld(within),
             Action::CountNear(distance) => self.count_near(distance),
@@ -123,8 +129,8 @@ impl Session {
             Action::Place { vertex, target } => self.place(vertex, target),
             Action::MovePin { vertex, target } => self.move_pins(&[(vertex, target)]),
             Action::MovePins(moves) => self.move_pins(&moves),
-            Action::SetHold { vertices, hold } => self.set_hold(&vertices, hold),
-            Action::SlideHold { vertices, hold } => self.slide_hold(&vertices, hold),
+            Action::SetPinKind { vertices, kind } => self.set_pin_kind(&vertices, kind),
+            Action::SlideHold { vertices, kind } => self.slide_hold(&vertices, kind),
             Action::Unpin(vertices) => self.unpin(&vertices),
             Action::UnpinAll => self.unpin_all(),
             Action::SetSettings(settings) => self.choose(settings),
@@ -142,7 +148,7 @@ impl Session {
         if let Some(opened) = self.files.poll_loading(&mut self.messages) {
             self.take_opened(opened);
         }
-        self.poll_errands();
+        self.poll_jobs();
         self.poll_solving();
         self.poll_charts();
         self.poll_atlas();
@@ -178,8 +184,9 @@ impl Session {
     /// for the solver, solves.
     fn travel(&mut self, to: impl FnOnce(&mut History, &mut Document) -> bool) {
         let (chart, was_in_gesture) = (self.document.chart, self.history.is_in_gesture());
-        let wish = |session: &Self| (session.document.problem(), session.document.relaxed, session.history.taken_to());
-        let (form, before) = (self.document.form.clone(), wish(self));
+        let wanted =
+            |session: &Self| (session.document.problem(), session.document.relaxed, session.history.taken_to());
+        let (form, before) = (self.document.form.clone(), wanted(self));
         self.remember();
         if !to(&mut self.history, &mut self.document) {
             return;
@@ -188,7 +195,7 @@ impl Session {
             self.follow_chart();
         } else if was_in_gesture && self.document.form == form {
             self.give_up_drag();
-        } else if (self.document.form != form || wish(self) != before) && !self.recall() {
+        } else if (self.document.form != form || wanted(self) != before) && !self.recall() {
             self.solve();
         }
     }
@@ -196,7 +203,7 @@ impl Session {
     fn cancel(&mut self) {
         self.files.cancel_loading();
         self.drag.stop_following();
-        self.errands.stop();
+        self.jobs.stop();
         self.mesh.want(None);
         self.charts.forget_asked();
         self.solving.pause();

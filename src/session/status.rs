@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{Outcome, Preview, Session};
-use crate::solver::Phase;
+use super::{Preview, Session};
+use freebound_core::pipeline::Outcome;
+use freebound_core::problem::Phase;
 
 /// What goes on in the background.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,7 +12,7 @@ pub enum Busy {
     /// Reading and diagnosing a mesh.
     Loading,
     /// Reading or computing something for the mesh; what it is, in words.
-    Errand(&'static str),
+    Job(&'static str),
     /// Solving; the phase where it is known.
     Solving(Option<Phase>),
     /// Writing a file.
@@ -69,10 +70,10 @@ impl Session {
     pub fn busy(&self) -> Option<Busy> {
         if self.files.is_loading() {
             Some(Busy::Loading)
-        } else if let Some(what) = self.errands.words() {
-            Some(Busy::Errand(what))
+        } else if let Some(what) = self.jobs.words() {
+            Some(Busy::Job(what))
         } else if self.charts.is_asked() {
-            Some(Busy::Errand("taking the chart out of the mesh"))
+            Some(Busy::Job("taking the chart out of the mesh"))
         } else if self.is_running() {
             Some(Busy::Solving(self.solving.phase()))
         } else {

@@ -1,7 +1,7 @@
 //! When a run that goes on by itself comes to rest.
 
-use super::Outcome;
-use crate::solver::Ending;
+use freebound_core::flatten::Ending;
+use freebound_core::pipeline::Outcome;
 
 /// At which steps a run comes to rest. Where its method has no further step, or has taken as many as it may, it always
 /// does.
@@ -25,7 +25,7 @@ impl Default for StopConditions {
 
 /// Why a run has come to rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
+pub enum RunStop {
     /// It has come to its end.
     Ended(Ending),
     /// The boundary crosses itself.
@@ -34,7 +34,7 @@ pub enum Stop {
     AtStep,
 }
 
-impl Stop {
+impl RunStop {
     /// Words for the screen.
     pub const fn words(self) -> &'static str {
         match self {
@@ -51,16 +51,16 @@ impl Stop {
 
 impl StopConditions {
     /// Why a run is at rest after a step, if it is. `ending` is what the run says after that step.
-    pub fn reason(&self, outcome: &Outcome, ending: Option<Ending>) -> Option<Stop> {
+    pub fn reason(&self, outcome: &Outcome, ending: Option<Ending>) -> Option<RunStop> {
         self.reason_for_good(outcome, ending)
             .or_else(|| {
-                (self.crossing && !outcome.step.verdict.boundary_crossings.is_empty()).then_some(Stop::Crossing)
+                (self.crossing && !outcome.step.verdict.boundary_crossings.is_empty()).then_some(RunStop::Crossing)
             })
-            .or_else(|| (self.at_step == Some(outcome.step.index)).then_some(Stop::AtStep))
+            .or_else(|| (self.at_step == Some(outcome.step.index)).then_some(RunStop::AtStep))
     }
 
     /// The same for the reasons that hold however often the run is asked to go on.
-    pub fn reason_for_good(&self, outcome: &Outcome, ending: Option<Ending>) -> Option<Stop> {
+    pub fn reason_for_good(&self, outcome: &Outcome, ending: Option<Ending>) -> Option<RunStop> {
         // Beyond the method's own ending the number of steps is the only limit that is left.
         let beyond = (outcome.step.index >= outcome.problem.settings.max_steps()).then_some(Ending::Limit);
         let ending = match ending? {
@@ -68,7 +68,7 @@ impl StopConditions {
             Ending::Stalled if !self.stalled => beyond,
             ending => Some(ending),
         };
-        ending.map(Stop::Ended)
+        ending.map(RunStop::Ended)
     }
 }
 

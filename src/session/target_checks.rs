@@ -5,10 +5,14 @@
 //! fits them much better than a rotation. They are compared with the mesh flattened without pins, once, in the
 //! background.
 
-use super::{Background, Session, Wake};
-use crate::geom::look_mirrored;
-use crate::mesh::VertexId;
-use crate::solver::{Conflict, Control, Embedding, Family, Method, Pins, Settings, SolveError, conflicts, solve_once};
+use std::sync::Arc;
+
+use super::{Background, Wake};
+use freebound_core::flatten::solve_once;
+use freebound_core::geom::look_mirrored;
+use freebound_core::mesh::DiskMesh;
+use freebound_core::problem::{Control, Embedding, Family, Method, Pins, Settings, SolveError};
+use freebound_core::verify::{Conflict, conflicts};
 
 /// With fewer pins either fits.
 const LEAST_PINS: usize = 3;
@@ -28,29 +32,24 @@ impl TargetChecks {
         let flattening = Background::new("undistorted", wake);
         Self { looked_in: Default::default(), conflicts: Vec::new(), flat: None, flattening }
     }
-}
 
-impl Session {
-    /// Brings everything up to date. Call once per frame.
-    pub(super) fn refresh_target_checks(&mut self) {
-        if !self.has_form_as_wanted() {
-            return;
+    /// Looks for conflicts among pins, on the mesh of a revision, unless they are known.
+    pub(super) fn find_conflicts(&mut self, revision: u64, disk: Option<&DiskMesh>, pins: Pins) {
+        let looked_in = (revision, pins);
+        if self.looked_in != looked_in {
+            self.conflicts = disk.map(|disk| conflicts(disk, &looked_in.1)).unwrap_or_default();
+            self.looked_in = looked_in;
         }
-        let settings = self.document.settings;
-        let pins = if settings.method.uses_pins() { settings.held(&self.document.pins()) } else { Pins::default() };
-        let looked_in = (self.model_revision(), pins);
-        if self.target_checks.looked_in != looked_in {
-            let found = self.disk().map(|disk| conflicts(disk, &looked_in.1));
-            self.target_checks.conflicts = found.unwrap_or_default();
-            self.target_checks.looked_in = looked_in;
-        }
-        let (revision, disk) = (self.model_revision(), self.disk().cloned());
-        let TargetChecks { flat, flattening, .. } = &mut self.target_checks;
+    }
+
+    /// Flattens the mesh of a revision without pins in the background, if there are enough targets and it is not known.
+    pub(super) fn flatten(&mut self, revision: u64, disk: Option<Arc<DiskMesh>>, target_count: usize) {
+        let Self { flat, flattening, .. } = self;
         if let Some((of, embedding)) = flattening.poll() {
             *flat = Some((of, embedding.ok().and_then(Result::ok)));
         }
         let is_known = flat.as_ref().is_some_and(|(of, _)| *of == revision) || flattening.is_busy();
-        let Some(disk) = disk.filter(|_| !is_known && self.document.targets.len() >= LEAST_PINS) else { return };
+        let Some(disk) = disk.filter(|_| !is_known && target_count >= LEAST_PINS) else { return };
         flattening.start(revision, move |cancel| {
             let settings = Settings::new(Method::Natural, Family::Conformal);
             let solution = solve_once(&disk, &settings, &Pins::new(), Control::new(cancel, &|_| {}));
@@ -58,21 +57,15 @@ impl Session {
         });
     }
 
-    /// Constraints of the document that contradict each other on the mesh as it is.
-    pub fn conflicts(&self) -> &[Conflict] {
-        &self.target_checks.conflicts
+    /// Conflicts among the pins.
+    pub(super) fn conflicts(&self) -> &[Conflict] {
+        &self.conflicts
     }
 
-    /// The first conflict that a pin takes part in.
-    pub fn conflict_of(&self, vertex: VertexId) -> Option<&Conflict> {
-        self.conflicts().iter().find(|conflict| conflict.vertices().contains(&vertex))
-    }
-
-    /// Whether the targets of the document look mirrored: known only some time after there are enough of them.
-    pub fn targets_look_mirrored(&self) -> bool {
-        let Some((revision, Some(embedding))) = &self.target_checks.flat else { return false };
-        let pins = self.document.pins();
-        if *revision != self.model_revision() || pins.len() < LEAST_PINS || !self.document.settings.method.uses_pins() {
+    /// True if pins on the mesh of a revision look mirrored; false while that is not known.
+    pub(super) fn look_mirrored(&self, revision: u64, pins: &Pins) -> bool {
+        let Some((of, Some(embedding))) = &self.flat else { return false };
+        if *of != revision || pins.len() < LEAST_PINS {
             return false;
         }
         let pairs = pins.iter().filter_map(|(vertex, pin)| Some([*embedding.get(vertex.index())?, pin.target]));

@@ -6,16 +6,17 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::Outcome;
-use crate::io::StepReport;
-use crate::solver::{Progress, Step};
+use freebound_core::flatten::Step;
+use freebound_core::pipeline::Outcome;
+use freebound_core::problem::Progress;
+use freebound_io::StepReport;
 
 /// Bytes that the steps kept whole may take together.
 pub const TIMELINE_BUDGET: usize = 512_000_000;
 
 /// Where a step stands on the way to the constraints.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Standing {
+pub struct StepDistortion {
     /// The numbers of a continuation or a relaxing.
     pub progress: Option<Progress>,
     /// Exact pins that are not on their targets.
@@ -24,11 +25,11 @@ pub struct Standing {
     pub new_vertices: usize,
 }
 
-impl Standing {
+impl StepDistortion {
     fn of(step: &Step) -> Self {
         let new_vertices =
-            step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices_of_surface().count());
-        Self { progress: step.progress, unmet: step.unmet().len(), new_vertices }
+            step.candidate.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices_of_surface().count());
+        Self { progress: step.candidate.progress, unmet: step.unmet().len(), new_vertices }
     }
 }
 
@@ -37,7 +38,7 @@ impl Standing {
 pub struct Timeline {
     budget: usize,
     records: Vec<StepReport>,
-    standings: Vec<Standing>,
+    standings: Vec<StepDistortion>,
     kept: BTreeMap<usize, Arc<Outcome>>,
     /// Sum over `kept`.
     bytes: usize,
@@ -89,7 +90,7 @@ impl Timeline {
             condensed.bytes = condensed.kept.values().map(|outcome| outcome.bytes()).sum();
             condensed.compared = None;
         }
-        for outcome in condensed.kept.values_mut().filter(|outcome| outcome.step.prepared.is_some()) {
+        for outcome in condensed.kept.values_mut().filter(|outcome| outcome.step.candidate.prepared.is_some()) {
             Arc::make_mut(outcome).step.candidate.prepared = None;
         }
         condensed
@@ -107,7 +108,7 @@ impl Timeline {
     }
 
     /// Where every step stands on the way to the constraints.
-    pub fn standings(&self) -> &[Standing] {
+    pub fn standings(&self) -> &[StepDistortion] {
         &self.standings
     }
 
@@ -175,7 +176,7 @@ impl Timeline {
             self.best = Some(index);
         }
         self.records.push(record);
-        self.standings.push(Standing::of(&outcome.step));
+        self.standings.push(StepDistortion::of(&outcome.step));
         self.bytes += outcome.bytes();
         self.kept.insert(index, outcome);
         if self.follows_newest {

@@ -2,8 +2,9 @@
 
 use eframe::egui::{self, ComboBox, Grid, Response, RichText, Role, Ui, WidgetInfo};
 
+use super::keys::keys_of;
+use super::state::Request;
 use super::theme::theme_of;
-use super::{Request, keys_of};
 
 /// What a panel does with a control once it is there.
 pub(in crate::ui) trait Control {
@@ -143,6 +144,22 @@ pub(in crate::ui) fn five_digits(number: f64) -> String {
     ((number * unit).round() / unit).to_string()
 }
 
+/// A number with four digits that mean something.
+pub(in crate::ui) fn short(value: f64) -> String {
+    let size = value.abs();
+    match size {
+        0.0 => "0".to_owned(),
+        1e-3..1e-2 => format!("{value:.6}"),
+        1e-2..0.1 => format!("{value:.5}"),
+        0.1..1.0 => format!("{value:.4}"),
+        1.0..10.0 => format!("{value:.3}"),
+        10.0..100.0 => format!("{value:.2}"),
+        100.0..1e3 => format!("{value:.1}"),
+        1e3..1e5 => format!("{value:.0}"),
+        _ => format!("{value:.3e}"),
+    }
+}
+
 /// The words with a capital at the beginning.
 pub fn sentence(words: &str) -> String {
     // A message begins with the file's name where it has one, and that is spelt as it is.
@@ -151,4 +168,26 @@ pub fn sentence(words: &str) -> String {
     }
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_has_four_digits_that_mean_something() {
+        let expected = [
+            (0.0, "0"),
+            (0.001_234_56, "0.001235"),
+            (-0.412_345, "-0.4123"),
+            (1.0, "1.000"),
+            (31.415_9, "31.42"),
+            (2_718.28, "2718"),
+            (1.234_1e-7, "1.234e-7"),
+            (f64::INFINITY, "inf"),
+        ];
+        for (value, words) in expected {
+            assert_eq!(short(value), words);
+        }
+    }
 }

@@ -2,9 +2,9 @@
 
 use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke};
 
-use super::Tool;
+use super::state::Tool;
 use super::theme::Theme;
-use crate::io::Direction;
+use freebound_io::Direction;
 
 /// Points given on a grid of 24 × 24.
 fn on_grid(rect: Rect, points: &[(f32, f32)]) -> Vec<Pos2> {

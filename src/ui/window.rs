@@ -2,9 +2,8 @@
 
 use eframe::egui::{self, Frame, Margin, Panel, Rect, Sense, Vec2};
 
-use super::keys;
 use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTHS, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
-use super::{Editor, Intent, Pane, Request};
+use super::{Editor, Intent, Pane, Request, keyboard};
 use crate::ui::panels::{self, floating, menu, status, unsaved};
 use crate::ui::panes::comparison::comparison_ui;
 use crate::ui::panes::constrain;
@@ -19,7 +18,7 @@ const SPLITTER: f32 = 6.0;
 pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     editor.poll();
     unsaved::hold_window(ui.ctx(), editor);
-    let mut requests = keys::requests(ui.ctx(), editor);
+    let mut requests = keyboard::requests(ui.ctx(), editor);
     // Before the panes are shown: egui ends a drag at the same key, and the pane would forget what was dragged.
     for escape in requests.extract_if(.., |request| *request == Request::Escape) {
         editor.handle(escape);
@@ -65,7 +64,7 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
         editor.handle(request);
     }
     unsaved::title_of_window(editor);
-    if editor.host.is_quitting() {
+    if editor.gpu.is_quitting() {
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
     }
 }

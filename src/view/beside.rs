@@ -4,9 +4,9 @@
 use glam::DVec2;
 
 use super::PlaneCamera;
-use crate::geom::{Bounds, double_area};
-use crate::mesh::{DiskMesh, VertexId};
-use crate::session::Outcome;
+use freebound_core::geom::{Bounds, double_area};
+use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::pipeline::Outcome;
 
 /// Free space around an embedding, relative to its extent.
 const MARGIN: f64 = 0.04;
@@ -59,7 +59,8 @@ impl CellFrames {
             Some(pinned) if !outcome.is_held() => (area(given, outcome) / area(given, pinned)).sqrt(),
             _ => 1.0,
         };
-        let boxes: Vec<Bounds> = outcomes.iter().map(|outcome| outcome.step.solution.embedding.bounds()).collect();
+        let boxes: Vec<Bounds> =
+            outcomes.iter().map(|outcome| outcome.step.candidate.solution.embedding.bounds()).collect();
         let sizes: Vec<f64> = outcomes
             .iter()
             .map(|outcome| Some(size_of(outcome)).filter(|&size| is_scale(size)).unwrap_or(1.0))
@@ -107,7 +108,7 @@ fn common_side(extents: impl Iterator<Item = f64>) -> f64 {
 
 /// The area that an embedding covers, folds counted as often as they lie there.
 fn area(given: &DiskMesh, outcome: &Outcome) -> f64 {
-    let embedding = &outcome.step.solution.embedding;
+    let embedding = &outcome.step.candidate.solution.embedding;
     let covered = |corners: &[VertexId; 3]| double_area(corners.map(|v| embedding[v])).abs();
-    outcome.step.mesh(given).mesh().real_triangles().iter().map(covered).sum::<f64>() / 2.0
+    outcome.step.candidate.mesh(given).mesh().real_triangles().iter().map(covered).sum::<f64>() / 2.0
 }

@@ -4,12 +4,14 @@
 use glam::DVec2;
 
 use super::{CellFrame, CellFrames, Quantity, Range};
-use crate::geom::{Bounds, Picture, double_area};
-use crate::io::figure::{CellContent, ColourBar, Curve, Curves, Grid, GridCell, Page, TintedDrawing, Window};
-use crate::io::raster::{Canvas, Colour, Paint, View, mesh_picture};
-use crate::mesh::{DiskMesh, FaceId, VertexId};
-use crate::session::{Compared, Model, Outcome};
-use crate::solver::{Choice, Distortion, Embedding, Words};
+use crate::session::{Compared, Model};
+use freebound_core::geom::{Bounds, Picture, double_area};
+use freebound_core::mesh::{DiskMesh, FaceId, VertexId};
+use freebound_core::pipeline::Outcome;
+use freebound_core::problem::{Embedding, Labels, NamedOption};
+use freebound_core::verify::Distortion;
+use freebound_io::figure::{CellContent, ColourBar, Curve, Curves, GridCell, Page, PanelGrid, TintedDrawing, Window};
+use freebound_io::raster::{Canvas, Colour, RasterPaint, View, mesh_picture};
 
 /// Colours that values are rounded to, so that few paths are drawn.
 const LEVELS: u32 = 64;
@@ -38,11 +40,11 @@ impl Default for CellShading {
     }
 }
 
-impl Choice for CellShading {
+impl NamedOption for CellShading {
     const ALL: &'static [Self] =
         &[Self::By(Quantity::Angle), Self::By(Quantity::Area), Self::By(Quantity::Stretch), Self::Checker];
 
-    fn words(self) -> Words {
+    fn labels(self) -> Labels {
         let (name, about) = match self {
             Self::By(Quantity::Angle) => ("angle", "ratio of the singular values of each face: 1 keeps angles"),
             Self::By(Quantity::Area) => ("area", "area in the plane over area on the surface"),
@@ -50,7 +52,7 @@ impl Choice for CellShading {
             Self::Checker => ("checker", "the mesh in space, under a checker of the plane"),
         };
         let title = if let Self::By(quantity) = self { quantity.title() } else { "Checker" };
-        Words { name, title, about, source: "" }
+        Labels { name, title, about, source: "" }
     }
 }
 
@@ -92,7 +94,7 @@ impl ComparisonPicture<'_> {
                     }
                     (Some(outcome), ..) => {
                         let step = &outcome.step;
-                        CellContent::Photo(checkered(step.mesh(mesh), &step.solution.embedding))
+                        CellContent::Photo(checkered(step.candidate.mesh(mesh), &step.candidate.solution.embedding))
                     }
                     (None, ..) => CellContent::Words(method.report.error_words()),
                 };
@@ -105,7 +107,7 @@ impl ComparisonPicture<'_> {
             (CellShading::By(quantity), Some(range)) => Some(bar(quantity, range)),
             _ => None,
         };
-        Grid { cells, bar, caption: self.caption(mesh) }.page()
+        PanelGrid { cells, bar, caption: self.caption(mesh) }.page()
     }
 
     fn outcomes(&self) -> impl Iterator<Item = &Outcome> {
@@ -161,7 +163,7 @@ pub(super) fn checkered(disk: &DiskMesh, embedding: &Embedding) -> Picture {
     let covered = |corners: &[VertexId; 3]| double_area(corners.map(|v| embedding[v])).abs();
     let area: f64 = triangles.iter().map(covered).sum::<f64>() / 2.0;
     let size = (area.sqrt() / CHECKER_FIELDS).max(f64::MIN_POSITIVE);
-    let paint = Paint::Checker { coordinates: embedding, size };
+    let paint = RasterPaint::Checker { coordinates: embedding, size };
     mesh_picture(&mesh.positions, triangles, &view, &Canvas::clay(PICTURE_SIZE, PICTURE_SIZE), paint)
 }
 

@@ -12,8 +12,8 @@ use glam::{DVec2, DVec3};
 
 use super::space::split_point;
 use super::{Range, Scale, Sphere, UnitPlane, bounds_of};
-use crate::geom::Bounds;
-use crate::mesh::{FaceId, VertexId};
+use freebound_core::geom::Bounds;
+use freebound_core::mesh::{FaceId, VertexId};
 
 /// Says whether two arrays are the same: every array made in this process has its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -203,14 +203,14 @@ impl EdgeList {
 
 /// Faces that are not the mesh's, filled with one colour: the pockets of a virtual boundary.
 #[derive(Debug)]
-pub struct FaceList {
+pub struct DrawnFaces {
     /// Which list this is.
     pub revision: Revision,
     /// The corners of each face.
     pub triangles: Vec<[VertexId; 3]>,
 }
 
-impl FaceList {
+impl DrawnFaces {
     /// Faces by their corners.
     pub fn new(triangles: Vec<[VertexId; 3]>) -> Self {
         Self { revision: Revision::fresh(), triangles }

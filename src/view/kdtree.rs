@@ -5,7 +5,7 @@
 use glam::DVec2;
 
 use super::{PICK_RADIUS, PlaneCamera, VertexPick};
-use crate::mesh::VertexId;
+use freebound_core::mesh::VertexId;
 
 /// Picks in the embedding's pane. Made once per embedding. Points are in the order of a balanced tree: the middle of a
 /// range is its root, its halves are the subtrees.

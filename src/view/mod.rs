@@ -41,13 +41,13 @@ mod space;
 pub use beside::{CellFrame, CellFrames};
 pub use colour::{Palette, Range, Scale, Srgb, Tick, nice_step_at_least};
 pub use comparison::{CellShading, ComparisonPicture};
-pub use draw::{EdgeList, FaceList, FacePaint, MeshArrays, PlaneArrays, Revision, crease_normals};
+pub use draw::{DrawnFaces, EdgeList, FacePaint, MeshArrays, PlaneArrays, Revision, crease_normals};
 pub use kdtree::PlanePicker;
 pub use morph::{MorphPicture, MorphPlace, MorphSight};
 pub use orbit::{OrbitCamera, Ray, UpAxis};
 pub use pick::{PICK_RADIUS, SurfaceHit, SurfacePicker, VertexPick, Visibility, snapped};
-pub use picture::Picture;
-pub use plane::{Grid, PlaneCamera};
+pub use picture::PictureQuad;
+pub use plane::{GridLines, PlaneCamera};
 pub use quantity::Quantity;
 #[cfg(feature = "gui")]
 pub(crate) use space::split_point;

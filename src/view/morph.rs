@@ -7,12 +7,13 @@ use rayon::prelude::*;
 
 use super::comparison::{bar, checkered, colours_of};
 use super::{CellShading, Range};
-use crate::geom::Bounds;
-use crate::io::figure::{CellContent, Page, Still, TintedDrawing, Window};
-use crate::io::{AnimationForm, AnimationFrame, write_animation};
-use crate::mesh::DiskMesh;
 use crate::session::{MorphLeg, MorphTour};
-use crate::solver::{Embedding, distortion};
+use freebound_core::geom::Bounds;
+use freebound_core::mesh::DiskMesh;
+use freebound_core::problem::Embedding;
+use freebound_core::verify::distortion;
+use freebound_io::figure::{CellContent, Page, Still, TintedDrawing, Window};
+use freebound_io::{AnimationForm, AnimationFrame, write_animation};
 
 /// Pixels per point of a frame.
 const PIXELS: f64 = 1.25;

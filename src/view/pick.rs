@@ -5,7 +5,7 @@ use glam::{DMat4, DVec2, DVec3};
 use super::bvh::Bvh;
 use super::orbit::pane_from_clip;
 use super::{OrbitCamera, Ray};
-use crate::mesh::{FaceId, VertexId};
+use freebound_core::mesh::{FaceId, VertexId};
 
 /// How far from the pointer a vertex can be picked, points.
 pub const PICK_RADIUS: f64 = 12.0;

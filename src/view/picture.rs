@@ -6,18 +6,18 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::Revision;
-use crate::geom;
+use freebound_core::geom;
 
 /// A picture behind the embedding and on the faces.
 #[derive(Debug)]
-pub struct Picture {
+pub struct PictureQuad {
     /// Which picture this is.
     pub revision: Revision,
     /// As it is, then in half the size and so on, down to one pixel.
     sizes: Vec<Arc<geom::Picture>>,
 }
 
-impl Picture {
+impl PictureQuad {
     /// A picture with all its smaller sizes, which takes a while where it is large. `None` where it has not as many pixels
     /// as it should, or none.
     pub fn new(picture: Arc<geom::Picture>) -> Option<Self> {

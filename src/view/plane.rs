@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::{UnitPlane, nice_step_at_least};
-use crate::geom::Bounds;
+use freebound_core::geom::Bounds;
 
 /// The share of a pane that a framed box fills.
 const FRAME_SHARE: f64 = 0.9;
@@ -22,7 +22,7 @@ pub struct PlaneCamera {
 
 /// Lines of the background, spaced by 1, 2 or 5 times a power of ten.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Grid {
+pub struct GridLines {
     /// Distance of two faint lines, embedding units.
     pub step: f64,
     /// Every so many faint lines there is a stronger one, at a multiple of a power of ten.
@@ -134,7 +134,7 @@ impl PlaneCamera {
     }
 
     /// The background grid for the present scale.
-    pub fn grid(&self) -> Grid {
+    pub fn grid(&self) -> GridLines {
         let step = nice_step_at_least(GRID_SPACING / self.points_per_unit);
         let leading = step / 10_f64.powf(step.log10().floor());
         let steps_per_major = match leading {
@@ -142,7 +142,7 @@ impl PlaneCamera {
             1.5..3.0 => 5,
             _ => 2,
         };
-        Grid { step, steps_per_major }
+        GridLines { step, steps_per_major }
     }
 }
 

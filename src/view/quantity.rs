@@ -1,7 +1,7 @@
 //! Numbers that faces are coloured by, on one scale for several embeddings.
 
 use super::{Range, Scale};
-use crate::solver::{Distortion, FaceDistortion};
+use freebound_core::verify::{Distortion, FaceDistortion};
 
 /// What is measured of a face's map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -5,7 +5,7 @@
 
 use glam::{DMat4, DVec2, DVec3, Vec3};
 
-use crate::geom::Bounds;
+use freebound_core::geom::Bounds;
 
 /// Half the width of the part that is shown around points, in lengths of what they span.
 const PART_MARGIN: f64 = 7.0;

@@ -5,8 +5,8 @@ use egui::accesskit::{Action as Offer, Role};
 use egui::{Key, Modifiers, Pos2, Rect, Vec2};
 use egui_kittest::Node;
 use egui_kittest::kittest::{NodeT, Queryable};
-use freebound::mesh::VertexId;
-use freebound::ui::{Pane, Request, Shading};
+use freebound::ui::{Pane, Request, ShadingMode};
+use freebound_core::mesh::VertexId;
 use glam::DVec2;
 
 use crate::harness::Window;
@@ -221,14 +221,14 @@ impl Window {
     }
 
     /// Shades both panes.
-    pub(crate) fn shade(&mut self, shading: Shading) {
+    pub(crate) fn shade(&mut self, shading: ShadingMode) {
         for pane in [Pane::Mesh, Pane::Plane] {
             self.editor_mut().handle(Request::SetPaneShading(pane, shading));
         }
     }
 
     /// The shadings of the mesh's pane and of the embedding's.
-    pub(crate) fn shadings(&self) -> [Shading; 2] {
+    pub(crate) fn shadings(&self) -> [ShadingMode; 2] {
         [Pane::Mesh, Pane::Plane].map(|pane| self.editor().shading(pane))
     }
 

@@ -3,16 +3,16 @@
 use eframe::egui;
 use egui::{Key, Modifiers};
 use freebound::examples::Example;
-use freebound::io::Target;
-use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{Method, Settings};
 use freebound::ui::theme;
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Target;
+use freebound_core::problem::{Method, Settings};
 use glam::DVec2;
 
 use crate::defects::fold;
 use crate::harness::{Window, sheet};
-use crate::makers::tower;
+use freebound_testkit::tower;
 
 /// How many areas of the accent's colour were painted in the last frame.
 fn accents(window: &Window) -> usize {
@@ -50,7 +50,7 @@ fn repair_is_in_sight_in_the_least_window() {
 #[test]
 fn a_planar_embedding_with_areas_that_differ_badly_offers_to_relax() {
     let mut window = Window::with_mesh("tower.obj", &tower());
-    // The ladder would relax by itself.
+    // The flattener would relax by itself.
     window.choose("Method", "Convex boundary");
     window.choose("Weights", "Uniform");
     assert!(window.is_proved(), "{}", window.verdict());

@@ -5,12 +5,13 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Modifiers, PointerButton, Pos2};
 use freebound::examples::Example;
-use freebound::geom::VAxis;
-use freebound::io::{Target, read_mesh};
-use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::Hold;
-use freebound::ui::{Half, Request, Shading, Tab, Tool};
+use freebound::ui::{Half, Request, ShadingMode, Tab, Tool};
+use freebound_core::geom::VAxis;
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Target;
+use freebound_core::problem::PinKind;
+use freebound_io::read_mesh;
 use glam::DVec2;
 
 use crate::constraints::{corners, pins, place};
@@ -43,12 +44,12 @@ fn six_landmarks_over_a_photo_take_no_key_and_no_change_of_shading() {
     let mut artist = Artist { window: Window::with_mesh("sheet.obj", &sheet(8, 0.2)), clicks: 0 };
     let photo = artist.window.path("portrait.png");
     let file = std::fs::File::create(&photo).expect("a folder for files");
-    Example::Face.picture().expect("it has one").write_png(file).expect("written");
+    freebound_io::raster::write_png(&Example::Face.picture().expect("it has one"), file).expect("written");
     artist.window.harness.input_mut().dropped_files.push(crate::dialogs::dropped(photo));
     artist.window.settle();
     artist.click("Constrain: join a vertex with its place");
     for (count, vertex) in (1..).zip([20, 24, 38, 42, 56, 60].map(VertexId::new)) {
-        assert_eq!(artist.window.shadings(), [Shading::Plain, Shading::SeeThrough]);
+        assert_eq!(artist.window.shadings(), [ShadingMode::Plain, ShadingMode::SeeThrough]);
         artist.click_at(artist.window.place_on_mesh(vertex));
         assert_eq!(artist.window.editor().tools.pair(), Some(Half::Vertex(vertex)));
         let (column, row) = (f64::from(vertex.number() % 9), f64::from(vertex.number() / 9));
@@ -88,8 +89,8 @@ fn the_cell_of_an_exact_pin_is_a_menu_of_weights() {
     window.settle();
     window.click("Hold of pin v40: exact");
     window.click("Weight 10");
-    assert_eq!(pins(&window)[&VertexId::new(40)].hold, Hold::Weighted(10.0));
-    assert_eq!(pins(&window)[&VertexId::new(0)].hold, Hold::Hard, "the others stay");
+    assert_eq!(pins(&window)[&VertexId::new(40)].kind, PinKind::Soft(10.0));
+    assert_eq!(pins(&window)[&VertexId::new(0)].kind, PinKind::Hard, "the others stay");
 }
 
 /// Clicks with the right button.
@@ -109,7 +110,7 @@ fn a_vertex_has_a_menu_on_the_mesh() {
     let at = window.place_on_mesh(vertex);
     click_right(&mut window, at);
     window.click("Fix where it lies");
-    assert_eq!(pins(&window)[&vertex].hold, Hold::Fixed);
+    assert_eq!(pins(&window)[&vertex].kind, PinKind::Fixed);
     click_right(&mut window, at);
     window.click("Choose another place");
     assert_eq!(window.editor().tools.tool(), Tool::Constrain);
@@ -129,7 +130,7 @@ fn a_pin_has_a_menu_in_the_embedding_and_in_its_row() {
     let at = window.rect(Role::Button, "v80").center();
     click_right(&mut window, at);
     window.click("Weight 0.1");
-    assert_eq!(pins(&window)[&VertexId::new(80)].hold, Hold::Weighted(0.1));
+    assert_eq!(pins(&window)[&VertexId::new(80)].kind, PinKind::Soft(0.1));
 }
 
 #[test]
@@ -150,7 +151,7 @@ fn v_down_leaves_pins_and_picture_where_they_are_on_the_screen() {
         window.click(button);
         assert_eq!(window.editor().session.document().v_axis, axis);
         assert_eq!(pins(&window)[&VertexId::new(24)].uv, DVec2::new(0.25, v));
-        assert_eq!(pins(&window)[&VertexId::new(0)].hold, Hold::Weighted(3.0));
+        assert_eq!(pins(&window)[&VertexId::new(0)].kind, PinKind::Soft(3.0));
         for (a, b) in before.iter().zip(on_screen(&window)) {
             assert!(a.distance(b) < 1.0, "{button}: {a} {b}");
         }

@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use freebound::mesh::{TriMesh, VertexId};
 use freebound::session::ChartState;
 use freebound::ui::Tab;
+use freebound_core::mesh::{TriMesh, VertexId};
 
 use crate::harness::{Window, sheet};
 

@@ -3,10 +3,10 @@
 use eframe::egui;
 use egui::Key;
 use freebound::examples::Example;
-use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{Embedding, Method, Settings};
-use freebound::ui::{Pane, Shading, Stage};
+use freebound::ui::{HullStage, Pane, ShadingMode};
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::{Embedding, Method, Settings};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
@@ -86,7 +86,7 @@ fn all_shows(window: &Window) -> bool {
 fn the_camera_goes_along_with_an_embedding_that_would_leave_the_pane() {
     for wanted in [true, false] {
         let mut window = two_steps();
-        window.editor_mut().look.glides = wanted;
+        window.editor_mut().pane_shading.glides = wanted;
         window.key(Key::ArrowLeft);
         window.key(Key::F);
         window.settle();
@@ -159,13 +159,13 @@ fn moves_are_measured_from_the_compared_step_or_else_from_the_one_before() {
     let mut window = two_steps();
     window.key(Key::Num7);
     assert!(window.shows("Move from step 0, plane units"), "{:?}", window.words());
-    let legend = window.editor().look.paint(Pane::Mesh).expect("painted").legend.clone().expect("a legend");
+    let legend = window.editor().pane_shading.paint(Pane::Mesh).expect("painted").legend.clone().expect("a legend");
     assert!(legend.range.low.abs() < f64::EPSILON && legend.range.high > 0.0);
     let max_move = window.outcome().step.max_move.expect("not the first");
     assert!(legend.range.high <= max_move, "{:?} is at most {max_move}", legend.range);
 
     window.key(Key::ArrowLeft);
-    assert!(window.editor().look.paint(Pane::Mesh).expect("painted").legend.is_none(), "nothing comes before");
+    assert!(window.editor().pane_shading.paint(Pane::Mesh).expect("painted").legend.is_none(), "nothing comes before");
     assert!(window.shows("nothing has moved"));
     window.editor_mut().session.handle(Action::Compare(Some(1)));
     window.settle();
@@ -181,7 +181,7 @@ fn the_stages_of_a_virtual_boundary_show_no_outline_of_another_step() {
     window.settle();
     assert!(window.shows("Outline of step 0"));
     window.key(Key::H);
-    assert_eq!(window.editor().plane.stage(), Stage::Pockets);
+    assert_eq!(window.editor().plane.stage(), HullStage::Pockets);
     assert!(!window.shows("Outline of step 0"));
 }
 
@@ -189,10 +189,10 @@ fn the_stages_of_a_virtual_boundary_show_no_outline_of_another_step() {
 fn move_is_one_of_the_shadings() {
     let mut window = two_steps();
     window.choose("Shading of the mesh", "Move");
-    assert_eq!(window.shadings(), [Shading::Move, Shading::Checker]);
+    assert_eq!(window.shadings(), [ShadingMode::Move, ShadingMode::Checker]);
     window.menu(&["View", "Shading of the mesh", "Checker"]);
     window.menu(&["View", "Shading of the embedding", "Move"]);
-    assert_eq!(window.shadings(), [Shading::Checker, Shading::Move]);
+    assert_eq!(window.shadings(), [ShadingMode::Checker, ShadingMode::Move]);
 }
 
 #[test]

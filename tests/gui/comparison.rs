@@ -7,13 +7,13 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect, Vec2};
 use egui_kittest::Node;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use freebound::app::Start;
+use freebound::app::LaunchFile;
 use freebound::examples::Example;
-use freebound::mesh::VertexId;
 use freebound::session::{Action, Compared, ContenderState};
-use freebound::solver::{BoundaryShape, Choice as _, Family, Method, Variant};
-use freebound::ui::{Pane, Request, Shading, Tab};
+use freebound::ui::{Pane, Request, ShadingMode, Tab};
 use freebound::view::Quantity;
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::{BoundaryShape, Family, Method, NamedOption as _, Variant};
 
 use crate::harness::{SIZE, Window, sheet};
 
@@ -66,11 +66,11 @@ fn the_menu_shows_six_methods_side_by_side_and_escape_leads_back() {
     let mut window = with_sheet();
     assert!(window.editor().plane.comparison.is_shown());
     let now = titles(&window);
-    let place = |title: &String| Method::ALL.iter().position(|method| title.starts_with(method.words().title));
+    let place = |title: &String| Method::ALL.iter().position(|method| title.starts_with(method.labels().title));
     assert!(now.len() == 6 && now.is_sorted_by(|a, b| place(a) < place(b)), "{now:?}");
     assert!(now[0].starts_with("Auto") && now[1].starts_with("Natural"), "{now:?}");
     let maps = window.editor().session.contenders().iter().skip(1).map(|contender| contender.variant().method);
-    assert!(maps.into_iter().all(|method| !method.goes_on_from_layout()), "each has a map of its own: {now:?}");
+    assert!(maps.into_iter().all(|method| !method.continues_from_layout()), "each has a map of its own: {now:?}");
     let cells = cells(&window);
     assert_eq!(cells.len(), 6);
     for ((name, place), title) in cells.iter().zip(&now) {
@@ -98,7 +98,7 @@ fn a_method_says_in_its_cell_what_it_says_as_that_of_the_document() {
         let settings = window.editor().session.document().settings;
         assert_eq!(Variant::of(&settings), Variant::of(&compared.problem.settings), "{title}");
         let (own, other) = (window.outcome(), compared.outcome.as_ref().expect("an embedding"));
-        assert_eq!(own.step.solution.embedding, other.step.solution.embedding, "{title}");
+        assert_eq!(own.step.candidate.solution.embedding, other.step.candidate.solution.embedding, "{title}");
         assert_eq!(own.step.verdict, other.step.verdict, "{title}");
         assert_eq!(own.distortion, other.distortion, "{title}");
     }
@@ -149,7 +149,7 @@ fn methods_are_checked_in_a_list_two_to_six() {
         let node = node.accesskit_node();
         (node.toggled() == Some(egui::accesskit::Toggled::True), node.is_disabled())
     };
-    let levy = Method::Levy.words().title;
+    let levy = Method::Levy.labels().title;
     assert_eq!(checked(&window, levy), (false, true), "six take part already");
     let toggle = |window: &mut Window, name: &str| {
         window.harness.get_by_role_and_label(Role::CheckBox, name).click();
@@ -166,7 +166,7 @@ fn methods_are_checked_in_a_list_two_to_six() {
     assert_eq!(titles(&window)[2], levy);
     assert!(found(&window, levy).outcome.is_some());
     // One that only meets constraints has nothing to do.
-    assert_eq!(checked(&window, Method::Matchmaker.words().title), (false, true));
+    assert_eq!(checked(&window, Method::Matchmaker.labels().title), (false, true));
     window.harness.get_by_label("Other weights and boundaries").click();
     window.settle();
     // It opens little by little.
@@ -259,7 +259,7 @@ fn faces_are_coloured_alike_in_all_cells_by_list_and_by_key() {
         window.key(key);
         assert_eq!(quantity(&window), expected);
     }
-    assert_eq!(window.shadings(), [Shading::Checker; 2], "the panes stay as they are");
+    assert_eq!(window.shadings(), [ShadingMode::Checker; 2], "the panes stay as they are");
     window.key(Key::Num8);
     assert_eq!(quantity(&window), Some(Quantity::Angle), "cells have no such shading");
 }
@@ -297,7 +297,7 @@ fn the_comparison_follows_another_mesh_and_says_where_there_is_nothing_to_compar
     window.open(&path);
     let title = titles(&window)[1].clone();
     let second = found(&window, &title);
-    let count = |of: &Compared| of.outcome.as_ref().expect("an embedding").step.solution.embedding.len();
+    let count = |of: &Compared| of.outcome.as_ref().expect("an embedding").step.candidate.solution.embedding.len();
     assert!(count(&second) < count(&first));
     assert_eq!(cells(&window).len(), 6);
     fs::write(window.path("bad.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n")
@@ -353,7 +353,7 @@ fn both_panes_show_beside_each_other_and_pins_are_set_on_the_mesh() {
 #[test]
 fn the_least_window_has_room_for_six_cells_or_the_table() {
     let mesh = Window::with_example(Example::Cube);
-    let start = Start { file: Some(mesh.path("cube.obj")), dialogs_inside: true, ..Start::default() };
+    let start = LaunchFile { file: Some(mesh.path("cube.obj")), dialogs_inside: true, ..LaunchFile::default() };
     let mut window = comparing(Window::start(Vec2::new(640.0, 420.0), start));
     for with_panels in [false, true] {
         if window.editor().layout.panels_shown() != with_panels {

@@ -1,4 +1,4 @@
-//! The ladder's last rungs in the window: what the pill and the steps say, the outside on H, relaxing, conflicts, the
+//! The flattener's last stages in the window: what the pill and the steps say, the outside on H, relaxing, conflicts, the
 //! question about mirrored targets.
 
 use std::time::{Duration, Instant};
@@ -7,11 +7,11 @@ use eframe::egui;
 use egui::Key;
 use egui::accesskit::{Role, Toggled};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use freebound::io::Target;
-use freebound::mesh::VertexId;
 use freebound::session::{Action, StopConditions};
-use freebound::solver::{Family, Method, Settings};
 use freebound::ui::Tab;
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Target;
+use freebound_core::problem::{Family, Method, Settings};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
@@ -91,7 +91,7 @@ fn a_planar_step_with_constraints_not_met_says_so_and_marks_them() {
 #[test]
 fn h_shows_the_outside_that_keeps_the_boundary_simple() {
     let mut window = twisted();
-    let outside = window.outcome().step.outside.clone().expect("a continuation has one");
+    let outside = window.outcome().step.candidate.outside.clone().expect("a continuation has one");
     window.key(Key::H);
     let caption = format!("{} triangles around the mesh", outside.triangles.len());
     assert!(window.shows(&caption), "{:?}", window.words());

@@ -4,11 +4,11 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2};
 use egui_kittest::kittest::Queryable as _;
-use freebound::io::Target;
-use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{Family, Hold, Method, Pin, Settings, Treatment};
-use freebound::ui::{Half, PinKind};
+use freebound::ui::{Half, PinMark};
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Target;
+use freebound_core::problem::{Family, Method, Pin, PinKind, Settings, Treatment};
 use glam::DVec2;
 
 use crate::constraints::{corners, free_place, pins, place, window};
@@ -20,14 +20,14 @@ fn a_row_s_mark_makes_a_hard_constraint_pull_and_back() {
     corners(&mut window);
     window.click("Pins 5");
     window.click("Hold of pin v40: hard");
-    assert_eq!(pins(&window)[&VertexId::new(40)].hold, Hold::Weighted(Pin::DEFAULT_WEIGHT));
+    assert_eq!(pins(&window)[&VertexId::new(40)].kind, PinKind::Soft(Pin::DEFAULT_WEIGHT));
     window.fill_in(Role::SpinButton, "Weight of pin v40", "25");
     window.key(Key::Enter);
-    assert_eq!(pins(&window)[&VertexId::new(40)].hold, Hold::Weighted(25.0));
+    assert_eq!(pins(&window)[&VertexId::new(40)].kind, PinKind::Soft(25.0));
     window.click("Hold of pin v40: weighted");
-    assert_eq!(pins(&window)[&VertexId::new(40)].hold, Hold::Hard);
+    assert_eq!(pins(&window)[&VertexId::new(40)].kind, PinKind::Hard);
     window.press(Modifiers::COMMAND, Key::Z);
-    assert_eq!(pins(&window)[&VertexId::new(40)].hold, Hold::Weighted(25.0), "each is an undo step");
+    assert_eq!(pins(&window)[&VertexId::new(40)].kind, PinKind::Soft(25.0), "each is an undo step");
 }
 
 #[test]
@@ -37,11 +37,11 @@ fn a_typed_weight_is_one_undo_step() {
     place(&mut window, &[(30, Target::weighted(DVec2::new(0.9, 0.1), 0.5))]);
     window.click("Pins 6");
     window.fill_in(Role::SpinButton, "Weight of pin v30", "250");
-    assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(0.5), "not before it is whole");
+    assert_eq!(pins(&window)[&VertexId::new(30)].kind, PinKind::Soft(0.5), "not before it is whole");
     window.key(Key::Enter);
-    assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(250.0));
+    assert_eq!(pins(&window)[&VertexId::new(30)].kind, PinKind::Soft(250.0));
     window.press(Modifiers::COMMAND, Key::Z);
-    assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(0.5));
+    assert_eq!(pins(&window)[&VertexId::new(30)].kind, PinKind::Soft(0.5));
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn a_weight_that_is_only_looked_at_keeps_its_digits() {
         window.harness.get_by_role_and_label(Role::SpinButton, "Weight of pin v30").click();
         window.settle();
         window.key(Key::Enter);
-        assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(weight));
+        assert_eq!(pins(&window)[&VertexId::new(30)].kind, PinKind::Soft(weight));
     }
 }
 
@@ -73,13 +73,13 @@ fn a_weight_out_of_range_changes_nothing_and_the_field_says_so_until_another_is_
     ] {
         window.fill_in(Role::SpinButton, &shown, typed);
         window.key(Key::Enter);
-        assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(0.5), "{typed}");
+        assert_eq!(pins(&window)[&VertexId::new(30)].kind, PinKind::Soft(0.5), "{typed}");
         shown = format!("{field}: {says}");
         window.harness.get_by_role_and_label(Role::SpinButton, &shown);
     }
     window.fill_in(Role::SpinButton, &shown, "250");
     window.key(Key::Enter);
-    assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(250.0));
+    assert_eq!(pins(&window)[&VertexId::new(30)].kind, PinKind::Soft(250.0));
     window.harness.get_by_role_and_label(Role::SpinButton, field);
 }
 
@@ -90,7 +90,7 @@ fn a_weight_beyond_the_range_of_the_field_is_not_changed_by_being_shown() {
     place(&mut window, &[(30, Target::weighted(DVec2::new(0.9, 0.1), 3e10))]);
     window.click("Pins 6");
     window.settle();
-    assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(3e10));
+    assert_eq!(pins(&window)[&VertexId::new(30)].kind, PinKind::Soft(3e10));
 }
 
 #[test]
@@ -101,14 +101,14 @@ fn where_the_treatment_weighs_exact_pins_marks_and_rows_say_so() {
     let settings = Settings { treatment: Some(Treatment::Weighted), ..natural };
     window.editor_mut().session.handle(Action::SetSettings(settings));
     window.settle();
-    let kind = PinKind::User(Hold::Weighted(Pin::DEFAULT_WEIGHT));
+    let kind = PinMark::User(PinKind::Soft(Pin::DEFAULT_WEIGHT));
     let shown = window.editor().pins_shown();
     assert!(shown.len() == 5 && shown.iter().all(|pin| pin.kind == kind), "{shown:?}");
     window.click("Pins 5");
     assert!(window.has_button("Hold of pin v40: hard, weighed by the treatment"));
     assert!(!window.words().iter().any(|words| words == "exact"), "{:?}", window.words());
     assert!(window.shows("Largest error: weighted"), "{:?}", window.words());
-    assert!(pins(&window).values().all(|pin| pin.hold == Hold::Hard), "what was asked for stays");
+    assert!(pins(&window).values().all(|pin| pin.kind == PinKind::Hard), "what was asked for stays");
 }
 
 #[test]
@@ -120,10 +120,10 @@ fn selected_pins_are_held_alike_by_one_click() {
     window.settle();
     assert!(window.shows("3 selected"));
     window.click("Weighted");
-    let weighted = pins(&window).into_iter().filter(|(_, pin)| !pin.hold.is_exact());
+    let weighted = pins(&window).into_iter().filter(|(_, pin)| !pin.kind.is_hard());
     assert_eq!(weighted.map(|(v, _)| v.number()).collect::<Vec<_>>(), [0, 8, 40]);
     window.click("Hard");
-    assert!(pins(&window).values().all(|pin| pin.hold == Hold::Hard));
+    assert!(pins(&window).values().all(|pin| pin.kind == PinKind::Hard));
 }
 
 #[test]
@@ -137,7 +137,7 @@ fn the_hold_chosen_last_is_that_of_the_next_constraint() {
     window.key(Key::C);
     window.editor_mut().tools.set_pair(Some(Half::Vertex(VertexId::new(30))));
     window.click_at(free_place(&window), Modifiers::NONE);
-    assert!(matches!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(_)));
+    assert!(matches!(pins(&window)[&VertexId::new(30)].kind, PinKind::Soft(_)));
 }
 
 #[test]

@@ -2,10 +2,10 @@
 
 use eframe::egui;
 use egui::{Key, Modifiers, Pos2, Vec2};
-use freebound::io::{Target, Targets};
-use freebound::mesh::VertexId;
 use freebound::session::Action;
 use freebound::ui::{Half, Intent, Tool};
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::{Target, Targets};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
@@ -171,7 +171,7 @@ fn a_click_on_a_mark_far_from_its_vertex_selects_as_the_status_line_says() {
     let target = DVec2::new(0.9, 0.1);
     place(&mut window, &[(30, Target::weighted(target, 0.5))]);
     // An inset over a defect would take the place of what lies under it.
-    window.editor_mut().look.magnifier = false;
+    window.editor_mut().pane_shading.magnifier = false;
     window.key(Key::C);
     let mark = window.place_in_plane(target);
     window.harness.hover_at(mark);

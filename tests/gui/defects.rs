@@ -5,13 +5,14 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use freebound::examples::Example;
-use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{Family, Method, Settings};
 use freebound::ui::Defect;
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::{Family, Method, Settings};
 use glam::DVec2;
 
-use crate::harness::{Window, corpus, sheet};
+use crate::harness::{Window, sheet};
+use freebound_testkit::{corpus, corpus_test};
 
 /// A window with an embedding that folds.
 fn folded() -> Window {
@@ -27,7 +28,7 @@ pub(crate) fn fold(window: &mut Window) {
 
 /// Pins the corners where they lie and two inner vertices each where the other lies.
 fn exchange(window: &mut Window, corners: [u32; 4], inner: [u32; 2]) {
-    // The ladder would take the folds away again.
+    // The flattener would take the folds away again.
     let natural = Settings::new(Method::Natural, Family::Conformal);
     window.editor_mut().session.handle(Action::SetSettings(natural));
     window.settle();
@@ -138,26 +139,29 @@ fn a_defect_that_is_gone_is_not_gone_to() {
     assert!(!window.shows(" of 0"), "{:?}", window.words());
 }
 
-#[test]
-fn the_crossings_of_the_cow_are_listed_and_shown() {
-    let Some(corpus) = corpus() else { return };
-    let mut window = Window::with_file(&corpus.join("cow_seamster.obj"));
-    let natural = Settings::new(Method::Natural, Family::Conformal);
-    window.editor_mut().session.handle(Action::SetSettings(natural));
-    window.settle();
-    let outcome = window.outcome();
-    assert!(!outcome.step.verdict.planar && !outcome.step.verdict.boundary_crossings.is_empty());
-    assert!(window.verdict().contains("crossing"), "{}", window.verdict());
-    let [a, b] = outcome.step.verdict.boundary_crossings[0];
-    let flipped = outcome.step.verdict.flipped_faces.len();
-    window.click(&format!("Defects {}", window.editor().defect_count()));
-    for _ in 0..=flipped {
-        window.key(Key::D);
+corpus_test! {
+    fn the_crossings_of_the_cow_are_listed_and_shown() {
+        let mut window = Window::with_file(&corpus().join("cow_seamster.obj"));
+        let natural = Settings::new(Method::Natural, Family::Conformal);
+        window.editor_mut().session.handle(Action::SetSettings(natural));
+        window.settle();
+        let outcome = window.outcome();
+        assert!(!outcome.step.verdict.planar && !outcome.step.verdict.boundary_crossings.is_empty());
+        assert!(window.verdict().contains("crossing"), "{}", window.verdict());
+        let [a, b] = outcome.step.verdict.boundary_crossings[0];
+        let flipped = outcome.step.verdict.flipped_faces.len();
+        window.click(&format!("Defects {}", window.editor().defect_count()));
+        for _ in 0..=flipped {
+            window.key(Key::D);
+        }
+        assert_eq!(
+            window.editor().defects()[window.editor().selection.defect().expect("one")],
+            Defect::Crossing([a, b])
+        );
+        let disk = window.editor().session.model().and_then(|model| model.disk()).cloned().expect("a disk");
+        let ends = [a, b].into_iter().flat_map(|edge| disk.ends(edge)).collect();
+        assert_eq!(*window.editor().selection.vertices(), ends);
     }
-    assert_eq!(window.editor().defects()[window.editor().selection.defect().expect("one")], Defect::Crossing([a, b]));
-    let disk = window.editor().session.model().and_then(|model| model.disk()).cloned().expect("a disk");
-    let ends = [a, b].into_iter().flat_map(|edge| disk.ends(edge)).collect();
-    assert_eq!(*window.editor().selection.vertices(), ends);
 }
 
 #[test]

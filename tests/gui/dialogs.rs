@@ -7,11 +7,11 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
-use freebound::app::Start;
-use freebound::geom::Picture;
-use freebound::io::read_mesh;
-use freebound::mesh::VertexId;
+use freebound::app::LaunchFile;
 use freebound::session::Severity;
+use freebound_core::geom::Picture;
+use freebound_core::mesh::VertexId;
+use freebound_io::read_mesh;
 
 use crate::harness::{SIZE, Window, sheet, write_obj};
 
@@ -203,7 +203,7 @@ fn files_dropped_together_are_sorted_by_their_kinds_and_a_second_mesh_is_named()
     std::fs::write(window.path("a.txt"), "0 0.25 0.5\n24 0.75 0.5\n").expect("written");
     std::fs::write(window.path("a.mtl"), "newmtl skin\n").expect("written");
     let picture = std::fs::File::create(window.path("a.png")).expect("a file");
-    Picture { width: 2, height: 1, pixels: vec![255; 8] }.write_png(picture).expect("written");
+    freebound_io::raster::write_png(&Picture { width: 2, height: 1, pixels: vec![255; 8] }, picture).expect("written");
     let names = ["a.txt", "a.png", "a.mtl", "a.obj", "b.obj"];
     let files = names.map(|name| dropped(window.path(name)));
     window.harness.input_mut().dropped_files.extend(files);
@@ -252,14 +252,14 @@ fn files_opened_last_are_kept_and_opened_again() {
     let first = window();
     let store = first.path("settings/recent.json");
     let file = first.path("sheet.obj");
-    let start = || Start {
+    let start = || LaunchFile {
         file: Some(file.clone()),
         recent_store: Some(store.clone()),
         dialogs_inside: true,
-        ..Start::default()
+        ..LaunchFile::default()
     };
     drop(Window::start(SIZE, start()));
-    let mut again = Window::start(SIZE, Start { file: None, ..start() });
+    let mut again = Window::start(SIZE, LaunchFile { file: None, ..start() });
     assert_eq!(name(&again), "Face");
     again.menu(&["File", "Recent", &file.display().to_string()]);
     assert_eq!(name(&again), "sheet.obj");

@@ -5,10 +5,11 @@ use egui::accesskit::Role;
 use egui::{Key, Pos2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::examples::Example;
-use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{Method, Settings, equation_of_step};
 use freebound::ui::Tab;
+use freebound_core::flatten::equation_of_step;
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::{Method, Settings, Stage};
 
 use crate::harness::{Window, sheet};
 
@@ -124,7 +125,7 @@ fn an_iteration_s_weights_are_those_of_the_step_before() {
     window.editor_mut().session.handle(Action::SetSettings(settings));
     window.settle();
     window.key(Key::Space);
-    assert_eq!(window.outcome().step.rung, Method::Iterate);
+    assert_eq!(window.outcome().step.candidate.stage, Stage::Iterate);
     select(&mut window, INSIDE);
     assert!(window.shows("of the step before (§4)"), "{:?}", window.words());
     assert!(!window.shows("Not met"), "{:?}", window.words());
@@ -135,7 +136,7 @@ fn a_vertex_in_a_pocket_has_virtual_or_boundary_neighbours_as_well() {
     let mut window = Window::with_example(Example::Face);
     window.choose("Method", "Virtual boundary");
     let outcome = window.outcome();
-    let stages = outcome.step.virtual_boundary.as_ref().expect("the face bends");
+    let stages = outcome.step.candidate.virtual_boundary.as_ref().expect("the face bends");
     let disk = window.editor().session.model().and_then(|model| model.disk()).cloned().expect("a disk");
     let vertex = *disk.boundary_loop().iter().find(|v| !stages.hull.contains(v)).expect("in a pocket");
     select(&mut window, vertex);

@@ -3,10 +3,10 @@
 use eframe::egui;
 use egui::{Key, Modifiers, Pos2, Rect, Vec2};
 use freebound::examples::Example;
-use freebound::io::Target;
-use freebound::mesh::VertexId;
 use freebound::session::{Action, Document};
 use freebound::ui::{Pane, Tool};
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Target;
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
@@ -223,7 +223,7 @@ fn escape_before_a_pin_has_moved_takes_nothing_back() {
 fn dragging_a_gauge_pin_makes_both_the_user_s() {
     let mut window = window();
     let before = window.embedding();
-    let gauge = window.outcome().step.solution.pins.clone();
+    let gauge = window.outcome().step.candidate.solution.pins.clone();
     let [(first, _), (second, at)] = gauge.iter().map(|(&v, &pin)| (v, pin)).collect::<Vec<_>>()[..] else {
         panic!("two gauge pins: {gauge:?}")
     };
@@ -232,7 +232,7 @@ fn dragging_a_gauge_pin_makes_both_the_user_s() {
     let to = from + Vec2::new(30.0, 40.0);
     window.drag(from, to, Modifiers::NONE);
     let expected =
-        [(first, Target::fixed(in_embedding(&window, to))), (second, Target { uv: at.target, hold: at.hold })];
+        [(first, Target::fixed(in_embedding(&window, to))), (second, Target { uv: at.target, kind: at.kind })];
     assert_eq!(document(&window).targets.into_iter().collect::<Vec<_>>(), expected);
     assert!(window.has_button(&format!("Pin {first}")) && window.has_button(&format!("Pin {second}")));
     assert!(!window.has_button(&format!("Gauge pin {first}")));

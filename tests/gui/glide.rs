@@ -2,10 +2,10 @@
 
 use eframe::egui;
 use egui::{Event, Key, Modifiers, Vec2};
-use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{Family, Method, Settings};
-use freebound::ui::PinKind;
+use freebound::ui::PinMark;
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::{Family, Method, Settings};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
@@ -98,7 +98,7 @@ fn gauge_pins_stay_on_the_sheet_while_it_moves() {
     each_frame(&mut window, |window| {
         let positions = drawn(window);
         for pin in window.editor().pins_shown() {
-            assert_eq!(pin.kind, PinKind::Gauge);
+            assert_eq!(pin.kind, PinMark::Gauge);
             assert!(pin.target.distance(positions[pin.vertex.index()]) < 1e-12, "{}", pin.vertex);
             looked += usize::from(window.editor().plane.is_easing());
         }

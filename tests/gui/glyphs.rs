@@ -26,10 +26,10 @@ fn sources(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
 
 #[test]
 fn every_character_on_the_screen_has_a_glyph() {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut files = vec![source.join("examples.rs")];
-    for folder in ["ui", "session", "solver", "mesh", "io"] {
-        sources(&source.join(folder), &mut files);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = vec![root.join("src/examples.rs")];
+    for folder in ["src/ui", "src/session", "crates/freebound-core/src", "crates/freebound-io/src"] {
+        sources(&root.join(folder), &mut files);
     }
     let context = egui::Context::default();
     let mut missing = Vec::new();

@@ -8,16 +8,17 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 use egui::Vec2;
 use egui_kittest::{Harness, HarnessBuilder};
-use freebound::app::{App, Start};
+use freebound::app::{App, LaunchFile};
 use freebound::examples::Example;
-use freebound::mesh::TriMesh;
-use freebound::session::{Action, Outcome};
-use freebound::solver::Embedding;
+use freebound::session::Action;
 use freebound::ui::Editor;
+use freebound_core::mesh::TriMesh;
+use freebound_core::pipeline::Outcome;
+use freebound_core::problem::Embedding;
 use tempfile::TempDir;
 
 pub(crate) use crate::actions::{MESH_VIEW, PLANE_VIEW};
-pub(crate) use crate::makers::{corpus, sheet, write_obj};
+pub(crate) use freebound_testkit::{sheet, write_obj};
 
 /// What the background is given before a test fails; a test machine under load is slow.
 const PATIENCE: Duration = Duration::from_secs(90);
@@ -33,17 +34,17 @@ pub(crate) struct Window {
 
 impl Window {
     /// A window that opens what `start` says, settled.
-    pub(crate) fn start(size: Vec2, start: Start) -> Self {
+    pub(crate) fn start(size: Vec2, start: LaunchFile) -> Self {
         Self::build(Harness::builder().with_size(size), start)
     }
 
     /// A window that a graphics card draws, in one of the two themes.
     pub(crate) fn drawn(theme: egui::Theme, file: &Path) -> Self {
         let builder = Harness::builder().with_size(SIZE).with_theme(theme).with_render_cursor(false).wgpu();
-        Self::build(builder, Start { file: Some(file.to_owned()), ..Start::default() })
+        Self::build(builder, LaunchFile { file: Some(file.to_owned()), ..LaunchFile::default() })
     }
 
-    fn build(builder: HarnessBuilder<App>, start: Start) -> Self {
+    fn build(builder: HarnessBuilder<App>, start: LaunchFile) -> Self {
         let builder = builder.with_step_dt(1.0 / 60.0);
         let harness = builder.build_eframe(move |context| App::new(context, start));
         let mut window = Self { harness, folder: tempfile::tempdir().expect("a folder for files") };
@@ -66,7 +67,7 @@ impl Window {
 
     /// A window with a file.
     pub(crate) fn with_file(path: &Path) -> Self {
-        Self::start(SIZE, Start { file: Some(path.to_owned()), dialogs_inside: true, ..Start::default() })
+        Self::start(SIZE, LaunchFile { file: Some(path.to_owned()), dialogs_inside: true, ..LaunchFile::default() })
     }
 
     /// A place in the window's own folder.
@@ -87,7 +88,7 @@ impl Window {
     }
 
     pub(crate) fn embedding(&self) -> Embedding {
-        self.outcome().step.solution.embedding.clone()
+        self.outcome().step.candidate.solution.embedding.clone()
     }
 
     /// Opens a file as the session is asked to.
@@ -149,12 +150,12 @@ impl Window {
             && plane_drawn == plane_wanted
             && editor.plane.hull_is_drawn()
             && !editor.plane.is_easing()
-            && !editor.look.is_making_picture()
+            && !editor.pane_shading.is_making_picture()
             && !editor.tools.seam.is_busy()
             && !session.is_comparing()
             && !session.is_morphing()
             && editor.plane.comparison.is_drawn(session)
-            && !editor.host.has_presses_waiting();
+            && !editor.gpu.has_presses_waiting();
         session.busy().is_none() && !session.is_following() && scenes_drawn
     }
 }

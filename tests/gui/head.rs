@@ -2,12 +2,12 @@
 
 use std::fs::File;
 
-use freebound::io::{MeshFile, Texture, read_mesh, write_obj};
-use freebound::mesh::DiskMesh;
-use freebound::solver::verdict;
+use freebound_core::mesh::DiskMesh;
+use freebound_core::verify::verdict;
+use freebound_io::{MeshFile, Texture, read_mesh, write_obj};
 
 use crate::harness::Window;
-use crate::makers::head;
+use freebound_testkit::head;
 
 #[test]
 fn a_closed_head_of_ten_thousand_quads_takes_three_clicks() {
@@ -25,7 +25,7 @@ fn a_closed_head_of_ten_thousand_quads_takes_three_clicks() {
     let texture = written.texture_mesh().expect("every corner has a place");
     let disk = DiskMesh::try_from(texture.mesh.clone()).expect("one chart");
     let proof = verdict(&disk, &texture.embedding);
-    assert!(proof.planar && proof.holds_in_f32, "{}", proof.summary());
+    assert!(proof.planar && proof.planar_in_f32, "{}", proof.summary());
     let is_of_face = |at: glam::DVec3| at.z > 0.45 && at.x.abs() < 0.5 && at.y.abs() < 0.6;
     let across = disk.boundary_loop().iter().filter(|&&vertex| is_of_face(disk.position(vertex))).count();
     assert_eq!(across, 0, "of {} vertices of the cut", disk.boundary_loop().len());

@@ -3,8 +3,8 @@
 use eframe::egui;
 use egui::Key;
 use freebound::examples::Example;
-use freebound::solver::Embedding;
-use freebound::ui::Stage;
+use freebound::ui::HullStage;
+use freebound_core::problem::Embedding;
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
@@ -13,7 +13,7 @@ use crate::harness::{Window, sheet};
 fn bent() -> Window {
     let mut window = Window::with_example(Example::Face);
     window.choose("Method", "Virtual boundary");
-    assert!(window.outcome().step.virtual_boundary.is_some(), "the face bends");
+    assert!(window.outcome().step.candidate.virtual_boundary.is_some(), "the face bends");
     window
 }
 
@@ -26,9 +26,9 @@ fn h_shows_the_stages_and_hides_them_again() {
     let mut window = bent();
     assert!(!window.has_button("Pockets"));
     window.key(Key::H);
-    let pockets = window.outcome().step.virtual_boundary.clone().expect("bent").pockets.len();
+    let pockets = window.outcome().step.candidate.virtual_boundary.clone().expect("bent").pockets.len();
     assert!(window.shows(&format!("{pockets} triangles up to the hull")), "{:?}", window.words());
-    for stage in Stage::ALL {
+    for stage in HullStage::ALL {
         window.click(stage.words()[0]);
         assert_eq!(window.editor().plane.stage(), stage);
     }
@@ -44,7 +44,7 @@ fn h_shows_the_stages_and_hides_them_again() {
 fn each_stage_shows_the_mesh_where_it_was_then() {
     let mut window = bent();
     let result = window.embedding();
-    let stages = window.outcome().step.virtual_boundary.clone().expect("bent");
+    let stages = window.outcome().step.candidate.virtual_boundary.clone().expect("bent");
     window.key(Key::H);
     let extent = window.editor().plane.drawn().expect("solved").arrays.bounds.extent();
     let gap = |a: &[DVec2], b: &[DVec2]| a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / extent;

@@ -46,7 +46,7 @@ fn a_large_file_that_is_left_changes_nothing() {
     assert!(!asks(&window) && name(&window) == "sheet.obj");
     window.open(&large);
     window.press(Modifiers::COMMAND, Key::Q);
-    assert!(!window.editor().host.is_quitting(), "other keys rest");
+    assert!(!window.editor().gpu.is_quitting(), "other keys rest");
     window.key(Key::Escape);
     assert!(!asks(&window) && name(&window) == "sheet.obj", "Esc is Cancel");
     assert!(window.editor().session.recent().paths().iter().all(|path| *path != large));

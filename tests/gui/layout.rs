@@ -5,13 +5,14 @@ use egui::accesskit::Role;
 use egui::{Key, Rect, Vec2};
 use egui_kittest::Node;
 use egui_kittest::kittest::NodeT as _;
-use freebound::app::Start;
+use freebound::app::LaunchFile;
 use freebound::examples::Example;
-use freebound::io::{StepReport, Target};
-use freebound::mesh::{TriMesh, VertexId};
 use freebound::session::Action;
-use freebound::solver::{Family, Method, Settings};
-use freebound::ui::{Request, Shading, Tab};
+use freebound::ui::{Request, ShadingMode, Tab};
+use freebound_core::mesh::{TriMesh, VertexId};
+use freebound_core::pipeline::Target;
+use freebound_core::problem::{Family, Method, Settings};
+use freebound_io::StepReport;
 use glam::{DVec2, DVec3};
 
 use crate::harness::{SIZE, Window, sheet};
@@ -56,9 +57,9 @@ fn bars(window: &Window) -> [(Rect, &'static str); 3] {
 }
 
 /// A window of the least size, with its steps taken.
-fn small(start: Start, steps: usize) -> Window {
+fn small(start: LaunchFile, steps: usize) -> Window {
     let mut window = Window::start(LEAST, start);
-    window.editor_mut().look.glides = false;
+    window.editor_mut().pane_shading.glides = false;
     for _ in 0..steps {
         window.editor_mut().session.handle(Action::Step);
         window.settle();
@@ -70,9 +71,9 @@ fn small(start: Start, steps: usize) -> Window {
 fn nothing_in_the_bars_of_the_least_window_is_cut_or_lies_over_another() {
     let mesh = Window::with_mesh("sheet.obj", &sheet(4, 0.5));
     let cube = Window::with_example(Example::Cube);
-    let start = |file| Start { file: Some(file), dialogs_inside: true, ..Start::default() };
+    let start = |file| LaunchFile { file: Some(file), dialogs_inside: true, ..LaunchFile::default() };
     for (name, start, steps) in [
-        ("face", Start::default(), 1),
+        ("face", LaunchFile::default(), 1),
         ("cube", start(cube.path("cube.obj")), 1),
         ("many steps", start(mesh.path("sheet.obj")), 12),
     ] {
@@ -82,7 +83,7 @@ fn nothing_in_the_bars_of_the_least_window_is_cut_or_lies_over_another() {
                 window.editor_mut().handle(Request::TogglePanels);
                 window.settle();
             }
-            for shading in [Shading::Checker, Shading::Angle] {
+            for shading in [ShadingMode::Checker, ShadingMode::Angle] {
                 window.shade(shading);
                 window.settle();
                 for (part, bar) in bars(&window) {
@@ -103,7 +104,7 @@ fn nothing_in_the_bars_of_the_least_window_is_cut_or_lies_over_another() {
 
 #[test]
 fn a_pane_that_a_person_made_narrow_keeps_its_bar_in_order() {
-    let mut window = small(Start::default(), 0);
+    let mut window = small(LaunchFile::default(), 0);
     window.editor_mut().handle(Request::ShowTab(Tab::Method));
     window.settle();
     let bar = window.rect(Role::Slider, "Width of the panes").center();
@@ -192,7 +193,7 @@ fn strip(count: u32) -> TriMesh {
 fn the_columns_of_the_pins_never_touch() {
     let mesh = Window::with_mesh("strip.obj", &strip(1600));
     for size in [LEAST, SIZE] {
-        let start = Start { file: Some(mesh.path("strip.obj")), dialogs_inside: true, ..Start::default() };
+        let start = LaunchFile { file: Some(mesh.path("strip.obj")), dialogs_inside: true, ..LaunchFile::default() };
         let mut window = Window::start(size, start);
         let session = &mut window.editor_mut().session;
         session.handle(Action::SetSettings(Settings::new(Method::Lscm, Family::Conformal)));

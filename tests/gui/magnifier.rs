@@ -5,12 +5,13 @@ use egui::accesskit::Role;
 use egui::{Key, Rect};
 use egui_kittest::kittest::Queryable as _;
 use freebound::examples::Example;
-use freebound::mesh::VertexId;
 use freebound::session::Action;
 use freebound::ui::Defect;
+use freebound_core::mesh::VertexId;
 
 use crate::defects::fold;
-use crate::harness::{Window, corpus, sheet};
+use crate::harness::{Window, sheet};
+use freebound_testkit::{corpus, corpus_test};
 
 fn folded() -> Window {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
@@ -104,7 +105,7 @@ fn what_the_pane_shows_as_large_is_not_magnified() {
     let corner = window.editor().session.model().expect("open").mesh().triangles[face.index()][0];
     let at = window.embedding()[corner.index()];
     let camera = window.editor_mut().plane.pane.camera_mut().expect("framed");
-    camera.frame(freebound::geom::Bounds { low: at - 1e-3, high: at + 1e-3 }, glam::DVec2::splat(400.0));
+    camera.frame(freebound_core::geom::Bounds { low: at - 1e-3, high: at + 1e-3 }, glam::DVec2::splat(400.0));
     window.settle();
     assert_eq!(inset(&window), None);
 }
@@ -153,22 +154,22 @@ fn a_stage_before_the_result_has_no_verdict_and_so_no_inset() {
     assert_eq!(inset(&window), None, "folds, but no verdict");
 }
 
-#[test]
-fn a_crossing_of_the_cow_is_shown_with_its_ring() {
-    let Some(corpus) = corpus() else { return };
-    let mut window = Window::with_file(&corpus.join("cow_seamster.obj"));
-    window.choose("Method", "Natural boundary");
-    let flipped = window.outcome().step.verdict.flipped_faces.len();
-    let crossing = window.editor().defects()[flipped];
-    assert!(matches!(crossing, Defect::Crossing(_)));
-    window.editor_mut().selection.set_defect(Some(flipped));
-    window.editor_mut().session.handle(Action::EndGesture);
-    window.settle();
-    assert!(inset(&window).expect("it shows").contains(&crossing.words()));
-    // What is looked at lies in the middle of the picture under the title.
-    let rect = inset_rect(&window);
-    assert!(window.has_ring_at(rect.center() + egui::vec2(0.0, 10.0)));
-    assert!(window.harness.query_by_label(&inset(&window).expect("it shows")).is_some());
+corpus_test! {
+    fn a_crossing_of_the_cow_is_shown_with_its_ring() {
+        let mut window = Window::with_file(&corpus().join("cow_seamster.obj"));
+        window.choose("Method", "Natural boundary");
+        let flipped = window.outcome().step.verdict.flipped_faces.len();
+        let crossing = window.editor().defects()[flipped];
+        assert!(matches!(crossing, Defect::Crossing(_)));
+        window.editor_mut().selection.set_defect(Some(flipped));
+        window.editor_mut().session.handle(Action::EndGesture);
+        window.settle();
+        assert!(inset(&window).expect("it shows").contains(&crossing.words()));
+        // What is looked at lies in the middle of the picture under the title.
+        let rect = inset_rect(&window);
+        assert!(window.has_ring_at(rect.center() + egui::vec2(0.0, 10.0)));
+        assert!(window.harness.query_by_label(&inset(&window).expect("it shows")).is_some());
+    }
 }
 
 #[test]

@@ -24,8 +24,6 @@ mod hull;
 mod large;
 mod layout;
 mod magnifier;
-#[path = "../../examples/makers/mod.rs"]
-mod makers;
 mod mend;
 mod messages;
 mod morph;

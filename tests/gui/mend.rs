@@ -3,11 +3,11 @@
 use eframe::egui;
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::Queryable as _;
-use freebound::mesh::{TriMesh, VertexId};
+use freebound_core::mesh::{TriMesh, VertexId};
 use glam::DVec3;
 
 use crate::harness::{Window, sheet};
-use crate::makers::tetrahedron;
+use freebound_testkit::tetrahedron;
 
 #[test]
 fn a_mesh_that_can_be_mended_says_how_and_is_mended_by_one_click() {

@@ -8,15 +8,17 @@ use eframe::egui;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use freebound::examples::Example;
-use freebound::io::{Target, read_mesh};
-use freebound::mesh::VertexId;
-use freebound::session::{Action, Surface};
-use freebound::solver::{Family, Method, Settings};
+use freebound::session::Action;
 use freebound::ui::sentence;
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::{Surface, Target};
+use freebound_core::problem::{Family, Method, Settings};
+use freebound_io::read_mesh;
 use glam::DVec2;
 
 use crate::dialogs::{ask_where_to_save, name, window};
-use crate::harness::{Window, corpus, sheet, write_obj};
+use crate::harness::{Window, sheet, write_obj};
+use freebound_testkit::{corpus, corpus_test};
 
 /// A surface with many holes, which flattens as it is; unoptimised that takes minutes.
 const SOLVED_FOR_LONG: &str = "holes_plane.obj";
@@ -32,47 +34,47 @@ fn a_sentence_has_a_capital_but_a_file_keeps_its_name() {
     }
 }
 
-#[test]
-fn every_bad_file_of_the_corpus_says_what_is_wrong_and_what_to_do() {
-    let Some(corpus) = corpus() else { return };
-    let mut files: Vec<PathBuf> =
-        std::fs::read_dir(corpus.join("bad")).unwrap().map(|entry| entry.unwrap().path()).collect();
-    files.sort();
-    assert!(files.len() >= 14);
-    for file in files {
-        let file_name = file.file_name().unwrap().to_string_lossy().into_owned();
-        if file_name == SOLVED_FOR_LONG {
-            continue;
+corpus_test! {
+    fn every_bad_file_of_the_corpus_says_what_is_wrong_and_what_to_do() {
+        let mut files: Vec<PathBuf> =
+            std::fs::read_dir(corpus().join("bad")).unwrap().map(|entry| entry.unwrap().path()).collect();
+        files.sort();
+        assert!(files.len() >= 14);
+        for file in files {
+            let file_name = file.file_name().unwrap().to_string_lossy().into_owned();
+            if file_name == SOLVED_FOR_LONG {
+                continue;
+            }
+            let mut window = window();
+            window.open(&file);
+            let messages = window.editor().session.messages().to_vec();
+            if USABLE.contains(&file_name.as_str()) {
+                assert!(messages.is_empty(), "{file_name}: {messages:?}");
+                continue;
+            }
+            if messages.is_empty() {
+                assert!(window.has_button("Mend all") && window.has_button("What is wrong"), "{file_name}");
+                assert!(window.verdict().ends_with("faults"), "{}", window.verdict());
+                continue;
+            }
+            for message in &messages {
+                assert!(message.remedy.as_ref().is_some_and(|remedy| !remedy.is_empty()), "{file_name}: {message:?}");
+            }
+            assert!(window.shows(&sentence(&messages[0].text)), "{file_name}: {:?}", window.words());
+            assert!(window.has_button("Dismiss") && window.has_button("Copy"), "{file_name}");
+            if read_mesh(&file).is_err() {
+                assert_eq!(name(&window), "sheet.obj", "what cannot be read replaces nothing");
+                assert!(window.is_proved(), "{}", window.verdict());
+            } else {
+                assert_eq!(name(&window), file_name);
+                assert!(
+                    window.verdict().ends_with("fault") || window.verdict().ends_with("faults"),
+                    "{}",
+                    window.verdict()
+                );
+            }
+            try_everything(&mut window);
         }
-        let mut window = window();
-        window.open(&file);
-        let messages = window.editor().session.messages().to_vec();
-        if USABLE.contains(&file_name.as_str()) {
-            assert!(messages.is_empty(), "{file_name}: {messages:?}");
-            continue;
-        }
-        if messages.is_empty() {
-            assert!(window.has_button("Mend all") && window.has_button("What is wrong"), "{file_name}");
-            assert!(window.verdict().ends_with("faults"), "{}", window.verdict());
-            continue;
-        }
-        for message in &messages {
-            assert!(message.remedy.as_ref().is_some_and(|remedy| !remedy.is_empty()), "{file_name}: {message:?}");
-        }
-        assert!(window.shows(&sentence(&messages[0].text)), "{file_name}: {:?}", window.words());
-        assert!(window.has_button("Dismiss") && window.has_button("Copy"), "{file_name}");
-        if read_mesh(&file).is_err() {
-            assert_eq!(name(&window), "sheet.obj", "what cannot be read replaces nothing");
-            assert!(window.is_proved(), "{}", window.verdict());
-        } else {
-            assert_eq!(name(&window), file_name);
-            assert!(
-                window.verdict().ends_with("fault") || window.verdict().ends_with("faults"),
-                "{}",
-                window.verdict()
-            );
-        }
-        try_everything(&mut window);
     }
 }
 
@@ -108,7 +110,7 @@ fn a_message_is_copied_gone_to_and_dismissed() {
     let file = window.path("bad.obj");
     window.open(&file);
     let message = window.editor().session.messages()[0].clone();
-    let Some(Surface::Faulty(..)) = window.editor().session.model().map(|model| &model.surface) else {
+    let Some(Surface::Faulty(..)) = window.editor().session.model().map(|model| &model.prepared.surface) else {
         panic!("a face is turned over")
     };
     window.harness.get_by_label("Copy").click();
@@ -197,7 +199,7 @@ fn the_newer_of_two_meshes_opens() {
 fn the_window_answers_while_a_solve_runs() {
     let mut window = at_work();
     window.key_now(Key::W);
-    assert!(window.editor().look.wireframe && window.editor().session.busy().is_some(), "no waiting");
+    assert!(window.editor().pane_shading.wireframe && window.editor().session.busy().is_some(), "no waiting");
     let slowest = (0..10).map(|_| {
         let start = Instant::now();
         window.step();

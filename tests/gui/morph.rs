@@ -8,10 +8,11 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
-use freebound::mesh::VertexId;
 use freebound::session::{Action, Compared, MorphState, MorphTour};
-use freebound::solver::{Embedding, Variant, verdict};
 use freebound::ui::{MorphRequest, MorphView, Request};
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::{Embedding, Variant};
+use freebound_core::verify::verdict;
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
@@ -63,7 +64,7 @@ fn map_of(window: &Window, name: &str) -> Embedding {
         found.is_some_and(|found| found.report.name == variant.to_string())
     });
     let found = contender.and_then(|contender| contender.found().cloned()).expect("it has run");
-    found.outcome.as_ref().expect("a map").step.solution.embedding.clone()
+    found.outcome.as_ref().expect("a map").step.candidate.solution.embedding.clone()
 }
 
 /// What the large view says of itself.

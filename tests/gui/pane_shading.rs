@@ -5,12 +5,12 @@ use egui::Key;
 use egui::accesskit::Role;
 use freebound::examples::Example;
 use freebound::session::Action;
-use freebound::ui::{Pane, Shading};
+use freebound::ui::{Pane, ShadingMode};
 
 use crate::harness::{MESH_VIEW, PLANE_VIEW, Window, sheet};
 use crate::pictures::open_picture;
 
-const PICTURED: [Shading; 2] = [Shading::Picture; 2];
+const PICTURED: [ShadingMode; 2] = [ShadingMode::Picture; 2];
 
 /// The face on its portrait.
 fn face() -> Window {
@@ -31,8 +31,9 @@ fn each_pane_has_a_shading_of_its_own_in_its_bar() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     window.choose("Shading of the mesh", "Angle distortion");
     window.choose("Shading of the embedding", "Area distortion");
-    assert_eq!(window.shadings(), [Shading::Angle, Shading::Area]);
-    let scale = |pane| window.editor().look.paint(pane).expect("painted").legend.as_ref().expect("a legend").scale;
+    assert_eq!(window.shadings(), [ShadingMode::Angle, ShadingMode::Area]);
+    let scale =
+        |pane| window.editor().pane_shading.paint(pane).expect("painted").legend.as_ref().expect("a legend").scale;
     assert_ne!(scale(Pane::Mesh), scale(Pane::Plane));
     let titles = |title: &str| window.words().iter().filter(|words| *words == title).count();
     // In the menu of the pane's bar, and over the legend in the pane.
@@ -42,10 +43,11 @@ fn each_pane_has_a_shading_of_its_own_in_its_bar() {
 #[test]
 fn panes_that_are_coloured_alike_share_colours_and_one_legend() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
-    window.shade(Shading::Area);
+    window.shade(ShadingMode::Area);
     window.settle();
-    let faces =
-        |window: &Window, pane| std::sync::Arc::as_ptr(&window.editor().look.paint(pane).expect("painted").faces);
+    let faces = |window: &Window, pane| {
+        std::sync::Arc::as_ptr(&window.editor().pane_shading.paint(pane).expect("painted").faces)
+    };
     assert_eq!(faces(&window, Pane::Mesh), faces(&window, Pane::Plane));
     assert_eq!(window.words().iter().filter(|words| *words == "Area distortion").count(), 3, "two menus, one legend");
     window.choose("Shading of the mesh", "Plain");
@@ -58,16 +60,16 @@ fn number_keys_shade_the_pane_under_the_pointer_or_both() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     hover(&mut window, MESH_VIEW);
     window.key(Key::Num1);
-    assert_eq!(window.shadings(), [Shading::Plain, Shading::Checker]);
+    assert_eq!(window.shadings(), [ShadingMode::Plain, ShadingMode::Checker]);
     hover(&mut window, PLANE_VIEW);
     window.key(Key::Num4);
-    assert_eq!(window.shadings(), [Shading::Plain, Shading::Angle]);
+    assert_eq!(window.shadings(), [ShadingMode::Plain, ShadingMode::Angle]);
     window.harness.remove_cursor();
     window.settle();
     window.key(Key::Num6);
-    assert_eq!(window.shadings(), [Shading::Stretch, Shading::Stretch]);
+    assert_eq!(window.shadings(), [ShadingMode::Stretch, ShadingMode::Stretch]);
     window.key(Key::Num8);
-    assert_eq!(window.shadings(), [Shading::Stretch, Shading::SeeThrough], "nothing lies behind the mesh");
+    assert_eq!(window.shadings(), [ShadingMode::Stretch, ShadingMode::SeeThrough], "nothing lies behind the mesh");
 }
 
 #[test]
@@ -75,7 +77,7 @@ fn constraining_over_a_picture_shows_clay_and_a_thin_sheet_until_the_tool_is_lef
     let mut window = face();
     for leave in [Key::V, Key::Escape] {
         window.key(Key::C);
-        assert_eq!(window.shadings(), [Shading::Plain, Shading::SeeThrough]);
+        assert_eq!(window.shadings(), [ShadingMode::Plain, ShadingMode::SeeThrough]);
         assert!(window.editor().appearance().opacity > 0.9, "the picture is what the tool aims at");
         window.key(leave);
         assert_eq!(window.shadings(), PICTURED, "{leave:?}");
@@ -90,10 +92,10 @@ fn what_is_chosen_for_the_constrain_tool_comes_back_with_it() {
     window.key(Key::V);
     assert_eq!(window.shadings(), PICTURED);
     window.key(Key::C);
-    assert_eq!(window.shadings(), [Shading::Checker, Shading::SeeThrough]);
+    assert_eq!(window.shadings(), [ShadingMode::Checker, ShadingMode::SeeThrough]);
     window.editor_mut().session.handle(Action::RemovePicture);
     window.settle();
-    assert_eq!(window.shadings(), [Shading::Checker; 2], "without a picture the tool has no look of its own");
+    assert_eq!(window.shadings(), [ShadingMode::Checker; 2], "without a picture the tool has no look of its own");
 }
 
 #[test]
@@ -109,9 +111,9 @@ fn a_project_keeps_both_shadings() {
     assert!(path.exists());
     let mut other = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     other.open(&path);
-    assert_eq!(other.shadings(), [Shading::Plain, Shading::SeeThrough], "the tool is saved as well");
+    assert_eq!(other.shadings(), [ShadingMode::Plain, ShadingMode::SeeThrough], "the tool is saved as well");
     other.key(Key::V);
-    assert_eq!(other.shadings(), [Shading::Plain, Shading::Stretch]);
+    assert_eq!(other.shadings(), [ShadingMode::Plain, ShadingMode::Stretch]);
 }
 
 /// Mean of the squared differences between two pictures of a part of the window, per channel.
@@ -139,8 +141,8 @@ fn a_see_through_sheet_lets_the_picture_through() {
     window.editor_mut().session.handle(Action::OpenExample(Example::Face));
     window.settle();
     window.harness.remove_cursor();
-    window.shade(Shading::SeeThrough);
-    window.editor_mut().look.magnifier = false;
+    window.shade(ShadingMode::SeeThrough);
+    window.editor_mut().pane_shading.magnifier = false;
     let middle = egui::Rect::from_center_size(window.plane_view().center(), egui::Vec2::splat(120.0));
     let mut picture_at = |opacity: f32| {
         window.editor_mut().appearance_mut().opacity = opacity;
@@ -149,7 +151,7 @@ fn a_see_through_sheet_lets_the_picture_through() {
     };
     let [with, without] = [1.0, 0.0].map(&mut picture_at);
     let through = difference(&mut window, middle, &with);
-    window.shade(Shading::Plain);
+    window.shade(ShadingMode::Plain);
     window.settle();
     let opaque = difference(&mut window, middle, &without);
     assert!(through > 100.0, "the picture behind the sheet makes a difference: {through}");

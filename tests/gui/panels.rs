@@ -5,11 +5,11 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::examples::Example;
-use freebound::geom::ConvexPolygon;
-use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{BoundaryShape, Family, Method, Settings, Spacing};
 use freebound::ui::{Tab, sentence};
+use freebound_core::geom::ConvexPolygon;
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::{BoundaryShape, Family, Method, Settings, Spacing};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};

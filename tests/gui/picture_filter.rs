@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use freebound::geom::{self, Bounds};
-use freebound::render::{PictureLayer, PlaneFrame, Sampling, Shading, plane_pane};
-use freebound::view::Picture;
+use freebound::render::{FaceShading, PictureLayer, PlaneFrame, Sampling, plane_pane};
+use freebound::view::PictureQuad;
+use freebound_core::geom;
+use freebound_core::geom::Bounds;
 use glam::DVec2;
 use image::RgbaImage;
 
@@ -14,12 +15,12 @@ use crate::render::{PANE, RECT, Window, plane_frame};
 const SIDE: u32 = 1024;
 
 /// A picture as the graphics card takes it.
-pub(crate) fn ready(width: u32, height: u32, pixels: Vec<u8>) -> Arc<Picture> {
-    Arc::new(Picture::new(Arc::new(geom::Picture { width, height, pixels })).expect("as many pixels"))
+pub(crate) fn ready(width: u32, height: u32, pixels: Vec<u8>) -> Arc<PictureQuad> {
+    Arc::new(PictureQuad::new(Arc::new(geom::Picture { width, height, pixels })).expect("as many pixels"))
 }
 
 /// Black and white pixels in turn.
-fn finest_checker() -> Arc<Picture> {
+fn finest_checker() -> Arc<PictureQuad> {
     let colour = |i: u32| if (i % SIDE + i / SIDE).is_multiple_of(2) { [255; 4] } else { [0, 0, 0, 255] };
     ready(SIDE, SIDE, (0..SIDE * SIDE).flat_map(colour).collect())
 }
@@ -47,7 +48,7 @@ fn a_picture_far_smaller_on_the_screen_shows_its_mean() {
     for sampling in [Sampling::Smooth, Sampling::Sharp] {
         let mut frame = plane_frame(DVec2::new(1.0, -1.0), &[]);
         frame.picture = Some(PictureLayer { picture: finest_checker(), bounds, opacity: 1.0, sampling });
-        frame.style.shading = Shading::Picture;
+        frame.style.shading = FaceShading::Picture;
         let mut behind = frame.clone();
         behind.plane = None;
         for (what, frame) in [("on faces", frame), ("behind them", behind)] {

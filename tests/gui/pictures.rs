@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2, Vec2};
-use freebound::geom::{Picture, VAxis};
-use freebound::io::{Target, Targets};
-use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::ui::{Half, Shading};
+use freebound::ui::{Half, ShadingMode};
+use freebound_core::geom::{Picture, VAxis};
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::{Target, Targets};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
@@ -29,7 +29,7 @@ fn write_picture(window: &Window) -> PathBuf {
     let pixels = (0..height).flat_map(|y| (0..width).flat_map(move |x| colour(x, y))).collect();
     let path = window.path("quarters.png");
     let file = std::fs::File::create(&path).expect("a folder for files");
-    Picture { width, height, pixels }.write_png(file).expect("written");
+    freebound_io::raster::write_png(&Picture { width, height, pixels }, file).expect("written");
     path
 }
 
@@ -56,14 +56,14 @@ fn a_picture_is_opened_through_the_dialog_and_put_on_the_mesh() {
     window.click("quarters.png");
     window.click("Open");
     assert!(window.editor().has_picture());
-    assert_eq!(window.shadings(), [Shading::Picture; 2]);
+    assert_eq!(window.shadings(), [ShadingMode::Picture; 2]);
     window.click("Pins");
     assert!(window.shows("quarters.png, 40 × 20"));
     window.click("Remove");
     assert!(!window.editor().has_picture());
-    assert_eq!(window.shadings(), [Shading::Checker; 2]);
+    assert_eq!(window.shadings(), [ShadingMode::Checker; 2]);
     window.press(Modifiers::COMMAND, Key::Z);
-    assert_eq!(window.shadings(), [Shading::Picture; 2], "undo brings it back");
+    assert_eq!(window.shadings(), [ShadingMode::Picture; 2], "undo brings it back");
 }
 
 #[test]

@@ -2,9 +2,9 @@
 
 use eframe::egui;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2};
-use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::ui::{BINDINGS, Shading, Tool};
+use freebound::ui::{BINDINGS, ShadingMode, Tool};
+use freebound_core::mesh::VertexId;
 use glam::DVec2;
 
 use crate::gestures::in_embedding;
@@ -217,10 +217,12 @@ fn a_click_on_a_button_that_a_click_before_it_has_opened_counts() {
     window.click("View");
     let entry = place(&window, "Wireframe");
     window.key(Key::Escape);
-    assert!(!window.editor().look.wireframe && !window.controls().iter().any(|(_, name, _)| name == "Wireframe"));
+    assert!(
+        !window.editor().pane_shading.wireframe && !window.controls().iter().any(|(_, name, _)| name == "Wireframe")
+    );
     window.frame([click(menu, Modifiers::NONE), click(entry, Modifiers::NONE)].concat());
     window.settle();
-    assert!(window.editor().look.wireframe);
+    assert!(window.editor().pane_shading.wireframe);
 }
 
 #[test]
@@ -229,7 +231,7 @@ fn a_key_acts_on_the_pane_that_the_pointer_was_over_when_it_was_pressed() {
     let [mesh, plane] = [window.mesh_view(), window.plane_view()].map(|view| view.center());
     let shades = key(Key::Num4, Modifiers::NONE);
     window.frame([vec![Event::PointerMoved(mesh)], shades.to_vec(), vec![Event::PointerMoved(plane)]].concat());
-    assert_eq!(window.shadings(), [Shading::Angle, Shading::default()], "that of the pane it was over, alone");
+    assert_eq!(window.shadings(), [ShadingMode::Angle, ShadingMode::default()], "that of the pane it was over, alone");
 }
 
 #[test]
@@ -247,7 +249,7 @@ fn keys_pressed_together_with_alt_or_an_unbound_ctrl_do_nothing() {
     let state = |window: &Window| {
         let editor = window.editor();
         let layout = (editor.layout.keys_shown, editor.layout.go_to.clone(), editor.layout.full());
-        let look = (window.shadings(), editor.look.wireframe, editor.plane.hull_shown(), editor.tools.tool());
+        let look = (window.shadings(), editor.pane_shading.wireframe, editor.plane.hull_shown(), editor.tools.tool());
         let timeline = editor.session.timeline();
         let cameras = (editor.mesh.pane.camera(), editor.plane.pane.camera());
         let steps = (timeline.shown(), timeline.records().len());
@@ -276,8 +278,8 @@ fn a_switch_does_not_flicker_while_its_key_is_held_down() {
     window.frame([down.clone()]);
     for _ in 0..5 {
         window.frame([down.clone()]);
-        assert!(window.editor().look.wireframe);
+        assert!(window.editor().pane_shading.wireframe);
     }
     window.frame([up, down]);
-    assert!(!window.editor().look.wireframe, "pressed again");
+    assert!(!window.editor().pane_shading.wireframe, "pressed again");
 }

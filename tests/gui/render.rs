@@ -8,16 +8,16 @@ use eframe::egui;
 use eframe::egui_wgpu::{RenderState, RendererOptions};
 use egui_kittest::Harness;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
-use freebound::geom::Bounds;
-use freebound::mesh::{FaceId, VertexId};
 use freebound::render::{
-    FillLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Sampling, Shading, Style, install,
+    FaceShading, FillLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Sampling, Style, install,
     mesh_pane, plane_pane,
 };
-use freebound::solver::Embedding;
 use freebound::view::{
-    EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, PlaneArrays, PlaneCamera, Sphere, Srgb, UpAxis,
+    DrawnFaces, EdgeList, FacePaint, MeshArrays, OrbitCamera, Palette, PlaneArrays, PlaneCamera, Sphere, Srgb, UpAxis,
 };
+use freebound_core::geom::Bounds;
+use freebound_core::mesh::{FaceId, VertexId};
+use freebound_core::problem::Embedding;
 use glam::{DVec2, DVec3};
 use image::RgbaImage;
 
@@ -230,7 +230,7 @@ fn the_back_of_the_mesh_has_its_own_colour() {
 #[test]
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
 fn flipped_faces_are_red_on_the_mesh_in_every_shading() {
-    for shading in [Shading::Plain, Shading::Checker, Shading::Paint, Shading::Picture] {
+    for shading in [FaceShading::Plain, FaceShading::Checker, FaceShading::Paint, FaceShading::Picture] {
         let mut frame = mesh_frame();
         let plane = plane_frame(DVec2::new(1.0, -1.0), &(0..8).map(FaceId::new).collect::<Vec<_>>());
         frame.style = Style { shading, normals: Normals::Flat, ..plane.style };
@@ -244,7 +244,7 @@ fn flipped_faces_are_red_on_the_mesh_in_every_shading() {
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
 fn the_checker_is_anchored_at_the_origin_in_both_panes() {
     let mut plane = plane_frame(DVec2::new(1.0, -1.0), &[]);
-    plane.style.shading = Shading::Checker;
+    plane.style.shading = FaceShading::Checker;
     plane.style.check_size = 0.5;
     let mut mesh = mesh_frame();
     (mesh.plane, mesh.style) = (plane.plane.clone(), plane.style);
@@ -288,7 +288,7 @@ fn filled_faces_show_beside_the_mesh_and_under_it_mixed_with_what_is_behind() {
     positions[2] = DVec2::new(0.0, -1.0) + 1e-3;
     positions.push(DVec2::new(1.0, -1.0));
     frame.plane = Some(Arc::new(PlaneArrays::new(&positions, &frame.mesh.triangles)));
-    let faces = Arc::new(FaceList::new(vec![[id(1), id(9), id(5)], [id(3), id(4), id(7)]]));
+    let faces = Arc::new(DrawnFaces::new(vec![[id(1), id(9), id(5)], [id(3), id(4), id(7)]]));
     frame.fills.push(FillLayer { faces, colour: Srgb([0, 0, 255, 128]) });
     let picture = plane_picture(frame.clone());
     let [r, g, b] = plane_pixel(&picture, &frame, DVec2::new(0.7, -0.7));
@@ -305,7 +305,7 @@ fn the_picture_lies_in_its_box_upper_row_up() {
     let bounds = Bounds { low: DVec2::NEG_ONE, high: DVec2::ONE };
     let mut frame = plane_frame(DVec2::new(1.0, -1.0), &[]);
     frame.picture = Some(PictureLayer { picture, bounds, opacity: 1.0, sampling: Sampling::Smooth });
-    frame.style.shading = Shading::Picture;
+    frame.style.shading = FaceShading::Picture;
     let mut behind = frame.clone();
     behind.plane = None;
     for (what, frame) in [("faces", frame), ("background", behind)] {
@@ -327,7 +327,7 @@ fn a_picture_larger_than_the_card_takes_shows_all_the_same() {
     let bounds = Bounds { low: DVec2::NEG_ONE, high: DVec2::ONE };
     let mut frame = plane_frame(DVec2::new(1.0, -1.0), &[]);
     frame.picture = Some(PictureLayer { picture, bounds, opacity: 1.0, sampling: Sampling::Smooth });
-    frame.style.shading = Shading::Picture;
+    frame.style.shading = FaceShading::Picture;
     let picture = plane_picture(frame.clone());
     let [r, _, b] = plane_pixel(&picture, &frame, DVec2::new(0.2, 0.1));
     assert!(r > 240 && b < 20, "above: {r} {b}");

@@ -7,9 +7,9 @@ use eframe::egui;
 use eframe::egui_wgpu::RendererOptions;
 use egui_kittest::Harness;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
-use freebound::geom::Bounds;
-use freebound::mesh::FaceId;
-use freebound::render::{MeshFrame, PaneId, Shading, Style, install, mesh_pane, plane_pane, stats};
+use freebound::render::{FaceShading, MeshFrame, PaneId, Style, install, mesh_pane, plane_pane, stats};
+use freebound_core::geom::Bounds;
+use freebound_core::mesh::FaceId;
 use glam::DVec2;
 
 use crate::render::{PANE, RECT, WINDOW, Window, camera_in_front, mesh_frame, plane_frame};
@@ -34,7 +34,7 @@ fn an_inset_of_the_same_embedding_sends_nothing() {
     let (frame, shown) = (plane_frame(DVec2::new(-0.5, 0.5), &[FaceId::new(2)]), Arc::clone(&is_shown));
     let mut inset = frame.clone();
     inset.camera.frame(Bounds { low: DVec2::splat(-0.2), high: DVec2::splat(0.2) }, DVec2::splat(60.0));
-    inset.style = Style { shading: Shading::Plain, wire_in_points: 1.0, ..inset.style };
+    inset.style = Style { shading: FaceShading::Plain, wire_in_points: 1.0, ..inset.style };
     let state = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
     install(&state);
     let mut harness = Harness::builder()

@@ -3,10 +3,10 @@
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Color32, Pos2, Rect, Theme};
-use freebound::mesh::{FaceId, VertexId};
-use freebound::solver::{Method, Settings};
-use freebound::ui::{Request, Shading, Stage, theme};
+use freebound::ui::{HullStage, Request, ShadingMode, theme};
 use freebound::view::Srgb;
+use freebound_core::mesh::{FaceId, VertexId};
+use freebound_core::problem::{Method, Settings};
 use glam::DVec2;
 use image::RgbaImage;
 
@@ -118,9 +118,9 @@ fn the_legend_shows_with_shadings_by_numbers_only() {
             view.left_bottom() + egui::vec2(12.0, -90.0),
             view.left_bottom() + egui::vec2(196.0, -12.0),
         );
-        window.shade(Shading::Plain);
+        window.shade(ShadingMode::Plain);
         let plain = picture(&mut window);
-        window.shade(Shading::Angle);
+        window.shade(ShadingMode::Angle);
         let angle = picture(&mut window);
         let changed = pixels(&plain, corner).iter().zip(pixels(&angle, corner)).filter(|(a, b)| *a != b).count();
         assert!(changed > 5000, "{name:?}: {changed} pixels");
@@ -168,9 +168,9 @@ fn the_hull_is_red_until_it_is_peeled_off() {
         let bare = picture(&mut window);
         window.editor_mut().handle(Request::ToggleHull);
         let pockets = picture(&mut window);
-        window.editor_mut().handle(Request::SetStage(Stage::Before));
+        window.editor_mut().handle(Request::SetStage(HullStage::Before));
         let before = picture(&mut window);
-        window.editor_mut().handle(Request::SetStage(Stage::Peeled));
+        window.editor_mut().handle(Request::SetStage(HullStage::Peeled));
         let peeled = picture(&mut window);
         let hull = |picture: &RgbaImage| count_of(picture, window.plane_view(), colour_of(theme.hull));
         assert!(hull(&bare) < 10 && hull(&pockets) > 500 && hull(&before) > 500, "{name:?}: {}", hull(&pockets));
@@ -185,7 +185,7 @@ fn a_pocket_is_filled_with_a_quarter_of_its_green() {
         let mut window = bent(name);
         window.editor_mut().handle(Request::ToggleHull);
         window.settle();
-        let stages = window.outcome().step.virtual_boundary.clone().expect("the face bends");
+        let stages = window.outcome().step.candidate.virtual_boundary.clone().expect("the face bends");
         let plane = window.editor().plane.drawn().expect("solved").clone();
         let corners = |t: &[VertexId; 3]| t.map(|v| plane.positions()[v.index()]);
         let area = |t: &[VertexId; 3]| {
@@ -246,9 +246,9 @@ fn the_compared_step_is_an_outline_in_its_own_colour() {
 fn moves_are_coloured_in_both_panes() {
     for (name, _) in THEMES {
         let mut window = bent(name);
-        window.shade(Shading::Plain);
+        window.shade(ShadingMode::Plain);
         let plain = picture(&mut window);
-        window.shade(Shading::Move);
+        window.shade(ShadingMode::Move);
         let moved = picture(&mut window);
         for view in [window.mesh_view(), window.plane_view()] {
             let changed = pixels(&plain, view).iter().zip(pixels(&moved, view)).filter(|(a, b)| *a != b).count();

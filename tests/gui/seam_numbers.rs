@@ -2,9 +2,9 @@
 
 use eframe::egui;
 use egui::{Key, Modifiers};
-use freebound::mesh::{Seams, VertexId};
 use freebound::session::Action;
 use freebound::ui::{Request, SeamClick, Tool};
+use freebound_core::mesh::{Seams, VertexId};
 
 use crate::charts::with_sheets;
 use crate::harness::{Window, sheet, write_obj};

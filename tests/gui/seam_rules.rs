@@ -5,8 +5,8 @@ use std::time::Duration;
 use eframe::egui;
 use egui::{Key, Modifiers};
 use freebound::session::Action;
-use freebound::solver::{Family, Settings};
 use freebound::ui::{Request, SeamRule, Tool};
+use freebound_core::problem::{Family, Settings};
 
 use crate::harness::{Window, sheet, write_obj};
 use crate::seams::{cube, seams};

@@ -4,12 +4,12 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2};
 use egui_kittest::kittest::Queryable as _;
-use freebound::mesh::{TriMesh, VertexId};
 use freebound::ui::Tool;
+use freebound_core::mesh::{TriMesh, VertexId};
 use glam::DVec3;
 
 use crate::harness::Window;
-use crate::makers::{tetrahedron, tube};
+use freebound_testkit::{tetrahedron, tube};
 
 pub(crate) const AROUND: u32 = 12;
 pub(crate) const ALONG: u32 = 6;

@@ -4,11 +4,11 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
-use freebound::io::Target;
-use freebound::mesh::VertexId;
 use freebound::session::{Action, Document};
-use freebound::solver::Method;
-use freebound::ui::{BINDINGS, Pane, Request, SeamClick, Shading, StepTarget, Tool};
+use freebound::ui::{BINDINGS, Pane, Request, SeamClick, ShadingMode, StepTarget, Tool};
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Target;
+use freebound_core::problem::Stage;
 
 use crate::harness::{Window, sheet};
 
@@ -110,7 +110,7 @@ fn shortcuts_do_what_the_table_says() {
             Request::SetShading(shading) => editor.shading(Pane::Plane) == shading,
             Request::ToggleComparison => editor.plane.comparison.is_shown() && editor.session.contenders().len() == 6,
             Request::ToggleHull => editor.plane.hull_shown(),
-            Request::ToggleWireframe => editor.look.wireframe,
+            Request::ToggleWireframe => editor.pane_shading.wireframe,
             Request::TogglePane => editor.layout.full() == Some(Pane::Plane),
             Request::Escape => editor.tools.tool() == Tool::Select,
             Request::OpenMenu(place) => {
@@ -135,17 +135,19 @@ fn ctrl_and_enter_solve_afresh_what_went_on_from_the_map_before() {
     window.editor_mut().session.handle(Action::Place { vertex, target });
     window.settle();
     assert!(
-        window.shows("Goes on from the map before the edit") && window.is_proved() && window.editor().session.goes_on()
+        window.shows("Goes on from the map before the edit")
+            && window.is_proved()
+            && window.editor().session.is_continued()
     );
     let gone_on = window.embedding();
     window.press(Modifiers::COMMAND, Key::Enter);
     assert!(
         !window.shows("Goes on from the map before the edit")
             && window.is_proved()
-            && !window.editor().session.goes_on()
+            && !window.editor().session.is_continued()
     );
-    let first = window.editor().session.timeline().records()[0].rung;
-    assert!(first == Method::Natural && window.embedding() != gone_on);
+    let first = window.editor().session.timeline().records()[0].stage;
+    assert!(first == Stage::Natural && window.embedding() != gone_on);
     assert_eq!(window.embedding()[vertex], target.uv);
 }
 
@@ -170,7 +172,7 @@ fn tab_leaves_the_keyboard_with_the_window() {
     }
     assert_eq!(window.harness.ctx.memory(egui::Memory::focused), None, "no control takes the keyboard");
     window.key(Key::W);
-    assert!(window.editor().look.wireframe, "shortcuts still reach the window");
+    assert!(window.editor().pane_shading.wireframe, "shortcuts still reach the window");
 }
 
 #[test]
@@ -187,8 +189,8 @@ fn typing_into_a_field_triggers_no_shortcut() {
     let editor = window.editor();
     assert_eq!(document(&window), before);
     assert_eq!(
-        (editor.tools.tool(), editor.shading(Pane::Mesh), editor.look.wireframe),
-        (Tool::Select, Shading::Checker, false)
+        (editor.tools.tool(), editor.shading(Pane::Mesh), editor.pane_shading.wireframe),
+        (Tool::Select, ShadingMode::Checker, false)
     );
     assert!(editor.layout.go_to.is_some() && !editor.layout.keys_shown && editor.selection.defect().is_none());
 }
@@ -256,7 +258,7 @@ fn menus_are_opened_and_walked_through_by_the_keyboard_alone() {
     window.key(Key::Escape);
     assert!(!window.has_button("Open…"));
     window.press(Modifiers::ALT, Key::V);
-    assert!(window.has_button("Wireframe") && !window.editor().look.wireframe);
+    assert!(window.has_button("Wireframe") && !window.editor().pane_shading.wireframe);
     assert_eq!(window.editor().tools.tool(), Tool::Select, "V alone is another key");
     for _ in 0..20 {
         let focused = window
@@ -269,7 +271,7 @@ fn menus_are_opened_and_walked_through_by_the_keyboard_alone() {
         window.key(Key::ArrowDown);
     }
     window.key(Key::Enter);
-    assert!(window.editor().look.wireframe, "reached by the arrows");
+    assert!(window.editor().pane_shading.wireframe, "reached by the arrows");
 }
 
 #[test]

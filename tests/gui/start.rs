@@ -6,9 +6,9 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
-use freebound::mesh::{HoleTreatment, Repair, TriMesh};
 use freebound::session::Action;
-use freebound::solver::{Embedding, Method, Start};
+use freebound_core::mesh::{HoleTreatment, Repair, TriMesh};
+use freebound_core::problem::{Embedding, Stage, Start};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
@@ -59,20 +59,20 @@ fn list_is_disabled(window: &Window, name: &str) -> bool {
 #[test]
 fn one_choice_shows_the_layout_of_the_file_as_it_is_and_relax_goes_on_from_it() {
     let (mut window, layout) = opened(f64::INFINITY);
-    assert_eq!(window.outcome().step.rung, Method::Natural);
+    assert_eq!(window.outcome().step.candidate.stage, Stage::Natural);
     window.choose("Start", "File's layout");
-    assert_eq!((start(&window), window.outcome().step.rung), (Start::File, Method::Given));
+    assert_eq!((start(&window), window.outcome().step.candidate.stage), (Start::File, Stage::Given));
     assert_eq!(window.embedding(), layout);
     assert!(window.is_proved(), "{}", window.verdict());
     let before = window.outcome().distortion.summary.symmetric_dirichlet.mean;
     window.click("Relax");
     let after = window.outcome();
-    assert!(window.is_proved() && after.step.rung == Method::Relax);
+    assert!(window.is_proved() && after.step.candidate.stage == Stage::Relax);
     assert!(after.distortion.summary.symmetric_dirichlet.mean < 0.9 * before);
     for _ in 0..2 {
         window.press(Modifiers::COMMAND, Key::Z);
     }
-    assert_eq!((start(&window), window.outcome().step.rung), (Start::Afresh, Method::Natural));
+    assert_eq!((start(&window), window.outcome().step.candidate.stage), (Start::FromScratch, Stage::Natural));
     window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     assert_eq!(window.embedding(), layout);
 }
@@ -84,12 +84,12 @@ fn a_layout_with_seams_cuts_the_mesh_along_them_in_the_same_edit() {
     window.choose("Start", "File's layout");
     let charts = |window: &Window| window.editor().session.charts().map(|charts| charts.count());
     assert_eq!(charts(&window), Some(2));
-    assert!(window.outcome().step.rung == Method::Given && window.is_proved());
+    assert!(window.outcome().step.candidate.stage == Stage::Given && window.is_proved());
     window.press(Modifiers::COMMAND, Key::Z);
-    assert_eq!((charts(&window), start(&window)), (None, Start::Afresh));
+    assert_eq!((charts(&window), start(&window)), (None, Start::FromScratch));
     window.choose("What the charts are", "File's texture seams");
-    assert_eq!((charts(&window), start(&window)), (Some(2), Start::Afresh));
-    assert_eq!(window.outcome().step.rung, Method::Natural);
+    assert_eq!((charts(&window), start(&window)), (Some(2), Start::FromScratch));
+    assert_eq!(window.outcome().step.candidate.stage, Stage::Natural);
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn a_project_keeps_that_a_map_starts_from_its_file() {
     window.settle();
     let other = window.path("plain.obj");
     window.open(&other);
-    assert_eq!(start(&window), Start::Afresh);
+    assert_eq!(start(&window), Start::FromScratch);
     window.open(&project);
     assert_eq!((start(&window), window.embedding()), (Start::File, layout));
 }
@@ -127,7 +127,13 @@ fn holes_are_filled_or_cut_as_a_person_chooses() {
     window.click("Method");
     let done = |window: &Window| {
         let model = window.editor().session.model().expect("open").clone();
-        model.repaired.iter().flat_map(|repaired| repaired.done()).map(|done| done.repair).collect::<Vec<Repair>>()
+        model
+            .prepared
+            .repaired
+            .iter()
+            .flat_map(|repaired| repaired.done())
+            .map(|done| done.repair)
+            .collect::<Vec<Repair>>()
     };
     assert!(done(&window) == [Repair::FillHoles] && window.is_proved());
     window.choose("What becomes of holes", "Cut to the outside");

@@ -4,17 +4,17 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
-use freebound::app::Start;
-use freebound::mesh::{TriMesh, VertexId};
+use freebound::app::LaunchFile;
 use freebound::session::{Action, StopConditions};
-use freebound::solver::{Family, Method, Settings};
 use freebound::ui::Request;
+use freebound_core::mesh::{TriMesh, VertexId};
+use freebound_core::problem::{Family, Method, Settings};
 
 use crate::harness::{SIZE, Window, sheet};
 
 /// The window as it is at the very first start.
 pub(crate) fn at_first_start(size: Vec2) -> Window {
-    Window::start(size, Start::default())
+    Window::start(size, LaunchFile::default())
 }
 
 /// The built-in face after its natural step and three more.
@@ -263,8 +263,9 @@ fn many_steps_scroll_and_the_one_on_the_screen_is_in_sight() {
 fn the_step_that_shows_is_always_in_sight_and_none_is_cut() {
     for size in [egui::vec2(640.0, 420.0), SIZE] {
         let mesh = Window::with_mesh("sheet.obj", &sheet(4, 0.5));
-        let mut window = Window::start(size, Start { file: Some(mesh.path("sheet.obj")), ..Start::default() });
-        window.editor_mut().look.glides = false;
+        let mut window =
+            Window::start(size, LaunchFile { file: Some(mesh.path("sheet.obj")), ..LaunchFile::default() });
+        window.editor_mut().pane_shading.glides = false;
         for _ in 0..24 {
             window.editor_mut().session.handle(Action::Step);
             window.settle();
@@ -311,11 +312,11 @@ fn curves_say_their_least_and_greatest_value() {
 fn the_checker_keeps_its_scale_while_steps_are_played() {
     let mut window = with_four_steps();
     window.key(Key::Home);
-    let before = window.editor().look.check_size();
+    let before = window.editor().pane_shading.check_size();
     window.click("Play the steps");
     for _ in 0..600 {
         window.step();
-        assert_eq!(window.editor().look.check_size(), before);
+        assert_eq!(window.editor().pane_shading.check_size(), before);
         if window.editor().timeline.playing_since.is_none() {
             break;
         }

@@ -6,7 +6,7 @@ use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::Queryable;
 use freebound::examples::Example;
 use freebound::session::{Action, StopConditions};
-use freebound::solver::{Family, Growth, Method, Pin, Settings, Treatment};
+use freebound_core::problem::{Family, Growth, Method, Pin, Settings, Treatment};
 
 use crate::harness::{SIZE, Window, sheet};
 use crate::timeline::{at_first_start, shown, step_count};
@@ -148,7 +148,8 @@ fn the_stop_menu_says_where_a_run_comes_to_rest() {
 #[test]
 fn a_drag_of_a_folded_sheet_shows_a_preview_and_says_so() {
     let mut window = at_first_start(SIZE);
-    let (&vertex, &Pin { target: place, .. }) = window.outcome().step.solution.pins.iter().next().expect("a gauge pin");
+    let (&vertex, &Pin { target: place, .. }) =
+        window.outcome().step.candidate.solution.pins.iter().next().expect("a gauge pin");
     assert!(!window.outcome().step.verdict.planar, "as it is at first start");
     let from = window.place_in_plane(place);
     let to = from + Vec2::new(30.0, 12.0);

@@ -3,8 +3,8 @@
 use eframe::egui;
 use egui::Rect;
 use egui_kittest::kittest::Queryable as _;
-use freebound::mesh::VertexId;
 use freebound::session::{Action, Severity};
+use freebound_core::mesh::VertexId;
 
 use crate::dialogs::ask_where_to_save;
 use crate::harness::{Window, sheet};
@@ -58,8 +58,8 @@ fn every_file_that_was_written_is_named() {
     let path = folder.path().join("out.obj");
     let request = freebound::session::SaveRequest {
         path,
-        kind: freebound::io::OutputKind::Obj,
-        fit: freebound::io::OutputFit::Unit,
+        kind: freebound_io::OutputKind::Obj,
+        fit: freebound_core::pipeline::Fit::Unit,
     };
     window.editor_mut().session.handle(Action::Save(request));
     window.settle();

@@ -2,10 +2,10 @@
 
 use eframe::egui;
 use egui::{Key, Modifiers};
-use freebound::app::Start;
+use freebound::app::LaunchFile;
 use freebound::examples::Example;
-use freebound::mesh::{TriMesh, VertexId};
 use freebound::session::Action;
+use freebound_core::mesh::{TriMesh, VertexId};
 use glam::DVec2;
 
 use crate::harness::{SIZE, Window, sheet, write_obj};
@@ -24,16 +24,16 @@ fn quitting_with_unsaved_work_asks_and_cancel_stays() {
     let mut window = window();
     edit(&mut window);
     window.press(Modifiers::COMMAND, Key::Q);
-    assert!(!window.editor().host.is_quitting());
+    assert!(!window.editor().gpu.is_quitting());
     assert!(window.shows("Save the project sheet"));
     window.click("Cancel");
-    assert!(!window.editor().host.is_quitting() && !window.editor().files.unsaved.is_asked());
+    assert!(!window.editor().gpu.is_quitting() && !window.editor().files.unsaved.is_asked());
     window.press(Modifiers::COMMAND, Key::Q);
     window.key(Key::Escape);
-    assert!(!window.editor().host.is_quitting() && !window.editor().files.unsaved.is_asked(), "Esc is Cancel");
+    assert!(!window.editor().gpu.is_quitting() && !window.editor().files.unsaved.is_asked(), "Esc is Cancel");
     window.press(Modifiers::COMMAND, Key::Q);
     window.click("Don't save");
-    assert!(window.editor().host.is_quitting());
+    assert!(window.editor().gpu.is_quitting());
 }
 
 #[test]
@@ -42,11 +42,11 @@ fn saving_from_the_question_quits_once_it_is_saved() {
     edit(&mut window);
     window.press(Modifiers::COMMAND, Key::Q);
     window.click("Save");
-    assert!(!window.editor().host.is_quitting(), "it asks where first");
+    assert!(!window.editor().gpu.is_quitting(), "it asks where first");
     window.click("Save");
     window.settle();
     assert!(window.path("sheet.freebound").exists());
-    assert!(window.editor().host.is_quitting());
+    assert!(window.editor().gpu.is_quitting());
 }
 
 #[test]
@@ -57,7 +57,7 @@ fn a_dialog_that_is_left_keeps_the_window_open() {
     window.click("Save");
     window.click("Cancel");
     window.settle();
-    assert!(!window.editor().host.is_quitting() && !window.editor().files.unsaved.is_asked());
+    assert!(!window.editor().gpu.is_quitting() && !window.editor().files.unsaved.is_asked());
     assert!(window.editor().session.has_unsaved_work());
 }
 
@@ -140,11 +140,11 @@ fn a_project_opens_with_the_cameras_that_it_was_saved_with() {
 fn what_a_session_left_is_offered_and_recovered() {
     let left = tempfile::tempdir().expect("a folder");
     let mesh = window();
-    let start = || Start {
+    let start = || LaunchFile {
         file: Some(mesh.path("sheet.obj")),
         recovery_folder: Some(left.path().to_owned()),
         dialogs_inside: true,
-        ..Start::default()
+        ..LaunchFile::default()
     };
     let mut first = Window::start(SIZE, start());
     assert!(!first.has_button("Recover"));

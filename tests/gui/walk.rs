@@ -11,13 +11,15 @@ use eframe::egui;
 use egui::accesskit::{Role, Toggled};
 use egui::{Event, Key, Modifiers, Pos2, Rect, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
-use freebound::session::{Action, Outcome};
-use freebound::solver::{Embedding, Settings, Verdict, verdict};
+use freebound::session::Action;
 use freebound::ui::{BINDINGS, Pane, Tab};
+use freebound_core::pipeline::Outcome;
+use freebound_core::problem::{Embedding, Settings};
+use freebound_core::verify::{Verdict, verdict};
 
 use crate::harness::{Window, sheet};
-use crate::makers::Random;
 use crate::presses::{button, click, key};
+use freebound_testkit::Random;
 
 /// Actions of the walk that is part of every test run.
 const ACTIONS: u32 = 300;
@@ -161,7 +163,7 @@ impl Walk {
 
     /// Shows a frame with some of the events, and looks at it.
     fn show(&mut self, events: Vec<Event>) {
-        let is_quiet = events.is_empty() && !self.window.editor().host.has_presses_waiting();
+        let is_quiet = events.is_empty() && !self.window.editor().gpu.has_presses_waiting();
         let seconds = self.one_of(&FRAMES);
         self.window.frame_after(seconds, events);
         let found = disagreements(&self.window, is_quiet);
@@ -219,13 +221,13 @@ fn disagreements(window: &Window, is_quiet: bool) -> Vec<String> {
         check(!counts || verdict.is_some_and(agrees), &|| format!("{pill:?} over {verdict:?}"));
         let sheet = plane.drawn().filter(|sheet| !sheet.is_stage());
         let is_drawn = |outcome: &Arc<Outcome>| {
-            let embedding = &outcome.step.solution.embedding;
+            let embedding = &outcome.step.candidate.solution.embedding;
             sheet.is_none_or(|sheet| sheet.positions()[..embedding.len()] == embedding[..])
         };
         let is_verdict = is_proved || counts;
         check(!is_verdict || at_rest.is_some_and(is_drawn), &|| format!("{pill:?} over a sheet on its way"));
     }
-    if let (Some(outcome), Some(paint)) = (drawn, editor.look.paint(Pane::Plane)) {
+    if let (Some(outcome), Some(paint)) = (drawn, editor.pane_shading.paint(Pane::Plane)) {
         let flipped = &outcome.step.verdict.flipped_faces;
         check(paint.faces.flipped == *flipped, &|| format!("{:?} red, {flipped:?} flipped", paint.faces.flipped));
     }
@@ -324,7 +326,7 @@ fn walk(seed: u64, actions: u32) -> BTreeSet<String> {
     let mut walk = Walk::new(seed);
     for i in 0..actions {
         if i == actions / 2 {
-            // From here on the ladder repairs what folds.
+            // From here on the flattener repairs what folds.
             walk.window.editor_mut().session.handle(Action::SetSettings(Settings::default()));
         }
         walk.go_on();

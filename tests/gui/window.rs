@@ -4,18 +4,18 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
-use freebound::app::Start;
+use freebound::app::LaunchFile;
 use freebound::examples::Example;
-use freebound::io::Target;
-use freebound::solver::{Choice as _, Method};
-use freebound::ui::{BINDINGS, Pane, Shading, Tab};
+use freebound::ui::{BINDINGS, Pane, ShadingMode, Tab};
+use freebound_core::pipeline::Target;
+use freebound_core::problem::{Method, NamedOption as _};
 use glam::DVec2;
 
 use crate::harness::{MESH_VIEW, PLANE_VIEW, SIZE, Window, sheet};
 
 #[test]
 fn the_built_in_face_opens_with_its_verdict_on_the_screen() {
-    let window = Window::start(SIZE, Start::default());
+    let window = Window::start(SIZE, LaunchFile::default());
     let model = window.editor().session.model().expect("something is open");
     assert_eq!(model.name, Example::Face.title());
     let words = window.verdict();
@@ -56,7 +56,7 @@ const STATES: [State; 30] = [
     ("the Defects tab", |window| window.click("Defects")),
     ("the Vertex tab", |window| {
         window.click("Vertex");
-        window.editor_mut().selection.add([freebound::mesh::VertexId::new(3)]);
+        window.editor_mut().selection.add([freebound_core::mesh::VertexId::new(3)]);
         window.settle();
     }),
     ("a list of methods", |window| window.open_list("Method")),
@@ -101,15 +101,15 @@ fn constraints(window: &mut Window) {
         (20, Target::weighted(DVec2::new(0.0, 1.0), 2.0)),
         (24, Target::weighted(DVec2::ONE, 0.5)),
     ] {
-        let vertex = freebound::mesh::VertexId::new(vertex);
+        let vertex = freebound_core::mesh::VertexId::new(vertex);
         window.editor_mut().session.handle(freebound::session::Action::Place { vertex, target: pin });
     }
-    window.editor_mut().selection.select([0, 4, 20, 24].map(freebound::mesh::VertexId::new));
+    window.editor_mut().selection.select([0, 4, 20, 24].map(freebound_core::mesh::VertexId::new));
     window.settle();
 }
 
 fn fix(window: &mut Window, vertices: &[u32]) {
-    let vertices = vertices.iter().map(|&v| freebound::mesh::VertexId::new(v)).collect();
+    let vertices = vertices.iter().map(|&v| freebound_core::mesh::VertexId::new(v)).collect();
     window.editor_mut().session.handle(freebound::session::Action::Fix(vertices));
     window.settle();
 }
@@ -228,23 +228,24 @@ fn each_example_opens_from_the_menu() {
 #[test]
 fn each_shading_of_the_view_menu_is_put_on() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
-    for shading in Shading::ALL.into_iter().filter(|shading| shading.is_for(Pane::Mesh)) {
+    for shading in ShadingMode::ALL.into_iter().filter(|shading| shading.is_for(Pane::Mesh)) {
         let before = window.shadings();
         window.menu(&["View", "Shading of the mesh", shading.title()]);
         assert_eq!(window.shadings(), [shading, before[1]]);
         window.menu(&["View", "Shading of the embedding", shading.title()]);
         assert_eq!(window.shadings(), [shading; 2]);
-        let legend = window.editor().look.paint(Pane::Mesh).expect("painted").legend.is_some();
+        let legend = window.editor().pane_shading.paint(Pane::Mesh).expect("painted").legend.is_some();
         // Nothing has moved at the first step.
-        let is_bare = matches!(shading, Shading::Plain | Shading::Checker | Shading::Picture | Shading::Move);
+        let is_bare =
+            matches!(shading, ShadingMode::Plain | ShadingMode::Checker | ShadingMode::Picture | ShadingMode::Move);
         assert_eq!(legend, !is_bare, "{shading:?}");
     }
     window.choose("Shading of the mesh", "Stretch");
-    assert_eq!(window.shadings(), [Shading::Stretch, Shading::Move]);
+    assert_eq!(window.shadings(), [ShadingMode::Stretch, ShadingMode::Move]);
     window.click("Wire");
-    assert!(window.editor().look.wireframe);
+    assert!(window.editor().pane_shading.wireframe);
     window.menu(&["View", "Wireframe"]);
-    assert!(!window.editor().look.wireframe);
+    assert!(!window.editor().pane_shading.wireframe);
 }
 
 #[test]
@@ -303,7 +304,7 @@ fn both_panes_are_framed_when_a_mesh_opens() {
         assert!(view.contains_rect(spread), "{spread:?} in {view:?}");
         assert!(spread.width() > 0.5 * view.width() || spread.height() > 0.5 * view.height(), "{spread:?} in {view:?}");
     };
-    let vertices = (0..49).map(freebound::mesh::VertexId::new);
+    let vertices = (0..49).map(freebound_core::mesh::VertexId::new);
     inside(window.mesh_view(), vertices.map(|vertex| window.place_on_mesh(vertex)).collect());
     inside(window.plane_view(), window.embedding().iter().map(|z| window.place_in_plane(*z)).collect());
 }
@@ -318,7 +319,7 @@ fn the_window_fits_into_every_size() {
         for (state, bring) in STATES {
             let mut window = Window::start(
                 size,
-                Start { file: Some(mesh.path("sheet.obj")), dialogs_inside: true, ..Start::default() },
+                LaunchFile { file: Some(mesh.path("sheet.obj")), dialogs_inside: true, ..LaunchFile::default() },
             );
             window.editor_mut().handle(freebound::ui::Request::ShowTab(Tab::Method));
             window.settle();
@@ -338,7 +339,7 @@ fn is_scrolled(role: Role, name: &str) -> bool {
     let listed = name.ends_with('/')
         || name.contains(" pin v")
         || name.contains(" of pin ")
-        || Method::ALL.iter().any(|method| method.words().title == name)
+        || Method::ALL.iter().any(|method| method.labels().title == name)
         || std::path::Path::new(&name).extension().is_some_and(|e| e == "obj");
     let in_panel =
         ["Numbers of the solve", "Solve", "Relax", "Free", "Fix", "Free all", "Frame", "Copy", "More"].contains(&name);
@@ -348,7 +349,8 @@ fn is_scrolled(role: Role, name: &str) -> bool {
 #[test]
 fn what_is_below_the_window_s_edge_can_be_scrolled_to() {
     let mesh = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
-    let mut window = Window::start(SIZES[0], Start { file: Some(mesh.path("sheet.obj")), ..Start::default() });
+    let mut window =
+        Window::start(SIZES[0], LaunchFile { file: Some(mesh.path("sheet.obj")), ..LaunchFile::default() });
     window.editor_mut().handle(freebound::ui::Request::ShowTab(Tab::Method));
     window.settle();
     window.harness.get_by_label("Numbers of the solve").scroll_to_me();
@@ -365,7 +367,7 @@ fn the_bar_at_the_top_does_not_overlap_itself() {
             &sheet(4, 0.3),
         );
         let file = mesh.editor().session.model().and_then(|model| model.path.clone());
-        let window = Window::start(size, Start { file, ..Start::default() });
+        let window = Window::start(size, LaunchFile { file, ..LaunchFile::default() });
         let bar: Vec<_> = window.controls().into_iter().filter(|(.., rect)| rect.bottom() < 30.0).collect();
         assert!(bar.len() >= 6, "{bar:?}");
         for (i, (_, name, rect)) in bar.iter().enumerate() {
@@ -381,7 +383,7 @@ fn the_bar_at_the_top_does_not_overlap_itself() {
 fn quit_closes_the_window() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     window.press(Modifiers::COMMAND, Key::Q);
-    assert!(window.editor().host.is_quitting());
+    assert!(window.editor().gpu.is_quitting());
 }
 
 #[test]

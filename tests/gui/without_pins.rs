@@ -3,8 +3,8 @@
 
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
-use freebound::mesh::DiskMesh;
-use freebound::solver::{Choice as _, Method, Stop};
+use freebound_core::mesh::DiskMesh;
+use freebound_core::problem::{Method, NamedOption as _, Stop};
 
 use crate::harness::{Window, sheet};
 
@@ -20,11 +20,14 @@ fn spectral_and_angle_based_maps_are_chosen_by_their_names_and_say_how_they_conv
     let mut window = Window::with_mesh("sheet.obj", &mesh);
     let mut seen = Vec::new();
     for method in [Method::AbfPlusPlus, Method::Abf, Method::Spectral] {
-        window.choose("Method", method.words().title);
+        window.choose("Method", method.labels().title);
         assert_eq!(window.editor().session.document().settings.method, method);
         let outcome = window.outcome();
-        assert_eq!((outcome.problem.settings.method, outcome.step.rung, outcome.step.index), (method, method, 0));
-        let found = outcome.step.solution.convergence.expect("it says how it ended");
+        assert_eq!(
+            (outcome.problem.settings.method, outcome.step.candidate.stage.name(), outcome.step.index),
+            (method, method.name(), 0)
+        );
+        let found = outcome.step.candidate.solution.convergence.expect("it says how it ended");
         assert_eq!(found.stop, Stop::Converged, "{}", method.name());
         assert!(window.is_proved(), "{}", window.verdict());
         let name = name_of_step(&window);

@@ -7,9 +7,9 @@ use clap::Args;
 
 use super::{MeshArguments, SolveArguments};
 use crate::cli::typed::choice;
-use crate::io::Column;
-use crate::solver::{Method, Settings, Variant};
 use crate::view::CellShading;
+use freebound_core::problem::{Method, Settings, Variant};
+use freebound_io::Column;
 
 /// Arguments of `compare`.
 #[derive(Debug, Args)]

@@ -9,10 +9,10 @@ use glam::{DVec2, UVec2};
 use super::solve::ONLY_ON_SHAPES;
 use super::{MeshArguments, SolveArguments, TypedShape};
 use crate::cli::typed::{ChartSize, choice, parse_chart_size, parse_pixels};
-use crate::geom::PackingOptions;
-use crate::io::{OutputFit, OutputKind, PictureFile, Precision};
-use crate::session::Arrangement;
-use crate::solver::{Choice as _, Method, Settings};
+use freebound_core::geom::PackingOptions;
+use freebound_core::pipeline::{Arrangement, Fit};
+use freebound_core::problem::{Method, NamedOption as _, Settings};
+use freebound_io::{OutputKind, PictureFile, Precision};
 
 /// Arguments of `flatten`.
 #[derive(Debug, Args)]
@@ -44,8 +44,8 @@ pub struct FlattenArguments {
     pub copy_materials: bool,
     /// Size of an embedding without pins: fit into the unit square, or keep the area of the surface; into the unit square
     /// without it. With `--start` the embedding stays as large as it was, and where it was, without it.
-    #[arg(long, value_enum)]
-    pub fit: Option<OutputFit>,
+    #[arg(long, value_parser = choice::<Fit>())]
+    pub fit: Option<Fit>,
     /// Size of the picture that several charts are packed into, in pixels; without it that of `--picture`, or 1024x1024.
     #[arg(long, value_name = "WxH", value_parser = parse_pixels, conflicts_with_all = ["aspect", "picture"])]
     pub pack: Option<UVec2>,
@@ -57,7 +57,7 @@ pub struct FlattenArguments {
     #[arg(long, value_name = "CHART=SIZE,…", value_delimiter = ',', value_parser = parse_chart_size)]
     pub chart_size: Vec<ChartSize>,
     /// How many bits the numbers of texture coordinates have, as they are proved and written. GLB files always hold 32.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = choice::<Precision>(), default_value = Precision::F64.name())]
     pub precision: Precision,
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
@@ -67,8 +67,8 @@ pub struct FlattenArguments {
     pub svg: Option<PathBuf>,
     /// Size of the drawing: the unit square (the picture, where there is one) is the page, or lengths are as on the
     /// surface, a unit of the drawing for a unit of the mesh. As `--fit` without it.
-    #[arg(long, value_enum, requires = "svg")]
-    pub svg_scale: Option<OutputFit>,
+    #[arg(long, value_parser = choice::<Fit>(), requires = "svg")]
+    pub svg_scale: Option<Fit>,
     /// Draw the mesh and the layout side by side here (PNG), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub png: Option<PathBuf>,

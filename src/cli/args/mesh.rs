@@ -7,7 +7,7 @@ use clap::builder::{OsStringValueParser, TypedValueParser as _};
 use clap::{Args, ValueEnum};
 
 use crate::cli::typed::{Parts, parse_parts, parse_seam_kind, parse_weld_distance};
-use crate::mesh::{Form, HoleTreatment, Repairs, WeldDistance};
+use freebound_core::mesh::{HoleTreatment, Preparation, Repairs, WeldDistance};
 
 /// The mesh, and what is made of its faces.
 #[derive(Debug, Args)]
@@ -48,13 +48,13 @@ pub struct MeshArguments {
 
 impl MeshArguments {
     /// What is to be made of the mesh's faces, seams along edges of the mesh aside.
-    pub fn form(&self) -> Form {
+    pub fn form(&self) -> Preparation {
         let repair = self.repair.welding(self.weld);
         let holes = match self.holes {
             Holes::Fill => HoleTreatment::Fill,
             Holes::Cut => HoleTreatment::Cut,
         };
-        let mut form = Form { repair, holes, cut: self.cut != Cut::None, ..Form::default() };
+        let mut form = Preparation { repair, holes, cut: self.cut != Cut::None, ..Preparation::default() };
         form.seams.of_texture = self.charts == ChartsOf::Uv;
         form
     }

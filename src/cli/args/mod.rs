@@ -39,7 +39,7 @@ pub struct Arguments {
     pub file: Option<PathBuf>,
     /// What to do without a screen.
     #[command(subcommand)]
-    pub command: Option<Command>,
+    pub command: Option<Subcommands>,
 }
 
 const EXIT_HELP: &str = "Exit status: 0 planar and proved, 1 internal error, 2 wrong use, 3 unusable input, \
@@ -53,7 +53,7 @@ const COMPARE_HELP: &str = "Exit status: 0 all methods have run, whatever came o
 
 /// The commands that need no screen.
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub enum Subcommands {
     /// Flatten a mesh; prove the result; write it as texture coordinates.
     #[command(after_help = EXIT_HELP)]
     Flatten(Box<FlattenArguments>),

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use crate::geom::ConvexPolygon;
-use crate::solver::{BoundaryShape, Choice as _};
+use freebound_core::geom::ConvexPolygon;
+use freebound_core::problem::{BoundaryShape, NamedOption as _};
 
 /// A shape, and the file that it comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]

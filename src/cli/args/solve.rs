@@ -9,9 +9,9 @@ use clap::builder::{OsStringValueParser, TypedValueParser as _};
 
 use super::ThreadArguments;
 use crate::cli::typed::{choice, parse_aspect, parse_pin};
-use crate::io::Target;
-use crate::mesh::VertexId;
-use crate::solver::{Family, Growth, Method, Settings, Spacing, Start, Treatment};
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Target;
+use freebound_core::problem::{Family, Growth, Method, Settings, Spacing, Start, Treatment};
 
 /// Why a shape's options mean nothing to other methods.
 pub(super) const ONLY_ON_SHAPES: &str = "only convex, stretch and lee lay a boundary on a shape";
@@ -93,7 +93,7 @@ impl SolveArguments {
             growth: self.growth.unwrap_or_default(),
             relax_rounds: self.relax,
             new_vertices: !self.no_new_vertices,
-            start: if self.start.is_some() { Start::File } else { Start::Afresh },
+            start: if self.start.is_some() { Start::File } else { Start::FromScratch },
             method,
             family: self.family,
             ..Settings::default()
@@ -134,7 +134,7 @@ impl SolveArguments {
             (self.no_new_vertices, splits, "--no-new-vertices", of_splits),
             (
                 self.start.is_some(),
-                method.goes_on_from_layout(),
+                method.continues_from_layout(),
                 "--start",
                 "it computes its map from the surface alone",
             ),

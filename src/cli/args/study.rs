@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::ThreadArguments;
-use crate::solver::Settings;
-use crate::solver::study::{Limits, Patience, Study};
+use freebound_core::pipeline::study::{Limits, Patience, Study};
+use freebound_core::problem::Settings;
 
 /// Runs on each mesh, where none is typed.
 const RUNS: u64 = 100;

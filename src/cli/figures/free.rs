@@ -7,12 +7,14 @@ use glam::{DVec2, DVec3};
 
 use super::pairs::{PAIRS, PinPair, WEIGHTS, settings};
 use super::{Figure, flips_in_words};
-use crate::io::figure::{Drawing, Outside, PlaneDrawing, Pockets, SpaceDrawing};
-use crate::io::raster::View;
-use crate::mesh::{DiskMesh, VertexId};
-use crate::solver::{
-    BoundaryShape, Control, Embedding, Family, Ladder, Method, Pins, Settings, SolveError, Step, fixed_pins, verdict,
+use freebound_core::flatten::{Flattener, Step};
+use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::problem::{
+    BoundaryShape, Control, Embedding, Family, Method, Pins, Settings, SolveError, fixed_pins,
 };
+use freebound_core::verify::verdict;
+use freebound_io::figure::{Drawing, OutsideShade, PlaneDrawing, Pockets, SpaceDrawing};
+use freebound_io::raster::View;
 
 /// Insets that a panel has room for.
 const INSETS: usize = 2;
@@ -35,12 +37,12 @@ pub(super) fn figure_1(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Fig
     let flat = Drawing::Plane(PlaneDrawing::new(mesh, input));
     figure.panel("the flat mesh", flat).showing("flat mesh").measure_verdict(&of_input, 0);
     let settings = Settings::new(Method::Convex(BoundaryShape::Circle), Family::Uniform);
-    let step = Ladder::new(settings, Pins::new()).step(mesh, control)?;
+    let step = Flattener::new(settings, Pins::new()).step(mesh, control)?;
     let tutte = PlaneDrawing { pins: Vec::new(), ..PlaneDrawing::of_step(mesh, &step) };
     let words = "Tutte: convex boundary, uniform weights";
     figure.panel(words, Drawing::Plane(tutte)).showing("Tutte").measure(&step);
     let settings = Settings::new(Method::Lee(BoundaryShape::Circle), Family::Uniform);
-    let step = Ladder::new(settings, Pins::new()).step(mesh, control)?;
+    let step = Flattener::new(settings, Pins::new()).step(mesh, control)?;
     let words = format!("Lee et al.: {} virtual layers, uniform weights", settings.layers);
     figure.panel(&words, Drawing::Plane(with_padding(mesh, &step))).showing("Lee et al.").measure(&step);
     Ok(figure)
@@ -49,10 +51,10 @@ pub(super) fn figure_1(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Fig
 /// A step of Lee's with the layers that were peeled off.
 fn with_padding(mesh: &Arc<DiskMesh>, step: &Step) -> PlaneDrawing {
     let drawing = PlaneDrawing { pins: Vec::new(), ..PlaneDrawing::of_step(mesh, step) };
-    let Some(padding) = step.outside.as_deref() else { return drawing };
+    let Some(padding) = step.candidate.outside.as_deref() else { return drawing };
     let embedding: Embedding = drawing.embedding.iter().chain(&padding.frame).copied().collect();
     let outermost = embedding.len() - mesh.boundary_loop().len()..embedding.len();
-    let outside = Outside {
+    let outside = OutsideShade {
         hull: outermost.map(VertexId::from_index).collect(),
         pockets: padding.triangles.clone(),
         style: Pockets::Triangulated,
@@ -92,7 +94,7 @@ impl FreeEmbedding {
     }
 
     pub(super) fn solve(self, mesh: &DiskMesh, control: Control<'_>) -> Result<Step, SolveError> {
-        Ladder::new(settings(self.weights), self.pins(mesh)).step(mesh, control)
+        Flattener::new(settings(self.weights), self.pins(mesh)).step(mesh, control)
     }
 }
 

@@ -23,15 +23,17 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::flatten::go_on;
-use super::progress::{INTERRUPTED, Progress};
+use super::progress::go_on;
+use super::progress::{INTERRUPTED, ProgressLine};
 use super::say::say;
-use super::{Failure, Status};
+use super::{CommandError, CommandOutcome};
 use crate::examples::Example;
-use crate::io::figure::{Drawing, Panel, Sheet};
-use crate::io::{WriteError, write_atomically};
-use crate::mesh::DiskMesh;
-use crate::solver::{Control, SolveError, Step, Verdict};
+use freebound_core::flatten::Step;
+use freebound_core::mesh::DiskMesh;
+use freebound_core::problem::{Control, SolveError};
+use freebound_core::verify::Verdict;
+use freebound_io::figure::{Drawing, Panel, PrintedSheet};
+use freebound_io::{WriteError, write_atomically};
 
 /// Pixels per point of the pictures.
 const PIXELS: f64 = 2.0;
@@ -42,14 +44,14 @@ const TABLE: &str = "figures.csv";
 /// A figure, laid out and measured.
 struct Figure {
     number: u32,
-    sheet: Sheet,
+    sheet: PrintedSheet,
     rows: Vec<Row>,
 }
 
 impl Figure {
     /// A figure without panels, so many of which will stand in a row.
     fn new(number: u32, columns: usize, caption: impl Into<String>) -> Self {
-        Self { number, sheet: Sheet { columns, panels: Vec::new(), caption: caption.into() }, rows: Vec::new() }
+        Self { number, sheet: PrintedSheet { columns, panels: Vec::new(), caption: caption.into() }, rows: Vec::new() }
     }
 
     /// Adds a panel with the next letter, and its row of the table, which says the same.
@@ -108,8 +110,8 @@ fn iterations_in_words(count: usize) -> String {
 }
 
 /// Computes the figures and writes them into a folder.
-pub(super) fn run(folder: &Path) -> Result<Status, Failure> {
-    let progress = Progress::default();
+pub(super) fn run(folder: &Path) -> Result<CommandOutcome, CommandError> {
+    let progress = ProgressLine::default();
     progress.follow(|| {
         let figures = compute(&progress)?;
         let table = table_of(&figures).expect("memory takes all");
@@ -127,17 +129,17 @@ pub(super) fn run(folder: &Path) -> Result<Status, Failure> {
         }
         let columns = in_columns(&table).expect("the table was just written");
         say(format_args!("{columns}wrote {} files into {}", files.len(), folder.display()))?;
-        Ok(Status::Fine)
+        Ok(CommandOutcome::Fine)
     })
 }
 
-fn compute(progress: &Progress) -> Result<Vec<Figure>, SolveError> {
+fn compute(progress: &ProgressLine) -> Result<Vec<Figure>, SolveError> {
     type Make<'a> = &'a dyn Fn() -> Result<Figure, SolveError>;
     let quiet = |_| {};
     let control = Control::new(&INTERRUPTED, &quiet);
     let disk = |example: Example| Arc::new(DiskMesh::try_from(example.mesh()).expect("built-in meshes are disks"));
     let (ell, cube) = (disk(Example::Ell), disk(Example::Cube));
-    let face = textured::Subject::face();
+    let face = textured::FigureSubject::face();
     let figures: [(&'static str, Make); 7] = [
         ("figure 1", &|| free::figure_1(&ell, control)),
         ("figure 3", &|| Ok(free::figure_3(&cube))),
@@ -161,7 +163,7 @@ fn drawn(figure: &Figure) -> Result<[(String, Vec<u8>); 2], WriteError> {
     let failed = |source| WriteError::writing(&svg, source);
     let (mut drawing, mut picture) = (Vec::new(), Vec::new());
     page.write_svg(&mut drawing).map_err(failed)?;
-    page.picture(PIXELS).write_png(&mut picture).map_err(failed)?;
+    freebound_io::raster::write_png(&page.picture(PIXELS), &mut picture).map_err(failed)?;
     Ok([(svg, drawing), (png, picture)])
 }
 

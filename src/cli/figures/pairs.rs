@@ -12,8 +12,8 @@
 //! other weights do, the boundary mostly crosses itself. With a vertex inside the surface faces fold at that vertex,
 //! mostly below a simple boundary. Where conformal weights fold, the others fold more.
 
-use crate::mesh::VertexId;
-use crate::solver::{Family, Method, Settings};
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::{Family, Method, Settings};
 
 /// Two vertices to pin, and what was measured with them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

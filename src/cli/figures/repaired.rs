@@ -5,10 +5,12 @@ use std::sync::Arc;
 use super::free::FreeEmbedding;
 use super::pairs::{TOP_AND_BOUNDARY, settings};
 use super::{Figure, flips_in_words, iterations_in_words};
-use crate::geom::double_area;
-use crate::io::figure::{Drawing, Outside, PlaneDrawing, Pockets, Window, zones_of};
-use crate::mesh::{DiskMesh, FaceId, VertexId};
-use crate::solver::{Control, Ladder, Method, Settings, SolveError, Step, VirtualBoundary};
+use freebound_core::bijective::VirtualBoundary;
+use freebound_core::flatten::{Flattener, Step};
+use freebound_core::geom::double_area;
+use freebound_core::mesh::{DiskMesh, FaceId, VertexId};
+use freebound_core::problem::{Control, Method, Settings, SolveError};
+use freebound_io::figure::{Drawing, OutsideShade, PlaneDrawing, Pockets, Window, zones_of};
 
 /// What figures 5 and 6 begin with, by its letter in figure 4.
 const INPUTS: [(char, FreeEmbedding); 2] = [
@@ -34,17 +36,17 @@ impl<'a> Repair<'a> {
     ) -> Result<Self, SolveError> {
         let input = free.solve(mesh, control)?;
         let settings = Settings { method, ..settings(free.weights) };
-        let mut run = Ladder::new(settings, free.pins(mesh)).after(&input);
+        let mut run = Flattener::new(settings, free.pins(mesh)).after(&input);
         let mut output = input.clone();
         run.finish(mesh, control, |step| output = step)?;
-        let zones = zones_of(mesh, &input.solution.embedding, &input.verdict.flipped_faces);
+        let zones = zones_of(mesh, &input.candidate.solution.embedding, &input.verdict.flipped_faces);
         let zone = zones.into_iter().next().unwrap_or_default();
         Ok(Self { mesh, input, output, zone })
     }
 
     /// The input, with a frame around what the zooms show.
     fn whole(&self) -> PlaneDrawing {
-        let framed = Window::on_faces(self.mesh, &self.input.solution.embedding, &self.zone);
+        let framed = Window::on_faces(self.mesh, &self.input.candidate.solution.embedding, &self.zone);
         PlaneDrawing { framed: Some(framed), ..PlaneDrawing::of_step(self.mesh, &self.input) }
     }
 
@@ -63,9 +65,9 @@ impl<'a> Repair<'a> {
 
     /// Shows the faces that were flipped, in the input or in the output.
     fn show_zoom(&self, figure: &mut Figure, words: &str, step: &Step) {
-        let mended = if step.verdict.planar { self.input.verdict.flipped_faces.clone() } else { Vec::new() };
-        let window = Window::on_faces(self.mesh, &step.solution.embedding, &self.zone);
-        let drawing = PlaneDrawing { mended, window: Some(window), ..PlaneDrawing::of_step(self.mesh, step) };
+        let with_all_repairs = if step.verdict.planar { self.input.verdict.flipped_faces.clone() } else { Vec::new() };
+        let window = Window::on_faces(self.mesh, &step.candidate.solution.embedding, &self.zone);
+        let drawing = PlaneDrawing { with_all_repairs, window: Some(window), ..PlaneDrawing::of_step(self.mesh, step) };
         figure.panel(words, Drawing::Plane(drawing)).measure(step);
     }
 }
@@ -95,7 +97,7 @@ pub(super) fn figure_6(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Fig
     let (letter, free) = INPUTS[1];
     let repair = Repair::of(free, Method::VirtualBoundary, mesh, control)?;
     repair.show_input(&mut figure, letter);
-    if let Some(stages) = repair.output.virtual_boundary.as_deref() {
+    if let Some(stages) = repair.output.candidate.virtual_boundary.as_deref() {
         let with = |style| with_outside(PlaneDrawing::of_step(mesh, &repair.input), stages, style);
         let pocket = largest_pocket(stages);
         let window = Some(Window::on_triangles(&stages.before, &pocket));
@@ -131,6 +133,6 @@ fn largest_pocket(stages: &VirtualBoundary) -> Vec<[VertexId; 3]> {
 
 /// An embedding with its hull and pockets.
 fn with_outside(drawing: PlaneDrawing, stages: &VirtualBoundary, style: Pockets) -> PlaneDrawing {
-    let outside = Outside { hull: stages.hull.clone(), pockets: stages.pockets.clone(), style };
+    let outside = OutsideShade { hull: stages.hull.clone(), pockets: stages.pockets.clone(), style };
     PlaneDrawing { embedding: stages.before.clone(), outside: Some(outside), ..drawing }
 }

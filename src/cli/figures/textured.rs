@@ -6,11 +6,12 @@ use glam::DVec2;
 
 use super::{Figure, flips_in_words, iterations_in_words};
 use crate::examples::{Example, Landmark};
-use crate::geom::Picture;
-use crate::io::figure::{Drawing, PhotoDrawing, PlaneDrawing};
-use crate::io::raster::{Canvas, Paint, View, mesh_picture, mesh_places};
-use crate::mesh::DiskMesh;
-use crate::solver::{Control, Ladder, Method, Pin, Pins, Settings, SolveError, Step};
+use freebound_core::flatten::{Flattener, Step};
+use freebound_core::geom::Picture;
+use freebound_core::mesh::DiskMesh;
+use freebound_core::problem::{Control, Method, Pin, Pins, Settings, SolveError};
+use freebound_io::figure::{Drawing, PhotoDrawing, PlaneDrawing};
+use freebound_io::raster::{Canvas, RasterPaint, View, mesh_picture, mesh_places};
 
 /// Pixels across the pictures of the mesh.
 const PIXELS: u32 = 580;
@@ -19,13 +20,13 @@ const PIXELS: u32 = 580;
 const WEIGHTS: [(&str, f64); 2] = [("large", 30.0), ("medium", 1.0)];
 
 /// The face with what belongs to it.
-pub(super) struct Subject {
+pub(super) struct FigureSubject {
     mesh: Arc<DiskMesh>,
     portrait: Picture,
     landmarks: Vec<Landmark>,
 }
 
-impl Subject {
+impl FigureSubject {
     pub(super) fn face() -> Self {
         let mesh = DiskMesh::try_from(Example::Face.mesh()).expect("built-in meshes are disks");
         let portrait = Example::Face.picture().expect("the face has a portrait");
@@ -41,20 +42,20 @@ impl Subject {
     fn solved(&self, pins: Pins, control: Control<'_>) -> Result<[Step; 2], SolveError> {
         let settings = Settings { method: Method::Iterate, ..Settings::default() };
         let mut steps: Vec<Step> = Vec::new();
-        Ladder::new(settings, pins).finish(&self.mesh, control, |step| steps.push(step))?;
+        Flattener::new(settings, pins).finish(&self.mesh, control, |step| steps.push(step))?;
         let last = steps.last().expect("a run that ends well has a step").clone();
         Ok([steps.swap_remove(0), last])
     }
 
     /// The mesh from the front, under a paint.
-    fn seen(&self, paint: Paint) -> Picture {
+    fn seen(&self, paint: RasterPaint) -> Picture {
         let mesh = self.mesh.mesh();
         mesh_picture(&mesh.positions, &mesh.triangles, &View::FRONT, &Canvas::clay(PIXELS, PIXELS), paint)
     }
 
     /// The mesh from the front, under the portrait.
     fn textured(&self, step: &Step) -> Picture {
-        self.seen(Paint::Picture { coordinates: &step.solution.embedding, picture: &self.portrait })
+        self.seen(RasterPaint::Picture { coordinates: &step.candidate.solution.embedding, picture: &self.portrait })
     }
 
     /// An embedding with flipped faces magnified.
@@ -69,7 +70,7 @@ fn photo(picture: Picture, marks: Vec<DVec2>) -> Drawing {
 }
 
 /// The correspondences, and the texture on the mesh where they are met exactly.
-pub(super) fn figure_8(face: &Subject, control: Control<'_>) -> Result<Figure, SolveError> {
+pub(super) fn figure_8(face: &FigureSubject, control: Control<'_>) -> Result<Figure, SolveError> {
     let caption = "Figure 8. Texture mapping with constraints: (a) landmarks of the mesh and (b) their places in the \
                    picture, of the same number; (c) the mesh with the picture. Each landmark lies on its place exactly, and \
                    no face is flipped.";
@@ -79,8 +80,10 @@ pub(super) fn figure_8(face: &Subject, control: Control<'_>) -> Result<Figure, S
     let points = mesh_places(&mesh.positions, &View::FRONT, &Canvas::clay(PIXELS, PIXELS));
     let on_mesh = face.landmarks.iter().map(|landmark| points[landmark.vertex.index()]).collect();
     let on_picture = face.landmarks.iter().map(|landmark| landmark.target.into()).collect();
-    figure
-        .panel(&format!("the mesh with {} constraints", face.landmarks.len()), photo(face.seen(Paint::Clay), on_mesh));
+    figure.panel(
+        &format!("the mesh with {} constraints", face.landmarks.len()),
+        photo(face.seen(RasterPaint::Clay), on_mesh),
+    );
     figure.panel("the picture with their targets", photo(face.portrait.clone(), on_picture));
     let words = format!("the picture on the mesh after {}", iterations_in_words(last.index - first.index));
     figure.panel(&words, photo(face.textured(&last), Vec::new())).measure(&last);
@@ -88,7 +91,7 @@ pub(super) fn figure_8(face: &Subject, control: Control<'_>) -> Result<Figure, S
 }
 
 /// Weighted constraints, before and after the iteration.
-pub(super) fn figure_9(face: &Subject, control: Control<'_>) -> Result<Figure, SolveError> {
+pub(super) fn figure_9(face: &FigureSubject, control: Control<'_>) -> Result<Figure, SolveError> {
     let caption = format!(
         "Figure 9. Constraints by weights: large ones, {}, above, and medium ones, {}, below. The first solve (left) \
          flips faces, red; the iteration (middle) repairs them; the picture on the mesh (right). \
@@ -103,7 +106,7 @@ pub(super) fn figure_9(face: &Subject, control: Control<'_>) -> Result<Figure, S
         figure.panel(&words, face.layout(&first)).measure(&first);
         let words = format!("after {}: {}", iterations_in_words(last.index), flips_in_words(&last));
         figure.panel(&words, face.layout(&last)).measure(&last);
-        let off = |mark: &Landmark| last.solution.embedding[mark.vertex.index()].distance(mark.target.into());
+        let off = |mark: &Landmark| last.candidate.solution.embedding[mark.vertex.index()].distance(mark.target.into());
         let miss = face.landmarks.iter().map(off).fold(0.0, f64::max);
         let words = format!("the picture on the mesh; the farthest off by {miss:.1e}");
         figure.panel(&words, photo(face.textured(&last), Vec::new())).measure(&last);

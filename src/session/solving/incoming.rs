@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use super::Solving;
-use super::running::{Delivery, News, Next, Rest, Resting, Running};
+use super::running::{Delivery, News, Next, Resting, Running, StopReason};
 use crate::session::stop::Goal;
-use crate::session::{Message, Messages, Place};
-use crate::solver::{Ending, Ladder, SolveError};
+use crate::session::{Message, MessagePlace, Messages};
+use freebound_core::flatten::{Ending, Flattener};
+use freebound_core::problem::SolveError;
 
 impl Solving {
     /// Takes in what the background has finished.
@@ -30,11 +31,12 @@ impl Solving {
             None => {}
             Some(((), Err(failure))) => {
                 self.failed = self.running.take().map(|running| running.problem);
-                messages.fail_background(Place::Embedding, "solving", &failure);
+                messages.fail_background(MessagePlace::Embedding, "solving", &failure);
             }
             Some(((), Ok((run, result)))) => {
                 let went_on_by_itself = self.running.as_ref().is_some_and(Running::goes_on_by_itself);
-                let rest = if result.is_ok() && went_on_by_itself { Rest::ByItself } else { Rest::Elsewhere };
+                let rest =
+                    if result.is_ok() && went_on_by_itself { StopReason::ByItself } else { StopReason::Elsewhere };
                 news.next = self.take_back(run, result, messages);
                 if news.next.is_none() {
                     news.rest = Some(rest);
@@ -52,10 +54,10 @@ impl Solving {
         if is_first {
             // What was written no longer shows what is on the screen.
             messages.forget_notes();
-            self.kept.prepared.clone_from(&outcome.step.prepared);
+            self.kept.prepared.clone_from(&outcome.step.candidate.prepared);
             self.timeline = self.timeline.begun_anew();
         }
-        if let Some(start) = &outcome.step.planar_start {
+        if let Some(start) = &outcome.step.candidate.planar_start {
             self.kept.planar_start = Some(Arc::clone(start));
         }
         self.ending = ending;
@@ -66,7 +68,7 @@ impl Solving {
     }
 
     /// Takes back a run that has come to rest. Returns how solving goes on, where the goal has changed meanwhile.
-    fn take_back(&mut self, run: Ladder, result: Result<(), SolveError>, messages: &mut Messages) -> Option<Next> {
+    fn take_back(&mut self, run: Flattener, result: Result<(), SolveError>, messages: &mut Messages) -> Option<Next> {
         let Running { problem, paused, shared, .. } = self.running.take()?;
         let has_new_vertices = problem.settings.new_vertices;
         self.failed = result.as_ref().err().filter(|error| **error != SolveError::Cancelled).map(|_| problem.clone());
@@ -89,8 +91,8 @@ impl Solving {
     /// Says what went wrong; where constraints cannot be met, which.
     pub(super) fn tell(&mut self, error: &SolveError, has_new_vertices: bool, messages: &mut Messages) {
         self.forget_message(messages);
-        let mut message = Message::error(Place::Embedding, error.to_string()).with_vertices(error.vertices());
-        if matches!(error, SolveError::LadderExhausted { .. }) {
+        let mut message = Message::error(MessagePlace::Embedding, error.to_string()).with_vertices(error.vertices());
+        if matches!(error, SolveError::StagesExhausted { .. }) {
             self.ending = Some(Ending::Done);
         }
         if *error == SolveError::Unmet {

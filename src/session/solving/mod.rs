@@ -18,25 +18,25 @@
 //! | `incoming` | takes in steps, and a run that has come to rest                           |
 //! | `rounds`   | rounds of relaxing that a person has asked for                            |
 //! | `solved`   | what a run at rest has solved, to be shown again                          |
-//! | `session`  | what a session says of the solving on the screen                          |
 
 mod incoming;
 mod rounds;
 mod running;
-mod session;
 mod solved;
 
 use std::sync::Arc;
 use std::sync::mpsc::sync_channel;
 
 use self::rounds::Rounds;
-pub(super) use self::running::{Beginning, Next, Rest, Task};
+pub(super) use self::running::{Beginning, Next, StopReason, Task};
 use self::running::{Resting, Running, Shared, take_steps};
 pub(super) use self::solved::Solved;
 use super::stop::Goal;
 use super::timeline::{TIMELINE_BUDGET, Timeline};
-use super::{Background, Messages, Outcome, Place, Problem, Stop, StopConditions, Wake};
-use crate::solver::{Ending, Kept, Ladder, Method, Phase, Prepared};
+use super::{Background, MessagePlace, Messages, RunStop, StopConditions, Wake};
+use freebound_core::flatten::{Ending, Flattener, Prepared, SolverCache};
+use freebound_core::pipeline::{Outcome, Problem};
+use freebound_core::problem::{Method, Phase};
 
 /// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.
 const STEPS_WAITING: usize = 8;
@@ -51,7 +51,7 @@ pub(super) struct Solving {
     ending: Option<Ending>,
     stop: StopConditions,
     /// What runs on the mesh have computed, for further ones.
-    kept: Kept,
+    kept: SolverCache,
     /// The run that takes steps in the background.
     running: Option<Running>,
     /// The run that waits to be taken on.
@@ -75,7 +75,7 @@ impl Solving {
             outcome_revision: 0,
             ending: None,
             stop: StopConditions::default(),
-            kept: Kept::default(),
+            kept: SolverCache::default(),
             running: None,
             resting: None,
             rounds: Rounds::default(),
@@ -150,7 +150,7 @@ impl Solving {
     }
 
     /// Why the run is at rest, however often it is asked to go on.
-    pub(super) fn stopped_for_good(&self) -> Option<Stop> {
+    pub(super) fn stopped_for_good(&self) -> Option<RunStop> {
         self.stop.reason_for_good(self.newest()?, self.ending)
     }
 
@@ -165,6 +165,16 @@ impl Solving {
         let is_met = self.newest().is_some_and(|newest| newest.step.unmet().is_empty());
         let waits = |resting: &Resting| resting.problem.has_steps_of(problem) && resting.run.can_relax();
         is_met && self.resting.as_ref().is_some_and(waits)
+    }
+
+    /// The count of changes of the step on the screen.
+    pub(super) fn outcome_revision(&self) -> u64 {
+        self.outcome_revision
+    }
+
+    /// The reason why the run is at rest, if a stop condition or its end holds.
+    pub(super) fn stopped(&self) -> Option<RunStop> {
+        self.stop.reason(self.newest()?, self.ending).filter(|_| !self.is_running())
     }
 }
 
@@ -190,8 +200,8 @@ impl Solving {
     }
 
     /// A run that has not begun.
-    fn run_of(&self, Task { model, problem, .. }: &Task) -> Ladder {
-        problem.ladder_on(model).unwrap_or_else(|_| problem.ladder()).with_kept(&self.kept)
+    fn run_of(&self, Task { model, problem, .. }: &Task) -> Flattener {
+        model.flattener(problem).unwrap_or_else(|_| problem.flattener()).with_cache(&self.kept)
     }
 
     /// Goes on with the run at rest, or begins one where the problem has changed since.
@@ -203,7 +213,7 @@ impl Solving {
     }
 
     /// Takes steps of a run in the background. A run that is under way is given up.
-    fn spawn(&mut self, task: Task, mut run: Ladder, goal: Goal) {
+    fn spawn(&mut self, task: Task, mut run: Flattener, goal: Goal) {
         self.give_up();
         let has_delivered = run.step_count() > 0;
         let (sender, deliveries) = sync_channel(STEPS_WAITING);
@@ -240,7 +250,7 @@ impl Solving {
             }
             Err(error) => {
                 self.resting = Some(resting);
-                messages.fail(Place::Embedding, error.to_string(), None);
+                messages.fail(MessagePlace::Embedding, error.to_string(), None);
                 false
             }
         }
@@ -294,7 +304,7 @@ impl Solving {
     pub(super) fn forget(&mut self, messages: &mut Messages) {
         self.give_up_all();
         self.forget_message(messages);
-        (self.timeline, self.ending, self.kept) = (self.timeline.begun_anew(), None, Kept::default());
+        (self.timeline, self.ending, self.kept) = (self.timeline.begun_anew(), None, SolverCache::default());
         self.outcome_revision += 1;
     }
 

@@ -4,10 +4,12 @@ use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{Receiver, SyncSender};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use crate::mesh::DiskMesh;
 use crate::session::stop::Goal;
-use crate::session::{Background, Model, Outcome, Problem, Wake};
-use crate::solver::{Control, Embedding, Ending, Ladder, Phase, SolveError};
+use crate::session::{Background, Model, Wake};
+use freebound_core::flatten::{Ending, Flattener};
+use freebound_core::mesh::DiskMesh;
+use freebound_core::pipeline::{Outcome, Problem};
+use freebound_core::problem::{Control, Embedding, Phase, SolveError};
 
 /// What is to be solved, and on which mesh.
 #[derive(Clone, Debug)]
@@ -15,7 +17,7 @@ pub(in crate::session) struct Task {
     pub(in crate::session) model: Arc<Model>,
     pub(in crate::session) mesh: Arc<DiskMesh>,
     pub(in crate::session) problem: Problem,
-    /// What to go on from; none where it is solved afresh.
+    /// What to go on from; none where it is solved from scratch.
     pub(in crate::session) from: Option<Beginning>,
 }
 
@@ -29,8 +31,8 @@ pub(in crate::session) struct Beginning {
 
 impl Beginning {
     /// A run that goes on from it.
-    pub(super) fn begin(&self, run: Ladder) -> Ladder {
-        if self.stays { run.staying_at(&self.embedding) } else { run.going_on_from(&self.embedding) }
+    pub(super) fn begin(&self, run: Flattener) -> Flattener {
+        if self.stays { run.warm_start(&self.embedding) } else { run.continue_from(&self.embedding) }
     }
 }
 
@@ -40,7 +42,7 @@ pub(in crate::session) struct News {
     /// Whether a run's first step has come in.
     pub(in crate::session) has_begun: bool,
     /// How the run has come to rest, where it has and is to stay there.
-    pub(in crate::session) rest: Option<Rest>,
+    pub(in crate::session) rest: Option<StopReason>,
     /// Rounds of relaxing that it was asked for and has not come to.
     pub(in crate::session) rounds_cut: usize,
     /// What is to be done now, with the problem as it is by then.
@@ -49,7 +51,7 @@ pub(in crate::session) struct News {
 
 /// How a run has come to rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::session) enum Rest {
+pub(in crate::session) enum StopReason {
     /// It went on by itself until something held that stops it.
     ByItself,
     /// Where a person wanted it, or because of a fault.
@@ -68,7 +70,7 @@ pub(in crate::session) enum Next {
 /// A run with the steps that it takes in the background.
 pub(super) struct Running {
     /// Gives the run back when it comes to rest.
-    pub(super) job: Background<(), (Ladder, Result<(), SolveError>)>,
+    pub(super) job: Background<(), (Flattener, Result<(), SolveError>)>,
     pub(super) deliveries: Receiver<Delivery>,
     pub(super) shared: Arc<Shared>,
     pub(super) problem: Problem,
@@ -81,7 +83,7 @@ pub(super) struct Running {
 /// A run at rest.
 pub(super) struct Resting {
     pub(super) problem: Problem,
-    pub(super) run: Ladder,
+    pub(super) run: Flattener,
 }
 
 impl Running {
@@ -145,7 +147,7 @@ fn locked<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
 /// The background's end of a run: takes steps until the goal is reached, and hands each over. What nobody waits for any
 /// more is given up.
 pub(super) fn take_steps(
-    run: &mut Ladder,
+    run: &mut Flattener,
     Task { mesh, problem, .. }: &Task,
     shared: &Shared,
     deliveries: &SyncSender<Delivery>,

@@ -6,8 +6,10 @@ use super::Solving;
 use super::rounds::Rounds;
 use super::running::{Resting, Task};
 use crate::session::timeline::TIMELINE_BUDGET;
-use crate::session::{Messages, Outcome, Problem, Timeline};
-use crate::solver::{Ending, Method, SolveError};
+use crate::session::{Messages, Timeline};
+use freebound_core::flatten::Ending;
+use freebound_core::pipeline::{Outcome, Problem};
+use freebound_core::problem::{SolveError, Stage};
 
 /// Bytes of a mesh with new vertices, about, for each face: corners, halfedges with their twins and vertices, edges, lengths.
 const BYTES_A_FACE: usize = 200;
@@ -24,7 +26,12 @@ impl Solved {
     /// Bytes of memory that it takes.
     pub(in crate::session) fn bytes(&self) -> usize {
         let of_new_mesh = |outcome: &Outcome| {
-            outcome.step.refinement.as_ref().map_or(0, |refinement| refinement.disk().face_count() * BYTES_A_FACE)
+            outcome
+                .step
+                .candidate
+                .refinement
+                .as_ref()
+                .map_or(0, |refinement| refinement.disk().face_count() * BYTES_A_FACE)
         };
         self.timeline.kept().map(|(_, outcome)| outcome.bytes() + of_new_mesh(outcome)).sum()
     }
@@ -56,8 +63,8 @@ impl Solving {
         messages.forget_notes();
         self.failed = None;
         let Some(newest) = solved.newest() else { return };
-        let rungs: Vec<Method> = solved.timeline.records().iter().map(|record| record.rung).collect();
-        let run = self.run_of(&task).resting_after(&newest.step, &rungs);
+        let stages: Vec<Stage> = solved.timeline.records().iter().map(|record| record.stage).collect();
+        let run = self.run_of(&task).resume_after(&newest.step, &stages);
         self.resting = Some(Resting { problem: task.problem, run });
         (self.timeline, self.ending, self.rounds) = (solved.timeline, solved.ending, solved.rounds);
         self.timeline.set_budget(TIMELINE_BUDGET);

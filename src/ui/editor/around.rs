@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::mesh::FaceId;
 use crate::render::Surroundings;
 use crate::session::Model;
 use crate::view::{EdgeList, FacePaint, MeshArrays, Ray, Sphere, SurfacePicker};
+use freebound_core::mesh::FaceId;
 
 /// The charts that are not on the screen, around the one that is.
 #[derive(Debug)]
@@ -23,7 +23,7 @@ pub struct Around {
 
 impl Around {
     pub(super) fn of(model: &Model, positions: &[DVec3], sphere: Sphere) -> Option<Self> {
-        let of = model.chart.as_ref()?;
+        let of = model.prepared.chart.as_ref()?;
         let polygons = of.charts.whole().polygons();
         let mut chart_of_polygon = vec![None; polygons.face_count()];
         for (number, chart) in (0..).zip(0..of.charts.count()).filter(|(_, chart)| *chart != of.number) {
@@ -36,7 +36,7 @@ impl Around {
         let mesh = MeshArrays::in_frame(positions, &triangles, sphere);
         let paint = FacePaint::faint(triangles.len());
         let surroundings = Surroundings { mesh: Arc::new(mesh), paint: Arc::new(paint) };
-        let seams = of.charts.whole().seam_sides(&model.form.seams, &model.source.polygons);
+        let seams = of.charts.whole().seam_sides(&model.prepared.form.seams, &model.source.polygons);
         let seams = Arc::new(EdgeList::new(seams));
         Some(Self { surroundings, seams, picker: SurfacePicker::new(positions, &triangles), chart_of })
     }

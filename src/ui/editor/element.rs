@@ -1,6 +1,6 @@
 //! Parts of the mesh by their names.
 
-use crate::mesh::{EdgeId, FaceId, VertexId};
+use freebound_core::mesh::{EdgeId, FaceId, VertexId};
 
 /// A part of the mesh that a defect or a person names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

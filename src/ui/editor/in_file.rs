@@ -1,7 +1,7 @@
 //! Vertices of what is on the screen, which may be cut, mended, or one chart of several, as those of the file.
 
-use crate::mesh::{PolygonMesh, Repaired, VertexId};
 use crate::session::Model;
+use freebound_core::mesh::{PolygonMesh, Repaired, VertexId};
 
 /// Vertices of a mesh on the screen and of its file. New vertices of a step are of no file.
 #[derive(Debug)]

@@ -1,8 +1,6 @@
 //! What of the window is open: tab and panels, the panes' widths, floating windows.
 
-use super::{Pane, Tab};
-use crate::ui::panels::toast::Toast;
-use crate::ui::panes::inset::Sight;
+use crate::ui::state::{InsetView, Pane, Tab, Toast};
 use crate::ui::theme::{PANEL_WIDTH, PANEL_WIDTHS};
 
 /// A window narrower than this shows no panels until they are asked for, points.
@@ -38,7 +36,7 @@ pub struct Layout {
     /// The good news that show.
     pub(in crate::ui) toast: Option<Toast>,
     /// What the insets over the panes show, and how near.
-    pub(in crate::ui) insets: Sight,
+    pub(in crate::ui) insets: InsetView,
     /// The menu that is to open, by its place in the bar.
     pub(in crate::ui) menu_asked: Option<usize>,
 }

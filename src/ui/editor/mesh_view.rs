@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::making::Making;
+use super::async_scene::AsyncScene;
 use super::scene::MeshScene;
-use crate::session::{Failure, Session, Wake};
-use crate::ui::panes::pane::PaneView;
+use crate::session::{JobFailure, Session, Wake};
+use crate::ui::state::PaneView;
 use crate::view::{OrbitCamera, Sphere, UpAxis};
 
 #[derive(Debug)]
@@ -14,12 +14,12 @@ pub struct MeshView {
     pub pane: PaneView<OrbitCamera>,
     scene: Option<Arc<MeshScene>>,
     /// The scene that is being made, by the mesh's revision.
-    job: Making<u64, MeshScene>,
+    job: AsyncScene<u64, MeshScene>,
 }
 
 impl MeshView {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { pane: PaneView::default(), scene: None, job: Making::new("mesh scene", wake) }
+        Self { pane: PaneView::default(), scene: None, job: AsyncScene::new("mesh scene", wake) }
     }
 
     /// The mesh as given.
@@ -32,7 +32,7 @@ impl MeshView {
     }
 
     /// Why the scene could not be made; each failure once.
-    pub(super) fn take_failure(&mut self) -> Option<Failure> {
+    pub(super) fn take_failure(&mut self) -> Option<JobFailure> {
         self.job.take_failure()
     }
 

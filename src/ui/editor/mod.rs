@@ -3,9 +3,9 @@
 //! | file | what |
 //! |---|---|
 //! | `mod.rs` | the editor: its parts, and what it does in each frame |
-//! | `request.rs`, `requests.rs` | what a person asks of the window, and what it does; moves along the timeline |
-//! | `purpose.rs` | files that are asked for |
-//! | `comparison.rs` | methods side by side in the embedding's pane |
+//! | `requests.rs` | requests, carried out; moves along the timeline |
+//! | `files.rs`, `unsaved.rs` | files that are asked for; the question about unsaved work |
+//! | `comparison/` | methods side by side in the embedding's pane |
 //! | `mesh_view.rs` | the mesh's pane: place, camera, scene |
 //! | `plane/` | the embedding's pane: place, camera, what it draws |
 //! | `scene.rs` | what the panes draw and pick in |
@@ -15,70 +15,73 @@
 //! | `sides.rs` | which side of a seam a vertex is on |
 //! | `seam_chain.rs` | the clicks that a seam is drawn by, and the way back along them |
 //! | `seam_intent.rs` | what a click of the seam tool would do |
+//! | `seam_actions.rs` | requests to the seam tool, carried out |
 //! | `seam_tool.rs` | the seam that is being drawn, and the shortest paths from where it has got to |
 //! | `element.rs` | parts of the mesh by their names |
 //! | `around.rs` | the charts around the one that is worked on |
-//! | `making.rs` | scenes are made in the background |
+//! | `async_scene.rs` | scenes are made in the background |
 //! | `selection.rs` | what is selected, what is under the pointer, the tool in hand |
-//! | `look.rs` | how faces show: shading of each pane, wireframe, picture, colours |
+//! | `appearance.rs`, `shade.rs` | how faces show: shading of each pane, wireframe, picture, colours |
 //! | `layout.rs` | what of the window is open |
-//! | `kept.rs` | what of the window is kept between runs |
-//! | `opened.rs` | what the window keeps of the open document, and how it looks, for the project file |
-//! | `host.rs` | egui's context and the graphics card |
+//! | `preferences.rs` | what of the window is kept between runs |
+//! | `opened.rs` | what the window keeps of the open document |
+//! | `project_view.rs` | cameras, shadings, tool and selection in the project file |
+//! | `gpu.rs` | egui's context and the graphics card |
 //! | `frames.rs` | how long frames take |
-//! | `views.rs` | what the cameras look at; defects |
+//! | `views.rs` | what the cameras look at |
+//! | `defect.rs` | what is wrong with an embedding |
+//! | `picture_box.rs` | the place of the picture in the plane |
 
+pub(super) mod appearance;
 mod around;
+mod async_scene;
 pub(super) mod comparison;
+mod defect;
 mod element;
+mod files;
 mod frames;
-mod host;
+mod gpu;
 mod in_file;
-mod kept;
 pub(super) mod layout;
-mod look;
-mod making;
 mod mesh_view;
 mod opened;
 pub(super) mod paint;
+pub(super) mod picture_box;
 mod plane;
-pub(super) mod purpose;
-mod request;
+mod preferences;
+mod project_view;
 mod requests;
 pub(super) mod scene;
+mod seam_actions;
 mod seam_chain;
 pub(super) mod seam_intent;
 pub(super) mod seam_rules;
 pub(super) mod seam_tool;
 mod selection;
+mod shade;
 mod sides;
-pub(super) mod views;
+mod unsaved;
+mod views;
 
-pub use comparison::{MorphRequest, MorphView};
+pub use comparison::MorphView;
+pub use defect::Defect;
 pub(super) use element::Element;
 pub(super) use plane::HullScene;
-pub use plane::Stage;
-pub use purpose::ComparisonExport;
-pub(super) use purpose::Purpose;
-pub use request::{Pane, Request, Shading, StepTarget, Tab, Tool};
-pub use seam_rules::SeamRule;
-pub use seam_tool::SeamClick;
-pub use views::Defect;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui;
 
-use crate::session::{Busy, Place, RecentFiles, Session};
-use crate::ui::TimelineView;
-use host::Host;
+use crate::session::{Busy, MessagePlace, RecentFiles, Session};
+use crate::ui::state::{Tab, TimelineView};
+use appearance::PaneShading;
+use files::Files;
+use gpu::Gpu;
 use layout::Layout;
-use look::Look;
 use mesh_view::MeshView;
 use opened::Opened;
 use plane::{PlaneView, SECONDS, Surroundings};
-use purpose::Files;
 use scene::MeshScene;
 use selection::{Pointer, Selection, ToolState};
 
@@ -100,13 +103,13 @@ pub struct Editor {
     /// The tool in hand.
     pub tools: ToolState,
     /// How faces show.
-    pub look: Look,
+    pub pane_shading: PaneShading,
     /// What of the window is open.
     pub layout: Layout,
     /// What the window keeps of the open document.
     pub opened: Opened,
     /// What shows the window.
-    pub host: Host,
+    pub gpu: Gpu,
     /// Files that are asked for, or about to be written.
     pub files: Files,
     /// The timeline under the panes.
@@ -122,8 +125,8 @@ impl std::fmt::Debug for Editor {
 impl Editor {
     /// An empty window. `context` is woken when the background has news.
     pub fn new(context: &egui::Context, recent: RecentFiles) -> Self {
-        let host = Host::new(context);
-        let wake = host.wake();
+        let gpu = Gpu::new(context);
+        let wake = gpu.wake();
         Self {
             mesh: MeshView::new(&wake),
             plane: PlaneView::new(&wake),
@@ -131,10 +134,10 @@ impl Editor {
             selection: Selection::default(),
             pointer: Pointer::default(),
             tools: ToolState::new(&wake),
-            look: Look::new(&wake),
+            pane_shading: PaneShading::new(&wake),
             layout: Layout::default(),
             opened: Opened::default(),
-            host,
+            gpu,
             files: Files::default(),
             timeline: TimelineView::default(),
         }
@@ -157,7 +160,9 @@ impl Editor {
         let Some(before) = self.opened.note_model(&self.session) else { return };
         let has_other_form = |scene: &MeshScene| {
             let now = self.session.model();
-            now.is_some_and(|now| Arc::ptr_eq(&scene.model.source, &now.source) && scene.model.form != now.form)
+            now.is_some_and(|now| {
+                Arc::ptr_eq(&scene.model.source, &now.source) && scene.model.prepared.form != now.prepared.form
+            })
         };
         let scene = self.mesh.scene().filter(|scene| scene.model_revision == before && has_other_form(scene));
         self.selection.let_go(|vertex| scene?.in_file.vertex(vertex));
@@ -168,7 +173,7 @@ impl Editor {
 
     /// What goes on in the background, once it has taken long enough to be worth a word.
     pub fn busy_for_long(&self) -> Option<Busy> {
-        self.session.busy().filter(|_| self.host.is_busy_for_long())
+        self.session.busy().filter(|_| self.gpu.is_busy_for_long())
     }
 
     /// Takes in what the background has finished. Call at the start of each frame.
@@ -197,23 +202,23 @@ impl Editor {
             self.selection.keep_defect_below(count);
         }
         self.tell_failures();
-        self.look.refresh_picture(self.session.document());
+        self.pane_shading.refresh_picture(self.session.document());
         self.poll_shot();
         if let Some(plane) = self.plane.scene() {
-            self.look.refresh_checks(plane, self.timeline.playing_since.is_some());
+            self.pane_shading.refresh_checks(plane, self.timeline.playing_since.is_some());
         }
         self.refresh_paints();
-        self.host.note_work(self.session.busy().is_some(), Instant::now());
+        self.gpu.note_work(self.session.busy().is_some(), Instant::now());
         let scenes_pending = self.mesh.is_making_scene()
             || self.plane.is_making_scene()
-            || self.look.is_making_picture()
+            || self.pane_shading.is_making_picture()
             || self.tools.seam.is_busy();
         if self.session.busy().is_some() || scenes_pending || self.files.dialogs.is_open() {
-            self.host.context().request_repaint_after(Duration::from_millis(100));
+            self.gpu.context().request_repaint_after(Duration::from_millis(100));
         }
         if self.session.has_unsaved_work() {
             // Copies for recovery are made while nobody moves the mouse as well.
-            self.host.context().request_repaint_after(COPY_INTERVAL);
+            self.gpu.context().request_repaint_after(COPY_INTERVAL);
         }
         if let Some(choice) = self.files.dialogs.poll() {
             self.take_choice(choice);
@@ -222,13 +227,14 @@ impl Editor {
 
     /// Says what could not be drawn.
     fn tell_failures(&mut self) {
-        let [mesh, plane, picture] = [self.mesh.take_failure(), self.plane.take_failure(), self.look.take_failure()];
+        let [mesh, plane, picture] =
+            [self.mesh.take_failure(), self.plane.take_failure(), self.pane_shading.take_failure()];
         let seam = self.tools.seam.take_failure();
         let failures = [
-            (Place::Mesh, "drawing", mesh),
-            (Place::Embedding, "drawing", plane),
-            (Place::Embedding, "drawing", picture),
-            (Place::Mesh, "finding paths", seam),
+            (MessagePlace::Mesh, "drawing", mesh),
+            (MessagePlace::Embedding, "drawing", plane),
+            (MessagePlace::Embedding, "drawing", picture),
+            (MessagePlace::Mesh, "finding paths", seam),
         ];
         for (place, work, failure) in failures {
             if let Some(failure) = failure {
@@ -242,9 +248,9 @@ impl Editor {
         let glide = self.timeline.playing_since.map_or(SECONDS, |_| self.pace().min(SECONDS));
         let around = Surroundings {
             session: &self.session,
-            host: &self.host,
+            gpu: &self.gpu,
             mesh: self.mesh.scene(),
-            glide: self.look.glides.then_some(glide),
+            glide: self.pane_shading.glides.then_some(glide),
             is_dragging: self.tools.dragged().is_some(),
         };
         (&mut self.plane, around)
@@ -259,7 +265,7 @@ impl Editor {
     /// Begins anew with a mesh that has just come on the screen.
     fn begin_with_mesh(&mut self) {
         self.plane.forget();
-        self.look.forget_paint();
+        self.pane_shading.forget_paint();
         if self.opened.note_charts(&self.session) {
             self.layout.offer_tab(Tab::Charts);
         }

@@ -2,15 +2,16 @@
 
 use std::sync::Arc;
 
-use crate::mesh::{FaceId, TriMesh, VertexId};
-use crate::session::Outcome;
-use crate::solver::{Embedding, Step};
-use crate::ui::Shading;
+use crate::ui::state::ShadingMode;
 use crate::view::{FacePaint, Quantity, Range, Scale};
+use freebound_core::flatten::Step;
+use freebound_core::mesh::{FaceId, TriMesh, VertexId};
+use freebound_core::pipeline::Outcome;
+use freebound_core::problem::Embedding;
 
 /// Faces coloured by a shading, with what a legend needs.
 #[derive(Clone, Debug)]
-pub struct Paint {
+pub struct BrushPaint {
     pub key: PaintKey,
     pub faces: Arc<FacePaint>,
     pub legend: Option<Legend>,
@@ -23,7 +24,7 @@ pub struct PaintKey {
     pub model: u64,
     /// The outcome, by its revision.
     pub outcome: u64,
-    pub shading: Shading,
+    pub shading: ShadingMode,
     /// The step that moves are measured from, where they are asked for.
     pub moved_from: Option<usize>,
 }
@@ -46,7 +47,7 @@ impl Legend {
     }
 }
 
-impl Paint {
+impl BrushPaint {
     /// Colours the faces of an embedding; moves are measured from `base`.
     pub fn new(key: PaintKey, mesh: &TriMesh, outcome: Option<&Outcome>, base: Option<&Outcome>) -> Self {
         let plain = |flipped: &[FaceId]| Self {
@@ -63,15 +64,14 @@ impl Paint {
         };
         let by = |quantity: Quantity| by_values(quantity.scale(), &quantity.values(&outcome.distortion));
         match (key.shading, base) {
-            (Shading::Plain | Shading::Checker | Shading::Picture | Shading::SeeThrough, _) | (Shading::Move, None) => {
-                plain(flipped)
-            }
-            (Shading::Angle, _) => by(Quantity::Angle),
-            (Shading::Area, _) => by(Quantity::Area),
-            (Shading::Stretch, _) => by(Quantity::Stretch),
-            (Shading::Move, Some(base)) => {
+            (ShadingMode::Plain | ShadingMode::Checker | ShadingMode::Picture | ShadingMode::SeeThrough, _)
+            | (ShadingMode::Move, None) => plain(flipped),
+            (ShadingMode::Angle, _) => by(Quantity::Angle),
+            (ShadingMode::Area, _) => by(Quantity::Area),
+            (ShadingMode::Stretch, _) => by(Quantity::Stretch),
+            (ShadingMode::Move, Some(base)) => {
                 let before = embedding_on(&base.step, &outcome.step);
-                by_values(Scale::Move, &face_moves(mesh, &before, &outcome.step.solution.embedding))
+                by_values(Scale::Move, &face_moves(mesh, &before, &outcome.step.candidate.solution.embedding))
             }
         }
     }
@@ -89,9 +89,9 @@ fn histogram<'a>(values: impl IntoIterator<Item = &'a f64>, range: Range) -> Vec
 
 /// Where the vertices of one step lie in another one: new vertices that the other one lacks on its straight edges.
 fn embedding_on(base: &Step, step: &Step) -> Embedding {
-    let embedding = &base.solution.embedding;
-    let Some(refinement) = &step.refinement else { return embedding.clone() };
-    if base.refinement.as_ref().is_some_and(|other| Arc::ptr_eq(other, refinement)) {
+    let embedding = &base.candidate.solution.embedding;
+    let Some(refinement) = &step.candidate.refinement else { return embedding.clone() };
+    if base.candidate.refinement.as_ref().is_some_and(|other| Arc::ptr_eq(other, refinement)) {
         return embedding.clone();
     }
     let mut moved = embedding[..refinement.old_vertex_count()].to_vec();

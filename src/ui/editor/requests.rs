@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::io::PROJECT_EXTENSION;
-use crate::mesh::VertexId;
-use crate::session::{Action, SaveRequest, Together};
-use crate::solver::Hold;
-use crate::ui::panels::dialogs::Choice;
-use crate::ui::panels::unsaved::Wish;
-use crate::ui::{Editor, Half, Pane, Purpose, Request, StepTarget, Tool};
+use super::Editor;
+use crate::session::{Action, SaveRequest, UndoGroup};
+use crate::ui::dialogs::DialogChoice;
+use crate::ui::state::{FileDialogKind, Half, Pane, PendingClose, Request, StepTarget, Tool};
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::PinKind;
+use freebound_io::PROJECT_EXTENSION;
 
 /// Playing all steps takes about so long, seconds.
 const PLAY_SECONDS: f64 = 6.0;
@@ -40,10 +40,10 @@ impl Editor {
             Request::TakeVertex(vertex) => self.take_vertex(vertex),
             Request::SetShading(shading) => self.shade(shading),
             Request::SetPaneShading(pane, shading) => self.shade_pane(pane, shading),
-            Request::ToggleWireframe => self.look.wireframe = !self.look.wireframe,
-            Request::ToggleEase => self.look.glides = !self.look.glides,
+            Request::ToggleWireframe => self.pane_shading.wireframe = !self.pane_shading.wireframe,
+            Request::ToggleEase => self.pane_shading.glides = !self.pane_shading.glides,
             Request::ToggleOutsideHull => self.selection.marks_outside_hull ^= true,
-            Request::ToggleMagnifier => self.look.magnifier = !self.look.magnifier,
+            Request::ToggleMagnifier => self.pane_shading.magnifier = !self.pane_shading.magnifier,
             Request::ZoomInset(of, by) => self.layout.insets.bring_nearer(of, by),
             Request::PanInset(drag) => self.layout.insets.pan(drag),
             Request::ToggleHull => self.plane.toggle_hull(),
@@ -60,9 +60,9 @@ impl Editor {
             Request::ToggleSelected(vertex) => self.selection.toggle(vertex),
             Request::Nudge(nudge) => self.nudge(nudge),
             Request::EndNudge => self.end_nudge(),
-            Request::SetHold(hold) => self.set_hold(hold),
+            Request::SetPinKind(kind) => self.set_pin_kind(kind),
             Request::SetOpacity(opacity) => self.appearance_mut().opacity = opacity.clamp(0.0, 1.0),
-            Request::ToggleSharp => self.look.toggle_sharp(),
+            Request::ToggleSharp => self.pane_shading.toggle_sharp(),
             Request::UnpinSelected => self.act(Action::Unpin(self.selection.vertices().iter().copied().collect())),
             Request::Escape => self.escape(),
             Request::ToggleFull(pane) => self.layout.toggle_full(pane),
@@ -77,7 +77,7 @@ impl Editor {
             Request::SortComparison(column) => self.plane.comparison.sort_by(column),
             Request::ToggleComparisonTable => self.plane.comparison.toggle_table(),
             Request::Morph(request) => self.morph(request),
-            Request::Ask(purpose) => self.ask(purpose),
+            Request::Ask(kind) => self.ask(kind),
             Request::SaveProject => self.save_project(),
             Request::ToggleExports => self.layout.exports_shown = !self.layout.exports_shown,
             Request::Answer(answer) => self.answer(answer),
@@ -86,41 +86,41 @@ impl Editor {
             Request::AskGoTo => self.layout.ask_go_to(),
             Request::OpenMenu(place) => self.layout.menu_asked = Some(place),
             Request::ToggleKeys => self.layout.keys_shown = !self.layout.keys_shown,
-            Request::SetTheme(theme) => self.host.context().set_theme(theme),
+            Request::SetTheme(theme) => self.gpu.context().set_theme(theme),
             Request::SetFit(fit) => self.files.fit = fit,
-            Request::Quit => self.wish(Wish::Quit),
+            Request::Quit => self.close_or_ask(PendingClose::Quit),
         }
     }
 
-    pub(in crate::ui) fn ask(&mut self, purpose: Purpose) {
+    pub(in crate::ui) fn ask(&mut self, kind: FileDialogKind) {
         self.layout.exports_shown = false;
-        let project = self.session.project_path().filter(|_| purpose == Purpose::SaveProject);
-        let suggestion = project.cloned().unwrap_or_else(|| self.suggested_name(purpose));
-        self.files.dialogs.ask(&self.host.wake(), purpose, suggestion);
+        let project = self.session.project_path().filter(|_| kind == FileDialogKind::SaveProject);
+        let suggestion = project.cloned().unwrap_or_else(|| self.suggested_name(kind));
+        self.files.dialogs.ask(&self.gpu.wake(), kind, suggestion);
     }
 
     /// Opens, saves or exports as a dialog was answered.
-    pub fn take_choice(&mut self, choice: Choice) {
-        let Choice { purpose, path } = choice;
-        if !purpose.takes(&path) {
+    pub fn take_choice(&mut self, choice: DialogChoice) {
+        let DialogChoice { kind, path } = choice;
+        if !kind.takes(&path) {
             return self.act(Action::RefuseName(path));
         }
-        match purpose {
-            Purpose::Open => self.act(Action::Open(path)),
-            Purpose::OpenPicture => self.act(Action::OpenPicture(path)),
-            Purpose::ImportConstraints => self.act(Action::ImportConstraints(path)),
-            Purpose::ExportConstraints => self.act(Action::ExportConstraints(path)),
-            Purpose::ImportSeams => self.act(Action::ImportSeams(path)),
-            Purpose::ExportSeams => self.act(Action::ExportSeams(path)),
-            Purpose::SaveProject => {
+        match kind {
+            FileDialogKind::Open => self.act(Action::Open(path)),
+            FileDialogKind::OpenPicture => self.act(Action::OpenPicture(path)),
+            FileDialogKind::ImportConstraints => self.act(Action::ImportConstraints(path)),
+            FileDialogKind::ExportConstraints => self.act(Action::ExportConstraints(path)),
+            FileDialogKind::ImportSeams => self.act(Action::ImportSeams(path)),
+            FileDialogKind::ExportSeams => self.act(Action::ExportSeams(path)),
+            FileDialogKind::SaveProject => {
                 self.keep_view();
                 self.act(Action::SaveProject(path));
             }
-            Purpose::PanePicture(pane) => self.shoot_pane(pane, path),
-            Purpose::Comparison(what) => self.export_comparison(what, path),
-            Purpose::Export(kind, fit) => {
+            FileDialogKind::PanePicture(pane) => self.shoot_pane(pane, path),
+            FileDialogKind::Comparison(what) => self.export_comparison(what, path),
+            FileDialogKind::Export(output, fit) => {
                 let fit = fit.unwrap_or(self.files.fit);
-                self.act(Action::Save(SaveRequest { path, kind, fit }));
+                self.act(Action::Save(SaveRequest { path, kind: output, fit }));
             }
         }
     }
@@ -128,11 +128,12 @@ impl Editor {
     /// What files that were dropped on the window ask for, by their names: one mesh or project opens, and pictures and
     /// constraints are for it, or for what is open already. Edges are for what is open already.
     pub(in crate::ui) fn dropped(paths: Vec<PathBuf>) -> Vec<Request> {
-        let is_for = |purpose: Purpose| move |path: &PathBuf| purpose.form().fits(path);
+        let is_for = |kind: FileDialogKind| move |path: &PathBuf| kind.form().fits(path);
         let (pictures, others): (Vec<PathBuf>, Vec<PathBuf>) =
-            paths.into_iter().partition(is_for(Purpose::OpenPicture));
-        let (constraints, others): (Vec<_>, Vec<_>) = others.into_iter().partition(is_for(Purpose::ImportConstraints));
-        let (edges, mut meshes): (Vec<_>, Vec<_>) = others.into_iter().partition(is_for(Purpose::ImportSeams));
+            paths.into_iter().partition(is_for(FileDialogKind::OpenPicture));
+        let (constraints, others): (Vec<_>, Vec<_>) =
+            others.into_iter().partition(is_for(FileDialogKind::ImportConstraints));
+        let (edges, mut meshes): (Vec<_>, Vec<_>) = others.into_iter().partition(is_for(FileDialogKind::ImportSeams));
         // A project knows its mesh.
         meshes.sort_by_key(|path| !has_extension(path, &[PROJECT_EXTENSION]));
         if meshes.iter().any(|path| !has_extension(path, BESIDE)) {
@@ -150,7 +151,7 @@ impl Editor {
             (Some(mesh), _) => {
                 let picture = pictures.next();
                 let left = meshes.chain(pictures).chain(edges).collect();
-                vec![Action::OpenTogether(Together { mesh, picture, constraints, left })]
+                vec![Action::OpenTogether(UndoGroup { mesh, picture, constraints, left })]
             }
         };
         actions.into_iter().map(Request::Do).collect()
@@ -165,12 +166,12 @@ impl Editor {
         }
     }
 
-    fn set_hold(&mut self, hold: Hold) {
-        if hold != Hold::Fixed {
-            self.tools.set_hold(hold);
+    fn set_pin_kind(&mut self, kind: PinKind) {
+        if kind != PinKind::Fixed {
+            self.tools.set_pin_kind(kind);
         }
         let vertices: Vec<VertexId> = self.pins_selected().collect();
-        self.act(Action::SetHold { vertices, hold });
+        self.act(Action::SetPinKind { vertices, kind });
     }
 
     fn act(&mut self, action: Action) {
@@ -178,7 +179,7 @@ impl Editor {
             self.timeline.playing_since = None;
         }
         if matches!(action, Action::Open(_) | Action::OpenTogether(_) | Action::OpenExample(_) | Action::Recover(_)) {
-            return self.wish(Wish::Do(action));
+            return self.close_or_ask(PendingClose::Do(action));
         }
         let before = self.session.document().frame();
         self.session.handle(action);
@@ -191,8 +192,8 @@ impl Editor {
     }
 
     /// A name for a file made from the mesh on the screen.
-    fn suggested_name(&self, purpose: Purpose) -> PathBuf {
-        let ending = purpose.form().ending;
+    fn suggested_name(&self, kind: FileDialogKind) -> PathBuf {
+        let ending = kind.form().ending;
         let Some(model) = self.session.model() else { return PathBuf::from(format!("layout{ending}")) };
         let stem = Path::new(&model.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let folder = model.path.as_ref().and_then(|path| path.parent()).map(PathBuf::from).unwrap_or_default();
@@ -266,19 +267,19 @@ impl Editor {
         if timeline.next_kept(shown).is_none() {
             self.session.handle(Action::ShowStep(0));
         }
-        self.timeline.playing_since = Some(self.host.now());
+        self.timeline.playing_since = Some(self.gpu.now());
     }
 
     /// Shows the next step when it is time, and the one before has arrived. Call once per frame.
     pub(super) fn go_on_playing(&mut self) {
         let Some(since) = self.timeline.playing_since else { return };
-        self.host.context().request_repaint();
+        self.gpu.context().request_repaint();
         let timeline = self.session.timeline();
         let Some(next) = timeline.shown().and_then(|shown| timeline.next_kept(shown)) else {
             self.timeline.playing_since = None;
             return;
         };
-        let now = self.host.now();
+        let now = self.gpu.now();
         if now - since >= self.pace() && !self.plane.is_moving(&self.session) {
             self.session.handle(Action::ShowStep(next));
             self.timeline.playing_since = Some(now);

@@ -5,12 +5,14 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::around::Around;
+use super::element::Element;
 use super::in_file::InFile;
-use crate::mesh::{DiskMesh, NewVertex, Refinement, TriMesh, VertexId};
-use crate::session::{Model, Outcome};
-use crate::solver::{Embedding, GaugeSize, Step};
-use crate::ui::editor::Element;
+use crate::session::Model;
 use crate::view::{EdgeList, MeshArrays, PlaneArrays, PlanePicker, Ray, Sphere, SurfacePicker};
+use freebound_core::flatten::Step;
+use freebound_core::mesh::{DiskMesh, NewVertex, Refinement, TriMesh, VertexId};
+use freebound_core::pipeline::Outcome;
+use freebound_core::problem::{Embedding, GaugeSize};
 
 /// A mesh, ready to be drawn and picked in: as given, or with the new vertices of a step.
 #[derive(Debug)]
@@ -65,7 +67,7 @@ impl MeshScene {
     /// The scene of the mesh that a step's embedding is of: that of the mesh as given, that of the step shown before,
     /// or one of its own.
     pub(in crate::ui) fn of_step(given: &Arc<Self>, before: Option<Arc<Self>>, step: &Step) -> Arc<Self> {
-        let Some(refinement) = &step.refinement else { return Arc::clone(given) };
+        let Some(refinement) = &step.candidate.refinement else { return Arc::clone(given) };
         let has_it = |scene: &Arc<Self>| scene.refinement.as_ref().is_some_and(|other| Arc::ptr_eq(other, refinement));
         before.filter(has_it).unwrap_or_else(|| {
             Arc::new(Self::of(Arc::clone(&given.model), given.model_revision, Some(Arc::clone(refinement))))
@@ -81,7 +83,7 @@ impl MeshScene {
         let (positions, triangles) = (&mesh.positions, mesh.real_triangles());
         // In the unit of the chart's positions.
         let unit = disk.map_or(1.0, DiskMesh::unit);
-        let whole = model.chart.as_ref().map(|of| &of.charts.whole().polygons().positions);
+        let whole = model.prepared.chart.as_ref().map(|of| &of.charts.whole().polygons().positions);
         let whole: Option<Vec<DVec3>> = whole.map(|positions| positions.iter().map(|&at| at / unit).collect());
         let sphere = Sphere::around(whole.as_ref().unwrap_or(positions));
         Self {
@@ -143,7 +145,7 @@ impl MeshScene {
 }
 
 /// An embedding, ready to be drawn and picked in.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct PlaneScene {
     pub mesh: Arc<MeshScene>,
     /// The solve that it was made from.
@@ -154,7 +156,7 @@ pub struct PlaneScene {
     /// Faces of the outcome that reach out of the picture; 0 without one.
     pub(in crate::ui) faces_outside: usize,
     /// Where vertices lie where that is not the outcome's embedding; at a stage with those beyond the mesh's.
-    positions: Option<Embedding>,
+    positions: Option<Arc<Embedding>>,
     part: Part,
 }
 
@@ -171,7 +173,7 @@ pub(in crate::ui) enum Part {
 
 impl PlaneScene {
     pub fn new(mesh: Arc<MeshScene>, outcome: Arc<Outcome>, outcome_revision: u64) -> Self {
-        let embedding = &outcome.step.solution.embedding;
+        let embedding = &outcome.step.candidate.solution.embedding;
         Self {
             outcome_revision,
             arrays: Arc::new(PlaneArrays::new(embedding, mesh.mesh().real_triangles())),
@@ -189,12 +191,12 @@ impl PlaneScene {
     pub(in crate::ui) fn of_part(&self, part: Part, positions: Embedding) -> Self {
         let arrays = PlaneArrays::new(&positions, self.mesh.mesh().real_triangles());
         let picker = self.mesh.plane_picker(&positions);
-        Self { part, ..self.moved(&self.mesh, positions, arrays, Arc::new(picker)) }
+        Self { part, ..self.moved(&self.mesh, Arc::new(positions), arrays, Arc::new(picker)) }
     }
 
     /// The vertices of `mesh`, this one's or the one as given, on their way to where they will lie. Picks them where they
     /// are in this scene.
-    pub(super) fn with_positions(&self, mesh: &Arc<MeshScene>, positions: Embedding) -> Self {
+    pub(super) fn with_positions(&self, mesh: &Arc<MeshScene>, positions: Arc<Embedding>) -> Self {
         let picker = if Arc::ptr_eq(mesh, &self.mesh) {
             Arc::clone(&self.picker)
         } else {
@@ -204,10 +206,23 @@ impl PlaneScene {
         self.moved(mesh, positions, arrays, picker)
     }
 
+    /// Moves vertices to where they lie in an embedding; all others lie there already.
+    pub(super) fn move_vertices(&mut self, vertices: &[VertexId], embedding: &Embedding) {
+        let own = || Arc::new(self.outcome.step.candidate.solution.embedding.clone());
+        let mut shared = self.positions.take().unwrap_or_else(own);
+        let positions = Arc::make_mut(&mut shared);
+        for &vertex in vertices {
+            positions[vertex] = embedding[vertex];
+        }
+        let triangles = self.mesh.mesh().real_triangles();
+        self.arrays = Arc::new(PlaneArrays::in_frame(positions, triangles, self.arrays.frame));
+        self.positions = Some(shared);
+    }
+
     fn moved(
         &self,
         mesh: &Arc<MeshScene>,
-        positions: Embedding,
+        positions: Arc<Embedding>,
         arrays: PlaneArrays,
         picker: Arc<PlanePicker>,
     ) -> Self {
@@ -218,7 +233,7 @@ impl PlaneScene {
     }
 
     pub fn positions(&self) -> &Embedding {
-        self.positions.as_ref().unwrap_or(&self.outcome.step.solution.embedding)
+        self.positions.as_deref().unwrap_or(&self.outcome.step.candidate.solution.embedding)
     }
 
     pub(in crate::ui) fn position_of(&self, vertex: VertexId) -> Option<DVec2> {
@@ -242,7 +257,7 @@ fn faces_outside(outcome: &Outcome, triangles: &[[VertexId; 3]]) -> usize {
     }
     let [low, high] = outcome.problem.frame.corners();
     let margin = EDGE * (high - low).max_element();
-    let embedding = &outcome.step.solution.embedding;
+    let embedding = &outcome.step.candidate.solution.embedding;
     let is_outside = |v: &VertexId| {
         let z = embedding[*v];
         (z.cmplt(low - margin) | z.cmpgt(high + margin)).any()

@@ -1,6 +1,6 @@
 //! The chain of clicks that a seam is drawn by: where it has got to, and the way back when clicks are undone.
 
-use crate::mesh::{Seams, VertexId};
+use freebound_core::mesh::{Seams, VertexId};
 
 #[derive(Debug, Default)]
 pub(super) struct Chain {

@@ -1,11 +1,10 @@
 //! What a click of the seam tool would do. It is found once for a click and what it depends on; the preview and the words in
 //! the status bar ask for it in each frame.
 
-use super::Tool;
-use super::seam_tool::{Edge, SeamClick, SeamGround, SeamTool, TreeKey};
-use crate::mesh::{Seams, VertexId};
-use crate::ui::Editor;
+use super::seam_tool::{SeamGround, SeamTool, TreeKey};
+use crate::ui::state::{Edge, SeamClick};
 use crate::view::OrbitCamera;
+use freebound_core::mesh::{Seams, VertexId};
 
 /// Edges of a path of which it is looked whether the mesh hides them; the others show.
 const LOOKED_AT: usize = 2000;
@@ -75,7 +74,7 @@ impl SeamTool {
     }
 
     /// Finds what a click would do, unless that is known.
-    fn foresee(&mut self, click: Option<SeamClick>, seams: &Seams) {
+    pub(super) fn foresee(&mut self, click: Option<SeamClick>, seams: &Seams) {
         let key = click.map(|click| IntentKey {
             click,
             last: self.last(),
@@ -94,7 +93,7 @@ impl SeamTool {
     }
 
     /// Looks which edges that a click would change the mesh does not hide, unless that is known.
-    pub(in crate::ui) fn look_from(&mut self, camera: &OrbitCamera) {
+    pub(in crate::ui) fn update_visibility(&mut self, camera: &OrbitCamera) {
         let Some((ground, foreseen)) = self.ground().cloned().zip(self.foreseen.as_mut()) else { return };
         if foreseen.seen.as_ref().is_none_or(|(from, _)| from != camera) {
             foreseen.seen = Some((*camera, seen(&ground, foreseen.intent.edges(), camera)));
@@ -112,19 +111,4 @@ impl SeamTool {
 fn seen(ground: &SeamGround, edges: &[Edge], camera: &OrbitCamera) -> Vec<bool> {
     let shows = |edge: &Edge| edge.iter().any(|&end| ground.shows(end, camera));
     edges.iter().take(LOOKED_AT).map(shows).collect()
-}
-
-impl Editor {
-    /// The click that a press of the button would be, where the pointer is over a vertex.
-    pub(in crate::ui) fn seam_click(&self, has_shift: bool) -> Option<SeamClick> {
-        let seam = &self.tools.seam;
-        seam.under().map(|vertex| SeamClick { vertex, erases: seam.erases() != has_shift })
-    }
-
-    /// Finds what that click would do, unless that is known. Call once the vertex under the pointer is.
-    pub(in crate::ui) fn foresee_seam(&mut self) {
-        let has_shift = self.host.context().input(|input| input.modifiers.shift);
-        let click = self.seam_click(has_shift).filter(|_| self.tools.tool() == Tool::Seam);
-        self.tools.seam.foresee(click, self.session.seams());
-    }
 }

@@ -14,22 +14,18 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::Tool;
-use super::making::Making;
+use super::async_scene::AsyncScene;
 use super::seam_chain::Chain;
-use super::seam_intent::{Foreseen, SeamIntent};
+use super::seam_intent::Foreseen;
 use super::seam_rules::SeamRules;
-use crate::io::MeshFile;
-use crate::mesh::{EdgePaths, PathTree, Repairs, Seams, VertexId};
-use crate::session::{Action, Failure, Model, Session, Wake};
-use crate::ui::Editor;
+use crate::session::{JobFailure, Model, Session, Wake};
+use crate::ui::state::SeamClick;
 use crate::view::{OrbitCamera, SurfacePicker, Visibility};
+use freebound_core::mesh::{EdgePaths, PathTree, Repairs, VertexId};
+use freebound_io::MeshFile;
 
 /// Share of creases in the measure of paths at the start.
 pub(in crate::ui) const CREASES: f64 = 0.5;
-
-/// An edge by its ends, vertices of the file.
-pub(in crate::ui) type Edge = [VertexId; 2];
 
 /// The mesh of the file as one: whole, whatever it is cut into.
 #[derive(Debug)]
@@ -58,15 +54,6 @@ pub(super) struct TreeKey {
     creases: f64,
 }
 
-/// A click on a vertex of the file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SeamClick {
-    /// The vertex.
-    pub vertex: VertexId,
-    /// Whether seams go.
-    pub erases: bool,
-}
-
 pub struct SeamTool {
     /// Seams by a rule.
     pub(in crate::ui) rules: SeamRules,
@@ -75,9 +62,9 @@ pub struct SeamTool {
     /// Whether clicks take seams away.
     erases: bool,
     /// The seam as far as it has got.
-    chain: Chain,
+    pub(super) chain: Chain,
     /// Clicks that wait for the paths to be found.
-    clicks: VecDeque<SeamClick>,
+    pub(super) clicks: VecDeque<SeamClick>,
     /// The vertex of the file under the pointer.
     under: Option<VertexId>,
     /// What a click there would do.
@@ -85,9 +72,9 @@ pub struct SeamTool {
     /// What was open last, by the session's count.
     opening: Option<u64>,
     ground: Option<(GroundKey, Arc<SeamGround>)>,
-    ground_job: Making<GroundKey, SeamGround>,
+    ground_job: AsyncScene<GroundKey, SeamGround>,
     tree: Option<(TreeKey, PathTree)>,
-    tree_job: Making<TreeKey, PathTree>,
+    tree_job: AsyncScene<TreeKey, PathTree>,
 }
 
 /// Without what was found: that is as large as the mesh.
@@ -139,9 +126,9 @@ impl SeamTool {
             foreseen: None,
             opening: None,
             ground: None,
-            ground_job: Making::new("seam ground", wake),
+            ground_job: AsyncScene::new("seam ground", wake),
             tree: None,
-            tree_job: Making::new("seam paths", wake),
+            tree_job: AsyncScene::new("seam paths", wake),
         }
     }
 
@@ -198,7 +185,7 @@ impl SeamTool {
         (self.ground, self.tree, self.foreseen) = (None, None, None);
     }
 
-    pub(super) fn take_failure(&mut self) -> Option<Failure> {
+    pub(super) fn take_failure(&mut self) -> Option<JobFailure> {
         let failure = self.ground_job.take_failure().or(self.tree_job.take_failure()).or(self.rules.take_failure());
         if failure.is_some() {
             self.clicks.clear();
@@ -217,7 +204,7 @@ impl SeamTool {
     }
 
     /// Takes in what was found, and has found what is missing.
-    fn refresh(&mut self, session: &Session) {
+    pub(super) fn refresh(&mut self, session: &Session) {
         let Some(model) = session.model() else { return self.put_away() };
         let key = GroundKey::of(session, model);
         if self.opening.replace(key.opening).is_some_and(|before| before != key.opening) {
@@ -245,47 +232,6 @@ impl SeamTool {
 impl GroundKey {
     fn of(session: &Session, model: &Model) -> Self {
         let scale = model.disk().map_or(1.0, |disk| 1.0 / disk.unit());
-        Self { opening: session.opening_revision(), repair: model.form.repair, scale }
-    }
-}
-
-/// What the window does for the seam tool.
-impl Editor {
-    /// The seams without those that are listed: those of texture coordinates stay.
-    pub(in crate::ui) fn without_seams(&self) -> Seams {
-        let seams = self.session.seams();
-        seams.without(seams.edges().iter().copied())
-    }
-
-    pub(super) fn take_seam_click(&mut self, click: SeamClick) {
-        self.tools.seam.rules.forget_said();
-        self.tools.seam.clicks.push_back(click);
-        self.go_on_with_seam();
-    }
-
-    /// Finds what paths are wanted, and carries out the clicks that waited for them. Call once per frame.
-    pub(super) fn go_on_with_seam(&mut self) {
-        if self.tools.tool() != Tool::Seam {
-            return;
-        }
-        self.tools.seam.chain.follow_undo(self.session.seams());
-        self.tools.seam.refresh(&self.session);
-        while let Some(click) = self.tools.seam.clicks.pop_front() {
-            match self.tools.seam.intent(click, self.session.seams()) {
-                SeamIntent::Wait => return self.tools.seam.clicks.push_front(click),
-                SeamIntent::Begin => self.tools.seam.chain.begin(click.vertex, self.session.seams()),
-                SeamIntent::Add(edges) => self.cut_along(self.session.seams().with(edges), click.vertex),
-                SeamIntent::TakeAway(edges) => self.cut_along(self.session.seams().without(edges), click.vertex),
-                SeamIntent::End => drop(self.tools.seam.end()),
-                SeamIntent::Nothing => {}
-            }
-            self.tools.seam.refresh(&self.session);
-        }
-    }
-
-    /// Cuts along other seams, and has the chain go on from a vertex, where there is one.
-    fn cut_along(&mut self, seams: Seams, to: VertexId) {
-        self.tools.seam.chain.go_on(to, self.session.seams(), &seams);
-        self.session.handle(Action::SetSeams(seams));
+        Self { opening: session.opening_revision(), repair: model.prepared.form.repair, scale }
     }
 }

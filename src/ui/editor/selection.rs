@@ -6,12 +6,10 @@ use eframe::egui;
 use glam::DVec2;
 
 use super::seam_tool::SeamTool;
-use super::{Pane, Tool};
-use crate::mesh::VertexId;
 use crate::session::Wake;
-use crate::solver::Hold;
-use crate::ui::panes::pin_drag::PinDrag;
-use crate::ui::panes::{Half, Intent};
+use crate::ui::state::{Half, Intent, Pane, PinDrag, Tool};
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::PinKind;
 
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
@@ -161,7 +159,7 @@ pub struct ToolState {
     pair: Option<Half>,
     intent: Intent,
     /// How the next constraint is held, where a person chose.
-    hold: Option<Hold>,
+    kind: Option<PinKind>,
     drag: Option<PinDrag>,
     is_nudging: bool,
 }
@@ -173,7 +171,7 @@ impl ToolState {
             seam: SeamTool::new(wake),
             pair: None,
             intent: Intent::default(),
-            hold: None,
+            kind: None,
             drag: None,
             is_nudging: false,
         }
@@ -219,12 +217,12 @@ impl ToolState {
     }
 
     /// How the next constraint is held.
-    pub(in crate::ui) fn hold(&self) -> Hold {
-        self.hold.unwrap_or(Hold::Hard)
+    pub(in crate::ui) fn kind(&self) -> PinKind {
+        self.kind.unwrap_or(PinKind::Hard)
     }
 
-    pub(super) fn set_hold(&mut self, hold: Hold) {
-        self.hold = Some(hold);
+    pub(super) fn set_pin_kind(&mut self, kind: PinKind) {
+        self.kind = Some(kind);
     }
 
     pub fn dragged(&self) -> Option<VertexId> {

@@ -5,8 +5,8 @@ use std::fmt;
 use glam::DVec3;
 
 use super::scene::MeshScene;
-use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::view::Ray;
+use freebound_core::mesh::{DiskMesh, FaceId, VertexId};
 
 /// One of the vertices that a vertex of the file has become.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

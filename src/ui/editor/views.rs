@@ -4,70 +4,13 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use crate::geom::Bounds;
-use crate::mesh::{EdgeId, FaceId, VertexId};
-use crate::session::{Document, Outcome};
-use crate::solver::Verdict;
-use crate::ui::editor::MeshScene;
-use crate::ui::{Editor, Element};
+use super::Editor;
+use super::defect::Defect;
+use super::picture_box::picture_box;
 use crate::view::part_around;
-
-/// One thing wrong with an embedding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Defect {
-    /// A face that is turned over or has no area.
-    Flipped(FaceId),
-    /// A polygon that another cut into triangles would fold, by its first face.
-    Concave(FaceId),
-    /// A hole that meets itself or is turned inside out, by its lowest vertex.
-    CrossedHole(VertexId),
-    /// Two boundary edges that meet.
-    Crossing([EdgeId; 2]),
-    /// An interior vertex that its faces wind around twice.
-    Overwound(VertexId),
-}
-
-impl Defect {
-    /// The defects that a verdict lists: flipped faces, concave polygons, crossed holes, crossings, overwound vertices.
-    pub(in crate::ui) fn all(verdict: &Verdict) -> impl Iterator<Item = Self> {
-        let flipped = verdict.flipped_faces.iter().map(|&face| Self::Flipped(face));
-        let crossings = verdict.boundary_crossings.iter().map(|&edges| Self::Crossing(edges));
-        let overwound = verdict.overwound_vertices.iter().map(|&vertex| Self::Overwound(vertex));
-        let concave = verdict.concave_polygons.iter().map(|&face| Self::Concave(face));
-        let holes = verdict.crossed_holes.iter().map(|&lowest| Self::CrossedHole(lowest));
-        flipped.chain(concave).chain(holes).chain(crossings).chain(overwound)
-    }
-
-    pub(in crate::ui) fn elements(self, scene: &MeshScene) -> Vec<Element> {
-        match self {
-            Self::Flipped(face) => vec![Element::Face(face)],
-            Self::Concave(first) => {
-                let polygon = scene.disk().and_then(|disk| disk.polygon_of(first));
-                polygon.map(|polygon| polygon.faces().map(Element::Face).collect()).unwrap_or_default()
-            }
-            Self::CrossedHole(lowest) => scene.hole_rim(lowest).into_iter().map(Element::Vertex).collect(),
-            Self::Crossing(edges) => edges.map(Element::Edge).to_vec(),
-            Self::Overwound(vertex) => vec![Element::Vertex(vertex)],
-        }
-    }
-
-    /// What it is, for lists.
-    pub fn words(self) -> String {
-        match self {
-            Self::Flipped(face) => format!("flipped face {face}"),
-            Self::Concave(face) => format!("concave polygon at {face}"),
-            Self::CrossedHole(lowest) => format!("crossed hole at {lowest}"),
-            Self::Crossing([a, b]) => format!("crossing {a} × {b}"),
-            Self::Overwound(vertex) => format!("overwound vertex {vertex}"),
-        }
-    }
-}
-
-/// Where a document's picture lies in the plane; without one, the unit square of texture coordinates.
-pub(in crate::ui) fn picture_box(document: &Document) -> Bounds {
-    let [low, high] = document.frame().corners();
-    Bounds { low, high }
-}
+use freebound_core::geom::Bounds;
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Outcome;
 
 impl Editor {
     pub(super) fn frame(&mut self) {

@@ -1,12 +1,12 @@
 //! What to do next, beside the verdict: repair an embedding that is at fault, or change what it was asked for where the
-//! ladder has ended with a fault, or with constraints that are not met; relax one that is planar but distorted.
+//! flattener has ended with a fault, or with constraints that are not met; relax one that is planar but distorted.
 
 use eframe::egui::{self, Button, RichText};
 
 use super::menu::grouped;
-use crate::session::{Action, Session, Status, Stop};
-use crate::solver::{Method, Settings};
+use crate::session::{Action, RunStop, Session, Status};
 use crate::ui::{Control, Editor, Request, Tab, Theme, theme_of, tip_with_keys};
+use freebound_core::problem::{Method, Settings};
 
 /// Width of the bar below which the advice is one word, points.
 const ROOMY: f32 = 1000.0;
@@ -15,7 +15,7 @@ const ROOMY: f32 = 1000.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Advice {
     Repair,
-    /// The ladder has ended with a fault, or without all constraints met: what can still be done.
+    /// The flattener has ended with a fault, or without all constraints met: what can still be done.
     Change(Change),
     /// With the greatest ratio of a face's area in the plane to that on the mesh, or the other way round.
     Relax(f64),
@@ -47,7 +47,7 @@ impl Advice {
     }
 }
 
-/// What a person can change where the ladder has no step left.
+/// What a person can change where the flattener has no step left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Change {
     NewVertices,
@@ -56,11 +56,11 @@ enum Change {
 }
 
 impl Change {
-    /// The change nearest at hand, once a ladder has come to its end.
+    /// The change nearest at hand, once a flattener has come to its end.
     fn of(session: &Session) -> Option<Self> {
         let document = session.document();
         let is_newest = session.timeline().shown() == session.timeline().newest();
-        let has_ended = is_newest && matches!(session.stopped(), Some(Stop::Ended(_)));
+        let has_ended = is_newest && matches!(session.stopped(), Some(RunStop::Ended(_)));
         if !has_ended || document.settings.method != Method::Auto {
             return None;
         }

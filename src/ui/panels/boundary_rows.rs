@@ -2,9 +2,9 @@
 
 use eframe::egui::{self, Id, Role, Stroke, StrokeKind};
 
-use crate::geom::ConvexPolygon;
-use crate::solver::{BoundaryShape, Choice, Settings, Spacing};
 use crate::ui::{Control, list, remark, sentence, theme_of};
+use freebound_core::geom::ConvexPolygon;
+use freebound_core::problem::{BoundaryShape, NamedOption, Settings, Spacing};
 
 /// Name of the field for a polygon's corners.
 const CORNERS: &str = "Corners of the polygon";
@@ -13,11 +13,11 @@ const CORNERS: &str = "Corners of the polygon";
 pub(super) fn boundary_rows(ui: &mut egui::Ui, settings: &mut Settings) {
     let Some(shape) = settings.method.boundary_shape_mut() else { return };
     ui.label("Boundary");
-    list(ui, "Shape of the boundary", 150.0, shape.words().title, |ui| {
+    list(ui, "Shape of the boundary", 150.0, shape.labels().title, |ui| {
         for &choice in BoundaryShape::ALL {
             let is_chosen = shape.name() == choice.name();
-            let label = ui.selectable_label(is_chosen, choice.words().title);
-            if label.on_hover_text(sentence(choice.words().about)).clicked() && !is_chosen {
+            let label = ui.selectable_label(is_chosen, choice.labels().title);
+            if label.on_hover_text(sentence(choice.labels().about)).clicked() && !is_chosen {
                 *shape = choice;
             }
         }
@@ -31,8 +31,8 @@ pub(super) fn boundary_rows(ui: &mut egui::Ui, settings: &mut Settings) {
     ui.label("Spacing");
     ui.horizontal(|ui| {
         for &choice in Spacing::ALL {
-            let label = ui.selectable_value(&mut settings.spacing, choice, choice.words().title);
-            label.on_hover_text(sentence(choice.words().about));
+            let label = ui.selectable_value(&mut settings.spacing, choice, choice.labels().title);
+            label.on_hover_text(sentence(choice.labels().about));
         }
     });
     ui.end_row();

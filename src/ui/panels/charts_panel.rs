@@ -5,9 +5,9 @@ use glam::DVec2;
 
 use super::menu::grouped;
 use super::surface::charts_row;
-use crate::geom::{Bounds, PackingOptions};
 use crate::session::{Action, AtlasView, ChartState, Session};
 use crate::ui::{Control, Editor, Request, counted, keys_of, pairs, remark, sentence, theme_of};
+use freebound_core::geom::{Bounds, PackingOptions};
 
 /// Height of a row of the list, points.
 const ROW: f32 = 22.0;
@@ -124,7 +124,8 @@ impl Place {
     fn chart_at(&self, outlines: &[Vec<DVec2>], at: Pos2) -> Option<usize> {
         let offset = [at.x - self.rect.left() - 1.0, self.rect.bottom() - 1.0 - at.y].map(f64::from);
         let uv = self.low + DVec2::from_array(offset) / self.points_per_unit;
-        let winds = |outline: &Vec<DVec2>| crate::geom::winding_number(outline, uv).is_some_and(|winds| winds != 0);
+        let winds =
+            |outline: &Vec<DVec2>| freebound_core::geom::winding_number(outline, uv).is_some_and(|winds| winds != 0);
         outlines.iter().position(winds)
     }
 }
@@ -135,7 +136,7 @@ fn verdict(ui: &mut egui::Ui, session: &Session, rows: &[Row]) {
     let waiting = rows.iter().filter(|row| matches!(row.state, ChartState::Solving)).count();
     match session.atlas() {
         Some(AtlasView { verdict, .. }) if verdict.planar => {
-            let holds = if verdict.holds_in_f32 { "Holds in 32 bits" } else { "Does not hold in 32 bits" };
+            let holds = if verdict.planar_in_f32 { "Holds in 32 bits" } else { "Does not hold in 32 bits" };
             ui.colored_label(theme.planar, sentence(&verdict.summary())).on_hover_text(holds);
         }
         Some(AtlasView { verdict, .. }) => {

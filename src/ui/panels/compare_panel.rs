@@ -2,9 +2,9 @@
 
 use eframe::egui;
 
-use super::status::short;
-use crate::session::{Outcome, Standing, Timeline};
-use crate::ui::{Editor, figures, heads};
+use crate::session::{StepDistortion, Timeline};
+use crate::ui::{Editor, figures, heads, short};
+use freebound_core::pipeline::Outcome;
 
 /// Letters of a number.
 const FIGURE: usize = 8;
@@ -49,11 +49,11 @@ pub(super) fn comparison(ui: &mut egui::Ui, editor: &Editor) {
 }
 
 fn rows(timeline: &Timeline, steps: [usize; 2]) -> Vec<Row> {
-    let count = |name, of: fn(&crate::io::StepReport) -> usize| {
+    let count = |name, of: fn(&freebound_io::StepReport) -> usize| {
         let values = steps.map(|step| timeline.records().get(step).map_or(f64::NAN, |record| of(record) as f64));
         Row { name, values, is_count: true }
     };
-    let standing = |name, of: fn(&Standing) -> Option<f64>| {
+    let standing = |name, of: fn(&StepDistortion) -> Option<f64>| {
         let values = steps.map(|step| timeline.standings().get(step).and_then(of).unwrap_or(f64::NAN));
         Row { name, values, is_count: false }
     };

@@ -6,9 +6,9 @@ use super::diagnosis;
 use super::hull_section::hull_section;
 use super::parts::parts;
 use super::welding::welding;
-use crate::mesh::VertexId;
-use crate::solver::Verdict;
 use crate::ui::{Control, Defect, Editor, Request, Theme, counted, keys_of, theme_of};
+use freebound_core::mesh::VertexId;
+use freebound_core::verify::Verdict;
 
 /// Height of a row, points.
 const ROW: f32 = 22.0;

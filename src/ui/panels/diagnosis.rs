@@ -7,18 +7,19 @@ use super::menu::grouped;
 use super::parts::parts;
 use super::surface::surface_rows;
 use super::welding::welding;
-use crate::mesh::{Fault, Form, Repair, TriMesh};
-use crate::session::{Action, Model, Session, Surface};
+use crate::session::{Action, Model, Session};
 use crate::ui::{Control, Request, counted, sentence, theme_of};
+use freebound_core::mesh::{Fault, Preparation, Repair, TriMesh};
+use freebound_core::pipeline::Surface;
 
 /// The faults of a mesh that cannot be flattened as it is. Returns whether it is one.
 pub(super) fn faults(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) -> bool {
     let Some(model) = session.model() else { return false };
-    let Surface::Faulty(mesh, diagnosis) = &model.surface else { return false };
+    let Surface::Faulty(mesh, diagnosis) = &model.prepared.surface else { return false };
     ui.label("The mesh cannot be flattened as it is:");
     surface_rows(ui, session, requests);
     egui::ScrollArea::vertical().show(ui, |ui| {
-        if let Some(remedy) = &model.remedy {
+        if let Some(remedy) = &model.prepared.remedy {
             let done: Vec<String> = remedy.done().iter().map(ToString::to_string).collect();
             let tip = "Make a disk of it. The file's positions and faces stay; undo takes it back";
             ui.button("Mend all faults").on_hover_text(tip).asks(Action::Mend, requests);
@@ -68,7 +69,7 @@ fn fault_card(ui: &mut egui::Ui, fault: &Fault, mesh: &TriMesh, requests: &mut V
 }
 
 /// Buttons for the repairs that mend a fault, and are not done yet.
-fn remedies(ui: &mut egui::Ui, fault: &Fault, form: &Form, requests: &mut Vec<Request>) {
+fn remedies(ui: &mut egui::Ui, fault: &Fault, form: &Preparation, requests: &mut Vec<Request>) {
     let is_open = |repair: &&Repair| !form.allows(**repair);
     ui.horizontal_wrapped(|ui| {
         for &repair in fault.repairs().iter().filter(is_open) {
@@ -81,7 +82,7 @@ fn remedies(ui: &mut egui::Ui, fault: &Fault, form: &Form, requests: &mut Vec<Re
 
 /// What was done with a mesh already.
 fn done(ui: &mut egui::Ui, model: &Model) {
-    for done in model.repaired.iter().flat_map(|repaired| repaired.done()) {
+    for done in model.prepared.repaired.iter().flat_map(|repaired| repaired.done()) {
         ui.weak(format!("Mesh: {done}"));
     }
 }

@@ -7,14 +7,15 @@ use std::sync::Arc;
 use eframe::egui::{self, Pos2, RichText, Role, Stroke, Vec2};
 use glam::DVec2;
 
-use super::status::short;
-use crate::mesh::VertexId;
-use crate::session::Outcome;
-use crate::solver::{NoEquation, VertexEquation, WeightSource, equation_of_step};
 use crate::ui::editor::scene::PlaneScene;
-use crate::ui::panes::pane::Viewport;
-use crate::ui::{Control, Editor, Request, Tab, number, pairs, remark, theme_of};
+use crate::ui::state::Viewport;
+use crate::ui::{Control, Editor, Request, Tab, number, pairs, remark, short, theme_of};
 use crate::view::PlaneCamera;
+use freebound_core::flatten::equation_of_step;
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Outcome;
+use freebound_core::problem::{NoEquation, WeightSource};
+use freebound_core::weights::VertexEquation;
 
 /// An equation counts as met below this residual: a solve leaves some rounding.
 const MET: f64 = 1e-7;
@@ -31,12 +32,13 @@ fn equation_of(
 ) -> Option<Result<(VertexEquation, WeightSource), NoEquation>> {
     let step = &outcome.step;
     // Of the sheet that is drawn: the session may have gone on to another chart.
-    let disk = step.mesh(editor.mesh_scene()?.model.disk()?);
+    let disk = step.candidate.mesh(editor.mesh_scene()?.model.disk()?);
     let timeline = editor.session.timeline();
     let index_before = timeline.index_of(outcome).and_then(|index| index.checked_sub(1));
     let before = index_before.and_then(|index| timeline.outcome(index));
-    let before = before.map(|before| &before.step.solution.embedding);
-    let is_there = vertex.index() < disk.vertex_count() && disk.vertex_count() == step.solution.embedding.len();
+    let before = before.map(|before| &before.step.candidate.solution.embedding);
+    let is_there =
+        vertex.index() < disk.vertex_count() && disk.vertex_count() == step.candidate.solution.embedding.len();
     is_there.then(|| equation_of_step(disk, step, before, vertex))
 }
 
@@ -56,7 +58,7 @@ pub(super) fn equation_ui(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, 
     table(ui, editor, &equation, requests);
     ui.add_space(4.0);
     numbers(ui, &equation);
-    let is_pinned = outcome.step.solution.pins.contains_key(&vertex);
+    let is_pinned = outcome.step.candidate.solution.pins.contains_key(&vertex);
     let words = match (equation.residual < MET, is_pinned) {
         (true, _) => return,
         (false, true) => "The vertex is pinned, and so need not meet it.",

@@ -6,12 +6,13 @@ use std::sync::mpsc::sync_channel;
 
 use eframe::egui::{self, Align2, Key, Pos2, Rect};
 
-use crate::geom::Picture;
-use crate::io::{OutputFit, OutputKind};
 use crate::session::Action;
 use crate::ui::editor::layout::GoTo;
 use crate::ui::keys::{BINDINGS, Binding, MOUSE};
-use crate::ui::{Control, Editor, Element, Pane, Purpose, Request, pairs};
+use crate::ui::{Control, Editor, Element, FileDialogKind, Pane, Request, pairs};
+use freebound_core::geom::Picture;
+use freebound_core::pipeline::Fit;
+use freebound_io::OutputKind;
 
 pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
     if editor.layout.keys_shown {
@@ -136,10 +137,10 @@ fn go_to_window(
 }
 
 /// Everything that can be exported: what it is, and what it is good for.
-pub(super) const EXPORTS: [(Purpose, &str, &str); 9] = {
+pub(super) const EXPORTS: [(FileDialogKind, &str, &str); 9] = {
+    use FileDialogKind::{Export, PanePicture};
     use OutputKind::{Glb, Json, Obj, Ply, Png, Svg};
-    use Purpose::{Export, PanePicture};
-    let (unit, true_scale) = (Some(OutputFit::Unit), Some(OutputFit::True));
+    let (unit, true_scale) = (Some(Fit::Unit), Some(Fit::True));
     [
         (
             Export(Obj, None),
@@ -161,9 +162,9 @@ fn exports_window(context: &egui::Context, editor: &mut Editor, requests: &mut V
     let solved = editor.session.outcome().is_some();
     let window = egui::Window::new("Export").open(&mut editor.layout.exports_shown).collapsible(false).resizable(false);
     window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(context, |ui| {
-        for (purpose, words, about) in EXPORTS {
+        for (kind, words, about) in EXPORTS {
             let button = ui.add_enabled(solved, egui::Button::new(words).min_size(egui::vec2(250.0, 24.0)));
-            button.on_hover_text(about).asks(Request::Ask(purpose), requests);
+            button.on_hover_text(about).asks(Request::Ask(kind), requests);
         }
         if !solved {
             ui.weak("There is nothing to export yet: open a mesh.");
@@ -177,9 +178,9 @@ impl Editor {
         let part = if pane == Pane::Plane { self.plane.pane.rect() } else { self.mesh.pane.rect() };
         let Some(part) = part else { return };
         let (sender, picture) = sync_channel(1);
-        let wake = self.host.wake();
-        let scale = self.host.context().pixels_per_point();
-        self.host.context().request_screenshot(move |image| {
+        let wake = self.gpu.wake();
+        let scale = self.gpu.context().pixels_per_point();
+        self.gpu.context().request_screenshot(move |image| {
             sender.send(cut(&image, part * scale)).ok();
             wake();
         });
@@ -190,7 +191,7 @@ impl Editor {
     pub(in crate::ui) fn poll_shot(&mut self) {
         let Some((path, shot)) = &self.files.shot else { return };
         if let Ok(picture) = shot.try_recv() {
-            self.session.write_file(path.clone(), move |out| picture.write_png(out));
+            self.session.write_file(path.clone(), move |out| freebound_io::raster::write_png(&picture, out));
             self.files.shot = None;
         }
     }

@@ -3,10 +3,10 @@
 
 use eframe::egui::{self, CollapsingHeader, Role};
 
-use crate::mesh::{DiskMesh, VertexId};
-use crate::session::Outcome;
-use crate::solver::{CornerKind, HullStanding, Verdict, holes_turn_once, hull_standing, index_range};
 use crate::ui::{Control, Editor, Request, counted, number, remark, theme_of};
+use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::pipeline::Outcome;
+use freebound_core::verify::{CornerKind, HullStanding, Verdict, holes_turn_once, hull_standing, index_range};
 
 /// What the theorem says, for who wonders what to do with the list.
 const ABOUT: &str = "Where the boundary and the loop around each hole turn once and faces fold, a vertex inside the surface, or one \
@@ -60,7 +60,7 @@ fn is_faultless(verdict: &Verdict) -> bool {
 
 /// Why an embedding is not one-to-one that has none.
 fn why_without(disk: &DiskMesh, outcome: &Outcome) -> &'static str {
-    let (embedding, verdict) = (&outcome.step.solution.embedding, &outcome.step.verdict);
+    let (embedding, verdict) = (&outcome.step.candidate.solution.embedding, &outcome.step.verdict);
     let holes_turn_once = embedding.len() == disk.vertex_count() && holes_turn_once(disk, embedding, verdict.upright());
     let once = if verdict.mirrored { -1 } else { 1 };
     if verdict.turning_number != Some(once) {
@@ -76,7 +76,7 @@ fn why_without(disk: &DiskMesh, outcome: &Outcome) -> &'static str {
 
 /// What the tab of a vertex says of it, as rows of a table.
 pub(super) fn hull_rows(ui: &mut egui::Ui, disk: &DiskMesh, outcome: &Outcome, vertex: VertexId) {
-    let (embedding, upright) = (&outcome.step.solution.embedding, outcome.step.verdict.upright());
+    let (embedding, upright) = (&outcome.step.candidate.solution.embedding, outcome.step.verdict.upright());
     if embedding.len() != disk.vertex_count() {
         return;
     }

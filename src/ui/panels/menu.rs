@@ -6,11 +6,13 @@ use super::advice::advice;
 use super::floating::EXPORTS;
 use super::verdict_pill::verdict_pill;
 use crate::examples::Example;
-use crate::io::{OutputFit, OutputKind};
 use crate::session::Action;
 use crate::ui::{
-    Control, Editor, Pane, Purpose, Request, SeamRule, Shading, StepTarget, Tab, Tool, icons, keys_of, theme_of,
+    Control, Editor, FileDialogKind, Pane, Request, SeamRule, ShadingMode, StepTarget, Tab, Tool, icons, keys_of,
+    theme_of,
 };
+use freebound_core::pipeline::Fit;
+use freebound_io::OutputKind;
 
 /// Blanks before the words of an entry that may have a check mark.
 const ROOM_FOR_MARK: &str = "      ";
@@ -61,7 +63,7 @@ fn export_button(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>
     let keys = keys_of(ui.ctx(), &Request::ToggleExports);
     let tip = format!("Write the mesh with its texture coordinates ({keys} lists all that can be written)");
     let button = button.named(egui::Role::Button, "Export the mesh").on_hover_text(tip);
-    button.asks(Request::Ask(Purpose::Export(kind, None)), requests);
+    button.asks(Request::Ask(FileDialogKind::Export(kind, None)), requests);
 }
 
 /// What is open, in the middle of the bar as far as menus and verdict leave room.
@@ -143,7 +145,7 @@ impl Menu<'_> {
 
 fn file_menu(menu: &mut Menu<'_>) {
     let editor = menu.editor;
-    menu.item(true, "Open…", Request::Ask(Purpose::Open));
+    menu.item(true, "Open…", Request::Ask(FileDialogKind::Open));
     menu.part("Recent", |menu| {
         let paths = editor.session.recent().paths();
         for path in paths {
@@ -164,23 +166,23 @@ fn file_menu(menu: &mut Menu<'_>) {
     menu.ui.separator();
     let has_model = editor.session.model().is_some();
     menu.item(has_model, "Save project", Request::SaveProject);
-    menu.item(has_model, "Save project as…", Request::Ask(Purpose::SaveProject));
+    menu.item(has_model, "Save project as…", Request::Ask(FileDialogKind::SaveProject));
     menu.ui.separator();
     // Picture and constraints come from files and go to files.
     let has_disk = editor.has_disk();
-    menu.item(has_disk, "Open picture…", Request::Ask(Purpose::OpenPicture));
+    menu.item(has_disk, "Open picture…", Request::Ask(FileDialogKind::OpenPicture));
     menu.item(editor.has_picture(), "Remove picture", Action::RemovePicture);
-    menu.item(has_disk, "Import constraints…", Request::Ask(Purpose::ImportConstraints));
+    menu.item(has_disk, "Import constraints…", Request::Ask(FileDialogKind::ImportConstraints));
     let has_pins = !editor.session.document().targets.is_empty();
-    menu.item(has_pins, "Export constraints…", Request::Ask(Purpose::ExportConstraints));
+    menu.item(has_pins, "Export constraints…", Request::Ask(FileDialogKind::ExportConstraints));
     menu.ui.separator();
     menu.part("Export", |menu| {
-        for (purpose, words, about) in EXPORTS {
-            menu.explained(editor.session.outcome().is_some(), [words, about], Request::Ask(purpose));
+        for (kind, words, about) in EXPORTS {
+            menu.explained(editor.session.outcome().is_some(), [words, about], Request::Ask(kind));
         }
     });
     menu.part("Size in files", |menu| {
-        let (unit, true_size) = (OutputFit::Unit, OutputFit::True);
+        let (unit, true_size) = (Fit::Unit, Fit::True);
         menu.choice(editor.files.fit == unit, "Fit into the unit square", Request::SetFit(unit));
         menu.choice(editor.files.fit == true_size, "True scale: the mesh's own area", Request::SetFit(true_size));
         menu.ui.separator();
@@ -207,8 +209,8 @@ fn edit_menu(menu: &mut Menu<'_>) {
         menu.item(has_model, "Cut along borders of groups", Request::CutByRule(SeamRule::Groups));
         menu.ui.separator();
         let has_seams = !session.seams().edges().is_empty();
-        menu.item(has_model, "Import seams…", Request::Ask(Purpose::ImportSeams));
-        menu.item(has_seams, "Export seams…", Request::Ask(Purpose::ExportSeams));
+        menu.item(has_model, "Import seams…", Request::Ask(FileDialogKind::ImportSeams));
+        menu.item(has_seams, "Export seams…", Request::Ask(FileDialogKind::ExportSeams));
         menu.ui.separator();
         menu.item(has_seams, "Clear seams", Request::ClearSeams);
     });
@@ -228,7 +230,7 @@ fn view_menu(menu: &mut Menu<'_>) {
     let editor = menu.editor;
     for pane in Pane::BOTH {
         menu.part(&format!("Shading of the {}", pane.title().to_lowercase()), |menu| {
-            for shading in Shading::ALL.into_iter().filter(|shading| shading.is_for(pane)) {
+            for shading in ShadingMode::ALL.into_iter().filter(|shading| shading.is_for(pane)) {
                 let button = Button::selectable(editor.shading(pane) == shading, shading.title());
                 // The keys shade the pane under the pointer, which a menu is not in.
                 let keys = keys_of(menu.ui.ctx(), &Request::SetShading(shading));
@@ -236,11 +238,11 @@ fn view_menu(menu: &mut Menu<'_>) {
             }
         });
     }
-    menu.switch(editor.look.wireframe, "Wireframe", Request::ToggleWireframe);
-    menu.switch(editor.look.is_sharp(), "Sharp pixels", Request::ToggleSharp);
+    menu.switch(editor.pane_shading.wireframe, "Wireframe", Request::ToggleWireframe);
+    menu.switch(editor.pane_shading.is_sharp(), "Sharp pixels", Request::ToggleSharp);
     menu.switch(editor.plane.hull_shown(), "Hull and pockets", Request::ToggleHull);
-    menu.switch(editor.look.magnifier, "Magnifier", Request::ToggleMagnifier);
-    menu.switch(editor.look.glides, "Glide from step to step", Request::ToggleEase);
+    menu.switch(editor.pane_shading.magnifier, "Magnifier", Request::ToggleMagnifier);
+    menu.switch(editor.pane_shading.glides, "Glide from step to step", Request::ToggleEase);
     menu.switch(editor.layout.panels_shown(), "Panels", Request::TogglePanels);
     menu.switch(editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves);
     menu.ui.separator();

@@ -4,14 +4,14 @@ use eframe::egui::{self, WidgetInfo};
 
 use super::boundary_rows::boundary_rows;
 use super::compare_panel::comparison;
-use super::status::short;
 use super::surface::{charts_row, holes_row, start_remark, start_row};
-use crate::session::{Action, Outcome};
-use crate::solver::{Choice, Family, Growth, Method, Settings, Treatment};
+use crate::session::Action;
 use crate::ui::timeline::chips::residual_words;
 use crate::ui::{
-    Control, Editor, Request, Typed, figures, heads, list, number, pairs, remark, sentence, tip_with_keys,
+    Control, Editor, Request, Typed, figures, heads, list, number, pairs, remark, sentence, short, tip_with_keys,
 };
+use freebound_core::pipeline::Outcome;
+use freebound_core::problem::{Family, Growth, Method, NamedOption, Settings, Treatment};
 
 /// Letters of a number of the distortion.
 const FIGURE: usize = 8;
@@ -48,7 +48,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     }
     new_vertices_box(ui, &mut edit.settings);
     ui.add_space(6.0);
-    let words = settings.method.words();
+    let words = settings.method.labels();
     remark(ui, format!("{}. {}.", sentence(words.about), words.source));
     more(ui, &mut edit);
     edit.ask_for(settings, requests);
@@ -101,7 +101,7 @@ fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
             ui.button("Cancel").asks(Action::Cancel, requests);
         }
     });
-    if editor.session.goes_on() {
+    if editor.session.is_continued() {
         remark(
             ui,
             "Goes on from the map before the edit. Solved afresh, as when the project opens, it may be another.",
@@ -110,10 +110,10 @@ fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
 }
 
 fn method_list(ui: &mut egui::Ui, settings: &mut Settings) {
-    list(ui, "Method", 150.0, settings.method.words().title, |ui| {
+    list(ui, "Method", 150.0, settings.method.labels().title, |ui| {
         for &method in Method::ALL {
             let is_chosen = settings.method.name() == method.name();
-            let label = ui.selectable_label(is_chosen, method.words().title).on_hover_text(method.words().tip());
+            let label = ui.selectable_label(is_chosen, method.labels().title).on_hover_text(method.labels().tip());
             if label.clicked() && !is_chosen {
                 let shape = settings.method.boundary_shape();
                 *settings = settings.by(shape.map_or(method, |shape| method.on_shape(shape)));
@@ -124,10 +124,10 @@ fn method_list(ui: &mut egui::Ui, settings: &mut Settings) {
 
 fn family_list(ui: &mut egui::Ui, settings: &mut Settings) {
     let method = settings.method;
-    list(ui, "Weights", 150.0, settings.family().words().title, |ui| {
+    list(ui, "Weights", 150.0, settings.family().labels().title, |ui| {
         for &family in Family::ALL.iter().filter(|family| family.goes_with(method)) {
             let is_chosen = settings.family().name() == family.name();
-            let label = ui.selectable_label(is_chosen, family.words().title).on_hover_text(family.words().tip());
+            let label = ui.selectable_label(is_chosen, family.labels().title).on_hover_text(family.labels().tip());
             if label.clicked() && !is_chosen {
                 settings.family = Some(match family {
                     // A power begins as the family before it.
@@ -141,23 +141,23 @@ fn family_list(ui: &mut egui::Ui, settings: &mut Settings) {
 
 fn treatment_list(ui: &mut egui::Ui, chosen: &mut Option<Treatment>) {
     let automatic = "Automatic";
-    let shown = chosen.map_or(automatic, |treatment| treatment.words().title);
+    let shown = chosen.map_or(automatic, |treatment| treatment.labels().title);
     let list = list(ui, "Equations of pinned vertices", 150.0, shown, |ui| {
         let tip = "Two pins only fix size and place: eliminated. More are constraints: least squares";
         ui.selectable_value(chosen, None, automatic).on_hover_text(tip);
         for &treatment in Treatment::ALL {
-            let label = ui.selectable_value(chosen, Some(treatment), treatment.words().title);
-            label.on_hover_text(sentence(&treatment.words().tip()));
+            let label = ui.selectable_value(chosen, Some(treatment), treatment.labels().title);
+            label.on_hover_text(sentence(&treatment.labels().tip()));
         }
     });
     list.on_hover_text("What becomes of the equations of pinned vertices");
 }
 
 fn growth_list(ui: &mut egui::Ui, chosen: &mut Growth) {
-    let list = list(ui, "How the virtual boundary goes on", 130.0, chosen.words().title, |ui| {
+    let list = list(ui, "How the virtual boundary goes on", 130.0, chosen.labels().title, |ui| {
         for &growth in Growth::ALL {
-            let label = ui.selectable_value(chosen, growth, growth.words().title);
-            label.on_hover_text(sentence(&growth.words().tip()));
+            let label = ui.selectable_value(chosen, growth, growth.labels().title);
+            label.on_hover_text(sentence(&growth.labels().tip()));
         }
     });
     let tip = "Where the boundary crosses itself, vertices of it are bent to a convex polygon: how many the next time";
@@ -284,7 +284,7 @@ fn figure(value: f64) -> String {
 }
 
 fn numbers(ui: &mut egui::Ui, outcome: &Outcome) {
-    let solution = &outcome.step.solution;
+    let solution = &outcome.step.candidate.solution;
     let linear = solution.linear.unwrap_or_default();
     let residual = solution.linear.map(|linear| linear.residual);
     let equation_residual = solution.linear.map(|linear| linear.equation_residual);

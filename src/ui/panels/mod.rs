@@ -1,4 +1,4 @@
-//! Everything around the panes: panels at the right, menus, tool bar, status bar, dialogs.
+//! Everything around the panes: panels at the right, menus, tool bar, status bar.
 //!
 //! | file | what |
 //! |---|---|
@@ -19,7 +19,6 @@
 //! | `status.rs` | the status bar |
 //! | `floating.rs` | list of keys, "go to", the file dialog inside the window, exports, pictures of panes |
 //! | `toast.rs` | good news, for a few seconds |
-//! | `dialogs.rs` | choice of a file |
 //! | `large.rs` | the question before a large file is opened |
 //! | `unsaved.rs` | the question about unsaved work, the window's title |
 
@@ -29,7 +28,6 @@ mod charts_panel;
 mod compare_panel;
 mod defects_panel;
 mod diagnosis;
-pub(super) mod dialogs;
 pub(super) mod equation_table;
 pub(super) mod floating;
 mod hull_section;
@@ -50,8 +48,6 @@ mod welding;
 use eframe::egui::{self, Role, Sense, Vec2, WidgetInfo};
 
 use super::{Control, Editor, Request, Tab, Tool, icons, theme_of, tip_with_keys};
-pub(crate) use dialogs::Dialogs;
-pub(super) use unsaved::{Answer, Unsaved};
 
 /// Side of a tool's button, points.
 const BUTTON: f32 = 32.0;

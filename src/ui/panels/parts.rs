@@ -5,9 +5,10 @@ use std::collections::BTreeSet;
 use eframe::egui::{self, Role};
 
 use super::menu::grouped;
-use crate::mesh::{Fault, PartFaces};
-use crate::session::{Action, Model, Session, Surface};
+use crate::session::{Action, Model, Session};
 use crate::ui::{Control, Request};
+use freebound_core::mesh::{Fault, PartFaces};
+use freebound_core::pipeline::Surface;
 
 /// Height of a row, and of all rows at most, points.
 const ROW: f32 = 22.0;
@@ -73,12 +74,12 @@ fn left_out_row(ui: &mut egui::Ui, first_face: u32, left_out: &BTreeSet<u32>, re
 
 /// The parts that are kept, where there are several.
 fn kept_parts(model: &Model) -> Vec<PartFaces> {
-    if let Some(charts) = model.chart.as_ref().map(|of| &of.charts) {
+    if let Some(charts) = model.prepared.chart.as_ref().map(|of| &of.charts) {
         let part =
             |chart| PartFaces { first_face: charts.first_face(chart).number(), count: charts.faces(chart).len() };
         return (0..charts.count()).map(part).collect();
     }
-    let Surface::Faulty(_, diagnosis) = &model.surface else { return Vec::new() };
+    let Surface::Faulty(_, diagnosis) = &model.prepared.surface else { return Vec::new() };
     let parts = diagnosis.faults.iter().find_map(|fault| match fault {
         Fault::SeveralComponents { first_faces, sizes } => Some(first_faces.polygons.iter().zip(sizes)),
         _ => None,

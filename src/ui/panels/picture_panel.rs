@@ -2,9 +2,9 @@
 
 use eframe::egui::{self, RichText};
 
-use crate::geom::VAxis;
 use crate::session::Action;
-use crate::ui::{Control, Editor, Offer, Purpose, Request, remark, theme_of};
+use crate::ui::{Control, Editor, FileDialogKind, Offer, Request, remark, theme_of};
+use freebound_core::geom::VAxis;
 
 pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let document = editor.session.document();
@@ -22,7 +22,7 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let open = Request::Ask(Purpose::OpenPicture);
+        let open = Request::Ask(FileDialogKind::OpenPicture);
         let open = Offer::new("Open picture…", "A PNG or JPEG file to map on the mesh", open);
         open.when(editor.has_disk()).show(ui, requests);
         let remove = Offer::new("Remove", "Go without a picture", Action::RemovePicture);
@@ -39,8 +39,9 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
                 requests.push(Action::SetVAxis(v_axis).into());
             }
         }
-        let sharp =
-            ui.selectable_label(editor.look.is_sharp(), "Sharp").on_hover_text("Pixels are squares of one colour");
+        let sharp = ui
+            .selectable_label(editor.pane_shading.is_sharp(), "Sharp")
+            .on_hover_text("Pixels are squares of one colour");
         sharp.asks(Request::ToggleSharp, requests);
     });
     if let Some(plane) = editor.plane.scene().filter(|plane| document.picture.is_some() && plane.faces_outside > 0) {

@@ -6,15 +6,16 @@ use eframe::egui::containers::menu::MenuButton;
 use eframe::egui::{self, DragValue, RichText, Role, Sense, Vec2};
 
 use super::picture_panel;
-use crate::io::Target;
-use crate::mesh::VertexId;
 use crate::session::{Action, named};
-use crate::solver::{Hold, Pin};
-use crate::ui::panes::pins::{Emphasis, PinKind};
+use crate::ui::panes::pins::{Emphasis, PinMark};
 use crate::ui::panes::vertex_menu::{hold_entries, vertex_menu};
 use crate::ui::{
-    Control, Editor, Offer, Purpose, Request, Tool, Typed, counted, five_digits, keys_of, remark, sentence, theme_of,
+    Control, Editor, FileDialogKind, Offer, Request, Tool, Typed, counted, five_digits, keys_of, remark, sentence,
+    theme_of,
 };
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Target;
+use freebound_core::problem::{Pin, PinKind};
 
 /// Height that is kept free below the table, points.
 const BELOW: f32 = 250.0;
@@ -67,7 +68,7 @@ struct Row {
     vertex: VertexId,
     target: Target,
     /// How the solver holds it: a treatment may weigh what was asked for exactly.
-    held: Hold,
+    held: PinKind,
     /// How far a coordinate goes with a point of a drag.
     speed: f64,
 }
@@ -90,7 +91,7 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
             }
             ui.end_row();
             for (&vertex, &target) in &document.targets {
-                let held = document.settings.hold_of(target.hold);
+                let held = document.settings.kind_of(target.kind);
                 row(ui, editor, Row { vertex, target, held, speed }, requests);
                 ui.end_row();
             }
@@ -113,14 +114,14 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
         requests.push(chosen(ui, editor, vertex));
     }
     coordinates(ui, row, requests);
-    match (target.hold, held) {
-        (Hold::Weighted(weight), _) => {
+    match (target.kind, held) {
+        (PinKind::Soft(weight), _) => {
             weight_field(ui, &format!("Weight of pin {vertex}"), weight, &[vertex], requests);
         }
-        (Hold::Fixed | Hold::Hard, Hold::Weighted(weight)) => {
+        (PinKind::Fixed | PinKind::Hard, PinKind::Soft(weight)) => {
             ui.weak(five_digits(weight)).on_hover_text("This treatment of pinned vertices weighs exact pins as well");
         }
-        (Hold::Fixed | Hold::Hard, Hold::Fixed | Hold::Hard) => exact(ui, editor, row, requests),
+        (PinKind::Fixed | PinKind::Hard, PinKind::Fixed | PinKind::Hard) => exact(ui, editor, row, requests),
     }
     let free = ui.small_button("×").on_hover_text("Free this pin").named(Role::Button, &format!("Free pin {vertex}"));
     free.asks(Action::Unpin(vec![vertex]), requests);
@@ -138,7 +139,7 @@ fn exact(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Reques
         ("exact", theme.weak_text, "Met exactly. Click: other ways to hold it".to_owned())
     };
     let button = egui::Button::new(RichText::new(words).color(colour)).frame(false);
-    let (menu, _) = MenuButton::from_button(button).ui(ui, |ui| hold_entries(ui, vertex, row.target.hold, requests));
+    let (menu, _) = MenuButton::from_button(button).ui(ui, |ui| hold_entries(ui, vertex, row.target.kind, requests));
     menu.on_hover_text(tip).named(Role::Button, &format!("Hold of pin {vertex}: {words}"));
 }
 
@@ -146,24 +147,24 @@ fn exact(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Reques
 fn hold_button(ui: &mut egui::Ui, Row { vertex, target, held, .. }: Row, requests: &mut Vec<Request>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(14.0, 20.0), Sense::click());
     let emphasis = if response.hovered() || response.has_focus() { Emphasis::Strong } else { Emphasis::Plain };
-    PinKind::User(held).mark(ui.painter(), rect.center(), theme_of(ui), emphasis);
-    let words = match target.hold {
-        Hold::Weighted(_) => "weighted",
-        Hold::Fixed => "fixed",
-        Hold::Hard => "hard",
+    PinMark::User(held).mark(ui.painter(), rect.center(), theme_of(ui), emphasis);
+    let words = match target.kind {
+        PinKind::Soft(_) => "weighted",
+        PinKind::Fixed => "fixed",
+        PinKind::Hard => "hard",
     };
-    let (note, tip) = if target.hold != held {
+    let (note, tip) = if target.kind != held {
         let tip =
             "To be met exactly, but this treatment of pinned vertices weighs it. Click: give it a weight of its own";
         (", weighed by the treatment", tip)
-    } else if target.hold.is_exact() {
+    } else if target.kind.is_hard() {
         ("", "Met exactly. Click: let it pull with a weight instead")
     } else {
         ("", "Pulls with a weight. Click: meet it exactly")
     };
-    let hold = if target.hold.is_exact() { Hold::Weighted(Pin::DEFAULT_WEIGHT) } else { Hold::Hard };
+    let kind = if target.kind.is_hard() { PinKind::Soft(Pin::DEFAULT_WEIGHT) } else { PinKind::Hard };
     let response = response.named(Role::Button, &format!("Hold of pin {vertex}: {words}{note}")).on_hover_text(tip);
-    response.asks(Action::SetHold { vertices: vec![vertex], hold }, requests);
+    response.asks(Action::SetPinKind { vertices: vec![vertex], kind }, requests);
 }
 
 /// What a click on a row selects.
@@ -212,12 +213,13 @@ fn weight_field(ui: &mut egui::Ui, name: &str, weight: f64, vertices: &[VertexId
         drag.custom_parser(|text| if text.trim() == shown { Some(taken.again(weight)) } else { taken.number(text) });
     let field = ui.add_sized([FIELDS[1], 20.0], drag).on_hover_text("How strongly it pulls: drag, or type");
     let field = taken.name(ui, field, name);
-    let (vertices, hold) = (vertices.to_vec(), Hold::Weighted(typed));
+    let (vertices, kind) = (vertices.to_vec(), PinKind::Soft(typed));
     if field.drag_stopped() {
         requests.push(Action::EndGesture.into());
     } else if typed.to_bits() != weight.to_bits() {
         let is_sliding = field.dragged();
-        let action = if is_sliding { Action::SlideHold { vertices, hold } } else { Action::SetHold { vertices, hold } };
+        let action =
+            if is_sliding { Action::SlideHold { vertices, kind } } else { Action::SetPinKind { vertices, kind } };
         requests.push(action.into());
     }
 }
@@ -232,15 +234,15 @@ fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.label(format!("{} selected:", selected.len()));
-        Offer::new("Hard", "Meet them exactly", Request::SetHold(Hold::Hard)).show(ui, requests);
+        Offer::new("Hard", "Meet them exactly", Request::SetPinKind(PinKind::Hard)).show(ui, requests);
         let pins = &editor.session.document().targets;
-        let weights = selected.iter().filter_map(|vertex| match pins.get(vertex)?.hold {
-            Hold::Weighted(weight) => Some(weight),
-            Hold::Fixed | Hold::Hard => None,
+        let weights = selected.iter().filter_map(|vertex| match pins.get(vertex)?.kind {
+            PinKind::Soft(weight) => Some(weight),
+            PinKind::Fixed | PinKind::Hard => None,
         });
         let weight = weights.max_by(f64::total_cmp);
-        let hold = Hold::Weighted(weight.unwrap_or(Pin::DEFAULT_WEIGHT));
-        Offer::new("Weighted", "Let them pull with a weight", Request::SetHold(hold)).show(ui, requests);
+        let kind = PinKind::Soft(weight.unwrap_or(Pin::DEFAULT_WEIGHT));
+        Offer::new("Weighted", "Let them pull with a weight", Request::SetPinKind(kind)).show(ui, requests);
         if let Some(weight) = weight {
             weight_field(ui, "Weight of the selected pins", weight, &selected, requests);
         }
@@ -269,9 +271,9 @@ fn errors(ui: &mut egui::Ui, editor: &Editor) {
     else {
         return;
     };
-    let worst = |is_exact: bool| {
+    let worst = |is_hard: bool| {
         let errors =
-            outcome.pin_errors().filter(|(_, target, _)| outcome.problem.settings.is_exact(target.hold) == is_exact);
+            outcome.pin_errors().filter(|(_, target, _)| outcome.problem.settings.is_hard(target.kind) == is_hard);
         errors.map(|(vertex, _, error)| (error, vertex)).max_by(|a, b| a.0.total_cmp(&b.0))
     };
     let words: Vec<String> = [(worst(true), "exact"), (worst(false), "weighted")]
@@ -298,10 +300,18 @@ fn all_of_them(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) 
             Offer::new("Mirror", "Mirror all targets left to right", Action::MirrorTargets).when(count > 0),
             Offer::new("Fit", "Turn, scale and move all targets together, to fit the mesh", Action::FitTargets)
                 .when(count > 1),
-            Offer::new("Import…", "Take over the constraints of a file", Request::Ask(Purpose::ImportConstraints))
-                .when(editor.has_disk()),
-            Offer::new("Export…", "Write the pins as a constraint file", Request::Ask(Purpose::ExportConstraints))
-                .when(count > 0),
+            Offer::new(
+                "Import…",
+                "Take over the constraints of a file",
+                Request::Ask(FileDialogKind::ImportConstraints),
+            )
+            .when(editor.has_disk()),
+            Offer::new(
+                "Export…",
+                "Write the pins as a constraint file",
+                Request::Ask(FileDialogKind::ExportConstraints),
+            )
+            .when(count > 0),
             Offer::new("Free all", "Free all pins; undo brings them back", Action::UnpinAll).when(count > 0),
         ];
         for offer in offers {

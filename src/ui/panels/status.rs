@@ -7,7 +7,7 @@ use eframe::egui::{self, RichText};
 use super::vertex_panel::new_vertex_words;
 use crate::session::Status;
 use crate::ui::timeline::PRESS_SPACE;
-use crate::ui::{Editor, Tool, theme_of};
+use crate::ui::{Editor, Tool, short, theme_of};
 
 pub(in crate::ui) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
     let has_shift = ui.input(|input| input.modifiers.shift);
@@ -68,46 +68,11 @@ fn numbers(editor: &Editor) -> String {
         }
     }
     if let Some(outcome) = editor.step_on_screen().filter(|_| !editor.plane.shows_preview()) {
-        parts.push(outcome.step.rung.as_short_rung().to_owned());
-        parts.push(format!("{:.0} ms", 1000.0 * (outcome.step.solution.seconds.total() + outcome.step.verify_seconds)));
+        parts.push(outcome.step.candidate.stage.short_words().to_owned());
+        parts.push(format!(
+            "{:.0} ms",
+            1000.0 * (outcome.step.candidate.solution.seconds.total() + outcome.step.verify_seconds)
+        ));
     }
     parts.join("  ·  ")
-}
-
-/// A number with four digits that mean something.
-pub(in crate::ui) fn short(value: f64) -> String {
-    let size = value.abs();
-    match size {
-        0.0 => "0".to_owned(),
-        1e-3..1e-2 => format!("{value:.6}"),
-        1e-2..0.1 => format!("{value:.5}"),
-        0.1..1.0 => format!("{value:.4}"),
-        1.0..10.0 => format!("{value:.3}"),
-        10.0..100.0 => format!("{value:.2}"),
-        100.0..1e3 => format!("{value:.1}"),
-        1e3..1e5 => format!("{value:.0}"),
-        _ => format!("{value:.3e}"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_number_has_four_digits_that_mean_something() {
-        let expected = [
-            (0.0, "0"),
-            (0.001_234_56, "0.001235"),
-            (-0.412_345, "-0.4123"),
-            (1.0, "1.000"),
-            (31.415_9, "31.42"),
-            (2_718.28, "2718"),
-            (1.234_1e-7, "1.234e-7"),
-            (f64::INFINITY, "inf"),
-        ];
-        for (value, words) in expected {
-            assert_eq!(short(value), words);
-        }
-    }
 }

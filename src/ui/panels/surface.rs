@@ -2,29 +2,30 @@
 
 use eframe::egui::{self, Response};
 
-use crate::mesh::{Fault, HoleTreatment, Repair};
-use crate::session::{Action, Model, Session, Surface};
-use crate::solver::{Choice, Settings, Start};
+use crate::session::{Action, Model, Session};
 use crate::ui::{Editor, Request, list, pairs, remark};
+use freebound_core::mesh::{Fault, HoleTreatment, Repair};
+use freebound_core::pipeline::Surface;
+use freebound_core::problem::{NamedOption, Settings, Start};
 
 /// Width of the lists, points.
 const WIDTH: f32 = 150.0;
 
 /// Row of a grid: what the first step is. Grey where the file has no layout.
 pub(super) fn start_row(ui: &mut egui::Ui, editor: &Editor, settings: &mut Settings, requests: &mut Vec<Request>) {
-    if !settings.method.goes_on_from_layout() {
+    if !settings.method.continues_from_layout() {
         return;
     }
     let has_layout = editor.session.model().is_some_and(|model| model.source.texture.is_some());
     ui.label("Start");
     let row = |ui: &mut egui::Ui| {
-        list(ui, "Start", WIDTH, settings.start.words().title, |ui| {
+        list(ui, "Start", WIDTH, settings.start.labels().title, |ui| {
             for &start in Start::ALL {
                 let is_chosen = settings.start == start;
-                let label = ui.selectable_label(is_chosen, start.words().title).on_hover_text(start.words().tip());
+                let label = ui.selectable_label(is_chosen, start.labels().title).on_hover_text(start.labels().tip());
                 match start {
                     _ if is_chosen || !label.clicked() => {}
-                    Start::Afresh => settings.start = start,
+                    Start::FromScratch => settings.start = start,
                     Start::File => requests.push(Action::TakeLayout.into()),
                 }
             }
@@ -109,9 +110,13 @@ const fn words_of(holes: HoleTreatment) -> &'static str {
 }
 
 fn has_holes(model: &Model) -> bool {
-    let is_filled =
-        model.repaired.iter().flat_map(|repaired| repaired.done()).any(|done| done.repair == Repair::FillHoles);
-    let is_fault = match &model.surface {
+    let is_filled = model
+        .prepared
+        .repaired
+        .iter()
+        .flat_map(|repaired| repaired.done())
+        .any(|done| done.repair == Repair::FillHoles);
+    let is_fault = match &model.prepared.surface {
         Surface::Disk(_) => false,
         Surface::Faulty(_, diagnosis) => {
             diagnosis.faults.iter().any(|fault| matches!(fault, Fault::SeveralBoundaryLoops(_)))

@@ -6,6 +6,7 @@ use eframe::egui::{self, Align2, Sense, Vec2};
 
 use crate::session::{Action, Message, Severity};
 use crate::ui::icons::{self, Sign};
+use crate::ui::state::Toast;
 use crate::ui::theme::BOTTOM_HEIGHT;
 use crate::ui::{Control, Editor, Request, sentence, theme_of};
 
@@ -18,15 +19,6 @@ const GAP: f32 = 12.0;
 /// The most of it in a row, points.
 const WIDTH: f32 = 440.0;
 
-/// The news that shows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::ui) struct Toast {
-    /// The message's number.
-    id: u64,
-    /// When it came, or when pointer and keyboard left it; seconds of the window's clock.
-    since: f64,
-}
-
 /// Shows the newest good news, and takes it away when its time is over. It stays under the pointer, and while one of its
 /// buttons has the keyboard.
 pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
@@ -35,7 +27,7 @@ pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, request
         editor.layout.toast = None;
         return;
     };
-    let now = editor.host.now();
+    let now = editor.gpu.now();
     let begun = Toast { id: message.id, since: now };
     if editor.files.dialogs.is_open() {
         // It would lie over the dialog; its time begins when that is closed.

@@ -2,10 +2,14 @@
 
 use eframe::egui::{self, RichText, Role};
 
-use crate::session::{Action, Busy, LivePreview, Preview, Status, Surface};
-use crate::solver::{Obstacle, Phase, Step, Verdict};
+use crate::session::{Action, Busy, LivePreview, Preview, Status};
 use crate::ui::icons::{self, Sign};
 use crate::ui::{Control, Editor, Offer, Request, Tab, counted, theme_of};
+use freebound_core::bijective::Blocker;
+use freebound_core::flatten::Step;
+use freebound_core::pipeline::Surface;
+use freebound_core::problem::Phase;
+use freebound_core::verify::Verdict;
 
 /// Side of the sign in the pill, points.
 const SIGN: f32 = 11.0;
@@ -55,7 +59,7 @@ fn shown(editor: &Editor) -> (Option<Pill>, Option<Busy>) {
 fn busy_words(busy: Busy) -> String {
     match busy {
         Busy::Loading => "opening…".to_owned(),
-        Busy::Errand(what) => format!("{what}…"),
+        Busy::Job(what) => format!("{what}…"),
         Busy::Solving(None | Some(Phase::Solve)) => "solving…".to_owned(),
         Busy::Solving(Some(phase)) => format!("solving… {}", phase.words()),
         Busy::Saving => "saving…".to_owned(),
@@ -65,7 +69,7 @@ fn busy_words(busy: Busy) -> String {
 fn pill(editor: &Editor) -> Option<Pill> {
     let session = &editor.session;
     let model = session.model()?;
-    if let Surface::Faulty(_, diagnosis) = &model.surface {
+    if let Surface::Faulty(_, diagnosis) = &model.prepared.surface {
         let words = counted(diagnosis.faults.len(), "fault", "faults");
         return Some(Pill::new(Sign::Bad, words, "The bars over the mesh and the tab Defects say what is wrong"));
     }
@@ -97,28 +101,28 @@ fn moving(editor: &Editor) -> Option<Pill> {
     Some(Pill::new(Sign::Moving, words, tip))
 }
 
-/// The verdict on a step that is up to date, and the rung that a planar one comes from.
+/// The verdict on a step that is up to date, and the stage that a planar one comes from.
 fn of_step(step: &Step) -> Pill {
-    let (unmet, rung) = (step.unmet().len(), step.rung.as_short_rung());
+    let (unmet, stage) = (step.unmet().len(), step.candidate.stage.short_words());
     if !step.verdict.planar {
         return Pill::new(Sign::Bad, short_verdict(&step.verdict), "Not planar. Click for the next defect (D)");
     }
     if unmet > 0 {
         let tip = "No two faces overlap, but exact pins are not on their targets. Click shows them";
-        return Pill::new(Sign::Unmet, format!("Planar, constraints not met: {unmet} · {rung}"), tip);
+        return Pill::new(Sign::Unmet, format!("Planar, constraints not met: {unmet} · {stage}"), tip);
     }
-    let new = step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices_of_surface().count());
+    let new = step.candidate.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices_of_surface().count());
     let note = match new {
         0 => String::new(),
         _ => format!(". The mesh has {}", counted(new, "new vertex", "new vertices")),
     };
-    let in_f32 = if step.verdict.holds_in_f32 {
+    let in_f32 = if step.verdict.planar_in_f32 {
         "It holds in 32 bits, too, into which most programs read texture coordinates"
     } else {
         "It does not hold in 32 bits, into which most programs read texture coordinates: relax it"
     };
     let tip = format!("Exact arithmetic shows that no two faces overlap. {in_f32}{note}");
-    Pill::new(Sign::Good, format!("Planar: proved · {rung}"), tip)
+    Pill::new(Sign::Good, format!("Planar: proved · {stage}"), tip)
 }
 
 /// A planar embedding that follows a pin: proved at every frame.
@@ -131,11 +135,11 @@ fn of_live(LivePreview { obstacle }: LivePreview) -> Pill {
 }
 
 /// What keeps a pin from following, in a few words.
-fn in_the_way(obstacle: Obstacle) -> String {
+fn in_the_way(obstacle: Blocker) -> String {
     match obstacle {
-        Obstacle::Pin(vertex) => format!("{vertex} is in the way"),
-        Obstacle::Boundary(vertex) => format!("the boundary at {vertex} is in the way"),
-        Obstacle::Surroundings => "the rest follows when it rests".to_owned(),
+        Blocker::Pin(vertex) => format!("{vertex} is in the way"),
+        Blocker::Boundary(vertex) => format!("the boundary at {vertex} is in the way"),
+        Blocker::Surroundings => "the rest follows when it rests".to_owned(),
     }
 }
 
@@ -193,9 +197,9 @@ mod tests {
 
     use super::*;
     use crate::examples::Example;
-    use crate::mesh::VertexId;
     use crate::session::RecentFiles;
-    use crate::solver::{Family, Method, Settings};
+    use freebound_core::mesh::VertexId;
+    use freebound_core::problem::{Family, Method, Settings};
 
     /// Takes in what the background has done until a condition holds.
     fn wait(editor: &mut Editor, is_there: impl Fn(&Editor) -> bool) {
@@ -236,7 +240,7 @@ mod tests {
         let mut editor = dragging(Method::Natural);
         editor.session.handle(Action::Rest);
         // As if it had begun a while ago. Nothing is taken in meanwhile, so that no step has replaced the preview.
-        editor.host.note_work(true, a_while_ago());
+        editor.gpu.note_work(true, a_while_ago());
         let (pill, busy) = shown(&editor);
         assert!(matches!(busy, Some(Busy::Solving(_))), "{busy:?}");
         let words = pill.expect("the preview says what it is").words;
@@ -261,7 +265,7 @@ mod tests {
         editor.session.handle(Action::EndGesture);
         wait(&mut editor, is_solved);
         editor.session.handle(Action::Solve);
-        editor.host.note_work(true, a_while_ago());
+        editor.gpu.note_work(true, a_while_ago());
         let (pill, busy) = shown(&editor);
         assert!(pill.is_none() && busy.is_some());
     }

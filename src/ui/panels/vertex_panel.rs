@@ -6,11 +6,10 @@ use eframe::egui;
 
 use super::equation_table;
 use super::hull_section::hull_rows;
-use super::status::short;
-use crate::mesh::{DiskMesh, HalfedgeId, NewVertex, VertexId};
 use crate::session::Action;
-use crate::solver::Embedding;
-use crate::ui::{Control, Editor, Request, number, pairs};
+use crate::ui::{Control, Editor, Request, number, pairs, short};
+use freebound_core::mesh::{DiskMesh, HalfedgeId, NewVertex, VertexId};
+use freebound_core::problem::Embedding;
 
 pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(&vertex) = editor.selection.vertices().first() else {
@@ -38,7 +37,7 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     if let Some(new) = scene.new_vertex(vertex) {
         ui.label(new_vertex_words(new)).on_hover_text(NOT_TO_PIN);
     }
-    let embedding = editor.step_on_screen().map(|outcome| &outcome.step.solution.embedding);
+    let embedding = editor.step_on_screen().map(|outcome| &outcome.step.candidate.solution.embedding);
     pairs(ui, "vertex", [16.0, 4.0], |ui| {
         for (axis, value) in ["x", "y", "z"].iter().zip(position.to_array()) {
             number(ui, axis, short(value));

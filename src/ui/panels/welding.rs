@@ -3,9 +3,9 @@
 use eframe::egui::{self, DragValue};
 
 use super::menu::grouped;
-use crate::mesh::WeldDistance;
 use crate::session::{Action, Model, Session};
 use crate::ui::{Control, Request, Typed, counted, five_digits, remark};
+use freebound_core::mesh::WeldDistance;
 
 /// The distance that is offered first, as a part of the box around the mesh; then the power of ten below it.
 const OFFERED: f64 = 1e-4;

@@ -6,7 +6,7 @@ use std::time::{Duration, SystemTime};
 use eframe::egui::{self, Label, Rect, RichText, Sense, Vec2};
 
 use super::seam;
-use crate::session::{Action, Message, Place, Severity, named};
+use crate::session::{Action, Message, MessagePlace, Severity, named};
 use crate::ui::icons::{self, Sign};
 use crate::ui::{Control, Editor, Offer, Pane, Request, Tab, Tool, counted, sentence, theme_of};
 
@@ -24,8 +24,8 @@ pub(super) fn over(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane, reque
 fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
     let session = &editor.session;
     let place = match pane {
-        Pane::Mesh => Place::Mesh,
-        Pane::Plane => Place::Embedding,
+        Pane::Mesh => MessagePlace::Mesh,
+        Pane::Plane => MessagePlace::Embedding,
     };
     if pane == Pane::Mesh && editor.tools.tool() == Tool::Seam && session.model().is_some() {
         // Before the others, which come and go.
@@ -48,7 +48,9 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
         let words = "The faces point inward: the mesh shows from behind, and its picture mirrored";
         warning(ui, words, offers, requests);
     }
-    if let Some(remedy) = session.model().and_then(|model| model.remedy.as_ref()).filter(|_| pane == Pane::Mesh) {
+    if let Some(remedy) =
+        session.model().and_then(|model| model.prepared.remedy.as_ref()).filter(|_| pane == Pane::Mesh)
+    {
         let done: Vec<String> = remedy.done().iter().map(ToString::to_string).collect();
         let words = match &done[..] {
             [] => "The mesh can be flattened as it is: none of its faults does harm".to_owned(),
@@ -100,14 +102,14 @@ fn warning(ui: &mut egui::Ui, words: &str, offers: impl IntoIterator<Item = Offe
 }
 
 /// What did not work in a pane: what happened, where, what to do. It stays until dismissed or mended.
-fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: Place, requests: &mut Vec<Request>) {
+fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: MessagePlace, requests: &mut Vec<Request>) {
     let is_here = |message: &&Message| message.place == place && message.severity == Severity::Error;
     let messages: Vec<&Message> = editor.session.messages().iter().filter(is_here).collect();
     if messages.is_empty() {
         return;
     }
     let limit = ui.available_height() / 2.0;
-    egui::ScrollArea::vertical().id_salt(("messages", place == Place::Mesh)).max_height(limit).show(ui, |ui| {
+    egui::ScrollArea::vertical().id_salt(("messages", place == MessagePlace::Mesh)).max_height(limit).show(ui, |ui| {
         for message in messages {
             message_bar(ui, message, requests);
         }

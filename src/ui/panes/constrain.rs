@@ -4,42 +4,17 @@
 use eframe::egui::{self, Stroke};
 use glam::DVec2;
 
-use super::pane::Viewport;
 use super::pins;
-use crate::io::Target;
-use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::ui::editor::scene::PlaneScene;
+use crate::ui::state::{Half, Intent, Viewport};
 use crate::ui::{Editor, Pane, Request, Tool, theme_of};
 use crate::view::{PlaneCamera, snapped};
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Target;
 
 /// Targets snap to pixels that are larger than this, points.
 const SNAP_FROM: f64 = 8.0;
-
-/// The half of a pair that was placed first.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Half {
-    /// The vertex; its place is to come.
-    Vertex(VertexId),
-    /// The place, in texture coordinates; the vertex is to come.
-    Target(DVec2),
-}
-
-/// What a click of the tool would do.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Intent {
-    /// Nothing.
-    #[default]
-    Nothing,
-    /// Take a vertex as the first half of a pair.
-    TakeVertex(VertexId),
-    /// Take a place, in texture coordinates, as the first half.
-    TakeTarget(DVec2),
-    /// Complete the pair.
-    Join(VertexId, DVec2),
-    /// Select a pin that is there.
-    Select(VertexId),
-}
 
 impl Editor {
     /// Takes in where the pointer is, and what a click there would do. Call in each pane, once it knows the vertex under
@@ -119,7 +94,7 @@ impl Editor {
             }
             Intent::Join(vertex, target) => {
                 self.tools.set_pair(None);
-                let target = Target { uv: target, hold: self.tools.hold() };
+                let target = Target { uv: target, kind: self.tools.kind() };
                 vec![Request::Do(Action::Place { vertex, target }), Request::Select(vec![vertex])]
             }
             Intent::Select(vertex) => vec![Request::Select(vec![vertex])],

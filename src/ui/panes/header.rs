@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Role};
 
-use crate::ui::{Control, Editor, Pane, Request, Shading, list, tip_with_keys};
+use crate::ui::{Control, Editor, Pane, Request, ShadingMode, list, tip_with_keys};
 
 /// A pane narrower than this has no title in its bar, points.
 const ROOM_FOR_TITLE: f32 = 270.0;
@@ -51,7 +51,7 @@ fn switches(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<R
     }
     if pane == Pane::Mesh || editor.layout.full() == Some(Pane::Plane) {
         let tip = tip_with_keys(ui, "Wireframe", &Request::ToggleWireframe);
-        let wire = ui.selectable_label(editor.look.wireframe, "Wire").on_hover_text(tip);
+        let wire = ui.selectable_label(editor.pane_shading.wireframe, "Wire").on_hover_text(tip);
         wire.asks(Request::ToggleWireframe, requests);
     }
 }
@@ -63,7 +63,7 @@ fn shading_menu(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut V
     let now = editor.shading(pane);
     let name = format!("Shading of the {}", pane.title().to_lowercase());
     let menu = list(ui, &name, width, now.title(), |ui| {
-        for shading in Shading::ALL.into_iter().filter(|shading| shading.is_for(pane)) {
+        for shading in ShadingMode::ALL.into_iter().filter(|shading| shading.is_for(pane)) {
             let [title, about] = shading.words();
             let tip = tip_with_keys(ui, about, &Request::SetShading(shading));
             let entry = ui.selectable_label(now == shading, title).on_hover_text(tip);

@@ -4,101 +4,13 @@ use eframe::egui::{self, Rect, Response, Role, Sense, Vec2};
 use glam::DVec2;
 
 use super::pane;
-use crate::mesh::VertexId;
+use crate::ui::state::{InsetKind, InsetPan, InsetSubject};
 use crate::ui::{Control, Request, close_button};
-
-/// How much nearer and farther the wheel brings an inset.
-const REACH: std::ops::RangeInclusive<f64> = 0.1..=1e4;
 
 /// How much nearer a point of a trackpad's two fingers brings it.
 const PER_POINT: f64 = 1.004;
 
-/// How a person has moved what the insets show: nearer by the wheel, sideways by a drag.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::ui) struct Sight {
-    /// The defect that it was brought nearer for, by its place in the list; none for pairs.
-    of: Option<usize>,
-    factor: f64,
-    /// The last drag of each kind of inset.
-    panned: [Option<(About, DVec2)>; 3],
-}
-
-impl Default for Sight {
-    fn default() -> Self {
-        Self { of: None, factor: 1.0, panned: [None; 3] }
-    }
-}
-
-impl Sight {
-    /// Whether a person has moved what an inset shows.
-    pub(super) fn is_set(&self, kind: Kind, about: About) -> bool {
-        (self.factor(about.defect()) - 1.0).abs() > f64::EPSILON || self.panned(kind, about) != DVec2::ZERO
-    }
-
-    /// How much nearer the inset of a defect shows, or that of a pair. Another defect begins anew.
-    pub(super) fn factor(&self, of: Option<usize>) -> f64 {
-        if self.of == of { self.factor } else { 1.0 }
-    }
-
-    /// How far what an inset shows was dragged, points. Another thing begins anew.
-    pub(super) fn panned(&self, kind: Kind, about: About) -> DVec2 {
-        self.panned[kind as usize].filter(|(of, _)| *of == about).map_or(DVec2::ZERO, |(_, by)| by)
-    }
-
-    pub(in crate::ui) fn bring_nearer(&mut self, of: Option<usize>, by: f64) {
-        let before = self.factor(of);
-        let factor = (before * by).clamp(*REACH.start(), *REACH.end());
-        (self.of, self.factor) = (of, factor);
-        // What lies in the middle stays there.
-        for (_, panned) in self.panned.iter_mut().flatten().filter(|(about, _)| about.defect() == of) {
-            *panned *= factor / before;
-        }
-    }
-
-    pub(in crate::ui) fn pan(&mut self, InsetPan { kind, about, by }: InsetPan) {
-        self.panned[kind as usize] = Some((about, self.panned(kind, about) + by));
-    }
-}
-
-/// What an inset is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::ui) enum About {
-    /// A defect, by its place in the list.
-    Defect(usize),
-    /// A pair, by its vertex where it has one yet.
-    Pair(Option<VertexId>),
-}
-
-impl About {
-    const fn defect(self) -> Option<usize> {
-        match self {
-            Self::Defect(place) => Some(place),
-            Self::Pair(_) => None,
-        }
-    }
-}
-
-/// A drag over an inset.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InsetPan {
-    kind: Kind,
-    about: About,
-    /// Points of the screen.
-    by: DVec2,
-}
-
-/// The insets that there are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(in crate::ui) enum Kind {
-    /// A defect in the plane.
-    Defect,
-    /// The vertex of a pair, on the mesh.
-    PairOnMesh,
-    /// The target of a pair, in the plane.
-    PairInPlane,
-}
-
-impl Kind {
+impl InsetKind {
     fn id(self, ui: &egui::Ui) -> egui::Id {
         ui.scope_id().with(("inset", self))
     }
@@ -106,17 +18,18 @@ impl Kind {
 
 /// Whether the wheel belongs to an inset over the plane: the pointer was over it in the frame before.
 pub(super) fn has_wheel(ui: &egui::Ui) -> bool {
-    let has_pointer = |kind: Kind| ui.ctx().read_response(kind.id(ui)).is_some_and(|inset| inset.contains_pointer());
-    [Kind::Defect, Kind::PairInPlane].into_iter().any(has_pointer)
+    let has_pointer =
+        |kind: InsetKind| ui.ctx().read_response(kind.id(ui)).is_some_and(|inset| inset.contains_pointer());
+    [InsetKind::Defect, InsetKind::PairInPlane].into_iter().any(has_pointer)
 }
 
 /// An inset of one frame, for the pointer and for those who do not see it.
 pub(super) struct Inset<'a> {
-    pub(super) kind: Kind,
+    pub(super) kind: InsetKind,
     pub(super) rect: Rect,
     pub(super) role: Role,
     pub(super) name: &'a str,
-    pub(super) about: About,
+    pub(super) about: InsetSubject,
 }
 
 impl Inset<'_> {

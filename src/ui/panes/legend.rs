@@ -5,7 +5,7 @@ use eframe::egui::{self, Align2, FontId, Pos2, Rect, RichText, Role, Sense, Stro
 use crate::session::Action;
 use crate::ui::editor::paint::Legend;
 use crate::ui::theme::{on_screen, rgb, theme_of};
-use crate::ui::{Control, Editor, Pane, Request, Shading, Theme, close_button};
+use crate::ui::{Control, Editor, Pane, Request, ShadingMode, Theme, close_button};
 
 /// Whether the embedding's pane has a legend of its own: where that of the mesh's pane does not speak for both.
 pub(super) fn plane_has_own(editor: &Editor) -> bool {
@@ -14,9 +14,9 @@ pub(super) fn plane_has_own(editor: &Editor) -> bool {
 
 /// The scale of a shading by numbers: bar, histogram, numbers.
 pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane) {
-    let Some(legend) = editor.look.legend(pane) else { return };
+    let Some(legend) = editor.pane_shading.legend(pane) else { return };
     let title = match (editor.shading(pane), editor.plane.moved_from(&editor.session)) {
-        (Shading::Move, Some(base)) => format!("Move from step {}, plane units", base.step.index),
+        (ShadingMode::Move, Some(base)) => format!("Move from step {}, plane units", base.step.index),
         (shading, _) => shading.title().to_owned(),
     };
     let theme = theme_of(ui);
@@ -82,7 +82,7 @@ fn scale(painter: &egui::Painter, bar: Rect, legend: &Legend, theme: &Theme) {
 pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(step) = editor.plane.ghost_step().filter(|_| rect.width() >= 180.0) else { return };
     let theme = theme_of(ui);
-    let height = if plane_has_own(editor) && editor.look.legend(Pane::Plane).is_some() { 124.0 } else { 32.0 };
+    let height = if plane_has_own(editor) && editor.pane_shading.legend(Pane::Plane).is_some() { 124.0 } else { 32.0 };
     let place = Rect::from_min_size(rect.left_bottom() + Vec2::new(12.0, -height), Vec2::new(172.0, 20.0));
     // What lies under the note must not get clicks on it.
     ui.interact(place, ui.scope_id().with("outline"), Sense::click_and_drag())
@@ -103,7 +103,10 @@ pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor, request
 
 /// Says why nothing is coloured where moves are asked for and there are none.
 pub(super) fn no_move_note(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane) {
-    if editor.shading(pane) == Shading::Move && editor.look.legend(pane).is_none() && editor.plane.scene().is_some() {
+    if editor.shading(pane) == ShadingMode::Move
+        && editor.pane_shading.legend(pane).is_none()
+        && editor.plane.scene().is_some()
+    {
         let at = rect.left_bottom() + Vec2::new(12.0, -12.0);
         let words = "No step before this one is kept: nothing has moved";
         let ink = theme_of(ui).weak_text;

@@ -7,16 +7,17 @@ use std::sync::Arc;
 use eframe::egui::{self, Align2, CursorIcon, FontId, Pos2, Rect, Role, Stroke, StrokeKind, Vec2};
 use glam::DVec2;
 
-use super::inset::{About, Inset, Kind};
-use super::pane::{self, Viewport};
+use super::inset::Inset;
+use super::pane;
 use super::pins::{self, Emphasis};
 use super::{mesh_pane, plane_pane};
-use crate::geom::Bounds;
-use crate::mesh::VertexId;
-use crate::render::{self, PaneId, PlaneFrame, Shading};
+use crate::render::{self, FaceShading, PaneId, PlaneFrame};
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
+use crate::ui::state::{InsetKind, InsetSubject, Viewport, size_of};
 use crate::ui::{Control, Defect, Editor, Pane, Request, Theme, keys_of, theme_of};
 use crate::view::{OrbitCamera, PlaneCamera, Sphere, bounds_of};
+use freebound_core::geom::Bounds;
+use freebound_core::mesh::VertexId;
 
 /// Distance of insets from the pane's edges, points.
 const GAP: f32 = 12.0;
@@ -77,7 +78,11 @@ pub(super) struct Magnifier {
 impl Magnifier {
     /// The inset over a pane, where it is wanted and there is a defect that it shows larger than the pane does.
     pub(super) fn over(editor: &Editor, view: Viewport<PlaneCamera>, scene: &PlaneScene) -> Option<Self> {
-        if !editor.look.magnifier || scene.is_stage() || editor.plane.shows_preview() || editor.plane.is_easing() {
+        if !editor.pane_shading.magnifier
+            || scene.is_stage()
+            || editor.plane.shows_preview()
+            || editor.plane.is_easing()
+        {
             return None;
         }
         let nth = |place: usize| Some((place, Defect::all(&scene.outcome.step.verdict).nth(place)?));
@@ -85,17 +90,17 @@ impl Magnifier {
         let pane = view.rect;
         let side = DEFECT.side_in(pane)?;
         let shown = neighbourhood(scene, defect)?;
-        let (insets, about) = (&editor.layout.insets, About::Defect(place));
+        let (insets, about) = (&editor.layout.insets, InsetSubject::Defect(place));
         let shown = nearer(shown, insets.factor(Some(place)));
         let mut camera = PlaneCamera::framing(shown, DVec2::splat(side.into()));
-        camera.pan(insets.panned(Kind::Defect, about));
+        camera.pan(insets.panned(InsetKind::Defect, about));
         let by = camera.center() - shown.middle();
         let shown = Bounds { low: shown.low + by, high: shown.high + by };
         let looks_at = Rect::from_two_pos(view.spot(shown.low), view.spot(shown.high));
         let magnification = camera.points_per_unit() / view.camera.points_per_unit();
         let rect = place_for(pane, Vec2::new(side, side + TITLE), looks_at.center(), GAP);
         // What a person has brought farther away stays: the wheel brings it back.
-        let is_wanted = magnification > 1.0 || insets.is_set(Kind::Defect, about);
+        let is_wanted = magnification > 1.0 || insets.is_set(InsetKind::Defect, about);
         is_wanted.then_some(Self { place, defect, camera, pane, looks_at, rect, magnification })
     }
 
@@ -113,7 +118,7 @@ impl Magnifier {
             painter.text(right, Align2::RIGHT_CENTER, self.defect.words(), font, theme.weak_text);
         }
         let picture = Rect::from_min_max(self.rect.min + Vec2::new(0.0, TITLE), self.rect.max);
-        if editor.host.has_gpu() {
+        if editor.gpu.has_gpu() {
             ui.painter().add(render::plane_pane(PaneId("magnifier"), picture, self.frame(editor, plane, theme)));
         }
         pane::plane_marks(ui, Viewport { rect: picture, camera: self.camera }, editor, plane);
@@ -127,8 +132,8 @@ impl Magnifier {
         let tip = format!(
             "A defect from near by: the wheel brings it nearer, a drag pans. Click to go there; {keys}: the next"
         );
-        let about = About::Defect(self.place);
-        let inset = Inset { kind: Kind::Defect, rect: self.rect, role: Role::Button, name: &name, about };
+        let about = InsetSubject::Defect(self.place);
+        let inset = Inset { kind: InsetKind::Defect, rect: self.rect, role: Role::Button, name: &name, about };
         let response = inset.interact(ui, requests);
         let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(tip);
         response.asks(Request::GoToDefect(self.place), requests);
@@ -152,13 +157,13 @@ impl Magnifier {
     /// The bare embedding, its faces' outlines and defects.
     fn frame(&self, editor: &Editor, plane: &PlaneScene, theme: &Theme) -> PlaneFrame {
         PlaneFrame {
-            paint: editor.look.paint(Pane::Plane).map(|paint| Arc::clone(&paint.faces)),
+            paint: editor.pane_shading.paint(Pane::Plane).map(|paint| Arc::clone(&paint.faces)),
             fills: Vec::new(),
             lines: vec![mesh_pane::boundary_line(&plane.mesh, theme)],
             ghost: editor.plane.ghost_layer(theme),
             picture: None,
             style: render::Style {
-                shading: Shading::Plain,
+                shading: FaceShading::Plain,
                 wire_in_points: 1.0,
                 face_opacity: 1.0,
                 ..mesh_pane::style(editor, Pane::Plane)
@@ -231,7 +236,7 @@ impl Editor {
 
     /// Whether a pair is magnified in the embedding's pane.
     pub(super) fn magnifies_pair(&self) -> bool {
-        self.look.magnifier && (self.tools.is_placing_pair() || self.target_in_hand().is_some())
+        self.pane_shading.magnifier && (self.tools.is_placing_pair() || self.target_in_hand().is_some())
     }
 }
 
@@ -248,14 +253,14 @@ pub(super) fn over_mesh(
     scene: &MeshScene,
     requests: &mut Vec<Request>,
 ) {
-    let Some(vertex) = editor.vertex_in_hand().filter(|_| editor.look.magnifier) else { return };
+    let Some(vertex) = editor.vertex_in_hand().filter(|_| editor.pane_shading.magnifier) else { return };
     let Some(&position) = scene.mesh().positions.get(vertex.index()) else { return };
     let Some(inset) = view.spot(position).and_then(|at| pair_inset(view.rect, at)) else { return };
-    let (insets, kind, about) = (&editor.layout.insets, Kind::PairOnMesh, About::Pair(Some(vertex)));
+    let (insets, kind, about) = (&editor.layout.insets, InsetKind::PairOnMesh, InsetSubject::Pair(Some(vertex)));
     let mut camera = view.camera;
     let radius = PART * scene.sphere.radius / insets.factor(None);
-    camera.frame(Sphere { center: position, radius }, pane::size_of(inset));
-    camera.pan(insets.panned(kind, about), pane::size_of(inset));
+    camera.frame(Sphere { center: position, radius }, size_of(inset));
+    camera.pan(insets.panned(kind, about), size_of(inset));
     let reach = |camera: &OrbitCamera| camera.eye().distance(position);
     let enlarges = reach(&view.camera) / reach(&camera) * f64::from(inset.height() / view.rect.height());
     if enlarges < LEAST_MAGNIFICATION && !insets.is_set(kind, about) {
@@ -263,7 +268,7 @@ pub(super) fn over_mesh(
     }
     let theme = theme_of(ui);
     ui.painter().rect_filled(inset, 4.0, theme.background);
-    if editor.host.has_gpu() {
+    if editor.gpu.has_gpu() {
         let frame = mesh_pane::frame(editor, scene, camera, theme);
         ui.painter().add(render::mesh_pane(PaneId("pair on mesh"), inset, frame));
     }
@@ -283,11 +288,14 @@ pub(super) fn over_plane(
     plane: &PlaneScene,
     requests: &mut Vec<Request>,
 ) {
-    let Some(target) = editor.target_in_hand().filter(|z| editor.look.magnifier && z.is_finite()) else { return };
+    let Some(target) = editor.target_in_hand().filter(|z| editor.pane_shading.magnifier && z.is_finite()) else {
+        return;
+    };
     let Some(inset) = pair_inset(view.rect, view.spot(target)) else { return };
-    let (insets, kind, about) = (&editor.layout.insets, Kind::PairInPlane, About::Pair(editor.vertex_in_hand()));
+    let (insets, kind, about) =
+        (&editor.layout.insets, InsetKind::PairInPlane, InsetSubject::Pair(editor.vertex_in_hand()));
     let half = PART / 2.0 / insets.factor(None) * editor.with_picture(plane.arrays.bounds).extent();
-    let mut camera = PlaneCamera::framing(Bounds { low: target - half, high: target + half }, pane::size_of(inset));
+    let mut camera = PlaneCamera::framing(Bounds { low: target - half, high: target + half }, size_of(inset));
     camera.pan(insets.panned(kind, about));
     let enlarges = camera.points_per_unit() / view.camera.points_per_unit();
     if enlarges < LEAST_MAGNIFICATION && !insets.is_set(kind, about) {
@@ -295,7 +303,7 @@ pub(super) fn over_plane(
     }
     let theme = theme_of(ui);
     ui.painter().rect_filled(inset, 4.0, theme.background);
-    if editor.host.has_gpu() {
+    if editor.gpu.has_gpu() {
         let frame = PlaneFrame { ghost: None, ..plane_pane::frame(editor, plane, camera, theme) };
         ui.painter().add(render::plane_pane(PaneId("pair in plane"), inset, frame));
     }

@@ -5,16 +5,17 @@ use std::sync::Arc;
 use eframe::egui::{self, Pos2, Response};
 use glam::DVec2;
 
-use super::pane::{self, Viewport};
-use super::pins::{self, Emphasis, PinKind};
+use super::pane;
+use super::pins::{self, Emphasis, PinMark};
 use super::{bars, header, legend, magnifier, outside_hull, seam, vertex_menu};
-use crate::mesh::VertexId;
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PictureLayer, Style};
 use crate::session::Action;
+use crate::ui::editor::picture_box::picture_box;
 use crate::ui::editor::scene::MeshScene;
-use crate::ui::editor::views::picture_box;
-use crate::ui::{Control, Editor, Pane, Request, Shading, Theme, Tool, theme_of};
+use crate::ui::state::{Viewport, in_pane, size_of};
+use crate::ui::{Control, Editor, Pane, Request, ShadingMode, Theme, Tool, theme_of};
 use crate::view::{EdgeList, OrbitCamera, Visibility};
+use freebound_core::mesh::VertexId;
 
 /// Opacity of the mark of a selected vertex that the mesh hides.
 const HIDDEN: f32 = 0.4;
@@ -47,13 +48,13 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         editor.mesh.pane.set_camera(camera);
         ui.ctx().request_repaint();
     }
-    if let Some(pointer) = response.hover_pos().map(|at| pane::in_pane(rect, at)) {
+    if let Some(pointer) = response.hover_pos().map(|at| in_pane(rect, at)) {
         let pick = scene.picker.nearest_vertex(&camera, editor.mesh.pane.size(), pointer, Visibility::Visible);
         let pick = pick.filter(|_| editor.is_of_session(&scene));
         let ray = camera.ray(pointer, editor.mesh.pane.size());
         editor.pointer.over_mesh(pick.map(|pick| scene.on_side_at(pick.vertex, ray)));
         if editor.tools.tool() == Tool::Seam {
-            editor.look_for_seam(&scene, &camera, pointer);
+            editor.pick_seam_vertex(&scene, &camera, pointer);
         }
         editor.aim(ui, Pane::Mesh, None);
     }
@@ -65,14 +66,14 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         };
         requests.push(Request::AddToSelection(scene.vertices().filter(inside).collect()));
     }
-    let ray = response.hover_pos().map(|at| camera.ray(pane::in_pane(rect, at), editor.mesh.pane.size()));
+    let ray = response.hover_pos().map(|at| camera.ray(in_pane(rect, at), editor.mesh.pane.size()));
     let is_free = editor.pointer.vertex().is_none() && editor.tools.tool() != Tool::Seam;
     match ray.filter(|_| is_free).and_then(|ray| scene.other_chart_at(ray)) {
         Some(chart) => other_chart(ui, &response, chart, requests),
         None => pane::click(ui, &response, editor, requests),
     }
     vertex_menu::of_pane(&response, editor, requests);
-    if editor.host.has_gpu() {
+    if editor.gpu.has_gpu() {
         ui.painter().add(render::mesh_pane(PaneId("mesh"), rect, frame(editor, &scene, camera, theme)));
     }
     marks(ui, view, editor, &scene);
@@ -91,7 +92,7 @@ fn other_chart(ui: &egui::Ui, response: &Response, chart: usize, requests: &mut 
 
 /// Camera moves: turntable, pan, zoom to the pointer, pivot.
 fn navigate(ui: &egui::Ui, response: &Response, scene: &MeshScene, camera: &mut OrbitCamera, sets_pivot: bool) {
-    let size = pane::size_of(response.rect);
+    let size = size_of(response.rect);
     let drag = DVec2::new(response.drag_delta().x.into(), response.drag_delta().y.into());
     let (shift, boxing) = ui.input(|input| (input.modifiers.shift, input.modifiers.command));
     if response.dragged_by(egui::PointerButton::Primary) && !shift && !boxing {
@@ -99,7 +100,7 @@ fn navigate(ui: &egui::Ui, response: &Response, scene: &MeshScene, camera: &mut 
     } else if response.dragged() && !boxing {
         camera.pan(drag, size);
     }
-    let Some(pointer) = response.hover_pos().map(|at| pane::in_pane(response.rect, at)) else { return };
+    let Some(pointer) = response.hover_pos().map(|at| in_pane(response.rect, at)) else { return };
     let hit = |camera: &OrbitCamera| scene.picker.hit(camera.ray(pointer, size)).map(|hit| hit.point);
     let wheel = pane::wheel(ui);
     if (wheel.zoom - 1.0).abs() > f64::EPSILON {
@@ -125,7 +126,11 @@ pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, the
         lines: vec![boundary_line(scene, theme), seam_line(&scene.seams, theme)],
         around_lines: scene.around.iter().map(|around| seam_line(&around.seams, theme)).collect(),
         picture: picture_layer(editor),
-        paint: editor.plane.preview_paint().or(editor.look.paint(Pane::Mesh).map(|paint| &paint.faces)).map(Arc::clone),
+        paint: editor
+            .plane
+            .preview_paint()
+            .or(editor.pane_shading.paint(Pane::Mesh).map(|paint| &paint.faces))
+            .map(Arc::clone),
         style: style(editor, Pane::Mesh),
         palette: theme.palette,
         camera,
@@ -145,26 +150,26 @@ pub(super) fn seam_line(seams: &Arc<EdgeList>, theme: &Theme) -> LineLayer {
 
 /// The picture as the panes draw it.
 pub(super) fn picture_layer(editor: &Editor) -> Option<PictureLayer> {
-    editor.look.picture_layer(picture_box(editor.session.document()), editor.appearance().opacity)
+    editor.pane_shading.picture_layer(picture_box(editor.session.document()), editor.appearance().opacity)
 }
 
 /// How faces look in a pane.
 pub(super) fn style(editor: &Editor, pane: Pane) -> Style {
     let chosen = editor.shading(pane);
     let shading = match chosen {
-        Shading::Plain | Shading::SeeThrough => render::Shading::Plain,
-        Shading::Picture if editor.has_picture() => render::Shading::Picture,
-        Shading::Checker | Shading::Picture => render::Shading::Checker,
+        ShadingMode::Plain | ShadingMode::SeeThrough => render::FaceShading::Plain,
+        ShadingMode::Picture if editor.has_picture() => render::FaceShading::Picture,
+        ShadingMode::Checker | ShadingMode::Picture => render::FaceShading::Checker,
         // What was measured belongs to another embedding than the one that follows a drag.
-        _ if editor.plane.shows_preview() => render::Shading::Plain,
-        Shading::Move if editor.plane.moved_from(&editor.session).is_none() => render::Shading::Plain,
-        Shading::Angle | Shading::Area | Shading::Stretch | Shading::Move => render::Shading::Paint,
+        _ if editor.plane.shows_preview() => render::FaceShading::Plain,
+        ShadingMode::Move if editor.plane.moved_from(&editor.session).is_none() => render::FaceShading::Plain,
+        ShadingMode::Angle | ShadingMode::Area | ShadingMode::Stretch | ShadingMode::Move => render::FaceShading::Paint,
     };
     Style {
         shading,
-        wire_in_points: if editor.look.wireframe { 1.0 } else { 0.0 },
-        check_size: editor.look.check_size(),
-        face_opacity: if chosen == Shading::SeeThrough { THIN_FILL } else { 1.0 },
+        wire_in_points: if editor.pane_shading.wireframe { 1.0 } else { 0.0 },
+        check_size: editor.pane_shading.check_size(),
+        face_opacity: if chosen == ShadingMode::SeeThrough { THIN_FILL } else { 1.0 },
         ..Style::default()
     }
 }
@@ -239,7 +244,7 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
         match editor.tools.tool() {
             _ if editor.is_new_vertex(vertex) => {}
             Tool::Select | Tool::Seam => {}
-            Tool::Fix => PinKind::Gauge.mark(&painter, at, theme, Emphasis::Plain),
+            Tool::Fix => PinMark::Gauge.mark(&painter, at, theme, Emphasis::Plain),
             Tool::Constrain => pins::ghost(&painter, at, theme),
         }
     }

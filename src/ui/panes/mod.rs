@@ -34,5 +34,4 @@ pub(super) mod plane_pane;
 pub(super) mod seam;
 pub(super) mod vertex_menu;
 
-pub use constrain::{Half, Intent};
-pub use pins::PinKind;
+pub use pins::PinMark;

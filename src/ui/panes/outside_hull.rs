@@ -2,9 +2,11 @@
 
 use eframe::egui::{self, Pos2, Stroke, Vec2};
 
-use super::pane::MARKS_SHOWN;
-use crate::mesh::VertexId;
 use crate::ui::{Editor, Theme};
+use freebound_core::mesh::VertexId;
+
+/// Crossings and overwound vertices marked at most; the list in the panel has them all.
+pub(super) const MARKS_SHOWN: usize = 500;
 
 /// From the middle of a mark to its corners, points.
 const REACH: f32 = 6.0;

@@ -2,126 +2,28 @@
 //! overwound vertices magenta, concave polygons olive. Flipped faces are drawn with the faces.
 
 use eframe::egui::{self, Color32, CursorIcon, FontId, Pos2, Rect, Response, Role, Sense, Stroke, Vec2};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
-use super::{outside_hull, seam};
-use crate::mesh::VertexId;
+use super::outside_hull::{self, MARKS_SHOWN};
+use super::seam;
 use crate::session::Action;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
+use crate::ui::state::Viewport;
 use crate::ui::{Control, Editor, Pane, Request, Theme, Tool, theme_of};
-use crate::view::{OrbitCamera, PlaneCamera};
-
-/// A point of the screen as the camera takes it, relative to the pane.
-pub(super) fn in_pane(rect: Rect, position: Pos2) -> DVec2 {
-    DVec2::new((position.x - rect.min.x).into(), (position.y - rect.min.y).into())
-}
-
-/// A point of the pane on the screen.
-#[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
-fn on_screen(rect: Rect, point: DVec2) -> Pos2 {
-    rect.min + Vec2::new(point.x as f32, point.y as f32)
-}
-
-/// The pane's size as the camera takes it.
-pub(in crate::ui) fn size_of(rect: Rect) -> DVec2 {
-    DVec2::new(rect.width().into(), rect.height().into())
-}
-
-/// A part of the screen, and the camera that shows something in it.
-#[derive(Clone, Copy)]
-pub(in crate::ui) struct Viewport<C> {
-    pub(in crate::ui) rect: Rect,
-    pub(in crate::ui) camera: C,
-}
-
-impl Viewport<PlaneCamera> {
-    /// Where a point of the plane shows.
-    pub(in crate::ui) fn spot(&self, point: DVec2) -> Pos2 {
-        on_screen(self.rect, self.camera.pane_from_embedding(point, size_of(self.rect)))
-    }
-
-    /// The point of the plane at a place of the screen.
-    pub(super) fn point_at(&self, at: Pos2) -> DVec2 {
-        self.camera.embedding_from_pane(in_pane(self.rect, at), size_of(self.rect))
-    }
-}
-
-impl Viewport<OrbitCamera> {
-    /// Where a point of the world shows; none behind the eye.
-    pub(in crate::ui) fn spot(&self, position: DVec3) -> Option<Pos2> {
-        Some(on_screen(self.rect, self.camera.pane_from_world(position, size_of(self.rect))?))
-    }
-}
-
-/// Where a pane lies in the window, and its camera, once there is something to see.
-#[derive(Clone, Copy, Debug)]
-pub struct PaneView<C> {
-    /// Points; none where the pane does not show.
-    rect: Option<Rect>,
-    size: DVec2,
-    camera: Option<C>,
-}
-
-impl<C> Default for PaneView<C> {
-    fn default() -> Self {
-        Self { rect: None, size: DVec2::splat(400.0), camera: None }
-    }
-}
-
-impl<C: Copy> PaneView<C> {
-    /// The size of the pane when it showed last, points.
-    pub fn size(&self) -> DVec2 {
-        self.size
-    }
-
-    /// Takes in that the pane does not show, or not yet in this frame.
-    pub(in crate::ui) fn hide(&mut self) {
-        self.rect = None;
-    }
-
-    /// Takes in where the pane lies. Returns whether its size has changed.
-    pub(in crate::ui) fn set_rect(&mut self, rect: Rect) -> bool {
-        self.rect = Some(rect);
-        std::mem::replace(&mut self.size, size_of(rect)) != self.size
-    }
-
-    pub fn camera(&self) -> Option<C> {
-        self.camera
-    }
-
-    pub fn camera_mut(&mut self) -> Option<&mut C> {
-        self.camera.as_mut()
-    }
-
-    pub fn set_camera(&mut self, camera: C) {
-        self.camera = Some(camera);
-    }
-
-    pub(in crate::ui) fn forget_camera(&mut self) {
-        self.camera = None;
-    }
-
-    /// What the window shows.
-    pub(in crate::ui) fn viewport(&self) -> Option<Viewport<C>> {
-        Some(Viewport { rect: self.rect?, camera: self.camera? })
-    }
-
-    pub(in crate::ui) fn rect(&self) -> Option<Rect> {
-        self.rect
-    }
-}
+use crate::view::PlaneCamera;
+use freebound_core::mesh::VertexId;
 
 /// Words in the middle of a pane that has nothing to show.
 pub(super) fn empty_state(ui: &egui::Ui, rect: Rect, lines: &[&str]) {
     let theme = theme_of(ui);
     let width = (rect.width() - 32.0).max(40.0);
-    let looks = std::iter::once((15.0, theme.text)).chain(std::iter::repeat((13.0, theme.weak_text)));
+    let styles = std::iter::once((15.0, theme.text)).chain(std::iter::repeat((13.0, theme.weak_text)));
     let galley = |(line, (size, colour)): (&&str, (f32, Color32))| {
         let mut job = egui::text::LayoutJob::simple((*line).to_owned(), FontId::proportional(size), colour, width);
         job.halign = egui::Align::Center;
         ui.painter().layout_job(job)
     };
-    let galleys: Vec<_> = lines.iter().zip(looks).map(galley).collect();
+    let galleys: Vec<_> = lines.iter().zip(styles).map(galley).collect();
     let height: f32 = galleys.iter().map(|galley| galley.size().y + 6.0).sum();
     let mut at = rect.center() - Vec2::new(0.0, height / 2.0);
     for galley in galleys {
@@ -235,9 +137,6 @@ pub(super) fn wheel(ui: &egui::Ui) -> WheelMove {
         moved
     })
 }
-
-/// Crossings and overwound vertices marked at most; the list in the panel has them all.
-pub(super) const MARKS_SHOWN: usize = 500;
 
 /// Ends of the two boundary edges of each crossing that is marked.
 pub(super) fn crossings(editor: &Editor, scene: &MeshScene) -> Vec<[[VertexId; 2]; 2]> {

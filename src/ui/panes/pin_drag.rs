@@ -4,49 +4,19 @@
 use eframe::egui::{self, CursorIcon, Rect, Response, Role, Sense, Vec2};
 use glam::DVec2;
 
-use super::pane::Viewport;
 use super::pins::{self, Emphasis, PinShown};
 use super::vertex_menu::vertex_menu;
-use crate::geom::PictureFrame;
-use crate::mesh::VertexId;
 use crate::session::Action;
+use crate::ui::state::{PinDrag, Viewport};
 use crate::ui::{Control, Editor, Request, sentence, theme_of};
 use crate::view::PlaneCamera;
+use freebound_core::mesh::VertexId;
 
 /// Side of the square around a pin that can be grabbed, points.
 const GRAB_SIZE: f32 = 18.0;
 
 /// A pointer that has not moved for so long in the middle of a drag rests, seconds.
 const REST: f64 = 0.2;
-
-#[derive(Clone, Debug)]
-pub(in crate::ui) struct PinDrag {
-    vertex: VertexId,
-    /// From where the pointer grabbed it to its middle, points.
-    offset: Vec2,
-    /// The other pins that go with it, and how far from it they lie in the plane.
-    others: Vec<(VertexId, DVec2)>,
-    /// When the pointer moved last, seconds of the window's clock.
-    moved_at: f64,
-    /// Whether it was said since then that the pointer rests.
-    has_rested: bool,
-}
-
-impl PinDrag {
-    pub(in crate::ui) fn vertex(&self) -> VertexId {
-        self.vertex
-    }
-
-    /// What moves the pin to a place in the plane, and all that go with it.
-    fn moves_to(&self, place: DVec2, frame: PictureFrame) -> Action {
-        let (vertex, target) = (self.vertex, frame.uv_from_plane(place));
-        if self.others.is_empty() {
-            return Action::MovePin { vertex, target };
-        }
-        let others = self.others.iter().map(|&(other, offset)| (other, frame.uv_from_plane(place + offset)));
-        Action::MovePins(std::iter::once((vertex, target)).chain(others).collect())
-    }
-}
 
 /// Where a pin is, and what it is about.
 struct Grip {

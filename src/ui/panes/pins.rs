@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use eframe::egui::{self, Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 use glam::DVec2;
 
-use crate::mesh::VertexId;
-use crate::solver::Hold;
 use crate::ui::{Editor, Theme};
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::PinKind;
 
 /// Side of a pin's square, points.
 const SQUARE: f32 = 9.0;
@@ -29,20 +29,20 @@ const LEAST_LINE: f32 = 3.0;
 
 /// What kind a pin is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PinKind {
+pub enum PinMark {
     /// A gauge pin that the solver chose.
     Gauge,
     /// A pin of the user's, held in this way.
-    User(Hold),
+    User(PinKind),
 }
 
-impl PinKind {
+impl PinMark {
     /// The pin's name, for those who do not see it.
     pub fn name(self, vertex: VertexId) -> String {
         match self {
             Self::Gauge => format!("Gauge pin {vertex}"),
-            Self::User(Hold::Fixed) => format!("Pin {vertex}"),
-            Self::User(Hold::Hard | Hold::Weighted(_)) => format!("Constraint {vertex}"),
+            Self::User(PinKind::Fixed) => format!("Pin {vertex}"),
+            Self::User(PinKind::Hard | PinKind::Soft(_)) => format!("Constraint {vertex}"),
         }
     }
 
@@ -57,16 +57,16 @@ impl PinKind {
                 let edge = Stroke::new(if more > 0.0 { 2.5 } else { 1.5 }, theme.pin);
                 painter.rect_stroke(square, 1.0, edge, egui::StrokeKind::Inside);
             }
-            Self::User(Hold::Fixed) => {
+            Self::User(PinKind::Fixed) => {
                 let square = Rect::from_center_size(at, Vec2::splat(SQUARE + more));
                 painter.rect_filled(square, 1.0, theme.pin);
                 painter.rect_stroke(square, 1.0, Stroke::new(1.0, Color32::WHITE), egui::StrokeKind::Outside);
             }
-            Self::User(Hold::Hard) => {
+            Self::User(PinKind::Hard) => {
                 let edge = Stroke::new(1.0, Color32::WHITE);
                 painter.add(Shape::convex_polygon(diamond(at, DIAMOND + more), theme.constraint, edge));
             }
-            Self::User(Hold::Weighted(weight)) => {
+            Self::User(PinKind::Soft(weight)) => {
                 let corners = diamond(at, half_height(weight) + more);
                 let under = Stroke::new(4.0, theme.background.gamma_multiply(0.8));
                 painter.add(Shape::closed_line(corners.clone(), under));
@@ -83,7 +83,7 @@ pub struct PinShown {
     pub vertex: VertexId,
     /// Where it is to be, in the plane.
     pub target: DVec2,
-    pub kind: PinKind,
+    pub kind: PinMark,
 }
 
 impl Editor {
@@ -94,19 +94,21 @@ impl Editor {
         // Marks show what the solver does: a treatment may weigh what was asked for exactly.
         let users = if uses_pins { document.settings.held(&document.pins()) } else { BTreeMap::new() };
         let outcome = self.plane.scene().map(|scene| &scene.outcome).filter(|outcome| {
-            outcome.step.solution.gauge_completed && outcome.problem.settings.method.uses_pins() && users.len() < 2
+            outcome.step.candidate.solution.gauge_completed
+                && outcome.problem.settings.method.uses_pins()
+                && users.len() < 2
         });
-        let gauge = outcome.into_iter().flat_map(|outcome| &outcome.step.solution.pins);
+        let gauge = outcome.into_iter().flat_map(|outcome| &outcome.step.candidate.solution.pins);
         // They go along with a sheet that is on its way.
         let way = self.plane.result().filter(|_| self.plane.is_easing());
         let place = |vertex, at| way.and_then(|way| way.position_of(vertex)).unwrap_or(at);
         let gauge = gauge.filter(|(vertex, _)| !users.contains_key(vertex)).map(|(&vertex, pin)| PinShown {
             vertex,
             target: place(vertex, pin.target),
-            kind: PinKind::Gauge,
+            kind: PinMark::Gauge,
         });
         let own =
-            users.iter().map(|(&vertex, pin)| PinShown { vertex, target: pin.target, kind: PinKind::User(pin.hold) });
+            users.iter().map(|(&vertex, pin)| PinShown { vertex, target: pin.target, kind: PinMark::User(pin.kind) });
         own.chain(gauge).collect()
     }
 
@@ -170,16 +172,17 @@ fn diamond(at: Pos2, half: f32) -> Vec<Pos2> {
 }
 
 /// What joins a vertex and its target where they differ: a line, and for a constraint that pulls an arrow.
-pub(in crate::ui) fn residual(painter: &Painter, [vertex, target]: [Pos2; 2], theme: &Theme, kind: PinKind) {
+pub(in crate::ui) fn residual(painter: &Painter, [vertex, target]: [Pos2; 2], theme: &Theme, kind: PinMark) {
     let way = target - vertex;
     if !(LEAST_LINE..1e5).contains(&way.length()) {
         return;
     }
-    let colour = if matches!(kind, PinKind::User(Hold::Fixed) | PinKind::Gauge) { theme.pin } else { theme.constraint };
+    let colour =
+        if matches!(kind, PinMark::User(PinKind::Fixed) | PinMark::Gauge) { theme.pin } else { theme.constraint };
     let stroke = Stroke::new(1.5, colour.gamma_multiply(0.75));
     painter.circle_filled(vertex, 2.5, colour);
     painter.line_segment([vertex, target], stroke);
-    if matches!(kind, PinKind::User(Hold::Weighted(_))) {
+    if matches!(kind, PinMark::User(PinKind::Soft(_))) {
         let along = way.normalized();
         let wing = |turn: f32| target + (egui::emath::Rot2::from_angle(turn) * along) * -8.0;
         painter.line_segment([target, wing(0.45)], stroke);

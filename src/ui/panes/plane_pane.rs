@@ -7,16 +7,17 @@ use glam::DVec2;
 
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, picture_layer, seam_line, style};
-use super::pane::{self, Viewport};
+use super::pane;
 use super::{bars, constrain, header, inset, legend, magnifier, pin_drag, pins, seam, vertex_menu};
-use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
-use crate::session::Surface;
+use crate::ui::editor::picture_box::picture_box;
 use crate::ui::editor::scene::PlaneScene;
-use crate::ui::editor::views::picture_box;
 use crate::ui::panels::equation_table;
-use crate::ui::{Control, Editor, HullScene, Pane, Request, Stage, Theme, Tool, theme_of};
+use crate::ui::state::{Viewport, in_pane, size_of};
+use crate::ui::{Control, Editor, HullScene, HullStage, Pane, Request, Theme, Tool, theme_of};
 use crate::view::PlaneCamera;
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Surface;
 
 /// Marks drawn at most for a large selection.
 const MARKS_SHOWN: usize = 2000;
@@ -41,9 +42,9 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     let is_covered = |at: Pos2| magnifier.as_ref().is_some_and(|magnifier| magnifier.rect.contains(at));
     let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|at| rect.contains(*at) && !is_covered(*at));
     if response.hovered() || response.contains_pointer() {
-        look_under(ui, view, editor, &plane, pointer);
+        pick(ui, view, editor, &plane, pointer);
     }
-    if editor.host.has_gpu() {
+    if editor.gpu.has_gpu() {
         let frame = frame(editor, &plane, camera, theme);
         ui.painter().add(render::plane_pane(PaneId("plane"), rect, frame));
     }
@@ -72,27 +73,21 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
 }
 
 /// Takes in what is under the pointer: a pin by its mark, which lies over the vertices, else the nearest vertex.
-fn look_under(
-    ui: &egui::Ui,
-    view: Viewport<PlaneCamera>,
-    editor: &mut Editor,
-    plane: &PlaneScene,
-    pointer: Option<Pos2>,
-) {
+fn pick(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut Editor, plane: &PlaneScene, pointer: Option<Pos2>) {
     let Viewport { rect, camera } = view;
     let pointer = pointer.filter(|_| editor.is_of_session(&plane.mesh));
     let grip = pointer.filter(|_| !plane.is_stage()).and_then(|at| pin_drag::pin_at(editor, view, at));
-    let nearest = |at| plane.picker.nearest_vertex(&camera, pane::size_of(rect), pane::in_pane(rect, at));
+    let nearest = |at| plane.picker.nearest_vertex(&camera, size_of(rect), in_pane(rect, at));
     let pick = pointer.and_then(nearest);
     editor.pointer.over_plane(pointer.map(|at| view.point_at(at)), grip.or(pick.map(|pick| pick.vertex)));
     editor.aim(ui, Pane::Plane, grip);
     if editor.tools.tool() == Tool::Seam {
-        editor.look_for_seam_in_plane(&plane.mesh);
+        editor.pick_seam_vertex_in_plane(&plane.mesh);
     }
 }
 
 fn waiting_words(editor: &Editor) -> Vec<&'static str> {
-    match editor.session.model().map(|model| &model.surface) {
+    match editor.session.model().map(|model| &model.prepared.surface) {
         None => vec!["Its embedding will show here"],
         Some(Surface::Faulty(..)) => {
             vec![
@@ -116,7 +111,7 @@ pub(super) fn navigate(ui: &egui::Ui, response: &Response, camera: &mut PlaneCam
     if let Some(pointer) = pointer.filter(|_| !inset::has_wheel(ui)) {
         let wheel = pane::wheel(ui);
         if (wheel.zoom - 1.0).abs() > f64::EPSILON {
-            camera.zoom_at(pane::in_pane(response.rect, pointer), wheel.zoom, pane::size_of(response.rect));
+            camera.zoom_at(in_pane(response.rect, pointer), wheel.zoom, size_of(response.rect));
         }
         camera.pan(wheel.pan);
     }
@@ -136,11 +131,11 @@ pub(super) fn frame(editor: &Editor, plane: &PlaneScene, camera: PlaneCamera, th
     let mut lines = vec![boundary_line(&plane.mesh, theme), seam_line(&plane.mesh.seams, theme)];
     lines.extend(hull.into_iter().flat_map(|scene| scene.lines(theme)));
     let mut style = style(editor, Pane::Plane);
-    if plane.is_stage() && style.shading == render::Shading::Paint {
-        style.shading = render::Shading::Plain;
+    if plane.is_stage() && style.shading == render::FaceShading::Paint {
+        style.shading = render::FaceShading::Plain;
     }
     let of_stage = hull.and_then(HullScene::paint).or(editor.plane.preview_paint());
-    let paint = of_stage.or(editor.look.paint(Pane::Plane).map(|paint| &paint.faces));
+    let paint = of_stage.or(editor.pane_shading.paint(Pane::Plane).map(|paint| &paint.faces));
     PlaneFrame {
         mesh: Arc::clone(&plane.mesh.arrays),
         plane: Some(Arc::clone(&plane.arrays)),
@@ -200,7 +195,7 @@ fn stage_selector(ui: &mut egui::Ui, rect: Rect, editor: &Editor, requests: &mut
         ui.spacing_mut().item_spacing = egui::vec2(2.0, 4.0);
         if scene.has_stages {
             ui.horizontal_wrapped(|ui| {
-                for stage in Stage::ALL {
+                for stage in HullStage::ALL {
                     let [title, about] = stage.words();
                     let label = ui.selectable_label(editor.plane.stage() == stage, title).on_hover_text(about);
                     label.asks(Request::SetStage(stage), requests);

@@ -2,16 +2,19 @@
 
 use eframe::egui::{self, Pos2, Shape, Stroke, WidgetInfo};
 
-use super::pane::{self, Viewport};
-use crate::mesh::VertexId;
+use super::pane;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
 use crate::ui::editor::seam_intent::SeamIntent;
-use crate::ui::editor::seam_tool::{CREASES, Edge};
+use crate::ui::editor::seam_tool::CREASES;
+use crate::ui::state::{Edge, Viewport};
 use crate::ui::theme::on_screen;
 use crate::ui::timeline::lasting_menu;
 use crate::ui::typed::Typed;
-use crate::ui::{Control, Editor, Offer, Purpose, Request, SeamRule, Theme, Tool, counted, theme_of, tip_with_keys};
+use crate::ui::{
+    Control, Editor, FileDialogKind, Offer, Request, SeamRule, Theme, Tool, counted, theme_of, tip_with_keys,
+};
 use crate::view::{OrbitCamera, PlaneCamera};
+use freebound_core::mesh::VertexId;
 
 /// Opacity of what the mesh hides.
 const HIDDEN: f32 = 0.4;
@@ -24,7 +27,7 @@ const CLOSE_WIDTH: f32 = 3.0;
 
 impl Editor {
     /// Takes in the vertex of the file that is under the pointer in the mesh's pane: of all charts.
-    pub(super) fn look_for_seam(&mut self, scene: &MeshScene, camera: &OrbitCamera, pointer: glam::DVec2) {
+    pub(super) fn pick_seam_vertex(&mut self, scene: &MeshScene, camera: &OrbitCamera, pointer: glam::DVec2) {
         let size = self.mesh.pane.size();
         let of_chart = self.pointer.vertex().and_then(|vertex| scene.in_file.vertex(vertex));
         let found = self.tools.seam.ground().map(|ground| ground.vertex_at(camera, size, pointer));
@@ -38,7 +41,7 @@ impl Editor {
     }
 
     /// The same in the embedding's pane, where the vertex on the screen is known.
-    pub(super) fn look_for_seam_in_plane(&mut self, scene: &MeshScene) {
+    pub(super) fn pick_seam_vertex_in_plane(&mut self, scene: &MeshScene) {
         let vertex = self.pointer.vertex().and_then(|vertex| scene.in_file.vertex(vertex));
         self.tools.seam.set_under(vertex);
         self.foresee_seam();
@@ -88,11 +91,11 @@ fn change(editor: &Editor) -> (&[Edge], bool) {
 }
 
 /// A side of a path, as it is seen.
-fn line(painter: &egui::Painter, ends: [Pos2; 2], theme: &Theme, look: Look) {
+fn line(painter: &egui::Painter, ends: [Pos2; 2], theme: &Theme, style: PathStyle) {
     let seam = on_screen(theme.seam);
-    let strong = if look.closes { theme.text } else { seam };
-    let colour = if look.is_seen { strong } else { strong.gamma_multiply(HIDDEN) };
-    if look.closes {
+    let strong = if style.closes { theme.text } else { seam };
+    let colour = if style.is_seen { strong } else { strong.gamma_multiply(HIDDEN) };
+    if style.closes {
         painter.add(Shape::dashed_line(&ends, Stroke::new(CLOSE_WIDTH, colour), 4.0, 3.0));
     } else {
         painter.line_segment(ends, Stroke::new(CUT_WIDTH, colour));
@@ -100,7 +103,7 @@ fn line(painter: &egui::Painter, ends: [Pos2; 2], theme: &Theme, look: Look) {
 }
 
 #[derive(Clone, Copy)]
-struct Look {
+struct PathStyle {
     is_seen: bool,
     closes: bool,
 }
@@ -110,14 +113,14 @@ pub(super) fn over_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &mut
     if editor.tools.tool() != Tool::Seam {
         return;
     }
-    editor.tools.seam.look_from(&view.camera);
+    editor.tools.seam.update_visibility(&view.camera);
     let Some(ground) = editor.tools.seam.ground() else { return };
     let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
     let spot = |vertex: VertexId| view.spot(ground.place(vertex)?);
     let (path, closes) = change(editor);
     for (place, edge) in path.iter().enumerate() {
         if let [Some(a), Some(b)] = edge.map(spot) {
-            line(&painter, [a, b], theme, Look { is_seen: editor.tools.seam.is_seen(place), closes });
+            line(&painter, [a, b], theme, PathStyle { is_seen: editor.tools.seam.is_seen(place), closes });
         }
     }
     if let Some(at) = editor.tools.seam.last().and_then(spot) {
@@ -143,7 +146,7 @@ pub(super) fn over_plane(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Ed
         };
         for ends in scene.in_file.copies(a).flat_map(joined) {
             if let [Some(a), Some(b)] = ends.map(spot) {
-                line(&painter, [a, b], theme, Look { is_seen: true, closes });
+                line(&painter, [a, b], theme, PathStyle { is_seen: true, closes });
             }
         }
     }
@@ -211,10 +214,13 @@ fn rules(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         groups.show(ui, requests);
         ui.separator();
         let tip = "Cut along the edges of a file, too: the numbers of two vertices a line, from 0";
-        Offer::new("Import seams…", tip, Request::Ask(Purpose::ImportSeams)).show(ui, requests);
+        Offer::new("Import seams…", tip, Request::Ask(FileDialogKind::ImportSeams)).show(ui, requests);
         let has_seams = !editor.session.seams().edges().is_empty();
-        let export =
-            Offer::new("Export seams…", "Write the edges of the seams to a file", Request::Ask(Purpose::ExportSeams));
+        let export = Offer::new(
+            "Export seams…",
+            "Write the edges of the seams to a file",
+            Request::Ask(FileDialogKind::ExportSeams),
+        );
         export.when(has_seams).show(ui, requests);
     });
     menu.on_hover_text("Cut along edges that follow a rule, all at once");

@@ -2,10 +2,10 @@
 
 use eframe::egui::{self, Response};
 
-use crate::mesh::VertexId;
 use crate::session::Action;
-use crate::solver::Hold;
 use crate::ui::{Control, Editor, Request, Tab};
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::PinKind;
 
 /// Weights that menus offer.
 const WEIGHTS: [f64; 3] = [0.1, 1.0, 10.0];
@@ -29,7 +29,7 @@ pub(in crate::ui) fn vertex_menu(ui: &mut egui::Ui, editor: &Editor, vertex: Ver
             ui.weak("New: it belongs to this embedding alone");
         }
         Some(target) => {
-            hold_entries(ui, vertex, target.hold, requests);
+            hold_entries(ui, vertex, target.kind, requests);
             entry(ui, "Choose another place", [Request::TakeVertex(vertex)], requests);
             entry(ui, "Free", [Action::Unpin(vec![vertex]).into()], requests);
         }
@@ -53,12 +53,12 @@ fn entry<const N: usize>(ui: &mut egui::Ui, words: &str, asks: [Request; N], req
 }
 
 /// How a pin can be held, as entries of a menu.
-pub(in crate::ui) fn hold_entries(ui: &mut egui::Ui, vertex: VertexId, now: Hold, requests: &mut Vec<Request>) {
-    let exact = if now == Hold::Fixed { Hold::Fixed } else { Hold::Hard };
-    let weights = WEIGHTS.map(|weight| (format!("Weight {weight}"), Hold::Weighted(weight)));
-    for (words, hold) in std::iter::once(("Exact".to_owned(), exact)).chain(weights) {
-        let entry = ui.selectable_label(hold == now, words);
-        if entry.asks(Action::SetHold { vertices: vec![vertex], hold }, requests) {
+pub(in crate::ui) fn hold_entries(ui: &mut egui::Ui, vertex: VertexId, now: PinKind, requests: &mut Vec<Request>) {
+    let exact = if now == PinKind::Fixed { PinKind::Fixed } else { PinKind::Hard };
+    let weights = WEIGHTS.map(|weight| (format!("Weight {weight}"), PinKind::Soft(weight)));
+    for (words, kind) in std::iter::once(("Exact".to_owned(), exact)).chain(weights) {
+        let entry = ui.selectable_label(kind == now, words);
+        if entry.asks(Action::SetPinKind { vertices: vec![vertex], kind }, requests) {
             ui.close();
         }
     }

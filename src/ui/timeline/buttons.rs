@@ -4,8 +4,8 @@ use eframe::egui;
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, Color32, PopupCloseBehavior, Rect, RichText, Role, Sense, Shape, Stroke, Vec2};
 
-use super::Room;
-use crate::session::{Action, Status, Stop, StopConditions};
+use super::room::Room;
+use crate::session::{Action, RunStop, Status, StopConditions};
 use crate::ui::{Control, Editor, Request, StepTarget, theme_of, tip_with_keys};
 
 /// Side of a button with a drawing, points.
@@ -117,7 +117,7 @@ pub(super) fn run_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec
         ("Run", session.can_run(), "Go on until something stops it")
     };
     let tip = tip_with_keys(ui, tip, &Request::RunOrPause);
-    let at_rest = session.stopped().map_or("", Stop::words);
+    let at_rest = session.stopped().map_or("", RunStop::words);
     let response = ui.add_enabled(enabled, Button::new(words).min_size(Vec2::new(50.0, 0.0)));
     let response = response.on_disabled_hover_text(format!("At rest: {at_rest}. A single step goes on all the same."));
     response.on_hover_text(tip).asks(Request::RunOrPause, requests);

@@ -1,15 +1,15 @@
-//! The steps in a row: number, rung, and how good each is.
+//! The steps in a row: number, stage, and how good each is.
 
 use eframe::egui;
 use egui::{Align2, Color32, FontId, Modifiers, Rangef, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, WidgetInfo};
 
-use super::{ROW_HEIGHT, Room};
-use crate::io::StepReport;
-use crate::session::{Action, Standing, Timeline};
-use crate::solver::Progress;
+use super::room::Room;
+use crate::session::{Action, StepDistortion, Timeline};
 use crate::ui::icons::{self, Sign};
-use crate::ui::panels::status::short;
-use crate::ui::{Control, Editor, Request, Theme, counted, number, pairs, remark, sentence, theme_of};
+use crate::ui::state::ROW_HEIGHT;
+use crate::ui::{Control, Editor, Request, Theme, counted, number, pairs, remark, sentence, short, theme_of};
+use freebound_core::problem::Progress;
+use freebound_io::StepReport;
 
 /// Height of a step, points.
 const CHIP: f32 = 22.0;
@@ -30,8 +30,8 @@ const LETTERS: f32 = 12.0;
 struct Chip<'a> {
     index: usize,
     record: &'a StepReport,
-    standing: &'a Standing,
-    /// Its number, and its rung where that is another one than before and there is room.
+    standing: &'a StepDistortion,
+    /// Its number, and its stage where that is another one than before and there is room.
     label: String,
     is_shown: bool,
     is_compared: bool,
@@ -42,13 +42,13 @@ struct Chip<'a> {
 impl<'a> Chip<'a> {
     fn new(timeline: &'a Timeline, index: usize, room: Room) -> Self {
         let records = timeline.records();
-        let rung = records[index].rung;
-        let is_new = room != Room::Tight && (index == 0 || records[index - 1].rung != rung);
+        let stage = records[index].stage;
+        let is_new = room != Room::Tight && (index == 0 || records[index - 1].stage != stage);
         Self {
             index,
             record: &records[index],
             standing: &timeline.standings()[index],
-            label: if is_new { format!("{index} {}", rung.as_short_rung()) } else { index.to_string() },
+            label: if is_new { format!("{index} {}", stage.short_words()) } else { index.to_string() },
             is_shown: timeline.shown() == Some(index),
             is_compared: timeline.compared() == Some(index),
             is_kept: timeline.outcome(index).is_some(),
@@ -119,7 +119,7 @@ impl<'a> Chip<'a> {
         painter.rect_stroke(rect, CHIP / 2.0, outline, StrokeKind::Inside);
     }
 
-    /// Number, rung, and the score.
+    /// Number, stage, and the score.
     fn paint_words(&self, painter: &egui::Painter, rect: Rect, theme: &Theme) {
         let font = FontId::proportional(LETTERS);
         let at = rect.left_center() + egui::vec2(PADDING, 0.0);
@@ -166,7 +166,7 @@ impl<'a> Chip<'a> {
 }
 
 fn title_of(record: &StepReport) -> String {
-    format!("Step {}: {}", record.index, record.rung.as_short_rung())
+    format!("Step {}: {}", record.index, record.stage.short_words())
 }
 
 pub(super) fn chips(ui: &mut egui::Ui, editor: &mut Editor, room: Room, requests: &mut Vec<Request>) {
@@ -228,7 +228,7 @@ pub(in crate::ui) fn residual_words(residual: Option<f64>) -> String {
     residual.map_or_else(|| "–".to_owned(), |residual| format!("{residual:.1e}"))
 }
 
-fn numbers_of(record: &StepReport, standing: &Standing) -> Vec<(&'static str, String)> {
+fn numbers_of(record: &StepReport, standing: &StepDistortion) -> Vec<(&'static str, String)> {
     let mut numbers = vec![
         ("Flipped faces", record.flipped_faces.to_string()),
         ("Concave polygons", record.concave_polygons.to_string()),

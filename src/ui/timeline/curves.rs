@@ -5,13 +5,10 @@ use egui_plot::{HPlacement, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotRe
 
 use super::buttons::lasting_menu;
 use super::marks::Marks;
-use crate::io::StepReport;
-use crate::session::{Action, Standing, Timeline};
-use crate::ui::panels::status::short;
-use crate::ui::{Control, Editor, Request, Theme, remark, theme_of};
-
-/// How many curves there are.
-pub(super) const CURVE_COUNT: usize = 11;
+use crate::session::{Action, StepDistortion, Timeline};
+use crate::ui::state::CURVE_COUNT;
+use crate::ui::{Control, Editor, Request, Theme, remark, short, theme_of};
+use freebound_io::StepReport;
 
 /// A curve is at least so wide, points.
 const LEAST_WIDTH: f32 = 118.0;
@@ -43,7 +40,7 @@ pub(super) enum CurveScale {
     Powers,
 }
 
-type ValueOf = fn(&StepReport, &Standing) -> Option<f64>;
+type ValueOf = fn(&StepReport, &StepDistortion) -> Option<f64>;
 type ColourOf = fn(&Theme) -> Color32;
 
 const fn count(title: &'static str, about: &'static str, value: ValueOf, colour: ColourOf) -> Curve {

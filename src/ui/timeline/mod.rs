@@ -5,79 +5,29 @@
 //! | `buttons.rs` | through the steps that there are, on to new ones, and where a run comes to rest |
 //! | `chips.rs` | the steps in a row |
 //! | `curves.rs` | their numbers as curves |
+//! | `room.rs` | how much there is to say in a row |
 //! | `marks.rs` | the curves' ends and powers of ten |
 
 mod buttons;
 pub(super) mod chips;
 mod curves;
 mod marks;
+mod room;
 
 use eframe::egui::{self, Align, Layout, RichText};
 
-use crate::session::{Status, Stop};
-use crate::solver::Ending;
+use crate::session::{RunStop, Status};
+use crate::ui::state::ROW_HEIGHT;
 use crate::ui::{Editor, Request, remark, theme_of};
 pub(super) use buttons::lasting_menu;
 use buttons::{fold_button, playback_buttons, run_buttons, stop_menu};
 use chips::chips;
-use curves::{CURVE_COUNT, curves, curves_menu};
-
-/// Height of the strip's buttons and steps, points.
-const ROW_HEIGHT: f32 = 34.0;
-
-/// Height of the whole strip, points.
-const STRIP_HEIGHT: f32 = 150.0;
+use curves::{curves, curves_menu};
+use freebound_core::flatten::Ending;
+use room::Room;
 
 /// In a window lower than this the curves do not show until they are asked for, points.
 pub(super) const CURVES_FROM: f32 = 560.0;
-
-/// Width of the strip below which it says less in words, points.
-const ROOMY: f32 = 720.0;
-
-/// Width of the strip below which it has fewer buttons, and steps by their numbers alone, points.
-const TIGHT: f32 = 440.0;
-
-/// How much there is to say in one row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Room {
-    Ample,
-    Scarce,
-    Tight,
-}
-
-impl Room {
-    fn of(width: f32) -> Self {
-        match width {
-            _ if width >= ROOMY => Self::Ample,
-            _ if width >= TIGHT => Self::Scarce,
-            _ => Self::Tight,
-        }
-    }
-}
-
-/// What the window knows of its timeline, beyond the steps themselves.
-#[derive(Clone, Debug, Default)]
-pub struct TimelineView {
-    /// Whether the curves show; where nobody said, a low window does without.
-    pub curves_wanted: Option<bool>,
-    pub window_is_high: bool,
-    /// The curves that a person has put away, by place.
-    pub curves_hidden: [bool; CURVE_COUNT],
-    /// When the step on the screen was put there, while the steps are played; seconds of the window's clock.
-    pub playing_since: Option<f64>,
-    /// The step that was scrolled to last, and in how wide a row, points.
-    scrolled_to: Option<(usize, f32)>,
-}
-
-impl TimelineView {
-    pub fn curves_shown(&self) -> bool {
-        self.curves_wanted.unwrap_or(self.window_is_high)
-    }
-
-    pub(super) fn height(&self) -> f32 {
-        if self.curves_shown() { STRIP_HEIGHT } else { ROW_HEIGHT }
-    }
-}
 
 pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let room = Room::of(ui.available_width());
@@ -96,7 +46,7 @@ pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut
             stop_menu(ui, editor, room, requests);
             // Why the run is at rest, where the verdict does not say it.
             let stop =
-                editor.session.stopped().filter(|stop| !matches!(stop, Stop::Ended(Ending::Planar | Ending::Done)));
+                editor.session.stopped().filter(|stop| !matches!(stop, RunStop::Ended(Ending::Planar | Ending::Done)));
             if let Some(stop) = stop.filter(|_| room == Room::Ample) {
                 remark(ui, stop.words());
             }
@@ -124,7 +74,7 @@ fn notice(editor: &Editor) -> Option<&'static str> {
         (1, Status::Held) => PRESS_SPACE,
         (1, Status::Preview(_)) => "The other steps follow when the gesture ends.",
         (1, Status::Solving) => "The first step is there, the others follow.",
-        (1, _) if session.stopped() == Some(Stop::Ended(Ending::Planar)) => {
+        (1, _) if session.stopped() == Some(RunStop::Ended(Ending::Planar)) => {
             "Planar at the first step: nothing to repair. Space takes one more."
         }
         (1, _) => "This method is a single solve. Space goes on with a mean-value iteration.",

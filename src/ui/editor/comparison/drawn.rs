@@ -4,19 +4,20 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::mesh::DiskMesh;
-use crate::session::{Contender, Failure, Outcome, Wake};
-use crate::ui::editor::making::Making;
+use crate::session::{Contender, JobFailure, Wake};
+use crate::ui::editor::async_scene::AsyncScene;
 use crate::ui::editor::paint::Legend;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
 use crate::view::{CellFrame, CellFrames, FacePaint, PlaneCamera, Quantity};
+use freebound_core::mesh::DiskMesh;
+use freebound_core::pipeline::Outcome;
 
 /// What is drawn of the methods.
 #[derive(Debug)]
 pub(super) struct Drawn {
     scenes: Vec<Arc<PlaneScene>>,
     /// By the place of an outcome in memory.
-    job: Making<usize, PlaneScene>,
+    job: AsyncScene<usize, PlaneScene>,
     paints: Option<Paints>,
 }
 
@@ -59,14 +60,14 @@ pub(super) fn outcome_of(contender: &Contender) -> Option<&Arc<Outcome>> {
 
 impl Drawn {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { scenes: Vec::new(), job: Making::new("compared scene", wake), paints: None }
+        Self { scenes: Vec::new(), job: AsyncScene::new("compared scene", wake), paints: None }
     }
 
     pub(super) fn is_making(&self) -> bool {
         self.job.is_busy()
     }
 
-    pub(super) fn take_failure(&mut self) -> Option<Failure> {
+    pub(super) fn take_failure(&mut self) -> Option<JobFailure> {
         self.job.take_failure()
     }
 
@@ -144,7 +145,7 @@ impl Sight {
 
     /// The camera of all cells, which are so large.
     pub(super) fn camera_in(&mut self, cell: DVec2) -> Option<PlaneCamera> {
-        self.look_in(cell);
+        self.frame_in(cell);
         self.camera
     }
 
@@ -176,7 +177,7 @@ impl Sight {
     }
 
     /// Chooses a camera for cells of a size, where nobody has chosen another.
-    fn look_in(&mut self, cell: DVec2) {
+    fn frame_in(&mut self, cell: DVec2) {
         let has_other_size = std::mem::replace(&mut self.size, cell) != cell;
         let Some((_, frames)) = self.frames.as_ref().filter(|(_, frames)| !frames.frames.is_empty()) else { return };
         if self.camera.is_none() || (has_other_size && self.is_framed()) {

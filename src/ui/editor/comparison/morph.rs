@@ -5,43 +5,25 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::geom::Bounds;
-use crate::io::figure::Window;
-use crate::mesh::DiskMesh;
-use crate::session::{Action, Compared, MorphState, MorphTour};
-use crate::solver::{Embedding, Variant, distortion};
-use crate::ui::Editor;
+use crate::session::MorphTour;
 use crate::ui::editor::paint::Legend;
 use crate::ui::editor::scene::MeshScene;
 use crate::view::{FacePaint, MorphSight, PlaneArrays, PlaneCamera, Quantity, Range, UnitPlane};
-
-/// How long it is played, seconds.
-const SECONDS: f64 = 3.0;
-
-/// What is asked of the morph.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum MorphRequest {
-    /// Shows it in the place of the cells, or the cells again.
-    Toggle,
-    /// Begins it with the map of a method.
-    From(Variant),
-    /// Ends it with the map of a method.
-    To(Variant),
-    /// Shows it at a share of its time, 0 to 1.
-    Seek(f64),
-    /// Plays it from where it stands, or from the beginning where it stands at its end; or stops playing.
-    Play,
-}
+use freebound_core::geom::Bounds;
+use freebound_core::mesh::DiskMesh;
+use freebound_core::problem::Embedding;
+use freebound_core::verify::distortion;
+use freebound_io::figure::Window;
 
 /// The morph as the window has it.
 #[derive(Debug, Default)]
 pub struct MorphView {
-    is_shown: bool,
+    pub(super) is_shown: bool,
     /// Of its time, 0 to 1.
-    share: f64,
+    pub(super) share: f64,
     /// When it would have been at its beginning, while it is played; seconds of the window's clock.
-    playing_since: Option<f64>,
-    drawn: Option<DrawnTour>,
+    pub(super) playing_since: Option<f64>,
+    pub(super) drawn: Option<DrawnTour>,
     camera: Option<PlaneCamera>,
     /// The camera as the window chose it, and for what size of the view.
     framed: Option<(PlaneCamera, DVec2)>,
@@ -52,7 +34,7 @@ type FrameKey = (usize, Option<Quantity>);
 
 /// A tour as it is drawn: what all of its frames have in common, found once, and the frame that was drawn last.
 #[derive(Debug)]
-struct DrawnTour {
+pub(super) struct DrawnTour {
     tour: Arc<MorphTour>,
     sight: MorphSight,
     /// The range of the quantity that was asked for last.
@@ -133,6 +115,11 @@ impl MorphFrame {
 }
 
 impl MorphView {
+    /// A morph in the place of the cells, at its beginning.
+    pub(super) fn shown() -> Self {
+        Self { is_shown: true, ..Self::default() }
+    }
+
     /// Whether it stands in the place of the cells.
     pub fn is_shown(&self) -> bool {
         self.is_shown
@@ -194,98 +181,5 @@ impl MorphView {
     /// Shows all of it.
     pub(super) fn frame(&mut self) {
         self.camera = None;
-    }
-}
-
-impl Editor {
-    /// Carries out what is asked of the morph.
-    pub(in crate::ui::editor) fn morph(&mut self, request: MorphRequest) {
-        let now = self.host.now();
-        let between = self.session.morph_between();
-        let view = &mut self.plane.comparison.morph;
-        match request {
-            MorphRequest::Toggle if view.is_shown => self.close_morph(),
-            MorphRequest::Toggle => {
-                *view = MorphView { is_shown: true, ..MorphView::default() };
-                self.go_on_with_morph();
-            }
-            MorphRequest::Seek(share) => (view.share, view.playing_since) = (share.clamp(0.0, 1.0), None),
-            MorphRequest::Play if view.is_playing() => view.playing_since = None,
-            MorphRequest::Play => {
-                let from = if view.share >= 1.0 { 0.0 } else { view.share };
-                (view.share, view.playing_since) = (from, Some(now - from * SECONDS));
-            }
-            MorphRequest::From(variant) => self.morph_between(between, [Some(variant), None]),
-            MorphRequest::To(variant) => self.morph_between(between, [None, Some(variant)]),
-        }
-    }
-
-    /// Takes another method for one end. One that is the other end already changes places with it.
-    fn morph_between(&mut self, before: Option<[Variant; 2]>, chosen: [Option<Variant>; 2]) {
-        let Some([from, to]) = before else { return };
-        let between = match chosen {
-            [Some(new), _] => [new, if new == to { from } else { to }],
-            [None, Some(new)] => [if new == from { to } else { from }, new],
-            [None, None] => return,
-        };
-        let view = &mut self.plane.comparison.morph;
-        (view.share, view.playing_since) = (0.0, None);
-        self.session.handle(Action::Morph(Some(between)));
-    }
-
-    /// Shows the cells again, and wants no morph any more.
-    pub(super) fn close_morph(&mut self) {
-        self.plane.comparison.morph = MorphView::default();
-        self.session.handle(Action::Morph(None));
-    }
-
-    /// Leaves the morph. Returns whether it showed.
-    pub(in crate::ui::editor) fn leave_morph(&mut self) -> bool {
-        let is_shown = self.plane.comparison.morph.is_shown;
-        if is_shown {
-            self.close_morph();
-        }
-        is_shown
-    }
-
-    /// Chooses its ends where none are chosen or one takes no part any more, and plays it on. Call once per frame.
-    pub(in crate::ui::editor) fn go_on_with_morph(&mut self) {
-        if !self.plane.comparison.morph.is_shown {
-            return;
-        }
-        let takes_part = |variant: &Variant| self.session.contenders().iter().any(|of| of.variant() == *variant);
-        let is_chosen = self.session.morph_between().is_some_and(|between| between.iter().all(takes_part));
-        if !is_chosen && !self.session.is_comparing() {
-            let between = self.usual_morph();
-            if self.session.morph_between() != between {
-                self.session.handle(Action::Morph(between));
-            }
-        }
-        let is_there = matches!(self.session.morph(), MorphState::Done(_));
-        let now = self.host.now();
-        let view = &mut self.plane.comparison.morph;
-        view.playing_since = view.playing_since.filter(|_| is_there);
-        // What has gone is not kept in memory.
-        view.drawn = view.drawn.take().filter(|_| is_there);
-        if let Some(since) = view.playing_since {
-            view.share = ((now - since) / SECONDS).clamp(0.0, 1.0);
-            view.playing_since = view.playing_since.filter(|_| view.share < 1.0);
-            self.host.context().request_repaint();
-        }
-    }
-
-    /// From the map of the document's method, where it is planar, to the first other one.
-    fn usual_morph(&self) -> Option<[Variant; 2]> {
-        let ends = self.session.morph_ends();
-        let own = Variant::of(&self.session.document().settings);
-        let (first, of_first) = ends.iter().find(|(variant, _)| *variant == own).or(ends.first())?;
-        let others = || ends.iter().filter(|(variant, _)| variant != first);
-        // Methods often end with one and the same map: nothing would move.
-        let is_other = |end: &Compared| match (&end.outcome, &of_first.outcome) {
-            (Some(end), Some(first)) => end.step.solution.embedding != first.step.solution.embedding,
-            _ => false,
-        };
-        let (second, _) = others().find(|(_, end)| is_other(end)).or_else(|| others().next())?;
-        Some([*first, *second])
     }
 }

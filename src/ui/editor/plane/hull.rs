@@ -16,53 +16,27 @@ use glam::DVec2;
 
 use super::PlaneView;
 
-use crate::geom::{Orientation, Similarity, convex_hull, orientation};
-use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::render::{FillLayer, LineLayer};
-use crate::session::{Failure, Wake};
-use crate::solver::{Choice, Embedding, Method, Outline, Outside, VirtualBoundary};
-use crate::ui::editor::making::Making;
+use crate::session::{JobFailure, Wake};
+use crate::ui::editor::async_scene::AsyncScene;
 use crate::ui::editor::scene::{Part, PlaneScene};
+use crate::ui::state::HullStage;
 use crate::ui::theme::Theme;
-use crate::view::{EdgeList, FaceList, FacePaint, PlaneCamera};
-
-/// A stage of the virtual boundary.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Stage {
-    /// The embedding before, in its hull.
-    Before,
-    /// The outside triangulated.
-    #[default]
-    Pockets,
-    /// Mesh and outside as solved together.
-    Solved,
-    /// The result.
-    Peeled,
-}
-
-impl Stage {
-    /// All stages in their order.
-    pub const ALL: [Self; 4] = [Self::Before, Self::Pockets, Self::Solved, Self::Peeled];
-
-    /// Its name, and what it shows.
-    pub const fn words(self) -> [&'static str; 2] {
-        match self {
-            Self::Before => ["Before", "The embedding before, in its hull"],
-            Self::Pockets => ["Pockets", "The outside triangulated up to the hull"],
-            Self::Solved => ["Solved", "Mesh and outside embedded together, the hull where it was"],
-            Self::Peeled => ["Peeled", "The outside taken away: the result"],
-        }
-    }
-}
+use crate::view::{DrawnFaces, EdgeList, FacePaint, PlaneCamera};
+use freebound_core::bijective::{Outline, VirtualBoundary};
+use freebound_core::geom::{Orientation, Similarity, convex_hull, orientation};
+use freebound_core::mesh::{DiskMesh, FaceId, VertexId};
+use freebound_core::nonlinear::Scaffold;
+use freebound_core::problem::{Embedding, NamedOption, Stage};
 
 #[derive(Debug)]
 pub(super) struct HullView {
     shown: bool,
-    stage: Stage,
+    stage: HullStage,
     /// With the outcome's revision and the stage.
-    scene: Option<((u64, Stage), HullScene)>,
+    scene: Option<((u64, HullStage), HullScene)>,
     /// The stage that is being made, with the outcome's revision.
-    job: Making<(u64, Stage), HullScene>,
+    job: AsyncScene<(u64, HullStage), HullScene>,
     /// The camera from before they showed, and the one that frames them.
     cameras: Option<[PlaneCamera; 2]>,
 }
@@ -76,14 +50,14 @@ pub struct HullScene {
     paint: Option<Arc<FacePaint>>,
     hull: Arc<EdgeList>,
     pocket_edges: Arc<EdgeList>,
-    pockets: Arc<FaceList>,
+    pockets: Arc<DrawnFaces>,
     pub caption: String,
     pub has_stages: bool,
 }
 
 impl HullScene {
-    fn new(result: &PlaneScene, stage: Stage) -> Self {
-        match (&result.outcome.step.outside, &result.outcome.step.virtual_boundary) {
+    fn new(result: &PlaneScene, stage: HullStage) -> Self {
+        match (&result.outcome.step.candidate.outside, &result.outcome.step.candidate.virtual_boundary) {
             (Some(outside), _) => Self::of_outside(result, outside),
             (None, Some(stages)) => Self::of_stage(result, stage, stages),
             (None, None) => Self::of_free_boundary(result),
@@ -97,37 +71,37 @@ impl HullScene {
             paint: None,
             hull: Arc::new(EdgeList::closed_loop(corners)),
             pocket_edges: Arc::new(EdgeList::new(sides_of(pockets))),
-            pockets: Arc::new(FaceList::new(pockets.to_vec())),
+            pockets: Arc::new(DrawnFaces::new(pockets.to_vec())),
             caption,
             has_stages: false,
         }
     }
 
-    fn of_stage(result: &PlaneScene, stage: Stage, stages: &VirtualBoundary) -> Self {
+    fn of_stage(result: &PlaneScene, stage: HullStage, stages: &VirtualBoundary) -> Self {
         let (hull, pockets): (&[_], &[_]) = match stage {
-            Stage::Before => (&stages.hull, &[]),
-            Stage::Pockets | Stage::Solved => (&stages.hull, &stages.pockets),
-            Stage::Peeled => (&[], &[]),
+            HullStage::Before => (&stages.hull, &[]),
+            HullStage::Pockets | HullStage::Solved => (&stages.hull, &stages.pockets),
+            HullStage::Peeled => (&[], &[]),
         };
         let disk = result.mesh.disk().expect("only a disk is solved");
         let boundary = disk.boundary_loop().len();
         let scene = Self { has_stages: true, ..Self::of_hull(hull, pockets, caption(stage, stages, boundary)) };
         let positions = match stage {
-            Stage::Before | Stage::Pockets => &stages.before,
-            Stage::Solved => &stages.solved,
-            Stage::Peeled => return scene,
+            HullStage::Before | HullStage::Pockets => &stages.before,
+            HullStage::Solved => &stages.solved,
+            HullStage::Peeled => return scene,
         };
-        let moved = moved_along(positions, disk, [&stages.solved, &result.outcome.step.solution.embedding]);
+        let moved = moved_along(positions, disk, [&stages.solved, &result.outcome.step.candidate.solution.embedding]);
         let paint = FacePaint::plain(disk.mesh().real_face_count(), &flipped_faces(disk, positions));
         Self { plane: Some(Arc::new(result.of_part(Part::Stage, moved))), paint: Some(Arc::new(paint)), ..scene }
     }
 
     /// A step that was made with the outside triangulated up to a frame: the result within it.
-    fn of_outside(result: &PlaneScene, outside: &Outside) -> Self {
+    fn of_outside(result: &PlaneScene, outside: &Scaffold) -> Self {
         let embedding = result.positions();
         let points: Embedding = embedding.iter().chain(&outside.frame).copied().collect();
         let (count, step) = (outside.triangles.len(), &result.outcome.step);
-        let (outermost, caption) = if matches!(step.rung, Method::Lee(_)) {
+        let (outermost, caption) = if matches!(step.candidate.stage, Stage::Lee(_)) {
             let ring = result.mesh.disk().map_or(0, |disk| disk.boundary_loop().len());
             (ring, format!("{count} virtual triangles around the mesh, embedded with it and peeled off"))
         } else {
@@ -143,12 +117,12 @@ impl HullScene {
     fn of_free_boundary(result: &PlaneScene) -> Self {
         let disk = result.mesh.disk().expect("only a disk is solved");
         let boundary = disk.boundary_loop();
-        let points = result.outcome.step.solution.embedding.boundary(disk);
+        let points = result.outcome.step.candidate.solution.embedding.boundary(disk);
         let corners: Vec<VertexId> = convex_hull(&points).into_iter().map(|place| boundary[place]).collect();
-        let caption = match result.outcome.step.rung {
-            Method::Convex(shape) | Method::Stretch(shape) => {
+        let caption = match result.outcome.step.candidate.stage {
+            Stage::Convex(shape) | Stage::Stretch(shape) => {
                 let count = boundary.len();
-                format!("{count} of {count} boundary vertices pinned on {}", shape.words().about)
+                format!("{count} of {count} boundary vertices pinned on {}", shape.labels().about)
             }
             _ => "This step has no virtual boundary; the line is the hull of the free one".to_owned(),
         };
@@ -181,7 +155,7 @@ impl HullScene {
 }
 
 /// What a stage shows. Where vertices of the boundary were pinned on a circle, which nobody asked for, it says so.
-fn caption(stage: Stage, stages: &VirtualBoundary, boundary: usize) -> String {
+fn caption(stage: HullStage, stages: &VirtualBoundary, boundary: usize) -> String {
     let outline = match stages.outline {
         Outline::Hull => "hull",
         Outline::Frame => "frame",
@@ -191,10 +165,10 @@ fn caption(stage: Stage, stages: &VirtualBoundary, boundary: usize) -> String {
         _ => String::new(),
     };
     match stage {
-        Stage::Before => format!("{circle}The step before, {outline} of {} corners", stages.hull.len()),
-        Stage::Pockets => format!("{circle}{} triangles up to the {outline}", stages.pockets.len()),
-        Stage::Solved => format!("Mesh and outside together, {outline} fixed"),
-        Stage::Peeled => stage.words()[1].to_owned(),
+        HullStage::Before => format!("{circle}The step before, {outline} of {} corners", stages.hull.len()),
+        HullStage::Pockets => format!("{circle}{} triangles up to the {outline}", stages.pockets.len()),
+        HullStage::Solved => format!("Mesh and outside together, {outline} fixed"),
+        HullStage::Peeled => stage.words()[1].to_owned(),
     }
 }
 
@@ -227,7 +201,7 @@ fn moved_along(embedding: &Embedding, disk: &DiskMesh, [before, after]: [&Embedd
 
 impl HullView {
     pub(super) fn new(wake: &Wake) -> Self {
-        let (stage, job) = (Stage::default(), Making::new("hull", wake));
+        let (stage, job) = (HullStage::default(), AsyncScene::new("hull", wake));
         Self { shown: false, stage, scene: None, job, cameras: None }
     }
 
@@ -235,7 +209,7 @@ impl HullView {
         self.job.is_busy()
     }
 
-    pub(super) fn take_failure(&mut self) -> Option<Failure> {
+    pub(super) fn take_failure(&mut self) -> Option<JobFailure> {
         self.job.take_failure()
     }
 }
@@ -245,11 +219,11 @@ impl PlaneView {
         self.hull.shown
     }
 
-    pub fn stage(&self) -> Stage {
+    pub fn stage(&self) -> HullStage {
         self.hull.stage
     }
 
-    pub(in crate::ui::editor) fn set_stage(&mut self, stage: Stage) {
+    pub(in crate::ui::editor) fn set_stage(&mut self, stage: HullStage) {
         self.hull.stage = stage;
     }
 
@@ -258,7 +232,7 @@ impl PlaneView {
         self.hull_made().map(|(_, scene)| scene)
     }
 
-    fn hull_made(&self) -> Option<&((u64, Stage), HullScene)> {
+    fn hull_made(&self) -> Option<&((u64, HullStage), HullScene)> {
         let revision = self.scene.as_ref()?.outcome_revision;
         let is_wanted = self.hull.shown && self.preview.is_none();
         self.hull.scene.as_ref().filter(|(key, _)| is_wanted && key.0 == revision)
@@ -329,7 +303,7 @@ mod tests {
             pockets: Vec::new(),
             solved: empty(),
         };
-        let words = |pinned| caption(Stage::Pockets, &stages(pinned), 410);
+        let words = |pinned| caption(HullStage::Pockets, &stages(pinned), 410);
         assert_eq!(words(23), "23 of 410 boundary vertices pinned on a circle. 0 triangles up to the hull");
         assert_eq!(words(2), "0 triangles up to the hull", "two only fix place and size");
     }

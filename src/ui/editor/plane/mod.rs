@@ -8,26 +8,28 @@
 
 mod hull;
 mod steps;
+#[cfg(test)]
+mod tests;
 
 use std::sync::Arc;
 
 pub(in crate::ui) use hull::HullScene;
-pub use hull::Stage;
 pub(super) use steps::SECONDS;
 
 use eframe::egui;
 use glam::DVec2;
 
+use super::async_scene::AsyncScene;
 use super::comparison::ComparisonView;
-use super::host::Host;
-use super::making::Making;
+use super::gpu::Gpu;
+use super::picture_box::picture_box;
 use super::scene::{MeshScene, PlaneScene};
-use super::views::picture_box;
-use crate::geom::Bounds;
-use crate::session::{Failure, Session, Wake};
-use crate::solver::{Embedding, Verdict};
-use crate::ui::panes::pane::PaneView;
+use crate::session::{JobFailure, Session, Wake};
+use crate::ui::state::PaneView;
 use crate::view::{FacePaint, PlaneCamera};
+use freebound_core::geom::Bounds;
+use freebound_core::problem::Embedding;
+use freebound_core::verify::Verdict;
 use hull::HullView;
 use steps::{Ghost, Way};
 
@@ -41,7 +43,7 @@ pub struct PlaneView {
     saved: Option<Vec<f64>>,
     scene: Option<Arc<PlaneScene>>,
     /// The scene that is being made, by the step's revision.
-    job: Making<u64, PlaneScene>,
+    job: AsyncScene<u64, PlaneScene>,
     way: Option<Way>,
     preview: Option<PreviewScene>,
     hull: HullView,
@@ -57,6 +59,8 @@ struct PreviewScene {
     /// The mesh, and the session's count of moves.
     key: (u64, u64),
     scene: Arc<PlaneScene>,
+    /// The embedding that the drag began with, if the scene's vertices are its own and move in place.
+    begin: Option<Arc<Embedding>>,
     /// The faces with those flipped that the verdict names; none where there is none yet.
     faces: Arc<FacePaint>,
     verdict: Option<Arc<Verdict>>,
@@ -66,7 +70,7 @@ struct PreviewScene {
 #[derive(Clone, Copy)]
 pub(super) struct Surroundings<'a> {
     pub(super) session: &'a Session,
-    pub(super) host: &'a Host,
+    pub(super) gpu: &'a Gpu,
     /// The mesh as given.
     pub(super) mesh: Option<&'a Arc<MeshScene>>,
     /// How long sheets glide, seconds; none where they do not.
@@ -90,7 +94,7 @@ impl PlaneView {
             framed: None,
             saved: None,
             scene: None,
-            job: Making::new("plane scene", wake),
+            job: AsyncScene::new("plane scene", wake),
             way: None,
             preview: None,
             hull: HullView::new(wake),
@@ -183,7 +187,7 @@ impl PlaneView {
     }
 
     /// Why what is drawn could not be made; each failure once.
-    pub(super) fn take_failure(&mut self) -> Option<Failure> {
+    pub(super) fn take_failure(&mut self) -> Option<JobFailure> {
         self.job.take_failure().or_else(|| self.hull.take_failure()).or_else(|| self.comparison.take_failure())
     }
 
@@ -209,7 +213,7 @@ impl PlaneView {
         }
         if let Some((_, scene)) = self.job.poll() {
             if self.pane.camera().is_none() {
-                self.look_at_first(&scene, around);
+                self.frame_first(&scene, around);
             }
             self.take(Arc::new(scene), around);
         }
@@ -231,7 +235,7 @@ impl PlaneView {
     }
 
     /// Shows all of the first embedding, or what the document was saved with.
-    fn look_at_first(&mut self, scene: &PlaneScene, around: Surroundings) {
+    fn frame_first(&mut self, scene: &PlaneScene, around: Surroundings) {
         let camera = PlaneCamera::framing(around.framed_box(scene.arrays.bounds), self.pane.size());
         self.set_framed(camera);
         if let Some(saved) = self.saved.take().and_then(|numbers| camera.with_numbers(&numbers, self.pane.size())) {
@@ -289,13 +293,27 @@ impl PlaneView {
         }
         let key = (mesh.model_revision, preview.revision);
         let verdict = preview.verdict().cloned();
-        let before = before.filter(|before| before.key.0 == key.0);
-        let scene = match &before {
+        let mut before = before.filter(|before| before.key.0 == key.0);
+        let begin = preview.moved().map(|moved| Arc::clone(moved.begin()));
+        // A frame of a drag changes the session's embedding in place: the scene has one of its own.
+        let positions = || match begin {
+            Some(_) => Arc::new(Embedding::clone(&preview.embedding)),
+            None => Arc::clone(&preview.embedding),
+        };
+        let scene = match &mut before {
             Some(before) if before.key == key => Arc::clone(&before.scene),
             Some(before) if before.scene.outcome_revision == base.outcome_revision => {
-                Arc::new(before.scene.with_positions(mesh, Embedding::clone(&preview.embedding)))
+                let is_of_drag =
+                    |begin: &Arc<Embedding>| before.begin.as_ref().is_some_and(|own| Arc::ptr_eq(own, begin));
+                match preview.moved().filter(|moved| is_of_drag(moved.begin())) {
+                    Some(moved) => {
+                        Arc::make_mut(&mut before.scene).move_vertices(moved.vertices(), &preview.embedding);
+                        Arc::clone(&before.scene)
+                    }
+                    None => Arc::new(before.scene.with_positions(mesh, positions())),
+                }
             }
-            _ => Arc::new(base.with_positions(mesh, Embedding::clone(&preview.embedding))),
+            _ => Arc::new(base.with_positions(mesh, positions())),
         };
         let known = verdict.as_ref().map(Arc::as_ptr);
         let same = before.filter(|before| before.verdict.as_ref().map(Arc::as_ptr) == known);
@@ -304,46 +322,6 @@ impl PlaneView {
             Arc::new(FacePaint::plain(triangles.real_face_count(), flipped))
         };
         let faces = same.map_or_else(anew, |before| before.faces);
-        self.preview = Some(PreviewScene { key, scene, faces, verdict });
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::time::Duration;
-
-    use super::*;
-    use crate::examples::Example;
-    use crate::session::{Action, RecentFiles};
-    use crate::ui::Editor;
-
-    #[test]
-    fn a_sheet_that_cannot_be_drawn_is_said_once_and_not_waited_for() {
-        let mut editor = Editor::new(&egui::Context::default(), RecentFiles::default());
-        let rest = |editor: &mut Editor| {
-            let is_at_work = |editor: &Editor| {
-                let makes_scenes = editor.mesh.is_making_scene() || editor.plane.is_making_scene();
-                editor.session.busy().is_some() || makes_scenes || editor.plane.is_moving(&editor.session)
-            };
-            editor.poll();
-            while is_at_work(editor) {
-                std::thread::sleep(Duration::from_millis(1));
-                editor.poll();
-            }
-        };
-        editor.session.handle(Action::OpenExample(Example::Cube));
-        rest(&mut editor);
-        let before = editor.plane.scene().expect("drawn").outcome_revision;
-        editor.session.handle(Action::Step);
-        while editor.session.outcome_revision() == before {
-            std::thread::sleep(Duration::from_millis(1));
-            editor.session.poll();
-        }
-        editor.plane.job.make(editor.session.outcome_revision(), |_| panic!("on purpose"));
-        rest(&mut editor);
-        rest(&mut editor);
-        let texts: Vec<&str> = editor.session.messages().iter().map(|message| message.text.as_str()).collect();
-        assert_eq!(texts, ["drawing stopped unexpectedly"]);
-        assert_eq!(editor.plane.scene().map(|scene| scene.outcome_revision), Some(before), "what was drawn stays");
+        self.preview = Some(PreviewScene { key, scene, begin, faces, verdict });
     }
 }

@@ -12,13 +12,14 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::{PlaneView, Surroundings};
-use crate::mesh::VertexId;
 use crate::render::{GhostLayer, LineLayer};
-use crate::session::{Outcome, Session};
-use crate::solver::Embedding;
-use crate::ui::Theme;
+use crate::session::Session;
 use crate::ui::editor::scene::PlaneScene;
+use crate::ui::theme::Theme;
 use crate::view::{EdgeList, FacePaint, PlaneArrays, PlaneCamera};
+use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Outcome;
+use freebound_core::problem::Embedding;
 
 /// How long the way takes, seconds, where steps are not played faster.
 pub(in crate::ui::editor) const SECONDS: f64 = 0.25;
@@ -95,7 +96,7 @@ impl PlaneView {
         let seconds = self.glide_to(&target, &before, around).filter(|_| is_next || left.is_some());
         if let Some(seconds) = seconds {
             let faces = left.map(|preview| preview.faces);
-            let (from, drawn, began) = (before.positions().clone(), before, around.host.now());
+            let (from, drawn, began) = (before.positions().clone(), before, around.gpu.now());
             self.way = Some(Way { from, target, began, seconds, drawn, faces, cameras });
         } else {
             self.arrive(target, cameras);
@@ -106,7 +107,7 @@ impl PlaneView {
     fn glide_to(&self, target: &PlaneScene, before: &PlaneScene, around: Surroundings) -> Option<f64> {
         let is_same_mesh = Arc::ptr_eq(&before.mesh, &target.mesh);
         let shows_stage = self.hull_scene().is_some_and(|hull| hull.plane().is_some());
-        let is_smooth = |seconds: &f64| around.host.frame_seconds() * LEAST_FRAMES <= *seconds;
+        let is_smooth = |seconds: &f64| around.gpu.frame_seconds() * LEAST_FRAMES <= *seconds;
         let follows_pin = around.session.preview().is_some();
         around.glide.filter(is_smooth).filter(|_| is_same_mesh && !shows_stage && !follows_pin)
     }
@@ -133,16 +134,17 @@ impl PlaneView {
     /// Moves vertices on. Call once per frame.
     pub(super) fn go_on_easing(&mut self, around: Surroundings) {
         let Some(way) = &mut self.way else { return };
-        let share = (around.host.now() - way.began) / way.seconds;
-        let is_smooth = around.host.frame_seconds() * LEAST_FRAMES <= way.seconds;
+        let share = (around.gpu.now() - way.began) / way.seconds;
+        let is_smooth = around.gpu.frame_seconds() * LEAST_FRAMES <= way.seconds;
         if around.glide.is_none() || !is_smooth || !(0.0..1.0).contains(&share) || around.session.preview().is_some() {
             self.finish_ease();
             return;
         }
         // Slow at both ends.
         let eased = share * share * (3.0 - 2.0 * share);
-        let positions = way.from.iter().zip(way.target.positions()).map(|(a, b)| a.lerp(*b, eased)).collect();
-        way.drawn = Arc::new(way.target.with_positions(&way.target.mesh, positions));
+        let positions =
+            way.from.iter().zip(way.target.positions()).map(|(a, b)| a.lerp(*b, eased)).collect::<Embedding>();
+        way.drawn = Arc::new(way.target.with_positions(&way.target.mesh, Arc::new(positions)));
         if way.cameras.is_some() && self.pane.camera() != self.framed {
             // Somebody has taken the camera.
             way.cameras = None;
@@ -152,7 +154,7 @@ impl PlaneView {
             self.pane.set_camera(camera);
             self.framed = Some(camera);
         }
-        around.host.context().request_repaint();
+        around.gpu.context().request_repaint();
     }
 
     /// Puts everything where it was going.
@@ -189,8 +191,8 @@ impl PlaneView {
         let key = (plane.outcome_revision, step);
         self.ghost = before.filter(|ghost| ghost.key == key).or_else(|| {
             let other = session.compared().filter(|_| step != plane.outcome.step.index)?;
-            let embedding = &other.step.solution.embedding;
-            let loop_of_other = other.step.mesh(plane.mesh.model.disk()?).boundary_loop();
+            let embedding = &other.step.candidate.solution.embedding;
+            let loop_of_other = other.step.candidate.mesh(plane.mesh.model.disk()?).boundary_loop();
             let position_of = |v: &VertexId| embedding.get(v.index()).copied().unwrap_or(DVec2::NAN);
             let boundary: Vec<DVec2> = loop_of_other.iter().map(position_of).collect();
             let vertices: Vec<VertexId> = (0..boundary.len()).map(VertexId::from_index).collect();

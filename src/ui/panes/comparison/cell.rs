@@ -5,19 +5,20 @@ use std::sync::Arc;
 use eframe::egui::{self, Pos2, Rect, Response, RichText, Role, Sense, Stroke, Vec2};
 use glam::DVec2;
 
-use crate::io::MethodReport;
-use crate::mesh::VertexId;
-use crate::render::{self, PaneId, PlaneFrame, Shading, Style};
+use crate::render::{self, FaceShading, PaneId, PlaneFrame, Style};
 use crate::session::{Contender, ContenderState, Session};
-use crate::solver::Variant;
 use crate::ui::editor::comparison::CellScene;
-use crate::ui::editor::views::picture_box;
+use crate::ui::editor::picture_box::picture_box;
 use crate::ui::icons::{self, Sign};
 use crate::ui::panes::mesh_pane::boundary_line;
-use crate::ui::panes::pane::{self, Viewport};
+use crate::ui::panes::pane;
 use crate::ui::panes::plane_pane::navigate;
+use crate::ui::state::{Viewport, size_of};
 use crate::ui::{Control, Editor, Request, Theme, theme_of};
 use crate::view::{Palette, PlaneCamera};
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::Variant;
+use freebound_io::MethodReport;
 
 /// Names of the drawing surfaces.
 const PANES: [PaneId; 6] = [
@@ -112,12 +113,12 @@ pub(super) fn cell(ui: &mut egui::Ui, rect: Rect, editor: &mut Editor, number: u
     let view = view_of(rect, rect.size());
     let response = ui.interact(rect, ui.scope_id().with(("comparison", number)), Sense::click_and_drag());
     let is_own = Variant::of(&editor.session.document().settings) == variant;
-    if let Some(camera) = editor.plane.comparison.camera(pane::size_of(view)) {
-        look_around(ui, &response, view, editor, camera);
+    if let Some(camera) = editor.plane.comparison.camera(size_of(view)) {
+        move_camera(ui, &response, view, editor, camera);
     }
-    if let (Some(scene), Some(camera)) = (scene, editor.plane.comparison.camera(pane::size_of(view))) {
+    if let (Some(scene), Some(camera)) = (scene, editor.plane.comparison.camera(size_of(view))) {
         let view = Viewport { rect: view, camera: scene.frame.camera(&camera) };
-        if editor.host.has_gpu() {
+        if editor.gpu.has_gpu() {
             let frame = frame_of(editor, &scene, view.camera, theme_of(ui));
             ui.painter().add(render::plane_pane(PANES[number % PANES.len()], view.rect, frame));
         }
@@ -136,7 +137,7 @@ pub(super) fn cell(ui: &mut egui::Ui, rect: Rect, editor: &mut Editor, number: u
 }
 
 /// Moves the camera of all cells by what is done in one of them.
-fn look_around(ui: &egui::Ui, response: &Response, view: Rect, editor: &mut Editor, camera: PlaneCamera) {
+fn move_camera(ui: &egui::Ui, response: &Response, view: Rect, editor: &mut Editor, camera: PlaneCamera) {
     let mut moved = camera;
     navigate(ui, &response.clone().with_new_rect(view), &mut moved);
     if moved != camera {
@@ -148,8 +149,8 @@ fn look_around(ui: &egui::Ui, response: &Response, view: Rect, editor: &mut Edit
 fn frame_of(editor: &Editor, scene: &CellScene, camera: PlaneCamera, theme: &Theme) -> PlaneFrame {
     let plane = &scene.plane;
     let shading = match editor.plane.comparison.quantity() {
-        Some(_) => Shading::Paint,
-        None => Shading::Plain,
+        Some(_) => FaceShading::Paint,
+        None => FaceShading::Plain,
     };
     PlaneFrame {
         mesh: Arc::clone(&plane.mesh.arrays),
@@ -160,7 +161,11 @@ fn frame_of(editor: &Editor, scene: &CellScene, camera: PlaneCamera, theme: &The
         ghost: None,
         picture: None,
         outlined: picture_box(editor.session.document()),
-        style: Style { shading, wire_in_points: if editor.look.wireframe { 1.0 } else { 0.0 }, ..Style::default() },
+        style: Style {
+            shading,
+            wire_in_points: if editor.pane_shading.wireframe { 1.0 } else { 0.0 },
+            ..Style::default()
+        },
         palette: quiet(theme.palette, plane.outcome.is_held()),
         camera,
     }

@@ -2,9 +2,9 @@
 
 use eframe::egui::{self, Role};
 
-use crate::solver::{BoundaryShape, Choice as _, Family, Method, Variant};
 use crate::ui::editor::comparison::COUNTS;
 use crate::ui::{Control, Editor, Request, remark, sentence};
+use freebound_core::problem::{BoundaryShape, Family, Method, NamedOption as _, Variant};
 
 /// A button that opens the list of methods.
 pub(super) fn chooser(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
@@ -70,7 +70,7 @@ fn entry(ui: &mut egui::Ui, editor: &Editor, variant: Variant, requests: &mut Ve
         (false, false) => Some("It has nothing of its own to do with the pins that there are"),
         _ => None,
     };
-    let tip = sentence(&variant.method.words().tip());
+    let tip = sentence(&variant.method.labels().tip());
     let check = ui.add_enabled(why_not.is_none(), egui::Checkbox::new(&mut is_chosen, variant.title()));
     let check = check.on_hover_text(tip).on_disabled_hover_text(why_not.unwrap_or_default());
     if check.changed() {

@@ -16,9 +16,12 @@ mod table;
 use eframe::egui::{self, Rect, Role, Vec2};
 
 use super::{bars, legend, pane};
-use crate::session::{MorphState, Surface};
-use crate::ui::{ComparisonExport, Control, Editor, MorphRequest, Pane, Purpose, Request, theme_of, tip_with_keys};
+use crate::session::MorphState;
+use crate::ui::{
+    ComparisonExport, Control, Editor, FileDialogKind, MorphRequest, Pane, Request, theme_of, tip_with_keys,
+};
 use crate::view::Quantity;
+use freebound_core::pipeline::Surface;
 
 /// Free space between cells, points.
 const GAP: f32 = 6.0;
@@ -69,7 +72,7 @@ pub(in crate::ui) fn comparison_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
 
 /// What there is to say where no method can run.
 fn nothing_to_compare(editor: &Editor) -> Option<Vec<&'static str>> {
-    match editor.session.model().map(|model| &model.surface) {
+    match editor.session.model().map(|model| &model.prepared.surface) {
         None => Some(vec!["Nothing to compare", "Open a mesh: the methods run on it one after the other"]),
         Some(Surface::Faulty(..)) => Some(vec![
             "This mesh cannot be flattened as it is",
@@ -151,7 +154,7 @@ fn exports(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
                 let [words, about] = what.words();
                 let entry = ui.add_enabled(has_morph || what != ComparisonExport::Morph, egui::Button::new(words));
                 let entry = entry.on_hover_text(about).on_disabled_hover_text("Show a morph first");
-                if entry.asks(Request::Ask(Purpose::Comparison(what)), requests) {
+                if entry.asks(Request::Ask(FileDialogKind::Comparison(what)), requests) {
                     ui.close();
                 }
             }

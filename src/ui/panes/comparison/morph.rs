@@ -7,16 +7,17 @@ use eframe::egui::{self, Rect, Role, Vec2, WidgetInfo};
 
 use super::LEGEND;
 use super::cell::quiet;
-use crate::render::{self, PaneId, PlaneFrame, Shading, Style};
+use crate::render::{self, FaceShading, PaneId, PlaneFrame, Style};
 use crate::session::{Compared, Contender, ContenderState, MorphState, MorphTour};
-use crate::solver::{Phase, Variant};
 use crate::ui::editor::comparison::MorphFrame;
-use crate::ui::editor::views::picture_box;
+use crate::ui::editor::picture_box::picture_box;
 use crate::ui::panes::mesh_pane::boundary_line;
 use crate::ui::panes::plane_pane::navigate;
 use crate::ui::panes::{legend, pane};
+use crate::ui::state::size_of;
 use crate::ui::{Control, Editor, MorphRequest, Request, list, theme_of};
 use crate::view::PlaneCamera;
+use freebound_core::problem::{Phase, Variant};
 
 /// Height of the row with its ends, and of the row with the slider, points.
 const ROW: f32 = 30.0;
@@ -130,14 +131,14 @@ fn found(ui: &mut egui::Ui, room: Rect, editor: &mut Editor, tour: &Arc<MorphTou
 /// The embedding of a frame.
 fn large_view(ui: &egui::Ui, view: Rect, editor: &mut Editor, frame: Option<&MorphFrame>, words: &str) {
     let response = ui.interact(view, ui.scope_id().with("morph"), egui::Sense::click_and_drag());
-    let before = editor.plane.comparison.morph.camera_in(pane::size_of(view));
+    let before = editor.plane.comparison.morph.camera_in(size_of(view));
     let mut camera = before;
     navigate(ui, &response, &mut camera);
     if camera != before {
         editor.plane.comparison.morph.set_camera(camera);
         ui.ctx().request_repaint();
     }
-    if let Some(frame) = frame.filter(|_| editor.host.has_gpu()) {
+    if let Some(frame) = frame.filter(|_| editor.gpu.has_gpu()) {
         ui.painter().add(render::plane_pane(PaneId("morph"), view, drawing(ui, editor, frame, frame.camera(&camera))));
     }
     response.named(Role::Image, &format!("Morph: {words}"));
@@ -145,7 +146,7 @@ fn large_view(ui: &egui::Ui, view: Rect, editor: &mut Editor, frame: Option<&Mor
 
 fn drawing(ui: &egui::Ui, editor: &Editor, frame: &MorphFrame, camera: PlaneCamera) -> PlaneFrame {
     let theme = theme_of(ui);
-    let shading = if frame.legend.is_some() { Shading::Paint } else { Shading::Plain };
+    let shading = if frame.legend.is_some() { FaceShading::Paint } else { FaceShading::Plain };
     PlaneFrame {
         mesh: Arc::clone(&frame.mesh.arrays),
         plane: Some(Arc::clone(&frame.arrays)),
@@ -155,7 +156,11 @@ fn drawing(ui: &egui::Ui, editor: &Editor, frame: &MorphFrame, camera: PlaneCame
         ghost: None,
         picture: None,
         outlined: picture_box(editor.session.document()),
-        style: Style { shading, wire_in_points: if editor.look.wireframe { 1.0 } else { 0.0 }, ..Style::default() },
+        style: Style {
+            shading,
+            wire_in_points: if editor.pane_shading.wireframe { 1.0 } else { 0.0 },
+            ..Style::default()
+        },
         palette: quiet(theme.palette, false),
         camera,
     }

@@ -2,10 +2,10 @@
 
 use eframe::egui::{self, FontId, Rect, RichText, Role, Vec2, WidgetInfo};
 
-use crate::io::{Column, Direction};
 use crate::session::{Contender, ContenderState};
-use crate::solver::{Choice as _, Variant};
 use crate::ui::{Control, Editor, Request, icons, sentence, theme_of};
+use freebound_core::problem::{NamedOption as _, Variant};
+use freebound_io::{Column, Direction};
 
 /// Height of a row, points.
 const ROW: f32 = 21.0;
@@ -57,7 +57,7 @@ fn head(ui: &mut egui::Ui, editor: &Editor, column: Column, requests: &mut Vec<R
         Some(Direction::Down) => ", descending",
         None => "",
     };
-    let title = column.words().title;
+    let title = column.labels().title;
     let mut add = |ui: &mut egui::Ui| {
         // With room for the arrow.
         let room = if sort.is_some() { "\u{a0}\u{a0}\u{a0}\u{a0}" } else { "" };
@@ -69,7 +69,7 @@ fn head(ui: &mut egui::Ui, editor: &Editor, column: Column, requests: &mut Vec<R
         label.widget_info(|| {
             WidgetInfo::selected(Role::Button, true, sort.is_some(), format!("Sort by {title}{order}"))
         });
-        let label = label.on_hover_text(sentence(column.words().about));
+        let label = label.on_hover_text(sentence(column.labels().about));
         label.asks(Request::SortComparison(column), requests);
     };
     if column.is_of_words() { add(ui) } else { at_right(ui, add) }
@@ -96,7 +96,7 @@ fn row(ui: &mut egui::Ui, editor: &Editor, contender: &Contender, requests: &mut
         let words = cell.map_or_else(|| "…".to_owned(), |cell| cell.words());
         // What is being solved again stands back.
         let colour = if is_done { theme.text } else { theme.weak_text };
-        let name = format!("{title}, {}: {words}", column.words().title);
+        let name = format!("{title}, {}: {words}", column.labels().title);
         let text = RichText::new(words).color(colour);
         if column.is_of_words() {
             ui.label(text).named(Role::Label, &name);

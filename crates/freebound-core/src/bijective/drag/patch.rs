@@ -1,0 +1,328 @@
+//! The part of the sheet that moves with dragged pins: its energy, and how far it can go.
+
+use std::collections::HashMap;
+
+use crate::parallel::prelude::*;
+use crate::parallel::reduce;
+use glam::DVec2;
+
+use super::proof::MovedRegion;
+use super::scaffold::LocalScaffold;
+use crate::geom::double_area;
+use crate::mesh::{DiskMesh, FaceId, VertexId};
+use crate::nonlinear::energy_problem::{EnergyProblem, Planning, Spring};
+use crate::nonlinear::foldover_energy::Element;
+use crate::nonlinear::rest_shape::THINNEST;
+use crate::nonlinear::scaffold::THINNEST as THINNEST_OUTSIDE;
+use crate::problem::{Control, Embedding, PinKind, Pins, SolveError};
+use crate::verify::UvFrame;
+
+/// Weight of the whole outside, that of the sheet being 1.
+const OUTSIDE_WEIGHT: f64 = 0.02;
+
+/// Triangles thinner than this, height to longest side, are measured as if they were so thick.
+const LEAST_THICKNESS: f64 = 1e-12;
+
+/// The share of its area at rest that every triangle keeps: what is crushed more is the flattener's to make room in.
+const LEAST_AREA: f64 = 0.01;
+
+/// The share of the longest step that is taken at once.
+const ADVANCE_SHARE: f64 = 0.8;
+
+/// Triangles that share the work of one task.
+const TRIANGLES_PER_TASK: usize = 1024;
+
+/// The sheet on which a part is to move.
+#[derive(Clone, Copy)]
+pub(super) struct Ground<'a> {
+    pub(super) mesh: &'a DiskMesh,
+    /// Where it lay when the drag began: there it is at rest.
+    pub(super) begin: &'a Embedding,
+    pub(super) embedding: &'a Embedding,
+    pub(super) pins: &'a Pins,
+    pub(super) dragged: &'a [VertexId],
+    pub(super) around: Option<&'a LocalScaffold>,
+    /// Twice the area of the faces, and the stiffness of a spring of weight 1.
+    pub(super) double_area: f64,
+    pub(super) spring_unit: f64,
+}
+
+/// Vertices that move with dragged pins, and all triangles at them.
+#[derive(Debug)]
+pub(super) struct Patch {
+    /// Free vertices first, then dragged exact pins, then what is held around them; numbers beyond the mesh's vertices
+    /// are points of the frame.
+    points: Vec<VertexId>,
+    free_count: usize,
+    moving_count: usize,
+    /// How large the neighbourhood is, held pins included.
+    nearest_count: usize,
+    /// Corners by places in `points`: faces and ears of polygons, what fills holes, and outside.
+    triangles: Vec<[u32; 3]>,
+    face_count: usize,
+    inside_count: usize,
+    /// Twice the area that each is to keep.
+    floors: Vec<f64>,
+    problem: EnergyProblem,
+    /// Where the points are.
+    z: Vec<DVec2>,
+    has_boundary: bool,
+}
+
+/// How far a step can go.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Room {
+    /// The share of it that is taken.
+    pub(super) share: f64,
+    /// The triangle that ends it.
+    pub(super) end: usize,
+}
+
+/// Triangles under way to a patch.
+#[derive(Default)]
+struct Gathered {
+    corners: Vec<[VertexId; 3]>,
+    face_count: usize,
+    inside_count: usize,
+}
+
+impl Ground<'_> {
+    fn is_hard(&self, vertex: VertexId) -> bool {
+        self.pins.get(&vertex).is_some_and(|pin| pin.kind.is_hard())
+    }
+
+    /// Whether a vertex can move at all: one of the boundary only with the outside.
+    fn is_movable(&self, vertex: VertexId) -> bool {
+        self.mesh.is_used(vertex) && (self.around.is_some() || self.mesh.boundary_place(vertex).is_none())
+    }
+
+    /// Where a point was at rest: the mesh's when the drag began.
+    fn at_rest(&self, corner: VertexId, is_outside: bool) -> DVec2 {
+        match self.around {
+            Some(around) if is_outside => around.at_rest(self.mesh, corner),
+            _ => self.begin[corner],
+        }
+    }
+
+    fn place(&self, corner: VertexId) -> DVec2 {
+        let of_frame = || self.around.map(|around| around.frame[corner.index() - self.mesh.vertex_count()]);
+        self.embedding.get(corner.index()).copied().or_else(of_frame).unwrap_or_default()
+    }
+
+    /// All triangles at vertices that move.
+    fn triangles_at(&self, moving: &[VertexId], is_moving: impl Fn(VertexId) -> bool) -> Gathered {
+        let mesh = self.mesh;
+        let faces_at = |&v: &VertexId| mesh.outgoing(v).filter_map(|halfedge| mesh.face_of(halfedge));
+        let mut faces: Vec<FaceId> = moving.iter().flat_map(faces_at).collect();
+        faces.sort_unstable();
+        faces.dedup();
+        let filling = faces.split_off(faces.partition_point(|&face| !mesh.is_virtual(face)));
+        let mut corners: Vec<[VertexId; 3]> = faces.iter().map(|&face| mesh.face(face)).collect();
+        // Faces of one polygon follow each other.
+        let mut last = None;
+        for polygon in faces.iter().filter_map(|&face| mesh.polygon_of(face)) {
+            if last != Some(polygon.first_face) {
+                last = Some(polygon.first_face);
+                corners.extend(polygon.convex_ears().filter(|ear| ear.iter().any(|&v| is_moving(v))));
+            }
+        }
+        let face_count = corners.len();
+        corners.extend(filling.iter().map(|&face| mesh.face(face)));
+        let inside_count = corners.len();
+        if let Some(around) = self.around {
+            let mut numbers: Vec<u32> = moving.iter().flat_map(|&v| around.at(mesh, v)).copied().collect();
+            numbers.sort_unstable();
+            numbers.dedup();
+            corners.extend(numbers.iter().map(|&number| around.triangles[number as usize]));
+        }
+        Gathered { corners, face_count, inside_count }
+    }
+}
+
+impl Patch {
+    /// The vertices of a neighbourhood and the dragged ones. `similar` is one of the same neighbourhood, with another
+    /// outside: its order of elimination is kept.
+    pub(super) fn new(ground: &Ground<'_>, nearest: &[VertexId], similar: Option<&Self>) -> Result<Self, SolveError> {
+        let is_free = |v: &VertexId| ground.is_movable(*v) && !ground.is_hard(*v);
+        let mut points: Vec<VertexId> = nearest.iter().copied().filter(is_free).collect();
+        let free_count = points.len();
+        points.extend(ground.dragged.iter().filter(|&&v| ground.is_movable(v) && ground.is_hard(v)));
+        let moving_count = points.len();
+        let mut place_of: HashMap<VertexId, u32> = points.iter().copied().zip(0..).collect();
+        let gathered = ground.triangles_at(&points, |v| place_of.contains_key(&v));
+        let mut place = |corner: VertexId| {
+            *place_of.entry(corner).or_insert_with(|| {
+                points.push(corner);
+                u32::try_from(points.len() - 1).expect("points fit")
+            })
+        };
+        let triangles: Vec<[u32; 3]> = gathered.corners.iter().map(|corners| corners.map(&mut place)).collect();
+        let (elements, floors) = elements(ground, &gathered, &triangles);
+        let springs = springs(ground, &points[..free_count]);
+        let is_held = |point: u32| point as usize >= free_count;
+        // A neighbourhood is small: nobody waits for it.
+        let order = similar.and_then(|similar| similar.problem.order());
+        let planning = Planning { order: order.as_ref(), control: Control::unattended() };
+        let problem = EnergyProblem::new(points.len(), elements, springs, is_held, planning)?;
+        let z = points.iter().map(|&point| ground.place(point)).collect();
+        let has_boundary = points[..moving_count].iter().any(|&v| ground.mesh.boundary_place(v).is_some());
+        let Gathered { face_count, inside_count, .. } = gathered;
+        Ok(Self {
+            points,
+            free_count,
+            moving_count,
+            nearest_count: nearest.len(),
+            triangles,
+            face_count,
+            inside_count,
+            floors,
+            problem,
+            z,
+            has_boundary,
+        })
+    }
+
+    /// The vertices that move.
+    pub(super) fn moving(&self) -> &[VertexId] {
+        &self.points[..self.moving_count]
+    }
+
+    /// How large the neighbourhood is, held pins included.
+    pub(super) fn nearest_count(&self) -> usize {
+        self.nearest_count
+    }
+
+    pub(super) fn problem(&self) -> &EnergyProblem {
+        &self.problem
+    }
+
+    pub(super) fn z(&self) -> &[DVec2] {
+        &self.z
+    }
+
+    /// Takes over places that are proved.
+    pub(super) fn take(&mut self, z: Vec<DVec2>) {
+        self.z = z;
+    }
+
+    /// Gives springs the targets that pins have come to.
+    pub(super) fn aim_springs(&mut self, target_of: impl Fn(VertexId) -> DVec2) {
+        let points = &self.points;
+        self.problem.aim_springs(|point| target_of(points[point as usize]));
+    }
+
+    /// What moves by how much, of vertices that move by themselves.
+    pub(super) fn shift(&self, of: impl Fn(VertexId, DVec2) -> DVec2) -> Vec<DVec2> {
+        let mut shift = vec![DVec2::ZERO; self.points.len()];
+        let own = self.free_count..self.moving_count;
+        for (shift, (&point, &z)) in
+            shift[own.clone()].iter_mut().zip(self.points[own.clone()].iter().zip(&self.z[own]))
+        {
+            *shift = of(point, z);
+        }
+        shift
+    }
+
+    /// Puts the vertices that move by themselves on their targets.
+    pub(super) fn put_on(&self, z: &mut [DVec2], target: impl Fn(VertexId) -> Option<DVec2>) {
+        let own = self.free_count..self.moving_count;
+        for (z, &point) in z[own.clone()].iter_mut().zip(&self.points[own]) {
+            *z = target(point).unwrap_or(*z);
+        }
+    }
+
+    /// The share of moves that is taken at once: all, where no triangle is crushed on the way there, nor soon after.
+    pub(super) fn room(&self, moves: &[DVec2]) -> Room {
+        let of = |(at, triangle): (usize, &[u32; 3])| {
+            let [z, by] = [&self.z, moves].map(|all| triangle.map(|corner| all[corner as usize]));
+            let floor = self.floors[at].min(0.5 * double_area(z));
+            (Element::longest_step_above(floor, z, by), at)
+        };
+        let shorter = |a: (f64, usize), b: (f64, usize)| if (b.0, b.1) < (a.0, a.1) { b } else { a };
+        let all = self.triangles.par_iter().enumerate().with_min_len(TRIANGLES_PER_TASK);
+        let (longest, end) = reduce(all.map(of), || (f64::INFINITY, usize::MAX), shorter);
+        Room { share: (ADVANCE_SHARE * longest).min(1.0), end }
+    }
+
+    /// Whether a triangle lies outside.
+    pub(super) fn is_outside(&self, triangle: usize) -> bool {
+        triangle >= self.inside_count
+    }
+
+    /// The corners of a triangle, where they are.
+    pub(super) fn corners_of(&self, triangle: usize) -> Option<[(VertexId, DVec2); 3]> {
+        let corners = self.triangles.get(triangle)?;
+        Some(corners.map(|corner| (self.points[corner as usize], self.z[corner as usize])))
+    }
+
+    /// The points that are held around what moves.
+    pub(super) fn held(&self) -> impl Iterator<Item = (VertexId, DVec2)> + '_ {
+        self.points.iter().copied().zip(self.z.iter().copied()).skip(self.moving_count)
+    }
+
+    /// What moves where the points are there, for its proof.
+    pub(super) fn moved(&self, mesh: &DiskMesh, z: &[DVec2], sheet: &UvFrame) -> MovedRegion<'_> {
+        let written =
+            |(&v, &z): (&VertexId, &DVec2)| sheet.written_place((v.index() < mesh.vertex_count()).then_some(v), z);
+        MovedRegion {
+            faces: &self.triangles[..self.face_count],
+            filling: &self.triangles[self.face_count..self.inside_count],
+            outside: &self.triangles[self.inside_count..],
+            has_boundary: self.has_boundary,
+            is_outside_positive: false,
+            places: self.points.iter().zip(z).map(written).collect(),
+        }
+    }
+
+    /// How much the faces are deformed at what is held around the patch, as a mean: 0 where they are as at rest. The held
+    /// points that count are those that would move in a larger patch.
+    pub(super) fn strain_at_rim(&self, is_rim: impl Fn(VertexId) -> bool) -> f64 {
+        let (mut sum, mut weight) = (0.0, 0.0);
+        for (element, corners) in self.problem.elements().iter().zip(&self.triangles[..self.face_count]) {
+            let is_at_rim =
+                |corner: &u32| *corner as usize >= self.moving_count && is_rim(self.points[*corner as usize]);
+            if corners.iter().any(is_at_rim) {
+                let (alpha, beta) = element.derivatives(corners.map(|corner| self.z[corner as usize]));
+                sum += element.weight() * ((alpha - DVec2::X).length_squared() + beta.length_squared());
+                weight += element.weight();
+            }
+        }
+        if weight > 0.0 { (sum / weight).sqrt() } else { 0.0 }
+    }
+}
+
+/// The energies of triangles, at rest as they lay, and twice the area that each is to keep.
+fn elements(ground: &Ground<'_>, gathered: &Gathered, triangles: &[[u32; 3]]) -> (Vec<Element>, Vec<f64>) {
+    let outside = ground.around.map_or(0.0, |around| OUTSIDE_WEIGHT / around.double_area);
+    let kinds = [
+        (1.0 / ground.double_area, THINNEST),
+        (OUTSIDE_WEIGHT / ground.double_area, THINNEST_OUTSIDE),
+        (outside, THINNEST_OUTSIDE),
+    ];
+    let of = |(at, (corners, &local)): (usize, (&[VertexId; 3], &[u32; 3]))| {
+        let kind = usize::from(at >= gathered.face_count) + usize::from(at >= gathered.inside_count);
+        let rest = corners.map(|corner| ground.at_rest(corner, kind == 2));
+        let (density, thinnest) = kinds[kind];
+        let area = double_area(rest).max(0.0);
+        (Element::new(local, rest, (density * area * softness(rest, thinnest), LEAST_THICKNESS)), LEAST_AREA * area)
+    };
+    gathered.corners.iter().zip(triangles).enumerate().map(of).unzip()
+}
+
+/// By what factor a triangle is softer that is thinner than others are measured, height to longest side: as soft as if it
+/// were so thick, and yet at rest as it lies.
+fn softness([a, b, c]: [DVec2; 3], thinnest: f64) -> f64 {
+    let longest = [b - a, c - b, a - c].iter().map(|side| side.length_squared()).fold(0.0, f64::max);
+    (double_area([a, b, c]) / (thinnest * longest)).min(1.0).powi(2)
+}
+
+/// The springs of pins among free vertices, at rest.
+fn springs(ground: &Ground<'_>, free: &[VertexId]) -> Vec<Spring> {
+    let spring = |(point, vertex): (u32, &VertexId)| match ground.pins.get(vertex)?.kind {
+        PinKind::Soft(weight) => {
+            Some(Spring { point, target: ground.begin[vertex], stiffness: weight * weight * ground.spring_unit })
+        }
+        _ => None,
+    };
+    (0..).zip(free).filter_map(spring).collect()
+}

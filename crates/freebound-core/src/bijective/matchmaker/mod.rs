@@ -1,0 +1,296 @@
+//! New vertices (stage 5 of the flattener): an embedding that meets any distinct targets, on a mesh whose edges are split
+//! where the paths between the targets need room.
+//!
+//! The mesh lies in an outside up to a frame. Paths on it, which do not cross, match the edges of a triangulation of
+//! targets and frame. What a path cuts is triangulated again with new vertices on the old edges; then all paths are
+//! straightened, and each region between three of them is a triangle in the plane. It always ends, because a region in
+//! one piece always has a way through.
+//!
+//! Sources: I. Eckstein, V. Surazhsky, C. Gotsman, "Texture mapping with hard constraints", 2001; V. Kraevoy,
+//! A. Sheffer, C. Gotsman, "Matchmaker: constructing constrained texture maps", 2003. Theirs route on the edges of the
+//! mesh; here ways lead through the faces too, so that new vertices are on old edges only.
+//!
+//! | file | what |
+//! |---|---|
+//! | `target_graph.rs` | what the paths are to match: a triangulation of targets and frame |
+//! | `paths.rs` | the paths on the mesh, one after another |
+//! | `router.rs` | the shortest way between two ends that crosses no path |
+//! | `subdivision.rs`, `triangulate.rs` | faces cut into cells by paths; cells cut into triangles |
+//! | `straighten.rs` | the embedding in which every path is straight |
+//! | `needless.rs` | new vertices that are not needed, taken out again |
+//! | `room.rs`, `patchwork.rs` | new vertices for whose removal room is made; triangles that are exchanged for that |
+
+mod clearance;
+mod embed_paths;
+mod path_router;
+mod paths;
+mod retriangulate;
+mod simplify;
+mod subdivision;
+mod target_graph;
+mod triangulate;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::parallel::prelude::*;
+use glam::DVec2;
+
+pub use self::clearance::with_clearance;
+use self::embed_paths::{Weights, held_places, straightened};
+use self::path_router::PathRouter;
+use self::paths::{Ends, Growth, PathStart, Paths, SearchOptions};
+pub use self::simplify::simplified;
+use self::subdivision::Subdivision;
+use self::target_graph::TargetGraph;
+use self::triangulate::{Parts, split_collapsing_edges, triangulate};
+use crate::linalg::run_apart;
+use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, VertexId};
+use crate::nonlinear::Scaffold;
+use crate::nonlinear::rest_shape::mean_edge_length;
+use crate::nonlinear::scaffold::{disk_in_plane_apart, outside_of};
+use crate::problem::{Control, Embedding, Phase, Pins, SolveError};
+use crate::verify::is_one_to_one;
+
+/// Length that a new vertex counts for, in mean lengths of an edge.
+const CROSSING: f64 = 0.5;
+
+/// The most new vertices for each vertex of the mesh, and on small meshes: paths that wind around each other need ever more.
+const NEW_VERTICES_PER_VERTEX: usize = 16;
+const NEW_VERTICES_OF_SMALL: usize = 10_000;
+
+/// Trees whose lengths are by chance up to so many times as long, and how many of each; the mesh's vertices in all trees
+/// that are tried, and the fewest trees.
+const LUCK: [f64; 2] = [1.3, 2.0];
+const SEEDS: u64 = 4;
+const VERTICES_OF_ALL_TREES: usize = 200_000;
+const FEWEST_TREES: usize = 2;
+
+/// How many trees are tried side by side, where there are more than the fewest; and the new vertices in all, after which
+/// no further ones are tried.
+const TREES_AT_ONCE: usize = 2;
+const POINTS_OF_ALL_TREES: usize = 800_000;
+
+/// Another tree than the first is taken where it needs at most so many of so many new vertices: a few more or less say
+/// nothing about the map.
+const WORTHWHILE: [usize; 2] = [4, 5];
+
+/// A planar embedding of a refined mesh that meets all exact pins to the last bit.
+#[derive(Clone, Debug)]
+pub struct Matched {
+    /// The mesh with its new vertices.
+    pub refinement: Arc<Refinement>,
+    /// An embedding of it.
+    pub embedding: Embedding,
+}
+
+/// The mesh within its outside, as it lies at the start.
+struct Surroundings {
+    /// Faces of the mesh first, then those of the outside; the frame's corners last.
+    disk: DiskMesh,
+    places: Vec<DVec2>,
+    frame: Vec<DVec2>,
+}
+
+/// What ways are searched for, and how.
+struct Search<'a> {
+    ends: Ends,
+    /// Length that a new vertex counts for.
+    crossing: f64,
+    control: Control<'a>,
+}
+
+/// Finds new vertices and an embedding with which all exact pins are met, from a planar embedding near to the targets.
+///
+/// The tree of the first paths decides how those of all others wind: several are tried, and the one that takes the
+/// fewest new vertices is taken.
+///
+/// # Errors
+///
+/// Targets that coincide, a start that is not planar, faces too fine for 64-bit numbers, paths that need too many new
+/// vertices, or the caller's wish to stop.
+pub fn matched(mesh: &DiskMesh, start: &Embedding, pins: &Pins, control: Control<'_>) -> Result<Matched, SolveError> {
+    let exact = || pins.iter().filter(|(_, pin)| pin.kind.is_hard());
+    let targets: Vec<DVec2> = exact().map(|(_, pin)| pin.target).collect();
+    let surroundings = Surroundings::new(mesh, start, &targets, control)?;
+    let frame = surroundings.frame.len();
+    let corners = (mesh.vertex_count()..).take(frame).map(VertexId::from_index);
+    let vertices = exact().map(|(&v, _)| v).chain(corners).map(VertexId::number).collect();
+    let graph = TargetGraph::new(&targets, &surroundings.frame);
+    control.go_on()?;
+    let crossing = CROSSING * mean_edge_length(mesh, start);
+    let search = Search { ends: Ends { graph, vertices, frame }, crossing, control };
+    let mut manners = manners(mesh);
+    loop {
+        let (number, paths) = surroundings.with_fewest_points(mesh, &search, &manners)?;
+        match surroundings.straightened(mesh, paths, control) {
+            // Another tree may lead to faces that are less fine.
+            Err(SolveError::TooFine) if manners.len() > 1 => manners.remove(number),
+            result => return result,
+        };
+    }
+}
+
+/// Trees that are tried. On large meshes a few only.
+fn manners(mesh: &DiskMesh) -> Vec<SearchOptions> {
+    use Growth::{Anywhere, FromFrame};
+    use PathStart::{NearOnMesh, NearTargets};
+    let plain = [
+        (FromFrame, NearTargets, 0.0),
+        (Anywhere, NearOnMesh, 0.0),
+        (Anywhere, NearTargets, 0.0),
+        (Anywhere, NearOnMesh, 0.3),
+        (FromFrame, NearTargets, 1.0),
+    ];
+    let manner = |(growth, beginning, target_share)| SearchOptions { growth, beginning, target_share, luck: (1.0, 0) };
+    let by_chance = LUCK.into_iter().flat_map(|most| (1..=SEEDS).map(move |seed| (most, seed)));
+    let varied = by_chance.map(|luck| SearchOptions { luck, ..manner(plain[1]) });
+    let count = (VERTICES_OF_ALL_TREES / mesh.vertex_count()).max(FEWEST_TREES);
+    plain.into_iter().map(manner).chain(varied).take(count).collect()
+}
+
+impl Surroundings {
+    fn new(mesh: &DiskMesh, start: &Embedding, targets: &[DVec2], control: Control<'_>) -> Result<Self, SolveError> {
+        let Scaffold { frame, triangles } =
+            outside_of(mesh, start, targets.iter().copied(), 1).ok_or(SolveError::NotPlanar)?;
+        control.go_on()?;
+        let triangles = mesh.mesh().triangles.iter().copied().chain(triangles);
+        let places: Vec<DVec2> = start.iter().chain(&frame).copied().collect();
+        let disk = disk_in_plane_apart(&places, triangles.collect(), control)?.ok_or(SolveError::NotPlanar)?;
+        Ok(Self { disk, places, frame })
+    }
+
+    /// Paths by the manner that takes the fewest new points, and its place in the list: the same as if all were tried one
+    /// after another.
+    fn with_fewest_points(
+        &self,
+        mesh: &DiskMesh,
+        search: &Search<'_>,
+        manners: &[SearchOptions],
+    ) -> Result<(usize, Paths), SolveError> {
+        let most = (NEW_VERTICES_PER_VERTEX * mesh.vertex_count()).max(NEW_VERTICES_OF_SMALL);
+        let mut fewest: Option<(usize, Paths)> = None;
+        let (mut at_most, mut why) = (most, SolveError::TooManyNewVertices { most });
+        let (mut number, mut laid) = (0, 0);
+        let at_once = if manners.len() > FEWEST_TREES { TREES_AT_ONCE } else { 1 };
+        for some in manners.chunks(at_once) {
+            let is_by_chance = some.iter().all(|manner| manner.luck.0 > 1.0);
+            if (is_by_chance && fewest.is_none()) || (laid > POINTS_OF_ALL_TREES && fewest.is_some()) {
+                break;
+            }
+            let tried: Vec<_> = some.par_iter().map(|&manner| self.laid(search, manner, at_most)).collect();
+            for (paths, end) in tried {
+                let count = paths.cells.point_count();
+                laid += count;
+                match end {
+                    Ok(()) if count <= at_most => {
+                        let [part, whole] = if fewest.is_none() { WORTHWHILE } else { [1, 1] };
+                        at_most = (part * count / whole).min(count.saturating_sub(1));
+                        fewest = Some((number, paths));
+                    }
+                    Ok(()) | Err(SolveError::TooManyNewVertices { .. }) => {}
+                    // Another tree may lie where numbers are coarser.
+                    Err(SolveError::TooFine) => why = SolveError::TooFine,
+                    Err(error) => return Err(error),
+                }
+                number += 1;
+            }
+        }
+        fewest.ok_or(why)
+    }
+
+    /// Paths by some manner with at most so many new points, or as far as they go; and how that ended.
+    fn laid(&self, search: &Search<'_>, manner: SearchOptions, at_most: usize) -> (Paths, Result<(), SolveError>) {
+        let mut router = PathRouter::new(search.crossing, search.control);
+        let mut paths = Paths::new(Subdivision::new(&self.disk, &self.places), search.ends.clone(), manner);
+        let end = search.control.go_on().and_then(|()| paths.lay_all(&mut router, at_most));
+        (paths, end)
+    }
+
+    /// The embedding in which all paths are straight.
+    fn straightened(&self, mesh: &DiskMesh, paths: Paths, control: Control<'_>) -> Result<Matched, SolveError> {
+        let Paths { mut cells, graph, lines, .. } = paths;
+        split_collapsing_edges(&mut cells, &graph);
+        control.go_on()?;
+        let parts = triangulate(&mut cells, &graph, &self.disk);
+        control.enter(Phase::Assemble)?;
+        let held = held_places(&cells, &graph, &lines);
+        control.go_on()?;
+        let whole = self.refined(&cells, &parts, control)?;
+        let (refinement, vertices) = refined(mesh, &Cut { whole: &self.disk, cells: &cells, parts: &parts }, control)?;
+        for weights in [Weights::MeanValue, Weights::Uniform] {
+            let places = match straightened(&whole, &cells, &held, weights, control) {
+                Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
+                Err(_) => continue,
+                Ok(places) => places,
+            };
+            let embedding: Embedding = vertices.iter().map(|&v| places[v as usize]).collect();
+            control.go_on()?;
+            if is_one_to_one(refinement.disk(), &embedding) {
+                return Ok(Matched { refinement, embedding });
+            }
+        }
+        Err(SolveError::TooFine)
+    }
+
+    /// Mesh and outside, cut into parts.
+    fn refined(&self, cells: &Subdivision, parts: &Parts, control: Control<'_>) -> Result<DiskMesh, SolveError> {
+        let of_face = |face: FaceId| match parts.get(&face) {
+            Some(parts) => parts.iter().map(|t| t.map(VertexId::new)).collect(),
+            None => vec![self.disk.face(face)],
+        };
+        let triangles = self.disk.faces().flat_map(of_face).collect();
+        let disk = disk_in_plane_apart(&cells.places, triangles, control)?;
+        Ok(disk.expect("the parts of a disk's faces are a disk"))
+    }
+}
+
+/// Mesh and outside, and how they are cut.
+struct Cut<'a> {
+    whole: &'a DiskMesh,
+    cells: &'a Subdivision,
+    parts: &'a Parts,
+}
+
+/// Takes the mesh with its new vertices out of the subdivision of mesh and outside. Returns also which vertex of that
+/// each of its vertices is.
+fn refined(
+    mesh: &DiskMesh,
+    &Cut { whole, cells, parts }: &Cut<'_>,
+    control: Control<'_>,
+) -> Result<(Arc<Refinement>, Vec<u32>), SolveError> {
+    let is_of_mesh = |edge: &EdgeId| {
+        let h = whole.halfedge(*edge);
+        [h, whole.twin(h)].iter().any(|h: &HalfedgeId| h.index() < 3 * mesh.face_count())
+    };
+    let mut vertices: Vec<u32> = mesh.vertices().map(VertexId::number).collect();
+    let mut new_vertices = Vec::new();
+    let mut number_of_point = BTreeMap::new();
+    for edge in whole.edges().filter(is_of_mesh) {
+        let [a, b] = whole.ends(edge);
+        let points = &cells.points[edge.number() as usize];
+        for (place, &point) in points.iter().enumerate() {
+            let share = (place + 1) as f64 / (points.len() + 1) as f64;
+            let at = if a < b { share } else { 1.0 - share };
+            number_of_point.insert(point, VertexId::from_index(vertices.len()));
+            vertices.push(point);
+            new_vertices.push(NewVertex { edge: [a.min(b), a.max(b)], at });
+        }
+    }
+    let renumbered = |v: u32| number_of_point.get(&v).copied().unwrap_or(VertexId::new(v));
+    let of_mesh = parts.range(..FaceId::from_index(mesh.face_count()));
+    let parts = of_mesh.map(|(&face, parts)| (face, parts.iter().map(|t| t.map(renumbered)).collect())).collect();
+    Ok((refinement(mesh, new_vertices, &parts, control)?, vertices))
+}
+
+/// A mesh with new vertices and its faces in such parts.
+fn refinement(
+    mesh: &DiskMesh,
+    new_vertices: Vec<NewVertex>,
+    parts: &BTreeMap<FaceId, Vec<[VertexId; 3]>>,
+    control: Control<'_>,
+) -> Result<Arc<Refinement>, SolveError> {
+    let cut = Refinement::cut(mesh, new_vertices, parts);
+    let joined = run_apart(move || cut.join(), control.cancel())?;
+    Ok(Arc::new(joined.expect("the parts of a disk's faces are a disk")))
+}

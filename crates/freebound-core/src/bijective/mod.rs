@@ -1,0 +1,31 @@
+//! Methods whose embeddings stay one-to-one.
+//!
+//! | file | contents |
+//! |---|---|
+//! | `virtual_boundary`, `lee` | mesh and outside embedded together (paper §5); layers around the mesh |
+//! | `continuation/`, `relaxing/`, `advance` | the way to the constraints; lower distortion; what both return |
+//! | `matchmaker/`, `clearance` | new vertices along paths; new vertices at a held boundary |
+//! | `multires/` | a disk with fewer vertices, and the way back |
+//! | `drag/` | an embedding under a dragged pin, proved at every frame |
+//! | `morph/` | a planar way between two embeddings |
+//! | `schnyder` | a grid drawing, planar by theorem |
+
+mod advance;
+pub(crate) mod clearance;
+pub(crate) mod continuation;
+mod drag;
+mod lee;
+pub(crate) mod matchmaker;
+mod morph;
+pub mod multires;
+pub(crate) mod relaxing;
+mod schnyder;
+mod virtual_boundary;
+
+pub(crate) use advance::Advance;
+pub use drag::{Blocker, DragFrame, DragSolver, DragTarget};
+pub use lee::Padded;
+pub use matchmaker::{Matched, matched, simplified, with_clearance};
+pub use morph::{Morph, MorphOptions, NoMorph, Route, morph};
+pub use schnyder::schnyder;
+pub use virtual_boundary::{Extended, Outline, VirtualBoundary};

@@ -1,0 +1,164 @@
+//! The rounds of a hierarchy backwards: all vertices put back, one-to-one.
+
+use std::collections::HashMap;
+
+use crate::parallel::prelude::*;
+use glam::DVec2;
+
+use super::hierarchy::{Hierarchy, OUTSIDE, Removed, Round};
+use super::level::Level;
+use super::place::{Room, resistance};
+use super::relaxation_sweep::Sweeps;
+use crate::geom::{double_area, outside_triangles};
+use crate::mesh::{DiskMesh, VertexId};
+use crate::nonlinear::foldover_energy::Element;
+use crate::nonlinear::rest_shape::laid_flat;
+use crate::nonlinear::scaffold::{FRAME_POINTS, frame_around};
+use crate::problem::{Control, Embedding, Phase, Pins, SolveError};
+
+/// The mesh as given, and where its vertices lay when some were taken.
+#[derive(Clone, Copy, Debug)]
+pub struct FineLevel<'a> {
+    /// The mesh.
+    pub mesh: &'a DiskMesh,
+    /// The embedding that vertices were taken in; without one, any: it says near which neighbours a vertex is tried first.
+    pub embedding: &'a Embedding,
+    /// Vertices that stay where the coarsest disk has them.
+    pub pins: &'a Pins,
+}
+
+/// Sweeps over all vertices of a level before it is improved, and over those of the mesh as given.
+const SWEEPS: usize = 3;
+
+/// For each boundary edge, by its ends in the boundary's direction, the point outside that its new vertex stays before.
+type Reach = HashMap<[u32; 2], DVec2>;
+
+/// What there is when the vertices of a round are put back.
+struct Around<'a> {
+    /// Positions of the others.
+    points: &'a [DVec2],
+    reach: Reach,
+    /// Length in the plane by length in space.
+    scale: f64,
+}
+
+impl Hierarchy {
+    /// Puts all vertices back: from a planar embedding of the coarsest disk to one of the mesh as given. `improve` takes
+    /// the embedding of each level on the way, and gives a better one that is planar too. `None` where rounding leaves no
+    /// room for a vertex, and where the outside cannot be triangulated.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`], and the errors of `improve`.
+    pub fn lifted(
+        &self,
+        fine: FineLevel<'_>,
+        coarse: &Embedding,
+        mut improve: impl FnMut(&Level, Embedding) -> Result<Embedding, SolveError>,
+        control: Control<'_>,
+    ) -> Result<Option<Embedding>, SolveError> {
+        let mut points = fine.embedding.to_vec();
+        self.coarsest().put_into(coarse, &mut points);
+        let scale = scale_of(&self.coarsest().disk, coarse);
+        let mut levels = self.levels.iter().rev().peekable();
+        for (index, round) in self.rounds.iter().enumerate().rev() {
+            control.enter(Phase::Solve)?;
+            let Some(reach) = reach_of(round, &points) else { return Ok(None) };
+            let around = Around { points: &points, reach, scale };
+            let place = |removed: &Removed| placed(fine, removed, &around);
+            let places: Option<Vec<DVec2>> = round.removed.par_iter().with_min_len(64).map(place).collect();
+            let Some(places) = places else { return Ok(None) };
+            for (removed, z) in round.removed.iter().zip(places) {
+                points[removed.vertex as usize] = z;
+            }
+            if let Some((_, level)) = levels.next_if(|(after, _)| *after == index) {
+                let is_held = |vertex: VertexId| fine.pins.contains_key(&level.vertices[vertex.index()]);
+                let swept = swept(&level.disk, level.part_of(&points), is_held, control)?;
+                level.put_into(&improve(level, swept)?, &mut points);
+            }
+        }
+        let is_held = |vertex: VertexId| fine.pins.contains_key(&vertex);
+        Ok(Some(swept(fine.mesh, points.into(), is_held, control)?))
+    }
+}
+
+/// An embedding after sweeps over all vertices that are not held.
+fn swept(
+    disk: &DiskMesh,
+    mut embedding: Embedding,
+    is_held: impl Fn(VertexId) -> bool,
+    control: Control<'_>,
+) -> Result<Embedding, SolveError> {
+    let sweeps = Sweeps::new(disk, is_held, scale_of(disk, &embedding));
+    for _ in 0..SWEEPS {
+        control.enter(Phase::Solve)?;
+        sweeps.sweep(&mut embedding);
+    }
+    Ok(embedding)
+}
+
+/// Length in the plane by length in space.
+fn scale_of(disk: &DiskMesh, embedding: &Embedding) -> f64 {
+    let areas = disk.faces().map(|face| {
+        let [x, z] = [laid_flat(disk.shape(disk.face(face))), embedding.corners(disk, face)];
+        [x, z].map(double_area)
+    });
+    let [space, plane] = areas.fold([0.0; 2], |sum, area| [sum[0] + area[0], sum[1] + area[1]]);
+    (plane / space).sqrt()
+}
+
+/// How far out new boundary vertices may go: each edge of the boundary without them has a part of the outside to itself.
+fn reach_of(round: &Round, points: &[DVec2]) -> Option<Reach> {
+    if round.boundary.is_empty() {
+        return Some(Reach::new());
+    }
+    let polygon: Vec<DVec2> = round.boundary.iter().map(|&v| points[v as usize]).collect();
+    let frame = frame_around(polygon.iter().copied(), FRAME_POINTS);
+    let at =
+        |corner: u32| polygon.get(corner as usize).copied().unwrap_or_else(|| frame[corner as usize - polygon.len()]);
+    let mut reach = Reach::new();
+    for corners in outside_triangles(&polygon, &frame)? {
+        let middle = corners.map(at).iter().sum::<DVec2>() / 3.0;
+        for k in 0..3 {
+            // The outside runs along the boundary the other way round.
+            let ends = [corners[(k + 1) % 3], corners[k]].map(|corner| round.boundary.get(corner as usize));
+            if let [Some(&from), Some(&to)] = ends {
+                reach.insert([from, to], middle);
+            }
+        }
+    }
+    Some(reach)
+}
+
+/// Where a vertex goes in its polygon.
+fn placed(FineLevel { mesh, embedding, .. }: FineLevel<'_>, removed: &Removed, around: &Around<'_>) -> Option<DVec2> {
+    let Around { points, reach, scale } = around;
+    let corners = &removed.polygon;
+    let outside = |k: usize| {
+        let count = corners.len();
+        reach.get(&[corners[(k + count - 1) % count], corners[(k + 1) % count]]).copied()
+    };
+    let corner = |(k, &v): (usize, &u32)| if v == OUTSIDE { outside(k) } else { Some(points[v as usize]) };
+    let polygon: Vec<DVec2> = corners.iter().enumerate().map(corner).collect::<Option<_>>()?;
+    let element = |k: usize| {
+        let [a, b] = removed.side(k);
+        resistance(mesh.shape([removed.vertex, a, b].map(VertexId::new)), [k, (k + 1) % corners.len()], *scale)
+    };
+    let elements: Vec<Element> = removed.sides().map(element).collect();
+    let before = |k: usize| embedding[corners[k] as usize];
+    let guess = guess(removed, embedding[removed.vertex as usize], before, &polygon);
+    Room { polygon: &polygon, elements: &elements }.place(guess)
+}
+
+/// The point of the same barycentric coordinates in the fan's triangle that held a vertex, or was the nearest to holding it.
+fn guess(removed: &Removed, z: DVec2, before: impl Fn(usize) -> DVec2, polygon: &[DVec2]) -> Option<DVec2> {
+    let coordinates = |corners: [usize; 3]| {
+        let [a, b, c] = corners.map(&before);
+        let area = (b - a).perp_dot(c - a);
+        let shares = [(b - z).perp_dot(c - z), (c - z).perp_dot(a - z), (a - z).perp_dot(b - z)];
+        (corners, shares.map(|share| share / area))
+    };
+    let least = |shares: [f64; 3]| shares.into_iter().fold(f64::INFINITY, f64::min);
+    let (corners, shares) = removed.fan().map(coordinates).max_by(|a, b| least(a.1).total_cmp(&least(b.1)))?;
+    Some(corners.iter().zip(shares).map(|(&k, share)| share * polygon[k]).sum())
+}

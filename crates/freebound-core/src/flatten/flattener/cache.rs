@@ -1,0 +1,39 @@
+//! Results that flatteners on one mesh pass on to further ones.
+
+use std::sync::Arc;
+
+use super::task::Task;
+use crate::flatten::Prepared;
+use crate::geom::PictureFrame;
+use crate::problem::{Embedding, GaugeSize};
+
+/// Results that flatteners on one mesh pass on to further ones.
+#[derive(Clone, Debug, Default)]
+pub struct SolverCache {
+    /// Equations and factors of a linear solve.
+    pub prepared: Option<Arc<Prepared>>,
+    /// Planar start of the stages that meet constraints.
+    pub planar_start: Option<Arc<PlanarStart>>,
+}
+
+/// A planar embedding without constraints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanarStart {
+    /// Size that it was computed at.
+    size: GaugeSize,
+    /// Picture that it was proved on.
+    frame: PictureFrame,
+    /// One position per vertex, in the plane.
+    pub(super) embedding: Embedding,
+}
+
+impl PlanarStart {
+    pub(super) fn new(task: &Task, embedding: Embedding) -> Self {
+        Self { size: task.settings.size, frame: task.sheet.frame(), embedding }
+    }
+
+    /// True if another task would begin with it.
+    pub(super) fn serves(&self, task: &Task) -> bool {
+        self.size == task.settings.size && self.frame == task.sheet.frame()
+    }
+}

@@ -1,0 +1,175 @@
+//! Stage 4: a planar start without the constraints, moved to where it fits them best, then one-to-one on the way to them.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::stage::{Handover, RunStage, StageFailure, StageInput, StepState};
+use super::task::Task;
+use super::{Candidate, Ending, PlanarStart, Step};
+use crate::bijective::continuation::Continuation;
+use crate::bijective::relaxing::Relaxing;
+use crate::flatten::placing::Placing;
+use crate::mesh::DiskMesh;
+use crate::problem::{Control, Embedding, Pins, SolveError, Stage};
+
+/// Rounds of relaxing that follow: the first answer is not the best. More where springs have yet to pull.
+const ROUNDS: usize = 3;
+const ROUNDS_WITH_SPRINGS: usize = 30;
+
+/// Rounds of relaxing at most until a planar start can be moved to where it fits the constraints.
+const ROUNDS_BEFORE_FITTING: usize = 30;
+
+fn rounds_after(task: &Task) -> usize {
+    if task.held().values().any(|pin| !pin.kind.is_hard()) { ROUNDS_WITH_SPRINGS } else { ROUNDS }
+}
+
+/// The planar start, moved.
+#[derive(Debug)]
+pub(super) struct Fit {
+    /// Kept from an earlier flattener; otherwise the latest step is the start.
+    pub(super) start: Option<Arc<PlanarStart>>,
+    pub(super) is_done: bool,
+}
+
+impl RunStage for Fit {
+    fn step(&mut self, from: StageInput<'_>, control: Control<'_>) -> Result<Candidate, StageFailure> {
+        let StageInput { task, mesh, latest } = from;
+        let began = Instant::now();
+        let of_latest = || {
+            let embedding = latest?.embedding.clone();
+            Some(Arc::new(PlanarStart::new(task, embedding)))
+        };
+        let start = self.start.clone().or_else(of_latest).ok_or(SolveError::NotPlanar)?;
+        let held = task.held();
+        let embedding = fitted(task, mesh, &start.embedding, control)?;
+        control.go_on()?;
+        self.is_done = true;
+        let progress = Continuation::new(mesh, embedding.clone(), &held).progress(mesh);
+        let candidate = Candidate::one_to_one(Stage::Continuation, embedding, &held);
+        Ok(Candidate { progress: Some(progress), planar_start: Some(start), ..candidate.since(began) })
+    }
+
+    fn has_more(&self, _: &Task, _: Option<&StepState>) -> bool {
+        !self.is_done
+    }
+
+    fn relax_rounds_after(&self, task: &Task, _: &Step) -> usize {
+        rounds_after(task)
+    }
+}
+
+/// An embedding where it fits the pins best. One that would fold there is relaxed until it does not; where that helps
+/// no more, it stays where it lies.
+fn fitted(task: &Task, mesh: &DiskMesh, start: &Embedding, control: Control<'_>) -> Result<Embedding, SolveError> {
+    let held = task.held();
+    let holds = |placed: &Embedding| control.go_on().map(|()| task.sheet.is_one_to_one(mesh, placed));
+    let fit = |embedding: &Embedding| Placing::fitting(embedding, &held).best(embedding, holds);
+    let mut placed = fit(start)?;
+    let mut relaxing = Relaxing::new(mesh, start.clone(), &Pins::new());
+    for _ in 0..ROUNDS_BEFORE_FITTING {
+        if placed.is_as_wished || relaxing.has_converged {
+            break;
+        }
+        match relaxing.round(mesh, control) {
+            Ok(relaxed) => placed = fit(&relaxed.embedding)?,
+            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
+            Err(_) => break,
+        }
+    }
+    Ok(placed.embedding)
+}
+
+#[derive(Debug, Default)]
+pub(super) struct Continue {
+    stage: ContinuationPhase,
+    /// Whether its latest step left the embedding as it was.
+    has_stayed: bool,
+}
+
+impl Continue {
+    /// One that leaves the embedding which it begins with as it is, where that meets all constraints.
+    pub(super) fn staying() -> Self {
+        Self { stage: ContinuationPhase::Stay, has_stayed: false }
+    }
+
+    /// The embedding that it begins with, where that meets all constraints.
+    fn stay(from: StageInput<'_>) -> Option<Candidate> {
+        let StageInput { task, mesh, latest } = from;
+        let (began, held) = (Instant::now(), task.held());
+        let is_met =
+            |latest: &&StepState| held.values().all(|pin| pin.kind.is_hard()) && task.are_met(&latest.embedding);
+        let embedding = latest.filter(is_met)?.embedding.clone();
+        let progress = Some(Continuation::new(mesh, embedding.clone(), &held).progress(mesh));
+        Some(Candidate { progress, ..Candidate::one_to_one(Stage::Continuation, embedding, &held).since(began) })
+    }
+}
+
+#[derive(Debug, Default)]
+enum ContinuationPhase {
+    /// Nothing is to be done where the constraints are met.
+    Stay,
+    #[default]
+    Begin,
+    UnderWay(Box<Continuation>),
+    /// No step leads nearer to the targets.
+    Stuck,
+}
+
+impl RunStage for Continue {
+    fn step(&mut self, from: StageInput<'_>, control: Control<'_>) -> Result<Candidate, StageFailure> {
+        let StageInput { task, mesh, latest } = from;
+        let (began, held) = (Instant::now(), task.held());
+        self.has_stayed = false;
+        if let ContinuationPhase::Stay = self.stage {
+            self.stage = ContinuationPhase::Begin;
+            if let Some(candidate) = Self::stay(from) {
+                self.has_stayed = true;
+                return Ok(candidate);
+            }
+        }
+        if let ContinuationPhase::Begin = self.stage {
+            let start = latest.ok_or(SolveError::NotPlanar)?.embedding.clone();
+            control.go_on()?;
+            let sheet = Arc::clone(&task.sheet);
+            let mut continuation = Box::new(Continuation::new(mesh, start, &held).with_output_frame(sheet));
+            let met = continuation.by_way_of_coarse(mesh, control)?;
+            self.stage = ContinuationPhase::UnderWay(continuation);
+            if let Some(advance) = met {
+                return Ok(Candidate::of_advance(Stage::Continuation, advance, &held).since(began));
+            }
+        }
+        let ContinuationPhase::UnderWay(continuation) = &mut self.stage else {
+            // What comes after it may still meet them.
+            return Err(StageFailure { error: SolveError::Unmet, handover: Some(Handover::default()) });
+        };
+        // Where it has arrived and the flattener still asks, other numbers than these fold: those that are written.
+        let next = if continuation.is_at_its_end() { Err(SolveError::Unmet) } else { continuation.step(mesh, control) };
+        match next {
+            Ok(advance) => return Ok(Candidate::of_advance(Stage::Continuation, advance, &held).since(began)),
+            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
+            // What cannot be solved is stuck, too.
+            Err(_) => {}
+        }
+        let is_crushed = continuation.go_back_to_sound();
+        let (embedding, progress) = (continuation.embedding.clone(), continuation.progress(mesh));
+        self.stage = ContinuationPhase::Stuck;
+        if is_crushed && !task.adds_vertices() {
+            let candidate = Candidate::one_to_one(Stage::Continuation, embedding, &held).since(began);
+            return Ok(Candidate { progress: Some(progress), ..candidate });
+        }
+        let handover = Handover { embedding: Some(embedding), ..Handover::default() };
+        Err(StageFailure { error: SolveError::Unmet, handover: Some(handover) })
+    }
+
+    fn has_more(&self, _: &Task, _: Option<&StepState>) -> bool {
+        true
+    }
+
+    fn relax_rounds_after(&self, task: &Task, _: &Step) -> usize {
+        if self.has_stayed { 0 } else { rounds_after(task) }
+    }
+
+    fn ending(&self, _: &Task) -> Ending {
+        Ending::Unmet
+    }
+}

@@ -1,0 +1,157 @@
+//! What follows a planar embedding: rounds of relaxing, each of lower distortion.
+//!
+//! `auto` goes on with them until the embedding *serves*: until it holds in 32 bits, as most programs read it, and its
+//! energy is moderate, so that a picture on it keeps some texels everywhere. A planar layout that was given stays as it is.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::matchmaker::is_tangle;
+use super::stage::{PhaseGoal, RunStage, StageFailure, StageInput, StepState};
+use super::task::Task;
+use super::{Candidate, Step};
+use crate::bijective::relaxing::Relaxing;
+use crate::problem::{Control, Pins, SolveError, Stage};
+
+/// A mean symmetric Dirichlet energy up to this is moderate; 4 is the least.
+const MODERATE_ENERGY: f64 = 20.0;
+
+/// An embedding is far from the origin where it is so many of its sizes away: there it has fewer digits.
+const FAR: f64 = 8.0;
+
+/// How many rounds may follow.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Rounds {
+    /// Whatever they come to.
+    pub(super) always: usize,
+    /// As long as the embedding does not serve.
+    pub(super) until_it_serves: usize,
+}
+
+#[derive(Debug, Default)]
+pub(super) struct Relax {
+    relaxing: Option<Relaxing>,
+    /// Rounds that may still follow.
+    left: Rounds,
+    /// Why the latest embedding does not serve.
+    lack: Option<Shortfall>,
+    /// Whether a round has failed: then none follows.
+    has_failed: bool,
+    /// Whether constraints are to follow.
+    is_before_constraints: bool,
+}
+
+/// What an embedding lacks to serve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shortfall {
+    /// It folds in 32 bits; whether that is because it lies far from the origin.
+    Digits { is_far: bool },
+    /// Its energy is so high.
+    Energy(f64),
+}
+
+impl Shortfall {
+    /// What a step lacks; the energy is no matter where it only begins a way to constraints.
+    fn of(step: &Step) -> Option<Self> {
+        if step.verdict.planar && !step.verdict.planar_in_f32 {
+            let bounds = step.candidate.solution.embedding.bounds();
+            let is_far = bounds.middle().abs().max_element() > FAR * bounds.size().max_element();
+            return Some(Self::Digits { is_far });
+        }
+        let energy = step.candidate.progress.filter(|_| !step.is_of_planar_start()).map(|progress| progress.energy);
+        energy.filter(|&energy| energy > MODERATE_ENERGY).map(Self::Energy)
+    }
+
+    fn words(self) -> String {
+        match self {
+            Self::Digits { .. } => "it does not hold in 32 bits".to_owned(),
+            Self::Energy(energy) => format!("its energy is {energy:.0}, over {MODERATE_ENERGY}"),
+        }
+    }
+}
+
+impl Relax {
+    /// Of a part of the plan with such an aim.
+    pub(super) fn of(aim: PhaseGoal) -> Self {
+        Self { is_before_constraints: aim == PhaseGoal::PlanarStart, ..Self::default() }
+    }
+
+    /// Lets so many rounds follow, from the latest embedding on.
+    pub(super) fn begin(&mut self, rounds: Rounds) {
+        (self.relaxing, self.left, self.has_failed) = (None, rounds, false);
+    }
+
+    /// Takes in the step that rounds may follow.
+    pub(super) fn look_at_start(&mut self, step: &Step) {
+        self.lack = Shortfall::of(step);
+        if step.candidate.refinement.as_deref().is_some_and(is_tangle) {
+            // However many rounds follow, it does not come to serve.
+            self.left.until_it_serves = 0;
+        }
+    }
+
+    /// Whether rounds follow that do not only lower the energy until it serves.
+    pub(super) fn goes_on_for_digits(&self) -> bool {
+        self.left.always > 0 || matches!(self.lack, Some(Shortfall::Digits { .. }))
+    }
+
+    /// Whether the latest embedding is finer than 32 bits, wherever it lies.
+    pub(super) fn is_too_fine(&self) -> bool {
+        self.lack == Some(Shortfall::Digits { is_far: false })
+    }
+
+    fn round(&mut self, from: StageInput<'_>, control: Control<'_>) -> Result<Candidate, SolveError> {
+        let StageInput { task, mesh, latest } = from;
+        let start = Instant::now();
+        let latest = latest.ok_or(SolveError::NotPlanar)?;
+        let refinement = latest.refinement.clone();
+        let mesh = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
+        // Up to two pins only say where the embedding is to lie: it is brought there after the round.
+        let is_constrained = task.is_constrained();
+        let held = if is_constrained { task.held() } else { Pins::new() };
+        let sheet = if is_constrained { Arc::clone(&task.sheet) } else { Arc::default() };
+        let begin = || {
+            let relaxing = Relaxing::new(mesh, latest.embedding.clone(), &held).with_output_frame(sheet);
+            if self.is_before_constraints { relaxing.before_constraints(mesh) } else { relaxing }
+        };
+        let relaxed = self.relaxing.get_or_insert_with(begin).round(mesh, control)?;
+        let candidate = Candidate::of_advance(Stage::Relax, relaxed, &held);
+        let lack = self.lack.filter(|_| self.left.always == 0);
+        let note = lack.map(|lack| format!("relaxed because {}", lack.words()));
+        Ok(Candidate { refinement, note, ..candidate.since(start) })
+    }
+}
+
+impl RunStage for Relax {
+    fn step(&mut self, from: StageInput<'_>, control: Control<'_>) -> Result<Candidate, StageFailure> {
+        let error = match self.round(from, control) {
+            Ok(candidate) => return Ok(candidate),
+            Err(error) => error,
+        };
+        // What is one-to-one stays the result: a failure only ends the relaxing.
+        let kept = from.latest.filter(|latest| latest.is_one_to_one && error != SolveError::Cancelled);
+        let Some(StepState { embedding, pins, refinement, .. }) = kept else { return Err(error.into()) };
+        self.has_failed = true;
+        let note = Some(format!("relaxing gave nothing: {error}; the embedding before is kept"));
+        let candidate = Candidate::one_to_one(Stage::Relax, embedding.clone(), pins);
+        Ok(Candidate { refinement: refinement.clone(), note, ..candidate })
+    }
+
+    fn has_more(&self, _: &Task, latest: Option<&StepState>) -> bool {
+        // Polygons that cannot be convex are cut.
+        let may_serve = self.lack.is_some() && latest.is_none_or(|latest| !latest.is_solved_but_for_polygons);
+        // What fills the holes of a layout that was given may fold: there is no way on from that.
+        let may_begin = latest.is_none_or(|latest| latest.is_one_to_one || !latest.is_solved);
+        let is_wanted = self.left.always > 0 || (self.left.until_it_serves > 0 && may_serve);
+        is_wanted
+            && may_begin
+            && !self.has_failed
+            && !self.relaxing.as_ref().is_some_and(|relaxing| relaxing.has_converged)
+    }
+
+    fn observe(&mut self, step: &Step) {
+        let left = if self.left.always > 0 { &mut self.left.always } else { &mut self.left.until_it_serves };
+        *left = left.saturating_sub(1);
+        self.lack = Shortfall::of(step);
+    }
+}

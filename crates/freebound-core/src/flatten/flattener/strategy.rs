@@ -1,0 +1,340 @@
+//! The plan: which stage follows which, chosen once from method and pins.
+//!
+//! A plan has parts, a part has sequences, a sequence has stages. After a stage's last step the next one of its sequence
+//! follows; a stage that gives nothing, or that does not apply where the flattener comes to it, leads to the next sequence.
+//! A part ends where it is solved, and relaxed; or with its last sequence.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+
+use super::relax::{Relax, Rounds};
+use super::sequence::StageKind::{Continuation, Fit, Given, Iterate, Schnyder};
+use super::sequence::{
+    ANGLES, BENT, CONTINUED, CONTINUED_OR_MATCHED, DRAWN, GIVEN, GIVEN_BENT, GIVEN_ITERATED, GOING_ON, HELD, ITERATED,
+    LADDER, LESS_ENERGETIC, LESS_STRETCHED, LINEAR, MATCHED, PADDED, SPECTRAL, Sequence, StageKind,
+};
+use super::single_step::Cut;
+use super::stage::{PhaseGoal, RunStage, StepState};
+use super::task::Task;
+use super::{Ending, SolverCache, Step};
+use crate::problem::{Embedding, Method, Pins, Settings, Stage};
+
+/// The most rounds of relaxing until a planar embedding serves.
+const ROUNDS_UNTIL_IT_SERVES: usize = 60;
+
+/// Rounds of relaxing by which polygons become convex.
+const ROUNDS_TO_CONVEX: usize = 30;
+
+/// What is still to be done: the part under way first.
+#[derive(Debug)]
+pub(super) struct Strategy {
+    parts: VecDeque<PhaseState>,
+}
+
+impl Strategy {
+    /// From a layout in the plane on, where there is one.
+    pub(super) fn new(task: &Arc<Task>, kept: &SolverCache, layout: Option<&Arc<Embedding>>) -> Self {
+        layout.map_or_else(|| Self::from_scratch(task, kept), |layout| Self::from_given(task, kept, layout))
+    }
+
+    fn from_given(task: &Arc<Task>, kept: &SolverCache, layout: &Arc<Embedding>) -> Self {
+        // The layout is the planar start.
+        let kept = SolverCache { planar_start: None, ..kept.clone() };
+        let from_layout = |part| PhaseState { is_from_layout: true, ..part };
+        let part = |sequences| from_layout(PhaseState::new(task, PhaseGoal::Constraints, sequences, &kept));
+        // Constraints are met from the layout as it is.
+        let start = || {
+            let settings = Settings { size: task.settings.size, ..Settings::default() };
+            let sheet = Arc::clone(&task.sheet);
+            let task = Task { start: Some(Arc::clone(layout)), ..Task::new(settings, Pins::new(), sheet) };
+            from_layout(PhaseState::new(&Arc::new(task), PhaseGoal::PlanarStart, GIVEN, &kept))
+        };
+        let to_constraints = |sequences| {
+            let as_it_lies = task.is_held_by_start().then(|| part(GOING_ON));
+            [start()].into_iter().chain(as_it_lies).chain([part(sequences)]).collect()
+        };
+        let parts = match task.settings.method {
+            Method::Iterate => [part(GIVEN_ITERATED)].into(),
+            Method::VirtualBoundary => [part(GIVEN_BENT)].into(),
+            Method::Auto if !task.is_constrained() => [part(GIVEN)].into(),
+            _ if task.is_met_by_start() => [part(GIVEN)].into(),
+            _ => to_constraints(Self::flights_to_constraints(task)),
+        };
+        Self { parts }
+    }
+
+    /// From the surface alone.
+    pub(super) fn from_scratch(task: &Arc<Task>, kept: &SolverCache) -> Self {
+        let planar_start = kept.planar_start.clone().filter(|start| start.serves(task));
+        let kept = SolverCache { planar_start, ..kept.clone() };
+        let part = |sequences| PhaseState::new(task, PhaseGoal::Constraints, sequences, &kept);
+        let unconstrained = Settings { size: task.settings.size, ..Settings::default() };
+        let start = || {
+            let task = Task::new(unconstrained, Pins::new(), Arc::new(task.sheet.without_pins()));
+            PhaseState::new(&Arc::new(task), PhaseGoal::PlanarStart, LADDER, &kept)
+        };
+        let from_start = |sequences| kept.planar_start.is_none().then(start).into_iter().chain([part(sequences)]);
+        let parts = match task.settings.method {
+            Method::Auto if !task.is_constrained() => [part(LADDER)].into(),
+            Method::Auto => {
+                let first = [part(ITERATED), part(HELD)].into_iter();
+                first.chain(from_start(Self::flights_to_constraints(task))).collect()
+            }
+            Method::Continuation | Method::Matchmaker => from_start(Self::flights_to_constraints(task)).collect(),
+            Method::Iterate => [part(ITERATED)].into(),
+            Method::VirtualBoundary => [part(BENT)].into(),
+            Method::Schnyder => [part(DRAWN)].into(),
+            Method::Stretch(_) => [part(LESS_STRETCHED)].into(),
+            Method::Slim => [part(LESS_ENERGETIC)].into(),
+            Method::Lee(_) => [part(PADDED)].into(),
+            Method::Spectral => [part(SPECTRAL)].into(),
+            Method::Abf | Method::AbfPlusPlus => [part(ANGLES)].into(),
+            Method::Natural | Method::Convex(_) | Method::Lscm | Method::Levy => [part(LINEAR)].into(),
+        };
+        Self { parts }
+    }
+
+    /// From a one-to-one embedding to the constraints, as it lies; where it gets stuck, from the planar start.
+    pub(super) fn going_on(task: &Arc<Task>, kept: &SolverCache) -> Self {
+        let afresh_after =
+            Self::from_scratch(task, kept).parts.into_iter().skip_while(|part| part.sequences == ITERATED);
+        let going_on = PhaseState::new(task, PhaseGoal::Constraints, GOING_ON, kept);
+        Self { parts: std::iter::once(going_on).chain(afresh_after).collect() }
+    }
+
+    /// At rest on the way from a planar start to the constraints, or at its end.
+    pub(super) fn on_the_way(task: &Arc<Task>, kept: &SolverCache) -> Self {
+        let part = PhaseState::new(task, PhaseGoal::Constraints, Self::flights_to_constraints(task), kept);
+        // Behind the fit.
+        let at = StageIndex { sequence: 0, stage: 1 };
+        Self { parts: [PhaseState { at, ..part }].into() }
+    }
+
+    /// From a planar start.
+    fn flights_to_constraints(task: &Task) -> Sequence {
+        match task.settings.method {
+            Method::Matchmaker => MATCHED,
+            _ if task.adds_vertices() => CONTINUED_OR_MATCHED,
+            _ => CONTINUED,
+        }
+    }
+
+    pub(super) fn part(&self) -> &PhaseState {
+        &self.parts[0]
+    }
+
+    pub(super) fn part_mut(&mut self) -> &mut PhaseState {
+        &mut self.parts[0]
+    }
+
+    pub(super) fn has_next_part(&self) -> bool {
+        self.parts.len() > 1
+    }
+
+    pub(super) fn enter_next_part(&mut self) {
+        self.parts.pop_front();
+    }
+
+    /// Whether the next part follows the one under way, where that has no further step.
+    pub(super) fn leads_on(&self, latest: Option<&StepState>) -> bool {
+        let is_end = self.part().aim == PhaseGoal::Constraints && latest.is_some_and(|latest| latest.is_solved);
+        self.has_next_part() && !is_end
+    }
+}
+
+/// A stage, by its sequence and its place in the sequence.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct StageIndex {
+    sequence: usize,
+    stage: usize,
+}
+
+/// What takes the next step of a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum NextStage {
+    Stage(StageIndex),
+    /// What follows the stages where they have solved it.
+    Relax,
+    /// What follows where they have, but for concave polygons.
+    Cut,
+}
+
+/// Stages with one aim.
+#[derive(Debug)]
+pub(super) struct PhaseState {
+    pub(super) aim: PhaseGoal,
+    pub(super) task: Arc<Task>,
+    pub(super) relax: Relax,
+    cut: Cut,
+    /// Whether it goes on from a layout that was given.
+    pub(super) is_from_layout: bool,
+    pub(super) sequences: Sequence,
+    pub(super) stages: BTreeMap<StageKind, Box<dyn RunStage>>,
+    /// Where the flattener stands, and whether it has taken a step there.
+    at: StageIndex,
+    has_stepped: bool,
+    /// Whether the part has taken any step.
+    has_begun: bool,
+}
+
+impl PhaseState {
+    fn new(task: &Arc<Task>, aim: PhaseGoal, sequences: Sequence, kept: &SolverCache) -> Self {
+        // The latest step of any part can be iterated on by hand, or relaxed where it is one-to-one.
+        let kinds = sequences.iter().copied().flatten().chain(&[Iterate]);
+        let stages = kinds.map(|&kind| (kind, kind.stage(kept))).collect();
+        let (at, has_stepped, has_begun) = (StageIndex::default(), false, false);
+        Self {
+            aim,
+            task: Arc::clone(task),
+            relax: Relax::of(aim),
+            cut: Cut,
+            is_from_layout: false,
+            sequences,
+            stages,
+            at,
+            has_stepped,
+            has_begun,
+        }
+    }
+
+    fn kind(&self, at: StageIndex) -> StageKind {
+        self.sequences[at.sequence][at.stage]
+    }
+
+    fn stage(&self, at: StageIndex) -> &dyn RunStage {
+        &*self.stages[&self.kind(at)]
+    }
+
+    /// Whether it is about to begin, and not from the latest step.
+    pub(super) fn begins_anew(&self) -> bool {
+        self.aim == PhaseGoal::PlanarStart && !self.has_begun
+    }
+
+    /// What takes the next step; none where the part is at its end.
+    pub(super) fn next(&self, latest: Option<&StepState>) -> Option<NextStage> {
+        // Its next step goes on from its own, not from one that was relaxed.
+        if self.stage(self.at).improves() {
+            return Some(NextStage::Stage(self.at));
+        }
+        let relax = || self.relax.has_more(&self.task, latest).then_some(NextStage::Relax);
+        if latest.is_some_and(|latest| latest.is_solved) {
+            return relax().or_else(|| self.drawing().filter(|_| self.is_too_fine()).map(NextStage::Stage));
+        }
+        // What is too fine for its place may fit there once it has relaxed.
+        if latest.is_some_and(|latest| latest.is_unplaced)
+            && let Some(place) = relax()
+        {
+            return Some(place);
+        }
+        if latest.is_some_and(|latest| latest.is_solved_but_for_polygons) {
+            let relaxes = self.relax.has_more(&self.task, latest).then_some(NextStage::Relax);
+            let follows = relaxes.or_else(|| self.cut.has_more(&self.task, latest).then_some(NextStage::Cut));
+            // Where constraints are met there is no further way to them.
+            if follows.is_some() || self.task.is_constrained() {
+                return follows;
+            }
+        }
+        let (mut at, mut has_stepped) = (self.at, self.has_stepped);
+        while let Some(sequence) = self.sequences.get(at.sequence) {
+            if self.stage(at).has_more(&self.task, latest) {
+                return Some(NextStage::Stage(at));
+            }
+            let follows = has_stepped && at.stage + 1 < sequence.len();
+            at = if follows {
+                StageIndex { stage: at.stage + 1, ..at }
+            } else {
+                StageIndex { sequence: at.sequence + 1, stage: 0 }
+            };
+            has_stepped = false;
+        }
+        None
+    }
+
+    /// Whether a planar embedding is too fine to serve, however much it is relaxed.
+    fn is_too_fine(&self) -> bool {
+        self.rounds_until_it_serves() > 0 && self.relax.is_too_fine()
+    }
+
+    /// The grid drawing, where the part has one that is still to come: no face of it is fine.
+    fn drawing(&self) -> Option<StageIndex> {
+        let sequence = self.sequences.iter().position(|sequence| sequence[0] == Schnyder)?;
+        let at = StageIndex { sequence, stage: 0 };
+        self.stage(at).has_more(&self.task, None).then_some(at)
+    }
+
+    /// Goes to what takes the next step.
+    pub(super) fn enter(&mut self, place: NextStage) -> &mut dyn RunStage {
+        let at = match place {
+            NextStage::Relax => return &mut self.relax,
+            NextStage::Cut => return &mut self.cut,
+            NextStage::Stage(at) => at,
+        };
+        if at != self.at {
+            (self.at, self.has_stepped) = (at, false);
+        }
+        self.rung_of(self.kind(at))
+    }
+
+    /// What goes on from the latest step, whether or not the part is at its end.
+    pub(super) fn by_hand(&mut self) -> &mut dyn RunStage {
+        match self.kind(StageIndex::default()) {
+            Fit | Continuation => &mut self.relax,
+            // What meets constraints as it is was brought there one-to-one.
+            Given if self.task.is_constrained() => &mut self.relax,
+            _ => self.rung_of(Iterate),
+        }
+    }
+
+    fn rung_of(&mut self, kind: StageKind) -> &mut dyn RunStage {
+        &mut **self.stages.get_mut(&kind).expect("a part has all rungs of its flights")
+    }
+
+    /// Goes on to the next sequence. Returns whether there is one.
+    pub(super) fn leave_flight(&mut self, place: NextStage) -> bool {
+        let has_next = matches!(place, NextStage::Stage(_)) && self.at.sequence + 1 < self.sequences.len();
+        if has_next {
+            (self.at, self.has_stepped) = (StageIndex { sequence: self.at.sequence + 1, stage: 0 }, false);
+        }
+        has_next
+    }
+
+    /// Takes in a step: one of its own, or the first where a flattener goes on from another's.
+    pub(super) fn observe(&mut self, step: &Step) {
+        (self.has_stepped, self.has_begun) = (true, true);
+        for stage in self.stages.values_mut() {
+            stage.observe(step);
+        }
+        if step.candidate.stage == Stage::Relax {
+            self.relax.observe(step);
+        } else {
+            let own = || {
+                let method = self.task.settings.method;
+                let is_for_planar = method == Method::Auto || method.is_one_to_one();
+                let is_start = self.aim == PhaseGoal::PlanarStart;
+                let keeps_concave = !is_for_planar || is_start || step.verdict.concave_polygons.is_empty();
+                let to_convex = if keeps_concave { 0 } else { ROUNDS_TO_CONVEX };
+                self.stage(self.at).relax_rounds_after(&self.task, step).max(to_convex)
+            };
+            let always = self.task.settings.relax_rounds.unwrap_or_else(own);
+            // Where it lies as it is wanted, it stays as near to the layout as it is.
+            let is_in_place = step.is_of_planar_start() || step.unmet().is_empty();
+            let stays = self.is_from_layout && is_in_place;
+            let until_it_serves = if stays { 0 } else { self.rounds_until_it_serves() };
+            self.relax.begin(Rounds { always, until_it_serves });
+            self.relax.look_at_start(step);
+        }
+    }
+
+    /// Whether a planar end is relaxed until it serves, and by how many rounds at most.
+    pub(super) fn rounds_until_it_serves(&self) -> usize {
+        let settings = &self.task.settings;
+        let is_wanted = settings.method == Method::Auto && settings.relax_rounds.is_none();
+        if is_wanted { ROUNDS_UNTIL_IT_SERVES } else { 0 }
+    }
+
+    /// Why the flattener ends where this was its last part, and it is not solved.
+    pub(super) fn ending(&self) -> Ending {
+        let last = self.sequences.iter().copied().flatten().last().expect("a part has rungs");
+        self.stages[last].ending(&self.task)
+    }
+}

@@ -1,0 +1,251 @@
+//! A method made ready for one mesh and one set of pinned vertices: equations, matrix and factors.
+//!
+//! New targets for the same pinned vertices then cost one substitution. That is what makes a pin follow the pointer.
+
+use std::time::Instant;
+
+use glam::DVec2;
+
+use super::placing::complete_gauge;
+use super::tutte::tutte;
+use crate::bijective::{Padded, schnyder};
+use crate::linalg::{Analysis, Kind};
+use crate::linear::convex::convex_boundary;
+use crate::linear::fixed_solve::FixedSolve;
+use crate::linear::free_gauge::FreeProblem;
+use crate::linear::free_solve::FreeSolve;
+use crate::linear::spectral::spectral;
+use crate::linear::system::{FreeSystem, Site};
+use crate::mesh::{DiskMesh, VertexId};
+use crate::nonlinear::angles::{AngleSystem, angle_based};
+use crate::problem::pins::{
+    GAUGE_PINS, PinPositions, Pins, are_held_alike, check_pins, fixed_pins, gauge_pins, targets_of,
+};
+use crate::problem::units::Units;
+use crate::problem::{Control, Family, Method, NamedOption as _, Phase, PhaseSeconds, Settings, Solution, SolveError};
+use crate::weights::equations;
+use crate::weights::equations::Equations;
+use crate::weights::shape_preserving::shape_preserving;
+
+/// Everything about a solve that does not depend on where the pins are to go.
+#[derive(Debug)]
+pub struct Prepared {
+    settings: Settings,
+    /// The user's pins that it was made for: whether it fits others is asked of these.
+    asked: Pins,
+    /// Gauge pins or the convex boundary, where the solver places vertices by itself.
+    own_places: Option<PinPositions>,
+    system: FreeSystem,
+    values: Values,
+    seconds: PhaseSeconds,
+}
+
+#[derive(Debug)]
+enum Values {
+    /// A free boundary couples x and y: one complex unknown per vertex.
+    Free(Box<FreeSolve>),
+    /// A prescribed boundary does not: one real matrix, two right-hand sides.
+    Fixed(Box<FixedSolve>),
+}
+
+/// Solves for an embedding once, by a linear method or the first stage of another: that of SLIM is Tutte's map. Nothing is
+/// proved of it: [`flatten`](super::flatten) goes on until it is.
+///
+/// # Errors
+///
+/// See [`Prepared::new`] and [`Prepared::solve`].
+pub fn solve_once(
+    mesh: &DiskMesh,
+    settings: &Settings,
+    pins: &Pins,
+    control: Control<'_>,
+) -> Result<Solution, SolveError> {
+    let method = settings.method;
+    if !method.only_places_pins() {
+        return Prepared::new(mesh, settings, pins, control)?.solve(mesh, pins, control);
+    }
+    check_pins(mesh, pins)?;
+    if settings.are_constraints(pins) {
+        return Err(SolveError::TooManyPins { method: method.name(), count: pins.len(), most: GAUGE_PINS });
+    }
+    let mut solution = own_solution(mesh, settings, control)?;
+    complete_gauge(mesh, &mut solution.embedding, pins, settings.size);
+    Ok(solution)
+}
+
+/// The solution of a method whose shape does not depend on pins, so that it has no factors that serve them.
+fn own_solution(mesh: &DiskMesh, settings: &Settings, control: Control<'_>) -> Result<Solution, SolveError> {
+    match settings.method {
+        Method::Lee(_) => Ok(Padded::new(mesh, settings.layers).solve(settings, control)?.0),
+        Method::Slim => Ok(tutte(mesh, control)?.0),
+        Method::Schnyder => Ok(Solution { embedding: schnyder(mesh), gauge_completed: true, ..Solution::default() }),
+        Method::Spectral => Ok(spectral(mesh, control)?.solution),
+        Method::Abf => Ok(angle_based(mesh, AngleSystem::Full, control)?.solution),
+        Method::AbfPlusPlus => Ok(angle_based(mesh, AngleSystem::Reduced, control)?.solution),
+        other => Err(SolveError::NoLinearSolve { method: other.name() }),
+    }
+}
+
+impl Prepared {
+    /// Computes weights, matrix and factors for the vertices that `pins` holds.
+    ///
+    /// # Errors
+    ///
+    /// A method that does not begin with a linear solve for positions, pins that cannot be, a family that does not go with
+    /// the method, degenerate weights, a singular matrix, or the
+    /// caller's wish to stop.
+    pub fn new(mesh: &DiskMesh, settings: &Settings, pins: &Pins, control: Control<'_>) -> Result<Self, SolveError> {
+        settings.family().check_for(settings.method)?;
+        let method = settings.method;
+        if !method.begins_with_pins_held() && !matches!(method, Method::Convex(_) | Method::Stretch(_)) {
+            return Err(SolveError::NoLinearSolve { method: method.name() });
+        }
+        let pins = if settings.method.uses_pins() { pins } else { &Pins::new() };
+        check_pins(mesh, pins)?;
+        control.enter(Phase::Assemble)?;
+        let start = Instant::now();
+        let mut own_places = match settings.method {
+            Method::Convex(shape) | Method::Stretch(shape) => Some(convex_boundary(mesh, shape, settings.spacing)?),
+            _ if pins.len() < GAUGE_PINS => Some(gauge_pins(mesh)),
+            _ => None,
+        };
+        let asked = settings.held(pins);
+        let pins = own_places.clone().map_or_else(|| asked.clone(), fixed_pins);
+        let mut seconds = PhaseSeconds::default();
+        let (system, values) = match settings.method {
+            Method::Convex(_) | Method::Stretch(_) => {
+                let system = FreeSystem::new(mesh, |v| pins.contains_key(&v), control)?;
+                let family = if settings.method.uses_family() { settings.family() } else { Family::MeanValue };
+                let equations = convex_equations(mesh, family, control)?;
+                let is_symmetric = matches!(family, Family::Conformal | Family::Uniform);
+                seconds.assemble = start.elapsed().as_secs_f64();
+                let kind = if is_symmetric { Kind::Hermitian } else { Kind::General };
+                let analysis = analyze(|| system.analysis(kind, control), &mut seconds, control)?;
+                control.enter(Phase::Factor)?;
+                let start = Instant::now();
+                let fixed = FixedSolve::new(Site { mesh, system: &system }, equations, &analysis, control)?;
+                seconds.factor = start.elapsed().as_secs_f64();
+                (system, Values::Fixed(Box::new(fixed)))
+            }
+            _ => {
+                seconds.assemble = start.elapsed().as_secs_f64();
+                let problem = FreeProblem { mesh, settings, asked: &asked };
+                let ready = problem.prepare(own_places.take(), &mut seconds, control)?;
+                own_places = ready.own_places;
+                (ready.system, Values::Free(Box::new(ready.solve)))
+            }
+        };
+        Ok(Self { settings: *settings, asked, own_places, system, values, seconds })
+    }
+
+    /// Whether this preparation serves these settings and pins: where they are to go does not matter.
+    pub fn serves(&self, settings: &Settings, pins: &Pins) -> bool {
+        let alike = || are_held_alike(&self.asked, &settings.held(pins));
+        self.settings == *settings && (!settings.method.uses_pins() || alike())
+    }
+
+    /// How all vertices move when the targets of some pins move by (1, 0): the embedding is complex-linear in the
+    /// targets, so that a move by δ adds δ times this, as complex numbers. Pins do not move what has a convex boundary.
+    ///
+    /// # Errors
+    ///
+    /// A residual that refinement cannot bring down.
+    ///
+    /// # Panics
+    ///
+    /// If one of the vertices is not pinned, where pins matter.
+    pub fn column(&self, mesh: &DiskMesh, moved: &[VertexId]) -> Result<Vec<DVec2>, SolveError> {
+        let Values::Free(free) = &self.values else { return Ok(vec![DVec2::ZERO; mesh.vertex_count()]) };
+        assert!(moved.iter().all(|vertex| self.asked.contains_key(vertex)), "only pins have columns");
+        if self.own_places.is_some() {
+            // One pin alone moves everything.
+            return Ok(vec![DVec2::X; mesh.vertex_count()]);
+        }
+        let target = |v: VertexId| if moved.contains(&v) { DVec2::X } else { DVec2::ZERO };
+        let targets: PinPositions = self.asked.keys().map(|&v| (v, target(v))).collect();
+        let (mut column, _) = free.solve(Site { mesh, system: &self.system }, &targets, Control::unattended())?;
+        column.gather_unused(mesh);
+        Ok(column.into_inner())
+    }
+
+    /// Solves for the embedding that has the pins on their targets.
+    ///
+    /// Fewer than two pins leave a similarity open: none, and the gauge pins stand in; one, and that solution is moved
+    /// onto the target. Either way the embedding has the area of the surface.
+    ///
+    /// # Errors
+    ///
+    /// Pins that cannot be, a residual that refinement cannot bring down, or the caller's wish to stop.
+    pub fn solve(&self, mesh: &DiskMesh, pins: &Pins, control: Control<'_>) -> Result<Solution, SolveError> {
+        let mut solution = self.solve_unplaced(mesh, pins, control)?;
+        if solution.gauge_completed {
+            let pins = if self.settings.method.uses_pins() { pins } else { &Pins::new() };
+            complete_gauge(mesh, &mut solution.embedding, pins, self.settings.size);
+            for (vertex, pin) in &mut solution.pins {
+                pin.target = solution.embedding[vertex];
+            }
+        }
+        Ok(solution)
+    }
+
+    /// The same where the solver's own places leave it, if fewer than two pins fix the similarity.
+    pub(crate) fn solve_unplaced(
+        &self,
+        mesh: &DiskMesh,
+        pins: &Pins,
+        control: Control<'_>,
+    ) -> Result<Solution, SolveError> {
+        let pins = if self.settings.method.uses_pins() { pins } else { &Pins::new() };
+        check_pins(mesh, pins)?;
+        control.enter(Phase::Solve)?;
+        let start = Instant::now();
+        let held = self.settings.held(pins);
+        let units = if self.own_places.is_some() { Units::default() } else { Units::of(&held, self.settings.size) };
+        let targets = self.own_places.clone().unwrap_or_else(|| targets_of(&units.pins(&held)));
+        let site = Site { mesh, system: &self.system };
+        let (mut embedding, residual) = match &self.values {
+            Values::Free(free) => free.solve(site, &targets, control)?,
+            Values::Fixed(fixed) => fixed.solve(site, &targets, control)?,
+        };
+        embedding.gather_unused(mesh);
+        let linear = match &self.values {
+            Values::Free(free) => free.numbers(mesh, &embedding, residual, control)?,
+            Values::Fixed(fixed) => fixed.numbers(site, &embedding, residual, control)?,
+        };
+        let in_force = if self.own_places.is_some() {
+            fixed_pins(targets.keys().map(|&vertex| (vertex, embedding[vertex])))
+        } else {
+            units.embedding_to_plane(&mut embedding, &held);
+            held
+        };
+        Ok(Solution {
+            embedding,
+            pins: in_force,
+            gauge_completed: self.own_places.is_some(),
+            linear: Some(linear),
+            convergence: None,
+            seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..self.seconds },
+        })
+    }
+}
+
+fn convex_equations(mesh: &DiskMesh, family: Family, control: Control<'_>) -> Result<Equations<f64>, SolveError> {
+    match family {
+        Family::Uniform => Ok(equations::uniform(mesh)),
+        Family::ShapePreserving => Ok(shape_preserving(mesh)),
+        three_point => equations::barycentric(mesh, three_point.power().unwrap_or(Family::CONFORMAL_POWER), control),
+    }
+}
+
+/// Analyses a pattern; adds the time that took to `seconds`.
+pub(crate) fn analyze(
+    analysis: impl FnOnce() -> Result<Analysis, SolveError>,
+    seconds: &mut PhaseSeconds,
+    control: Control<'_>,
+) -> Result<Analysis, SolveError> {
+    control.enter(Phase::Analyze)?;
+    let start = Instant::now();
+    let analysis = analysis()?;
+    seconds.analyze += start.elapsed().as_secs_f64();
+    Ok(analysis)
+}

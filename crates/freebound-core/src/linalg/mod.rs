@@ -1,0 +1,57 @@
+//! Sparse linear systems: multifrontal Cholesky and faer's `LDLᴴ` for Hermitian matrices, a multifrontal LU for
+//! unsymmetric values on a symmetric pattern, refinement and residuals. Knows no mesh.
+//!
+//! ```text
+//! Analysis::new(kind, pattern)     ordering and symbolic factorization, once a pattern
+//!     .factor(matrix, cancel)      numeric factorization, once a matrix
+//!         .solve(matrix, rhs)      solve, refine, measure the residual
+//! ```
+//!
+//! | file | what |
+//! |---|---|
+//! | `analysis.rs`, `factor.rs`, `stats.rs` | the interface |
+//! | `order.rs`, `elimination.rs` | fill-reducing order (dissection, AMD); elimination tree, column counts, postorder |
+//! | `degree.rs` | minimum degree |
+//! | `apart.rs` | work that cannot be stopped, on threads that are left behind |
+//! | `dissection/` | separators of large patterns |
+//! | `fronts/` | the tree of dense fronts that both multifrontal factorizations go up |
+//! | `llt/` | Hermitian definite: our multifrontal Cholesky |
+//! | `ldlt.rs` | Hermitian augmented, for least squares: faer's supernodal `LDLᴴ` |
+//! | `lu/` | unsymmetric: our multifrontal LU |
+//! | `lanczos.rs` | the greatest eigenvalue of an operator, such as the inverse of a factored matrix |
+//! | `rough.rs` | definite systems of which a few digits are enough: Cholesky in `f32`, conjugate gradients |
+//! | `refine.rs`, `gmres.rs` | what makes a factor's answer good, or an error |
+//! | `sparse.rs`, `scalar.rs`, `error.rs` | products, norms and inner products; real and complex numbers alike; what can go wrong |
+
+mod analysis;
+mod degree;
+mod detached;
+mod dissection;
+mod elimination;
+mod error;
+mod factor;
+mod fronts;
+mod gmres;
+mod lanczos;
+mod ldlt;
+mod llt;
+mod lu;
+mod order;
+mod pattern;
+mod refine;
+mod rough;
+mod scalar;
+mod sparse;
+mod stats;
+
+pub use analysis::{Analysis, EliminationOrder, Kind};
+pub(crate) use detached::run_apart;
+pub use error::LinalgError;
+pub use factor::{Factor, SolveFunction};
+pub use lanczos::{EigenLimits, Eigenpair, greatest_eigenpair};
+pub(crate) use pattern::Pattern;
+pub use refine::Solved;
+pub use rough::{FactorPrecision, RoughFactor};
+pub use scalar::{Number, Scalar};
+pub use sparse::gram;
+pub use stats::FactorStats;

@@ -1,0 +1,346 @@
+//! One factored system of a free boundary, and its solution for given pins.
+
+use std::time::Instant;
+
+use crate::parallel::prelude::*;
+use glam::DVec2;
+use nalgebra_sparse::CscMatrix;
+use num_complex::Complex;
+
+use super::free_layout::{LaidOut, Numbers};
+use super::least_squares::{Factored, LeastSquares, Spring, may_be_kept};
+use super::left_kernel::better_gauge;
+use super::many_pins::ManyPins;
+use super::system::Site;
+use crate::geom::Bounds;
+use crate::linalg::{Factor, Kind, SolveFunction};
+use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
+use crate::problem::pins::GAUGE_PINS;
+use crate::problem::{Control, Embedding, LinearSolve, Phase, PhaseSeconds, PinPositions, SolveError};
+use crate::weights::equations::{Equations, modulus};
+
+/// A least-squares answer whose conditions for a minimum are off by more, relative to their terms, is wrong.
+const GRADIENT_LIMIT: f64 = 1e-10;
+
+/// Where more than this of the extent is left to move, the embedding is solved for once more.
+const MOST_REST: f64 = 1e-11;
+
+/// The square of the number of boundary vertices, in numbers of faces, from which a mesh counts as a corridor.
+const CORRIDOR: usize = 64;
+
+/// Equations, matrix and factors; for least squares also what the pins add.
+#[derive(Debug)]
+pub(crate) struct FreeSolve {
+    equations: Equations<Complex<f64>>,
+    matrix: CscMatrix<Complex<f64>>,
+    factor: Factor<Complex<f64>>,
+    least_squares: Option<Ways>,
+    /// Pins whose equations are not kept.
+    eliminated: Vec<VertexId>,
+    is_hermitian: bool,
+}
+
+/// The two ways of least squares.
+#[derive(Debug)]
+enum Ways {
+    Few(LeastSquares),
+    Many(ManyPins),
+}
+
+impl Ways {
+    fn springs(&self) -> &[Spring] {
+        match self {
+            Self::Few(few) => &few.rest.springs,
+            Self::Many(many) => &many.springs,
+        }
+    }
+}
+
+/// An embedding that a solve moves from.
+#[derive(Clone, Copy)]
+pub(crate) struct SolveStart<'a> {
+    pub(crate) embedding: &'a Embedding,
+    /// The residual of every vertex's equation there.
+    pub(crate) residuals: &'a [Complex<f64>],
+}
+
+/// Where a solve takes place, for which targets, and who may stop it.
+struct Asked<'a> {
+    site: Site<'a>,
+    targets: &'a PinPositions,
+    control: Control<'a>,
+}
+
+/// Why there is no factored system.
+pub(crate) enum Unsolved {
+    /// Two more equations have to be left out: of these vertices, where they are known.
+    WithoutGauge(Option<[VertexId; 2]>),
+    Error(SolveError),
+}
+
+impl From<SolveError> for Unsolved {
+    fn from(error: SolveError) -> Self {
+        Self::Error(error)
+    }
+}
+
+impl From<Unsolved> for SolveError {
+    fn from(unsolved: Unsolved) -> Self {
+        match unsolved {
+            Unsolved::WithoutGauge(_) => Self::Linear { reason: "its equations depend on each other".to_owned() },
+            Unsolved::Error(error) => error,
+        }
+    }
+}
+
+impl FreeSolve {
+    /// Factors the matrix of the equations; adds the time that took to `seconds`.
+    pub(crate) fn new(
+        mesh: &DiskMesh,
+        laid_out: &LaidOut,
+        numbers: Numbers,
+        seconds: &mut PhaseSeconds,
+        control: Control<'_>,
+    ) -> Result<Self, Unsolved> {
+        let LaidOut { layout, system, kind, analysis, .. } = laid_out;
+        let Numbers { equations, matrix, unit } = numbers;
+        let site = Site { mesh, system };
+        let start = Instant::now();
+        let mut rest = layout.rest(unit);
+        let many = rest.take_if(|_| layout.has_many).map(|rest| ManyPins::new(site, rest));
+        let matrix = match (&many, matrix) {
+            (Some(many), _) => many.matrix(site, &equations),
+            (None, Some(matrix)) => matrix,
+            (None, None) => site.system.negated_matrix(site.mesh, &equations, control)?,
+        };
+        control.go_on()?;
+        seconds.assemble += start.elapsed().as_secs_f64();
+        control.enter(Phase::Factor)?;
+        let start = Instant::now();
+        let named = |error| match &many {
+            Some(many) => many.named(site, error),
+            None => site.system.named(error),
+        };
+        let unsolved = |error| match named(error) {
+            // The equations that are factored may depend on each other.
+            SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } if laid_out.may_want_gauge() => {
+                Unsolved::WithoutGauge(None)
+            }
+            error => Unsolved::Error(error),
+        };
+        let factor = analysis.factor(&matrix, control.cancel()).map_err(unsolved)?;
+        if let Some(rest) = rest.as_ref().filter(|_| laid_out.may_want_gauge()) {
+            let is_known = may_be_kept(system.free().len(), rest.left_out.len());
+            let look = || better_gauge(site, &equations, &factor, &rest.left_out, control);
+            let gauge = is_known.then(look).transpose()?;
+            if gauge != Some(None) {
+                seconds.factor += start.elapsed().as_secs_f64();
+                return Err(Unsolved::WithoutGauge(gauge.flatten()));
+            }
+        }
+        let factored = Factored { matrix: &matrix, factor: &factor, cancel: control.cancel() };
+        let few =
+            rest.map(|rest| LeastSquares::new(site, &equations, rest, &factored).map_err(unsolved)).transpose()?;
+        let least_squares = few.map(Ways::Few).or(many.map(Ways::Many));
+        seconds.factor += start.elapsed().as_secs_f64();
+        let eliminated = if layout.keeps_equations { Vec::new() } else { layout.left_out.clone() };
+        let is_hermitian = *kind == Kind::Hermitian;
+        Ok(Self { equations, matrix, factor, least_squares, eliminated, is_hermitian })
+    }
+
+    /// Two vertices whose equations are better left out than those of the two pins that are; none where these will do, or
+    /// where all equations are kept.
+    ///
+    /// # Errors
+    ///
+    /// The caller's wish to stop.
+    pub(crate) fn better_gauge(
+        &self,
+        site: Site<'_>,
+        control: Control<'_>,
+    ) -> Result<Option<[VertexId; 2]>, SolveError> {
+        if self.eliminated.len() != GAUGE_PINS || self.least_squares.is_some() {
+            return Ok(None);
+        }
+        better_gauge(site, &self.equations, &self.factor, &self.eliminated, control)
+    }
+
+    fn factored<'a>(&'a self, control: Control<'a>) -> Factored<'a> {
+        Factored { matrix: &self.matrix, factor: &self.factor, cancel: control.cancel() }
+    }
+
+    /// The embedding with the pins on their targets, or as near as weights bring them, linear in these; and its residual.
+    ///
+    /// # Errors
+    ///
+    /// A residual that refinement cannot bring down, or the caller's wish to stop.
+    pub(crate) fn solve(
+        &self,
+        site: Site<'_>,
+        targets: &PinPositions,
+        control: Control<'_>,
+    ) -> Result<(Embedding, f64), SolveError> {
+        let mut start = Embedding::from(vec![DVec2::ZERO; site.mesh.vertex_count()]);
+        for (&vertex, target) in targets {
+            start[vertex] = *target;
+        }
+        let start = SolveStart { embedding: &start, residuals: &self.residuals(site.mesh, &start, control)? };
+        let asked = Asked { site, targets, control };
+        let solved = self.move_from(&asked, start, Factor::solve)?;
+        let (embedding, residual) = self.rest_of(&asked, &solved.0)?.unwrap_or(solved);
+        if self.least_squares.is_some() && residual > GRADIENT_LIMIT {
+            return Err(SolveError::ResidualTooLarge { residual, limit: GRADIENT_LIMIT });
+        }
+        Ok((embedding, residual))
+    }
+
+    /// A solution with the move that its equations still ask for; none where that is not worth it. Differences of neighbours have all
+    /// their digits, so it is known where a solve for positions is at an end: in corridors, where equations tell little
+    /// of long moves. A Hermitian matrix tells enough of them unless the mesh is a corridor.
+    fn rest_of(&self, asked: &Asked<'_>, embedding: &Embedding) -> Result<Option<(Embedding, f64)>, SolveError> {
+        let &Asked { site, targets, control } = asked;
+        if self.is_hermitian && !is_corridor(site.mesh) {
+            return Ok(None);
+        }
+        let residuals = self.residuals(site.mesh, embedding, control)?;
+        let extent = Bounds::of(site.mesh.vertices().filter(|&v| site.mesh.is_used(v)).map(|v| embedding[v])).size();
+        let is_little = |largest: f64| largest <= MOST_REST * extent.max_element();
+        if self.least_squares.is_none() {
+            let terms: Vec<_> = site.system.free().iter().map(|v| residuals[v.index()]).collect();
+            let moves = self.factor.substitute(&terms, control.cancel())?;
+            if is_little(moves.iter().map(|z| z.norm()).fold(0.0, f64::max)) {
+                return Ok(None);
+            }
+        }
+        let again = self.solve_from(site, SolveStart { embedding, residuals: &residuals }, targets, control)?;
+        let moved = embedding.iter().zip(&again.0).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+        Ok((!is_little(moved)).then_some(again))
+    }
+
+    /// The same, found as a move from an embedding that has the exact pins on their targets. Where that nearly solves the
+    /// equations the move is small, and so is its rounding.
+    pub(crate) fn solve_from(
+        &self,
+        site: Site<'_>,
+        start: SolveStart<'_>,
+        targets: &PinPositions,
+        control: Control<'_>,
+    ) -> Result<(Embedding, f64), SolveError> {
+        self.move_from(&Asked { site, targets, control }, start, Factor::solve_correction)
+    }
+
+    /// Solves for the move from `start` that takes up the residuals there.
+    fn move_from(
+        &self,
+        asked: &Asked<'_>,
+        SolveStart { embedding: start, residuals }: SolveStart<'_>,
+        answer: SolveFunction<Complex<f64>>,
+    ) -> Result<(Embedding, f64), SolveError> {
+        let &Asked { site, targets, control } = asked;
+        let named = |error| site.system.named(error);
+        let mut embedding = start.clone();
+        let Some(least_squares) = &self.least_squares else {
+            let terms: Vec<_> = site.system.free().iter().map(|v| residuals[v.index()]).collect();
+            let moves = answer(&self.factor, &self.matrix, &terms, control.cancel()).map_err(named)?.x;
+            for (&vertex, z) in site.system.free().iter().zip(moves) {
+                embedding[vertex] += DVec2::new(z.re, z.im);
+            }
+            let residual = site.system.relative_residual(site.mesh, &self.equations, &embedding, control)?;
+            return Ok((embedding, residual));
+        };
+        let factored = self.factored(control);
+        let to_target = |pin: &Spring| {
+            let to_target = targets[&pin.vertex] - start[pin.vertex];
+            Complex::new(to_target.x, to_target.y)
+        };
+        let to_targets: Vec<_> = least_squares.springs().iter().map(to_target).collect();
+        let moves = match least_squares {
+            Ways::Few(few) => few.moves(site, &factored, residuals, &to_targets).map_err(named)?,
+            Ways::Many(many) => many.moves(site, &factored, residuals, &to_targets)?,
+        };
+        // Adding nothing would still make a zero of a negative zero.
+        embedding.par_iter_mut().zip(moves).filter(|(_, by)| *by != Complex::ZERO).for_each(|(z, by)| {
+            *z += DVec2::new(by.re, by.im);
+        });
+        let residual = self.gradient_residual(asked, &embedding, least_squares.springs())?;
+        Ok((embedding, residual))
+    }
+
+    /// The conditions for a minimum: the residuals must be orthogonal to every move. ‖Aᴴ A z + W² (z − t)‖ over the
+    /// vertices that can move, relative to ‖|A|ᵀ |A| |z| + W² (|z| + |t|)‖, the sizes of the terms that should cancel.
+    fn gradient_residual(
+        &self,
+        asked: &Asked<'_>,
+        embedding: &Embedding,
+        springs: &[Spring],
+    ) -> Result<f64, SolveError> {
+        let &Asked { site: Site { mesh, .. }, targets, control } = asked;
+        let coefficients = &self.equations.coefficients;
+        let equation = |v: VertexId| {
+            if self.eliminated.binary_search(&v).is_ok() {
+                return (Complex::ZERO, 0.0);
+            }
+            let bound =
+                |h| modulus(coefficients[HalfedgeId::index(h)]) * embedding[mesh.head(h)].distance(embedding[v]);
+            (self.equations.residual_of(mesh, embedding, v), mesh.links_from(v).map(bound).sum::<f64>())
+        };
+        let equations: Vec<(Complex<f64>, f64)> =
+            control.each(mesh.vertex_count(), |v| equation(VertexId::from_index(v)))?;
+        let sum = |v: VertexId| {
+            let (own, own_bound) = equations[v.index()];
+            mesh.links_from(v).fold((Complex::<f64>::ZERO, 0.0_f64), |(sum, total), h| {
+                let (there, back) = (coefficients[h.index()], coefficients[mesh.twin(h).index()]);
+                let (other, bound) = equations[mesh.head(h).index()];
+                (
+                    sum + back.conj() * other - there.conj() * own,
+                    total + modulus(back) * bound + modulus(there) * own_bound,
+                )
+            })
+        };
+        let mut sums: Vec<(Complex<f64>, f64)> = control.each(mesh.vertex_count(), |v| sum(VertexId::from_index(v)))?;
+        let is_hard = |v: &VertexId| springs.binary_search_by_key(v, |pin| pin.vertex).is_err();
+        for vertex in targets.keys().filter(|&v| is_hard(v)) {
+            sums[vertex.index()] = (Complex::ZERO, 0.0);
+        }
+        for pin in springs {
+            let at = &mut sums[pin.vertex.index()];
+            let (place, target) = (embedding[pin.vertex], targets[&pin.vertex]);
+            let pull = (place - target) / pin.compliance;
+            at.0 += Complex::new(pull.x, pull.y);
+            at.1 += (place.length() + target.length()) / pin.compliance;
+        }
+        let (gradient, whole) = sums
+            .iter()
+            .fold((0.0, 0.0), |(gradient, whole), (sum, total)| (gradient + sum.norm_sqr(), whole + total * total));
+        Ok(if gradient > 0.0 { f64::sqrt(gradient / whole) } else { 0.0 })
+    }
+
+    /// The residual of every vertex's equation.
+    pub(crate) fn residuals(
+        &self,
+        mesh: &DiskMesh,
+        embedding: &Embedding,
+        control: Control<'_>,
+    ) -> Result<Vec<Complex<f64>>, SolveError> {
+        control.each(mesh.vertex_count(), |v| self.equations.residual_of(mesh, embedding, VertexId::from_index(v)))
+    }
+
+    pub(crate) fn numbers(
+        &self,
+        mesh: &DiskMesh,
+        embedding: &Embedding,
+        residual: f64,
+        control: Control<'_>,
+    ) -> Result<LinearSolve, SolveError> {
+        let Equations { bounded_corners, .. } = self.equations;
+        let equation_residual = self.equations.residual(mesh, embedding, |_| true, control)?;
+        let keeps_equations = self.least_squares.is_some() && self.eliminated.is_empty();
+        Ok(LinearSolve { residual, equation_residual, bounded_corners, keeps_equations, ..self.factor.stats().into() })
+    }
+}
+
+/// Whether the mesh has many boundary vertices for its faces: their number's square is 8 times that of the faces of a regular
+/// grid of squares. In corridors the smallest numbers that tell one map from another fall with the fourth power of that ratio.
+fn is_corridor(mesh: &DiskMesh) -> bool {
+    mesh.boundary_loop().len().pow(2) > CORRIDOR * mesh.face_count()
+}

@@ -1,0 +1,111 @@
+//! The convex hull of the boundary's projection to its best plane: an outline that is like the boundary itself.
+//!
+//! The best plane is that of least squares, through the middle of the boundary: its normal is the direction in which the
+//! boundary extends least. A vertex counts by the length of its edges.
+//!
+//! The corners of the hull are vertices of the boundary; on the outline they have to follow each other as they do around
+//! the loop. Of a boundary that crosses itself in the projection not all do: then the longest run of corners that does is
+//! taken. Corners left out leave the outline convex.
+//!
+//! Source: the outline is proposed by Y. Lee, H. S. Kim, S. Lee, "Mesh Parameterization with a Virtual Boundary", 2002.
+
+use glam::{DVec2, DVec3};
+use nalgebra::{Matrix3, SymmetricEigen};
+
+use super::convex::Corner;
+use crate::geom::convex_hull;
+
+/// A boundary whose second extent is a smaller share of its first lies on a line.
+const THINNEST: f64 = 1e-9;
+
+/// A corner that turns by a smaller angle, radians, is one of rounding: there the boundary is straight.
+const STRAIGHT: f64 = 1e-9;
+
+/// The most corners among which a run is looked for: more are thinned out evenly first.
+const MOST_CORNERS: usize = 256;
+
+/// The corners of the outline, as they follow each other around the loop; none where fewer than three do.
+pub(crate) fn hull_corners(boundary: &[DVec3]) -> Option<Vec<Corner>> {
+    let seen = projected(boundary)?;
+    let double_area: f64 = seen.iter().zip(seen.iter().cycle().skip(1)).map(|(a, b)| a.perp_dot(*b)).sum();
+    let mirrored: Vec<DVec2> = seen.iter().map(|z| DVec2::new(-z.x, z.y)).collect();
+    // From either side of the plane; where both show as many corners, from that where the loop runs counter-clockwise.
+    let sides = if double_area < 0.0 { [mirrored, seen] } else { [seen, mirrored] };
+    let [first, second] = sides.map(|seen| in_order(&clear_corners(&seen), &seen));
+    let found = if second.len() > first.len() { second } else { first };
+    (found.len() >= 3).then_some(found)
+}
+
+/// The points in the plane that fits them best, relative to their middle and their extent; none where they lie on a line.
+fn projected(points: &[DVec3]) -> Option<Vec<DVec2>> {
+    let count = points.len();
+    let length = |place: usize| points[place % count].distance(points[(place + 1) % count]);
+    let weights: Vec<f64> = (0..count).map(|place| length(place) + length(place + count - 1)).collect();
+    let total: f64 = weights.iter().sum();
+    let middle = points.iter().zip(&weights).map(|(p, weight)| *p * (weight / total)).sum::<DVec3>();
+    let extent = points.iter().map(|p| (*p - middle).abs().max_element()).fold(f64::MIN_POSITIVE, f64::max);
+    let around: Vec<DVec3> = points.iter().map(|p| (*p - middle) / extent).collect();
+    let mut spread = Matrix3::zeros();
+    for (p, weight) in around.iter().zip(&weights) {
+        let p = nalgebra::Vector3::new(p.x, p.y, p.z);
+        spread += p * p.transpose() * (weight / total);
+    }
+    let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(spread);
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| eigenvalues[j].total_cmp(&eigenvalues[i]).then(i.cmp(&j)));
+    if eigenvalues[order[1]] <= THINNEST * THINNEST * eigenvalues[order[0]] {
+        return None;
+    }
+    let axis = |k: usize| DVec3::from_array(eigenvectors.column(order[k]).into_owned().into());
+    let (first, second) = (axis(0), axis(1));
+    Some(around.iter().map(|p| DVec2::new(p.dot(first), p.dot(second))).collect())
+}
+
+/// The corners of the hull that turn clearly, as places among the points.
+fn clear_corners(seen: &[DVec2]) -> Vec<usize> {
+    let hull = convex_hull(seen);
+    let at = |k: usize| seen[hull[k % hull.len()]];
+    let turns = |k: &usize| {
+        let (before, after) = (at(*k) - at(k + hull.len() - 1), at(k + 1) - at(*k));
+        before.perp_dot(after) > STRAIGHT * before.length() * after.length()
+    };
+    (0..hull.len()).filter(turns).map(|k| hull[k]).collect()
+}
+
+/// The longest run of a hull's corners that follow each other around the loop, from some corner on.
+fn in_order(hull: &[usize], seen: &[DVec2]) -> Vec<Corner> {
+    let corner = |&place: &usize| Corner { place, at: seen[place] };
+    let falls = hull.iter().zip(hull.iter().cycle().skip(1)).filter(|(place, next)| next < place).count();
+    if falls <= 1 {
+        return hull.iter().map(corner).collect();
+    }
+    let step = hull.len().div_ceil(MOST_CORNERS);
+    let thinned: Vec<usize> = hull.iter().copied().step_by(step).collect();
+    let from = |start: usize| {
+        let around = (0..thinned.len()).map(|k| thinned[(start + k) % thinned.len()]);
+        let ahead: Vec<usize> = around.map(|place| (place + seen.len() - thinned[start]) % seen.len()).collect();
+        longest_increasing(&ahead).into_iter().map(|k| thinned[(start + k) % thinned.len()]).collect::<Vec<_>>()
+    };
+    let runs = (0..thinned.len()).map(from);
+    let longest = runs.reduce(|best, run| if run.len() > best.len() { run } else { best });
+    longest.unwrap_or_default().iter().map(corner).collect()
+}
+
+/// The places of a longest strictly increasing subsequence.
+fn longest_increasing(values: &[usize]) -> Vec<usize> {
+    // For each length the place of the least value that a subsequence of that length can end with.
+    let mut ends: Vec<usize> = Vec::new();
+    let mut before = vec![None; values.len()];
+    for (place, value) in values.iter().enumerate() {
+        let length = ends.partition_point(|&end| values[end] < *value);
+        before[place] = length.checked_sub(1).map(|shorter| ends[shorter]);
+        if length == ends.len() {
+            ends.push(place);
+        } else {
+            ends[length] = place;
+        }
+    }
+    let mut run: Vec<usize> = std::iter::successors(ends.last().copied(), |&place| before[place]).collect();
+    run.reverse();
+    run
+}

@@ -1,0 +1,265 @@
+//! Spectral conformal parameterization: the least conformal energy of all maps with one size of boundary, without a pin.
+//!
+//! # Equation
+//!
+//! The conformal energy of an embedding is E(z) = z* L z, with L = −A the negated natural boundary equations of the
+//! conformal weights, pinned vertices not eliminated. It is 0 where all vertices lie in one place, and so wants a size:
+//!
+//! ```text
+//! min  z* L z     with  z* B z = 1,  1* B z = 0          L z = λ B z,  λ the least but that of the constants
+//! ```
+//!
+//! B has ones at boundary vertices and zeros inside: the free-boundary version of the source. All of the boundary fixes the
+//! size together, in place of two pins, and so no vertex bears the distortion of having been chosen.
+//!
+//! # Method
+//!
+//! Inverse iteration on the factors of L + σB: (L + σB)⁻¹ B has the same eigenvectors, with eigenvalues θ = 1/(λ + σ). The
+//! *shift* σ > 0 is there because L alone is singular (the constants, and all similarities of a planar surface, have no
+//! energy), while L + σB is positive definite for every surface: what has no energy and no place on the boundary is zero.
+//! Holding one vertex instead would do for curved surfaces alone, and would single that vertex out. So σ is as small as
+//! rounding allows; constants, whose θ would be the greatest, are taken out of every iterate.
+//!
+//! All that matters happens on the boundary: with P the rows of its vertices the iteration is one of
+//! T = P (L + σB)⁻¹ Pᵀ, an ordinary Hermitian operator on boundary vectors. Where λ₂ and λ₃ are close, plain iteration is
+//! slow; the combination of all iterates is not (`linalg/lanczos.rs`).
+//!
+//! # Symbols
+//!
+//! | source | code         | meaning                                            | unit            |
+//! |--------|--------------|----------------------------------------------------|-----------------|
+//! | `L_C`  | `matrix` − σB| conformal energy, Hermitian, n × n                 | none            |
+//! | B      | `boundary`   | rows of the boundary vertices                      | none            |
+//! | σ      | `shift`      | moves all eigenvalues up                           | none            |
+//! | λ      | `eigenvalue` | energy at boundary norm 1                          | none            |
+//!
+//! Source: P. Mullen, Y. Tong, P. Alliez, M. Desbrun, "Spectral Conformal Parameterization", 2008, §3; as one complex system
+//! in place of a real one of twice the order.
+
+use std::f64::consts::TAU;
+use std::time::Instant;
+
+use glam::DVec2;
+use nalgebra_sparse::CscMatrix;
+use num_complex::Complex;
+
+use super::system::FreeSystem;
+use crate::linalg::{Analysis, EigenLimits, Eigenpair, Factor, Kind, LinalgError, greatest_eigenpair};
+use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
+use crate::problem::{
+    Control, Convergence, Embedding, Family, LinearSolve, Phase, PhaseSeconds, Pins, Solution, SolveError, Stop,
+};
+use crate::weights::equations::{Equations, natural};
+
+type C64 = Complex<f64>;
+
+/// The shift, by the middle diagonal entry and by the vertices for each one of the boundary: the share of it that rounding
+/// leaves to a constant. It is raised where the factorization finds no positive pivot.
+const SHIFT: f64 = 1e-13;
+const RAISED: f64 = 100.0;
+const RAISES: usize = 5;
+
+/// The iteration is content with an iterate that the operator turns by no more than this.
+const LIMITS: EigenLimits = EigenLimits { tolerance: 1e-13, applications: 100 };
+
+/// Share of scattered numbers in the first iterate: no symmetry of a mesh is to hide the answer from it.
+const SCATTERED: f64 = 1e-3;
+
+/// The spectral conformal embedding of a disk.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectral {
+    /// The embedding, its boundary around the origin, and the numbers of the solves. The convergence's residual is
+    /// ‖T x − θ x‖ / θ; the linear solve's ‖L z − λ B z‖ relative to the sizes of the terms of L z.
+    pub solution: Solution,
+    /// λ: the conformal energy at Σ |z|² = 1 over the boundary.
+    pub eigenvalue: f64,
+}
+
+/// Computes the spectral conformal embedding.
+///
+/// # Errors
+///
+/// Weights that are not finite, a matrix that stays indefinite whatever the shift, or the caller's wish to stop.
+pub fn spectral(mesh: &DiskMesh, control: Control<'_>) -> Result<Spectral, SolveError> {
+    control.enter(Phase::Assemble)?;
+    let start = Instant::now();
+    let equations = natural(mesh, Family::CONFORMAL_POWER, control)?;
+    let system = FreeSystem::new(mesh, |_| false, control)?;
+    let boundary: Vec<usize> = mesh.boundary_loop().iter().filter_map(|&v| system.row(v)).collect();
+    let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
+    control.enter(Phase::Analyze)?;
+    let start = Instant::now();
+    let analysis = system.analysis(Kind::Hermitian, control)?;
+    seconds.analyze = start.elapsed().as_secs_f64();
+    control.enter(Phase::Factor)?;
+    let start = Instant::now();
+    let shifted = Shifted::new(mesh, &system, Setup { equations: &equations, analysis: &analysis, boundary }, control)?;
+    seconds.factor = start.elapsed().as_secs_f64();
+    let start = Instant::now();
+    let named = |error| system.named(error);
+    let apply = |x: &[C64]| {
+        control.enter(Phase::Solve)?;
+        let mut on_boundary = shifted.on_boundary(&shifted.inverse(x, control).map_err(named)?);
+        centre(&mut on_boundary);
+        Ok::<_, SolveError>(on_boundary)
+    };
+    let found = greatest_eigenpair(&first_iterate(mesh), LIMITS, apply)?;
+    let z = shifted.inverse(&found.vector, control).map_err(named)?;
+    let mut answer = Answer { mesh, system: &system, equations: &equations, control }.spectral(&shifted, &found, z)?;
+    seconds.solve = start.elapsed().as_secs_f64();
+    answer.solution.seconds = seconds;
+    Ok(answer)
+}
+
+/// The boundary on a circle, in proportion to its lengths.
+fn first_iterate(mesh: &DiskMesh) -> Vec<C64> {
+    let boundary = mesh.boundary_loop();
+    let lengths = boundary.iter().zip(boundary.iter().cycle().skip(1)).map(|(&a, &b)| mesh.length([a, b]));
+    let lengths: Vec<f64> = lengths.collect();
+    let total: f64 = lengths.iter().sum();
+    let mut walked = 0.0;
+    let mut iterate: Vec<C64> = Vec::with_capacity(boundary.len());
+    for (place, length) in lengths.into_iter().enumerate() {
+        let scattered = C64::from_polar(SCATTERED, (place * place) as f64);
+        iterate.push(C64::from_polar(1.0, TAU * walked / total) + scattered);
+        walked += length;
+    }
+    centre(&mut iterate);
+    iterate
+}
+
+/// Takes the constant part out.
+fn centre(x: &mut [C64]) {
+    let mean = x.iter().sum::<C64>() / x.len() as f64;
+    for x in x {
+        *x -= mean;
+    }
+}
+
+struct Setup<'a> {
+    equations: &'a Equations<C64>,
+    analysis: &'a Analysis,
+    boundary: Vec<usize>,
+}
+
+/// L + σB with its factors.
+struct Shifted {
+    matrix: CscMatrix<C64>,
+    factor: Factor<C64>,
+    /// The rows of the boundary, in the order of the loop.
+    boundary: Vec<usize>,
+}
+
+impl Shifted {
+    /// Factors L + σB with the least shift that makes it positive definite in 64 bits.
+    fn new(
+        mesh: &DiskMesh,
+        system: &FreeSystem,
+        Setup { equations, analysis, boundary }: Setup<'_>,
+        control: Control<'_>,
+    ) -> Result<Self, SolveError> {
+        let mut matrix = system.negated_matrix(mesh, equations, control)?;
+        let places: Vec<usize> = boundary.iter().map(|&row| system.place_of_diagonal(row)).collect();
+        let mut diagonal: Vec<f64> =
+            (0..system.free().len()).map(|row| matrix.values()[system.place_of_diagonal(row)].re).collect();
+        let middle = diagonal.len() / 2;
+        let (_, &mut usual, _) = diagonal.select_nth_unstable_by(middle, f64::total_cmp);
+        let mut step = SHIFT * usual.abs() * (diagonal.len() as f64 / boundary.len() as f64);
+        let mut raises = 0;
+        loop {
+            for &place in &places {
+                matrix.values_mut()[place] += step;
+            }
+            // What has a pivot only by rounding gives answers that solve nothing.
+            let factored = analysis.factor(&matrix, control.cancel()).and_then(|factor| {
+                factor.solve_correction(&matrix, &vec![C64::ONE; diagonal.len()], control.cancel())?;
+                Ok(factor)
+            });
+            match factored {
+                Ok(factor) => return Ok(Self { matrix, factor, boundary }),
+                Err(LinalgError::Cancelled) => return Err(SolveError::Cancelled),
+                Err(error) if raises == RAISES => return Err(system.named(error)),
+                Err(_) => (step, raises) = (step * RAISED, raises + 1),
+            }
+        }
+    }
+
+    /// (L + σB)⁻¹ Pᵀ x.
+    fn inverse(&self, x: &[C64], control: Control<'_>) -> Result<Vec<C64>, LinalgError> {
+        let mut rhs = vec![C64::ZERO; self.matrix.nrows()];
+        for (&row, &x) in self.boundary.iter().zip(x) {
+            rhs[row] = x;
+        }
+        Ok(self.factor.solve_correction(&self.matrix, &rhs, control.cancel())?.x)
+    }
+
+    fn on_boundary(&self, z: &[C64]) -> Vec<C64> {
+        self.boundary.iter().map(|&row| z[row]).collect()
+    }
+}
+
+/// What an eigenvector becomes an embedding by.
+struct Answer<'a> {
+    mesh: &'a DiskMesh,
+    system: &'a FreeSystem,
+    equations: &'a Equations<C64>,
+    control: Control<'a>,
+}
+
+impl Answer<'_> {
+    /// The embedding of an eigenvector z, and how well it is one.
+    fn spectral(&self, shifted: &Shifted, found: &Eigenpair, z: Vec<C64>) -> Result<Spectral, SolveError> {
+        let on_boundary = shifted.on_boundary(&z);
+        let mean = on_boundary.iter().sum::<C64>() / on_boundary.len() as f64;
+        let length = on_boundary.iter().map(|z| (z - mean).norm_sqr()).sum::<f64>().sqrt();
+        let mut embedding = Embedding::from(vec![DVec2::ZERO; self.mesh.vertex_count()]);
+        for (&vertex, z) in self.system.free().iter().zip(z) {
+            let z = (z - mean) / length;
+            embedding[vertex] = DVec2::new(z.re, z.im);
+        }
+        embedding.check_finite()?;
+        let (eigenvalue, residual) = self.eigenvalue(&embedding)?;
+        let limit = LIMITS.tolerance;
+        let stop = if found.residual <= limit { Stop::Converged } else { Stop::Limit };
+        let convergence = Convergence { steps: found.applications, residual: found.residual, stop };
+        let linear = LinearSolve {
+            residual,
+            equation_residual: self.equations.residual(self.mesh, &embedding, |_| true, self.control)?,
+            bounded_corners: self.equations.bounded_corners,
+            ..shifted.factor.stats().into()
+        };
+        let solution = Solution {
+            embedding,
+            pins: Pins::new(),
+            gauge_completed: true,
+            linear: Some(linear),
+            convergence: Some(convergence),
+            seconds: PhaseSeconds::default(),
+        };
+        Ok(Spectral { solution, eigenvalue })
+    }
+
+    /// λ as the energy of an embedding of boundary norm 1, and ‖L z − λ B z‖ relative to the sizes of the terms of L z.
+    fn eigenvalue(&self, embedding: &Embedding) -> Result<(f64, f64), SolveError> {
+        let place = |v: VertexId| C64::new(embedding[v].x, embedding[v].y);
+        let free = self.system.free();
+        let force = |row: usize| -self.equations.residual_of(self.mesh, embedding, free[row]);
+        let forces: Vec<C64> = self.control.each(free.len(), force)?;
+        let work = |(&v, force): (&VertexId, &C64)| (place(v).conj() * force).re;
+        let eigenvalue = free.iter().zip(&forces).map(work).sum::<f64>().max(0.0);
+        let (mut left, mut whole) = (0.0, 0.0);
+        for run in self.control.runs(free.len()) {
+            for row in run? {
+                let (v, force) = (free[row], forces[row]);
+                let held = if self.mesh.boundary_place(v).is_some() { eigenvalue * place(v) } else { C64::ZERO };
+                let size = |h: HalfedgeId| {
+                    let coefficient: C64 = self.equations.coefficients[h.index()];
+                    coefficient.norm() * embedding[self.mesh.head(h)].distance(embedding[v])
+                };
+                left += (force - held).norm_sqr();
+                whole += self.mesh.links_from(v).map(size).sum::<f64>().powi(2);
+            }
+        }
+        Ok((eigenvalue, if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }))
+    }
+}

@@ -1,0 +1,133 @@
+//! Polygons over shared vertices: a mesh as a file gives it.
+
+use glam::DVec3;
+
+use super::triangulate::triangulate;
+use super::{TriMesh, VertexId};
+
+/// A list of polygons over shared vertices, kept whole so that it can be written back as it was read.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PolygonMesh {
+    /// One position per vertex, mesh units.
+    pub positions: Vec<DVec3>,
+    /// Corners of all polygons, one after the other.
+    pub corners: Vec<VertexId>,
+    /// `None` where every polygon is a triangle; otherwise where each polygon's corners begin, and the end of the last.
+    pub starts: Option<Vec<u32>>,
+}
+
+impl PolygonMesh {
+    /// Makes a mesh from positions and the vertex numbers of each face, counter-clockwise seen from outside.
+    ///
+    /// # Panics
+    ///
+    /// If the faces have 2^32 corners or more.
+    pub fn from_arrays(positions: &[[f64; 3]], faces: &[impl AsRef<[u32]>]) -> Self {
+        let positions = positions.iter().copied().map(DVec3::from).collect();
+        let corners = faces.iter().flat_map(|face| face.as_ref().iter().map(|&vertex| VertexId::new(vertex))).collect();
+        let ends = faces.iter().scan(0, |end, face| {
+            *end += u32::try_from(face.as_ref().len()).expect("fewer than 2^32 corners");
+            Some(*end)
+        });
+        Self { positions, corners, starts: Some(std::iter::once(0).chain(ends).collect()) }
+    }
+
+    /// Number of polygons.
+    pub fn face_count(&self) -> usize {
+        self.starts.as_ref().map_or(self.corners.len() / 3, |starts| starts.len().saturating_sub(1))
+    }
+
+    /// Places of a polygon's corners in `corners`.
+    pub fn corner_range(&self, polygon: usize) -> std::ops::Range<usize> {
+        match &self.starts {
+            None => 3 * polygon..3 * polygon + 3,
+            Some(starts) => starts[polygon] as usize..starts[polygon + 1] as usize,
+        }
+    }
+
+    /// Corners of one polygon, in file order.
+    pub fn face(&self, polygon: usize) -> &[VertexId] {
+        &self.corners[self.corner_range(polygon)]
+    }
+
+    /// The same mesh with every polygon run around the other way, from the same first corner.
+    #[must_use = "the mesh itself stays as it is"]
+    pub fn turned(&self) -> Self {
+        let corners = self.turned_at_corners(&self.corners);
+        Self { positions: self.positions.clone(), corners, starts: self.starts.clone() }
+    }
+
+    /// What belongs to the corners, in the order of the mesh that is [`turned`](Self::turned).
+    pub fn turned_at_corners<T: Copy>(&self, at_corners: &[T]) -> Vec<T> {
+        let mut turned = at_corners.to_vec();
+        for face in 0..self.face_count() {
+            let mut range = self.corner_range(face);
+            range.start = (range.start + 1).min(range.end);
+            turned[range].reverse();
+        }
+        turned
+    }
+
+    /// Cuts every polygon into triangles, in file order; those with fewer than three corners vanish. A corner beyond
+    /// the last vertex is kept for the diagnosis to name.
+    pub fn triangulate(&self) -> TriMesh {
+        let (places, polygon_of) = self.triangle_places();
+        let triangles = places.iter().map(|triangle| triangle.map(|place| self.corners[place as usize])).collect();
+        TriMesh { positions: self.positions.clone(), triangles, polygon_of }
+    }
+
+    /// For each vertex whether two polygons meet there and share both of its edges.
+    fn bare_vertices(&self) -> Vec<bool> {
+        // The corners before and after a vertex in the first polygon there, and in how many polygons it is.
+        let mut meeting = vec![([VertexId::default(); 2], 0_u32); self.positions.len()];
+        let count = self.positions.len();
+        let mut are_bare = vec![false; count];
+        for polygon in 0..self.face_count() {
+            let face = self.face(polygon);
+            for (at, corner) in face.iter().enumerate().filter(|(_, corner)| corner.index() < count) {
+                let (before, after) = (face[(at + face.len() - 1) % face.len()], face[(at + 1) % face.len()]);
+                let (first, polygons) = &mut meeting[corner.index()];
+                *polygons += 1;
+                are_bare[corner.index()] = *polygons == 2 && *first == [after, before];
+                if *polygons == 1 {
+                    *first = [before, after];
+                }
+            }
+        }
+        are_bare
+    }
+
+    /// Triangles as places in `corners`, and the polygon of each where they are not one to one.
+    ///
+    /// # Panics
+    ///
+    /// If the mesh has 2^32 corners or more.
+    pub fn triangle_places(&self) -> (Vec<[u32; 3]>, Option<Vec<u32>>) {
+        let Some(starts) = &self.starts else {
+            let count = u32::try_from(self.corners.len() / 3).expect("a mesh has fewer than 2^32 corners");
+            return ((0..count).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect(), None);
+        };
+        let mut places = Vec::with_capacity(self.corners.len());
+        let mut polygon_of = Vec::with_capacity(self.corners.len());
+        let mut points = Vec::new();
+        let are_bare = self.bare_vertices();
+        for (polygon, bounds) in (0..).zip(starts.windows(2)) {
+            points.clear();
+            let corners = &self.corners[bounds[0] as usize..bounds[1] as usize];
+            points.extend(corners.iter().map(|v| self.positions.get(v.index()).copied().unwrap_or(DVec3::NAN)));
+            let is_bare = |corner: usize| are_bare.get(corners[corner].index()) == Some(&true);
+            triangulate(&points, is_bare, |triangle| {
+                let place = |corner| bounds[0] + u32::try_from(corner).expect("a corner fits");
+                places.push(triangle.map(place));
+                polygon_of.push(polygon);
+            });
+        }
+        (places, Some(polygon_of))
+    }
+}
+
+impl From<&TriMesh> for PolygonMesh {
+    fn from(mesh: &TriMesh) -> Self {
+        Self { positions: mesh.positions.clone(), corners: mesh.triangles.concat(), starts: None }
+    }
+}

@@ -1,0 +1,195 @@
+//! The way down an energy: Newton steps with a line search, within the barriers of what is not folded.
+
+use crate::parallel::prelude::*;
+use crate::parallel::reduce;
+use glam::DVec2;
+
+use super::super::foldover_energy::{Element, Energy};
+use super::direction::Memory;
+use super::{CHUNK, EnergyProblem};
+use crate::linear::block_pattern::HELD;
+use crate::problem::{Control, Phase, SolveError};
+
+/// ε² where a triangle is folded: a little, and a share of the worst determinant's square.
+const EPSILON_SQUARED: [f64; 2] = [1e-12, 0.04];
+
+/// The least ε² where unfolded triangles have barriers: folded ones end well unfolded, not without area.
+const EPSILON_SQUARED_BESIDE_BARRIERS: f64 = 1e-4;
+
+/// The share of the longest unfolded step that is taken at most.
+const STEP_SHARE: f64 = 0.9;
+
+/// The least decrease of the energy, as a share of what the gradient promises (Armijo).
+const DECREASE: f64 = 1e-4;
+
+/// Halvings of a step before it counts as none.
+const HALVINGS: usize = 40;
+
+/// What a descent does while some triangle is folded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unfolding {
+    /// Others may fold meanwhile; it goes on when none is folded.
+    Freely,
+    /// The same, but it ends when none is folded.
+    Alone,
+    /// Those that are not folded stay so.
+    BesideBarriers,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Limits {
+    /// The most Newton steps.
+    pub(crate) steps: usize,
+    /// The energy where no triangle is folded: a barrier.
+    pub(crate) unfolded: Energy,
+    /// What happens while some triangle is folded.
+    pub(crate) unfolding: Unfolding,
+    /// A step that lowers the energy by a smaller share of it is the last.
+    pub(crate) tolerance: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Descent {
+    pub(crate) least_determinant: f64,
+    /// The share of the energy that was gained since the triangles were unfolded.
+    pub(crate) gain: f64,
+}
+
+/// Memory that every step of a descent uses.
+struct Place {
+    /// Points that are tried.
+    trial: Vec<DVec2>,
+    memory: Memory,
+}
+
+/// Which energy each element has.
+pub(super) struct Energies {
+    unfolded: Energy,
+    folded: Energy,
+    /// By element; empty where all are as the unfolded ones.
+    is_folded: Vec<bool>,
+    /// How many of the first elements are measured at their own size, and their energy.
+    own: Option<(usize, Energy)>,
+}
+
+impl Energies {
+    pub(super) fn all(energy: Energy) -> Self {
+        Self { unfolded: energy, folded: energy, is_folded: Vec::new(), own: None }
+    }
+
+    fn is_folded(&self, element: usize) -> bool {
+        self.is_folded.get(element) == Some(&true)
+    }
+
+    pub(super) fn of(&self, element: usize) -> Energy {
+        match self.own {
+            Some((count, energy)) if element < count => energy,
+            _ if self.is_folded(element) => self.folded,
+            _ => self.unfolded,
+        }
+    }
+
+    /// How many of the first elements are measured at their own size.
+    pub(super) fn own_count(&self) -> usize {
+        self.own.map_or(0, |(count, _)| count)
+    }
+}
+
+impl EnergyProblem {
+    /// Lowers the energy step by step.
+    pub(crate) fn descend(&self, z: &mut [DVec2], limits: Limits, control: Control<'_>) -> Result<Descent, SolveError> {
+        let mut place = Place { trial: z.to_vec(), memory: self.no_memory() };
+        let mut unfolded_energies: Option<[f64; 2]> = None;
+        // What no step changes is no part of what is gained.
+        let idle = self.energy_of_held(z, limits.unfolded);
+        for _ in 0..limits.steps {
+            control.enter(Phase::Solve)?;
+            let least = self.least_determinant(z);
+            if least > 0.0 && limits.unfolding == Unfolding::Alone {
+                break;
+            }
+            let energies = self.energies(z, least, limits);
+            let Some([before, after]) = self.newton_step(z, &mut place, &energies, control)? else { break };
+            if least > 0.0 {
+                let [before, after] = [before, after].map(|energy| energy - idle);
+                let [first, _] = unfolded_energies.unwrap_or([before, before]);
+                unfolded_energies = Some([first, after]);
+                if before - after < limits.tolerance * before {
+                    break;
+                }
+            }
+        }
+        let gain = unfolded_energies.map_or(0.0, |[first, last]| 1.0 - last / first);
+        Ok(Descent { least_determinant: self.least_determinant(z), gain })
+    }
+
+    /// The energy of the elements all of whose corners are held; 0 where one of them is folded.
+    fn energy_of_held(&self, z: &[DVec2], energy: Energy) -> f64 {
+        let is_held = |element: &&Element| element.corners.iter().all(|&c| self.unknown_of[c as usize] == HELD);
+        let of = |element: &Element| element.energy(Self::corners(element, z), energy);
+        let sum: f64 = self.elements.iter().filter(is_held).map(of).sum();
+        if sum.is_finite() { sum } else { 0.0 }
+    }
+
+    /// The energies of a step from where the least determinant is that.
+    fn energies(&self, z: &[DVec2], least: f64, limits: Limits) -> Energies {
+        if least > 0.0 {
+            let is_sized = self.own_count > 0 && limits.unfolded == Energy::SymmetricDirichlet;
+            let own = is_sized.then(|| (self.own_count, self.own_sums(z).model()));
+            return Energies { own, ..Energies::all(limits.unfolded) };
+        }
+        let [little, share] = EPSILON_SQUARED;
+        let has_barriers = limits.unfolding == Unfolding::BesideBarriers;
+        let floor = if has_barriers { EPSILON_SQUARED_BESIDE_BARRIERS } else { little };
+        let folded = Energy::Foldover((floor + share * least * least).sqrt());
+        if !has_barriers {
+            return Energies::all(folded);
+        }
+        let is_folded = |element: &Element| element.determinant(Self::corners(element, z)) <= 0.0;
+        let is_folded = self.elements.par_iter().with_min_len(CHUNK).map(is_folded).collect();
+        Energies { unfolded: limits.unfolded, folded, is_folded, own: None }
+    }
+
+    /// The longest step along a direction that folds no element with a barrier.
+    fn longest_within_barriers(&self, z: &[DVec2], direction: &[DVec2], energies: &Energies) -> f64 {
+        let of = |(at, element): (usize, &Element)| {
+            if !energies.of(at).is_barrier() {
+                return f64::INFINITY;
+            }
+            Element::longest_step(Self::corners(element, z), Self::corners(element, direction))
+        };
+        reduce(self.elements.par_iter().enumerate().with_min_len(CHUNK).map(of), || f64::INFINITY, f64::min)
+    }
+
+    /// One step with line search. Returns the energies before and after, `None` where no step lowers it.
+    fn newton_step(
+        &self,
+        z: &mut [DVec2],
+        Place { trial, memory }: &mut Place,
+        energies: &Energies,
+        control: Control<'_>,
+    ) -> Result<Option<[f64; 2]>, SolveError> {
+        let before = self.energy(z, energies);
+        control.go_on()?;
+        let (gradient, hessian) = self.linearise(z, energies, None, control)?;
+        control.go_on()?;
+        let direction = self.direction(&gradient, hessian, memory, control)?;
+        control.go_on()?;
+        let along = |(&point, g): (&u32, &[f64])| DVec2::new(g[0], g[1]).dot(direction[point as usize]);
+        let slope: f64 = self.unknowns.iter().zip(gradient.chunks_exact(2)).map(along).sum();
+        let mut step = (STEP_SHARE * self.longest_within_barriers(z, &direction, energies)).min(1.0);
+        for _ in 0..HALVINGS {
+            control.go_on()?;
+            for ((trial, z), direction) in trial.iter_mut().zip(&*z).zip(&direction) {
+                *trial = *z + step * *direction;
+            }
+            let after = self.energy(trial, energies);
+            if before - after >= -DECREASE * step * slope && after < before {
+                z.copy_from_slice(trial);
+                return Ok(Some([before, after]));
+            }
+            step *= 0.5;
+        }
+        Ok(None)
+    }
+}

@@ -1,0 +1,191 @@
+//! Triangles in the plane that resist folding: an energy over all of them, and Newton's method to lower it.
+//!
+//! ```text
+//! E(z) = Σ elements f(J) + Σ springs ½ s |z − t|²
+//! ```
+//!
+//! Some points are held; the others move. While a triangle is folded, ε follows the smallest determinant, as in "Foldover-free
+//! maps in 50 lines of code" (see the module `foldover_energy`); once all are unfolded ε is 0, and no step leaves that state.
+//! On request it is so for each triangle by itself: those that are unfolded have a barrier while others unfold.
+//!
+//! | file | what |
+//! |---|---|
+//! | `assembly.rs` | gradient and Hessian of all elements |
+//! | `descent.rs` | Newton steps with a line search |
+//! | `direction.rs` | the systems of the Hessian |
+//! | `own_size.rs` | the energy of elements that are measured at their own size |
+//! | `reweighted.rs` | a step of SLIM |
+
+mod assembly;
+mod descent;
+mod direction;
+mod own_size;
+mod reweighted;
+
+use crate::parallel::prelude::*;
+use crate::parallel::reduce;
+use glam::DVec2;
+
+use super::foldover_energy::Element;
+use crate::linalg::{Analysis, EliminationOrder, Kind};
+use crate::linear::block_pattern::{HELD, Neighbours, number};
+use crate::problem::{Control, SolveError};
+use assembly::elements_of_parts;
+use descent::Energies;
+pub(crate) use descent::{Limits, Unfolding};
+
+/// Elements whose energies are summed by one task: the sum is the same however many threads share it.
+const CHUNK: usize = 2048;
+
+/// A pull on a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spring {
+    pub(crate) point: u32,
+    pub(crate) target: DVec2,
+    pub(crate) stiffness: f64,
+}
+
+/// The elements with what is free to move, and the plan of the Hessian.
+#[derive(Debug)]
+pub(crate) struct EnergyProblem {
+    elements: Vec<Element>,
+    springs: Vec<Spring>,
+    /// For each point its unknown, or `HELD`.
+    unknown_of: Vec<u32>,
+    unknowns: Vec<u32>,
+    /// For each element and pair of corners (row, column) the place of the block's first entry, or `HELD`.
+    slots: Vec<[[u32; 3]; 3]>,
+    /// Where the unknowns' columns begin among the Hessian's values, and where the last ones end.
+    columns: Vec<u32>,
+    /// For each unknown the place of its block's first entry.
+    diagonal: Vec<u32>,
+    /// For each part of the unknowns the elements that it has to do with, ascending.
+    of_parts: Vec<Vec<u32>>,
+    analysis: Analysis,
+    /// How many of the first elements are measured at their own size; none: 0.
+    own_count: usize,
+}
+
+/// How a membrane is planned.
+#[derive(Clone, Copy)]
+pub(crate) struct Planning<'a> {
+    /// The order of elimination of one over the same points, most of whose elements are the same.
+    pub(crate) order: Option<&'a EliminationOrder>,
+    pub(crate) control: Control<'a>,
+}
+
+impl EnergyProblem {
+    /// Plans the energy of `elements` over points of which some are held.
+    pub(crate) fn new(
+        point_count: usize,
+        elements: Vec<Element>,
+        springs: Vec<Spring>,
+        is_held: impl Fn(u32) -> bool,
+        planning: Planning<'_>,
+    ) -> Result<Self, SolveError> {
+        let mut unknown_of = vec![HELD; point_count];
+        let mut unknowns = Vec::new();
+        for point in elements.iter().flat_map(|element| element.corners) {
+            if unknown_of[point as usize] == HELD && !is_held(point) {
+                unknown_of[point as usize] = 0;
+            }
+        }
+        for (point, unknown) in (0..).zip(&mut unknown_of) {
+            if *unknown != HELD {
+                *unknown = number(unknowns.len());
+                unknowns.push(point);
+            }
+        }
+        let springs: Vec<Spring> =
+            springs.into_iter().filter(|spring| unknown_of[spring.point as usize] != HELD).collect();
+        let of_corners: Vec<[u32; 3]> =
+            elements.iter().map(|element| element.corners.map(|corner| unknown_of[corner as usize])).collect();
+        planning.control.go_on()?;
+        let neighbours = Neighbours::new(&of_corners, unknowns.len());
+        planning.control.go_on()?;
+        let slot =
+            |row: u32, column: u32| if row == HELD || column == HELD { HELD } else { neighbours.slot(row, column) };
+        let slots_of = |of: &[u32; 3]| of.map(|row| of.map(|column| slot(row, column)));
+        let slots = of_corners.par_iter().with_min_len(CHUNK).map(slots_of).collect();
+        let columns = neighbours.columns();
+        let diagonal = (0..number(unknowns.len())).map(|unknown| neighbours.slot(unknown, unknown)).collect();
+        let of_parts = elements_of_parts(&of_corners, unknowns.len());
+        drop(of_corners);
+        planning.control.go_on()?;
+        let pattern = neighbours.block_pattern(planning.control)?;
+        drop(neighbours);
+        let cancel = planning.control.cancel();
+        let analysis = match planning.order {
+            Some(order) => Analysis::in_order(order, &pattern, cancel)?,
+            None => Analysis::new(Kind::Hermitian, &pattern, cancel)?,
+        };
+        let own_count = 0;
+        Ok(Self { elements, springs, unknown_of, unknowns, slots, columns, diagonal, of_parts, analysis, own_count })
+    }
+
+    /// The order of elimination, for another that is similar.
+    pub(crate) fn order(&self) -> Option<EliminationOrder> {
+        self.analysis.order()
+    }
+
+    /// Entries of each of an unknown's columns.
+    fn column_length(&self, unknown: usize) -> usize {
+        (self.columns[unknown + 1] - self.columns[unknown]) as usize / 2
+    }
+
+    fn corners(element: &Element, z: &[DVec2]) -> [DVec2; 3] {
+        element.corners.map(|corner| z[corner as usize])
+    }
+
+    /// The energy; infinite where a triangle is folded that has a barrier.
+    fn energy(&self, z: &[DVec2], energies: &Energies) -> f64 {
+        let own = energies.own_count();
+        let of_own = if own > 0 { self.own_sums(z).energy() } else { 0.0 };
+        let of_chunk = |(chunk, elements): (usize, &[Element])| -> f64 {
+            let numbered = (own + chunk * CHUNK..).zip(elements);
+            numbered.map(|(at, element)| element.energy(Self::corners(element, z), energies.of(at))).sum()
+        };
+        let sums: Vec<f64> = self.elements[own..].par_chunks(CHUNK).enumerate().map(of_chunk).collect();
+        of_own + sums.iter().sum::<f64>() + self.pull(z)
+    }
+
+    /// The part of the springs in the energy.
+    pub(crate) fn pull(&self, z: &[DVec2]) -> f64 {
+        let of = |spring: &Spring| 0.5 * spring.stiffness * z[spring.point as usize].distance_squared(spring.target);
+        self.springs.iter().map(of).sum()
+    }
+
+    /// What has energies.
+    pub(crate) fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
+    /// Gives springs other targets, by their points.
+    pub(crate) fn aim_springs(&mut self, target_of: impl Fn(u32) -> DVec2) {
+        self.springs.iter_mut().for_each(|spring| spring.target = target_of(spring.point));
+    }
+
+    pub(crate) fn least_determinant(&self, z: &[DVec2]) -> f64 {
+        let of = |element: &Element| element.determinant(Self::corners(element, z));
+        reduce(self.elements.par_iter().with_min_len(CHUNK).map(of), || f64::INFINITY, f64::min)
+    }
+
+    /// The longest step along a direction that folds none of the first `count` elements.
+    pub(crate) fn longest_step(&self, z: &[DVec2], direction: &[DVec2], count: usize) -> f64 {
+        let of =
+            |element: &Element| Element::longest_step(Self::corners(element, z), Self::corners(element, direction));
+        reduce(self.elements[..count].par_iter().with_min_len(CHUNK).map(of), || f64::INFINITY, f64::min)
+    }
+
+    /// Gradient by unknown, and the Hessian's values. Where points are moved by `shift`, the gradient is that of the model
+    /// there.
+    fn linearise(
+        &self,
+        z: &[DVec2],
+        energies: &Energies,
+        shift: Option<&[DVec2]>,
+        control: Control<'_>,
+    ) -> Result<(Vec<f64>, Vec<f64>), SolveError> {
+        self.assembled(z, |at, element| element.model(Self::corners(element, z), energies.of(at)), shift, control)
+    }
+}

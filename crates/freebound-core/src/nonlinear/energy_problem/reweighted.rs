@@ -1,0 +1,67 @@
+//! One iteration of SLIM on the elements: the minimiser of their proxies, approached as far as the energy falls.
+
+use glam::DVec2;
+
+use super::super::foldover_energy::{Element, Energy};
+use super::super::slim::Proxy;
+use super::EnergyProblem;
+use super::descent::Energies;
+use crate::geom::double_area;
+use crate::problem::{Control, Phase, Progress, SolveError};
+
+/// The share of the way to the first fold that is taken at most.
+const SHARE_BEFORE_FOLD: f64 = 0.8;
+
+/// Halvings of a step before it counts as none.
+const HALVINGS: usize = 40;
+
+impl EnergyProblem {
+    /// The symmetric Dirichlet energy |J|² + |J⁻¹|² of the first `count` elements, each by its weight, and their least
+    /// determinant.
+    pub(crate) fn standing(&self, z: &[DVec2], count: usize) -> Progress {
+        let placed = || self.elements[..count].iter().map(|element| (element, Self::corners(element, z)));
+        let energy = placed().map(|(element, z)| 2.0 * element.energy(z, Energy::SymmetricDirichlet)).sum();
+        let least_determinant = placed().map(|(element, z)| element.determinant(z)).fold(f64::INFINITY, f64::min);
+        Progress { energy, least_determinant, distance_left: 0.0 }
+    }
+
+    /// Twice the area of the first `count` elements.
+    pub(crate) fn double_area(&self, z: &[DVec2], count: usize) -> f64 {
+        self.elements[..count].iter().map(|element| double_area(Self::corners(element, z))).sum()
+    }
+
+    /// Goes towards the minimiser of the proxies at `z`, no farther than to a share of the way to the first fold, and
+    /// halves that until the energy falls. Returns the energies before and after; `None` where no step lowers it, and `z`
+    /// stays.
+    pub(crate) fn reweighted_step(
+        &self,
+        z: &mut Vec<DVec2>,
+        control: Control<'_>,
+    ) -> Result<Option<[f64; 2]>, SolveError> {
+        control.enter(Phase::Assemble)?;
+        let energy = |z: &[DVec2]| self.energy(z, &Energies::all(Energy::SymmetricDirichlet));
+        let before = energy(z);
+        control.go_on()?;
+        let proxy = |_: usize, element: &Element| {
+            let corners = Self::corners(element, z);
+            Proxy::at(element, corners).model(element, corners)
+        };
+        let (gradient, hessian) = self.assembled(z, proxy, None, control)?;
+        control.enter(Phase::Factor)?;
+        let direction = self.direction(&gradient, hessian, &mut self.no_memory(), control)?;
+        control.enter(Phase::Solve)?;
+        let to_fold = self.longest_step(z, &direction, self.elements.len());
+        let mut step = (SHARE_BEFORE_FOLD * to_fold).min(1.0);
+        for _ in 0..HALVINGS {
+            control.go_on()?;
+            let trial: Vec<DVec2> = z.iter().zip(&direction).map(|(z, direction)| *z + step * *direction).collect();
+            let after = energy(&trial);
+            if after < before {
+                *z = trial;
+                return Ok(Some([before, after]));
+            }
+            step *= 0.5;
+        }
+        Ok(None)
+    }
+}

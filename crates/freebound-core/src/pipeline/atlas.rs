@@ -1,0 +1,305 @@
+//! Charts that are solved, laid beside each other and proved together.
+//!
+//! A chart with pins lies where they hold it. The others are packed into the unit square, all as large on the picture as on the
+//! surface by one factor, times the size that a person gives to each; to the right of the square where pins hold a chart. Each is turned so that its box is small. Numbers
+//! round on the way; where that folds a chart, it is not turned. Charts that went on from the layout of their file may stay where that has
+//! them instead.
+
+use glam::DVec2;
+
+use super::{
+    Fit, LaidChart, Outcome, PackingSummary, PinsSummary, Placement, PreparedMesh, pins_summary, prove_atlas, upright,
+};
+use crate::flatten::true_area_factor;
+use crate::geom::{Bounds, Packing, PackingOptions, double_area, least_box_turn, pack};
+use crate::mesh::{DiskMesh, FaceId, VertexId};
+use crate::parallel::prelude::*;
+use crate::problem::Embedding;
+use crate::verify::{AtlasVerdict, DistortionSummary, distortion, verdict};
+
+/// Where charts go that no pins hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Arrangement {
+    /// They are packed.
+    #[default]
+    Packed,
+    /// They stay where the layout has them that they started from, unless they lie over each other there or one has a size of its own.
+    AsGiven,
+}
+
+/// A chart that is solved.
+#[derive(Clone, Copy, Debug)]
+pub struct SolvedChart<'a> {
+    /// The chart.
+    pub chart: &'a PreparedMesh,
+    /// Step that is laid out.
+    pub outcome: &'a Outcome,
+    /// Size relative to the other packed charts. Default: 1.
+    pub size: f64,
+}
+
+/// Summary of one chart of an atlas. Vertices are those of the whole mesh.
+#[derive(Clone, Debug)]
+pub struct ChartSummary {
+    /// First face of the chart, as the input numbers its polygons.
+    pub first_face: FaceId,
+    /// Number of triangles.
+    pub faces: usize,
+    /// Pins and their errors.
+    pub pins: PinsSummary,
+    /// True if the boundary was laid on a convex shape or bent to one.
+    pub has_convex_boundary: bool,
+    /// Position of the coordinates.
+    pub placement: Placement,
+    /// Distortion at the final coordinates.
+    pub distortion: DistortionSummary,
+    /// Pixels of the picture per unit of length on the surface, on average.
+    pub density: f64,
+    /// Number of vertices that the mesh did not have before.
+    pub new_vertices: usize,
+}
+
+/// Charts laid out beside each other and proved together.
+#[derive(Debug)]
+pub struct Atlas<'a> {
+    /// Charts with their final coordinates, in the order of the input.
+    pub charts: Vec<LaidChart<'a>>,
+    /// Summary of each chart.
+    pub summaries: Vec<ChartSummary>,
+    /// Exact verdict on all charts together.
+    pub verdict: AtlasVerdict,
+    /// Packing. Absent if no chart was packed.
+    pub packing: Option<PackingSummary>,
+    /// Width over height of the picture that the coordinates are for.
+    pub aspect: f64,
+    /// Edges of the whole mesh that new vertices lie on, by their ends.
+    pub split_edges: Vec<[VertexId; 2]>,
+    /// Polygons that were cut into triangles, as the input numbers them.
+    pub cut_polygons: Vec<FaceId>,
+}
+
+/// Lays charts out and proves them, each and together. They are those of one mesh, in their order.
+///
+/// # Panics
+///
+/// If there is no chart, or one is no chart of several, or no disk.
+pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions, arrangement: Arrangement) -> Atlas<'a> {
+    let is_placed =
+        |chart: &SolvedChart<'_>| chart.is_held() || (chart.outcome.step.lies_as_given && chart.has_usual_size());
+    if arrangement == Arrangement::AsGiven && charts.iter().all(is_placed) {
+        let laid = charts.par_iter().map(SolvedChart::in_place).collect();
+        let in_place = output(charts, laid, None, options);
+        if in_place.verdict.overlapping_faces.is_empty() {
+            return in_place;
+        }
+    }
+    packed(charts, options)
+}
+
+fn packed<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Atlas<'a> {
+    let mut laid: Vec<Option<Embedding>> =
+        charts.iter().map(|chart| chart.is_held().then(|| chart.in_place())).collect();
+    let beside = first_column_beside(&laid);
+    let free: Vec<usize> = (0..charts.len()).filter(|&chart| laid[chart].is_none()).collect();
+    let mut boxes: Vec<Boxed> = free.par_iter().map(|&chart| Boxed::new(&charts[chart], true)).collect();
+    let mut packing = pack_boxes(&boxes, options);
+    let place = |packing: &Packing, boxes: &[Boxed], k: usize| boxes[k].laid(&charts[free[k]], packing, k, beside);
+    let is_folded = |(k, &chart): (usize, &usize)| {
+        let solved = &charts[chart];
+        let proved =
+            |coordinates: &Embedding| verdict(solved.outcome.step.candidate.mesh(solved.disk()), coordinates).planar;
+        solved.outcome.step.verdict.planar && !proved(&place(&packing, &boxes, k))
+    };
+    let folded: Vec<usize> = free.par_iter().enumerate().filter(|&of| is_folded(of)).map(|(k, _)| k).collect();
+    if !folded.is_empty() {
+        for &k in &folded {
+            boxes[k] = Boxed::new(&charts[free[k]], false);
+        }
+        packing = pack_boxes(&boxes, options);
+    }
+    for (k, &chart) in free.iter().enumerate() {
+        laid[chart] = Some(place(&packing, &boxes, k));
+    }
+    let covered = boxes.iter().map(|boxed| boxed.area).sum::<f64>() * packing.scale.powi(2);
+    let pixels = f64::from(packing.picture.x) * f64::from(packing.picture.y);
+    let density = packing.scale;
+    let packing =
+        PackingSummary { picture: packing.picture.to_array(), gap: options.gap, density, covered: covered / pixels };
+    let coordinates = laid.into_iter().flatten().collect();
+    output(charts, coordinates, (!free.is_empty()).then_some(packing), options)
+}
+
+/// The whole u from which charts lie free of those with pins; 0 where there are none.
+fn first_column_beside(laid: &[Option<Embedding>]) -> f64 {
+    let held = laid.iter().flatten().map(Embedding::bounds).fold(Bounds::EMPTY, Bounds::union);
+    if held.high.x.is_finite() { held.high.x.max(1.0).ceil() } else { 0.0 }
+}
+
+fn pack_boxes(boxes: &[Boxed], options: PackingOptions) -> Packing {
+    pack(&boxes.iter().map(|boxed| boxed.bounds.size()).collect::<Vec<_>>(), options)
+}
+
+/// A chart turned so that its box is small, at the size of its surface times that which it is given.
+struct Boxed {
+    /// What its embedding is multiplied by, a complex number.
+    turn: DVec2,
+    bounds: Bounds,
+    /// Area that it takes.
+    area: f64,
+}
+
+impl Boxed {
+    fn new(chart: &SolvedChart<'_>, is_turned: bool) -> Self {
+        let embedding = &chart.outcome.step.candidate.solution.embedding;
+        let factor = true_area_factor(chart.outcome.step.candidate.mesh(chart.disk()), embedding) * chart.disk().unit();
+        let factor = if factor.is_finite() { factor } else { 1.0 } * chart.size();
+        let turn = factor * if is_turned { least_box_turn(embedding) } else { DVec2::X };
+        let bounds = Bounds::of(embedding.iter().map(|&z| turn.rotate(z)).filter(|z| z.is_finite()));
+        let bounds = if bounds.size().is_finite() { bounds } else { Bounds::at(DVec2::ZERO, DVec2::ZERO) };
+        Self { turn, bounds, area: chart.area() * chart.size().powi(2) }
+    }
+
+    /// Texture coordinates where it is packed as the `k`-th box, moved to the right by `beside`.
+    fn laid(&self, chart: &SolvedChart<'_>, packing: &Packing, k: usize, beside: f64) -> Embedding {
+        let (place, Bounds { low, high }) = (packing.places[k], self.bounds);
+        let coordinate = |&z: &DVec2| {
+            let z = self.turn.rotate(z);
+            let inside = if place.turned { DVec2::new(high.y - z.y, z.x - low.x) } else { z - low };
+            (place.low + inside * packing.scale) / packing.picture.as_dvec2() + DVec2::new(beside, 0.0)
+        };
+        chart.outcome.step.candidate.solution.embedding.iter().map(coordinate).collect()
+    }
+}
+
+impl<'a> SolvedChart<'a> {
+    /// The chart with its final coordinates, proved.
+    fn laid(&self, coordinates: Embedding) -> LaidChart<'a> {
+        let step = &self.outcome.step;
+        let mesh = step.candidate.mesh(self.chart.disk().expect("only a disk has an outcome"));
+        let verdict = verdict(mesh, &coordinates);
+        let of = self.chart.chart.as_ref().expect("one chart of several");
+        let vertex_of = Some(&of.chart.vertex_of[..]);
+        let (refinement, held) = (step.candidate.refinement.as_deref(), self.outcome.held());
+        LaidChart { mesh, refinement, vertex_of, coordinates, verdict, held }
+    }
+
+    fn disk(&self) -> &'a DiskMesh {
+        self.chart.disk().expect("only a disk has an outcome")
+    }
+
+    /// How many times as large as the others it is packed, within what is allowed.
+    fn size(&self) -> f64 {
+        self.size.clamp(*PackingOptions::SIZES.start(), *PackingOptions::SIZES.end())
+    }
+
+    /// Area of its surface, in the mesh's units.
+    fn area(&self) -> f64 {
+        let (disk, mesh) = (self.disk(), self.disk().mesh());
+        let areas = disk.real_faces().map(|face| mesh.double_area_vector(face).length() / 2.0);
+        areas.sum::<f64>() * disk.unit().powi(2)
+    }
+
+    /// Pixels of a picture per unit of length on its surface, in the mean.
+    fn density(&self, coordinates: &Embedding, picture: DVec2) -> f64 {
+        let mesh = self.outcome.step.candidate.mesh(self.disk());
+        let doubled = |face: FaceId| {
+            double_area(mesh.mesh().triangles[face.index()].map(|vertex| coordinates[vertex] * picture)).abs()
+        };
+        (mesh.real_faces().map(doubled).sum::<f64>() / 2.0 / self.area()).sqrt()
+    }
+
+    /// Whether nobody gave it a size of its own.
+    fn has_usual_size(&self) -> bool {
+        self.size.to_bits() == 1.0_f64.to_bits()
+    }
+
+    /// Whether pins hold it.
+    fn is_held(&self) -> bool {
+        self.outcome.targets_in_use().next().is_some()
+    }
+
+    /// Its coordinates where its pins hold it, or the layout has it that it started from, as files have them.
+    fn in_place(&self) -> Embedding {
+        let (coordinates, ..) = self.outcome.output(self.disk(), Fit::Unit);
+        upright(&coordinates, self.outcome.problem.frame.v_axis).unwrap_or(coordinates)
+    }
+
+    /// The edges that new vertices lie on, as the file numbers their ends.
+    fn split_edges(&self) -> Vec<[VertexId; 2]> {
+        let edges =
+            self.outcome.step.candidate.refinement.as_ref().map(|refinement| refinement.split_edges_of_surface());
+        let in_file = |edge: [VertexId; 2]| {
+            let mut ends = edge.map(|vertex| self.chart.vertex_in_file(vertex));
+            ends.sort_unstable();
+            ends
+        };
+        edges.into_iter().flatten().map(in_file).collect()
+    }
+
+    /// Its polygons that are written as triangles.
+    fn cut_polygons(&self) -> Vec<FaceId> {
+        let refinement = self.outcome.step.candidate.refinement.as_ref();
+        refinement.map(|refinement| refinement.cut_polygons(self.disk())).unwrap_or_default()
+    }
+
+    /// Summary at these coordinates, for a picture of this size in pixels.
+    fn summary(&self, coordinates: &Embedding, picture: DVec2, placement: Placement) -> ChartSummary {
+        let step = &self.outcome.step;
+        let mesh = step.candidate.mesh(self.disk());
+        let is_in_place = placement != Placement::Packed;
+        let on_picture = || coordinates.iter().map(|uv| *uv * DVec2::new(picture.x / picture.y, 1.0)).collect();
+        let summary =
+            if is_in_place { self.outcome.distortion.summary } else { distortion(mesh, &on_picture()).summary };
+        // Targets are as the document has them, v up or down.
+        let in_document = upright(coordinates, self.outcome.problem.frame.v_axis).filter(|_| is_in_place);
+        let pins = pins_summary(self.outcome, in_document.as_ref().unwrap_or(coordinates));
+        let pins = pins.renumbered(|vertex| self.chart.vertex_in_file(vertex));
+        ChartSummary {
+            first_face: FaceId::new(mesh.mesh().polygon(FaceId::new(0))),
+            faces: mesh.mesh().real_face_count(),
+            pins,
+            has_convex_boundary: step.candidate.has_convex_boundary(),
+            placement,
+            distortion: summary,
+            density: self.density(coordinates, picture),
+            new_vertices: self.outcome.new_vertex_count(),
+        }
+    }
+}
+
+fn in_order<T: Ord>(list: impl Iterator<Item = T>) -> Vec<T> {
+    let mut all: Vec<T> = list.collect();
+    all.sort_unstable();
+    all
+}
+
+fn output<'a>(
+    charts: &[SolvedChart<'a>],
+    coordinates: Vec<Embedding>,
+    packing: Option<PackingSummary>,
+    options: PackingOptions,
+) -> Atlas<'a> {
+    let of_frame = charts[0].outcome.problem.frame.aspect;
+    let aspect = packing
+        .map_or(of_frame, |PackingSummary { picture: [width, height], .. }| f64::from(width) / f64::from(height));
+    let [_, height] = packing.map_or(options.picture, |packing| packing.picture).map(f64::from);
+    let picture = DVec2::new(aspect, 1.0) * height;
+    let placement = |chart: &SolvedChart<'_>| match packing {
+        _ if chart.is_held() => Placement::Pins,
+        Some(_) => Placement::Packed,
+        None => Placement::File,
+    };
+    let summary = |(chart, laid): (&SolvedChart<'_>, &Embedding)| chart.summary(laid, picture, placement(chart));
+    let summaries = charts.par_iter().zip(&coordinates).map(summary).collect();
+    let laid = |(chart, coordinates): (&SolvedChart<'a>, Embedding)| chart.laid(coordinates);
+    let laid: Vec<LaidChart<'a>> = charts.par_iter().zip(coordinates).map(laid).collect();
+    Atlas {
+        verdict: prove_atlas(&laid),
+        charts: laid,
+        summaries,
+        packing,
+        aspect,
+        split_edges: in_order(charts.iter().flat_map(SolvedChart::split_edges)),
+        cut_polygons: in_order(charts.iter().flat_map(SolvedChart::cut_polygons)),
+    }
+}

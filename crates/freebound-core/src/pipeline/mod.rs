@@ -1,0 +1,41 @@
+//! The way from a mesh to a proved atlas: preparation, charts, one problem a chart, steps, layout, proof.
+//!
+//! The command line, the editor and scripts share this layer. Data in and out are plain types: arrays, ids and options. It
+//! knows no path, no file and no screen.
+//!
+//! | file | contents |
+//! |---|---|
+//! | `prepared_mesh` | a mesh repaired, cut and filled: a disk, several charts, or faults |
+//! | `options` | all options of a run, collected before anything is built |
+//! | `targets` | the user's pins in texture coordinates |
+//! | `problem` | settings, frame and targets of one chart |
+//! | `run` | one chart from its problem to its last step |
+//! | `outcome` | a proved step with its distortion and its final coordinates |
+//! | `laid_chart` | charts with final coordinates, and their proof as one mesh |
+//! | `atlas` | layout of several charts: packing, placement, proof |
+//! | `unwrap` | the easy calls: any mesh to a proved atlas, and the proof of a given layout |
+//! | `summary` | plain data about a result |
+//! | `study/` | the iteration on many random trials (paper §7) |
+
+mod atlas;
+mod laid_chart;
+mod options;
+mod outcome;
+mod prepared_mesh;
+mod problem;
+mod run;
+pub mod study;
+mod summary;
+mod targets;
+mod unwrap;
+
+pub use atlas::{Arrangement, Atlas, ChartSummary, SolvedChart, atlas};
+pub use laid_chart::{JoinedCharts, LaidChart, joined, prove_atlas};
+pub use options::PipelineOptions;
+pub use outcome::{Outcome, pins_summary, upright};
+pub use prepared_mesh::{ChartOf, PreparedMesh, Surface};
+pub use problem::Problem;
+pub use run::SolvedProblem;
+pub use summary::{Fit, PackingSummary, PinsSummary, Placement, SoftPinSummary};
+pub use targets::{Target, Targets, hard_targets, pins_in_plane};
+pub use unwrap::{NO_COORDINATE, UnwrapError, Unwrapped, unwrap, unwrap_with, verify};

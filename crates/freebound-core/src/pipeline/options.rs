@@ -1,0 +1,60 @@
+//! All options of a run, collected before anything is read or built.
+
+use std::collections::BTreeMap;
+
+use super::{Arrangement, PreparedMesh, Problem, Targets};
+use crate::geom::{PackingOptions, PictureFrame};
+use crate::mesh::{Charts, FaceId, Preparation};
+use crate::problem::Settings;
+
+/// Options of a run from a mesh to a proved atlas. Default: method `auto` without pins, safe repairs, packed charts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PipelineOptions {
+    /// Repairs, cuts, seams, holes and parts.
+    pub preparation: Preparation,
+    /// Method and its settings.
+    pub settings: Settings,
+    /// Position of texture coordinates in the plane.
+    pub frame: PictureFrame,
+    /// True if the map is made for a picture: an embedding without pins then lies within it.
+    pub has_picture: bool,
+    /// Targets of the user's pins, by vertices of the input.
+    pub targets: Targets,
+    /// Picture size and gap for packed charts.
+    pub packing: PackingOptions,
+    /// Place of charts without pins. Default: packed.
+    pub arrangement: Arrangement,
+    /// Sizes of packed charts relative to the others, by their first faces. Default: 1.
+    pub sizes: BTreeMap<FaceId, f64>,
+}
+
+impl PipelineOptions {
+    /// The problem of these options with other targets.
+    pub fn problem_with(&self, targets: Targets) -> Problem {
+        Problem::new(&self.settings, self.frame, self.has_picture, targets)
+    }
+
+    /// The problem of a mesh of one chart.
+    pub fn problem(&self) -> Problem {
+        self.problem_with(self.targets.clone())
+    }
+
+    /// The problem of each chart, with the targets of its own vertices. `charts` are all charts of one mesh, in order.
+    pub fn problems(&self, charts: &[&PreparedMesh]) -> Vec<Problem> {
+        let mut of_chart = vec![Targets::new(); charts.len()];
+        let all = charts.first().and_then(|chart| chart.chart.as_ref()).map(|of| &of.charts);
+        for (&vertex, &target) in &self.targets {
+            if let Some(number) = all.and_then(|all| all.chart_of_vertex(vertex))
+                && let Some(own) = charts[number].chart.as_ref().and_then(|of| of.chart.vertex_at(vertex))
+            {
+                of_chart[number].insert(own, target);
+            }
+        }
+        of_chart.into_iter().map(|targets| self.problem_with(targets)).collect()
+    }
+
+    /// Size of a packed chart relative to the others.
+    pub fn size_of(&self, charts: &Charts, number: usize) -> f64 {
+        self.sizes.get(&charts.first_face(number)).copied().unwrap_or(1.0)
+    }
+}

@@ -1,0 +1,219 @@
+//! A proved step with its distortion, and its final coordinates.
+
+use glam::DVec2;
+
+use super::{Fit, PinsSummary, Placement, Problem, SoftPinSummary, Target};
+use crate::flatten::{Candidate, Step, to_unit_box, to_unit_square, to_unit_square_by_power_of_two, true_area_factor};
+use crate::geom::VAxis;
+use crate::mesh::{DiskMesh, VertexId};
+use crate::problem::{Embedding, GaugeSize, PinKind, Treatment};
+use crate::verify::{Distortion, Verdict, distortion, verdict};
+
+/// A step of a run with everything the screen and files show of it.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// What was asked for.
+    pub problem: Problem,
+    /// The embedding, its verdict and its numbers.
+    pub step: Step,
+    /// How faces are distorted.
+    pub distortion: Distortion,
+}
+
+impl Outcome {
+    /// Measures the distortion of a step on `mesh`, the mesh as given.
+    pub fn new(mesh: &DiskMesh, problem: Problem, step: Step) -> Self {
+        let distortion = distortion(step.candidate.mesh(mesh), &step.candidate.solution.embedding);
+        Self { problem, step, distortion }
+    }
+
+    /// Bytes of memory that it takes. The factors of a linear solve are kept once, for the next solve, and a mesh with
+    /// new vertices once for all steps on it: both are left out.
+    pub fn bytes(&self) -> usize {
+        let Step { candidate, verdict, outside_hull, .. } = &self.step;
+        let Candidate { solution, virtual_boundary, outside, .. } = candidate;
+        let pin_count = self.problem.targets.len() + solution.pins.len();
+        let stages = virtual_boundary.as_ref().map_or(0, |stages| {
+            size_of_val(&*stages.before)
+                + size_of_val(&*stages.solved)
+                + size_of_val(&*stages.hull)
+                + size_of_val(&*stages.pockets)
+        });
+        let outside =
+            outside.as_ref().map_or(0, |outside| size_of_val(&*outside.frame) + size_of_val(&*outside.triangles));
+        size_of::<Self>()
+            + size_of_val(&*solution.embedding)
+            + size_of_val(&*self.distortion.faces)
+            + size_of_val(&*verdict.flipped_faces)
+            + size_of_val(&*verdict.concave_polygons)
+            + size_of_val(&*verdict.boundary_crossings)
+            + size_of_val(&*verdict.overwound_vertices)
+            + size_of_val(&**outside_hull)
+            + pin_count * size_of::<(VertexId, DVec2)>()
+            + stages
+            + outside
+    }
+
+    /// How many vertices its mesh has beyond those of the mesh as given.
+    pub fn new_vertex_count(&self) -> usize {
+        self.step.candidate.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices_of_surface().count())
+    }
+
+    /// The texture coordinates that go into a file, where they lie, and the verdict on them, which is that on the mesh
+    /// of the step. The user's pins keep their places, exact ones that are met to the last bit; without any, `fit`
+    /// decides the size. `mesh` is the mesh as given.
+    ///
+    /// Moving to the unit square rounds. Where that breaks what was planar, or held in 32 bits, the scale is a power of two, so that less
+    /// is rounded, and then nothing is moved, so that nothing is.
+    pub fn output(&self, mesh: &DiskMesh, fit: Fit) -> (Embedding, Placement, Verdict) {
+        type Way = (fn(&mut Embedding), Placement);
+        let (embedding, mesh) = (&self.step.candidate.solution.embedding, self.step.candidate.mesh(mesh));
+        if self.targets_in_use().next().is_some() {
+            return self.as_it_lies(mesh, Placement::Pins);
+        }
+        if self.step.lies_as_given && fit == Fit::Unit {
+            return self.as_it_lies(mesh, Placement::File);
+        }
+        if self.problem.settings.size != GaugeSize::TrueArea {
+            return self.as_it_lies(mesh, Placement::Picture);
+        }
+        if fit == Fit::True {
+            return self.at_true_size(mesh);
+        }
+        let placed = |place: fn(&mut Embedding), name| {
+            let mut coordinates = embedding.clone();
+            place(&mut coordinates);
+            let verdict = verdict(mesh, &coordinates);
+            (coordinates, name, verdict)
+        };
+        // As much as is proved where it lies: the last way rounds nothing, neither in 64 bits nor in 32.
+        let holds = |verdict: &Verdict| {
+            let Verdict { planar, planar_in_f32, .. } = self.step.verdict;
+            (verdict.planar || !planar) && (verdict.planar_in_f32 || !planar_in_f32)
+        };
+        let first = placed(to_unit_square, Placement::Unit);
+        if holds(&first.2) {
+            return first;
+        }
+        let others: [Way; 2] = [(to_unit_square_by_power_of_two, Placement::Unit), (to_unit_box, Placement::Unmoved)];
+        let rescued = others.into_iter().map(|(place, name)| placed(place, name)).find(|found| holds(&found.2));
+        rescued.unwrap_or(first)
+    }
+
+    /// The embedding as large as the surface in its file, and the verdict on it. `mesh` is the step's own.
+    fn at_true_size(&self, mesh: &DiskMesh) -> (Embedding, Placement, Verdict) {
+        let embedding = &self.step.candidate.solution.embedding;
+        let unit = mesh.unit() * if self.step.lies_as_given { true_area_factor(mesh, embedding) } else { 1.0 };
+        if unit.to_bits() == 1.0_f64.to_bits() {
+            return (embedding.clone(), Placement::True, self.step.verdict.clone());
+        }
+        let coordinates: Embedding = embedding.iter().map(|&z| z * unit).collect();
+        let verdict = verdict(mesh, &coordinates);
+        (coordinates, Placement::True, verdict)
+    }
+
+    /// The texture coordinates of the embedding where it lies, the user's pins on their own numbers, and the verdict on
+    /// them in the plane. `mesh` is the step's own.
+    fn as_it_lies(&self, mesh: &DiskMesh, placement: Placement) -> (Embedding, Placement, Verdict) {
+        let embedding = &self.step.candidate.solution.embedding;
+        let mut coordinates: Embedding = embedding.iter().map(|&z| self.problem.frame.uv_from_plane(z)).collect();
+        let settings = &self.problem.settings;
+        for (vertex, target, error) in self.pin_errors().filter(|(_, target, _)| settings.is_hard(target.kind)) {
+            // A step on the way to the constraints has not met them yet.
+            if error == 0.0 {
+                coordinates[vertex.index()] = target.uv;
+            }
+        }
+        let upright: Embedding = match self.problem.frame.v_axis {
+            VAxis::Up => coordinates.clone(),
+            VAxis::Down => coordinates.iter().map(|uv| DVec2::new(uv.x, -uv.y)).collect(),
+        };
+        let same = upright == *embedding;
+        let verdict = if same { self.step.verdict.clone() } else { verdict(mesh, &upright) };
+        (coordinates, placement, verdict)
+    }
+
+    /// Distance of each of the user's pinned vertices from its target, in texture coordinates; 0 for exact ones, whose
+    /// numbers are those given.
+    pub fn pin_errors(&self) -> impl Iterator<Item = (VertexId, &Target, f64)> {
+        let (embedding, frame) = (&self.step.candidate.solution.embedding, self.problem.frame);
+        self.targets_in_use().map(move |(&vertex, target)| {
+            let z = embedding[vertex];
+            let is_met = z == frame.plane_from_uv(target.uv);
+            let error = if is_met { 0.0 } else { frame.uv_from_plane(z).distance(target.uv) };
+            (vertex, target, error)
+        })
+    }
+
+    /// Whether pins of the user's hold the embedding where it lies.
+    pub fn is_held(&self) -> bool {
+        self.targets_in_use().next().is_some()
+    }
+
+    /// The targets of the user's pins, where the method takes any.
+    pub fn targets_in_use(&self) -> impl Iterator<Item = (&VertexId, &Target)> {
+        self.problem.targets.iter().filter(|_| self.problem.settings.method.uses_pins())
+    }
+
+    /// Vertices that pins hold exactly.
+    pub fn held(&self) -> Vec<VertexId> {
+        let settings = &self.problem.settings;
+        self.targets_in_use().filter(|(_, target)| settings.is_hard(target.kind)).map(|(&vertex, _)| vertex).collect()
+    }
+}
+
+/// The coordinates as files have them, where v runs down in the document: there it runs up, which rounds.
+pub fn upright(coordinates: &Embedding, v_axis: VAxis) -> Option<Embedding> {
+    let turned = || coordinates.iter().map(|uv| DVec2::new(uv.x, 1.0 - uv.y)).collect();
+    (v_axis == VAxis::Down).then(turned)
+}
+
+/// What became of the user's pins. Those that are to be met exactly have their own numbers in `coordinates`, whatever
+/// was solved: for them the solver's places count too.
+pub fn pins_summary(outcome: &Outcome, coordinates: &Embedding) -> PinsSummary {
+    let settings = &outcome.problem.settings;
+    let (mut max_hard_error, mut max_soft_error) = (None::<f64>, None::<f64>);
+    let (mut soft, mut unmet) = (Vec::new(), Vec::new());
+    let targets = &outcome.problem.targets;
+    for (&vertex, target) in targets.iter().filter(|_| settings.method.uses_pins()) {
+        let written = coordinates[vertex.index()].distance(target.uv);
+        let (largest, error) = match settings.kind_of(target.kind) {
+            PinKind::Soft(weight) => {
+                soft.push(SoftPinSummary { vertex, weight, error: written });
+                (&mut max_soft_error, written)
+            }
+            PinKind::Fixed | PinKind::Hard => {
+                let error = written.max(solver_error(outcome, vertex, target.uv));
+                if error != 0.0 {
+                    unmet.push(vertex);
+                }
+                (&mut max_hard_error, error)
+            }
+        };
+        *largest = Some(largest.unwrap_or(0.0).max(error));
+    }
+    let treatment = match settings.treatment_on(outcome.step.candidate.stage, targets.len()) {
+        Treatment::Eliminate if outcome.step.candidate.solution.linear.is_some_and(|solved| solved.keeps_equations) => {
+            Treatment::LeastSquares
+        }
+        usual => usual,
+    };
+    PinsSummary {
+        treatment,
+        count: targets.len(),
+        max_error: max_hard_error.unwrap_or(0.0).max(max_soft_error.unwrap_or(0.0)),
+        max_hard_error,
+        max_soft_error,
+        unmet,
+        soft,
+    }
+}
+
+/// Distance of a pinned vertex from its target as solved for, in texture coordinates. Compared in the plane, so that it
+/// is 0 where the solver met the target to the last bit, and only there.
+fn solver_error(outcome: &Outcome, vertex: VertexId, target: DVec2) -> f64 {
+    let frame = outcome.problem.frame;
+    let off = outcome.step.candidate.solution.embedding[vertex] - frame.plane_from_uv(target);
+    // The frame has no offset: it takes differences to differences.
+    frame.uv_from_plane(off).length()
+}

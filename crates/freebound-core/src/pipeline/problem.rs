@@ -1,0 +1,120 @@
+//! The problem of one disk or chart: settings, output frame and targets.
+
+use std::sync::Arc;
+
+use super::{Target, Targets, pins_in_plane, upright};
+use crate::bijective::DragTarget;
+use crate::flatten::Flattener;
+use crate::geom::{Bounds, PictureFrame};
+use crate::mesh::VertexId;
+use crate::problem::{Embedding, GaugeSize, Method, Pins, Settings, Variant};
+use crate::verify::UvFrame;
+
+/// Pins that hold a map: two fix place, turn and size.
+const HOLDING_PINS: usize = 2;
+
+/// One chart's problem: settings, output frame and targets.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Problem {
+    /// Method and weights.
+    pub settings: Settings,
+    /// Position of texture coordinates in the plane of the embedding.
+    pub frame: PictureFrame,
+    /// Targets of the user's pins.
+    pub targets: Targets,
+}
+
+impl Problem {
+    /// Makes a problem. With a picture, an embedding without pins lies within the picture; otherwise it has the area of the
+    /// surface.
+    pub fn new(settings: &Settings, frame: PictureFrame, has_picture: bool, targets: Targets) -> Self {
+        let [low, high] = frame.corners();
+        let size = if has_picture { GaugeSize::Within(Bounds { low, high }) } else { GaugeSize::TrueArea };
+        Self { settings: Settings { size, ..*settings }, frame, targets }
+    }
+
+    /// Pins in the plane of the embedding.
+    pub fn pins(&self) -> Pins {
+        pins_in_plane(&self.targets, self.frame)
+    }
+
+    /// Flattener of this problem that starts from an existing layout. The layout has one texture coordinate per vertex, v up.
+    pub fn flattener_from(&self, layout: &Embedding) -> Flattener {
+        self.flattener().starting_from(Arc::new(self.in_plane(layout)))
+    }
+
+    /// Position of a layout in the plane. In the layout v runs up.
+    fn in_plane(&self, layout: &Embedding) -> Embedding {
+        let upright = upright(layout, self.frame.v_axis);
+        upright.as_ref().unwrap_or(layout).iter().map(|&uv| self.frame.plane_from_uv(uv)).collect()
+    }
+
+    /// Flattener of this problem. Each step is proved in the numbers that are written of it.
+    pub fn flattener(&self) -> Flattener {
+        Flattener::new(self.settings, self.pins()).with_output_frame(self.output_frame())
+    }
+
+    /// Frame in which embeddings are written.
+    pub fn output_frame(&self) -> UvFrame {
+        let is_hard = |target: &Target| self.settings.is_hard(target.kind);
+        let exact = self.targets.iter().filter(|(_, target)| is_hard(target));
+        UvFrame::new(self.frame, exact.map(|(&vertex, target)| (vertex, target.uv)).collect())
+    }
+
+    /// True if another problem has the same vertices, pinned in the same way, and differs at most in their targets.
+    pub fn differs_in_targets_alone(&self, other: &Self) -> bool {
+        let is_alike = self.settings.resolves_to(&other.settings) && self.frame == other.frame;
+        let are_like = |((v, target), (w, other)): ((&VertexId, &Target), (&VertexId, &Target))| {
+            v == w && target.kind.is_like(other.kind)
+        };
+        is_alike && self.targets.len() == other.targets.len() && self.targets.iter().zip(&other.targets).all(are_like)
+    }
+
+    /// True if another problem has the same steps. A convex boundary takes no pins.
+    pub fn has_steps_of(&self, other: &Self) -> bool {
+        let has_targets = !self.settings.method.uses_pins() || self.targets == other.targets;
+        has_targets && self.settings == other.settings && self.frame == other.frame
+    }
+
+    /// This problem for another method.
+    #[must_use]
+    pub fn by(&self, variant: Variant) -> Self {
+        Self { settings: variant.settings(&self.settings), ..self.clone() }
+    }
+
+    /// True if a method has something of its own to do here. A method that takes no constraints does not suit a problem with
+    /// constraints, and a method that only meets constraints does not suit one without.
+    pub fn suits(&self, method: Method) -> bool {
+        if self.settings.are_constraints(&self.pins()) {
+            method.takes_constraints()
+        } else {
+            !method.only_meets_constraints()
+        }
+    }
+
+    /// True if a planar solution of another problem is a start for this one.
+    pub fn continues_from(&self, before: &Self) -> bool {
+        let of_way = |settings: Settings| Settings { new_vertices: true, ..settings };
+        let is_alike = of_way(self.settings).resolves_to(&of_way(before.settings)) && self.frame == before.frame;
+        let stays = before
+            .targets
+            .iter()
+            .filter(|(vertex, target)| self.targets.get(vertex).is_some_and(|now| now.uv == target.uv));
+        is_alike && self.settings.continues(&self.pins()) && stays.count() >= HOLDING_PINS
+    }
+
+    /// Pins and output frame of a drag.
+    pub fn drag_target(&self) -> DragTarget {
+        DragTarget { pins: self.settings.held(&self.pins()), sheet: Arc::new(self.output_frame()) }
+    }
+
+    /// True if another problem differs in the targets of these pins alone. `moved` is sorted.
+    pub fn differs_in_targets_of(&self, other: &Self, moved: &[VertexId]) -> bool {
+        let is_moved = |vertex: &VertexId| moved.binary_search(vertex).is_ok();
+        let stays = |(vertex, target): (&VertexId, &Target)| {
+            is_moved(vertex) || self.targets.get(vertex).is_some_and(|before| before.uv == target.uv)
+        };
+        let have_all = moved.iter().all(|vertex| self.targets.contains_key(vertex));
+        have_all && other.targets.iter().all(stays) && self.differs_in_targets_alone(other)
+    }
+}

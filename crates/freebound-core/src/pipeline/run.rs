@@ -1,0 +1,66 @@
+//! One chart from its problem to its last step.
+
+use super::{Outcome, Problem};
+use crate::flatten::{Ending, Flattener, Step};
+use crate::mesh::DiskMesh;
+use crate::problem::{Control, Embedding, SolveError};
+
+/// A problem solved to its end.
+#[derive(Clone, Debug)]
+pub struct SolvedProblem {
+    /// Last step in which the constraints had a part.
+    pub outcome: Outcome,
+    /// Reason of the end. An error if a later stage failed after steps that are good.
+    pub ending: Result<Ending, SolveError>,
+}
+
+impl Problem {
+    /// Takes all steps of the method on a disk, and passes each to `observe`. A layout to start from has one texture
+    /// coordinate per vertex, v up; the settings say whether it is used.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError`] if no step could be taken or the caller cancelled, and the errors of `observe`.
+    pub fn solve<E: From<SolveError>>(
+        self,
+        mesh: &DiskMesh,
+        mut flattener: Flattener,
+        control: Control<'_>,
+        mut observe: impl FnMut(&Step) -> Result<(), E>,
+    ) -> Result<SolvedProblem, E> {
+        let mut last: Option<Step> = None;
+        loop {
+            let step = match flattener.step(mesh, control) {
+                Ok(step) => step,
+                Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
+                // Steps before a stage that fails are good.
+                Err(error) => {
+                    let Some(before) = last else { return Err(error.into()) };
+                    return Ok(SolvedProblem { outcome: Outcome::new(mesh, self, before), ending: Err(error) });
+                }
+            };
+            observe(&step)?;
+            if let Some(ending) = flattener.ending() {
+                return Ok(SolvedProblem { outcome: Outcome::new(mesh, self, step), ending: Ok(ending) });
+            }
+            if !step.is_of_planar_start() {
+                last = Some(step);
+            }
+        }
+    }
+
+    /// Takes all steps of the method on a disk, from the given layout if there is one.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError`] if no step could be taken or the caller cancelled.
+    pub fn solve_on(
+        self,
+        mesh: &DiskMesh,
+        layout: Option<&Embedding>,
+        control: Control<'_>,
+    ) -> Result<SolvedProblem, SolveError> {
+        let flattener = layout.map_or_else(|| self.flattener(), |layout| self.flattener_from(layout));
+        self.solve(mesh, flattener, control, |_| Ok(()))
+    }
+}

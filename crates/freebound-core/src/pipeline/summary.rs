@@ -1,0 +1,104 @@
+//! Plain data about a result: placement, pins, packing.
+
+use crate::mesh::VertexId;
+use crate::problem::{Labels, NamedOption, Treatment};
+
+/// Position of the written coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Placement {
+    /// On the user's pins.
+    Pins,
+    /// Within the picture.
+    Picture,
+    /// In the unit square.
+    Unit,
+    /// As large as the surface.
+    True,
+    /// Scaled by a power of two and not moved, because the numbers of the unit square would fold it.
+    Unmoved,
+    /// Where the file had its texture coordinates.
+    File,
+    /// Packed into a picture with other charts.
+    Packed,
+}
+
+/// Packing of charts into a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PackingSummary {
+    /// Width and height of the picture, pixels.
+    pub picture: [u32; 2],
+    /// The least distance between charts, pixels.
+    pub gap: u32,
+    /// Pixels per unit of length on the surface, for all charts that are given no size of their own.
+    pub density: f64,
+    /// Share of the picture that the charts cover, from 0 to 1.
+    pub covered: f64,
+}
+
+/// Pins of a run and their errors. All distances are in texture coordinates.
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PinsSummary {
+    /// Treatment of the pinned vertices' equations in the written step.
+    pub treatment: Treatment,
+    /// Number of the user's pins.
+    pub count: usize,
+    /// Largest distance of a pinned vertex from its target.
+    pub max_error: f64,
+    /// Largest distance of a hard pin from its target. Absent if there are none.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub max_hard_error: Option<f64>,
+    /// Largest distance of a soft pin from its target. Absent if there are none.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub max_soft_error: Option<f64>,
+    /// Vertices of hard pins that are not at their targets.
+    pub unmet: Vec<VertexId>,
+    /// Soft pins, each with its error.
+    pub soft: Vec<SoftPinSummary>,
+}
+
+impl PinsSummary {
+    /// Copy with other vertex numbers.
+    #[must_use]
+    pub fn renumbered(mut self, number: impl Fn(VertexId) -> VertexId) -> Self {
+        self.unmet.iter_mut().for_each(|vertex| *vertex = number(*vertex));
+        self.soft.iter_mut().for_each(|pin| pin.vertex = number(pin.vertex));
+        self
+    }
+}
+
+/// A soft pin and its error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SoftPinSummary {
+    /// Pinned vertex.
+    pub vertex: VertexId,
+    /// Weight of the pin.
+    pub weight: f64,
+    /// Distance from its target.
+    pub error: f64,
+}
+
+/// Size of an embedding that the user's pins do not fix.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Fit {
+    /// Scaled uniformly into the unit square.
+    #[default]
+    Unit,
+    /// Scaled to the area of the surface.
+    True,
+}
+
+impl NamedOption for Fit {
+    const ALL: &'static [Self] = &[Self::Unit, Self::True];
+
+    fn labels(self) -> Labels {
+        match self {
+            Self::Unit => Labels::new("unit", "Unit square").about("Uniformly into the unit square"),
+            Self::True => Labels::new("true", "True scale").about("The area of the surface"),
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! Any mesh in, a proved atlas out: repaired, cut, flattened, packed.
+
+use crate::mesh::{Diagnosis, Done, PolygonMesh, TriMesh, VertexId, parts};
+use crate::parallel::prelude::*;
+use crate::problem::{Control, Embedding, SolveError};
+use crate::verify::{AtlasVerdict, atlas_verdict};
+
+use super::{ChartSummary, Fit, LaidChart, PipelineOptions, PreparedMesh, SolvedChart, Surface, atlas, prove_atlas};
+
+/// Corner of a face that has no texture coordinate, because its part was left out.
+pub const NO_COORDINATE: u32 = u32::MAX;
+
+/// Texture coordinates of a mesh, proved one-to-one.
+#[derive(Clone, Debug)]
+pub struct Unwrapped {
+    /// Texture coordinates, v up. Vertices on seams have several.
+    pub coordinates: Embedding,
+    /// Index into `coordinates` of each corner of the input, in the order of its faces; [`NO_COORDINATE`] if it has none.
+    pub corners: Vec<u32>,
+    /// Exact verdict on all charts together.
+    pub verdict: AtlasVerdict,
+    /// Summary of each chart. Empty if the mesh is one chart.
+    pub charts: Vec<ChartSummary>,
+    /// Repairs and cuts that were made, in order.
+    pub repairs: Vec<Done>,
+}
+
+/// Reason why [`unwrap`] has no result.
+#[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum UnwrapError {
+    /// The mesh is no surface that repairs and cuts could make flat.
+    #[error("{0}")]
+    NotASurface(Box<Diagnosis>),
+    /// A chart could not be flattened.
+    #[error("chart {chart}: {error}")]
+    Solve {
+        /// Number of the chart, from 0.
+        chart: usize,
+        /// Reason.
+        error: SolveError,
+    },
+    /// The map is not one-to-one, or a hard pin is not at its target.
+    #[error("the map is not planar or misses a pin: {}", .0.verdict.summary())]
+    NotPlanar(Box<Unwrapped>),
+}
+
+impl PipelineOptions {
+    /// Options for any mesh: all repairs are allowed, and surfaces that are no disks are cut open.
+    pub fn for_any_mesh() -> Self {
+        let options = Self::default();
+        Self { preparation: options.preparation.with_all_repairs(), ..options }
+    }
+}
+
+/// Unwraps any mesh: repairs and cuts it as the options allow, flattens every chart, packs the charts into the unit square and
+/// proves the whole. Edges are never split, so the mesh stays as it is.
+///
+/// # Errors
+///
+/// [`UnwrapError`] if the mesh cannot be made flat, a chart cannot be solved, or the result is not proved planar with its
+/// hard pins met.
+///
+/// # Example
+///
+/// ```
+/// use freebound_core::mesh::PolygonMesh;
+/// use freebound_core::{PipelineOptions, unwrap};
+///
+/// // A closed tetrahedron.
+/// let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// let faces: [&[u32]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[2, 0, 3]];
+/// let mesh = PolygonMesh::from_arrays(&positions, &faces);
+/// let unwrapped = unwrap(&mesh, &PipelineOptions::for_any_mesh())?;
+/// assert!(unwrapped.verdict.planar);
+/// assert_eq!(unwrapped.corners.len(), 12);
+/// # Ok::<(), freebound_core::UnwrapError>(())
+/// ```
+pub fn unwrap(mesh: &PolygonMesh, options: &PipelineOptions) -> Result<Unwrapped, UnwrapError> {
+    unwrap_with(mesh, options, Control::unattended())
+}
+
+/// [`unwrap`] with progress and cancellation.
+///
+/// # Errors
+///
+/// Those of [`unwrap`], and [`SolveError::Cancelled`].
+pub fn unwrap_with(
+    mesh: &PolygonMesh,
+    options: &PipelineOptions,
+    control: Control<'_>,
+) -> Result<Unwrapped, UnwrapError> {
+    let mut options = options.clone();
+    options.settings.new_vertices = false;
+    let turned = options.preparation.faces_turned.then(|| mesh.turned());
+    let mesh = turned.as_ref().unwrap_or(mesh);
+    let prepared = PreparedMesh::new(mesh, None, options.preparation.clone());
+    if let Surface::Faulty(_, diagnosis) = &prepared.surface {
+        return Err(UnwrapError::NotASurface(Box::new(diagnosis.as_ref().clone())));
+    }
+    let unwrapped = match &prepared.chart {
+        Some(_) => unwrap_charts(mesh, &prepared, &options, control)?,
+        None => unwrap_disk(mesh, &prepared, &options, control)?,
+    };
+    let has_met_pins = unwrapped.charts.iter().all(|chart| chart.pins.unmet.is_empty());
+    if unwrapped.verdict.planar && has_met_pins {
+        Ok(unwrapped)
+    } else {
+        Err(UnwrapError::NotPlanar(Box::new(unwrapped)))
+    }
+}
+
+fn unwrap_disk(
+    mesh: &PolygonMesh,
+    prepared: &PreparedMesh,
+    options: &PipelineOptions,
+    control: Control<'_>,
+) -> Result<Unwrapped, UnwrapError> {
+    let disk = prepared.disk().expect("faulty surfaces were refused");
+    let solved = options.problem().solve_on(disk, None, control);
+    let solved = solved.map_err(|error| UnwrapError::Solve { chart: 0, error })?;
+    let (coordinates, _, verdict) = solved.outcome.output(disk, Fit::Unit);
+    let held = solved.outcome.held();
+    let laid = LaidChart { mesh: disk, refinement: None, vertex_of: None, coordinates, verdict, held };
+    let number = |vertex: Option<VertexId>| vertex.map_or(NO_COORDINATE, VertexId::number);
+    let corners = match &prepared.repaired {
+        Some(repaired) => repaired.vertices_at_corners(mesh).into_iter().map(number).collect(),
+        None => mesh.corners.iter().map(|&vertex| vertex.number()).collect(),
+    };
+    let verdict = prove_atlas(std::slice::from_ref(&laid));
+    Ok(Unwrapped { coordinates: laid.coordinates, corners, verdict, charts: Vec::new(), repairs: done(prepared) })
+}
+
+fn unwrap_charts(
+    mesh: &PolygonMesh,
+    prepared: &PreparedMesh,
+    options: &PipelineOptions,
+    control: Control<'_>,
+) -> Result<Unwrapped, UnwrapError> {
+    let charts: Vec<PreparedMesh> =
+        (0..prepared.chart_count()).into_par_iter().map(|chart| prepared.of_chart(chart)).collect();
+    let problems = options.problems(&charts.iter().collect::<Vec<_>>());
+    let solve = |(chart, (prepared, problem)): (usize, (&PreparedMesh, super::Problem))| {
+        let Surface::Disk(disk) = &prepared.surface else {
+            return Err(UnwrapError::NotASurface(Box::default()));
+        };
+        problem.solve_on(disk, None, control).map_err(|error| UnwrapError::Solve { chart, error })
+    };
+    let work: Vec<_> = charts.iter().zip(problems).enumerate().collect();
+    let solved: Vec<Result<_, UnwrapError>> = work.into_par_iter().map(solve).collect();
+    // In the order of the charts: the first failure in time depends on the threads.
+    let solved = solved.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let of_size =
+        |prepared: &PreparedMesh| prepared.chart.as_ref().map_or(1.0, |of| options.size_of(&of.charts, of.number));
+    let to_lay: Vec<SolvedChart<'_>> = charts
+        .iter()
+        .zip(&solved)
+        .map(|(chart, solved)| SolvedChart { chart, outcome: &solved.outcome, size: of_size(chart) })
+        .collect();
+    let laid = atlas(&to_lay, options.packing, options.arrangement);
+    let whole = prepared.whole_repaired().expect("several charts come of a repaired mesh");
+    let mut numbers = vec![NO_COORDINATE; whole.polygons().positions.len()];
+    let mut coordinates = Vec::new();
+    for chart in &laid.charts {
+        for (vertex, &uv) in chart.vertex_of.unwrap_or_default().iter().zip(&chart.coordinates) {
+            numbers[vertex.index()] = VertexId::from_index(coordinates.len()).number();
+            coordinates.push(uv);
+        }
+    }
+    let number = |vertex: Option<VertexId>| vertex.map_or(NO_COORDINATE, |vertex| numbers[vertex.index()]);
+    let corners = whole.vertices_at_corners(mesh).into_iter().map(number).collect();
+    let (verdict, charts) = (laid.verdict, laid.summaries);
+    Ok(Unwrapped { coordinates: coordinates.into(), corners, verdict, charts, repairs: done(prepared) })
+}
+
+fn done(prepared: &PreparedMesh) -> Vec<Done> {
+    prepared.whole_repaired().map(|repaired| repaired.done().to_vec()).unwrap_or_default()
+}
+
+/// Decides exactly whether a given layout is one-to-one: one texture coordinate per vertex of `mesh`, v up. A mesh cut along the
+/// seams of its layout has a vertex for every coordinate.
+///
+/// # Errors
+///
+/// Faults that keep a part from being an oriented surface with a boundary.
+///
+/// # Panics
+///
+/// If the layout lacks a vertex.
+pub fn verify(mesh: &TriMesh, coordinates: &Embedding) -> Result<AtlasVerdict, Box<Diagnosis>> {
+    assert_eq!(coordinates.len(), mesh.vertex_count(), "a coordinate for every vertex");
+    Ok(atlas_verdict(&parts(mesh)?, coordinates).as_in_file(mesh))
+}

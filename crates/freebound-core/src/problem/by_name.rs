@@ -1,0 +1,43 @@
+//! Serde for named options: each is written and read by its name.
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
+use serde::ser::{Serialize, Serializer};
+
+use super::{BoundaryShape, Family, Growth, Method, NamedOption, Spacing, Treatment};
+
+/// Reads a choice by its name. A fault is noticed at the name, so that it is told with its line.
+struct ByName<C>(PhantomData<C>);
+
+impl<C: NamedOption> Visitor<'_> for ByName<C> {
+    type Value = C;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "one of {}", C::names())
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<C, E> {
+        C::named(text).ok_or_else(|| E::invalid_value(Unexpected::Str(text), &self))
+    }
+}
+
+/// Has choices stand in files by their names.
+macro_rules! stand_by_name {
+    ($($choice:ty),+) => {$(
+        impl Serialize for $choice {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.serialize_str(&self.written())
+            }
+        }
+
+        impl<'de> Deserialize<'de> for $choice {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                deserializer.deserialize_str(ByName(PhantomData))
+            }
+        }
+    )+};
+}
+
+stand_by_name!(Method, BoundaryShape, Spacing, Family, Treatment, Growth);

@@ -1,0 +1,168 @@
+//! Stages: the parts of methods that each make steps, with their names and traits.
+
+use super::{BoundaryShape, Method, NoEquation, WeightSource};
+
+/// The stage of a method that made a step.
+///
+/// A method has one stage or several. Relaxing, cutting and a given layout are stages only: nobody chooses them as methods.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Stage {
+    /// One linear solve with a natural boundary (paper §3.3).
+    #[default]
+    Natural,
+    /// A mean-value iteration (paper §4).
+    Iterate,
+    /// A boundary made simple, or mesh and outside embedded together (paper §5).
+    VirtualBoundary,
+    /// One linear solve with the boundary on a convex shape.
+    Convex(BoundaryShape),
+    /// A solve with weights divided by stretch, the boundary on a convex shape.
+    Stretch(BoundaryShape),
+    /// One linear solve of the mesh and layers of virtual triangles around it.
+    Lee(BoundaryShape),
+    /// The least-squares conformal map.
+    Lscm,
+    /// Lévy's triangle equations summed around each vertex.
+    Levy,
+    /// An iteration of scalable locally injective mappings.
+    Slim,
+    /// The eigenvector of the least conformal energy.
+    Spectral,
+    /// Angles by a system of all of them.
+    Abf,
+    /// Angles by the reduced system.
+    AbfPlusPlus,
+    /// A one-to-one step towards the constraints.
+    Continuation,
+    /// New vertices that let the constraints be met.
+    Matchmaker,
+    /// Schnyder's drawing on a grid.
+    Schnyder,
+    /// A round of relaxing: less distortion, one-to-one throughout.
+    Relax,
+    /// Polygons that cannot be convex, cut into triangles.
+    Cut,
+    /// The layout that was given to start from, unchanged.
+    Given,
+}
+
+impl Stage {
+    /// The stage of the first linear solve of a method: its own for methods of a single solve, otherwise a natural boundary.
+    pub(crate) const fn of_linear_solve(method: Method) -> Self {
+        match method {
+            Method::Convex(shape) => Self::Convex(shape),
+            Method::Lee(shape) => Self::Lee(shape),
+            Method::Stretch(shape) => Self::Stretch(shape),
+            Method::Lscm => Self::Lscm,
+            Method::Levy => Self::Levy,
+            Method::Auto
+            | Method::Natural
+            | Method::Iterate
+            | Method::VirtualBoundary
+            | Method::Slim
+            | Method::Spectral
+            | Method::Abf
+            | Method::AbfPlusPlus
+            | Method::Continuation
+            | Method::Matchmaker
+            | Method::Schnyder => Self::Natural,
+        }
+    }
+
+    /// The fixed lower-case name, for reports, tables and files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Natural => "natural",
+            Self::Iterate => "iterate",
+            Self::VirtualBoundary => "virtual-boundary",
+            Self::Convex(_) => "convex",
+            Self::Stretch(_) => "stretch",
+            Self::Lee(_) => "lee",
+            Self::Lscm => "lscm",
+            Self::Levy => "levy",
+            Self::Slim => "slim",
+            Self::Spectral => "spectral",
+            Self::Abf => "abf",
+            Self::AbfPlusPlus => "abf++",
+            Self::Continuation => "continuation",
+            Self::Matchmaker => "matchmaker",
+            Self::Schnyder => "schnyder",
+            Self::Relax => "relax",
+            Self::Cut => "cut",
+            Self::Given => "given",
+        }
+    }
+
+    /// Lower-case words for messages and summaries.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Natural => "natural boundary",
+            Self::Iterate => "iteration",
+            other => other.short_words(),
+        }
+    }
+
+    /// Words that fit a chip of the timeline or the status bar.
+    pub const fn short_words(self) -> &'static str {
+        match self {
+            Self::Iterate => "mean value",
+            Self::VirtualBoundary => "virtual boundary",
+            Self::Matchmaker => "new vertices",
+            Self::Schnyder => "grid",
+            Self::Relax => "relaxed",
+            Self::Cut => "cut polygons",
+            Self::Given => "file's layout",
+            other => other.name(),
+        }
+    }
+
+    /// True if the step keeps an embedding one-to-one that is so.
+    pub const fn is_one_to_one(self) -> bool {
+        matches!(self, Self::Continuation | Self::Matchmaker | Self::Relax | Self::Cut)
+    }
+
+    /// True if the chosen family of weights counts.
+    pub const fn uses_family(self) -> bool {
+        matches!(self, Self::Natural | Self::Iterate | Self::VirtualBoundary | Self::Convex(_) | Self::Lee(_))
+    }
+
+    /// True if pins do not change the shape: they say at most where the embedding lies.
+    pub const fn only_places_pins(self) -> bool {
+        matches!(self, Self::Schnyder | Self::Lee(_) | Self::Slim | Self::Spectral | Self::Abf | Self::AbfPlusPlus)
+    }
+
+    /// The shape that the stage lays a boundary on.
+    pub const fn boundary_shape(self) -> Option<BoundaryShape> {
+        match self {
+            Self::Convex(shape) | Self::Stretch(shape) | Self::Lee(shape) => Some(shape),
+            _ => None,
+        }
+    }
+
+    /// Source of the weights in the equations of vertices.
+    ///
+    /// # Errors
+    ///
+    /// The reason why vertices have no equations with a barycentre.
+    pub const fn weight_source(self) -> Result<WeightSource, NoEquation> {
+        match self {
+            Self::Natural | Self::Convex(_) | Self::Lee(_) | Self::Lscm | Self::Spectral => Ok(WeightSource::Surface),
+            Self::Iterate => Ok(WeightSource::StepBefore),
+            Self::VirtualBoundary => Ok(WeightSource::Extended),
+            Self::Levy => Err(NoEquation::OfTriangles),
+            Self::Stretch(_) => Err(NoEquation::OfStretch),
+            Self::Schnyder => Err(NoEquation::OnGrid),
+            Self::Abf | Self::AbfPlusPlus => Err(NoEquation::OfAngles),
+            Self::Slim | Self::Continuation | Self::Matchmaker | Self::Relax | Self::Cut => Err(NoEquation::OfEnergy),
+            Self::Given => Err(NoEquation::OfFile),
+        }
+    }
+}
+
+/// A stage stands in reports by its name.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Stage {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}

@@ -1,0 +1,28 @@
+//! Exact proofs about an embedding, and its distortion.
+//!
+//! | file | contents |
+//! |---|---|
+//! | `verdict`, `atlas_verdict` | planar or not, of one disk and of several charts |
+//! | `uv_frame` | the frame in which coordinates are written and proved |
+//! | `rounding` | coordinates rounded to 32 bits without a fold |
+//! | `conflicts` | pins that contradict each other |
+//! | `hull_condition`, `one_form` | vertices outside the hull of their neighbours; indices of one-forms |
+//! | `distortion` | angle, area and stretch distortion of every face |
+
+mod atlas_verdict;
+mod conflicts;
+mod distortion;
+pub(crate) mod hull_condition;
+mod one_form;
+mod rounding;
+mod uv_frame;
+pub(crate) mod verdict;
+
+pub use atlas_verdict::{AtlasVerdict, ChartVerdict, OVERLAPS_LISTED, atlas_verdict};
+pub use conflicts::{CONFLICTS_LISTED, Conflict, conflicts};
+pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Mean, Spread, distortion};
+pub use hull_condition::{CornerKind, HullStanding, holes_turn_once, hull_standing, vertices_outside_hull};
+pub use one_form::{OneFormIndices, index_range};
+pub use rounding::{Rounded, RoundingGrid, rounded};
+pub use uv_frame::UvFrame;
+pub use verdict::{Verdict, is_one_to_one, is_planar, verdict};

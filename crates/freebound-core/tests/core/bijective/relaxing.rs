@@ -1,0 +1,137 @@
+//! Relaxing comes to its end by itself, and what was proved before it stays where it fails.
+
+use freebound_core::flatten::{Ending, Flattener, Step};
+use freebound_core::mesh::{DiskMesh, TriMesh, VertexId};
+use freebound_core::problem::{Control, Embedding, Family, Method, Pin, Pins, Settings, Stage, hard_pins};
+use freebound_core::verify::distortion;
+use glam::{DVec2, DVec3};
+
+use freebound_testkit::surfaces::bump;
+use freebound_testkit::{disk, grid};
+
+fn steps(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> (Vec<Step>, Ending) {
+    let mut steps = Vec::new();
+    let ending = Flattener::new(settings, pins.clone()).finish(mesh, Control::unattended(), |step| steps.push(step));
+    (steps, ending.expect("what is proved is a result"))
+}
+
+/// A fan of four triangles and targets for all vertices, with a slit so narrow that a triangulation of the outside, which
+/// takes what is nearest to zero as zero, sees its sides cross.
+fn slit() -> (DiskMesh, Pins) {
+    let slit_of = |[a, b, c]: [f64; 3]| [(b, 1.0), (c, -1.0), (2.0, 0.0), (1.0, 3.0), (-1.0, 3.0), (a, 0.0)];
+    let positions = slit_of([-0.5, 0.0, 0.0]).map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
+    let triangles = (1..5).map(|k| [0, k, k + 1].map(VertexId::new)).collect();
+    let targets = slit_of([16.8e-40, 15.84e-40, 19.2e-40]).map(|(x, y)| DVec2::new(x, y));
+    (disk(TriMesh { positions, triangles, polygon_of: None }), hard_pins((0..).map(VertexId::new).zip(targets)))
+}
+
+#[test]
+fn what_is_proved_stays_the_result_where_relaxing_fails() {
+    let (mesh, pins) = slit();
+    for method in [Method::Auto, Method::Natural, Method::Lscm, Method::Iterate] {
+        let settings = Settings { relax_rounds: Some(3), ..Settings::new(method, Family::Conformal) };
+        let (steps, ending) = steps(&mesh, settings, &pins);
+        let last = steps.last().expect("a step");
+        assert_eq!((ending, steps.len()), (Ending::Planar, 2), "{method:?}: a failure ends the relaxing");
+        assert!(last.verdict.planar && last.unmet().is_empty(), "{method:?}: {}", last.verdict.summary());
+        assert_eq!(last.candidate.solution.embedding, steps[0].candidate.solution.embedding);
+        let note = last.candidate.note.as_deref().unwrap_or_default();
+        assert!(note.contains("relaxing gave nothing"), "{method:?}: {note}");
+    }
+}
+
+#[test]
+fn relaxing_that_goes_round_in_circles_ends_by_itself() {
+    // Two pins inside are so near that the face between them comes to the least determinant of ordinary rounds, leaves it
+    // with the steep rounds, and comes back.
+    let near = DVec2::splat(0.5) + DVec2::new(2.15e-4, 1.075e-4);
+    let corners = [(0, DVec2::ZERO), (6, DVec2::X), (48, DVec2::ONE), (42, DVec2::Y)];
+    let pins = corners.into_iter().chain([(24, DVec2::splat(0.5)), (32, near)]);
+    let pins = hard_pins(pins.map(|(v, target)| (VertexId::new(v), target)));
+    let settings = Settings { relax_rounds: Some(1000), new_vertices: false, ..Settings::default() };
+    let (steps, ending) = steps(&disk(grid(6, 6)), settings, &pins);
+    let rounds = || steps.iter().filter(|step| step.candidate.stage == Stage::Relax);
+    let is_steep = |step: &&Step| step.candidate.progress.expect("numbers").least_determinant < 1e-3;
+    assert!(rounds().filter(is_steep).count() >= 5 && rounds().any(|step| !is_steep(&step)), "it alternates");
+    assert!(rounds().count() < 40, "{} rounds", rounds().count());
+    assert!(
+        ending == Ending::Planar
+            && steps.iter().all(|step| step.candidate.stage != Stage::Relax || step.verdict.planar)
+    );
+}
+
+#[test]
+fn weighted_constraints_do_not_keep_relaxing_from_going_on() {
+    let mesh = disk(bump(12));
+    let target = |v: u32| mesh.position(VertexId::new(v)).truncate();
+    let shifted = |v: u32, x: f64| target(v) + DVec2::new(x, 0.0);
+    let mut pins = hard_pins([(0, 0.0), (12, 0.3), (156, -0.2)].map(|(v, x)| (VertexId::new(v), shifted(v, x))));
+    pins.insert(VertexId::new(84), Pin::weighted(shifted(84, 0.2), 0.1));
+    for method in [Method::Auto, Method::Continuation] {
+        let settings = Settings { relax_rounds: Some(20), ..Settings::new(method, Family::Conformal) };
+        let (steps, ending) = steps(&mesh, settings, &pins);
+        let rounds: Vec<&Step> = steps.iter().filter(|step| step.candidate.stage == Stage::Relax).collect();
+        assert!(ending == Ending::Planar && !rounds.is_empty(), "{method:?}");
+        assert!(
+            rounds.iter().any(|step| step.max_move.is_some_and(|length| length > 0.0)),
+            "{method:?}: nothing moves"
+        );
+        assert!(
+            !rounds.iter().any(|step| step.candidate.note.as_deref().is_some_and(|note| note.contains("would fold")))
+        );
+    }
+}
+
+/// How fast the mean symmetric Dirichlet energy at equal total areas falls as vertices that are free move, all at once by
+/// the length of a gradient of 1: by differences.
+fn steepness(mesh: &DiskMesh, embedding: &Embedding, pins: &Pins) -> f64 {
+    const STEP: f64 = 1e-5;
+    let energy = |vertex: VertexId, by: DVec2| {
+        let mut moved = embedding.clone();
+        moved[vertex] += by;
+        distortion(mesh, &moved).summary.symmetric_dirichlet.mean
+    };
+    let slope = |vertex, along: DVec2| (energy(vertex, STEP * along) - energy(vertex, -STEP * along)) / (2.0 * STEP);
+    let free = mesh.vertices().filter(|vertex| !pins.contains_key(vertex));
+    free.map(|vertex| slope(vertex, DVec2::X).powi(2) + slope(vertex, DVec2::Y).powi(2)).sum::<f64>().sqrt()
+}
+
+#[test]
+fn relaxing_ends_where_the_energy_at_equal_areas_is_least() {
+    // Four pins in the middle at a quarter of the size that the four corners are held at.
+    let mesh = disk(bump(8));
+    let held = [(0, 1.0), (8, 1.0), (72, 1.0), (80, 1.0), (30, 0.25), (32, 0.25), (48, 0.25), (50, 0.25)];
+    let place = |v: u32| (mesh.position(VertexId::new(v)) - mesh.position(VertexId::new(40))).truncate();
+    let pins = hard_pins(held.map(|(v, size)| (VertexId::new(v), size * place(v))));
+    let settings = Settings { relax_rounds: Some(100), ..Settings::default() };
+    let (steps, _) = steps(&mesh, settings, &pins);
+    let rounds = steps.iter().filter(|step| step.candidate.stage == Stage::Relax);
+    let slopes: Vec<f64> = rounds.map(|step| steepness(&mesh, &step.candidate.solution.embedding, &pins)).collect();
+    // Rounds that keep the size which they begin with come to 0.175, and no further.
+    assert!(slopes.iter().any(|&slope| slope > 0.1), "the test is to need the size: {slopes:?}");
+    assert!(slopes.last().is_some_and(|&slope| slope < 0.02), "{slopes:?}");
+}
+
+#[test]
+fn faces_whose_corners_are_all_pinned_do_not_keep_the_others_from_their_least_energy() {
+    // A boundary on a circle, all of it pinned, but for two corners of the grid that are hardly off the line between their
+    // neighbours: their faces are too steep to begin with, and always will be.
+    let mesh = disk(bump(8));
+    let boundary = mesh.boundary_loop();
+    let count = boundary.len();
+    let turn = |k: usize| DVec2::from_angle(std::f64::consts::TAU * (k % count) as f64 / count as f64);
+    let is_ear = |k: usize| mesh.faces().filter(|&face| mesh.face(face).contains(&boundary[k])).count() == 1;
+    let place = |k: usize| {
+        let middle = 0.5 * (turn(k + count - 1) + turn(k + 1));
+        if is_ear(k) { middle * (1.0 + 1e-5) } else { turn(k) }
+    };
+    assert_eq!((0..count).filter(|&k| is_ear(k)).count(), 2);
+    let pins = hard_pins((0..count).map(|k| (boundary[k], place(k))));
+    let settings = Settings { relax_rounds: Some(100), new_vertices: false, ..Settings::default() };
+    let (steps, ending) = steps(&mesh, settings, &pins);
+    let last = steps.last().expect("a step");
+    assert!(ending == Ending::Planar && last.candidate.stage == Stage::Relax, "{ending:?}");
+    assert!(last.candidate.progress.expect("numbers").least_determinant < 1e-3);
+    let slope = steepness(&mesh, &last.candidate.solution.embedding, &pins);
+    assert!(slope < 0.05, "{slope}");
+}

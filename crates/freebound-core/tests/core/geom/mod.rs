@@ -1,0 +1,6 @@
+//! Predicates, polygons and packing in the plane.
+
+pub(crate) mod closed_polygon;
+pub(crate) mod convex_polygon;
+pub(crate) mod packing;
+pub(crate) mod plane;

@@ -1,0 +1,123 @@
+//! Panels laid out on a sheet: rows of drawings with letters and captions, insets beside, the figure's caption below.
+
+use glam::DVec2;
+
+use super::font::width_of;
+use super::{Anchor, Page, PhotoDrawing, PlaneDrawing, SpaceDrawing};
+use freebound_core::geom::Bounds;
+
+/// Free space around everything, points.
+const MARGIN: f64 = 16.0;
+
+/// Free space between panels.
+const GAP: f64 = 22.0;
+
+/// Side of a panel's drawing.
+const PANEL: f64 = 290.0;
+
+/// Free space between a drawing and its insets, and between insets.
+const INSET_GAP: f64 = 8.0;
+
+/// Size of the words below a panel.
+const WORDS: f64 = 12.0;
+
+/// From one line of words to the next.
+const LINE: f64 = 17.0;
+
+/// What a panel shows.
+#[derive(Clone, Debug)]
+pub enum Drawing {
+    /// An embedding.
+    Plane(PlaneDrawing),
+    /// A mesh in space.
+    Space(SpaceDrawing),
+    /// A picture.
+    Photo(PhotoDrawing),
+}
+
+/// One drawing of a figure with its words.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    /// The line below it, which begins with its letter.
+    pub words: String,
+    /// What it shows.
+    pub drawing: Drawing,
+}
+
+impl Panel {
+    fn inset_count(&self) -> usize {
+        if let Drawing::Plane(plane) = &self.drawing { plane.insets.len() } else { 0 }
+    }
+
+    fn draw(&self, page: &mut Page, cell: Bounds, inset: f64) {
+        // Without insets of its own the drawing stands in the middle of its cell.
+        let count = self.inset_count();
+        let shift = if count > 0 { 0.0 } else { (cell.size().x - PANEL) / 2.0 };
+        let area = Bounds::at(cell.low + DVec2::new(shift, 0.0), DVec2::splat(PANEL));
+        match &self.drawing {
+            Drawing::Space(drawing) => drawing.draw(page, area),
+            Drawing::Photo(drawing) => drawing.draw(page, area),
+            Drawing::Plane(drawing) => {
+                drawing.draw(page, area);
+                for number in 0..count {
+                    let down = number as f64 * (inset + INSET_GAP);
+                    let corner = DVec2::new(area.high.x + INSET_GAP, area.low.y + down);
+                    drawing.draw_inset(page, Bounds::at(corner, DVec2::splat(inset)), number);
+                }
+            }
+        }
+        let at = DVec2::new(cell.middle().x, cell.low.y + PANEL + 8.0 + LINE * 0.7);
+        page.words(at, Anchor::Middle, WORDS, &self.words);
+    }
+}
+
+/// A figure: panels in rows, and a caption.
+#[derive(Clone, Debug)]
+pub struct PrintedSheet {
+    /// Panels in a row.
+    pub columns: usize,
+    /// Row by row.
+    pub panels: Vec<Panel>,
+    /// What the figure shows.
+    pub caption: String,
+}
+
+impl PrintedSheet {
+    /// Lays everything out.
+    pub fn page(&self) -> Page {
+        let inset_count = self.panels.iter().map(Panel::inset_count).max().unwrap_or(0);
+        let inset = (PANEL - INSET_GAP) / 2.0;
+        let insets_width = if inset_count > 0 { INSET_GAP + inset } else { 0.0 };
+        let cell = DVec2::new(PANEL + insets_width, PANEL + 8.0 + LINE);
+        let rows = self.panels.len().div_ceil(self.columns.max(1));
+        let columns = self.columns.min(self.panels.len()) as f64;
+        let width = 2.0 * MARGIN + columns * cell.x + (columns - 1.0) * GAP;
+        let caption = wrapped(&self.caption, WORDS, width - 2.0 * MARGIN);
+        let below = MARGIN + rows as f64 * (cell.y + GAP);
+        let mut page = Page::new(DVec2::new(width, below + LINE * caption.len() as f64 + MARGIN));
+        for (k, panel) in self.panels.iter().enumerate() {
+            let (row, column) = (k / self.columns, k % self.columns);
+            let corner = DVec2::new(column as f64, row as f64) * (cell + GAP) + MARGIN;
+            panel.draw(&mut page, Bounds::at(corner, cell), inset);
+        }
+        for (k, line) in caption.iter().enumerate() {
+            page.words(DVec2::new(MARGIN, below + LINE * (k as f64 + 0.7)), Anchor::Start, WORDS, line);
+        }
+        page
+    }
+}
+
+/// A text in lines no wider than a width.
+pub(super) fn wrapped(text: &str, size: f64, width: f64) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.len() - 1;
+        let longer = if lines[last].is_empty() { word.to_owned() } else { format!("{} {word}", lines[last]) };
+        if width_of(&longer, size) <= width || lines[last].is_empty() {
+            lines[last] = longer;
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
+}

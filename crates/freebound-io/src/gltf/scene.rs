@@ -1,0 +1,247 @@
+//! Which meshes a file shows, where, and how their vertices are numbered.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::PathBuf;
+
+use glam::DAffine3;
+
+use super::POSITION;
+use super::accessor::{Elements, count, no_such};
+use super::container::Buffers;
+use super::document::{Attributes, Document, Topology};
+use crate::mesh_file::{ParseFaultKind, ReadError, fault_in};
+
+/// A few bytes may be shown as so many parts, corners and vertices, times the bytes of the file, or as `FEW` at least.
+const COPIES: u64 = 16;
+const FEW: u64 = 1 << 24;
+
+/// What is kept of a file to write it again.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Scene {
+    pub(super) json: Vec<u8>,
+    /// Where the bytes of each buffer begin.
+    pub(super) starts: Vec<usize>,
+    /// The folder of the file, where it has one.
+    pub(super) folder: Option<PathBuf>,
+    pub(super) shown: Shown,
+    /// The vertex of the mesh that each of the file's vertices is.
+    pub(super) vertex_of: Vec<u32>,
+    /// The file's vertex at each corner of the mesh as read.
+    pub(super) corners: Vec<u32>,
+}
+
+/// Meshes where they are shown, in order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Shown {
+    pub(super) instances: Vec<Instance>,
+    /// Primitives that are triangles, of the first instance, the second, and so on.
+    pub(super) parts: Vec<Part>,
+    /// Sets of vertices, in the same order.
+    pub(super) sets: Vec<VertexSet>,
+}
+
+/// A mesh at a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Instance {
+    /// The node; none where the file has no nodes.
+    pub(super) node: Option<usize>,
+    pub(super) mesh: usize,
+    /// From the mesh's space to the scene's; none where they are one.
+    pub(super) transform: Option<DAffine3>,
+}
+
+impl Instance {
+    /// Whether it is a mirror image of its mesh: its triangles are turned.
+    pub(super) fn is_mirrored(&self) -> bool {
+        self.transform.is_some_and(|transform| transform.matrix3.determinant() < 0.0)
+    }
+}
+
+/// A primitive of an instance.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Part {
+    pub(super) instance: usize,
+    pub(super) primitive: usize,
+    pub(super) set: usize,
+    /// The first of its faces; those up to the next part's are its own.
+    pub(super) first_face: usize,
+}
+
+/// Vertices of an instance: all that have the same accessors.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct VertexSet {
+    pub(super) instance: usize,
+    pub(super) attributes: Attributes,
+    pub(super) targets: Vec<Attributes>,
+    /// Numbers of its vertices among all of the file.
+    pub(super) range: Range<usize>,
+}
+
+impl Scene {
+    /// A label for each of so many faces, the same where they have the same material; none where no primitive has one.
+    pub(crate) fn material_labels(&self, face_count: usize) -> Option<Vec<u32>> {
+        let json: serde_json::Value = serde_json::from_slice(&self.json).ok()?;
+        let material = |part: &Part| {
+            let mesh = self.shown.instances[part.instance].mesh;
+            json["meshes"][mesh]["primitives"][part.primitive]["material"].as_u64()
+        };
+        let materials: Vec<Option<u64>> = self.shown.parts.iter().map(material).collect();
+        let mut numbers: Vec<Option<u64>> = materials.clone();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let label = |part: usize| numbers.binary_search(&materials[part]).expect("each material is in the list");
+        materials.iter().any(Option::is_some).then(|| self.labels(face_count, label))
+    }
+
+    /// A label for each of so many faces, the same where one node shows them.
+    pub(crate) fn node_labels(&self, face_count: usize) -> Vec<u32> {
+        self.labels(face_count, |part| self.shown.parts[part].instance)
+    }
+
+    fn labels(&self, face_count: usize, of_part: impl Fn(usize) -> usize) -> Vec<u32> {
+        let label = |face: usize| u32::try_from(of_part(self.shown.part_of(face))).expect("fewer than 2^32 parts");
+        (0..face_count).map(label).collect()
+    }
+}
+
+impl Shown {
+    /// Finds what a file shows.
+    pub(super) fn of(document: &Document, buffers: &Buffers) -> Result<Self, ReadError> {
+        let mut own = Self { instances: instances(document)?, ..Self::default() };
+        let most = (COPIES * buffers.bytes.len() as u64).max(FEW).min(u64::from(u32::MAX));
+        let part_count = |instance: &Instance| document.meshes[instance.mesh].primitives.len() as u64;
+        let mut shown: u64 = own.instances.iter().map(part_count).sum();
+        if shown > most {
+            return Err(ReadError::TooManyCopies { shown });
+        }
+        for (instance, Instance { mesh, .. }) in own.instances.iter().enumerate() {
+            let mut set_of: BTreeMap<(&Attributes, &Vec<Attributes>), usize> = BTreeMap::new();
+            for (primitive, found) in document.meshes[*mesh].primitives.iter().enumerate() {
+                let (Some(topology), Some(&position)) = (found.topology(), found.attributes.get(POSITION)) else {
+                    continue;
+                };
+                let count_of = |accessor: usize| count(document, buffers, accessor);
+                let set = if let Some(&set) = set_of.get(&(&found.attributes, &found.targets)) {
+                    set
+                } else {
+                    let begin = own.sets.last().map_or(0, |set| set.range.end);
+                    let (attributes, targets) = (found.attributes.clone(), found.targets.clone());
+                    let range = begin..begin + count_of(position)?;
+                    own.sets.push(VertexSet { instance, attributes, targets, range });
+                    set_of.insert((&found.attributes, &found.targets), own.sets.len() - 1);
+                    own.sets.len() - 1
+                };
+                let vertices = own.sets[set].range.len();
+                let listed = found.indices.map_or(Ok(vertices), count_of)?;
+                shown += 3 * topology.count(listed as u64);
+                if shown + own.sets[set].range.end as u64 > most {
+                    return Err(ReadError::TooManyCopies { shown });
+                }
+                own.parts.push(Part { instance, primitive, set, first_face: 0 });
+            }
+        }
+        Ok(own)
+    }
+
+    /// The part that has a face.
+    pub(super) fn part_of(&self, face: usize) -> usize {
+        self.parts.partition_point(|part| part.first_face <= face) - 1
+    }
+}
+
+/// Meshes of the nodes of the scene, or of all nodes; all meshes, where there are no nodes.
+fn instances(document: &Document) -> Result<Vec<Instance>, ReadError> {
+    let mut found = Vec::new();
+    if document.nodes.is_empty() {
+        found.extend((0..document.meshes.len()).map(|mesh| Instance { node: None, mesh, transform: None }));
+        return Ok(found);
+    }
+    let roots = roots(document)?;
+    let mut is_passed = vec![false; document.nodes.len()];
+    let mut ahead: Vec<(usize, Option<DAffine3>)> = roots.iter().rev().map(|&root| (root, None)).collect();
+    while let Some((index, of_parent)) = ahead.pop() {
+        let node = document.nodes.get(index).ok_or_else(|| no_node(index, document))?;
+        if std::mem::replace(&mut is_passed[index], true) {
+            return Err(fault_in("node", index, ParseFaultKind::SecondParent));
+        }
+        let transform = match (of_parent, node.transform()) {
+            (Some(outer), Some(own)) => Some(outer * own),
+            (outer, own) => outer.or(own),
+        };
+        if let Some(mesh) = node.mesh {
+            let count = document.meshes.len();
+            if mesh >= count {
+                return Err(fault_in("node", index, no_such("mesh", mesh, count)));
+            }
+            // Joints place a skinned mesh.
+            let transform = transform.filter(|_| !node.is_skinned());
+            found.push(Instance { node: Some(index), mesh, transform });
+        }
+        ahead.extend(node.children.iter().rev().map(|&child| (child, transform)));
+        if ahead.len() > document.nodes.len() {
+            return Err(fault_in("node", index, ParseFaultKind::SecondParent));
+        }
+    }
+    match is_passed.iter().position(|&is_passed| !is_passed) {
+        Some(index) if document.scene.is_none() => Err(fault_in("node", index, ParseFaultKind::SecondParent)),
+        _ => Ok(found),
+    }
+}
+
+/// The roots of the scene that the file names; all nodes without a parent, where it names none.
+fn roots(document: &Document) -> Result<Vec<usize>, ReadError> {
+    if let Some(scene) = document.scene {
+        let scenes = &document.scenes;
+        let of_scene =
+            scenes.get(scene).ok_or_else(|| fault_in("scene", scene, no_such("scene", scene, scenes.len())))?;
+        return Ok(of_scene.nodes.clone());
+    }
+    let mut is_root = vec![true; document.nodes.len()];
+    for &child in document.nodes.iter().flat_map(|node| &node.children) {
+        *is_root.get_mut(child).ok_or_else(|| no_node(child, document))? = false;
+    }
+    Ok((0..is_root.len()).filter(|&node| is_root[node]).collect())
+}
+
+fn no_node(index: usize, document: &Document) -> ReadError {
+    fault_in("node", index, no_such("node", index, document.nodes.len()))
+}
+
+/// The triangles of a part of what is shown: vertices of its set, in the order of the scene.
+pub(super) fn triangles(
+    document: &Document,
+    buffers: &Buffers,
+    shown: &Shown,
+    part: &Part,
+) -> Result<Vec<[usize; 3]>, ReadError> {
+    let (instance, set) = (&shown.instances[part.instance], &shown.sets[part.set]);
+    let primitive = &document.meshes[instance.mesh].primitives[part.primitive];
+    let topology = primitive.topology().unwrap_or(Topology::Triangles);
+    let indices = match primitive.indices {
+        Some(index) => {
+            let elements = Elements::of(document, buffers, index)?;
+            if !elements.are_indices() {
+                let kind = ParseFaultKind::Unexpected { found: "numbers".to_owned(), expected: "indices" };
+                return Err(fault_in("accessor", index, kind));
+            }
+            let vertices: Vec<usize> = (0..elements.count).map(|place| elements.index(place)).collect();
+            if let Some(&wrong) = vertices.iter().find(|&&vertex| vertex >= set.range.len()) {
+                return Err(fault_in("accessor", index, no_such("vertex", wrong, set.range.len())));
+            }
+            Some(vertices)
+        }
+        None => None,
+    };
+    let listed = indices.as_ref().map_or(set.range.len(), Vec::len);
+    let count = usize::try_from(topology.count(listed as u64)).expect("fewer than there are vertices");
+    let vertex = |place: usize| indices.as_ref().map_or(place, |vertices| vertices[place]);
+    let is_mirrored = instance.is_mirrored();
+    let all = (0..count).map(|number| {
+        let [a, b, c] = topology.triangle(number).map(vertex);
+        if is_mirrored { [a, c, b] } else { [a, b, c] }
+    });
+    // Strips and fans repeat vertices to jump from one place to another.
+    let is_stitch = |[a, b, c]: &[usize; 3]| a == b || b == c || c == a;
+    Ok(all.filter(|triangle| topology == Topology::Triangles || !is_stitch(triangle)).collect())
+}

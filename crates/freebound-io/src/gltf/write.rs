@@ -1,0 +1,84 @@
+//! Writes binary glTF files: the one that a mesh was read from with other texture coordinates, or one of its own.
+//!
+//! The format holds 32 bits of every number: coordinates are rounded to the nearest. Those that are given as they were
+//! read come back bit for bit.
+
+use std::collections::HashMap;
+use std::io::{self, Write};
+
+use glam::DVec3;
+use serde_json::json;
+
+use super::carried::write_carried;
+use super::growing::Growing;
+use super::read::turned_over;
+use super::{POSITION, TEXTURE};
+use crate::finite::check_finite;
+use crate::mesh_file::{MeshFile, NO_TEXTURE, SourceFormat, Texture};
+use freebound_core::mesh::VertexId;
+
+/// Writes a mesh with these texture coordinates as a binary glTF file (GLB). Where it was read from glTF, all of that file
+/// is kept. Otherwise the file holds triangles and texture coordinates alone. Corners without texture coordinates keep
+/// those of the file, or have 0, 0.
+///
+/// # Errors
+///
+/// What `out` says; texture coordinates that are infinite or not numbers; positions beyond 32-bit numbers; more than 4 GiB.
+pub fn write_glb(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::Result<()> {
+    check_finite(&texture.coordinates)?;
+    if let Some(source) = &mesh.source
+        && let SourceFormat::Gltf(scene) = &source.format
+    {
+        return write_carried(out, mesh, source, scene, texture);
+    }
+    write_plain(out, mesh, texture)
+}
+
+fn write_plain(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::Result<()> {
+    let polygons = &mesh.polygons;
+    let mut number_of: HashMap<(VertexId, u32), u32> = HashMap::new();
+    let mut vertices: Vec<(VertexId, u32)> = Vec::new();
+    let mut number = |place: u32| {
+        let coordinate = texture.corners.get(place as usize).copied().unwrap_or(NO_TEXTURE);
+        let vertex = (polygons.corners[place as usize], coordinate);
+        *number_of.entry(vertex).or_insert_with(|| {
+            vertices.push(vertex);
+            VertexId::from_index(vertices.len() - 1).number()
+        })
+    };
+    let triangles: Vec<[u32; 3]> = polygons.triangle_places().0.iter().map(|places| places.map(&mut number)).collect();
+    let mut file = Growing::of(
+        json!({
+            "asset": { "version": "2.0", "generator": concat!("Freebound ", env!("CARGO_PKG_VERSION")) },
+            "scene": 0,
+            "scenes": [{ "nodes": [0] }],
+            "nodes": [{ "mesh": 0 }],
+        }),
+        &[],
+    );
+    let positions: Vec<[f32; 3]> =
+        vertices.iter().map(|&(vertex, _)| polygons.positions[vertex.index()].as_vec3().to_array()).collect();
+    if let Some(at) = positions.iter().position(|position| !position.iter().all(|x| x.is_finite())) {
+        let place = polygons.positions[vertices[at].0.index()];
+        let text = format!("{} is at {place}, beyond the range of 32-bit numbers: write PLY or OBJ", vertices[at].0);
+        return Err(io::Error::new(io::ErrorKind::InvalidData, text));
+    }
+    let position = file.vectors(positions.iter().copied());
+    let bound = |pick: fn(DVec3, DVec3) -> DVec3, begin: f64| {
+        let all = positions.iter().map(|position| DVec3::from(position.map(f64::from)));
+        all.fold(DVec3::splat(begin), pick).to_array()
+    };
+    file.json["accessors"][position]["min"] = json!(bound(DVec3::min, f64::INFINITY));
+    file.json["accessors"][position]["max"] = json!(bound(DVec3::max, f64::NEG_INFINITY));
+    let mut attributes = json!({ POSITION: position });
+    if !texture.coordinates.is_empty() {
+        let coordinates = vertices.iter().map(|&(_, coordinate)| {
+            let uv = texture.coordinates.get(coordinate as usize).copied();
+            uv.map_or([0.0; 2], turned_over)
+        });
+        attributes[TEXTURE] = json!(file.vectors(coordinates));
+    }
+    let indices = file.indices(&triangles);
+    file.push("meshes", json!({ "primitives": [{ "attributes": attributes, "indices": indices }] }));
+    file.write(out)
+}

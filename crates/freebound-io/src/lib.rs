@@ -1,0 +1,98 @@
+//! Files in and out.
+//!
+//! | file          | what it holds                                                              |
+//! |---------------|----------------------------------------------------------------------------|
+//! | `animation`   | animated pictures (APNG)                                                   |
+//! | `mesh_file`   | meshes of any format: what is kept of a file, and the way in               |
+//! | `obj`         | OBJ files with their materials, in and out                                 |
+//! | `ply`         | PLY files                                                                  |
+//! | `gltf`        | glTF files, as text and binary (GLB)                                       |
+//! | `constraints` | constraint files: a pinned vertex a line                                   |
+//! | `edges`       | edges files: an edge of a seam a line                                      |
+//! | `project`     | project files: what a person has made of a mesh (JSON)                     |
+//! | `picture`     | pictures in (PNG, JPEG)                                                    |
+//! | `output`      | the table of formats; a finished flattening written in any of them         |
+//! | `charts`      | the charts of a result, each by itself and as one mesh                     |
+//! | `precision`   | the bits of the numbers that are written, and the proof of these              |
+//! | `report`      | report of a run (JSON)                                                     |
+//! | `comparison`  | report of several methods on one mesh (JSON), and its table                |
+//! | `step_report` | a step in the report, and as a row of a table                              |
+//! | `error_report`| report of a run that came to nothing (JSON)                                |
+//! | `svg`         | an embedding or a step as a drawing                                        |
+//! | `steps`       | the steps of a run as a folder of drawings and a table                     |
+//! | `study_table` | the runs of a study as a table, out and in                                 |
+//! | `study_plots` | the runs of a study as plots                                               |
+//! | `raster`      | pictures of meshes without a screen                                        |
+//! | `figure`      | figures: panels on a page, as a drawing and as a picture                   |
+//! | `atomic`      | files that are written whole or not at all                                 |
+//! | `door`        | what every writer asks of its coordinates                                  |
+//! | `machine`     | what the system says of its memory                                         |
+//! | `unfinished`  | what is being written aside, to be removed at a sudden end                 |
+//! | `paths`       | which paths lead to one file, and the way from a folder to a file          |
+//! | `stamp`       | what tells one state of a file from another                                |
+
+mod animation;
+mod atomic;
+mod charts;
+mod comparison;
+mod constraints;
+mod edges;
+mod error_report;
+pub mod figure;
+mod finished;
+mod finite;
+mod gltf;
+mod machine;
+mod mesh_file;
+mod obj;
+mod output;
+mod paths;
+mod picture;
+mod ply;
+mod precision;
+mod project;
+pub mod raster;
+mod report;
+mod stamp;
+mod step_report;
+mod steps;
+mod study_plots;
+mod study_table;
+mod svg;
+mod unfinished;
+
+pub use animation::{AnimationForm, AnimationFrame, write_animation};
+pub use atomic::{WriteError, try_place, write_atomically, write_durably, write_to_standard_output};
+pub use comparison::{
+    Cell, ChartNumber, Column, ComparisonReport, ComparisonSeconds, Direction, LeftOutReport, LegReport, MethodError,
+    MethodReport, MethodSeconds, MorphReport, ResultReport, TimedStep, VerdictCounts,
+};
+pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
+pub use edges::{EdgeFault, EdgesError, parse_edges, read_edges, write_edges};
+pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
+pub use finished::ResultSource;
+pub use gltf::write_glb;
+pub use machine::{bytes_in_words, machine_memory_bytes, peak_memory_bytes};
+pub use mesh_file::{
+    LabelError, LayoutError, MAX_PARSE_FAULTS, MemoryShortage, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind,
+    ReadError, ReadProgress, Refined, RefinedChart, Source, Statement, Texture, TextureError, TextureMesh,
+    check_memory, memory_to_read, read_mesh, read_mesh_with, read_stream, read_stream_with,
+};
+pub use obj::{Materials, copies_of_materials, material_files, material_picture, write_obj};
+pub use output::{EXTENSIONS, Format, Output, OutputKind, ProvedEmbedding};
+pub use paths::{is_same_file, is_standard_input, would_replace};
+pub use picture::{PictureError, PictureFile, decode_picture};
+pub use ply::write_ply;
+pub use precision::{Precision, RoundingReport};
+pub use project::{
+    PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
+};
+pub use report::{
+    ChartReport, MeshReport, REPORT_SCHEMA, Report, Seconds, ShapeReport, verdict_as_in_file, write_report,
+};
+pub use stamp::FileStamp;
+pub use step_report::StepReport;
+pub use steps::StepsFolder;
+pub use study_plots::study_plots;
+pub use study_table::{read_study, write_study};
+pub use unfinished::discard_unfinished;

@@ -1,0 +1,114 @@
+//! The formats of mesh files, told by a file's beginning, and by its name where that says nothing.
+
+use super::ReadError;
+use super::stl::is_binary_stl;
+use crate::obj::{Lines, split_mark, words};
+
+/// A format that is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Format {
+    Gltf,
+    Obj,
+    Off,
+    Ply,
+    StlText,
+    StlBinary,
+}
+
+impl Format {
+    /// The format of a file that begins so, and ends its name so.
+    ///
+    /// # Errors
+    ///
+    /// A format that is known and not read, and what is no text and of no known format.
+    pub(super) fn of(head: &[u8], extension: Option<&str>) -> Result<Self, ReadError> {
+        if let Some(format) = Self::of_beginning(head)? {
+            return Ok(format);
+        }
+        match extension {
+            Some("gltf" | "glb") => Ok(Self::Gltf),
+            Some("off" | "coff" | "noff") => Ok(Self::Off),
+            Some("ply") => Ok(Self::Ply),
+            Some("stl") if head.contains(&0) => Ok(Self::StlBinary),
+            Some("stl") => Ok(Self::StlText),
+            Some(other) => match format_not_read(other) {
+                Some(name) => Err(ReadError::NotReadYet(name)),
+                None => Self::obj(head),
+            },
+            None => Self::obj(head),
+        }
+    }
+
+    /// What has no other sign is OBJ text, if it is text.
+    fn obj(head: &[u8]) -> Result<Self, ReadError> {
+        if head.contains(&0) { Err(ReadError::NotText) } else { Ok(Self::Obj) }
+    }
+
+    fn of_beginning(head: &[u8]) -> Result<Option<Self>, ReadError> {
+        if let Some((_, name)) = MARKS.iter().find(|(mark, _)| head.starts_with(mark)) {
+            return Err(ReadError::NotReadYet(name));
+        }
+        let text = split_mark(head).1;
+        if head.starts_with(b"glTF") || text.trim_ascii_start().starts_with(b"{") {
+            return Ok(Some(Self::Gltf));
+        }
+        let word = Lines::of(text).find_map(|line| words(&line.whole[..line.length]).next()).unwrap_or_default();
+        Ok(match word {
+            b"ply" => Some(Self::Ply),
+            b"solid" if !head.contains(&0) => Some(Self::StlText),
+            _ if head.contains(&0) && is_binary_stl(head) => Some(Self::StlBinary),
+            _ if is_off(word) => Some(Self::Off),
+            _ => match word_of_format(word) {
+                Some(name) => return Err(ReadError::NotReadYet(name)),
+                None => None,
+            },
+        })
+    }
+}
+
+/// The first bytes of files that are not read.
+const MARKS: [(&[u8], &str); 5] = [
+    (b"Kaydara FBX Binary", "FBX"),
+    (b"BLENDER", "Blender"),
+    (b"PXR-USDC", "USD"),
+    (b"\xFF\xFE", "UTF-16 text"),
+    (b"\xFE\xFF", "UTF-16 text"),
+];
+
+/// Whether a word begins an OFF file: `OFF`, with letters before it for what else vertices have; some programs write the
+/// first count right behind it.
+fn is_off(word: &[u8]) -> bool {
+    let Some(at) = word.windows(3).position(|three| three == b"OFF") else { return false };
+    word[..at].iter().all(|byte| b"STCNn4".contains(byte)) && word[at + 3..].iter().all(u8::is_ascii_digit)
+}
+
+/// The format of a file that is not read, by its extension in lower case.
+fn format_not_read(extension: &str) -> Option<&'static str> {
+    Some(match extension {
+        "3ds" | "max" => "3ds Max",
+        "3mf" => "3MF",
+        "abc" => "Alembic",
+        "blend" => "Blender",
+        "dae" => "COLLADA",
+        "dxf" => "DXF",
+        "fbx" => "FBX",
+        "iges" | "igs" => "IGES",
+        "ma" | "mb" => "Maya",
+        "msh" => "Gmsh",
+        "step" | "stp" => "STEP",
+        "usd" | "usda" | "usdc" | "usdz" => "USD",
+        "vtk" | "vtp" | "vtu" => "VTK",
+        "wrl" | "x3d" => "VRML",
+        _ => return None,
+    })
+}
+
+/// What the first word of a text says about a format that is not read.
+fn word_of_format(word: &[u8]) -> Option<&'static str> {
+    Some(match word {
+        b";" => "FBX",
+        b"<?xml" => "XML",
+        b"$MeshFormat" => "Gmsh",
+        _ => return None,
+    })
+}

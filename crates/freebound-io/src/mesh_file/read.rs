@@ -1,0 +1,136 @@
+//! Reads mesh files: all bytes first, which are kept where the file is to be written again, then what they say.
+
+use std::fs::File;
+use std::io::Read;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use memchr::{memchr, memrchr2};
+
+use super::format::Format;
+use super::off::parse_off;
+use super::stl::{parse_stl_binary, parse_stl_text};
+use super::{MeshFile, ReadError, Source, SourceFormat};
+use crate::gltf::parse_gltf;
+use crate::obj::{Lines, parse as parse_obj};
+use crate::ply::parse_ply;
+
+/// Bytes read at once.
+const CHUNK: u64 = 256 << 10;
+
+/// Longest line, bytes: a polygon with a million corners fits.
+const MAX_LINE: usize = 16 << 20;
+
+/// How far the reading of a file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ReadProgress {
+    /// Bytes read so far.
+    pub bytes: u64,
+    /// Bytes in all, where that is known.
+    pub total: Option<u64>,
+}
+
+/// Reads a mesh from a file.
+///
+/// # Errors
+///
+/// [`ReadError`] says what is wrong with the file.
+pub fn read_mesh(path: &Path) -> Result<MeshFile, ReadError> {
+    read_mesh_with(path, &mut |_| ControlFlow::Continue(()))
+}
+
+/// Reads a mesh from a file, reporting progress; `watch` stops the reading by breaking.
+///
+/// # Errors
+///
+/// [`ReadError`] says what is wrong with the file.
+pub fn read_mesh_with(
+    path: &Path,
+    watch: &mut dyn FnMut(ReadProgress) -> ControlFlow<()>,
+) -> Result<MeshFile, ReadError> {
+    let file = File::open(path)?;
+    let total = file.metadata().ok().filter(std::fs::Metadata::is_file).map(|data| data.len());
+    read(file, Some(path), &mut |bytes| watch(ReadProgress { bytes, total }))
+}
+
+/// Reads a mesh from a stream; its beginning tells the format.
+///
+/// # Errors
+///
+/// [`ReadError`] says what is wrong with it.
+pub fn read_stream(reader: impl Read) -> Result<MeshFile, ReadError> {
+    read_stream_with(reader, &mut |_| ControlFlow::Continue(()))
+}
+
+/// Reads a mesh from a stream, reporting the bytes read so far; `watch` stops the reading by breaking.
+///
+/// # Errors
+///
+/// [`ReadError`] says what is wrong with it.
+pub fn read_stream_with(
+    reader: impl Read,
+    watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
+) -> Result<MeshFile, ReadError> {
+    read(reader, None, watch)
+}
+
+fn read(
+    mut reader: impl Read,
+    path: Option<&Path>,
+    watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
+) -> Result<MeshFile, ReadError> {
+    let mut bytes = Vec::new();
+    reader.by_ref().take(CHUNK).read_to_end(&mut bytes)?;
+    let extension = path.map(|path| path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase());
+    let format = Format::of(&bytes, extension.as_deref())?;
+    read_rest(&mut reader, &mut bytes, format, watch)?;
+    let size = bytes.len() as u64;
+    let mut mesh = match format {
+        Format::Obj => parse_obj(&bytes, &mut || watch(size))?,
+        Format::Off => parse_off(&bytes)?,
+        Format::StlText => parse_stl_text(&bytes)?,
+        Format::StlBinary => parse_stl_binary(&bytes)?,
+        Format::Ply => return parse_ply(bytes),
+        Format::Gltf => return parse_gltf(bytes, path.map(|path| path.parent().unwrap_or(Path::new("")))),
+    };
+    if format == Format::Obj {
+        mesh.source = Some(Source::of(SourceFormat::Obj, bytes, mesh.polygons.positions.len()));
+    }
+    Ok(mesh)
+}
+
+/// Reads all that follows the first chunk. What is no text, or has lines that no reader should hold, is refused as soon
+/// as it is seen.
+fn read_rest(
+    reader: &mut impl Read,
+    bytes: &mut Vec<u8>,
+    format: Format,
+    watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
+) -> Result<(), ReadError> {
+    let is_text = matches!(format, Format::Obj | Format::Off | Format::StlText);
+    let (mut fresh, mut line_begin) = (0, 0);
+    while fresh < bytes.len() {
+        if is_text {
+            check_text(bytes, fresh, &mut line_begin)?;
+        }
+        if watch(bytes.len() as u64).is_break() {
+            return Err(ReadError::Cancelled);
+        }
+        fresh = bytes.len();
+        reader.by_ref().take(CHUNK).read_to_end(bytes)?;
+    }
+    Ok(())
+}
+
+/// Refuses new bytes with a zero, and lines that are too long.
+fn check_text(bytes: &[u8], fresh: usize, line_begin: &mut usize) -> Result<(), ReadError> {
+    if memchr(0, &bytes[fresh..]).is_some() {
+        return Err(ReadError::NotText);
+    }
+    *line_begin = memrchr2(b'\n', b'\r', &bytes[fresh..]).map_or(*line_begin, |at| fresh + at + 1);
+    if bytes.len() - *line_begin > MAX_LINE {
+        let line = 1 + Lines::of(&bytes[..*line_begin]).map(|line| line.count).sum::<u64>();
+        return Err(ReadError::LineTooLong { line, limit: MAX_LINE });
+    }
+    Ok(())
+}

@@ -1,0 +1,136 @@
+//! The mesh of a file's texture coordinates: the surface as it is cut in the plane.
+
+use std::collections::HashMap;
+
+use glam::DVec2;
+
+use super::{MeshFile, NO_TEXTURE, Texture, TextureError};
+use freebound_core::mesh::{FaceId, TriMesh, VertexId};
+use freebound_core::problem::Embedding;
+
+/// A mesh over texture vertices, with the embedding that the file gives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextureMesh {
+    /// The triangles over texture vertices, at their positions in space.
+    pub mesh: TriMesh,
+    /// The texture coordinates, one per texture vertex.
+    pub embedding: Embedding,
+    /// The file's vertex of each texture vertex.
+    pub vertex_of: Vec<VertexId>,
+}
+
+impl MeshFile {
+    /// Makes one vertex of all corners that share a vertex and a texture coordinate.
+    ///
+    /// Coordinates are the same where their bits are, except that −0 equals 0. So charts are cut along seams, and copies
+    /// of one coordinate are joined. Texture vertices are ordered by the file's vertices, those of one vertex by first
+    /// use: without seams their numbers are those of the file.
+    ///
+    /// # Errors
+    ///
+    /// [`TextureError`] where there are no texture coordinates, or not at all corners.
+    ///
+    /// # Panics
+    ///
+    /// If an index of the mesh is out of range, which the reader never lets through.
+    pub fn texture_mesh(&self) -> Result<TextureMesh, TextureError> {
+        let texture = self.complete_texture()?;
+        let corners = &self.polygons.corners;
+        let coordinate = |place: u32| texture.coordinates[texture.corners[place as usize] as usize];
+        let bits = |place: u32| bits(coordinate(place));
+        let mut texture_vertex = vec![0_u32; corners.len()];
+        let (mut positions, mut vertex_of, mut embedding) = (Vec::new(), Vec::new(), Vec::new());
+        let mut first_places: Vec<u32> = Vec::new();
+        // Places of the corners of each vertex; vertices without corners have none.
+        let mut places_of = vec![Vec::new(); self.polygons.positions.len()];
+        for (place, vertex) in (0_u32..).zip(corners) {
+            places_of[vertex.index()].push(place);
+        }
+        for places in &mut places_of {
+            // Equal coordinates side by side, then the groups by their first corner.
+            places.sort_unstable_by_key(|&place| (bits(place), place));
+            first_places.clear();
+            first_places.extend(places.chunk_by(|&a, &b| bits(a) == bits(b)).map(|group| group[0]));
+            first_places.sort_unstable();
+            for group in places.chunk_by(|&a, &b| bits(a) == bits(b)) {
+                let rank = first_places.binary_search(&group[0]).expect("every group has a first place");
+                for &place in group {
+                    texture_vertex[place as usize] = VertexId::from_index(vertex_of.len() + rank).number();
+                }
+            }
+            for &place in &first_places {
+                let vertex = corners[place as usize];
+                vertex_of.push(vertex);
+                embedding.push(coordinate(place));
+                positions.push(self.polygons.positions[vertex.index()]);
+            }
+        }
+        let (triangles, polygon_of) = self.polygons.triangle_places();
+        let renumbered = |places: &[u32; 3]| places.map(|place| VertexId::new(texture_vertex[place as usize]));
+        let triangles = triangles.iter().map(renumbered).collect();
+        Ok(TextureMesh { mesh: TriMesh { positions, triangles, polygon_of }, embedding: embedding.into(), vertex_of })
+    }
+
+    /// A label for each corner, the same where texture coordinates are the same: the place of the first of them in the
+    /// file's list.
+    ///
+    /// # Errors
+    ///
+    /// As [`texture_mesh`](Self::texture_mesh).
+    pub fn texture_labels(&self) -> Result<Vec<u32>, TextureError> {
+        let texture = self.complete_texture()?;
+        let mut first: HashMap<[u64; 2], u32> = HashMap::new();
+        let labels: Vec<u32> =
+            (0..).zip(&texture.coordinates).map(|(place, uv)| *first.entry(bits(*uv)).or_insert(place)).collect();
+        Ok(texture.corners.iter().map(|&corner| labels[corner as usize]).collect())
+    }
+
+    /// Whether some vertex has several texture coordinates.
+    ///
+    /// # Errors
+    ///
+    /// As [`texture_mesh`](Self::texture_mesh).
+    pub fn has_texture_seams(&self) -> Result<bool, TextureError> {
+        let mut first = vec![None; self.polygons.positions.len()];
+        let labels = self.texture_labels()?;
+        let mut corners = self.polygons.corners.iter().zip(labels);
+        Ok(corners.any(|(vertex, label)| *first[vertex.index()].get_or_insert(label) != label))
+    }
+
+    /// The texture coordinates, where all corners have one.
+    pub(super) fn complete_texture(&self) -> Result<&Texture, TextureError> {
+        let texture = self.texture.as_ref().ok_or(TextureError::None)?;
+        let lacks = |&face: &u32| {
+            let places = self.polygons.corner_range(face as usize);
+            texture.corners[places].contains(&NO_TEXTURE)
+        };
+        let face_count = u32::try_from(self.polygons.face_count()).expect("faces fit");
+        let faces: Vec<u32> = (0..face_count).filter(lacks).collect();
+        if faces.is_empty() { Ok(texture) } else { Err(TextureError::Missing(faces)) }
+    }
+}
+
+/// What tells coordinates apart: their bits, except that −0 equals 0.
+pub(super) fn bits(coordinate: DVec2) -> [u64; 2] {
+    (coordinate + DVec2::ZERO).to_array().map(f64::to_bits)
+}
+
+impl TextureMesh {
+    /// Leaves out triangles with two corners in one place, in space as in the plane, to the bit: where a polygon names a place
+    /// twice by vertices of different numbers. They cover nothing in either.
+    pub fn drop_collapsed_faces(&mut self) {
+        let TextureMesh { mesh, embedding, .. } = self;
+        let is_one_place = |a: VertexId, b: VertexId| {
+            mesh.positions[a.index()] == mesh.positions[b.index()] && embedding[a] == embedding[b]
+        };
+        let stays: Vec<bool> = mesh
+            .triangles
+            .iter()
+            .map(|&[a, b, c]| ![[a, b], [b, c], [c, a]].iter().any(|&[p, q]| is_one_place(p, q)))
+            .collect();
+        let kept = |face: &usize| stays[*face];
+        let faces = || (0..stays.len()).filter(kept);
+        mesh.polygon_of = Some(faces().map(|face| mesh.polygon(FaceId::from_index(face))).collect());
+        mesh.triangles = faces().map(|face| mesh.triangles[face]).collect();
+    }
+}

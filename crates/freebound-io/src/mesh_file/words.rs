@@ -1,0 +1,72 @@
+//! The words of a text, with the lines that they stand on.
+
+use std::ops::Range;
+
+use super::{FaultPlace, ParseFaultKind, ReadError, fault_at};
+use crate::obj::{number, quoted};
+
+/// Goes through the words of a text, between blanks and line ends.
+#[derive(Clone)]
+pub(crate) struct TokenWords<'a> {
+    text: &'a [u8],
+    at: usize,
+    /// Counted from 1.
+    line: u64,
+}
+
+impl<'a> TokenWords<'a> {
+    /// The words of a text whose first line has this number.
+    pub(crate) fn of(text: &'a [u8], line: u64) -> Self {
+        Self { text, at: 0, line }
+    }
+
+    /// The line of the word that came last, or of the one that is next where it is not behind a line end.
+    pub(crate) fn place(&self) -> FaultPlace {
+        FaultPlace::Line(self.line)
+    }
+
+    /// How many bytes have been passed.
+    pub(crate) fn passed(&self) -> usize {
+        self.at
+    }
+
+    /// How many bytes are left.
+    pub(crate) fn left(&self) -> usize {
+        self.text.len() - self.at
+    }
+
+    /// Where the next word stands.
+    pub(crate) fn next_range(&mut self) -> Option<Range<usize>> {
+        loop {
+            match *self.text.get(self.at)? {
+                b'\n' => self.line += 1,
+                b'\r' if self.text.get(self.at + 1) != Some(&b'\n') => self.line += 1,
+                byte if is_blank(byte) => {}
+                _ => break,
+            }
+            self.at += 1;
+        }
+        let rest = &self.text[self.at..];
+        let length = rest.iter().position(|&byte| is_blank(byte)).unwrap_or(rest.len());
+        self.at += length;
+        Some(self.at - length..self.at)
+    }
+
+    /// The next word as a number; the end of the text is a fault, too.
+    pub(crate) fn number(&mut self) -> Result<f64, ReadError> {
+        let word = self.next().ok_or_else(|| fault_at(self.place(), ParseFaultKind::EndsEarly))?;
+        number(word).ok_or_else(|| fault_at(self.place(), ParseFaultKind::BadNumber(quoted(word))))
+    }
+}
+
+impl<'a> Iterator for TokenWords<'a> {
+    type Item = &'a [u8];
+
+    fn next(&mut self) -> Option<&'a [u8]> {
+        self.next_range().map(|range| &self.text[range])
+    }
+}
+
+fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | 0x0B | 0x0C)
+}

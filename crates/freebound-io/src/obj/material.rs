@@ -1,0 +1,150 @@
+//! The picture that a mesh's materials name.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::gltf::files_beside;
+use crate::mesh_file::{MeshFile, Statement};
+
+/// Keywords of lines that name pictures, beside those that begin with `map_`.
+const PICTURE_KEYWORDS: [&str; 5] = ["bump", "decal", "disp", "norm", "refl"];
+
+/// The picture on most faces, as the materials of an OBJ file at `path` say. `None` where no material that is in use
+/// names a picture. The picture itself need not be there.
+///
+/// Where one material library is missing or broken, the others still count.
+pub fn material_picture(mesh: &MeshFile, path: &Path) -> Option<PathBuf> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut pictures: BTreeMap<String, PathBuf> = BTreeMap::new();
+    for library in libraries(mesh, folder) {
+        let Ok((materials, _)) = tobj::load_mtl(&library) else { continue };
+        let folder = library.parent().unwrap_or(Path::new(""));
+        for material in materials {
+            if let Some(texture) = material.diffuse_texture {
+                pictures.entry(material.name).or_insert_with(|| picture_of(&texture, folder));
+            }
+        }
+    }
+    let mut faces_with: BTreeMap<&Path, usize> = BTreeMap::new();
+    for (material, faces) in faces_by_material(mesh) {
+        if let Some(picture) = pictures.get(&material) {
+            *faces_with.entry(picture).or_default() += faces;
+        }
+    }
+    // The first of equals, going by their names.
+    faces_with.into_iter().rev().max_by_key(|&(_, faces)| faces).map(|(picture, _)| picture.to_owned())
+}
+
+/// The material libraries of an OBJ file at `path`, and the pictures that they name; buffers and pictures of a glTF file. As far
+/// as they are there.
+pub fn material_files(mesh: &MeshFile, path: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for library in libraries(mesh, path.parent().unwrap_or(Path::new(""))) {
+        let folder = library.parent().unwrap_or(Path::new(""));
+        // Something that is no regular file, such as a pipe, is not opened: nothing may ever come.
+        let text = if library.is_file() { fs::read(&library).unwrap_or_default() } else { Vec::new() };
+        let pictures = String::from_utf8_lossy(&text)
+            .lines()
+            .filter_map(picture_argument)
+            .map(|argument| picture_of(argument, folder))
+            .collect::<Vec<_>>();
+        found.extend(pictures);
+        found.push(library);
+    }
+    found.extend(files_beside(mesh));
+    found.retain(|file| file.is_file());
+    found
+}
+
+/// What follows the keyword on a line of a material library that names a picture.
+pub(super) fn picture_argument(line: &str) -> Option<&str> {
+    let (keyword, argument) = line.trim().split_once(char::is_whitespace)?;
+    let keyword = keyword.to_ascii_lowercase();
+    let is_picture = keyword.starts_with("map_") || PICTURE_KEYWORDS.contains(&keyword.as_str());
+    is_picture.then(|| argument.trim())
+}
+
+/// A material library as a mesh names it, which need not be there.
+#[derive(Debug)]
+pub(super) struct Library {
+    pub(super) name: String,
+    pub(super) path: PathBuf,
+}
+
+/// The material libraries.
+fn libraries(mesh: &MeshFile, folder: &Path) -> Vec<PathBuf> {
+    let statements = mesh.statements.iter().filter(|statement| statement.keyword() == b"mtllib");
+    statements.flat_map(|statement| libraries_of(statement, folder)).map(|library| library.path).collect()
+}
+
+/// The material libraries of a line. It may name several, but a name may also hold blanks.
+pub(super) fn libraries_of(statement: &Statement, folder: &Path) -> Vec<Library> {
+    let library = |name: &str| Library { name: name.to_owned(), path: place_of(name, folder) };
+    let argument = statement.argument();
+    // A comment may follow, but a name may also hold its sign.
+    let names = if library(&argument).path.is_file() { &argument } else { before_comment(&argument) };
+    let whole = library(names);
+    if whole.path.is_file() { vec![whole] } else { names.split_whitespace().map(library).collect() }
+}
+
+fn before_comment(argument: &str) -> &str {
+    argument.split_once(" #").map_or(argument, |(names, _)| names.trim_end())
+}
+
+/// How many faces each material is on. A material may come more than once.
+fn faces_by_material(mesh: &MeshFile) -> Vec<(String, usize)> {
+    let uses: Vec<_> = mesh.statements.iter().filter(|statement| statement.keyword() == b"usemtl").collect();
+    let end = mesh.polygons.face_count();
+    let ends = uses.iter().skip(1).map(|next| next.before_face as usize).chain([end]);
+    let counted = uses.iter().zip(ends).map(|(statement, end)| {
+        let faces = end.saturating_sub(statement.before_face as usize);
+        (statement.argument().into_owned(), faces)
+    });
+    counted.collect()
+}
+
+/// A picture that a line of a library names.
+#[derive(Debug)]
+pub(super) struct NamedPicture {
+    /// Where its name begins in the argument of the line, bytes.
+    pub(super) begin: usize,
+    pub(super) path: PathBuf,
+}
+
+/// The picture of an argument without blanks around it: its longest end that is the name of a file.
+pub(super) fn picture_within(argument: &str, folder: &Path) -> Option<NamedPicture> {
+    let after_blank = |(at, blank): (usize, &str)| at + blank.len();
+    let begins = std::iter::once(0).chain(argument.match_indices(char::is_whitespace).map(after_blank));
+    let mut found = begins.map(|begin| NamedPicture { begin, path: place_of(&argument[begin..], folder) });
+    found.find(|named| named.path.is_file())
+}
+
+/// The file of a `map_Kd` line. Options such as `-s 1 1 1` may stand before its name, which may hold blanks: the
+/// longest end of the line that is the name of a file.
+fn picture_of(texture: &str, folder: &Path) -> PathBuf {
+    let texture = texture.trim();
+    let nowhere = || {
+        // Nothing is there: for a message, the last word of a line with options, the whole line of one without.
+        let name = if texture.starts_with('-') { texture.rsplit(char::is_whitespace).next() } else { None };
+        place_of(name.unwrap_or(texture), folder)
+    };
+    picture_within(texture, folder).map_or_else(nowhere, |found| found.path)
+}
+
+/// A file named in another file of this folder. Backslashes divide folders where no file's name holds them, and a
+/// whole path of another machine is given up for a file of that name in this folder.
+fn place_of(name: &str, folder: &Path) -> PathBuf {
+    let name = name.trim().trim_matches('"');
+    let verbatim = folder.join(name);
+    if verbatim.is_file() {
+        return verbatim;
+    }
+    let slashed = name.replace('\\', "/");
+    let divided = folder.join(&slashed);
+    let is_elsewhere = slashed.starts_with('/') || slashed.as_bytes().get(1) == Some(&b':');
+    if is_elsewhere && !divided.is_file() {
+        return folder.join(slashed.rsplit('/').next().unwrap_or(&slashed));
+    }
+    divided
+}

@@ -1,0 +1,321 @@
+//! Takes OBJ lines one by one and puts a mesh together.
+//!
+//! Every fault is noted and the reading goes on, so that all of them are known at the end. Pieces of the text are read side
+//! by side and put together in their order, unless an index counts backwards or there is a fault.
+//!
+//! Understood: `v` (words behind the third number are ignored), `vt`, `f` in all its forms with positive and negative
+//! indices, `o`, `g`, `s`, `usemtl`, `mtllib`, comments, lines that go on behind a `\`. Anything else is skipped. A
+//! positive index may name an element that comes later in the file. A line ends with LF, with CR LF, or with CR alone.
+
+use std::ops::ControlFlow;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::line::{corner, numbers, statement, words};
+use super::lines::{Line, Lines, pieces, split_mark};
+use crate::mesh_file::{
+    MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, ReadError, Statement, Texture,
+};
+use freebound_core::mesh::VertexId;
+
+/// Bytes of a piece of the text: enough to outweigh the handing out.
+const PIECE: usize = 256 << 10;
+
+/// Pieces read between two looks whether to go on: some hundredths of a second.
+const PIECES_AT_ONCE: usize = 16;
+
+/// Puts a mesh together from text, looking now and then whether to go on; the text itself is not kept.
+pub(crate) fn parse(text: &[u8], watch: &mut dyn FnMut() -> ControlFlow<()>) -> Result<MeshFile, ReadError> {
+    let pieces = pieces(split_mark(text).1, PIECE);
+    let whole = match side_by_side(&pieces, watch)? {
+        Some(parser) => parser,
+        None => one_after_another(&pieces, watch)?,
+    };
+    whole.finish()
+}
+
+/// Reads pieces on all threads; nothing where an index counts backwards or there is a fault: what is said of either depends
+/// on all before it.
+fn side_by_side(pieces: &[&[u8]], watch: &mut dyn FnMut() -> ControlFlow<()>) -> Result<Option<Parser>, ReadError> {
+    let mut whole = Parser::default();
+    for batch in pieces.chunks(PIECES_AT_ONCE) {
+        let parsed: Vec<Result<Parser, ReadError>> = batch.par_iter().map(|piece| Parser::of(piece)).collect();
+        for piece in parsed {
+            let piece = piece?;
+            if piece.counts_backwards || piece.fault_count > 0 {
+                return Ok(None);
+            }
+            whole.append(piece)?;
+        }
+        if watch().is_break() {
+            return Err(ReadError::Cancelled);
+        }
+    }
+    Ok(Some(whole))
+}
+
+fn one_after_another(pieces: &[&[u8]], watch: &mut dyn FnMut() -> ControlFlow<()>) -> Result<Parser, ReadError> {
+    let mut whole = Parser::default();
+    for piece in pieces {
+        whole.take_all(piece)?;
+        if watch().is_break() {
+            return Err(ReadError::Cancelled);
+        }
+    }
+    Ok(whole)
+}
+
+/// The mesh as far as it is read.
+#[derive(Debug, Default)]
+struct Parser {
+    mesh: MeshFile,
+    coordinates: Vec<DVec2>,
+    /// Empty until a corner has a texture coordinate.
+    texture_corners: Vec<u32>,
+    face_count: u32,
+    /// Runs of faces on consecutive lines: number of the first face and its line.
+    line_runs: Vec<(u32, u64)>,
+    /// Complete lines before the present one.
+    line: u64,
+    faults: Vec<ParseFault>,
+    fault_count: usize,
+    /// Whether an index counts backwards.
+    counts_backwards: bool,
+    /// A line put together from continued ones.
+    joined: Vec<u8>,
+}
+
+impl Parser {
+    /// What a piece of a text says by itself.
+    fn of(piece: &[u8]) -> Result<Self, ReadError> {
+        let mut parser = Self::default();
+        parser.take_all(piece)?;
+        Ok(parser)
+    }
+
+    fn take_all(&mut self, piece: &[u8]) -> Result<(), ReadError> {
+        Lines::of(piece).try_for_each(|line| self.take(&line))
+    }
+
+    /// Puts the piece behind, read by itself and free of faults, to what is there.
+    fn append(&mut self, piece: Self) -> Result<(), ReadError> {
+        let (faces, corners) = (self.face_count, self.mesh.polygons.corners.len());
+        let polygons = &mut self.mesh.polygons;
+        polygons.positions.extend(piece.mesh.polygons.positions);
+        polygons.corners.extend(piece.mesh.polygons.corners);
+        self.check_size()?;
+        let place = |corner: usize| u32::try_from(corner).expect("checked above");
+        let polygons = &mut self.mesh.polygons;
+        if polygons.starts.is_none() && piece.mesh.polygons.starts.is_some() {
+            polygons.starts = Some(starts_of_triangles(faces));
+        }
+        if let Some(starts) = &mut polygons.starts {
+            let own = piece.mesh.polygons.starts.unwrap_or_else(|| starts_of_triangles(piece.face_count));
+            starts.extend(own.into_iter().skip(1).map(|start| start + place(corners)));
+        }
+        if !piece.texture_corners.is_empty() {
+            self.texture_corners.resize(corners, NO_TEXTURE);
+            self.texture_corners.extend(piece.texture_corners);
+        }
+        self.coordinates.extend(piece.coordinates);
+        let moved = |statement: Statement| Statement { before_face: statement.before_face + faces, ..statement };
+        self.mesh.statements.extend(piece.mesh.statements.into_iter().map(moved));
+        for (first, line) in piece.line_runs {
+            self.note_line(first + faces, line + self.line);
+        }
+        self.face_count += piece.face_count;
+        self.line += piece.line;
+        Ok(())
+    }
+
+    /// Takes one line.
+    fn take(&mut self, line: &Line<'_>) -> Result<(), ReadError> {
+        let mut joined = std::mem::take(&mut self.joined);
+        let taken = self.take_line(line.as_one(&mut joined));
+        self.joined = joined;
+        self.line += line.count;
+        taken
+    }
+
+    fn take_line(&mut self, line: &[u8]) -> Result<(), ReadError> {
+        let mut words = words(line);
+        let Some(keyword) = words.next() else { return Ok(()) };
+        match keyword {
+            b"v" => match numbers::<3>(words) {
+                Ok(position) => self.mesh.polygons.positions.push(DVec3::from(position)),
+                Err(kind) => {
+                    self.fault(kind);
+                    // Keeps the numbers of the vertices behind it.
+                    self.mesh.polygons.positions.push(DVec3::NAN);
+                }
+            },
+            b"vt" => {
+                let coordinate = self.texture_coordinate(words);
+                self.coordinates.push(coordinate);
+            }
+            b"f" => self.take_face(words)?,
+            b"o" | b"g" | b"s" | b"usemtl" | b"mtllib" => {
+                self.mesh.statements.push(Statement { before_face: self.face_count, text: statement(line) });
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// A second number that is missing is 0, as the format says.
+    fn texture_coordinate<'a>(&mut self, words: impl Iterator<Item = &'a [u8]> + Clone) -> DVec2 {
+        let parsed = match words.clone().count() {
+            1 => numbers(words).map(|[u]| DVec2::new(u, 0.0)),
+            _ => numbers::<2>(words).map(DVec2::from),
+        };
+        parsed.unwrap_or_else(|kind| {
+            self.fault(kind);
+            DVec2::NAN
+        })
+    }
+
+    fn take_face<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) -> Result<(), ReadError> {
+        let begin = self.mesh.polygons.corners.len();
+        if let Err(kind) = self.take_corners(words) {
+            self.mesh.polygons.corners.truncate(begin);
+            self.texture_corners.truncate(begin);
+            self.fault(kind);
+            return Ok(());
+        }
+        self.check_size()?;
+        let polygons = &mut self.mesh.polygons;
+        let end = polygons.corners.len();
+        let place = |corner: usize| u32::try_from(corner).expect("checked above");
+        if polygons.starts.is_none() && end - begin != 3 {
+            polygons.starts = Some(starts_of_triangles(self.face_count));
+        }
+        if let Some(starts) = &mut polygons.starts {
+            starts.push(place(end));
+        }
+        self.note_line(self.face_count, self.line + 1);
+        self.face_count += 1;
+        Ok(())
+    }
+
+    /// Refuses what 32 bits do not count.
+    fn check_size(&self) -> Result<(), ReadError> {
+        let polygons = &self.mesh.polygons;
+        let is_too_large = polygons.corners.len().max(polygons.positions.len()) >= u32::MAX as usize;
+        if is_too_large { Err(ReadError::TooLarge) } else { Ok(()) }
+    }
+
+    /// Notes the line of a face, and by it those of faces that follow on lines of their own.
+    fn note_line(&mut self, face: u32, line: u64) {
+        if self.line_of_face(face) != Some(line) {
+            self.line_runs.push((face, line));
+        }
+    }
+
+    fn take_corners<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) -> Result<(), ParseFaultKind> {
+        let mut found = 0;
+        let vertex_count = self.mesh.polygons.positions.len();
+        for word in words {
+            let (vertex, texture) = corner(word)?;
+            self.counts_backwards |= vertex < 0 || texture.is_some_and(|texture| texture < 0);
+            let vertex = resolve("vertex", vertex, vertex_count)?;
+            if let Some(texture) = texture {
+                let texture = resolve("texture coordinate", texture, self.coordinates.len())?;
+                self.texture_corners.resize(self.mesh.polygons.corners.len(), NO_TEXTURE);
+                self.texture_corners.push(texture);
+            }
+            self.mesh.polygons.corners.push(VertexId::new(vertex));
+            found += 1;
+        }
+        if found < 3 { Err(ParseFaultKind::TooFewCorners(found)) } else { Ok(()) }
+    }
+
+    /// The line that a face stands on.
+    fn line_of_face(&self, face: u32) -> Option<u64> {
+        let after = self.line_runs.partition_point(|&(first, _)| first <= face);
+        let &(first, line) = self.line_runs.get(after.checked_sub(1)?)?;
+        Some(line + u64::from(face - first))
+    }
+
+    fn fault(&mut self, kind: ParseFaultKind) {
+        self.fault_at(self.line + 1, kind);
+    }
+
+    fn fault_at(&mut self, line: u64, kind: ParseFaultKind) {
+        self.fault_count += 1;
+        if self.faults.len() < MAX_PARSE_FAULTS {
+            self.faults.push(ParseFault { line, kind });
+        }
+    }
+
+    /// Checks what can be checked only at the end.
+    fn finish(mut self) -> Result<MeshFile, ReadError> {
+        if !self.texture_corners.is_empty() {
+            self.texture_corners.resize(self.mesh.polygons.corners.len(), NO_TEXTURE);
+        }
+        self.check_ranges();
+        if self.fault_count > 0 {
+            self.faults.sort_by_key(|fault| fault.line);
+            self.faults.truncate(MAX_PARSE_FAULTS);
+            return Err(ReadError::Parse { faults: self.faults, total: self.fault_count });
+        }
+        if self.face_count == 0 {
+            return Err(ReadError::NoFaces { vertices: self.mesh.polygons.positions.len() });
+        }
+        if !self.texture_corners.is_empty() {
+            self.mesh.texture = Some(Texture { coordinates: self.coordinates, corners: self.texture_corners });
+        }
+        Ok(self.mesh)
+    }
+
+    /// Looks for corners that name elements which never came.
+    fn check_ranges(&mut self) {
+        let vertex_count = self.mesh.polygons.positions.len();
+        let coordinate_count = self.coordinates.len();
+        let corners = &self.mesh.polygons.corners;
+        let vertex_misses = corners.iter().any(|v| v.index() >= vertex_count);
+        let texture_misses = self.texture_corners.iter().any(|&t| t != NO_TEXTURE && t as usize >= coordinate_count);
+        if !vertex_misses && !texture_misses {
+            return;
+        }
+        // Faults of single lines may have filled the list; those found here can stand on earlier lines.
+        let mut earlier = std::mem::take(&mut self.faults);
+        for face in 0..self.face_count {
+            let line = self.line_of_face(face).expect("every face has a line");
+            for place in self.mesh.polygons.corner_range(face as usize) {
+                let vertex = self.mesh.polygons.corners[place].number();
+                if vertex as usize >= vertex_count {
+                    self.fault_at(line, out_of_range("vertex", vertex, vertex_count));
+                }
+                let texture = self.texture_corners.get(place).copied().unwrap_or(NO_TEXTURE);
+                if texture != NO_TEXTURE && texture as usize >= coordinate_count {
+                    self.fault_at(line, out_of_range("texture coordinate", texture, coordinate_count));
+                }
+            }
+        }
+        self.faults.append(&mut earlier);
+    }
+}
+
+/// Where the corners of so many triangles begin, and the end of the last.
+fn starts_of_triangles(count: u32) -> Vec<u32> {
+    (0..=count).map(|face| 3 * face).collect()
+}
+
+fn out_of_range(element: &'static str, resolved: u32, count: usize) -> ParseFaultKind {
+    ParseFaultKind::IndexOutOfRange { element, index: i64::from(resolved) + 1, count }
+}
+
+/// From an index as written to one from 0. Positive ones are checked when the file is read.
+pub(super) fn resolve(element: &'static str, index: i64, count: usize) -> Result<u32, ParseFaultKind> {
+    let from_zero = match index {
+        1.. => Some(index - 1),
+        0 => return Err(ParseFaultKind::IndexZero),
+        _ => i64::try_from(count).ok().map(|count| count + index),
+    };
+    // The highest number is kept free to say "none".
+    from_zero
+        .and_then(|value| u32::try_from(value).ok())
+        .filter(|&value| value != NO_TEXTURE)
+        .ok_or(ParseFaultKind::IndexOutOfRange { element, index, count })
+}

@@ -1,0 +1,95 @@
+//! Writes OBJ files that read back bit for bit.
+
+use std::io::{self, Write};
+
+use super::carried::{Edits, Written, write_carried};
+use super::digits::{push_index, write_numbers};
+use crate::finite::check_finite;
+use crate::mesh_file::{MeshFile, NO_TEXTURE, SourceFormat, Texture};
+
+/// Writes a mesh with these texture coordinates, or with none if they are empty.
+///
+/// A mesh that was read from OBJ text is written as that text: byte for byte, but for its texture coordinates, the
+/// indices of corners into them, and faces that have been cut. Any other has its vertices, polygons and statements in
+/// their order. Numbers have the fewest digits that read back as the same number. A face with a corner that is
+/// [`NO_TEXTURE`] is written without texture coordinates.
+///
+/// # Errors
+///
+/// What `out` says, and texture coordinates that are infinite or not numbers.
+///
+/// # Panics
+///
+/// If the texture's corners are neither none nor as many as the mesh's, or name coordinates that it does not have.
+pub fn write_obj(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::Result<()> {
+    write_obj_with(out, mesh, &Edits::default(), texture)
+}
+
+/// As [`write_obj`], with changes to the mesh's statements.
+pub(crate) fn write_obj_with(
+    out: &mut impl Write,
+    mesh: &MeshFile,
+    edits: &Edits,
+    texture: &Texture,
+) -> io::Result<()> {
+    let (corners, coordinates) = (&texture.corners, texture.coordinates.len());
+    assert!(corners.is_empty() || corners.len() == mesh.polygons.corners.len(), "one index per corner");
+    assert!(corners.iter().all(|&at| at == NO_TEXTURE || (at as usize) < coordinates), "coordinates that there are");
+    check_finite(&texture.coordinates)?;
+    match &mesh.source {
+        Some(source) if source.format == SourceFormat::Obj => {
+            write_carried(out, mesh, source, Written { edits, texture })
+        }
+        _ => write_new(out, mesh, edits, texture),
+    }
+}
+
+/// Writes a mesh that has no text.
+fn write_new(out: &mut impl Write, mesh: &MeshFile, edits: &Edits, texture: &Texture) -> io::Result<()> {
+    let polygons = &mesh.polygons;
+    write_lines(out, &edits.first)?;
+    for position in &polygons.positions {
+        write_numbers(out, b"v", &position.to_array())?;
+        out.write_all(b"\n")?;
+    }
+    for coordinate in &texture.coordinates {
+        write_numbers(out, b"vt", &coordinate.to_array())?;
+        out.write_all(b"\n")?;
+    }
+    let mut line = Vec::new();
+    let mut statements = mesh.statements.iter().enumerate().peekable();
+    for face in 0..polygons.face_count() {
+        while let Some((place, statement)) = statements.next_if(|(_, next)| next.before_face as usize <= face) {
+            write_lines(out, edits.statements.get(&place).unwrap_or(&vec![statement.text.clone()]))?;
+        }
+        if face == 0 {
+            write_lines(out, &edits.before_faces)?;
+        }
+        let range = polygons.corner_range(face);
+        let coordinates = texture.corners.get(range).filter(|of_face| !of_face.contains(&NO_TEXTURE));
+        line.clear();
+        line.push(b'f');
+        for (place, vertex) in polygons.face(face).iter().enumerate() {
+            line.push(b' ');
+            push_index(&mut line, u64::from(vertex.number()) + 1);
+            if let Some(coordinates) = coordinates {
+                line.push(b'/');
+                push_index(&mut line, u64::from(coordinates[place]) + 1);
+            }
+        }
+        line.push(b'\n');
+        out.write_all(&line)?;
+    }
+    for (place, statement) in statements {
+        write_lines(out, edits.statements.get(&place).unwrap_or(&vec![statement.text.clone()]))?;
+    }
+    Ok(())
+}
+
+fn write_lines<'a>(out: &mut impl Write, lines: impl IntoIterator<Item = &'a Vec<u8>>) -> io::Result<()> {
+    for line in lines {
+        out.write_all(line)?;
+        out.write_all(b"\n")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,71 @@
+//! Pictures in: PNG and JPEG.
+
+use std::io::{BufRead, Cursor, Seek};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use image::ImageReader;
+
+use super::FileStamp;
+use freebound_core::geom::Picture;
+
+/// Why a file did not become a picture.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: the picture cannot be read: {reason}", path.display())]
+pub struct PictureError {
+    /// The file.
+    pub path: PathBuf,
+    /// What went wrong.
+    pub reason: String,
+}
+
+/// A picture with where it came from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PictureFile {
+    /// What to call it: the file's name, or a word for the built-in one.
+    pub name: String,
+    /// The file it came from; none where it belongs to the built-in mesh.
+    pub path: Option<PathBuf>,
+    /// The state of that file when it was read, where a project is to know it again.
+    pub stamp: Option<FileStamp>,
+    /// Its pixels.
+    pub pixels: Arc<Picture>,
+}
+
+impl PictureFile {
+    /// Reads a PNG or JPEG file, whatever its name says.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read, or that is no such picture.
+    pub fn read(path: &Path) -> Result<Self, PictureError> {
+        let reader = ImageReader::open(path).map_err(|error| error.to_string());
+        let pixels = reader.and_then(decode).map_err(|reason| PictureError { path: path.to_owned(), reason })?;
+        let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
+        Ok(Self { name, path: Some(path.to_owned()), stamp: FileStamp::read(path).ok(), pixels: Arc::new(pixels) })
+    }
+
+    /// Width over height.
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.pixels.width) / f64::from(self.pixels.height)
+    }
+}
+
+/// Decodes the bytes of a PNG or JPEG file.
+///
+/// # Errors
+///
+/// Bytes that are no such picture; the reason in words.
+pub fn decode_picture(bytes: &[u8]) -> Result<Picture, String> {
+    decode(ImageReader::new(Cursor::new(bytes)))
+}
+
+fn decode(reader: ImageReader<impl BufRead + Seek>) -> Result<Picture, String> {
+    let reader = reader.with_guessed_format().map_err(|error| error.to_string())?;
+    let decoded = reader.decode().map_err(|error| error.to_string())?.into_rgba8();
+    let (width, height) = decoded.dimensions();
+    if width == 0 || height == 0 {
+        return Err("it has no pixels".to_owned());
+    }
+    Ok(Picture { width, height, pixels: decoded.into_raw() })
+}

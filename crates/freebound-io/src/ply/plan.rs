@@ -1,0 +1,117 @@
+//! Where texture coordinates stand in a PLY file, and the header that says so.
+
+use std::io::{self, Write};
+
+use super::header::{Header, Scalar};
+use super::{CORNER_NAMES, FACE_TEXTURE, TEXTURE_NAMES};
+use crate::mesh_file::{NO_TEXTURE, Texture};
+use crate::obj::Lines;
+use freebound_core::mesh::PolygonMesh;
+
+/// The names of texture coordinates of vertices that had none.
+const NEW_NAMES: [&str; 2] = ["s", "t"];
+
+/// Where texture coordinates are written.
+pub(super) struct Plan {
+    /// Names of those of vertices, and whether the file has them already.
+    pub(super) names: [&'static str; 2],
+    pub(super) has_names: bool,
+    /// For each vertex its coordinate; `None` where vertices get none.
+    pub(super) at_vertices: Option<Vec<u32>>,
+    /// Whether corners get theirs, in which kind of count, and whether the file has the lists already.
+    pub(super) at_corners: Option<Scalar>,
+    pub(super) has_lists: bool,
+    /// The kind of the indices of vertices.
+    pub(super) index: Scalar,
+}
+
+impl Plan {
+    pub(super) fn of(header: &Header, mesh: &PolygonMesh, texture: &Texture) -> Self {
+        let vertex = header.elements.iter().find(|element| element.name == "vertex");
+        let face = header.elements.iter().find(|element| element.name == "face");
+        let has = |name: &str| vertex.is_some_and(|element| element.property(&[name]).is_some());
+        let own = TEXTURE_NAMES.into_iter().find(|[u, v]| has(u) && has(v));
+        let has_lists = face.is_some_and(|element| element.property(&[FACE_TEXTURE]).is_some());
+        let at_vertices = one_per_vertex(mesh, texture);
+        let has_texture = !texture.coordinates.is_empty();
+        let most = (0..mesh.face_count()).map(|face| mesh.corner_range(face).len()).max().unwrap_or(0);
+        let count = if u8::try_from(2 * most).is_ok() { Scalar::U8 } else { Scalar::I32 };
+        let at_corners = (has_texture && (has_lists || at_vertices.is_none())).then_some(count);
+        let own_index = face.and_then(|element| Some(element.properties[element.property(&CORNER_NAMES)?].item));
+        let index = own_index.filter(|kind| kind.holds(mesh.positions.len())).unwrap_or(Scalar::U32);
+        let names = own.unwrap_or(NEW_NAMES);
+        Self { names, has_names: own.is_some(), at_vertices, at_corners, has_lists, index }
+    }
+
+    /// Writes the header of the file with other properties and counts of vertices and faces.
+    pub(super) fn write_header(&self, out: &mut impl Write, head: &[u8], counts: [usize; 2]) -> io::Result<()> {
+        let mut element = String::new();
+        for line in Lines::of(head) {
+            let text = String::from_utf8_lossy(line.whole).into_owned();
+            let words: Vec<&str> = text.split_whitespace().collect();
+            let end = String::from_utf8_lossy(line.end()).into_owned();
+            if matches!(words.first(), Some(&("element" | "end_header"))) {
+                out.write_all(self.added(&element, &end).as_bytes())?;
+            }
+            let changed = match words.as_slice() {
+                ["element", name, _] => {
+                    (*name).clone_into(&mut element);
+                    match *name {
+                        "vertex" => Some(format!("element vertex {}{end}", counts[0])),
+                        "face" => Some(format!("element face {}{end}", counts[1])),
+                        _ => None,
+                    }
+                }
+                ["property", _, name] if element == "vertex" && self.is_texture(name) => {
+                    Some(self.at_vertices.as_ref().map_or(String::new(), |_| format!("property double {name}{end}")))
+                }
+                ["property", "list", _, _, name] if element == "face" && *name == FACE_TEXTURE => Some(self.list(&end)),
+                ["property", "list", count, _, name] if element == "face" && CORNER_NAMES.contains(name) => {
+                    Some(format!("property list {count} {} {name}{end}", self.index.name()))
+                }
+                _ => None,
+            };
+            out.write_all(changed.as_ref().map_or(line.whole, |text| text.as_bytes()))?;
+        }
+        Ok(())
+    }
+
+    /// Whether a property of vertices is one of the file's own texture coordinates.
+    pub(super) fn is_texture(&self, name: &str) -> bool {
+        self.has_names && self.names.contains(&name)
+    }
+
+    /// The properties that an element gets behind its own.
+    fn added(&self, element: &str, end: &str) -> String {
+        let [u, v] = self.names;
+        match element {
+            "vertex" if self.at_vertices.is_some() && !self.has_names => {
+                format!("property double {u}{end}property double {v}{end}")
+            }
+            "face" if !self.has_lists => self.list(end),
+            _ => String::new(),
+        }
+    }
+
+    fn list(&self, end: &str) -> String {
+        let line = |count: Scalar| format!("property list {} double {FACE_TEXTURE}{end}", count.name());
+        self.at_corners.map_or(String::new(), line)
+    }
+}
+
+/// The coordinate of each vertex, where all its corners have the same one and no corner has none.
+fn one_per_vertex(mesh: &PolygonMesh, texture: &Texture) -> Option<Vec<u32>> {
+    if texture.coordinates.is_empty() || texture.corners.contains(&NO_TEXTURE) {
+        return None;
+    }
+    let mut found = vec![NO_TEXTURE; mesh.positions.len()];
+    for (corner, &coordinate) in mesh.corners.iter().zip(&texture.corners) {
+        let own = &mut found[corner.index()];
+        if *own == NO_TEXTURE {
+            *own = coordinate;
+        } else if texture.coordinates[*own as usize] != texture.coordinates[coordinate as usize] {
+            return None;
+        }
+    }
+    Some(found)
+}

@@ -1,0 +1,181 @@
+//! A mesh from a PLY file: positions, faces, and texture coordinates of vertices (`u` and `v`, or `s` and `t`) or of
+//! corners (`texcoord`). All else is passed over.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use super::header::{Element, Header, Property};
+use super::numbers::Numbers;
+use super::{CORNER_NAMES, FACE_TEXTURE, TEXTURE_NAMES};
+use crate::mesh_file::{
+    FaultPlace, MeshFile, NO_TEXTURE, ParseFaultKind, ReadError, Source, SourceFormat, Texture, fault_at,
+};
+use freebound_core::mesh::{PolygonMesh, VertexId};
+use freebound_core::problem::Embedding;
+
+/// Puts a mesh together from a PLY file, and keeps the file.
+pub(crate) fn parse_ply(bytes: Vec<u8>) -> Result<MeshFile, ReadError> {
+    let header = Header::of(&bytes)?;
+    let mut reader = Reader { vertex_count: header.count_of("vertex"), ..Reader::of(Numbers::of(&bytes, &header)) };
+    for element in &header.elements {
+        reader.numbers.check_room(element, header.encoding)?;
+        match element.name.as_str() {
+            "vertex" => reader.vertices(element, header.lines)?,
+            "face" => reader.faces(element, header.lines)?,
+            // Things that have no properties take no room, however many there are.
+            _ if element.properties.is_empty() => {}
+            _ => (0..element.count).try_for_each(|_| reader.skip_all(&element.properties))?,
+        }
+    }
+    let mut mesh = reader.finish()?;
+    let vertex_count = mesh.polygons.positions.len();
+    mesh.source = Some(Source::of(SourceFormat::Ply(Arc::new(header)), bytes, vertex_count));
+    Ok(mesh)
+}
+
+impl Header {
+    /// How many things of this name there are.
+    fn count_of(&self, name: &str) -> u64 {
+        self.elements.iter().filter(|element| element.name == name).map(|element| element.count).sum()
+    }
+}
+
+/// A mesh as far as it is read.
+struct Reader<'a> {
+    numbers: Numbers<'a>,
+    vertex_count: u64,
+    mesh: PolygonMesh,
+    /// Empty where vertices have none.
+    at_vertices: Vec<DVec2>,
+    /// One per corner, where faces have them.
+    at_corners: Texture,
+}
+
+impl<'a> Reader<'a> {
+    fn of(numbers: Numbers<'a>) -> Self {
+        let mesh = PolygonMesh { starts: Some(vec![0]), ..PolygonMesh::default() };
+        Self { numbers, vertex_count: 0, mesh, at_vertices: Vec::new(), at_corners: Texture::default() }
+    }
+
+    fn vertices(&mut self, element: &Element, header_lines: u64) -> Result<(), ReadError> {
+        let single = |names: &[&str]| element.property(names).filter(|&at| element.properties[at].count.is_none());
+        let [Some(x), Some(y), Some(z)] = ["x", "y", "z"].map(|name| single(&[name])) else {
+            let kind = ParseFaultKind::Unexpected { found: "element vertex".to_owned(), expected: "x, y and z of it" };
+            return Err(fault_at(FaultPlace::Line(header_lines), kind));
+        };
+        let texture = TEXTURE_NAMES.iter().find_map(|[u, v]| Some([single(&[u])?, single(&[v])?]));
+        let mut row = vec![0.0; element.properties.len()];
+        for _ in 0..element.count {
+            let place = self.numbers.place();
+            for (property, value) in element.properties.iter().zip(&mut row) {
+                match property.count {
+                    None => *value = self.numbers.next(property.item)?,
+                    Some(_) => self.skip(property)?,
+                }
+            }
+            let position = DVec3::new(row[x], row[y], row[z]);
+            if !position.is_finite() {
+                let place = if matches!(place, FaultPlace::Line(_)) { self.numbers.place() } else { place };
+                return Err(fault_at(place, ParseFaultKind::NotFinite));
+            }
+            self.mesh.positions.push(position);
+            self.at_vertices.extend(texture.map(|[u, v]| DVec2::new(row[u], row[v])));
+        }
+        Ok(())
+    }
+
+    fn faces(&mut self, element: &Element, header_lines: u64) -> Result<(), ReadError> {
+        let list = |names: &[&str]| element.property(names).filter(|&at| element.properties[at].count.is_some());
+        let Some(corners) = list(&CORNER_NAMES).filter(|&at| element.properties[at].item.is_integer()) else {
+            let expected = "a list vertex_indices of it";
+            let kind = ParseFaultKind::Unexpected { found: "element face".to_owned(), expected };
+            return Err(fault_at(FaultPlace::Line(header_lines), kind));
+        };
+        let texture = list(&[FACE_TEXTURE]);
+        let mut coordinates = Vec::new();
+        for _ in 0..element.count {
+            coordinates.clear();
+            for (at, property) in element.properties.iter().enumerate() {
+                match property.count {
+                    Some(count) if at == corners => {
+                        let count = self.numbers.count(count, property.item)?;
+                        self.corners(count, property)?;
+                    }
+                    Some(count) if Some(at) == texture => {
+                        for _ in 0..self.numbers.count(count, property.item)? {
+                            coordinates.push(self.numbers.next(property.item)?);
+                        }
+                    }
+                    _ => self.skip(property)?,
+                }
+            }
+            self.end_face(&coordinates)?;
+        }
+        Ok(())
+    }
+
+    fn corners(&mut self, count: usize, property: &Property) -> Result<(), ReadError> {
+        for _ in 0..count {
+            let place = self.numbers.place();
+            let index = self.numbers.integer(property.item)?;
+            let vertex = u32::try_from(index).ok().filter(|&vertex| u64::from(vertex) < self.vertex_count);
+            let Some(vertex) = vertex else {
+                let place = if matches!(place, FaultPlace::Line(_)) { self.numbers.place() } else { place };
+                let count = usize::try_from(self.vertex_count).unwrap_or(usize::MAX);
+                return Err(fault_at(place, ParseFaultKind::IndexOutOfRange { element: "vertex", index, count }));
+            };
+            self.mesh.corners.push(VertexId::new(vertex));
+        }
+        if count < 3 {
+            return Err(fault_at(self.numbers.place(), ParseFaultKind::TooFewCorners(count)));
+        }
+        Ok(())
+    }
+
+    /// Closes a face, with the texture coordinates of its corners.
+    fn end_face(&mut self, coordinates: &[f64]) -> Result<(), ReadError> {
+        let end = u32::try_from(self.mesh.corners.len()).map_err(|_| ReadError::TooLarge)?;
+        let starts = self.mesh.starts.as_mut().expect("it is made with them");
+        let begin = starts.last().copied().unwrap_or_default();
+        starts.push(end);
+        let texture = &mut self.at_corners;
+        let first = u32::try_from(texture.coordinates.len()).map_err(|_| ReadError::TooLarge)?;
+        if coordinates.len() == 2 * (end - begin) as usize {
+            texture.coordinates.extend(coordinates.chunks_exact(2).map(|uv| DVec2::new(uv[0], uv[1])));
+            texture.corners.extend(first..first + (end - begin));
+        } else {
+            texture.corners.extend((begin..end).map(|_| NO_TEXTURE));
+        }
+        Ok(())
+    }
+
+    fn skip(&mut self, property: &Property) -> Result<(), ReadError> {
+        let count = match property.count {
+            Some(count) => self.numbers.count(count, property.item)?,
+            None => 1,
+        };
+        self.numbers.skip(property.item, count)
+    }
+
+    fn skip_all(&mut self, properties: &[Property]) -> Result<(), ReadError> {
+        properties.iter().try_for_each(|property| self.skip(property))
+    }
+
+    fn finish(mut self) -> Result<MeshFile, ReadError> {
+        if self.mesh.corners.is_empty() {
+            return Err(ReadError::NoFaces { vertices: self.mesh.positions.len() });
+        }
+        if (0..self.mesh.face_count()).all(|face| self.mesh.corner_range(face).len() == 3) {
+            self.mesh.starts = None;
+        }
+        let texture = if !self.at_corners.coordinates.is_empty() {
+            Some(self.at_corners)
+        } else if !self.at_vertices.is_empty() {
+            Some(Texture::per_vertex(&self.mesh, &self.at_vertices.into_iter().collect::<Embedding>()))
+        } else {
+            None
+        };
+        Ok(MeshFile { polygons: self.mesh, texture, ..MeshFile::default() })
+    }
+}

@@ -1,0 +1,76 @@
+//! The bits of the numbers that are written, and the proof of these numbers.
+
+use std::collections::BTreeSet;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::{Output, OutputKind, verdict_as_in_file};
+use freebound_core::pipeline::prove_atlas;
+use freebound_core::problem::{Labels, NamedOption};
+use freebound_core::verify::{Rounded, RoundingGrid, Verdict, rounded, verdict};
+
+/// Bits of the numbers of texture coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    /// 64 bits.
+    #[default]
+    F64,
+    /// 32 bits, as most programs read them.
+    F32,
+}
+
+impl NamedOption for Precision {
+    const ALL: &'static [Self] = &[Self::F64, Self::F32];
+
+    fn labels(self) -> Labels {
+        match self {
+            Self::F64 => Labels::new("f64", "64 bits").about("64 bits"),
+            Self::F32 => Labels::new("f32", "32 bits").about("32 bits, as most programs read them"),
+        }
+    }
+}
+
+/// What rounding did to coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct RoundingReport {
+    /// Vertices that are not at the nearest numbers, because these fold a face.
+    pub moved: usize,
+    /// What was planar before is so no more.
+    pub folded: bool,
+}
+
+impl Output<'_> {
+    /// Rounds the coordinates to what a file of this kind holds, and proves them again. Files that hold 32 bits get no more.
+    /// Where rounding folds a face, vertices that are not pinned are moved by a few units of the last place.
+    pub fn round_to(&mut self, precision: Precision, kind: OutputKind) {
+        let grid = match (kind, precision) {
+            (OutputKind::Glb, _) => RoundingGrid::TurnedOver,
+            (_, Precision::F32) => RoundingGrid::Upright,
+            (_, Precision::F64) => {
+                self.report.precision = Some(Precision::F64);
+                return;
+            }
+        };
+        let was_planar = self.is_planar();
+        let moved = self.charts.par_iter_mut().map(|chart| {
+            let held: BTreeSet<_> = chart.held.iter().copied().collect();
+            let Rounded { embedding, moved } = rounded(chart.mesh, &chart.coordinates, grid, &held);
+            let of_file = verdict(chart.mesh, &embedding);
+            // They are numbers of 32 bits.
+            chart.verdict = Verdict { planar_in_f32: of_file.planar, ..of_file };
+            chart.coordinates = embedding;
+            moved
+        });
+        let moved = moved.sum();
+        if let Some(atlas) = &mut self.report.atlas {
+            *atlas = prove_atlas(&self.charts);
+            atlas.planar_in_f32 = atlas.planar;
+        } else if let [chart] = &self.charts[..] {
+            self.report.verdict = Some(verdict_as_in_file(&chart.verdict, chart.mesh.mesh()));
+        }
+        self.report.precision = Some(Precision::F32);
+        self.report.rounding = Some(RoundingReport { moved, folded: was_planar && !self.is_planar() });
+    }
+}

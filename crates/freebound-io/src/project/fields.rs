@@ -1,0 +1,193 @@
+//! How sources, seams and pins stand in a project file.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use glam::DVec2;
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::ProjectSource;
+use crate::FileStamp;
+use freebound_core::mesh::{Seams, VertexId};
+use freebound_core::pipeline::Target;
+use freebound_core::problem::{Pin, PinKind};
+
+/// A mesh or a picture: of an example or of a file, perhaps with its stamp.
+#[derive(Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(super) struct SourceFields {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    example: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<PathBuf>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bytes: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sha256: Option<String>,
+}
+
+impl TryFrom<SourceFields> for ProjectSource {
+    type Error = &'static str;
+
+    fn try_from(fields: SourceFields) -> Result<Self, Self::Error> {
+        let stamp = fields.bytes.zip(fields.sha256).map(|(bytes, sha256)| FileStamp { bytes, sha256 });
+        match (fields.example, fields.file) {
+            (Some(name), None) => Ok(Self::Example(name)),
+            (None, Some(path)) => Ok(Self::File { path, stamp }),
+            _ => Err("name either a \"file\" or an \"example\""),
+        }
+    }
+}
+
+impl From<ProjectSource> for SourceFields {
+    fn from(source: ProjectSource) -> Self {
+        match source {
+            ProjectSource::Example(name) => Self { example: Some(name), ..Self::default() },
+            ProjectSource::File { path, stamp } => {
+                let (bytes, sha256) = stamp.map(|stamp| (stamp.bytes, stamp.sha256)).unzip();
+                Self { file: Some(path), bytes, sha256, ..Self::default() }
+            }
+        }
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum HoldName {
+    Fixed,
+    Hard,
+    Weighted,
+}
+
+#[derive(Serialize, Deserialize)]
+struct PinFields {
+    vertex: u32,
+    u: f64,
+    v: f64,
+    hold: HoldName,
+    #[serde(default, deserialize_with = "weight", skip_serializing_if = "Option::is_none")]
+    weight: Option<f64>,
+}
+
+impl PinFields {
+    fn of(vertex: VertexId, target: &Target) -> Self {
+        let (hold, weight) = match target.kind {
+            PinKind::Fixed => (HoldName::Fixed, None),
+            PinKind::Hard => (HoldName::Hard, None),
+            PinKind::Soft(weight) => (HoldName::Weighted, Some(weight)),
+        };
+        Self { vertex: vertex.number(), u: target.uv.x, v: target.uv.y, hold, weight }
+    }
+
+    fn target(&self) -> Target {
+        let kind = match self.hold {
+            HoldName::Fixed => PinKind::Fixed,
+            HoldName::Hard => PinKind::Hard,
+            HoldName::Weighted => PinKind::Soft(self.weight.unwrap_or(Pin::DEFAULT_WEIGHT)),
+        };
+        Target { uv: DVec2::new(self.u, self.v), kind }
+    }
+}
+
+#[derive(Default, Serialize, Deserialize)]
+#[serde(default)]
+struct SeamFields {
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    of_texture: bool,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    edges: Vec<EdgeText>,
+}
+
+/// An edge as the numbers of its vertices, so that each takes one line.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+struct EdgeText([VertexId; 2]);
+
+impl TryFrom<String> for EdgeText {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        let ends = text.split_once(' ').and_then(|(a, b)| Some([a.parse().ok()?, b.parse().ok()?]));
+        match ends {
+            Some([a, b]) if a != b => Ok(Self([a, b].map(VertexId::new))),
+            _ => Err(format!("\"{text}\" is no edge: write the numbers of two vertices, for example \"3 17\"")),
+        }
+    }
+}
+
+impl From<EdgeText> for String {
+    fn from(EdgeText([a, b]): EdgeText) -> Self {
+        format!("{} {}", a.number(), b.number())
+    }
+}
+
+/// Seams: whether they are those of texture coordinates, and the edges as a list.
+pub(super) mod seam_list {
+    use super::{Deserialize, Deserializer, EdgeText, SeamFields, Seams, Serialize as _, Serializer};
+
+    pub(in super::super) fn serialize<S: Serializer>(seams: &Seams, serializer: S) -> Result<S::Ok, S::Error> {
+        let edges = seams.edges().iter().copied().map(EdgeText).collect();
+        SeamFields { of_texture: seams.of_texture, edges }.serialize(serializer)
+    }
+
+    pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Seams, D::Error> {
+        let SeamFields { of_texture, edges } = SeamFields::deserialize(deserializer)?;
+        let mut seams = Seams::default().with(edges.into_iter().map(|EdgeText(ends)| ends));
+        seams.of_texture = of_texture;
+        Ok(seams)
+    }
+}
+
+/// Pins as a list.
+pub(super) mod pin_list {
+    use super::{Deserialize, Deserializer, Error, PinFields, Serializer, VertexId};
+    use freebound_core::pipeline::Targets;
+
+    pub(in super::super) fn serialize<S: Serializer>(targets: &Targets, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(targets.iter().map(|(&vertex, target)| PinFields::of(vertex, target)))
+    }
+
+    pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Targets, D::Error> {
+        let mut targets = Targets::new();
+        for fields in Vec::<PinFields>::deserialize(deserializer)? {
+            let vertex = VertexId::new(fields.vertex);
+            if targets.insert(vertex, fields.target()).is_some() {
+                return Err(D::Error::custom(format!("vertex {vertex} is pinned twice")));
+            }
+        }
+        Ok(targets)
+    }
+}
+
+/// Reads a weight. It is checked while it is read, so that a fault is told with the line of its field.
+fn weight<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    deserializer.deserialize_any(WeightVisitor)
+}
+
+struct WeightVisitor;
+
+impl Visitor<'_> for WeightVisitor {
+    type Value = Option<f64>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a weight")
+    }
+
+    fn visit_unit<E: Error>(self) -> Result<Option<f64>, E> {
+        Ok(None)
+    }
+
+    fn visit_f64<E: Error>(self, weight: f64) -> Result<Option<f64>, E> {
+        let is_weight = PinKind::Soft(weight).invalid_weight().is_none();
+        if is_weight { Ok(Some(weight)) } else { Err(E::custom(format!("the weight {weight} is not positive"))) }
+    }
+
+    fn visit_u64<E: Error>(self, weight: u64) -> Result<Option<f64>, E> {
+        self.visit_f64(weight as f64)
+    }
+
+    fn visit_i64<E: Error>(self, weight: i64) -> Result<Option<f64>, E> {
+        self.visit_f64(weight as f64)
+    }
+}

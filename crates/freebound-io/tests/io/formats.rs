@@ -1,0 +1,361 @@
+//! Reading OFF, STL and PLY files: the same mesh from each, and a named fault for what is wrong.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::time::{Duration, Instant};
+
+use freebound_core::mesh::{PolygonMesh, VertexId};
+use freebound_io::{MeshFile, ReadError, TextureError, read_mesh, read_stream};
+use glam::{DVec2, DVec3};
+use proptest::prelude::*;
+
+use freebound_testkit::ply::{Encoding, PlyMaker};
+use freebound_testkit::{Random, grid, quad_sheet};
+
+fn read(bytes: &[u8]) -> MeshFile {
+    read_stream(bytes).unwrap_or_else(|error| panic!("{error}: {}", String::from_utf8_lossy(bytes)))
+}
+
+fn fault(bytes: &[u8]) -> String {
+    let start = Instant::now();
+    let error = read_stream(bytes).expect_err("it is wrong").to_string();
+    assert!(start.elapsed() < Duration::from_millis(200), "{error}: {:?}", start.elapsed());
+    error
+}
+
+/// Quads and triangles at places that need all digits of 64-bit numbers.
+fn quads() -> PolygonMesh {
+    let mut mesh = quad_sheet(4, 3, 0.2, &mut Random(5));
+    let [a, b] = [0, 1].map(VertexId::new);
+    let above = VertexId::from_index(mesh.positions.len());
+    mesh.positions.push(DVec3::new(0.1, -1.0 / 3.0, 1e-17));
+    mesh.corners.extend([b, a, above]);
+    let end = u32::try_from(mesh.corners.len()).expect("few");
+    mesh.starts.get_or_insert_default().push(end);
+    mesh
+}
+
+fn off_text(mesh: &PolygonMesh, head: &str, behind_vertex: &str, behind_face: &str) -> String {
+    let mut text = format!("{head}\n# counts\n{} {} 0\n\n", mesh.positions.len(), mesh.face_count());
+    for p in &mesh.positions {
+        writeln!(text, "{:?} {:?} {:?}{behind_vertex}", p.x, p.y, p.z).expect("memory");
+    }
+    for face in 0..mesh.face_count() {
+        let corners = mesh.face(face);
+        write!(text, "{} ", corners.len()).expect("memory");
+        for v in corners {
+            write!(text, " {}", v.number()).expect("memory");
+        }
+        writeln!(text, "{behind_face}").expect("memory");
+    }
+    text
+}
+
+#[test]
+fn off_files_are_read_whatever_else_stands_on_their_lines() {
+    let mesh = quads();
+    for (head, behind_vertex, behind_face) in [
+        ("OFF", "", ""),
+        ("# made by hand\nOFF", " # here", " 255 0 0"),
+        ("COFF", " 255 0 0 255", "   0.5 0.5 0.5 1"),
+        ("NOFF", " 0 0 1", ""),
+        ("STOFF", " 0.5 0.5", ""),
+        ("CNOFF", " 0 0 1 1 1 1 1\r", "\r"),
+    ] {
+        let text = off_text(&mesh, head, behind_vertex, behind_face);
+        assert_eq!(read(text.as_bytes()).polygons, mesh, "{head}");
+    }
+    // As some collections have it.
+    let attached = off_text(&mesh, "OFF", "", "").replace("OFF\n# counts\n", "OFF");
+    assert_eq!(read(attached.as_bytes()).polygons, mesh);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("headless.off");
+    fs::write(&path, off_text(&mesh, "", "", "")).expect("written");
+    assert_eq!(read_mesh(&path).expect("it is right").polygons, mesh, "told by its name");
+}
+
+#[test]
+fn faults_of_off_files_are_named_with_their_lines() {
+    for (text, message) in [
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "line 6: vertex 3 is out of range: there are 3"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "line 6: vertex -1 is out of range: there are 3"),
+        ("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "line 4: 2 numbers where 3 are needed"),
+        ("OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "line 4: a position that is infinite or not a number"),
+        ("OFF\n3 1 0\n0 0 0\n1 1 0\n0 1 0\n3 0 1\n", "line 6: 2 numbers where 3 are needed"),
+        ("OFF\n3 1 0\n0 0 0\n1 1 0\n0 1 0\n2 0 1\n", "line 6: a face with 2 corners, three are needed"),
+        ("OFF\n3 1 0\n0 0 0\n1 1 0\n", "line 5: the file ends here, and more is to come"),
+        ("OFF\n3000000000 1 0\n0 0 0\n", "line 2: the file says that it has 3000000000 of \"vertex\", and ends before"),
+        ("OFF\n3 18446744073709551615 0\n", "line 2: \"1844674407370955161"),
+        ("OFF\n3 -4 0\n", "line 2: \"-4\" is not a number"),
+        ("OFF\n", "line 2: the file ends here, and more is to come"),
+        ("OFF\n0 0 0\n", "the file has no faces"),
+    ] {
+        let found = fault(text.as_bytes());
+        assert!(found.starts_with(message), "{text}: {found}");
+    }
+}
+
+/// A binary STL file of triangles.
+fn stl_bytes(triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
+    let mut bytes = b"solid, as some begin that are none".to_vec();
+    bytes.resize(80, 0);
+    bytes.extend(u32::try_from(triangles.len()).expect("few").to_le_bytes());
+    for triangle in triangles {
+        bytes.extend([0; 12]);
+        bytes.extend(triangle.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
+        bytes.extend([0; 2]);
+    }
+    bytes
+}
+
+fn stl_text(triangles: &[[[f64; 3]; 3]]) -> String {
+    let mut text = "solid of words\n".to_owned();
+    for triangle in triangles {
+        text += " facet normal 0 0 1\n  outer loop\n";
+        for [x, y, z] in triangle {
+            writeln!(text, "   vertex {x:?} {y:e} {z:?}").expect("memory");
+        }
+        text += "  endloop\n endfacet\n";
+    }
+    text + "endsolid of words\n"
+}
+
+/// The corners of a mesh's triangles.
+fn triangles(mesh: &PolygonMesh) -> Vec<[[f64; 3]; 3]> {
+    let corner = |v: &VertexId| mesh.positions[v.index()].to_array();
+    mesh.corners.chunks_exact(3).map(|t| [0, 1, 2].map(|k| corner(&t[k]))).collect()
+}
+
+#[test]
+fn corners_of_stl_files_at_one_place_are_one_vertex() {
+    let mut mesh = PolygonMesh::from(&grid(5, 4));
+    for (k, p) in mesh.positions.iter_mut().enumerate() {
+        p.z = f64::from(f32::sin(k as f32));
+    }
+    let corners = triangles(&mesh);
+    let as_f32: Vec<[[f32; 3]; 3]> = corners.iter().map(|t| t.map(|p| DVec3::from(p).as_vec3().to_array())).collect();
+    for read in [read(&stl_bytes(&as_f32)), read(stl_text(&corners).as_bytes())] {
+        assert_eq!(read.polygons.positions.len(), mesh.positions.len());
+        assert_eq!(triangles(&read.polygons), corners, "the corners stay where they were, in their order");
+        let first_uses: Vec<u32> = read.polygons.corners.iter().map(|v| v.number()).collect();
+        let mut highest = 0;
+        for v in first_uses {
+            assert!(v <= highest, "vertices are numbered by first use");
+            highest = highest.max(v + 1);
+        }
+    }
+}
+
+#[test]
+fn zero_and_minus_zero_are_one_place_and_the_next_number_is_another() {
+    let next = f32::from_bits(1_f32.to_bits() + 1);
+    let bytes =
+        stl_bytes(&[[[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]], [[-0., 0., -0.], [0., 1., 0.], [next, 0., 0.]]]);
+    let mesh = read(&bytes).polygons;
+    assert_eq!(mesh.corners, [0, 1, 2, 0, 2, 3].map(VertexId::new));
+}
+
+#[test]
+fn faults_of_stl_files_are_named_with_line_or_byte() {
+    let good = [[[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]], [[0., 0., 0.], [0., 1., 0.], [-1., 0., 0.]]];
+    let text = stl_text(&good.map(|t| t.map(|p| p.map(f64::from))));
+    let bytes = stl_bytes(&good);
+    let mut many = bytes.clone();
+    many[80..84].fill(255);
+    let mut nowhere = bytes.clone();
+    nowhere[84 + 50 + 12..][..4].copy_from_slice(&f32::NAN.to_le_bytes());
+    let folder = tempfile::tempdir().expect("a folder");
+    let of_file = |bytes: &[u8]| {
+        let path = folder.path().join("bad.stl");
+        fs::write(&path, bytes).expect("written");
+        read_mesh(&path).expect_err("it is wrong").to_string()
+    };
+    let too_many = |count| format!("byte 80: the file says that it has {count} of \"triangle\", and ends before");
+    assert_eq!(of_file(&bytes[..bytes.len() - 1]), too_many(2));
+    assert_eq!(of_file(&many), too_many(u32::MAX));
+    assert_eq!(of_file(&nowhere), "byte 146: a position that is infinite or not a number");
+    assert_eq!(of_file(&bytes[..60]), "byte 60: the file ends here, and more is to come");
+    for (text, message) in [
+        (text.replace("1.0 0e0", "x 0e0"), "line 5: \"x\" is not a number"),
+        (text.replace("1.0 0e0", "inf 0e0"), "line 5: a position that is infinite or not a number"),
+        (text.replacen("   vertex 0.0 1e0 0.0\n", "", 1), "line 6: \"endloop (2 corners)\" where a triangle's third"),
+        (text.replace("endsolid of words\n", ""), "line 16: the file ends here, and more is to come"),
+        (text[..120].to_owned(), "line 7: the file ends here"),
+        ("solid nothing\nendsolid nothing\n".to_owned(), "the file has no faces"),
+    ] {
+        let found = fault(text.as_bytes());
+        assert!(found.starts_with(message), "{text}: {found}");
+    }
+}
+
+#[test]
+fn ply_files_of_all_encodings_are_one_mesh() {
+    let mesh = quads();
+    for encoding in Encoding::ALL {
+        let maker = PlyMaker { encoding, ..PlyMaker::rich(&mesh) };
+        let found = read(&maker.bytes());
+        assert_eq!(found.polygons, mesh, "{encoding:?}");
+        assert_eq!(found.texture, None);
+        let plain = PlyMaker { encoding, ..PlyMaker::plain(&mesh) };
+        assert_eq!(read(&plain.bytes()).polygons, mesh, "{encoding:?}");
+    }
+}
+
+#[test]
+fn ply_files_of_32_bits_are_these_numbers_and_all_kinds_of_indices_are_read() {
+    let mesh = quads();
+    for encoding in Encoding::ALL {
+        for index in ["char", "uchar", "short", "ushort", "int", "uint", "int8", "uint16", "int32"] {
+            let maker = PlyMaker { encoding, number: "float", index, corners: "vertex_index", ..PlyMaker::rich(&mesh) };
+            let found = read(&maker.bytes()).polygons;
+            assert_eq!(found.corners, mesh.corners, "{encoding:?} {index}");
+            let near = |p: &DVec3| if encoding == Encoding::Text { *p } else { p.as_vec3().as_dvec3() };
+            assert_eq!(found.positions, mesh.positions.iter().map(near).collect::<Vec<_>>());
+        }
+    }
+}
+
+#[test]
+fn texture_coordinates_of_ply_files_are_those_of_vertices_or_of_corners() {
+    let mesh = quads();
+    let flat = |v: &VertexId| mesh.positions[v.index()].truncate();
+    let expected: Vec<DVec2> = mesh.corners.iter().map(flat).collect();
+    for encoding in Encoding::ALL {
+        for names in [["u", "v"], ["s", "t"], ["texture_u", "texture_v"]] {
+            let maker = PlyMaker { encoding, at_vertices: Some(names), ..PlyMaker::rich(&mesh) };
+            let texture = read(&maker.bytes()).texture.expect("it has texture coordinates");
+            let found: Vec<DVec2> = texture.corners.iter().map(|&at| texture.coordinates[at as usize]).collect();
+            assert_eq!(found, expected, "{encoding:?} {names:?}");
+        }
+        let maker = PlyMaker { encoding, at_corners: Some(usize::MAX), ..PlyMaker::rich(&mesh) };
+        let texture = read(&maker.bytes()).texture.expect("it has texture coordinates");
+        let found: Vec<DVec2> = texture.corners.iter().map(|&at| texture.coordinates[at as usize]).collect();
+        assert_eq!(found, expected, "{encoding:?}");
+        let maker = PlyMaker { encoding, at_corners: Some(3), ..PlyMaker::rich(&mesh) };
+        let partial = read(&maker.bytes()).texture_mesh();
+        let without: Vec<u32> = (3..u32::try_from(mesh.face_count()).expect("few")).collect();
+        assert_eq!(partial, Err(TextureError::Missing(without)), "the first three faces have some");
+    }
+}
+
+#[test]
+fn what_a_ply_header_says_is_not_believed_without_the_bytes() {
+    let head = |encoding: &str, rest: &str| format!("ply\nformat {encoding} 1.0\n{rest}end_header\n");
+    let vertex = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+    let face = "element face 1\nproperty list uchar int vertex_indices\n";
+    let triangle = "0 0 0\n1 0 0\n0 1 0\n";
+    for (text, message) in [
+        (
+            head("ascii", &format!("{}{face}", vertex.replace('3', "4000000000"))) + triangle,
+            "line 10: the file says that it has 4000000000 of \"vertex\"",
+        ),
+        (
+            head("ascii", &format!("{}{face}", vertex.replace('3', "18446744073709551615"))),
+            "line 10: the file says that",
+        ),
+        (
+            head("binary_little_endian", &format!("{}{face}", vertex.replace('3', "4000000000"))),
+            "byte 178: the file says that",
+        ),
+        (
+            head("ascii", &format!("{vertex}{face}")) + triangle + "4000000000 0 1 2",
+            "line 13: the file says that it has 4000000000 of \"list item\"",
+        ),
+        (head("ascii", &format!("{vertex}{face}")) + triangle + "3 0 1", "line 13: the file ends here"),
+        (
+            head("ascii", &format!("{vertex}{face}")) + triangle + "3 0 1 3",
+            "line 13: vertex 3 is out of range: there are 3",
+        ),
+        (head("ascii", &format!("{vertex}{face}")) + triangle + "3 0 1 -1", "line 13: vertex -1 is out of range"),
+        (head("ascii", &format!("{vertex}{face}")) + triangle + "3 0 1 1.5", "line 13: \"1.5\" is not a number"),
+        (head("ascii", &format!("{vertex}{face}")) + triangle + "2 0 1", "line 13: a face with 2 corners"),
+        (
+            head("ascii", &format!("{vertex}{face}")) + &triangle.replace("1 0 0", "1 inf 0") + "3 0 1 2",
+            "line 11: a position that",
+        ),
+        (
+            head("ascii", &format!("{vertex}{face}")) + &triangle.replace("1 0 0", "1 x 0") + "3 0 1 2",
+            "line 11: \"x\" is not a number",
+        ),
+        (
+            head("ascii", &vertex.replace("float z", "float w")) + triangle,
+            "line 7: \"element vertex\" where x, y and z",
+        ),
+        (
+            head("ascii", &format!("{vertex}{}", face.replace("int v", "float v"))) + triangle,
+            "line 9: \"element face\" where a list",
+        ),
+        (head("ascii", "element odd 18446744073709551615\n"), "the file has no faces"),
+        (head("middle_endian", vertex), "line 2: \"middle_endian\" where ascii or"),
+        (head("ascii", "property float x\n"), "line 3: \"x\" where an element"),
+        (head("ascii", "element vertex many\n"), "line 3: \"many\" is not a number"),
+        (head("ascii", "element vertex 3\nproperty list float int x\n"), "line 4: \"x\" where a property of a type"),
+        (head("ascii", vertex).replace("end_header\n", ""), "line 6: the file ends here"),
+    ] {
+        let found = fault(text.as_bytes());
+        assert!(found.starts_with(message), "{text}: {found}");
+    }
+}
+
+#[test]
+fn a_file_that_is_cut_short_anywhere_is_refused() {
+    let mesh = quads();
+    for encoding in Encoding::ALL {
+        let bytes = PlyMaker { encoding, at_corners: Some(usize::MAX), ..PlyMaker::rich(&mesh) }.bytes();
+        // The last number of a text may be shorter, and its end may lack.
+        let last = if encoding == Encoding::Text { bytes.len() - 4 } else { bytes.len() };
+        for length in 4..last {
+            let error = read_stream(&bytes[..length]).expect_err("it is cut short");
+            let is_named =
+                matches!(error, ReadError::Parse { .. } | ReadError::Bytes { .. } | ReadError::NoFaces { .. });
+            assert!(is_named, "{encoding:?} {length}: {error}");
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn any_bytes_behind_a_true_beginning_are_read_or_refused(
+        head in prop::sample::select(vec!["OFF\n", "solid\nfacet\n", "ply\n", "ply\nformat ascii 1.0\n"]),
+        words in prop::collection::vec(prop::sample::select(vec![
+            "element vertex 3\n", "element face 2\n", "property float x\n", "property double y\n", "property uchar z\n",
+            "property list uchar int vertex_indices\n", "property list int float texcoord\n", "end_header\n", "3 ", "0 ", "1 ",
+            "2 ", "-1 ", "nan ", "\n", "vertex ", "endloop ", "endsolid\n", "99999999999 ", "\0", "#",
+        ]), 0..60),
+    ) {
+        if let Ok(mesh) = read_stream((head.to_owned() + &words.concat()).as_bytes()) {
+            freebound_core::mesh::diagnose(&mesh.polygons.triangulate());
+            drop(mesh.texture_mesh());
+        }
+    }
+
+    #[test]
+    fn a_byte_that_is_turned_over_in_a_ply_file_is_no_panic(at in any::<prop::sample::Index>(), byte in any::<u8>(), which in 0_usize..3) {
+        let mesh = quads();
+        let maker = PlyMaker { encoding: Encoding::ALL[which], at_corners: Some(2), ..PlyMaker::rich(&mesh) };
+        let mut bytes = maker.bytes();
+        let at = at.index(bytes.len());
+        bytes[at] = byte;
+        drop(read_stream(bytes.as_slice()));
+    }
+}
+
+#[test]
+fn the_beginning_of_a_file_tells_its_format_before_its_name_does() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mesh = quads();
+    let ply = PlyMaker::plain(&mesh).bytes();
+    let off = off_text(&mesh, "OFF", "", "");
+    for (name, bytes) in [("a.obj", ply.as_slice()), ("b.stl", off.as_bytes()), ("c.fbx", off.as_bytes()), ("d", &ply)]
+    {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).expect("written");
+        assert_eq!(read_mesh(&path).expect("it is right").polygons, mesh, "{name}");
+    }
+}
+
+#[test]
+fn a_long_obj_file_is_never_taken_for_binary_stl() {
+    let text = "# 0123456789\n".repeat(20_000) + "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    assert_eq!(read(text.as_bytes()).polygons.face_count(), 1);
+}

@@ -1,0 +1,249 @@
+//! glTF files that are wrong: each is refused by name, at once, and takes no memory.
+
+use std::time::{Duration, Instant};
+
+use freebound_io::{ReadError, read_mesh, read_stream};
+use proptest::prelude::*;
+use serde_json::{Value, json};
+
+use freebound_testkit::glb::{GlbMaker, U16, bytes_of, plain};
+
+fn fault(bytes: &[u8]) -> ReadError {
+    let start = Instant::now();
+    let error = read_stream(bytes).expect_err("it is wrong");
+    assert!(start.elapsed() < Duration::from_millis(200), "{error}: {:?}", start.elapsed());
+    assert!(!error.remedy().is_empty());
+    error
+}
+
+/// A right file, changed.
+fn changed(change: impl Fn(&mut Value)) -> Vec<u8> {
+    let mut maker = plain(2, U16);
+    change(&mut maker.json);
+    maker.glb()
+}
+
+#[test]
+fn faults_of_the_json_are_named_by_their_elements() {
+    type Case<'a> = (&'a dyn Fn(&mut Value), &'a str);
+    let cases: [Case<'_>; 24] = [
+        (&|j| j["asset"]["version"] = json!("1.0"), "format not read yet: glTF of another version than 2"),
+        (&|j| j["asset"] = json!(3), "asset: invalid type: integer `3`"),
+        (&|j| j["accessors"][0]["count"] = json!(-1), "accessors[0].count: invalid value: integer `-1`"),
+        (
+            &|j| j["accessors"][0]["count"] = json!(1_u64 << 60),
+            "accessor 0: the file says that it has 1152921504606846976",
+        ),
+        (&|j| j["accessors"][0]["count"] = json!(10), "accessor 0: it reaches beyond the end of what holds it"),
+        (&|j| j["accessors"][0]["byteOffset"] = json!(u64::MAX), "accessor 0: it reaches beyond the end"),
+        (&|j| j["accessors"][0]["componentType"] = json!(5130), "accessor 0: \"5130\" where a type of numbers"),
+        (&|j| j["accessors"][0]["type"] = json!("VEC9"), "accessor 0: \"VEC9\" where a type of elements"),
+        (&|j| j["accessors"][0]["type"] = json!("VEC2"), "accessor 0: \"9 elements of 2 numbers\" where as many"),
+        (&|j| j["accessors"][1]["count"] = json!(8), "accessor 1: \"8 elements of 2 numbers\" where as many"),
+        (&|j| j["accessors"][0]["bufferView"] = json!(99), "accessor 0: view 99 is out of range: there are 3"),
+        (&|j| j["bufferViews"][0]["buffer"] = json!(7), "accessor 0: buffer 7 is out of range: there are 1"),
+        (&|j| j["bufferViews"][0]["byteLength"] = json!(u64::MAX), "accessor 0: it reaches beyond"),
+        (&|j| j["bufferViews"][0]["byteStride"] = json!(4), "accessor 0: \"4\" where a stride of at least"),
+        (&|j| j["bufferViews"][0]["byteStride"] = json!(u64::MAX), "accessor 0: it reaches beyond"),
+        (&|j| j["accessors"][2]["componentType"] = json!(5126), "accessor 2: it reaches beyond"),
+        (&|j| j["meshes"][0]["primitives"][0]["indices"] = json!(0), "accessor 0: \"numbers\" where indices"),
+        (
+            &|j| j["meshes"][0]["primitives"][0]["indices"] = json!(9),
+            "accessor 9: accessor 9 is out of range: there are 3",
+        ),
+        (&|j| j["nodes"][0]["mesh"] = json!(3), "node 0: mesh 3 is out of range: there are 1"),
+        (&|j| j["nodes"][0]["children"] = json!([0]), "node 0: it is the child of two nodes, or of itself"),
+        (&|j| j["nodes"][0]["children"] = json!([5]), "node 5: node 5 is out of range: there are 1"),
+        (&|j| j["scene"] = json!(2), "scene 2: scene 2 is out of range: there are 0"),
+        (
+            &|j| j["nodes"][0] = json!({"mesh": 0, "scale": [1e308, 1, 1], "translation": [1.7e308, 0, 0]}),
+            "accessor 0: a position that is infinite",
+        ),
+        (
+            &|j| j["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]),
+            "the file needs the extension KHR_draco",
+        ),
+    ];
+    for (change, message) in cases {
+        let found = fault(&changed(change)).to_string();
+        assert!(found.starts_with(message), "{found}, not {message}");
+    }
+    let nothing = fault(&changed(|j| j["meshes"][0]["primitives"] = json!([])));
+    assert!(matches!(nothing, ReadError::NoFaces { .. }));
+}
+
+#[test]
+fn nodes_in_a_ring_and_nodes_with_two_parents_are_refused() {
+    for nodes in [
+        json!([{"children": [1]}, {"children": [2]}, {"children": [0], "mesh": 0}]),
+        json!([{"children": [2]}, {"children": [2]}, {"mesh": 0}]),
+        json!([{"children": [1, 1]}, {"mesh": 0}]),
+        json!([{"mesh": 0}, {"children": [2]}, {"children": [1]}]),
+    ] {
+        let found = fault(&changed(|j| j["nodes"] = nodes.clone())).to_string();
+        assert!(found.ends_with("it is the child of two nodes, or of itself"), "{nodes}: {found}");
+    }
+}
+
+#[test]
+fn numbers_that_are_none_and_indices_of_no_vertex_are_refused() {
+    let mut maker = plain(2, U16);
+    let at = maker.binary.windows(4).position(|four| four == 1.1_f32.to_le_bytes()).expect("a position");
+    maker.binary[at..at + 4].copy_from_slice(&f32::NAN.to_le_bytes());
+    assert_eq!(fault(&maker.glb()).to_string(), "accessor 0: a position that is infinite or not a number");
+    let mut maker = plain(2, U16);
+    let last = maker.binary.len() - 2;
+    maker.binary[last..].copy_from_slice(&[9, 0]);
+    assert_eq!(fault(&maker.glb()).to_string(), "accessor 2: vertex 9 is out of range: there are 9");
+}
+
+#[test]
+fn sparse_elements_out_of_order_or_out_of_range_are_refused() {
+    for (places, count, message) in [
+        ([3, 0, 3, 0], 2, "\"3\" where a place beyond"),
+        ([9, 0, 10, 0], 2, "\"9\" where a place beyond"),
+        ([1, 0, 2, 0], 3, "it reaches beyond"),
+        ([1, 0, 2, 0], 1_u64 << 40, "the file says that it has 1099511627776"),
+    ] {
+        let mut maker = plain(2, U16);
+        let (places, values) = (maker.view(&places, None), maker.view(&bytes_of(&[0.5; 6]), None));
+        maker.json["accessors"][0]["sparse"] = json!({
+            "count": count, "indices": {"bufferView": places, "componentType": U16}, "values": {"bufferView": values},
+        });
+        let found = fault(&maker.glb()).to_string();
+        assert!(found.starts_with(&format!("accessor 0: {message}")), "{found}");
+    }
+}
+
+#[test]
+fn what_a_binary_header_says_is_not_believed_without_the_bytes() {
+    let glb = plain(2, U16).glb();
+    let with = |at: usize, bytes: &[u8]| [&glb[..at], bytes, &glb[at + bytes.len()..]].concat();
+    for (bytes, message) in [
+        (with(4, &[1]), "format not read yet: glTF of another version than 2"),
+        (with(8, &[255; 4]), "byte 8: the file says that it has 4294967295 of \"byte\", and ends before"),
+        (with(12, &[255; 4]), "byte 12: the file says that it has 4294967295 of \"byte\", and ends before"),
+        (with(16, b"XXXX"), "byte 12: \"a chunk\" where the chunk of JSON should stand"),
+        (with(20, b"]"), "JSON: expected value at line 1 column 1"),
+        (glb[..9].to_vec(), "byte 9: the file ends here, and more is to come"),
+        (glb[..12].to_vec(), "byte 8: the file says that it has"),
+    ] {
+        let found = fault(&bytes).to_string();
+        assert!(found.starts_with(message), "{found}, not {message}");
+    }
+    for length in 0..glb.len() {
+        read_stream(&glb[..length]).expect_err("it is cut short");
+    }
+}
+
+#[test]
+fn buffers_that_are_nowhere_or_elsewhere_are_refused() {
+    for (uri, message) in [
+        ("https://example.org/a.bin", "buffer 0: https://example.org/a.bin cannot be read: "),
+        ("/dev/zero", "buffer 0: /dev/zero cannot be read: "),
+        ("data:application/octet-stream;base64,!!", "buffer 0: data:application/octet-stream;base64,!! cannot be"),
+        ("data:application/octet-stream,abc", "buffer 0: data:application/octet-stream,abc cannot be read: no base64"),
+        ("data:;base64,AAAA", "buffer 0: the file says that it has"),
+    ] {
+        let text = plain(2, U16).finished(Some(uri.to_owned())).to_string();
+        let found = fault(text.as_bytes()).to_string();
+        assert!(found.starts_with(message), "{found}");
+    }
+    let without = plain(2, U16).finished(None).to_string();
+    assert!(fault(without.as_bytes()).to_string().starts_with("buffer 0: its content cannot be read"));
+}
+
+#[test]
+fn few_bytes_shown_many_times_are_refused_before_they_are_made() {
+    let mut maker = plain(100, U16);
+    maker.json["nodes"] = (0..3_000).map(|_| json!({"mesh": 0})).collect();
+    let error = fault(&maker.glb());
+    assert!(matches!(error, ReadError::TooManyCopies { .. }), "{error}");
+    let mut maker = GlbMaker::new();
+    maker.view(&[0; 4000], None);
+    maker.push("accessors", json!({"componentType": 5126, "count": 3000, "type": "VEC3"}));
+    let primitive = json!({"attributes": {"POSITION": 0}, "mode": 5});
+    maker.push("meshes", json!({"primitives": vec![primitive; 3_000]}));
+    let error = fault(&maker.glb());
+    assert!(matches!(error, ReadError::TooManyCopies { .. }), "{error}");
+}
+
+#[test]
+fn parts_without_faces_that_are_shown_many_times_are_refused_before_they_are_made() {
+    let mut maker = GlbMaker::new();
+    maker.view(&[0; 40], None);
+    maker.push("accessors", json!({"componentType": 5126, "count": 0, "type": "VEC3"}));
+    let primitive = json!({"attributes": {"POSITION": 0}});
+    maker.push("meshes", json!({"primitives": vec![primitive; 3_000]}));
+    maker.json["nodes"] = (0..6_000).map(|_| json!({"mesh": 0})).collect();
+    let error = fault(&maker.glb());
+    assert!(matches!(error, ReadError::TooManyCopies { shown: 18_000_000 }), "{error}");
+}
+
+#[test]
+fn one_file_is_not_read_for_any_number_of_buffers() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("a.bin"), [0; 100]).expect("written");
+    let mut json = plain(2, U16).finished(Some("a.bin".to_owned()));
+    json["buffers"] = vec![json!({"uri": "a.bin", "byteLength": 100}); 17].into();
+    let path = folder.path().join("a.gltf");
+    std::fs::write(&path, json.to_string()).expect("written");
+    let error = read_mesh(&path).expect_err("it is wrong").to_string();
+    assert!(error.starts_with("buffer 16: a.bin cannot be read: more than 16 buffers have it"), "{error}");
+}
+
+/// A path through JSON to one of its values, chosen by numbers.
+fn value_at<'a>(json: &'a mut Value, choices: &[usize]) -> &'a mut Value {
+    let Some((&choice, rest)) = choices.split_first() else { return json };
+    let is_inner = match json {
+        Value::Array(list) => !list.is_empty(),
+        Value::Object(map) => !map.is_empty(),
+        _ => false,
+    };
+    if !is_inner {
+        return json;
+    }
+    match json {
+        Value::Array(list) => {
+            let at = choice % list.len();
+            value_at(&mut list[at], rest)
+        }
+        Value::Object(map) => {
+            let at = choice % map.len();
+            value_at(map.values_mut().nth(at).expect("within"), rest)
+        }
+        _ => unreachable!("it has values within"),
+    }
+}
+
+proptest! {
+    #[test]
+    fn any_json_in_the_place_of_any_other_is_read_or_refused(
+        choices in prop::collection::vec(0_usize..40, 1..7),
+        number in prop_oneof![Just(json!(0)), Just(json!(1)), Just(json!(-1)), Just(json!(255)), Just(json!(4_294_967_295_u64)),
+            Just(json!(u64::MAX)), Just(json!(1e300)), Just(json!(null)), Just(json!([])), Just(json!({})), Just(json!("VEC3")),
+            Just(json!(5121)), Just(json!(5125)), Just(json!([0, 0, 0])), Just(json!([1e308, 0, 1e308]))],
+    ) {
+        let mut maker = plain(3, U16);
+        let (places, values) = (maker.view(&[1, 2, 3, 4], None), maker.view(&bytes_of(&[0.5; 12]), None));
+        maker.json["accessors"][0]["sparse"] = json!({
+            "count": 3, "indices": {"bufferView": places, "componentType": 5121}, "values": {"bufferView": values},
+        });
+        maker.json["nodes"] = json!([{"mesh": 0, "children": [1]}, {"mesh": 0, "translation": [1, 2, 3], "rotation": [0, 0, 0, 1]}]);
+        let mut json = maker.finished(None);
+        *value_at(&mut json, &choices) = number;
+        let glb = freebound_testkit::glb::glb_of(&json, &maker.binary);
+        if let Ok(file) = read_stream(glb.as_slice()) {
+            prop_assert!(file.polygons.positions.iter().all(|p| p.is_finite()));
+            prop_assert!(file.polygons.corners.iter().all(|v| v.index() < file.polygons.positions.len()));
+        }
+    }
+
+    #[test]
+    fn any_byte_in_the_place_of_any_other_is_read_or_refused(at in 0_usize..2000, byte: u8) {
+        let mut glb = plain(3, U16).glb();
+        let at = at % glb.len();
+        glb[at] = byte;
+        let _ = read_stream(glb.as_slice());
+    }
+}

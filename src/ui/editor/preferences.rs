@@ -1,0 +1,43 @@
+//! What of the window is kept between runs: theme, wireframe, shading, width of the panels, size of the window.
+
+use eframe::egui::{Theme, ThemePreference};
+
+use super::Editor;
+use crate::session::Preferences;
+use crate::ui::state::Pane;
+
+impl Editor {
+    /// How the window is left.
+    pub(crate) fn preferences(&self) -> Preferences {
+        let context = self.gpu.context();
+        let dark = match context.options(|options| options.theme_preference) {
+            ThemePreference::System => None,
+            ThemePreference::Dark => Some(true),
+            ThemePreference::Light => Some(false),
+        };
+        let shading = |pane| self.pane_shading.own_shading(pane).map(|shading| shading.title().to_owned());
+        let size = context.content_rect().size() * context.zoom_factor();
+        Preferences {
+            dark,
+            wireframe: self.pane_shading.wireframe,
+            mesh_shading: shading(Pane::Mesh),
+            plane_shading: shading(Pane::Plane),
+            panel_width: Some(self.layout.panel_width()),
+            window_size: Some([size.x, size.y]),
+        }
+    }
+
+    /// Puts on how the window was left. Its size is put on when it opens.
+    pub(crate) fn put_on(&mut self, left: &Preferences) {
+        if let Some(dark) = left.dark {
+            self.gpu.context().set_theme(if dark { Theme::Dark } else { Theme::Light });
+        }
+        self.pane_shading.wireframe = left.wireframe;
+        for (pane, name) in Pane::BOTH.into_iter().zip([&left.mesh_shading, &left.plane_shading]) {
+            self.pane_shading.keep_own_shading(pane, name.as_deref());
+        }
+        if let Some(width) = left.panel_width {
+            self.layout.set_panel_width(width);
+        }
+    }
+}

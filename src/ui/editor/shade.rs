@@ -1,0 +1,56 @@
+//! Shadings of the panes, changed and drawn.
+
+use super::Editor;
+use super::appearance::{Appearance, PaintSources};
+use crate::ui::state::{Pane, ShadingMode, Tool};
+
+impl Editor {
+    /// Appearance of faces now. The constrain tool over a picture has an appearance of its own, and leaves the other as it is.
+    pub fn appearance(&self) -> &Appearance {
+        if self.is_placing_on_picture() { &self.pane_shading.over_picture } else { &self.pane_shading.usual }
+    }
+
+    /// Appearance of faces now, to be changed.
+    pub fn appearance_mut(&mut self) -> &mut Appearance {
+        if self.is_placing_on_picture() { &mut self.pane_shading.over_picture } else { &mut self.pane_shading.usual }
+    }
+
+    fn is_placing_on_picture(&self) -> bool {
+        self.tools.tool() == Tool::Constrain && self.has_picture()
+    }
+
+    /// The shading of a pane.
+    pub fn shading(&self, pane: Pane) -> ShadingMode {
+        self.appearance().shading(pane)
+    }
+
+    /// Shades the pane under the pointer, or both where it is over neither.
+    pub(super) fn shade(&mut self, shading: ShadingMode) {
+        if self.pointer.pane() != Some(Pane::Mesh) && self.shade_comparison(shading) {
+            return;
+        }
+        match self.pointer.pane() {
+            Some(pane) => self.shade_pane(pane, shading),
+            None => Pane::BOTH.into_iter().for_each(|pane| self.shade_pane(pane, shading)),
+        }
+    }
+
+    /// Shades a pane as a person chose.
+    pub(super) fn shade_pane(&mut self, pane: Pane, shading: ShadingMode) {
+        let appearance = self.appearance_mut();
+        appearance.shade(pane, shading);
+        if shading.is_for(pane) {
+            appearance.own[pane as usize] = Some(shading);
+        }
+    }
+
+    /// Colours the faces anew where that is due. Call once per frame.
+    pub(super) fn refresh_paints(&mut self) {
+        let Some(given) = self.mesh.scene() else { return };
+        let base = self.plane.moved_from(&self.session).map(AsRef::as_ref);
+        let sources = PaintSources { given, plane: self.plane.scene().map(AsRef::as_ref), base };
+        for (pane, shading) in Pane::BOTH.map(|pane| (pane, self.shading(pane))) {
+            self.pane_shading.refresh_paint(pane, shading, sources);
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! Presses of keys: the requests that they make. The arrow keys move the selected pins by pixels of the picture; while a key is
+//! held, that is one gesture.
+
+use eframe::egui::{self, Key, Modifiers};
+use glam::DVec2;
+
+use super::editor::Editor;
+use super::keys::{BINDINGS, Binding};
+use super::state::Request;
+use crate::session::Action;
+use freebound_core::mesh::VertexId;
+
+const NONE: Modifiers = Modifiers::NONE;
+
+/// Pixels that Shift makes of one.
+const LARGE: f64 = 10.0;
+
+/// Without a picture a nudge is this part of the embedding's extent.
+const PARTS: f64 = 512.0;
+
+const ARROWS: [(Key, DVec2); 4] = [
+    (Key::ArrowLeft, DVec2::NEG_X),
+    (Key::ArrowRight, DVec2::X),
+    (Key::ArrowUp, DVec2::Y),
+    (Key::ArrowDown, DVec2::NEG_Y),
+];
+
+/// Requests of the keys pressed in this pass, each press as often as it came. While a text field has the keyboard, only
+/// Esc and combinations with Ctrl are the window's; Ctrl+Z stays the field's. While a menu or a list is open, Esc, Space
+/// and the arrows are the menu's; otherwise what has the keyboard's focus keeps those of them that it needs. Shift+Tab
+/// moves the focus, as it does everywhere.
+pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request> {
+    if editor.is_asking() {
+        let is_left = context.input_mut(|input| input.consume_key(NONE, Key::Escape));
+        return if is_left { vec![Request::Escape] } else { Vec::new() };
+    }
+    // Before the others: with pins selected the arrows are not the timeline's.
+    let nudges = nudges(context, editor);
+    let keyboard = Keyboard::of(context);
+    let mut requests = Vec::new();
+    context.input_mut(|input| {
+        input.events.retain(|event| {
+            let Some((binding, is_repeat)) = keyboard.press_of(event) else { return true };
+            let request = (binding.request)();
+            // No steps that nobody waits for any more when the key is let go.
+            let is_wanted = request.repeats() && !(editor.session.is_running() && request == Request::Do(Action::Step));
+            requests.extend(Some(request).filter(|_| !is_repeat || is_wanted));
+            false
+        });
+    });
+    if requests.contains(&Request::TogglePane) {
+        // Tab has its work here; egui would also hand the keyboard to the next control.
+        context.memory_mut(|memory| memory.move_focus(egui::FocusDirection::None));
+    }
+    requests.extend(nudges);
+    requests
+}
+
+/// Who has the keyboard.
+struct Keyboard {
+    is_typing: bool,
+    menu_open: bool,
+    focus: Focus,
+}
+
+/// Kinds of controls that have the keyboard's focus.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Focus {
+    Nothing,
+    /// A control that moves by the arrows, or a list.
+    Control,
+    /// A control that Space clicks.
+    Clickable,
+}
+
+impl Keyboard {
+    fn of(context: &egui::Context) -> Self {
+        let focused = context.memory(egui::Memory::focused);
+        let response = focused.and_then(|id| context.read_response(id));
+        let focus = match focused {
+            None => Focus::Nothing,
+            Some(_) if response.is_some_and(|response| response.sense.senses_click()) => Focus::Clickable,
+            Some(_) => Focus::Control,
+        };
+        Self { is_typing: context.text_edit_focused(), menu_open: egui::Popup::is_any_open(context), focus }
+    }
+
+    /// The binding that an event presses, where its keys are the window's, and whether they are held down.
+    fn press_of(&self, event: &egui::Event) -> Option<(&'static Binding, bool)> {
+        let &egui::Event::Key { key, pressed: true, repeat, modifiers, .. } = event else { return None };
+        let binding = BINDINGS.iter().find(|binding| binding.is_pressed(key, modifiers))?;
+        self.leaves(binding).then_some((binding, repeat))
+    }
+
+    /// True if the keys of a binding are the window's.
+    fn leaves(&self, binding: &Binding) -> bool {
+        let is_of_another = match binding.shortcut.logical_key {
+            Key::Escape => self.menu_open,
+            // Once a control has the keyboard, Tab walks on to the next.
+            Key::Tab => self.focus != Focus::Nothing,
+            Key::Space | Key::Enter if !binding.shortcut.modifiers.command => {
+                self.menu_open || self.focus == Focus::Clickable
+            }
+            Key::ArrowLeft | Key::ArrowRight | Key::Home | Key::End => self.menu_open || self.focus != Focus::Nothing,
+            _ => false,
+        };
+        let is_edit = matches!(binding.shortcut.logical_key, Key::Z | Key::Y);
+        !is_of_another && (!self.is_typing || (binding.shortcut.modifiers.command && !is_edit))
+    }
+}
+
+impl Request {
+    /// True if a key that is held down asks for it again and again.
+    fn repeats(&self) -> bool {
+        matches!(
+            self,
+            Self::Do(Action::Undo | Action::Redo | Action::Step)
+                | Self::GoToStep(_)
+                | Self::StepDefect(_)
+                | Self::StepChart(_)
+        )
+    }
+}
+
+/// Requests of the arrow keys in this frame, if pins are selected. The keys are then nobody else's.
+fn nudges(context: &egui::Context, editor: &Editor) -> Vec<Request> {
+    let is_elsewhere = context.text_edit_focused()
+        || egui::Popup::is_any_open(context)
+        || context.memory(egui::Memory::focused).is_some();
+    let mut requests = Vec::new();
+    if !is_elsewhere && editor.tools.dragged().is_none() && editor.pins_selected().next().is_some() {
+        let push = context.input_mut(take_push);
+        if push != DVec2::ZERO {
+            requests.push(Request::Nudge(push));
+        }
+    }
+    let is_held = context.input(|input| ARROWS.iter().any(|(key, _)| input.key_down(*key)));
+    if !is_held && (editor.tools.is_nudging() || !requests.is_empty()) {
+        requests.push(Request::EndNudge);
+    }
+    requests
+}
+
+/// The sum of all presses of arrow keys, which are taken out of the input.
+fn take_push(input: &mut egui::InputState) -> DVec2 {
+    let mut push = DVec2::ZERO;
+    input.events.retain(|event| {
+        let egui::Event::Key { key, pressed: true, modifiers, .. } = event else { return true };
+        let Some((_, way)) = ARROWS.iter().find(|(arrow, _)| arrow == key) else { return true };
+        if modifiers.command || modifiers.alt {
+            return true;
+        }
+        push += *way * if modifiers.shift { LARGE } else { 1.0 };
+        false
+    });
+    push
+}
+
+impl Editor {
+    /// Moves the selected pins by pixels of the picture; y runs up.
+    pub(super) fn nudge(&mut self, pixels: DVec2) {
+        let document = self.session.document();
+        let frame = document.frame();
+        let step = match &document.picture {
+            Some(picture) => 1.0 / f64::from(picture.pixels.height),
+            None => self.plane.scene().map_or(1.0, |scene| scene.arrays.bounds.extent()) / PARTS,
+        };
+        // The frame has no offset: it takes differences to differences.
+        let by = frame.uv_from_plane(pixels * step);
+        let nudged = |vertex: VertexId| Some((vertex, document.targets.get(&vertex)?.uv + by));
+        let moves: Vec<(VertexId, DVec2)> = self.pins_selected().filter_map(nudged).collect();
+        if !self.tools.is_nudging() {
+            self.tools.set_nudging(true);
+            self.session.handle(Action::EndGesture);
+        }
+        self.session.handle(Action::MovePins(moves));
+    }
+
+    pub(super) fn end_nudge(&mut self) {
+        self.tools.set_nudging(false);
+        self.session.handle(Action::EndGesture);
+    }
+}

@@ -1,0 +1,98 @@
+//! Kinds of file dialogs: title, names and extensions of the files that each asks for.
+
+use std::path::Path;
+use std::slice;
+
+use super::comparison::ComparisonExport;
+use super::pane::Pane;
+use freebound_core::pipeline::Fit;
+use freebound_io::OutputKind;
+
+/// Kinds of file dialogs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileDialogKind {
+    /// A mesh or a project to open.
+    Open,
+    OpenPicture,
+    ImportConstraints,
+    ExportConstraints,
+    ImportSeams,
+    ExportSeams,
+    SaveProject,
+    /// Export of the flattening in a format. Default size: that of the editor.
+    Export(OutputKind, Option<Fit>),
+    /// Picture of a pane.
+    PanePicture(Pane),
+    /// Export of the comparison of methods.
+    Comparison(ComparisonExport),
+}
+
+/// The dialog of a purpose.
+pub(in crate::ui) struct DialogForm {
+    /// Its first word is that of the button.
+    pub(in crate::ui) title: &'static str,
+    /// Name of such files.
+    pub(in crate::ui) files: &'static str,
+    /// Extensions; the first one is added to a name without any.
+    pub(in crate::ui) extensions: &'static [&'static str],
+    /// The end of a suggested name.
+    pub(in crate::ui) ending: &'static str,
+}
+
+impl DialogForm {
+    /// True if a name ends as those of such files do.
+    pub(in crate::ui) fn fits(&self, path: &Path) -> bool {
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        self.extensions.contains(&extension.as_str())
+    }
+}
+
+/// Extensions of meshes and projects.
+const OPENED: &[&str] = &["obj", "ply", "stl", "off", "glb", "gltf", "freebound"];
+
+impl FileDialogKind {
+    pub(in crate::ui) fn form(self) -> DialogForm {
+        let (title, files, extensions, ending): (_, _, &[&str], _) = match self {
+            Self::Open => ("Open a mesh or a project", "Meshes and projects", OPENED, ""),
+            Self::OpenPicture => ("Open a picture", "Pictures", &["png", "jpg", "jpeg"], ""),
+            Self::ImportConstraints => ("Import constraints", "Constraints", &["txt"], ""),
+            Self::ExportConstraints => ("Export the constraints", "Constraints", &["txt"], "-constraints.txt"),
+            Self::ImportSeams => ("Import seams", "Edges", &["edges", "txt"], ""),
+            Self::ExportSeams => ("Export the seams", "Edges", &["edges", "txt"], ".edges"),
+            Self::SaveProject => ("Save the project", "Freebound project", &["freebound"], ".freebound"),
+            Self::Export(kind, _) => {
+                let format = kind.format();
+                (format.title, format.name, slice::from_ref(&format.extension), format.ending)
+            }
+            Self::PanePicture(Pane::Mesh) => ("Export a picture of the pane", "PNG picture", &["png"], "-mesh.png"),
+            Self::PanePicture(Pane::Plane) => {
+                ("Export a picture of the pane", "PNG picture", &["png"], "-embedding.png")
+            }
+            Self::Comparison(ComparisonExport::Picture) => {
+                ("Export a picture of the comparison", "PNG picture", &["png"], "-comparison.png")
+            }
+            Self::Comparison(ComparisonExport::Table) => {
+                ("Export the table of the comparison", "CSV table", &["csv"], "-comparison.csv")
+            }
+            Self::Comparison(ComparisonExport::Steps) => {
+                ("Export the steps of the comparison", "CSV table", &["csv"], "-comparison-steps.csv")
+            }
+            Self::Comparison(ComparisonExport::Morph) => {
+                ("Export the morph as an animated picture", "Animated PNG", &["png", "apng"], "-morph.png")
+            }
+        };
+        DialogForm { title, files, extensions, ending }
+    }
+
+    /// True if a file is asked for that is there already.
+    pub(in crate::ui) const fn is_reading(self) -> bool {
+        matches!(self, Self::Open | Self::OpenPicture | Self::ImportConstraints | Self::ImportSeams)
+    }
+
+    /// True if a name will do: what is written has the extension that says so.
+    pub(in crate::ui) fn takes(self, path: &Path) -> bool {
+        let takes_any = matches!(self, Self::Export(OutputKind::Obj, _) | Self::ExportConstraints | Self::ExportSeams);
+        let is_free = self.is_reading() || takes_any;
+        is_free || self.form().fits(path)
+    }
+}

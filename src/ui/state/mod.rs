@@ -1,0 +1,48 @@
+//! Plain data that the editor, the panels and the panes share: requests, tools, kinds of dialogs, views.
+//!
+//! | file | what |
+//! |---|---|
+//! | `request.rs` | requests that panels and panes collect and the editor carries out |
+//! | `tool.rs` | tools of the left mouse button, halves of a pair |
+//! | `pane.rs`, `pane_view.rs` | the two panes and the tabs; place and camera of a pane |
+//! | `shading_mode.rs` | colours of faces |
+//! | `file_dialog_kind.rs` | kinds of file dialogs |
+//! | `comparison.rs` | requests to the comparison of methods and its morph |
+//! | `hull_stage.rs` | stages of the virtual boundary |
+//! | `seam.rs` | clicks of the seam tool, rules that choose edges |
+//! | `unsaved.rs` | the question about unsaved work |
+//! | `inset_view.rs` | zoom and pan of the insets |
+//! | `pin_drag.rs` | a drag of a pin |
+//! | `timeline_view.rs` | the timeline as the window has it |
+//! | `toast.rs` | the good news that shows |
+
+mod comparison;
+mod file_dialog_kind;
+mod hull_stage;
+mod inset_view;
+mod pane;
+mod pane_view;
+mod pin_drag;
+mod request;
+mod seam;
+mod shading_mode;
+mod timeline_view;
+mod toast;
+mod tool;
+mod unsaved;
+
+pub use comparison::{ComparisonExport, MorphRequest};
+pub(in crate::ui) use file_dialog_kind::{DialogForm, FileDialogKind};
+pub use hull_stage::HullStage;
+pub(in crate::ui) use inset_view::{InsetKind, InsetPan, InsetSubject, InsetView};
+pub use pane::{Pane, Tab};
+pub(in crate::ui) use pane_view::{PaneView, Viewport, in_pane, size_of};
+pub(in crate::ui) use pin_drag::PinDrag;
+pub use request::{Request, StepTarget};
+pub(in crate::ui) use seam::Edge;
+pub use seam::{SeamClick, SeamRule};
+pub use shading_mode::ShadingMode;
+pub(in crate::ui) use timeline_view::{CURVE_COUNT, ROW_HEIGHT, TimelineView};
+pub(in crate::ui) use toast::Toast;
+pub use tool::{Half, Intent, Tool};
+pub(in crate::ui) use unsaved::{PendingClose, UnsavedAnswer};

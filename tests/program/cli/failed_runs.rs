@@ -1,0 +1,116 @@
+//! What a run leaves that came to nothing: a report with the error, and no report of an earlier run.
+
+use std::fmt::Write as _;
+use std::fs;
+
+use serde_json::{Value, json};
+
+use super::program::{Program, Run};
+use super::report_schema::TENT;
+
+/// Runs `flatten` on a text, with a report of an earlier run where the new one goes.
+fn flattened(text: &str, options: &[&str]) -> (Run, Option<Value>) {
+    let program = Program::new();
+    program.write("in.obj", text);
+    program.write("out.json", "{\"schema\": 1, \"from\": \"an earlier run\"}");
+    let run = program.run(&[&["flatten", "in.obj", "--report", "out.json"][..], options].concat());
+    let report = fs::read(program.path("out.json")).ok().map(|bytes| serde_json::from_slice(&bytes).unwrap());
+    (run, report)
+}
+
+#[test]
+fn the_faults_of_a_mesh_stand_in_the_report_with_their_elements_and_remedies() {
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 9 9 9\nf 1 2 3\nf 2 1 4\nf 1 2 5\n";
+    let (run, report) = flattened(text, &[]);
+    let run = run.expect(3);
+    assert!(run.stderr.starts_with("freebound: in.obj: cannot be flattened as it is\n"), "{}", run.stderr);
+    let report = report.expect("a report");
+    assert_eq!([&report["schema"], &report["mesh"]["path"]], [&json!(2), &json!("in.obj")]);
+    let error = &report["error"];
+    assert_eq!([&error["exit_status"], &error["kind"]], [&json!(3), &json!("not-a-disk")]);
+    assert!(run.stderr.contains(error["message"].as_str().unwrap()), "{error}");
+    let faults = error["faults"].as_array().unwrap();
+    let of = |kind: &str| faults.iter().find(|fault| fault["kind"] == kind).unwrap_or_else(|| panic!("{error:#}"));
+    assert_eq!(of("unreferenced-vertices")["vertices"], json!([5]));
+    assert_eq!(of("non-manifold-edges")["edges"], json!([[0, 1]]));
+    assert_eq!(of("unreferenced-vertices")["remedy"], "delete these vertices");
+}
+
+#[test]
+fn the_lines_of_a_broken_file_stand_in_the_report() {
+    let (run, report) = flattened("v 0 0 0\nv 1 0 x\nv 1 1 0\nf 1 2\nf 1 2 3\n", &[]);
+    let run = run.expect(3);
+    let lines: Vec<&str> = run.stderr.lines().collect();
+    assert!(
+        lines[0].starts_with("freebound: in.obj: line 2: ") && lines[1].starts_with("in.obj: line 4: "),
+        "{lines:?}"
+    );
+    let error = &report.expect("a report")["error"];
+    let found: Vec<&Value> = error["faults"].as_array().unwrap().iter().map(|fault| &fault["line"]).collect();
+    assert_eq!(found, [&json!(2), &json!(4)]);
+    assert!(error["remedy"].as_str().unwrap().contains("export the file again"), "{error}");
+}
+
+#[test]
+fn a_run_that_breaks_off_takes_the_report_of_an_earlier_one_away_and_wrong_use_leaves_it() {
+    let (run, report) = flattened(TENT, &["-o", "no/such/folder/out.obj"]);
+    run.expect(1);
+    assert_eq!(report, None, "nothing is known of this run");
+    let (run, report) = flattened(TENT, &["--boundary", "square"]);
+    run.expect(2);
+    assert_eq!(report.expect("left as it was")["from"], "an earlier run");
+}
+
+#[test]
+fn a_mesh_without_all_of_its_texture_coordinates_names_the_faces() {
+    let program = Program::new();
+    program.write("in.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\nf 1 3 4\n");
+    let run = program.run(&["check", "in.obj", "--report", "-"]).expect(3);
+    let error = &run.json()["error"];
+    assert_eq!([&error["kind"], &error["faults"][0]["faces"]], [&json!("texture-coordinates"), &json!([1])]);
+    assert!(run.stderr.starts_with("freebound: in.obj: "), "{}", run.stderr);
+}
+
+#[test]
+fn every_message_names_the_file_first() {
+    let program = Program::new();
+    program.write("tent.obj", TENT);
+    for (name, text) in [("empty.obj", ""), ("mesh.dae", "mesh\n"), ("bad.txt", "0 x y\n"), ("text.png", "none")] {
+        program.write(name, text);
+    }
+    program.write("pins.txt", "0 0 0\n1 1 0\n");
+    let cases: [(&[&str], i32, &str); 11] = [
+        (&["flatten", "missing.obj"], 3, "missing.obj: cannot be read: "),
+        (&["flatten", "empty.obj"], 3, "empty.obj: the file has no faces; "),
+        (&["flatten", "mesh.dae"], 3, "mesh.dae: format not read yet: COLLADA; export the mesh as OBJ or PLY"),
+        (&["flatten", "tent.obj", "--constraints", "bad.txt"], 3, "bad.txt: line 1: "),
+        (&["flatten", "tent.obj", "--constraints", "gone.txt"], 3, "gone.txt: the constraints cannot be read: "),
+        (&["flatten", "tent.obj", "--picture", "text.png"], 3, "text.png: the picture cannot be read: "),
+        (&["flatten", "tent.obj", "-o", "no/out.obj"], 1, "no/out.obj: cannot be written: "),
+        (&["flatten", "tent.obj", "--pin", "7:0,0"], 2, "tent.obj: vertex v7 is pinned"),
+        (&["flatten", "tent.obj", "--pin", "0:0,0", "--pin", "0:0,1"], 2, "tent.obj: vertex v0 is pinned twice"),
+        (&["flatten", "tent.obj", "--constraints", "pins.txt", "--pin", "1:1,1"], 2, "pins.txt: line 2: vertex v1"),
+        (&["flatten", "tent.obj", "--constraints", "pins.txt", "--pin", "2:1,0"], 2, "pins.txt: line 2: vertex v1"),
+    ];
+    for (arguments, status, words) in cases {
+        let run = program.run(arguments).expect(status);
+        assert!(run.stderr.starts_with(&format!("freebound: {words}")), "{arguments:?}: {}", run.stderr);
+    }
+}
+
+#[test]
+fn triangle_soup_is_told_to_merge_its_vertices() {
+    let mut text = String::new();
+    let corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]];
+    for triangle in [[0, 1, 2], [0, 2, 3]] {
+        for [x, y, z] in triangle.map(|corner: usize| corners[corner]) {
+            writeln!(text, "v {x} {y} {z}").unwrap();
+        }
+    }
+    text += "f 1 2 3\nf 4 5 6\n";
+    let (run, report) = flattened(&text, &[]);
+    let run = run.expect(3);
+    assert!(run.stderr.contains("merge coincident vertices"), "{}", run.stderr);
+    let fault = &report.expect("a report")["error"]["faults"][0];
+    assert_eq!([&fault["kind"], &fault["vertices"]], [&json!("coincident-vertices"), &json!([3, 4])]);
+}

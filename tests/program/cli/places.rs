@@ -1,0 +1,223 @@
+//! Files of a run that must not be one another, and standard input and output.
+
+use std::fs;
+use std::io::Write as _;
+use std::process::Stdio;
+
+use freebound_io::read_stream;
+use image::RgbImage;
+
+use super::program::{Program, Run};
+use super::report_schema::TENT;
+
+/// A folder with every kind of input.
+fn inputs() -> Program {
+    let program = Program::new();
+    program.write("in.obj", &format!("mtllib looks.mtl\nusemtl skin\n{TENT}"));
+    program.write("looks.mtl", "newmtl skin\nmap_Kd -s 1 1 1 skin.png\nbump dents.png\n");
+    program.write("pins.txt", "0 0 0\n");
+    for name in ["skin.png", "dents.png", "photo.png"] {
+        RgbImage::new(2, 1).save(program.path(name)).unwrap();
+    }
+    program
+}
+
+#[test]
+fn no_input_is_written_over() {
+    let program = inputs();
+    fs::create_dir(program.path("folder")).unwrap();
+    let files = ["in.obj", "looks.mtl", "pins.txt", "skin.png", "dents.png", "photo.png"];
+    let contents = || files.map(|file| fs::read(program.path(file)).unwrap());
+    let before = contents();
+    for file in files {
+        for path in [file.to_owned(), format!("./{file}"), format!("folder/../{file}")] {
+            for option in ["-o", "--svg", "--png", "--report"] {
+                let mut arguments = vec!["flatten", "in.obj", option, &path];
+                match file {
+                    "pins.txt" => arguments.extend(["--constraints", "pins.txt"]),
+                    "photo.png" => arguments.extend(["--picture", "photo.png"]),
+                    _ => {}
+                }
+                let run = program.run(&arguments).expect(2);
+                let words = format!("{option} would write over");
+                assert!(run.stderr.contains(file) && run.stderr.contains(&words), "{arguments:?}: {}", run.stderr);
+                assert_eq!(run.stdout, "", "nothing is computed before");
+            }
+        }
+    }
+    program.run(&["check", "in.obj", "--report", "in.obj"]).expect(2);
+    assert!(before == contents());
+}
+
+#[cfg(unix)]
+#[test]
+fn links_to_an_input_are_the_input() {
+    let program = inputs();
+    std::os::unix::fs::symlink(program.path("in.obj"), program.path("soft.obj")).unwrap();
+    fs::hard_link(program.path("in.obj"), program.path("hard.obj")).unwrap();
+    let before = fs::read(program.path("in.obj")).unwrap();
+    for [input, output] in [["in.obj", "soft.obj"], ["in.obj", "hard.obj"], ["soft.obj", "in.obj"]] {
+        let run = program.run(&["flatten", input, "-o", output]).expect(2);
+        assert!(run.stderr.contains("-o would write over the mesh"), "{}", run.stderr);
+    }
+    assert!(before == fs::read(program.path("in.obj")).unwrap());
+}
+
+#[test]
+fn steps_do_not_replace_an_input() {
+    let program = Program::new();
+    fs::create_dir(program.path("steps")).unwrap();
+    program.write("in.obj", TENT);
+    program.write("steps/steps.csv", "0 0 0\n");
+    let arguments = ["flatten", "in.obj", "--constraints", "steps/steps.csv", "--steps", "./steps"];
+    let run = program.run(&arguments).expect(2);
+    assert!(run.stderr.contains("--steps would write over the constraints"), "{}", run.stderr);
+}
+
+#[test]
+fn two_results_do_not_go_to_one_place() {
+    let program = inputs();
+    for (options, words) in [
+        (&["-o", "a.out", "--svg", "./a.out"][..], "-o and --svg would both write it"),
+        (&["-o", "-", "--report", "-"], "standard output: -o and --report cannot both go there"),
+        (&["--svg", "-", "--png", "-"], "standard output: --svg and --png cannot both go there"),
+        (&["-o", "-", "--picture", "photo.png"], "standard output: -o has no folder there for --picture"),
+    ] {
+        let run = program.run(&[&["flatten", "in.obj"], options].concat()).expect(2);
+        assert!(run.stderr.contains(words), "{options:?}: {}", run.stderr);
+    }
+    assert_eq!(program.files(), inputs().files(), "told before anything is written");
+    // What goes to the null device disturbs nobody.
+    #[cfg(unix)]
+    program.run(&["flatten", "in.obj", "-o", "/dev/null", "--svg", "/dev/null"]).expect(0);
+}
+
+#[test]
+fn a_result_does_not_lie_where_the_steps_go() {
+    let program = inputs();
+    fs::create_dir(program.path("folder")).unwrap();
+    for is_there in [false, true] {
+        for path in ["steps/step-000-natural.svg", "./steps/steps.csv", "folder/../steps/step-123-relax.svg", "steps"] {
+            for option in ["-o", "--svg", "--png", "--report"] {
+                let run = program.run(&["flatten", "in.obj", option, path, "--steps", "steps"]).expect(2);
+                let words = format!("{option} and --steps would both write it");
+                assert!(run.stderr.contains(&words), "{option} {path}: {}", run.stderr);
+            }
+        }
+        assert_eq!(program.path("steps").is_dir(), is_there, "nothing is computed before");
+        fs::create_dir_all(program.path("steps")).unwrap();
+    }
+    // A drawing of another name disturbs no step.
+    program.run(&["flatten", "in.obj", "--svg", "steps/last.svg", "--steps", "steps"]).expect(0);
+    assert!(program.path("steps/last.svg").is_file() && program.path("steps/steps.csv").is_file());
+}
+
+#[test]
+fn a_result_does_not_lie_where_copies_beside_the_mesh_go() {
+    let program = inputs();
+    fs::create_dir(program.path("out")).unwrap();
+    let materials = &["-o", "out/flat.obj", "--copy-materials"][..];
+    let picture = &["-o", "out/flat.obj", "--picture", "photo.png"][..];
+    let cases = [
+        (materials, "out/looks.mtl"),
+        (materials, "out/skin.png"),
+        (picture, "out/photo.png"),
+        (picture, "./out/flat.mtl"),
+    ];
+    let asserted = |options: &[&str], path: &str| {
+        for option in ["--report", "--svg", "--png"] {
+            let run = program.run(&[&["flatten", "in.obj", option, path], options].concat()).expect(2);
+            let words = format!("{option} and {} would both write it", options[2]);
+            assert!(run.stderr.contains(&words), "{option} {path} {options:?}: {}", run.stderr);
+        }
+    };
+    for (options, path) in cases {
+        asserted(options, path);
+    }
+    assert_eq!(fs::read_dir(program.path("out")).unwrap().count(), 0, "nothing is computed before");
+    // The copies of an earlier run are there, and are not copied again.
+    program.run(&[&["flatten", "in.obj"], materials].concat()).expect(0);
+    program.run(&[&["flatten", "in.obj"], picture].concat()).expect(0);
+    for (options, path) in cases {
+        asserted(options, path);
+    }
+    // Where the first name is another's, the copy has the second one.
+    program.write("out/looks.mtl", "newmtl another\n");
+    asserted(materials, "out/flat-looks.mtl");
+    let report = ["flatten", "in.obj", "--report", "out/flat.json"];
+    program.run(&[&report, materials].concat()).expect(0);
+}
+
+#[test]
+fn copies_do_not_lie_where_the_steps_go() {
+    let program = inputs();
+    fs::copy(program.path("photo.png"), program.path("step-000-natural.svg")).unwrap();
+    let arguments = ["--picture", "step-000-natural.svg", "-o", "steps/flat.obj", "--steps", "steps"];
+    let run = program.run(&[&["flatten", "in.obj"], &arguments[..]].concat()).expect(2);
+    assert!(run.stderr.contains("--steps and --picture would both write it"), "{}", run.stderr);
+    assert!(!program.path("steps").exists());
+}
+
+/// Runs the program with a file as standard input.
+#[cfg(unix)]
+fn fed_from(program: &Program, file: &str, arguments: &[&str]) -> Run {
+    let input = fs::File::open(program.path(file)).unwrap();
+    Run::from(program.command(arguments).stdin(input).output().unwrap())
+}
+
+#[cfg(unix)]
+#[test]
+fn the_file_that_standard_input_comes_from_is_not_written_over() {
+    let program = Program::new();
+    program.write("s.obj", TENT);
+    fs::hard_link(program.path("s.obj"), program.path("hard.obj")).unwrap();
+    let before = fs::read(program.path("s.obj")).unwrap();
+    for path in ["s.obj", "./s.obj", "hard.obj"] {
+        for arguments in [
+            &["flatten", "-", "-o", path][..],
+            &["flatten", "-", "--png", path],
+            &["flatten", "-", "--report", path],
+            &["check", "-", "--report", path],
+        ] {
+            let run = fed_from(&program, "s.obj", arguments).expect(2);
+            let option = arguments[2];
+            let words = format!("{option} would write over the mesh, which standard input comes from");
+            assert!(run.stderr.contains(&words) && run.stderr.contains(path), "{arguments:?}: {}", run.stderr);
+        }
+    }
+    assert!(before == fs::read(program.path("s.obj")).unwrap());
+    fed_from(&program, "s.obj", &["flatten", "-", "-o", "other.obj"]).expect(0);
+}
+
+/// Runs the program with a text on standard input.
+fn fed(program: &Program, arguments: &[&str], text: &str) -> Run {
+    let mut child = program.command(arguments).stdin(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+    Run::from(child.wait_with_output().unwrap())
+}
+
+#[test]
+fn a_mesh_goes_in_and_out_without_a_file() {
+    let program = Program::new();
+    program.write("in.obj", TENT);
+    program.run(&["flatten", "in.obj", "-o", "out.obj", "--report", "out.json"]).expect(0);
+    let through = fed(&program, &["flatten", "-", "-o", "-"], TENT).expect(0);
+    assert_eq!(through.stdout, fs::read_to_string(program.path("out.obj")).unwrap());
+    let report = fed(&program, &["flatten", "-", "--report", "-"], TENT).expect(0).json();
+    assert_eq!(report["mesh"]["path"], "standard input");
+    let drawing = fed(&program, &["flatten", "-", "--svg", "-"], TENT).expect(0).stdout;
+    assert!(drawing.starts_with("<svg ") || drawing.starts_with("<?xml"), "{drawing:.80}");
+    fed(&program, &["check", "-"], &through.stdout).expect(0);
+    let run = fed(&program, &["flatten", "-"], "f 1 2 3\n").expect(3);
+    assert!(run.stderr.starts_with("freebound: standard input: line 1: vertex 1 is out of range"), "{}", run.stderr);
+    assert_eq!(program.files(), ["in.obj", "out.json", "out.obj"]);
+}
+
+#[test]
+fn a_mesh_on_standard_output_stands_alone_and_its_report_in_a_file() {
+    let program = Program::new();
+    let run = fed(&program, &["flatten", "-", "-o", "-", "--report", "out.json"], TENT).expect(0);
+    assert_eq!(read_stream(run.stdout.as_bytes()).unwrap().polygons.face_count(), 4);
+    assert_eq!([run.stdout.lines().next(), run.stderr.lines().next()], [Some("v 0 0 0"), None]);
+    assert_eq!(program.files(), ["out.json"]);
+}

@@ -1,0 +1,298 @@
+//! The schema of reports, `docs/report.schema.json`, against reports that are written: every field that is written is
+//! described, every field that is required is there, and every field that is described is written by some run.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::program::Program;
+
+/// What the schemas here are made of; a keyword beside these would be passed over unseen.
+const KEYWORDS: [&str; 15] = [
+    "$defs",
+    "$ref",
+    "$schema",
+    "additionalProperties",
+    "const",
+    "description",
+    "enum",
+    "items",
+    "maxItems",
+    "minItems",
+    "minimum",
+    "oneOf",
+    "properties",
+    "required",
+    "title",
+];
+
+/// A schema, and the fields of it that were met.
+pub(crate) struct Schema {
+    root: Value,
+    met: BTreeSet<String>,
+}
+
+impl Schema {
+    pub(crate) fn of_reports() -> Self {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/report.schema.json");
+        Self { root: serde_json::from_slice(&fs::read(path).unwrap()).unwrap(), met: BTreeSet::new() }
+    }
+
+    /// What is wrong with a report.
+    pub(crate) fn faults(&mut self, report: &Value) -> Vec<String> {
+        let root = self.root.clone();
+        self.check(&root, "#", report)
+    }
+
+    /// Checks a value against the schema at `place`, a path in the whole one.
+    fn check(&mut self, schema: &Value, place: &str, value: &Value) -> Vec<String> {
+        let mut faults = Vec::new();
+        for (keyword, rule) in schema.as_object().expect("a schema is an object") {
+            let holds = match keyword.as_str() {
+                "$ref" => {
+                    let target = rule.as_str().unwrap();
+                    let named = self.root.pointer(&target[1..]).unwrap_or_else(|| panic!("{target} is there")).clone();
+                    faults.extend(self.check(&named, target, value));
+                    true
+                }
+                "oneOf" => {
+                    let ways: Vec<Vec<String>> =
+                        rule.as_array().unwrap().iter().map(|way| self.check(way, place, value)).collect();
+                    let fits = ways.iter().filter(|faults| faults.is_empty()).count();
+                    if fits == 0 {
+                        faults.extend(ways.into_iter().flatten());
+                    }
+                    fits <= 1
+                }
+                "type" => has_type(value, rule),
+                "const" => value == rule,
+                "enum" => rule.as_array().unwrap().contains(value),
+                "minimum" => value.as_f64().is_none_or(|number| number >= rule.as_f64().unwrap()),
+                "minItems" => value.as_array().is_none_or(|list| list.len() as u64 >= rule.as_u64().unwrap()),
+                "maxItems" => value.as_array().is_none_or(|list| list.len() as u64 <= rule.as_u64().unwrap()),
+                "items" => {
+                    for item in value.as_array().into_iter().flatten() {
+                        faults.extend(self.check(rule, &format!("{place}/items"), item));
+                    }
+                    true
+                }
+                "properties" => {
+                    faults.extend(self.check_fields(rule, place, value));
+                    true
+                }
+                "required" => {
+                    let missing = |name: &&Value| value.get(name.as_str().unwrap()).is_none();
+                    rule.as_array().unwrap().iter().find(missing).is_none()
+                }
+                // Checked with the properties.
+                "additionalProperties" => *rule == Value::Bool(false),
+                known => KEYWORDS.contains(&known),
+            };
+            if !holds {
+                faults.push(format!("{place}: {keyword} {rule}: {value:.200}"));
+            }
+        }
+        faults
+    }
+
+    fn check_fields(&mut self, properties: &Value, place: &str, value: &Value) -> Vec<String> {
+        let mut faults = Vec::new();
+        for (name, field) in value.as_object().into_iter().flatten() {
+            let place = format!("{place}/properties/{name}");
+            match properties.get(name) {
+                Some(schema) => faults.extend(self.check(schema, &place, field)),
+                None => faults.push(format!("{place}: is not described")),
+            }
+            self.met.insert(place);
+        }
+        faults
+    }
+
+    /// Places of all fields that are described.
+    fn described(schema: &Value, place: &str) -> BTreeSet<String> {
+        let mut found = BTreeSet::new();
+        for (keyword, rule) in schema.as_object().into_iter().flatten() {
+            let within = match keyword.as_str() {
+                "properties" | "$defs" => {
+                    rule.as_object().unwrap().iter().map(|(name, part)| (format!("{keyword}/{name}"), part)).collect()
+                }
+                "items" => vec![(keyword.clone(), rule)],
+                _ => Vec::new(),
+            };
+            for (part, inner) in within {
+                let inner_place = format!("{place}/{part}");
+                if keyword == "properties" {
+                    found.insert(inner_place.clone());
+                }
+                found.extend(Self::described(inner, &inner_place));
+            }
+        }
+        found
+    }
+}
+
+fn has_type(value: &Value, rule: &Value) -> bool {
+    let is = |name: &Value| match name.as_str().unwrap() {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "boolean" => value.is_boolean(),
+        "null" => value.is_null(),
+        "number" => value.is_number(),
+        "integer" => value.is_i64() || value.is_u64(),
+        other => panic!("no type of JSON: {other}"),
+    };
+    rule.as_array().map_or_else(|| is(rule), |names| names.iter().any(is))
+}
+
+/// A tent of four triangles, with its tip in the middle.
+pub(crate) const TENT: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0.3\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+
+/// Files to run on, with what is wrong with them.
+const FILES: [(&str, &str); 13] = [
+    ("parts.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 6 1 0\nf 1 2 3 4\nf 5 6 7\n"),
+    (
+        "charts.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\nf 1/1 2/2 3/3\nf 1/4 3/5 4/6\n",
+    ),
+    ("tent.obj", TENT),
+    (
+        "folded.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0.1 0.1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n",
+    ),
+    ("half.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\nf 1 3 4\n"),
+    ("lines.obj", "v 0 0 0\nv 1 0 x\nv 1 1 0\nf 1 2\nf 1 2 3\n"),
+    (
+        "bytes.ply",
+        "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\nproperty float y\nproperty float z\n\
+            end_header\n",
+    ),
+    ("empty.obj", "# nothing\n"),
+    ("mesh.dae", "mesh\n"),
+    ("closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"),
+    ("fins.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 9 9 9\nf 1 2 3\nf 2 1 4\nf 1 2 5\n"),
+    (
+        "ring.obj",
+        "v 0 0 0\nv 3 0 0\nv 3 3 0\nv 0 3 0\nv 1 1 0\nv 2 1 0\nv 2 2 0\nv 1 2 0\n\
+         f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
+    ),
+    ("pins.txt", "0 0 0\n0 1 1\n"),
+];
+
+/// Runs with their exit status: all kinds of fields of a report occur in them.
+const RUNS: [(&[&str], i32); 29] = [
+    (&["flatten", "parts.obj", "--pin", "0:0,0", "--pin", "1:1,0"], 0),
+    (&["check", "charts.obj"], 4),
+    (&["flatten", "tent.obj"], 0),
+    (&["flatten", "closed.obj", "--cut", "auto"], 0),
+    (&["flatten", "tent.obj", "--relax", "2", "--pin", "0:0,0", "--pin", "1:1,0.2:3", "--pin", "2:0.9,1"], 0),
+    (
+        &[
+            "flatten", "tent.obj", "--method", "natural", "--pin", "0:0,0", "--pin", "1:1,0", "--pin", "2:0,1",
+            "--pin", "3:1,1",
+        ],
+        4,
+    ),
+    (&["flatten", "tent.obj", "--method", "convex", "--fit", "true", "--precision", "f32"], 0),
+    (&["flatten", "tent.obj", "--method", "lee", "--boundary", "square", "--spacing", "even", "--layers", "3"], 0),
+    (&["flatten", "tent.obj", "--method", "stretch", "--boundary", "polygon:0 0; 2 0; 1 2"], 0),
+    (&["flatten", "folded.obj", "--start", "uv"], 0),
+    (&["flatten", "tent.obj", "--method", "spectral"], 0),
+    (&["flatten", "tent.obj", "--method", "abf++"], 0),
+    (&["check", "tent.obj"], 0),
+    (&["check", "folded.obj"], 4),
+    (&["check", "half.obj"], 3),
+    (&["flatten", "lines.obj"], 3),
+    (&["flatten", "bytes.ply"], 3),
+    (&["flatten", "empty.obj"], 3),
+    (&["flatten", "mesh.dae"], 3),
+    (&["flatten", "missing.obj"], 3),
+    (&["check", "huge.obj"], 3),
+    (&["flatten", "closed.obj"], 3),
+    (&["flatten", "fins.obj"], 3),
+    (&["flatten", "ring.obj", "--holes", "cut"], 3),
+    (&["flatten", "tent.obj", "--constraints", "pins.txt"], 3),
+    (&["compare", "tent.obj"], 0),
+    (&["compare", "parts.obj", "--methods", "natural,convex/uniform@square"], 0),
+    (
+        &[
+            "compare",
+            "tent.obj",
+            "--methods",
+            "iterate,virtual-boundary,auto",
+            "--pin",
+            "0:0,0",
+            "--pin",
+            "1:1,0.2",
+            "--pin",
+            "2:0.9,1",
+            "--morph",
+            "morph.png",
+            "--frames",
+            "3",
+        ],
+        0,
+    ),
+    (
+        &[
+            "compare",
+            "tent.obj",
+            "--methods",
+            "natural,virtual-boundary",
+            "--pin",
+            "0:0,0",
+            "--pin",
+            "1:1,0.2:3",
+            "--pin",
+            "2:0.9,1",
+        ],
+        0,
+    ),
+];
+
+/// Described fields that none of these runs writes, with the reason.
+const RARE: [&str; 1] = [
+    // More than a thousand crossings.
+    "#/$defs/verdict/properties/more_crossings",
+];
+
+#[test]
+fn every_report_is_as_the_schema_says_and_the_schema_says_nothing_that_no_report_has() {
+    let program = Program::new();
+    for (name, text) in FILES {
+        program.write(name, text);
+    }
+    program.write_huge("huge.obj");
+    let mut schema = Schema::of_reports();
+    for (arguments, status) in RUNS {
+        let report = program.run(&[arguments, &["--report", "-"][..]].concat()).expect(status).json();
+        assert_eq!(schema.faults(&report), Vec::<String>::new(), "{arguments:?}: {report:#}");
+        assert_eq!(report["schema"], 2, "{arguments:?}");
+    }
+    let described = Schema::described(&schema.root.clone(), "#");
+    let never: Vec<&String> =
+        described.difference(&schema.met).filter(|place| !RARE.contains(&place.as_str())).collect();
+    assert!(never.is_empty(), "described and never written: {never:#?}");
+}
+
+#[test]
+fn the_schema_refuses_fields_that_are_missing_unknown_or_of_another_kind() {
+    let program = Program::new();
+    program.write("tent.obj", TENT);
+    let report = program.run(&["flatten", "tent.obj", "--report", "-"]).expect(0).json();
+    let refused = |change: &dyn Fn(&mut Value)| {
+        let mut changed = report.clone();
+        change(&mut changed);
+        !Schema::of_reports().faults(&changed).is_empty()
+    };
+    assert!(!refused(&|_| {}));
+    assert!(refused(&|report| drop(report.as_object_mut().unwrap().remove("mesh"))));
+    assert!(refused(&|report| drop(report["verdict"].as_object_mut().unwrap().remove("planar"))));
+    assert!(refused(&|report| report["steps"][0]["more"] = Value::from(1)));
+    assert!(refused(&|report| report["schema"] = Value::from(1)));
+    assert!(refused(&|report| report["new_vertices"] = Value::from(-1)));
+    assert!(refused(&|report| report["split_edges"] = serde_json::json!([[1]])));
+    assert!(refused(&|report| report["placement"] = Value::from("somewhere")));
+}

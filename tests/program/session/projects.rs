@@ -1,0 +1,347 @@
+//! Projects: everything comes back, what has changed is said, and the session knows what is saved.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use freebound::examples::Example;
+use freebound::session::{Action, Session, Severity};
+use freebound_core::geom::{ConvexPolygon, VAxis};
+use freebound_core::pipeline::Target;
+use freebound_core::problem::{
+    BoundaryShape, Family, GaugeSize, Growth, Method, NamedOption as _, Settings, Spacing, Treatment,
+};
+use freebound_io::{FileStamp, PathStyle, ProjectFile, ProjectSource, ProjectView};
+use glam::DVec2;
+use tempfile::TempDir;
+
+use super::basics::{opened, session, settle, settled};
+use super::documents::{errors, id, place, with_dome, write_dome, write_picture};
+
+fn project_in(folder: &TempDir) -> PathBuf {
+    folder.path().join("work.freebound")
+}
+
+fn reopened(path: &Path) -> Session {
+    let mut session = session();
+    settled(&mut session, Action::Open(path.to_owned()));
+    session
+}
+
+/// A dome with everything that a project holds.
+fn with_everything() -> (TempDir, Session) {
+    let (folder, mut session) = with_dome();
+    fs::create_dir(folder.path().join("pictures")).unwrap();
+    let picture = folder.path().join("pictures").join("ä b.png");
+    write_picture(&picture, 5, 3);
+    settled(&mut session, Action::OpenPicture(picture));
+    settled(&mut session, Action::SetVAxis(VAxis::Down));
+    settled(&mut session, Action::TurnFaces);
+    let settings = Settings {
+        method: Method::Iterate,
+        family: Some(Family::Power(0.1 + 0.2)),
+        treatment: Some(Treatment::LeastSquares),
+        max_steps: Some(7),
+        spacing: Spacing::Even,
+        layers: 5,
+        growth: Growth::One,
+        size: GaugeSize::default(),
+        ..Settings::default()
+    };
+    settled(&mut session, Action::SetSettings(settings));
+    place(&mut session, 0, Target::hard(DVec2::new(0.1 + 0.7, -0.0)));
+    place(&mut session, 6, Target::fixed(DVec2::new(1.0 / 3.0, 1e-310)));
+    place(&mut session, 30, Target::weighted(DVec2::new(0.4, 0.9), f64::MIN_POSITIVE.sqrt()));
+    session.set_view(ProjectView {
+        mesh_shading: Some("checker".to_owned()),
+        plane_shading: Some("angle".to_owned()),
+        mesh_camera: Some(vec![0.1, 1.0 / 3.0]),
+        plane_camera: Some(vec![2.5]),
+        selection: vec![3, 4],
+        tool: Some("constrain".to_owned()),
+    });
+    (folder, session)
+}
+
+#[test]
+fn everything_in_a_project_comes_back_bit_for_bit() {
+    let (folder, mut before) = with_everything();
+    settled(&mut before, Action::SaveProject(project_in(&folder)));
+    assert!(errors(&before).is_empty(), "{:?}", before.messages());
+    let after = reopened(&project_in(&folder));
+    assert!(after.messages().is_empty(), "{:?}", after.messages());
+    let (a, b) = (before.document(), after.document());
+    assert_eq!(a.settings, b.settings);
+    assert_eq!((a.v_axis, &a.form), (b.v_axis, &b.form));
+    assert_eq!(a.picture.as_ref().map(|p| (&p.name, &p.pixels)), b.picture.as_ref().map(|p| (&p.name, &p.pixels)));
+    let bits = |session: &Session| -> Vec<_> {
+        let pins = session.document().targets.iter();
+        pins.map(|(v, pin)| (*v, pin.uv.to_array().map(f64::to_bits), format!("{:?}", pin.kind))).collect()
+    };
+    assert_eq!(bits(&before), bits(&after));
+    assert_eq!(before.view(), after.view());
+    assert!(after.model().expect("open").prepared.form.faces_turned && after.is_current());
+    let embedding = |session: &Session| session.outcome().expect("solved").step.candidate.solution.embedding.clone();
+    assert_eq!(embedding(&before), embedding(&after));
+}
+
+#[test]
+fn every_choice_of_method_comes_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = project_in(&folder);
+    let families = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(-0.1), Family::Uniform];
+    let triangle = ConvexPolygon::parse("0 0; 0.1 0.2; -7 1e-3").expect("convex");
+    let on_shapes = [
+        Method::Convex(BoundaryShape::Square),
+        Method::Convex(BoundaryShape::Hull),
+        Method::Convex(BoundaryShape::Polygon(triangle)),
+        Method::Stretch(BoundaryShape::Square),
+        Method::Lee(BoundaryShape::Polygon(triangle)),
+    ];
+    let methods = Method::ALL.iter().copied().chain(on_shapes);
+    let treatments = [None, Some(Treatment::Eliminate), Some(Treatment::LeastSquares), Some(Treatment::Weighted)];
+    for (index, method) in methods.enumerate() {
+        let family = families[index % families.len()];
+        let (treatment, new_vertices) = (treatments[index % 4], index % 3 != 1);
+        let settings = Settings {
+            treatment,
+            new_vertices,
+            relax_rounds: (index > 0).then_some(index),
+            ..Settings::new(method, family)
+        };
+        let project = ProjectFile::new(ProjectSource::Example("dome".to_owned()), &settings);
+        project.write(&path, PathStyle::Relative).unwrap();
+        let read = ProjectFile::read(&path).unwrap();
+        assert_eq!(read, project);
+        assert_eq!(read.settings(), settings);
+    }
+}
+
+#[test]
+fn a_folder_moves_as_a_whole() {
+    let (folder, mut session) = with_everything();
+    settled(&mut session, Action::SaveProject(project_in(&folder)));
+    let text = fs::read_to_string(project_in(&folder)).unwrap();
+    assert!(text.contains("\"file\": \"dome.obj\"") && text.contains("\"pictures/ä b.png\""), "{text}");
+    let elsewhere = tempfile::tempdir().unwrap();
+    let moved = elsewhere.path().join("moved");
+    fs::rename(folder.path(), &moved).unwrap();
+    let after = reopened(&moved.join("work.freebound"));
+    assert!(after.messages().is_empty() && after.document().targets.len() == 3, "{:?}", after.messages());
+}
+
+#[test]
+fn a_project_beside_its_mesh_s_folder_finds_it() {
+    let (folder, mut session) = with_dome();
+    let other = folder.path().join("projects");
+    fs::create_dir(&other).unwrap();
+    settled(&mut session, Action::SaveProject(other.join("work.freebound")));
+    let text = fs::read_to_string(other.join("work.freebound")).unwrap();
+    assert!(text.contains("\"../dome.obj\""), "{text}");
+    assert!(reopened(&other.join("work.freebound")).messages().is_empty());
+}
+
+#[test]
+fn an_example_s_project_names_the_example() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = opened(Example::Face);
+    place(&mut session, 5, Target::hard(DVec2::new(0.5, 0.25)));
+    settled(&mut session, Action::SaveProject(project_in(&folder)));
+    let after = reopened(&project_in(&folder));
+    assert_eq!(after.model().expect("open").example, Some(Example::Face));
+    assert_eq!(after.document(), session.document());
+    assert!(after.document().picture.is_some(), "the portrait belongs to it");
+}
+
+#[test]
+fn the_session_knows_what_is_saved() {
+    let (folder, mut session) = with_dome();
+    assert!(!session.has_unsaved_work(), "a mesh as it was opened");
+    assert_eq!((session.project_path(), session.project_name().as_deref()), (None, Some("dome.obj")));
+    place(&mut session, 5, Target::hard(DVec2::X));
+    assert!(session.has_unsaved_work());
+    settled(&mut session, Action::SaveProject(project_in(&folder)));
+    assert!(!session.has_unsaved_work());
+    assert_eq!(session.project_path(), Some(&project_in(&folder)));
+    assert_eq!(session.project_name().as_deref(), Some("work"));
+    place(&mut session, 6, Target::hard(DVec2::Y));
+    assert!(session.has_unsaved_work());
+    settled(&mut session, Action::Undo);
+    assert!(!session.has_unsaved_work(), "back at what was saved");
+    settled(&mut session, Action::Undo);
+    assert!(session.has_unsaved_work(), "before what was saved");
+    settled(&mut session, Action::OpenExample(Example::Face));
+    assert!(!session.has_unsaved_work() && session.project_path().is_none());
+}
+
+#[test]
+fn an_edit_while_a_save_is_under_way_is_unsaved() {
+    let (folder, mut session) = with_dome();
+    session.handle(Action::Place { vertex: id(1), target: Target::hard(DVec2::X) });
+    session.handle(Action::SaveProject(project_in(&folder)));
+    session.handle(Action::Place { vertex: id(2), target: Target::hard(DVec2::Y) });
+    settle(&mut session);
+    assert!(session.has_unsaved_work());
+    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().targets.len(), 1);
+}
+
+#[test]
+fn of_many_saves_the_last_one_is_in_the_file() {
+    let (folder, mut session) = with_dome();
+    for vertex in 0..20 {
+        session.handle(Action::Place { vertex: id(vertex), target: Target::hard(DVec2::new(f64::from(vertex), 0.0)) });
+        session.handle(Action::SaveProject(project_in(&folder)));
+    }
+    settle(&mut session);
+    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().targets, session.document().targets);
+    assert!(!session.has_unsaved_work());
+}
+
+#[test]
+fn the_end_of_the_program_waits_for_what_is_being_written() {
+    let (folder, mut session) = with_dome();
+    place(&mut session, 1, Target::hard(DVec2::X));
+    session.handle(Action::SaveProject(project_in(&folder)));
+    let constraints = folder.path().join("marks.txt");
+    session.handle(Action::ExportConstraints(constraints.clone()));
+    session.finish_writing();
+    assert!(project_in(&folder).is_file() && constraints.is_file());
+}
+
+#[test]
+fn a_save_that_fails_is_said_and_nothing_counts_as_saved() {
+    let (folder, mut session) = with_dome();
+    place(&mut session, 1, Target::hard(DVec2::X));
+    settled(&mut session, Action::SaveProject(folder.path().join("no such folder").join("a.freebound")));
+    assert!(session.has_unsaved_work() && session.project_path().is_none());
+    assert_eq!(errors(&session).len(), 1);
+}
+
+#[test]
+fn a_missing_mesh_is_named_and_what_was_open_stays() {
+    let (folder, mut first) = with_everything();
+    settled(&mut first, Action::SaveProject(project_in(&folder)));
+    fs::remove_file(folder.path().join("dome.obj")).unwrap();
+    let mut session = opened(Example::Ell);
+    settled(&mut session, Action::Open(project_in(&folder)));
+    assert_eq!(session.model().expect("still open").example, Some(Example::Ell));
+    let message = session.messages().last().expect("said");
+    assert!(message.text.contains("dome.obj") && message.remedy.is_some(), "{message:?}");
+}
+
+#[test]
+fn a_changed_mesh_is_said_and_pins_that_it_has_no_vertices_for_are_counted() {
+    let (folder, mut first) = with_everything();
+    settled(&mut first, Action::SaveProject(project_in(&folder)));
+    write_dome(&folder.path().join("dome.obj"), 6, 3);
+    let session = reopened(&project_in(&folder));
+    assert_eq!(session.document().targets.len(), 2, "vertex 30 is gone");
+    let said = errors(&session);
+    assert!(said[0].contains("mesh has changed") && said[0].contains("dome.obj"), "{said:?}");
+    assert!(said[1].starts_with("1 of the project's 3 pins"), "{said:?}");
+    assert!(session.project_path().is_none(), "saving asks where, so that the pins stay in the file");
+}
+
+#[test]
+fn a_missing_and_a_changed_picture_are_said() {
+    let (folder, mut first) = with_everything();
+    settled(&mut first, Action::SaveProject(project_in(&folder)));
+    let picture = folder.path().join("pictures").join("ä b.png");
+    write_picture(&picture, 5, 4);
+    let session = reopened(&project_in(&folder));
+    assert!(session.document().picture.is_some());
+    assert!(errors(&session)[0].contains("picture has changed") && errors(&session)[0].contains("ä b.png"));
+    fs::remove_file(&picture).unwrap();
+    let session = reopened(&project_in(&folder));
+    assert!(session.document().picture.is_none() && session.document().targets.len() == 3);
+    assert!(errors(&session)[0].contains("is not there") && errors(&session)[0].contains("ä b.png"));
+}
+
+#[test]
+fn saving_a_project_without_its_picture_keeps_the_picture_s_name_in_the_file() {
+    let (folder, mut first) = with_everything();
+    settled(&mut first, Action::SaveProject(project_in(&folder)));
+    let before = ProjectFile::read(&project_in(&folder)).unwrap().picture;
+    assert!(before.is_some());
+    fs::remove_file(folder.path().join("pictures").join("ä b.png")).unwrap();
+    let mut session = reopened(&project_in(&folder));
+    place(&mut session, 6, Target::hard(DVec2::Y));
+    settled(&mut session, Action::SaveProject(project_in(&folder)));
+    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().picture, before);
+}
+
+/// What is said of a project file with this text.
+fn said_of(text: &str) -> (String, Option<String>) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(project_in(&folder), text).unwrap();
+    let session = reopened(&project_in(&folder));
+    assert!(session.model().is_none(), "nothing is guessed: {text}");
+    let message = &session.messages()[0];
+    assert_eq!(message.severity, Severity::Error);
+    (message.text.clone(), message.remedy.clone())
+}
+
+#[test]
+fn faults_of_a_project_name_line_and_field() {
+    let mesh = "\"mesh\": {\"example\": \"dome\"}";
+    let pin =
+        |fields: &str| format!("{{\"freebound_project\": 1, {mesh},\n\"pins\": [\n{{\"vertex\": 1, {fields}}}\n]}}");
+    let cases = [
+        (pin("\"u\": \"x\", \"v\": 0, \"hold\": \"hard\""), "line 3, pins[0].u: invalid type"),
+        (pin("\"u\": 0, \"v\": 0, \"hold\": \"soft\""), "line 3, pins[0].hold: unknown variant `soft`"),
+        (
+            pin("\"u\": 0, \"v\": 0, \"hold\": \"weighted\", \"weight\": -2"),
+            "line 3, pins[0].weight: the weight -2 is not",
+        ),
+        (pin("\"u\": 0, \"hold\": \"hard\""), "line 3, pins[0]: missing field `v`"),
+        (pin("\"u\": 1e999, \"v\": 0, \"hold\": \"hard\""), "line 3, pins[0].u: number out of range"),
+        (
+            format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"family\": \"nonsense\"\n}}"),
+            "line 4, family: invalid value: string \"nonsense\", expected one of conformal, mean-value",
+        ),
+        ("{\n\"freebound_project\": 1,\n\"mesh\": {},\n\"pins\": []\n}".to_owned(), "line 3, mesh: name either"),
+        ("{\n\"freebound_project\": 1\n}".to_owned(), "line 3, the project: missing field `mesh`"),
+        (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"max_steps\": -3}}"), "line 4, max_steps: "),
+        (
+            format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"method\": \"best\"\n}}"),
+            "line 4, method: invalid value: string \"best\", expected one of auto, natural",
+        ),
+        (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"pins\": ["), "line 4, pins: EOF while parsing a list"),
+    ];
+    for (text, expected) in cases {
+        let (found, remedy) = said_of(&text);
+        let (file, fault) = found.split_once(": ").expect("the file comes first");
+        assert!(fault.starts_with(expected), "{found}\nand not\n{expected}\nof\n{text}");
+        assert!(file.ends_with("work.freebound") && remedy.is_some());
+    }
+}
+
+#[test]
+fn a_newer_project_is_refused_by_name_and_other_files_are_no_projects() {
+    let (text, remedy) = said_of("{\"freebound_project\": 2, \"mesh\": 7}");
+    assert!(text.contains("newer Freebound") && text.contains("its format is 2"), "{text}");
+    assert!(remedy.is_some_and(|remedy| remedy.contains("newer version")));
+    for other in ["", "v 1 2 3\n", "{}", "[1, 2]", "{\"freebound_project\": 0}"] {
+        assert!(said_of(other).0.contains("no Freebound project"), "{other}");
+    }
+}
+
+#[test]
+fn fields_that_nobody_knows_yet_are_ignored_and_few_are_needed() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "{\"future\": {\"a\": [1]}, \"freebound_project\": 1, \"mesh\": {\"example\": \"dome\", \"x\": 1}}";
+    fs::write(project_in(&folder), text).unwrap();
+    let session = reopened(&project_in(&folder));
+    assert!(session.messages().is_empty() && session.is_current());
+    assert_eq!(session.document().settings, Settings::default());
+}
+
+#[test]
+fn the_stamp_of_abc_is_that_of_the_standard() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("abc");
+    fs::write(&path, "abc").unwrap();
+    let stamp = FileStamp::read(&path).unwrap();
+    // FIPS 180-4, the example of one block.
+    let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+    assert_eq!((stamp.bytes, stamp.sha256.as_str()), (3, expected));
+}
