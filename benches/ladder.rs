@@ -1,4 +1,4 @@
-//! Where the flattener ends: `cargo bench --bench ladder`.
+//! Stages at which the flattener ends: `cargo bench --bench ladder`.
 //!
 //! `auto` on the twenty disks of `../shared/corpus`, each from twenty random pairs of boundary pins and with three
 //! families: 1200 runs. One line a mesh: how many ended planar on which stage, how many steps that took, and the time.

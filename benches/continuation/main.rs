@@ -1,4 +1,4 @@
-//! How the flattener meets constraints: `cargo bench --bench continuation`.
+//! Constraints as the flattener meets them: `cargo bench --bench continuation`.
 //!
 //! Words behind `--` choose the parts: `corpus` (the constrained problems of `../shared/corpus`), `synthetic` (bumpy caps
 //! with displaced, swirled, stretched and permuted pins), `size` (time and memory by the number of faces), `relax` (from

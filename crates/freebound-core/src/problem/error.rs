@@ -316,22 +316,9 @@ impl SolveError {
         )
     }
 
-    /// Whether a method came to nothing with pins and settings that may be: another method may give an embedding.
+    /// True if the method has no result although pins and settings are valid: another method may have one.
     pub const fn is_failure_of_method(&self) -> bool {
-        matches!(
-            self,
-            Self::NotFinite { .. }
-                | Self::Unmet
-                | Self::TooFine
-                | Self::TooManyNewVertices { .. }
-                | Self::NotPlanar
-                | Self::AllBent
-                | Self::StagesExhausted { .. }
-                | Self::OutOfRange { .. }
-                | Self::Singular { .. }
-                | Self::ResidualTooLarge { .. }
-                | Self::Linear { .. }
-        )
+        matches!(self.cause(), Cause::Method)
     }
 }
 

@@ -23,7 +23,7 @@ pub struct PlanarStart {
     size: GaugeSize,
     /// Picture that it was proved on.
     frame: PictureFrame,
-    /// One position per vertex, in the plane.
+    /// Position of every vertex in the plane.
     pub(super) embedding: Embedding,
 }
 

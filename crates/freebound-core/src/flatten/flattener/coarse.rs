@@ -75,7 +75,7 @@ fn by_few(
     }))
 }
 
-/// What the flattener comes to.
+/// Result of the flattener on the coarse disk.
 struct Flattened {
     embedding: Embedding,
     bent_vertices: usize,

@@ -14,9 +14,9 @@ use crate::problem::{Embedding, Method, Settings, Stage};
 use crate::verify::is_one_to_one;
 
 impl Flattener {
-    /// The same from a one-to-one embedding on, such as one under a dragged pin: the constraints are met from it as it lies,
-    /// and what lies well is but settled. Where that gets stuck, the way is that without it. One position per vertex, in the
-    /// plane. It comes after all other choices. Methods that do not continue, and pins that are no constraints, pass over it.
+    /// Continues from a one-to-one embedding, such as one under a dragged pin, and meets the constraints from there. If that
+    /// gets stuck, the usual stages follow. The embedding has one position per vertex, in the plane. Call this after all other
+    /// options. Methods that do not continue ignore the embedding, and so do pins that are no constraints.
     #[must_use]
     pub fn continue_from(mut self, embedding: &Embedding) -> Self {
         if !self.task.continues() {
@@ -39,7 +39,8 @@ impl Flattener {
         self
     }
 
-    /// As [`continue_from`](Self::continue_from), but an embedding that meets all constraints is left as it is, to the last bit.
+    /// Continues as [`continue_from`](Self::continue_from) does, but returns an embedding that meets all constraints unchanged,
+    /// bit for bit.
     #[must_use]
     pub fn warm_start(self, embedding: &Embedding) -> Self {
         let mut run = self.continue_from(embedding);
