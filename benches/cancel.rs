@@ -63,10 +63,11 @@ fn main() {
         if !names.is_empty() && !names.iter().any(|name| *name == method.name()) {
             continue;
         }
-        let settings = Settings::new(method, family);
+        let settings = Settings::new(method.clone(), family);
         let pins = if is_constrained { pins(&mesh, &flat) } else { Pins::new() };
-        let waits =
-            Waits::of(|control| Flattener::new(settings, pins.clone()).finish(&mesh, control, |_| {}).map(|_| ()));
+        let waits = Waits::of(|control| {
+            Flattener::new(settings.clone(), pins.clone()).finish(&mesh, control, |_| {}).map(|_| ())
+        });
         let worst = waits.worst.as_ref();
         let row = [
             method.name().to_owned(),

@@ -55,7 +55,7 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<CommandOutcome, Comman
         let targets = targets_of_chart(&model, targets)?;
         let problem = Problem::new(&arguments.settings(), frame, aspect.is_some(), targets);
         if problem.settings.start == Start::File {
-            model.flattener(&problem).map_err(|error| failure_of_layout(&model, error))?;
+            model.layout().map_err(|error| failure_of_layout(&model, error))?;
         }
         let problems = problems(arguments, &problem)?;
         let read = start.elapsed().as_secs_f64();
@@ -103,12 +103,12 @@ fn targets_of_chart(model: &Model, targets: Targets) -> Result<Targets, CommandE
 
 /// The problem of each method that is asked for; of all that suit the pins, where none is.
 fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Problem>, CommandError> {
-    let suited = || Method::ALL.iter().filter(|&&method| problem.suits(method));
+    let suited = || Method::ALL.iter().filter(|method| problem.suits(method));
     let mut variants = arguments.methods.clone();
     if variants.is_empty() {
-        variants = suited().map(|&method| Variant { method, family: None }).collect();
+        variants = suited().map(|method| Variant { method: method.clone(), family: None }).collect();
     }
-    let methods: Vec<Method> = variants.iter().map(|variant| variant.method).collect();
+    let methods: Vec<Method> = variants.iter().map(|variant| variant.method.clone()).collect();
     if arguments.morph.is_some() && methods.len() < 2 {
         return Err(CommandError::Usage("--morph goes from one method's map to another's: name two or more".into()));
     }
@@ -121,7 +121,7 @@ fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Probl
     if let Some(family) = arguments.solve.family {
         give_weights(&mut variants, family)?;
     }
-    let problems: Vec<Problem> = variants.into_iter().map(|variant| problem.by(variant)).collect();
+    let problems: Vec<Problem> = variants.into_iter().map(|variant| problem.by(&variant)).collect();
     for (count, second) in problems.iter().enumerate() {
         if problems[..count].iter().any(|first| first.settings.resolves_to(&second.settings)) {
             let name = Variant::of(&second.settings);
@@ -140,7 +140,7 @@ fn give_weights(variants: &mut [Variant], family: Family) -> Result<(), CommandE
     let mut refused = None;
     let mut are_given = false;
     for variant in variants.iter_mut().filter(|variant| variant.method.uses_family() && variant.family.is_none()) {
-        match family.check_for(variant.method) {
+        match family.check_for(&variant.method) {
             Ok(()) => (variant.family, are_given) = (Some(family), true),
             Err(error) => refused = refused.or(Some(error)),
         }

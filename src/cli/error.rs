@@ -165,8 +165,8 @@ impl Display for Remedy {
 
 impl CommandError {
     /// A method's failure: where another may do better, with that hint.
-    pub fn of_method(method: Method, error: SolveError) -> Self {
-        if error.is_failure_of_method() && method != Method::Auto {
+    pub fn of_method(method: &Method, error: SolveError) -> Self {
+        if error.is_failure_of_method() && *method != Method::Auto {
             return Self::Method { method: method.name(), error };
         }
         Self::Solve(error)

@@ -13,6 +13,7 @@ use super::progress::{INTERRUPTED, ProgressLine, go_on};
 use super::report_file::put_report;
 use super::summary::{atlas_summary, deliver, ending_words, step_words, summary, warn_of};
 use crate::session::{Model, SolvedModel, finished_atlas};
+use freebound_core::flatten::Flattener;
 use freebound_core::pipeline::{Fit, PipelineOptions, Problem, SolvedProblem};
 use freebound_core::problem::{Control, Phase, SolveError};
 use freebound_core::verify::{Conflict, conflicts};
@@ -117,7 +118,7 @@ impl HeadlessJob<'_> {
         start: Instant,
         progress: &ProgressLine,
     ) -> Result<(), CommandError> {
-        let method = self.options.settings.method;
+        let method = &self.options.settings.method;
         for chart in &output.charts {
             chart.coordinates.check_finite().map_err(|error| CommandError::of_method(method, error))?;
         }
@@ -181,8 +182,9 @@ fn solve(
     let mesh = disk_of(model)?;
     let report_phase = |phase: Phase| progress.enter(phase.words());
     let control = Control::new(&INTERRUPTED, &report_phase);
-    let method = problem.settings.method;
-    let flattener = model.flattener(&problem).map_err(|error| failure_of_layout(model, error))?;
+    let method = problem.settings.method.clone();
+    let options = model.flattener_options(&problem).map_err(|error| failure_of_layout(model, error))?;
+    let flattener = Flattener::with_options(options);
     let mut records: Vec<StepReport> = Vec::new();
     let solved = problem.solve(mesh, flattener, control, |step| {
         progress.reach(step_words(step));
@@ -197,7 +199,7 @@ fn solve(
     match solved {
         Ok(solved) => Ok(SolvedChart { solved, records }),
         Err(CommandError::Solve(error)) if error != SolveError::Cancelled => {
-            Err(CommandError::of_method(method, in_file(error)))
+            Err(CommandError::of_method(&method, in_file(error)))
         }
         Err(error) => Err(error),
     }

@@ -145,7 +145,11 @@ pub(super) fn atlas_summary(report: &Report) -> String {
     if let Some(atlas) = &report.atlas {
         let holds = if atlas.planar_in_f32 { "; holds in 32 bits" } else { "; does not hold in 32 bits" };
         let holds = if atlas.planar { holds } else { "" };
-        lines.push(format!("{}{family}: {}{holds}", report.method.map_or("check", Method::name), atlas.summary()));
+        lines.push(format!(
+            "{}{family}: {}{holds}",
+            report.method.as_ref().map_or("check", Method::name),
+            atlas.summary()
+        ));
     }
     lines.extend(rounding_words(report));
     let mut charts: Vec<&ChartReport> = report.charts.iter().collect();
@@ -230,7 +234,8 @@ pub(super) fn summary(report: &Report, verdict: &str) -> String {
     let residual = residual.map(|residual| format!("; residual {residual:.1e}")).unwrap_or_default();
     let in_f32 = report.verdict.as_ref().and_then(Verdict::summary_in_f32);
     let in_f32 = in_f32.map(|words| format!("; {words}")).unwrap_or_default();
-    lines.push(format!("{}{family}: {verdict}{residual}{in_f32}", report.method.map_or("check", Method::name)));
+    lines
+        .push(format!("{}{family}: {verdict}{residual}{in_f32}", report.method.as_ref().map_or("check", Method::name)));
     lines.extend(rounding_words(report));
     if report.new_vertices > 0 {
         lines.push(format!("new vertices: {} on {} split edges", report.new_vertices, report.split_edges.len()));

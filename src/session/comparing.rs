@@ -57,7 +57,7 @@ pub enum ContenderState {
 impl Contender {
     /// The method.
     pub fn variant(&self) -> Variant {
-        self.variant
+        self.variant.clone()
     }
 
     /// What it came to last. While it is not done that is of pins and settings that were others.
@@ -88,12 +88,12 @@ impl Comparing {
     /// Compares these methods, in this order; none ends the comparison. What is known of them stays.
     pub(super) fn choose(&mut self, variants: &[Variant]) {
         let mut before = std::mem::take(&mut self.contenders);
-        for &variant in variants {
-            if self.contenders.iter().any(|contender| contender.variant == variant) {
+        for variant in variants {
+            if self.contenders.iter().any(|contender| contender.variant == *variant) {
                 continue;
             }
-            let place = before.iter().position(|contender| contender.variant == variant);
-            let new = || Contender { variant, state: State::Waiting, found: None };
+            let place = before.iter().position(|contender| contender.variant == *variant);
+            let new = || Contender { variant: variant.clone(), state: State::Waiting, found: None };
             self.contenders.push(place.map_or_else(new, |place| before.swap_remove(place)));
         }
         self.running = self.running.take().filter(|running| variants.contains(&running.variant));
@@ -113,18 +113,18 @@ impl Comparing {
 
     /// Has all run again whose problem is another one now.
     pub(super) fn restart_outdated(&mut self, problem: &Problem) {
-        let of = |variant: Variant| problem.by(variant);
+        let of = |variant: &Variant| problem.by(variant);
         let is_outdated = |running: &mut Running| {
-            let is_of_problem = running.job.key().is_some_and(|key| key.has_steps_of(&of(running.variant)));
+            let is_of_problem = running.job.key().is_some_and(|key| key.has_steps_of(&of(&running.variant)));
             !is_of_problem
         };
         self.running.take_if(is_outdated);
-        let running = self.running.as_ref().map(|running| running.variant);
+        let running = self.running.as_ref().map(|running| running.variant.clone());
         for contender in &mut self.contenders {
-            let wanted = of(contender.variant);
+            let wanted = of(&contender.variant);
             let is_right = match &contender.state {
                 State::Waiting => true,
-                State::Running => running == Some(contender.variant),
+                State::Running => running == Some(contender.variant.clone()),
                 State::Done => contender.found.as_ref().is_some_and(|found| found.problem.has_steps_of(&wanted)),
                 State::Lost(lost, _) => lost.has_steps_of(&wanted),
             };
@@ -138,7 +138,7 @@ impl Comparing {
     pub(super) fn poll(&mut self) {
         let Some(running) = &mut self.running else { return };
         let Some((problem, outcome)) = running.job.poll() else { return };
-        let variant = running.variant;
+        let variant = running.variant.clone();
         self.running = None;
         self.revision += 1;
         let Some(contender) = self.contenders.iter_mut().find(|contender| contender.variant == variant) else { return };
@@ -158,7 +158,7 @@ impl Comparing {
         let is_waiting = |contender: &&mut Contender| matches!(contender.state, State::Waiting);
         let Some(next) = self.contenders.iter_mut().find(is_waiting) else { return };
         next.state = State::Running;
-        let (variant, problem, model) = (next.variant, problem.by(next.variant), Arc::clone(model));
+        let (variant, problem, model) = (next.variant.clone(), problem.by(&next.variant), Arc::clone(model));
         let progress = Arc::new(Mutex::new(RunProgress::default()));
         let mut job = Background::new("compare", &self.wake);
         let (of_job, of_run, wake) = (Arc::clone(&progress), problem.clone(), Arc::clone(&self.wake));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::Model;
-use freebound_core::flatten::{Ending, Step};
+use freebound_core::flatten::{Ending, Flattener, Step};
 use freebound_core::pipeline::{Outcome, Problem, pins_summary};
 use freebound_core::problem::{Control, SolveError, Variant};
 use freebound_io::{
@@ -44,7 +44,8 @@ impl Compared {
         mut take: impl FnMut(&TimedStep),
     ) -> Result<Self, SolveError> {
         let mesh = model.disk().expect("only a disk is solved");
-        let mut ladder = model.flattener(&problem).unwrap_or_else(|_| problem.flattener());
+        let mut ladder =
+            Flattener::with_options(model.flattener_options(&problem).unwrap_or_else(|_| problem.options()));
         let (mut seconds, mut steps, mut last) = (MethodSeconds::default(), Vec::new(), None);
         let mut since = Instant::now();
         let ending = ladder.finish(mesh, control, |step| {
@@ -106,9 +107,9 @@ impl Numbers {
         MethodReport {
             name: variant.to_string(),
             title: variant.title(),
-            method: settings.method,
+            method: settings.method.clone(),
             family: variant.family,
-            shape,
+            shape: shape.cloned(),
             ending: self.ending.as_ref().map_or("failed", |ending| ending.name()),
             error: self.ending.as_ref().err().map(|error| MethodError::from(&in_file(error))),
             result: outcome.map(|outcome| result(model, outcome)),

@@ -21,7 +21,7 @@ impl Session {
         let is_mesh = matches!(opened.origin, Origin::Mesh);
         if is_mesh {
             // A layout to start from was one of the mesh before.
-            opened.document.settings = Settings { start: Start::FromScratch, ..self.document.settings };
+            opened.document.settings = Settings { start: Start::FromScratch, ..self.document.settings.clone() };
         }
         self.files.put_on_table(&opened);
         let Opened { model, document, remarks, .. } = opened;

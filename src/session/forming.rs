@@ -52,7 +52,7 @@ impl Session {
             Ok(is_torn) => is_torn,
             Err(error) => return self.messages.fail(MessagePlace::Mesh, error.to_string(), None),
         };
-        let (form, before) = (self.form_to_be().clone(), self.document.settings);
+        let (form, before) = (self.form_to_be().clone(), self.document.settings.clone());
         let mut seams = form.seams.clone();
         seams.of_texture |= is_torn;
         let method = if before.method.continues_from_layout() { before.method } else { Method::Auto };

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::examples::Example;
-use freebound_core::flatten::Flattener;
+use freebound_core::flatten::Options;
 use freebound_core::geom::PackingOptions;
 use freebound_core::mesh::{DiskMesh, PartFaces, Preparation, Repaired, TriMesh, VertexId};
 use freebound_core::pipeline::{Arrangement, Fit, Outcome, PreparedMesh, Problem, SolvedChart, atlas};
@@ -229,15 +229,15 @@ impl Model {
         self.prepared.disk()
     }
 
-    /// The flattener of a problem, from the layout of the file if the problem asks for it.
+    /// Options of a flattener of a problem, with the layout of the file if the problem starts from it.
     ///
     /// # Errors
     ///
     /// [`LayoutError`] if the layout is asked for and is not there.
-    pub fn flattener(&self, problem: &Problem) -> Result<Flattener, LayoutError> {
+    pub fn flattener_options(&self, problem: &Problem) -> Result<Options, LayoutError> {
         Ok(match problem.settings.start {
-            Start::File => problem.flattener_from(&self.layout()?),
-            Start::FromScratch => problem.flattener(),
+            Start::File => problem.options_from(&self.layout()?),
+            Start::FromScratch => problem.options(),
         })
     }
 

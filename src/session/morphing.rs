@@ -107,7 +107,7 @@ impl Morphing {
 
     /// The methods whose maps are wanted as ends.
     pub(super) fn between(&self) -> Option<[Variant; 2]> {
-        self.between
+        self.between.clone()
     }
 
     /// Wants the morph between two methods, or none any more.

@@ -194,7 +194,7 @@ impl Session {
         if !self.has_form_as_wanted() {
             return;
         }
-        let settings = self.document.settings;
+        let settings = self.document.settings.clone();
         let pins = if settings.method.uses_pins() { settings.held(&self.document.pins()) } else { Pins::default() };
         let (revision, disk) = (self.model_revision(), self.disk().cloned());
         self.target_checks.find_conflicts(revision, disk.as_deref(), pins);

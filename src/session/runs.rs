@@ -150,7 +150,7 @@ impl Session {
             return;
         }
         self.solving.follow_newest();
-        let before = self.document.settings;
+        let before = self.document.settings.clone();
         if before.method == Method::Auto {
             return self.go_on(Goal::End);
         }

@@ -44,7 +44,7 @@ impl NamedOption for CellShading {
     const ALL: &'static [Self] =
         &[Self::By(Quantity::Angle), Self::By(Quantity::Area), Self::By(Quantity::Stretch), Self::Checker];
 
-    fn labels(self) -> Labels {
+    fn labels(&self) -> Labels {
         let (name, about) = match self {
             Self::By(Quantity::Angle) => ("angle", "ratio of the singular values of each face: 1 keeps angles"),
             Self::By(Quantity::Area) => ("area", "area in the plane over area on the surface"),

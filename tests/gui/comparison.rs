@@ -95,7 +95,7 @@ fn a_method_says_in_its_cell_what_it_says_as_that_of_the_document() {
     for title in titles(&window) {
         let compared = found(&window, &title);
         click_cell(&mut window, &title);
-        let settings = window.editor().session.document().settings;
+        let settings = window.editor().session.document().settings.clone();
         assert_eq!(Variant::of(&settings), Variant::of(&compared.problem.settings), "{title}");
         let (own, other) = (window.outcome(), compared.outcome.as_ref().expect("an embedding"));
         assert_eq!(own.step.candidate.solution.embedding, other.step.candidate.solution.embedding, "{title}");
@@ -107,7 +107,7 @@ fn a_method_says_in_its_cell_what_it_says_as_that_of_the_document() {
 #[test]
 fn a_click_on_a_cell_takes_its_method_and_undo_gives_it_back() {
     let mut window = with_sheet();
-    let before = window.editor().session.document().settings;
+    let before = window.editor().session.document().settings.clone();
     let convex = titles(&window).into_iter().find(|title| title.starts_with("Convex")).expect("it takes part");
     let of_convex = found(&window, &convex);
     click_cell(&mut window, &convex);
@@ -176,7 +176,7 @@ fn methods_are_checked_in_a_list_two_to_six() {
     assert_eq!(found(&window, wachspress).problem.settings.family(), Family::Wachspress);
     // What lies farther down the list is scrolled to.
     let tutte = Variant { method: Method::Convex(BoundaryShape::Square), family: Some(Family::Uniform) };
-    window.editor_mut().handle(Request::ToggleContender(tutte));
+    window.editor_mut().handle(Request::ToggleContender(tutte.clone()));
     window.settle();
     let tutte = tutte.title();
     assert_eq!(tutte, "Convex boundary, uniform, square");

@@ -57,7 +57,7 @@ fn names(window: &Window) -> Vec<String> {
 
 /// The map that a method has come to.
 fn map_of(window: &Window, name: &str) -> Embedding {
-    let variant = variants(&[name])[0];
+    let variant = variants(&[name])[0].clone();
     let contenders = window.editor().session.contenders();
     let contender = contenders.iter().find(|contender| {
         let found: Option<&Arc<Compared>> = contender.found();
@@ -120,7 +120,7 @@ fn both_ends_are_chosen_from_the_planar_maps_and_change_places() {
     window.choose("Method that the morph begins with", &variants(&["natural/mean-value"])[0].title());
     assert_eq!(names(&window), ["natural/mean-value", "schnyder"]);
     let there = tour(&window);
-    window.editor_mut().handle(Request::Morph(MorphRequest::From(variants(&["schnyder"])[0])));
+    window.editor_mut().handle(Request::Morph(MorphRequest::From(variants(&["schnyder"])[0].clone())));
     window.settle();
     assert_eq!(names(&window), ["schnyder", "natural/mean-value"], "no method is both");
     let back = tour(&window);

@@ -15,7 +15,7 @@ use glam::DVec2;
 use crate::harness::{Window, sheet};
 
 fn settings(window: &Window) -> Settings {
-    window.editor().session.document().settings
+    window.editor().session.document().settings.clone()
 }
 
 /// The numbers of the distortion as the panel writes them.
@@ -89,7 +89,7 @@ fn uniform_and_shape_preserving_weights_are_offered_for_a_convex_boundary_only()
     assert_eq!(window.outcome().problem.settings.family(), Family::ShapePreserving);
     assert!(window.is_proved(), "{}", window.verdict());
     window.choose("Method", "Natural boundary");
-    let settings = window.outcome().problem.settings;
+    let settings = window.outcome().problem.settings.clone();
     assert_eq!(settings, Settings { method: Method::Natural, ..Settings::default() });
     assert_eq!(settings.family(), Family::Conformal);
 }
@@ -121,7 +121,7 @@ fn a_polygon_s_corners_are_typed_and_refused_with_the_reason() {
     window.fill_in(Role::TextInput, "Corners of the polygon", "0 0; 3 0; 3 2; 0 2");
     window.key(Key::Enter);
     let rectangle = ConvexPolygon::parse("0 0; 3 0; 3 2; 0 2").expect("convex");
-    assert_eq!(settings(&window).method, Method::Stretch(BoundaryShape::Polygon(rectangle)));
+    assert_eq!(settings(&window).method, Method::Stretch(BoundaryShape::Polygon(rectangle.clone())));
     assert_eq!(window.outcome().problem.settings, settings(&window), "solved");
     window.fill_in(Role::TextInput, "Corners of the polygon", "0 0; 0 1; 1 0");
     window.key(Key::Enter);

@@ -54,7 +54,7 @@ fn what_came_of_a_rule_is_forgotten_with_the_tool_the_file_and_other_seams() {
 fn a_rule_does_not_cut_in_the_middle_of_a_sliders_drag() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.8));
     let slide = |window: &mut Window, share: f64| {
-        let before = window.editor().session.document().settings;
+        let before = window.editor().session.document().settings.clone();
         let settings = Settings { family: Some(Family::Power(share)), ..before };
         window.editor_mut().handle(Action::SlideSettings(settings).into());
     };
@@ -69,7 +69,7 @@ fn a_rule_does_not_cut_in_the_middle_of_a_sliders_drag() {
     window.editor_mut().handle(Action::EndGesture.into());
     window.settle();
     assert!(!seams(&window).is_empty());
-    let settings = window.editor().session.document().settings;
+    let settings = window.editor().session.document().settings.clone();
     window.press(Modifiers::COMMAND, Key::Z);
     assert!(seams(&window).is_empty());
     assert_eq!(window.editor().session.document().settings, settings, "the drag is an edit of its own");

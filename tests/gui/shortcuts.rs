@@ -146,7 +146,7 @@ fn ctrl_and_enter_solve_afresh_what_went_on_from_the_map_before() {
             && window.is_proved()
             && !window.editor().session.is_continued()
     );
-    let first = window.editor().session.timeline().records()[0].stage;
+    let first = window.editor().session.timeline().records()[0].stage.clone();
     assert!(first == Stage::Natural && window.embedding() != gone_on);
     assert_eq!(window.embedding()[vertex], target.uv);
 }

@@ -61,7 +61,7 @@ fn one_choice_shows_the_layout_of_the_file_as_it_is_and_relax_goes_on_from_it() 
     let (mut window, layout) = opened(f64::INFINITY);
     assert_eq!(window.outcome().step.candidate.stage, Stage::Natural);
     window.choose("Start", "File's layout");
-    assert_eq!((start(&window), window.outcome().step.candidate.stage), (Start::File, Stage::Given));
+    assert_eq!((start(&window), window.outcome().step.candidate.stage.clone()), (Start::File, Stage::Given));
     assert_eq!(window.embedding(), layout);
     assert!(window.is_proved(), "{}", window.verdict());
     let before = window.outcome().distortion.summary.symmetric_dirichlet.mean;
@@ -72,7 +72,7 @@ fn one_choice_shows_the_layout_of_the_file_as_it_is_and_relax_goes_on_from_it() 
     for _ in 0..2 {
         window.press(Modifiers::COMMAND, Key::Z);
     }
-    assert_eq!((start(&window), window.outcome().step.candidate.stage), (Start::FromScratch, Stage::Natural));
+    assert_eq!((start(&window), window.outcome().step.candidate.stage.clone()), (Start::FromScratch, Stage::Natural));
     window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     assert_eq!(window.embedding(), layout);
 }

@@ -24,8 +24,8 @@ fn spectral_and_angle_based_maps_are_chosen_by_their_names_and_say_how_they_conv
         assert_eq!(window.editor().session.document().settings.method, method);
         let outcome = window.outcome();
         assert_eq!(
-            (outcome.problem.settings.method, outcome.step.candidate.stage.name(), outcome.step.index),
-            (method, method.name(), 0)
+            (outcome.problem.settings.method.clone(), outcome.step.candidate.stage.name(), outcome.step.index),
+            (method.clone(), method.name(), 0)
         );
         let found = outcome.step.candidate.solution.convergence.expect("it says how it ended");
         assert_eq!(found.stop, Stop::Converged, "{}", method.name());

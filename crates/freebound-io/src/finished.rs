@@ -57,7 +57,7 @@ impl<'a> ResultSource<'a> {
         let verify = step.verify_seconds + start.elapsed().as_secs_f64();
         let repairs = prepared.repaired.as_ref().map(|repaired| repaired.done().to_vec()).unwrap_or_default();
         let report = Report {
-            method: Some(settings.method),
+            method: Some(settings.method.clone()),
             family: settings.method.uses_family().then_some(settings.family()),
             start: self.start,
             pins: Some(pins),
@@ -106,7 +106,7 @@ impl<'a> ResultSource<'a> {
         let solve = steps.iter().flatten().map(|step| step.seconds).sum();
         let new_vertices = atlas.summaries.iter().map(|summary| summary.new_vertices).sum();
         let report = Report {
-            method: Some(settings.method),
+            method: Some(settings.method.clone()),
             family: settings.method.uses_family().then_some(settings.family()),
             start: self.start,
             shape: ShapeReport::of(settings),

@@ -24,7 +24,7 @@ pub enum Precision {
 impl NamedOption for Precision {
     const ALL: &'static [Self] = &[Self::F64, Self::F32];
 
-    fn labels(self) -> Labels {
+    fn labels(&self) -> Labels {
         match self {
             Self::F64 => Labels::new("f64", "64 bits").about("64 bits"),
             Self::F32 => Labels::new("f32", "32 bits").about("32 bits, as most programs read them"),

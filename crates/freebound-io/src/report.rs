@@ -104,7 +104,7 @@ pub fn write_report(out: &mut impl Write, report: &impl Serialize) -> io::Result
 }
 
 /// A convex shape, and what lies on it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShapeReport {
     /// The shape.
     pub outline: BoundaryShape,
@@ -119,7 +119,7 @@ impl ShapeReport {
     /// That of these settings, where their method lays a boundary on a shape.
     pub fn of(settings: &Settings) -> Option<Self> {
         let layers = settings.method.is_padded().then_some(settings.layers);
-        settings.method.boundary_shape().map(|outline| Self { outline, spacing: settings.spacing, layers })
+        settings.method.boundary_shape().cloned().map(|outline| Self { outline, spacing: settings.spacing, layers })
     }
 }
 

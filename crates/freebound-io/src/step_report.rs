@@ -103,7 +103,7 @@ impl StepReport {
         let (solution, verdict) = (&step.candidate.solution, &step.verdict);
         let counts = solution.linear.unwrap_or_default();
         Self {
-            stage: step.candidate.stage,
+            stage: step.candidate.stage.clone(),
             index: step.index,
             flipped_faces: verdict.flipped_faces.len(),
             concave_polygons: verdict.concave_polygons.len(),

@@ -109,7 +109,8 @@ impl FlattenArguments {
 
     /// The solver's settings.
     pub fn settings(&self) -> Settings {
-        self.solve.settings(self.boundary.as_ref().map_or(self.method, |typed| self.method.on_shape(typed.shape)))
+        let shape = self.boundary.as_ref().map(|typed| typed.shape.clone());
+        self.solve.settings(shape.map_or_else(|| self.method.clone(), |shape| self.method.clone().on_shape(shape)))
     }
 
     /// An option that was given but means nothing to the method, and why.
@@ -117,6 +118,6 @@ impl FlattenArguments {
         if self.boundary.is_some() && self.method.boundary_shape().is_none() {
             return Some(("--boundary", ONLY_ON_SHAPES));
         }
-        self.solve.idle_option(&[self.method])
+        self.solve.idle_option(std::slice::from_ref(&self.method))
     }
 }

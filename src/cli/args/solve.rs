@@ -103,14 +103,14 @@ impl SolveArguments {
     /// An option that was given but means nothing to any of the methods, and why not to the first.
     pub fn idle_option(&self, methods: &[Method]) -> Option<(&'static str, &'static str)> {
         let [first, others @ ..] = methods else { return None };
-        let is_idle = |option: &str, method: Method| self.idle_options(method).iter().any(|(idle, _)| *idle == option);
-        let mut idle = self.idle_options(*first).into_iter();
-        idle.find(|(option, _)| others.iter().all(|&method| is_idle(option, method)))
+        let is_idle = |option: &str, method: &Method| self.idle_options(method).iter().any(|(idle, _)| *idle == option);
+        let mut idle = self.idle_options(first).into_iter();
+        idle.find(|(option, _)| others.iter().all(|method| is_idle(option, method)))
     }
 
     /// All options that were given but mean nothing to a method, and why.
-    fn idle_options(&self, method: Method) -> Vec<(&'static str, &'static str)> {
-        let splits = method == Method::Auto;
+    fn idle_options(&self, method: &Method) -> Vec<(&'static str, &'static str)> {
+        let splits = *method == Method::Auto;
         let of_family =
             if method.is_one_to_one() { "it solves no weighted equations" } else { "its weights are its own" };
         let treats_pins = method.uses_pins() && !method.only_places_pins();

@@ -42,7 +42,7 @@ pub(super) fn figure_1(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Fig
     let words = "Tutte: convex boundary, uniform weights";
     figure.panel(words, Drawing::Plane(tutte)).showing("Tutte").measure(&step);
     let settings = Settings::new(Method::Lee(BoundaryShape::Circle), Family::Uniform);
-    let step = Flattener::new(settings, Pins::new()).step(mesh, control)?;
+    let step = Flattener::new(settings.clone(), Pins::new()).step(mesh, control)?;
     let words = format!("Lee et al.: {} virtual layers, uniform weights", settings.layers);
     figure.panel(&words, Drawing::Plane(with_padding(mesh, &step))).showing("Lee et al.").measure(&step);
     Ok(figure)

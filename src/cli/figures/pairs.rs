@@ -47,6 +47,6 @@ pub const PAIRS: [PinPair; 2] = [TOP_AND_BOUNDARY, TOP_DIAGONAL];
 
 /// The settings of one of [`WEIGHTS`].
 pub fn settings(weights: usize) -> Settings {
-    let (_, method, family) = WEIGHTS[weights];
+    let (_, method, family) = WEIGHTS[weights].clone();
     Settings::new(method, family)
 }

@@ -34,7 +34,7 @@ pub(super) use self::solved::Solved;
 use super::stop::Goal;
 use super::timeline::{TIMELINE_BUDGET, Timeline};
 use super::{Background, MessagePlace, Messages, RunStop, StopConditions, Wake};
-use freebound_core::flatten::{Ending, Flattener, Prepared, SolverCache};
+use freebound_core::flatten::{Ending, Flattener, Options, Prepared, SolverCache};
 use freebound_core::pipeline::{Outcome, Problem};
 use freebound_core::problem::{Method, Phase};
 
@@ -201,7 +201,8 @@ impl Solving {
 
     /// A run that has not begun.
     fn run_of(&self, Task { model, problem, .. }: &Task) -> Flattener {
-        model.flattener(problem).unwrap_or_else(|_| problem.flattener()).with_cache(&self.kept)
+        let options = model.flattener_options(problem).unwrap_or_else(|_| problem.options());
+        Flattener::with_options(Options { cache: Some(self.kept.clone()), ..options })
     }
 
     /// Goes on with the run at rest, or begins one where the problem has changed since.

@@ -63,7 +63,7 @@ impl Solving {
         messages.forget_notes();
         self.failed = None;
         let Some(newest) = solved.newest() else { return };
-        let stages: Vec<Stage> = solved.timeline.records().iter().map(|record| record.stage).collect();
+        let stages: Vec<Stage> = solved.timeline.records().iter().map(|record| record.stage.clone()).collect();
         let run = self.run_of(&task).resume_after(&newest.step, &stages);
         self.resting = Some(Resting { problem: task.problem, run });
         (self.timeline, self.ending, self.rounds) = (solved.timeline, solved.ending, solved.rounds);

@@ -72,7 +72,7 @@ impl Editor {
             }
             Request::ToggleComparison => self.toggle_comparison(),
             Request::ToggleContender(variant) => self.toggle_contender(variant),
-            Request::TakeContender(variant) => self.act(self.take_contender(variant)),
+            Request::TakeContender(variant) => self.act(self.take_contender(&variant)),
             Request::ColourComparison(quantity) => self.plane.comparison.colour_by(quantity),
             Request::SortComparison(column) => self.plane.comparison.sort_by(column),
             Request::ToggleComparisonTable => self.plane.comparison.toggle_table(),

@@ -108,7 +108,7 @@ pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Requ
             (accented(words, theme), tip.to_owned(), Request::Do(Action::Repair))
         }
         Advice::Change(change) => {
-            let request = change.request(editor.session.document().settings);
+            let request = change.request(editor.session.document().settings.clone());
             (accented(words, theme), change.words()[1].to_owned(), request)
         }
         Advice::Relax(ratio) => {

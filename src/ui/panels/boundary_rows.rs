@@ -14,11 +14,11 @@ pub(super) fn boundary_rows(ui: &mut egui::Ui, settings: &mut Settings) {
     let Some(shape) = settings.method.boundary_shape_mut() else { return };
     ui.label("Boundary");
     list(ui, "Shape of the boundary", 150.0, shape.labels().title, |ui| {
-        for &choice in BoundaryShape::ALL {
+        for choice in BoundaryShape::ALL {
             let is_chosen = shape.name() == choice.name();
             let label = ui.selectable_label(is_chosen, choice.labels().title);
             if label.on_hover_text(sentence(choice.labels().about)).clicked() && !is_chosen {
-                *shape = choice;
+                *shape = choice.clone();
             }
         }
     });
@@ -54,7 +54,9 @@ fn corners_field(ui: &mut egui::Ui, polygon: &mut ConvexPolygon) {
     }
     let field = field.named(Role::TextInput, CORNERS);
     if fault.is_none() && field.lost_focus() {
-        *polygon = ConvexPolygon::parse(&text).unwrap_or(*polygon);
+        if let Ok(read) = ConvexPolygon::parse(&text) {
+            *polygon = read;
+        }
     } else {
         ui.data_mut(|data| data.insert_temp(key, [own, text]));
     }

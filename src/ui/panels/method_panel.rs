@@ -20,8 +20,8 @@ const FIGURE: usize = 8;
 const POWERS: std::ops::RangeInclusive<f64> = -1.0..=1.0;
 
 pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let settings = editor.session.document().settings;
-    let mut edit = Edit { settings, slides: false, ends: false };
+    let settings = &editor.session.document().settings;
+    let mut edit = Edit { settings: settings.clone(), slides: false, ends: false };
     let chosen = &mut edit.settings;
     pairs(ui, "method", [12.0, 8.0], |ui| {
         ui.label("Method");
@@ -73,8 +73,8 @@ struct Edit {
 }
 
 impl Edit {
-    fn ask_for(self, before: Settings, requests: &mut Vec<Request>) {
-        if self.settings != before {
+    fn ask_for(self, before: &Settings, requests: &mut Vec<Request>) {
+        if self.settings != *before {
             let action = if self.slides { Action::SlideSettings } else { Action::SetSettings };
             requests.push(action(self.settings).into());
         }
@@ -111,21 +111,21 @@ fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
 
 fn method_list(ui: &mut egui::Ui, settings: &mut Settings) {
     list(ui, "Method", 150.0, settings.method.labels().title, |ui| {
-        for &method in Method::ALL {
+        for method in Method::ALL {
             let is_chosen = settings.method.name() == method.name();
             let label = ui.selectable_label(is_chosen, method.labels().title).on_hover_text(method.labels().tip());
             if label.clicked() && !is_chosen {
-                let shape = settings.method.boundary_shape();
-                *settings = settings.by(shape.map_or(method, |shape| method.on_shape(shape)));
+                let shape = settings.method.boundary_shape().cloned().unwrap_or_default();
+                *settings = settings.clone().by(method.clone().on_shape(shape));
             }
         }
     });
 }
 
 fn family_list(ui: &mut egui::Ui, settings: &mut Settings) {
-    let method = settings.method;
+    let method = settings.method.clone();
     list(ui, "Weights", 150.0, settings.family().labels().title, |ui| {
-        for &family in Family::ALL.iter().filter(|family| family.goes_with(method)) {
+        for &family in Family::ALL.iter().filter(|family| family.goes_with(&method)) {
             let is_chosen = settings.family().name() == family.name();
             let label = ui.selectable_label(is_chosen, family.labels().title).on_hover_text(family.labels().tip());
             if label.clicked() && !is_chosen {
@@ -175,7 +175,7 @@ fn new_vertices_box(ui: &mut egui::Ui, settings: &mut Settings) {
 
 /// What few people need: how long the iteration may go on, and how the virtual boundary does.
 fn more(ui: &mut egui::Ui, edit: &mut Edit) {
-    let method = edit.settings.method;
+    let method = edit.settings.method.clone();
     let is_padded = method.is_padded();
     if !method.iterates() && !method.bends_boundary() && !is_padded {
         return;

@@ -31,7 +31,7 @@ impl ComparisonExport {
 }
 
 /// Requests to the morph.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum MorphRequest {
     /// Shows it in the place of the cells, or the cells again.
     Toggle,

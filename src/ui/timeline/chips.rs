@@ -42,7 +42,7 @@ struct Chip<'a> {
 impl<'a> Chip<'a> {
     fn new(timeline: &'a Timeline, index: usize, room: Room) -> Self {
         let records = timeline.records();
-        let stage = records[index].stage;
+        let stage = records[index].stage.clone();
         let is_new = room != Room::Tight && (index == 0 || records[index - 1].stage != stage);
         Self {
             index,

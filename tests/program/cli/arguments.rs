@@ -44,8 +44,8 @@ fn an_aspect_is_a_width_and_a_height() {
 }
 
 fn assert_told_apart<C: NamedOption + PartialEq + std::fmt::Debug>() {
-    for &choice in C::ALL {
-        assert_eq!(C::named(&choice.written()), Some(choice), "a name of its own");
+    for choice in C::ALL {
+        assert_eq!(C::named(&choice.written()), Some(choice.clone()), "a name of its own");
         assert!(!choice.labels().title.is_empty() && !choice.labels().about.is_empty(), "{choice:?}");
     }
     assert_eq!(C::named("relax"), None);

@@ -83,11 +83,11 @@ fn without_a_list_all_methods_run_that_have_something_to_do() {
     let free = methods(&program, &["tent.obj"]);
     let named = |name: &str| Method::named(name).expect("a method");
     let all: Vec<Method> = names(&free).into_iter().map(named).collect();
-    let wanted: Vec<Method> = Method::ALL.iter().copied().filter(|method| !method.only_meets_constraints()).collect();
+    let wanted: Vec<Method> = Method::ALL.iter().filter(|method| !method.only_meets_constraints()).cloned().collect();
     assert_eq!(all, wanted);
     let constrained = methods(&program, &[&["tent.obj"][..], &PINS].concat());
     let all: Vec<Method> = names(&constrained).into_iter().map(named).collect();
-    let wanted: Vec<Method> = Method::ALL.iter().copied().filter(|method| method.takes_constraints()).collect();
+    let wanted: Vec<Method> = Method::ALL.iter().filter(|method| method.takes_constraints()).cloned().collect();
     assert_eq!(all, wanted);
     assert!(constrained.iter().all(|method| method["result"]["pins"]["count"] == 3));
 }

@@ -13,11 +13,11 @@ fn every_variant_has_a_name_that_stands_for_it() {
     let base = Settings::default();
     let mut names = BTreeSet::new();
     let mut count = 0;
-    for &method in Method::ALL {
+    for method in Method::ALL {
         let shapes = if method.boundary_shape().is_some() { BoundaryShape::ALL } else { &BoundaryShape::ALL[..1] };
-        for method in shapes.iter().map(|&shape| method.on_shape(shape)) {
-            for &family in Family::ALL.iter().filter(|family| method.uses_family() && family.goes_with(method)) {
-                let variant = Variant { method, family: Some(family) };
+        for method in shapes.iter().map(|shape| method.clone().on_shape(shape.clone())) {
+            for &family in Family::ALL.iter().filter(|family| method.uses_family() && family.goes_with(&method)) {
+                let variant = Variant { method: method.clone(), family: Some(family) };
                 let read = Variant::from_str(&variant.to_string()).expect("its own name");
                 assert!(read.settings(&base).resolves_to(&variant.settings(&base)), "{variant}");
                 names.insert(variant.to_string());

@@ -173,7 +173,7 @@ fn the_pairs_fold_as_measured_and_both_methods_repair_what_they_fold() {
             assert_eq!(folded.verdict.flipped_faces.len(), pair.flipped_faces[weights], "{a}, {b}, {name}");
             assert!(folded.has_simple_boundary(), "{a}, {b}, {name}");
             let repaired = |method: Method| {
-                let settings = Settings { method, ..settings(weights) };
+                let settings = Settings { method: method.clone(), ..settings(weights) };
                 let (mut count, mut last) = (0, None::<Step>);
                 let mut run = Flattener::new(settings, pins.clone()).after(&folded);
                 let ending = run.finish(&mesh, Control::unattended(), |step| {

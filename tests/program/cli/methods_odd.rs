@@ -126,15 +126,14 @@ fn extreme() -> Vec<Odd> {
 /// All that can be run: each method with all its weights, and on all its shapes with the usual ones.
 fn variants() -> Vec<Variant> {
     let mut variants = Vec::new();
-    for &method in Method::ALL {
+    for method in Method::ALL {
         let families = Family::ALL.iter().filter(|family| method.uses_family() && family.goes_with(method));
-        variants.extend(families.map(|&family| Variant { method, family: Some(family) }));
+        variants.extend(families.map(|&family| Variant { method: method.clone(), family: Some(family) }));
         if !method.uses_family() {
-            variants.push(Variant { method, family: None });
+            variants.push(Variant { method: method.clone(), family: None });
         }
-        let others =
-            BoundaryShape::ALL.iter().filter(|&&shape| method.boundary_shape().is_some_and(|own| own != shape));
-        variants.extend(others.map(|&shape| Variant { method: method.on_shape(shape), family: None }));
+        let others = BoundaryShape::ALL.iter().filter(|&shape| method.boundary_shape().is_some_and(|own| own != shape));
+        variants.extend(others.map(|shape| Variant { method: method.clone().on_shape(shape.clone()), family: None }));
     }
     variants
 }
@@ -149,7 +148,7 @@ fn constrained(model: &Model) -> Document {
 }
 
 /// Runs one and says what is wrong with what comes of it.
-fn faults(model: &Model, document: &Document, variant: Variant) -> Vec<String> {
+fn faults(model: &Model, document: &Document, variant: &Variant) -> Vec<String> {
     let problem = document.problem().by(variant);
     let compared = Compared::run(model, problem, Control::unattended(), |_| {}).expect("nobody cancels");
     let mut faults = Vec::new();
@@ -205,9 +204,9 @@ fn assert_honest(surfaces: Vec<Odd>) {
     for Odd { name, model } in surfaces {
         for document in [Document::default(), constrained(&model)] {
             let problem = document.problem();
-            for variant in variants().into_iter().filter(|variant| problem.suits(variant.method)) {
+            for variant in variants().into_iter().filter(|variant| problem.suits(&variant.method)) {
                 let of = format!("{name}, {variant}, {} pins", document.targets.len());
-                let run = std::panic::catch_unwind(|| faults(&model, &document, variant));
+                let run = std::panic::catch_unwind(|| faults(&model, &document, &variant));
                 match run {
                     Ok(faults) => found.extend(faults.into_iter().map(|fault| format!("{of}: {fault}"))),
                     Err(_) => found.push(format!("{of}: panic")),

@@ -81,7 +81,7 @@ fn compared(path: &Path, methods: &[&str]) -> (Model, Vec<Compared>) {
     let problem = Document { settings: Settings::default(), ..Document::default() }.problem();
     let run = |name: &&str| {
         let variant = name.parse::<Variant>().expect("a method");
-        Compared::run(&model, problem.by(variant), Control::unattended(), |_| {}).expect("nobody cancels")
+        Compared::run(&model, problem.by(&variant), Control::unattended(), |_| {}).expect("nobody cancels")
     };
     let found = methods.iter().map(run).collect();
     (model, found)
@@ -237,10 +237,10 @@ fn wrong_use_of_a_morph_ends_with_2_and_writes_nothing() {
 /// The longest names that a method is typed by, on shapes with a name.
 fn longest_names() -> [String; 2] {
     let shapes = || BoundaryShape::ALL.iter().filter(|shape| !matches!(shape, BoundaryShape::Polygon(_)));
-    let methods = Method::ALL.iter().flat_map(|method| shapes().map(|&shape| method.on_shape(shape)));
+    let methods = Method::ALL.iter().flat_map(|method| shapes().map(|shape| method.clone().on_shape(shape.clone())));
     let variants = methods.flat_map(|method| {
-        let suited = Family::ALL.iter().filter(move |family| family.check_for(method).is_ok() && method.uses_family());
-        suited.map(move |&family| Variant { method, family: Some(family) })
+        let suited = Family::ALL.iter().filter(|family| family.check_for(&method).is_ok() && method.uses_family());
+        suited.map(|&family| Variant { method: method.clone(), family: Some(family) }).collect::<Vec<_>>()
     });
     let mut names: Vec<String> = variants.map(|variant| variant.to_string()).collect();
     names.sort_by_key(|name| std::cmp::Reverse(name.len()));

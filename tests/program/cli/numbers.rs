@@ -60,8 +60,8 @@ fn steps_of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Result<Vec<Step
     Ok(steps)
 }
 
-fn last_of(mesh: &DiskMesh, method: Method, pins: &Pins) -> Step {
-    let steps = steps_of(mesh, Settings::new(method, Family::default()), pins);
+fn last_of(mesh: &DiskMesh, method: &Method, pins: &Pins) -> Step {
+    let steps = steps_of(mesh, Settings::new(method.clone(), Family::default()), pins);
     steps.unwrap_or_else(|error| panic!("{}: {error}", method.name())).pop().unwrap()
 }
 
@@ -73,7 +73,7 @@ fn targets_far_from_the_origin_are_no_matter() {
     let near = hard_pins(corners().map(|(v, z)| (v, (z * 1024.0).round() / 1024.0)));
     let pins = near.iter().map(|(&v, pin)| (v, Pin::hard(pin.target + far))).collect();
     for method in CONSTRAINED {
-        let [here, there] = [&near, &pins].map(|pins| last_of(&mesh, method, pins));
+        let [here, there] = [&near, &pins].map(|pins| last_of(&mesh, &method, pins));
         assert!(there.unmet().is_empty(), "{}", method.name());
         assert_eq!(here.candidate.stage, there.candidate.stage, "{}: another rung", method.name());
         let off = here.candidate.solution.embedding.iter().zip(&there.candidate.solution.embedding);
@@ -92,10 +92,10 @@ fn targets_of_any_order_of_magnitude_give_the_same_map_to_the_last_bit() {
         steps_of(mesh, settings, pins).unwrap().pop().unwrap()
     };
     for method in CONSTRAINED {
-        let near = last_of(&mesh, method, &hard_pins(corners()));
+        let near = last_of(&mesh, method.clone(), &hard_pins(corners()));
         for exponent in [-900, -540, 532, 900] {
             let scale = 2_f64.powi(exponent);
-            let far = last_of(&mesh, method, &hard_pins(corners().map(|(v, z)| (v, z * scale))));
+            let far = last_of(&mesh, method.clone(), &hard_pins(corners().map(|(v, z)| (v, z * scale))));
             let back: Embedding = far.candidate.solution.embedding.iter().map(|z| *z / scale).collect();
             assert_eq!(back, near.candidate.solution.embedding, "{} at 2^{exponent}", method.name());
             assert!(
@@ -119,7 +119,7 @@ fn meshes_of_any_order_of_magnitude_give_the_same_map_to_the_last_bit() {
         assert_eq!(far.position(VertexId::new(7)) * far.unit(), near.position(VertexId::new(7)) * half * rest);
         for method in CONSTRAINED {
             let pins = hard_pins(corners());
-            let [a, b] = [&near, &far].map(|mesh| last_of(mesh, method, &pins));
+            let [a, b] = [&near, &far].map(|mesh| last_of(mesh, &method, &pins));
             assert_eq!(
                 a.candidate.solution.embedding,
                 b.candidate.solution.embedding,
@@ -137,7 +137,7 @@ fn targets_at_the_end_of_the_range_of_numbers_are_met() {
         let pins = hard_pins(corners().map(|(v, z)| (v, (z - 0.4) * scale)));
         for method in CONSTRAINED {
             let start = Instant::now();
-            let step = last_of(&mesh, method, &pins);
+            let step = last_of(&mesh, &method, &pins);
             assert!(start.elapsed() < HANG, "{} at {scale:e}", method.name());
             assert!(step.unmet().is_empty(), "{} at {scale:e}", method.name());
         }
@@ -151,7 +151,7 @@ fn weights_of_any_order_of_magnitude_pull_as_far_as_weights_can() {
     let at = |weight| {
         let pin = |(v, z)| (v, Pin::weighted(z, weight));
         let step =
-            last_of(&mesh, Method::Natural, &[(a.0, Pin::hard(a.1)), (b.0, Pin::hard(b.1)), pin(c), pin(d)].into());
+            last_of(&mesh, &Method::Natural, &[(a.0, Pin::hard(a.1)), (b.0, Pin::hard(b.1)), pin(c), pin(d)].into());
         [c, d].map(|(v, z)| step.candidate.solution.embedding[v].distance(z)).into_iter().fold(0.0, f64::max)
     };
     let free = at(1e-9);
@@ -262,7 +262,7 @@ proptest! {
         let pins = pins_in_plane(&targets, frame);
         let [low, high] = frame.corners();
         let size = if aspect == 1.0 { GaugeSize::TrueArea } else { GaugeSize::Within(freebound_core::geom::Bounds { low, high }) };
-        let settings = Settings { size, ..Settings::new(method, Family::default()) };
+        let settings = Settings { size, ..Settings::new(method.clone(), Family::default()) };
         let start = Instant::now();
         let steps = steps_of(&mesh, settings, &pins);
         prop_assert!(start.elapsed() < HANG, "{:?}", start.elapsed());

@@ -200,7 +200,7 @@ fn where_v_runs_down_it_runs_up_in_the_file_and_the_verdict_is_on_that() {
     let targets = [(3, [0.2, 0.8]), (40, [0.8, 0.7]), (11, [0.7, 0.1])];
     let uv = hard_targets(targets.map(|(v, uv)| (freebound_core::mesh::VertexId::new(v), uv.into())));
     let problem = Problem { frame, targets: uv, ..Problem::default() };
-    let step = Flattener::new(problem.settings, problem.pins()).step(mesh, Control::unattended()).unwrap();
+    let step = Flattener::new(problem.settings.clone(), problem.pins()).step(mesh, Control::unattended()).unwrap();
     let outcome = Outcome::new(mesh, problem, step);
     let finished = model.finished(&outcome, Vec::new(), Fit::Unit);
     let folder = tempfile::tempdir().unwrap();

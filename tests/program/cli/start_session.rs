@@ -42,12 +42,12 @@ fn embedding(session: &Session) -> Embedding {
 fn constraints_are_met_from_the_layout_or_from_the_surface_whatever_was_before() {
     for method in [Method::Continuation, Method::Matchmaker] {
         let [from_scratch, from_layout] =
-            [Start::FromScratch, Start::File].map(|start| embedding(&with_sheet(method, start)));
+            [Start::FromScratch, Start::File].map(|start| embedding(&with_sheet(method.clone(), start)));
         assert!(from_scratch != from_layout, "{method:?}: the starts differ");
         for starts in [[Start::FromScratch, Start::File], [Start::File, Start::FromScratch]] {
-            let mut session = with_sheet(method, starts[0]);
+            let mut session = with_sheet(method.clone(), starts[0]);
             for start in [starts[1], starts[0], starts[1]] {
-                choose(&mut session, method, start);
+                choose(&mut session, method.clone(), start);
                 let expected = if start == Start::File { &from_layout } else { &from_scratch };
                 assert!(embedding(&session) == *expected, "to the last bit, {method:?} {start:?}");
             }

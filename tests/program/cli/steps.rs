@@ -253,7 +253,7 @@ fn outcome_with(mesh: &DiskMesh, places: Embedding) -> Outcome {
     let mut step = run.step(mesh, Control::unattended()).expect("a fan is flat");
     step.verdict = verdict(mesh, &places);
     step.candidate.solution.embedding = places;
-    Outcome::new(mesh, Problem { settings: *run.settings(), ..Problem::default() }, step)
+    Outcome::new(mesh, Problem { settings: run.settings().clone(), ..Problem::default() }, step)
 }
 
 fn finish(mesh: &TriMesh, places: Embedding) -> (bool, Placement, bool) {

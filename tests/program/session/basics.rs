@@ -88,7 +88,7 @@ fn one_fixed_vertex_leaves_the_embedding_where_it_is() {
 fn settings_stay_when_another_mesh_opens_and_pins_go() {
     let mut session = opened(Example::Dome);
     let settings = Settings::new(Method::Natural, Family::MeanValue);
-    settled(&mut session, Action::SetSettings(settings));
+    settled(&mut session, Action::SetSettings(settings.clone()));
     settled(&mut session, Action::Fix(vec![id(1), id(2)]));
     settled(&mut session, Action::OpenExample(Example::Ell));
     assert_eq!(*session.document(), Document { settings, ..Document::default() });
@@ -228,10 +228,10 @@ impl Walk {
 
     fn settings(&mut self) -> Settings {
         // Those that climb to constraints take long where these are at random.
-        let methods: Vec<Method> = Method::ALL.iter().copied().filter(|method| !method.is_one_to_one()).collect();
+        let methods: Vec<Method> = Method::ALL.iter().filter(|method| !method.is_one_to_one()).cloned().collect();
         let count = u32::try_from(methods.len()).expect("few");
         let families = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.5), Family::Uniform];
-        Settings::new(methods[self.random.below(count) as usize], families[self.random.below(5) as usize])
+        Settings::new(methods[self.random.below(count) as usize].clone(), families[self.random.below(5) as usize])
     }
 
     fn action(&mut self) -> Action {
@@ -298,7 +298,7 @@ impl Walk {
     fn note_opening(&mut self) {
         if self.session.model_revision() != self.revision {
             self.revision = self.session.model_revision();
-            self.opening = Document { settings: self.session.document().settings, ..Document::default() };
+            self.opening = Document { settings: self.session.document().settings.clone(), ..Document::default() };
         }
     }
 

@@ -145,7 +145,7 @@ fn pins_belong_to_their_chart_and_undo_goes_where_they_are() {
 #[test]
 fn another_method_is_for_all_charts() {
     let (_folder, mut session) = with_disks();
-    let settings = Settings { method: Method::Lscm, ..session.document().settings };
+    let settings = Settings { method: Method::Lscm, ..session.document().settings.clone() };
     settled(&mut session, Action::SetSettings(settings));
     until_laid_out(&mut session);
     for chart in 0..count(&session) {
@@ -253,7 +253,7 @@ fn all_charts_are_written_together_and_proved() {
 #[test]
 fn nothing_is_written_while_charts_have_no_embedding() {
     let (folder, mut session) = with_disks();
-    let settings = Settings { method: Method::Lscm, ..session.document().settings };
+    let settings = Settings { method: Method::Lscm, ..session.document().settings.clone() };
     session.handle(Action::SetSettings(settings));
     let path = file(&folder, "early.obj");
     session.handle(Action::Save(SaveRequest { path: path.clone(), kind: OutputKind::Obj, fit: Fit::Unit }));
@@ -316,7 +316,7 @@ fn a_walk_among_charts_and_back_ends_where_it_began() {
 fn a_chart_shown_in_the_middle_of_another_method_is_solved_by_it() {
     let (_folder, mut session) = with_disks();
     for method in [Method::Lscm, Method::Natural, Method::Lscm] {
-        let settings = Settings { method, ..session.document().settings };
+        let settings = Settings { method, ..session.document().settings.clone() };
         session.handle(Action::SetSettings(settings));
         session.poll();
         let next = (session.chart_on_screen().expect("one of five") + 1) % 5;

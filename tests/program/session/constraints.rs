@@ -243,7 +243,7 @@ fn an_outcome_with_new_vertices_is_measured_and_proved_on_its_own_mesh() {
     step.candidate.solution.embedding =
         step.candidate.solution.embedding.iter().copied().chain([a.midpoint(b)]).collect();
     step.candidate.refinement = Some(refinement);
-    let outcome = Outcome::new(&disk, Problem { settings: *run.settings(), ..Problem::default() }, step);
+    let outcome = Outcome::new(&disk, Problem { settings: run.settings().clone(), ..Problem::default() }, step);
     assert_eq!((outcome.new_vertex_count(), outcome.distortion.faces.len()), (1, 4));
     for fit in [Fit::Unit, Fit::True] {
         let (coordinates, _, verdict) = outcome.output(&disk, fit);

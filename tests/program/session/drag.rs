@@ -150,7 +150,7 @@ fn no_other_methods_map_follows_the_pointer() {
     let vertex = VertexId::new(100);
     for method in [Method::Lee(BoundaryShape::Circle), Method::Slim, Method::Spectral, Method::AbfPlusPlus] {
         let mut session = opened(Example::Dome);
-        let settings = Settings { method, max_steps: Some(1), ..session.document().settings };
+        let settings = Settings { method: method.clone(), max_steps: Some(1), ..session.document().settings.clone() };
         settled(&mut session, Action::SetSettings(settings));
         for (vertex, uv) in [(vertex, DVec2::X), (VertexId::new(0), DVec2::ZERO)] {
             settled(&mut session, Action::Place { vertex, target: Target::hard(uv) });

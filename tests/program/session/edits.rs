@@ -63,7 +63,7 @@ fn embedding(session: &Session) -> Embedding {
 }
 
 fn stages(session: &Session) -> Vec<Stage> {
-    session.timeline().records().iter().map(|record| record.stage).collect()
+    session.timeline().records().iter().map(|record| record.stage.clone()).collect()
 }
 
 /// Whether the map on the screen is planar and meets all constraints.
@@ -146,7 +146,7 @@ fn a_choice_of_method_or_weights_and_targets_that_all_move_are_solved_afresh() {
         assert!(session.is_continued(), "shown again as it was");
     }
     let before = embedding(session);
-    settled(session, Action::SetSettings(Settings { new_vertices: false, ..session.document().settings }));
+    settled(session, Action::SetSettings(Settings { new_vertices: false, ..session.document().settings.clone() }));
     assert!(session.is_continued(), "whether edges may be split says nothing about a map without such");
     assert!(largest_move(&before, &embedding(session)) < 0.02 * before.bounds().extent());
 }

@@ -96,14 +96,14 @@ impl Fuzz {
 
     fn settings(&mut self) -> Settings {
         // Those that climb to constraints take long where these are at random.
-        let methods: Vec<Method> = Method::ALL.iter().copied().filter(|method| !method.is_one_to_one()).collect();
+        let methods: Vec<Method> = Method::ALL.iter().filter(|method| !method.is_one_to_one()).cloned().collect();
         let count = u32::try_from(methods.len()).expect("few");
         let families = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.5), Family::Uniform];
         let treatments = [None, Some(Treatment::Eliminate), Some(Treatment::LeastSquares), Some(Treatment::Weighted)];
         Settings {
             treatment: treatments[self.random.below(4) as usize],
             max_steps: Some(5),
-            ..Settings::new(methods[self.random.below(count) as usize], families[self.random.below(5) as usize])
+            ..Settings::new(methods[self.random.below(count) as usize].clone(), families[self.random.below(5) as usize])
         }
     }
 

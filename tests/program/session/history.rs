@@ -88,7 +88,7 @@ fn a_gesture_over_many_pins_stays_one_flat_step() {
 fn a_slide_and_a_drag_are_two_undo_steps() {
     let (mut history, mut document) = (History::default(), Document::default());
     let chosen = Settings::new(Method::Levy, Family::MeanValue);
-    history.apply_in_gesture(Command::SetSettings(chosen), &mut document);
+    history.apply_in_gesture(Command::SetSettings(chosen.clone()), &mut document);
     history.apply_in_gesture(pin(7, 0.5), &mut document);
     history.undo(&mut document);
     assert_eq!(document, Document { settings: chosen, ..Document::default() });
@@ -130,7 +130,7 @@ fn a_new_edit_forgets_what_could_be_redone() {
 fn settings_come_back_too() {
     let (mut history, mut document) = (History::default(), Document::default());
     let chosen = Settings::new(Method::Levy, Family::MeanValue);
-    history.apply(Command::SetSettings(chosen), &mut document);
+    history.apply(Command::SetSettings(chosen.clone()), &mut document);
     assert_eq!(document.settings, chosen);
     history.undo(&mut document);
     assert_eq!(document.settings, Settings::default());
@@ -145,7 +145,7 @@ fn a_slider_that_comes_back_to_where_it_was_drops_no_relaxing_and_nothing_that_c
     document.settings.family = Some(Family::Conformal);
     let before = document.clone();
     for family in [Family::Power(0.4), Family::Power(0.2), before.settings.family()] {
-        let settings = Settings { family: Some(family), ..before.settings };
+        let settings = Settings { family: Some(family), ..before.settings.clone() };
         let slid = Command::Together(vec![Command::SetSettings(settings), Command::SetRelaxed(0)]);
         history.apply_in_gesture(slid, &mut document);
     }

@@ -95,7 +95,10 @@ fn a_pin_let_go_before_its_first_frame_goes_on_from_the_step_on_the_screen() {
     session.handle(Action::MovePin { vertex, target });
     settled(&mut session, Action::EndGesture);
     let first = &session.timeline().outcome(0).expect("kept").step;
-    assert_eq!((first.candidate.stage, first.candidate.solution.embedding[vertex]), (Stage::Continuation, target));
+    assert_eq!(
+        (first.candidate.stage.clone(), first.candidate.solution.embedding[vertex]),
+        (Stage::Continuation, target)
+    );
 }
 
 #[test]

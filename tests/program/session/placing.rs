@@ -177,6 +177,14 @@ fn the_easy_call_names_why_nothing_is_proved() {
     assert!(matches!(flatten(&mesh, &Options { pins, ..Options::default() }), Err(FlattenError::Solve(_))));
 }
 
+#[test]
+fn a_deep_disk_with_one_pin_holds_in_32_bits_far_along_a_wide_picture() {
+    let mut random = Random(16_277_646_870_120_480_218);
+    let mesh = disk(stacked(28, 4, &mut random));
+    let targets = targets_on(&mesh, 1, &mut random);
+    assert_proved("28 vertices, 1 pin", &mesh, &on_picture(13.068_502_586_554_89, targets));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(10))]
 

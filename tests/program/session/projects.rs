@@ -93,11 +93,11 @@ fn every_choice_of_method_comes_back() {
     let on_shapes = [
         Method::Convex(BoundaryShape::Square),
         Method::Convex(BoundaryShape::Hull),
-        Method::Convex(BoundaryShape::Polygon(triangle)),
+        Method::Convex(BoundaryShape::Polygon(triangle.clone())),
         Method::Stretch(BoundaryShape::Square),
         Method::Lee(BoundaryShape::Polygon(triangle)),
     ];
-    let methods = Method::ALL.iter().copied().chain(on_shapes);
+    let methods = Method::ALL.iter().cloned().chain(on_shapes);
     let treatments = [None, Some(Treatment::Eliminate), Some(Treatment::LeastSquares), Some(Treatment::Weighted)];
     for (index, method) in methods.enumerate() {
         let family = families[index % families.len()];

@@ -185,7 +185,7 @@ fn an_edit_during_a_run_replaces_it() {
     let mut session = with_long_run(2000);
     until_step(&mut session, 3);
     let settings = Settings::new(Method::Natural, Family::MeanValue);
-    settled(&mut session, Action::SetSettings(settings));
+    settled(&mut session, Action::SetSettings(settings.clone()));
     assert_eq!((step_count(&session), session.stopped()), (1, Some(RunStop::Ended(Ending::Done))));
     assert!(session.is_current());
     assert_eq!(session.outcome().expect("solved").problem.settings, settings);

@@ -15,7 +15,7 @@ fn first() -> Outcome {
     let disk = DiskMesh::try_from(grid(4, 4)).expect("a disk");
     let mut run = Flattener::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let step = run.step(&disk, Control::unattended()).expect("solvable");
-    Outcome::new(&disk, Problem { settings: *run.settings(), ..Problem::default() }, step)
+    Outcome::new(&disk, Problem { settings: run.settings().clone(), ..Problem::default() }, step)
 }
 
 /// The same as another step with so many flipped faces.

@@ -160,7 +160,7 @@ fn weights_that_slide_end_a_relaxing_as_chosen_ones_do() {
     let rounds_before = rounds(&session);
     for power in [1.1, 1.2, 1.3] {
         let family = Family::Power(power);
-        session.handle(Action::SlideSettings(Settings { family: Some(family), ..session.document().settings }));
+        session.handle(Action::SlideSettings(Settings { family: Some(family), ..session.document().settings.clone() }));
         settle(&mut session);
     }
     settled(&mut session, Action::EndGesture);

@@ -172,11 +172,11 @@ impl<'a> Padded<'a> {
 
     /// Where the outermost ring lies.
     fn places(&self, settings: &Settings) -> Result<PinPositions, SolveError> {
-        let shape = settings.method.boundary_shape().unwrap_or_default();
+        let shape = settings.method.boundary_shape().cloned().unwrap_or_default();
         let outermost = self.lengths.len() - 1;
         let count = self.lengths[0].len();
         let first = self.mesh.vertex_count() + (outermost - 1) * count;
-        let places = on_shape(self.mesh, &self.lengths[outermost], shape, settings.spacing)?;
+        let places = on_shape(self.mesh, &self.lengths[outermost], &shape, settings.spacing)?;
         Ok((first..).map(VertexId::from_index).zip(places).collect())
     }
 

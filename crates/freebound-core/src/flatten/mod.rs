@@ -17,7 +17,7 @@ mod tutte;
 mod upright;
 
 pub use equation::equation_of_step;
-pub use flattener::{Candidate, Ending, Flattener, PlanarStart, SolverCache, Step, largest_move};
-pub use one_call::{FlattenError, Options, flatten};
+pub use flattener::{Candidate, Ending, Flattener, Options, PlanarStart, SolverCache, Step, largest_move};
+pub use one_call::{FlattenError, flatten};
 pub use placing::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two, true_area_factor};
 pub use prepared::{Prepared, solve_once};

@@ -1,27 +1,8 @@
 //! The easy call: a disk in, a proved embedding out, or the reason why there is none.
 
-use super::{Flattener, Step};
+use super::{Flattener, Options, Step};
 use crate::mesh::{DiskMesh, VertexId};
-use crate::problem::{Control, Pin, Pins, Settings, SolveError};
-
-/// What [`flatten`] is to do; by default all that it can, without constraints.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Options {
-    /// Method and weights: `auto` by default, a flattener of ways.
-    pub settings: Settings,
-    /// Vertices with their places in the plane.
-    pub pins: Pins,
-}
-
-impl Options {
-    /// Adds a hard pin: vertex `vertex` of the mesh lies at this point of the plane. Two pins fix place, turn and size; more
-    /// are constraints.
-    #[must_use]
-    pub fn pinned(mut self, vertex: u32, target: [f64; 2]) -> Self {
-        self.pins.insert(VertexId::new(vertex), Pin::hard(target.into()));
-        self
-    }
-}
+use crate::problem::{Control, SolveError};
 
 /// Why [`flatten`] gives nothing that is proved, with the last step that it took.
 #[derive(Debug, thiserror::Error)]
@@ -52,8 +33,8 @@ pub enum FlattenError {
 /// does.
 pub fn flatten(mesh: &DiskMesh, options: &Options) -> Result<Step, FlattenError> {
     let mut last = None;
-    let mut ladder = Flattener::new(options.settings, options.pins.clone());
-    let ending = ladder.finish(mesh, Control::unattended(), |step| last = Some(step));
+    let mut flattener = Flattener::with_options(options.clone());
+    let ending = flattener.finish(mesh, Control::unattended(), |step| last = Some(step));
     match (last, ending) {
         (Some(step), _) if !step.verdict.planar => Err(FlattenError::NotPlanar(Box::new(step))),
         (Some(step), _) if !step.unmet().is_empty() => Err(FlattenError::Unmet(Box::new(step))),

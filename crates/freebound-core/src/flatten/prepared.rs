@@ -60,7 +60,7 @@ pub fn solve_once(
     pins: &Pins,
     control: Control<'_>,
 ) -> Result<Solution, SolveError> {
-    let method = settings.method;
+    let method = &settings.method;
     if !method.only_places_pins() {
         return Prepared::new(mesh, settings, pins, control)?.solve(mesh, pins, control);
     }
@@ -75,7 +75,7 @@ pub fn solve_once(
 
 /// The solution of a method whose shape does not depend on pins, so that it has no factors that serve them.
 fn own_solution(mesh: &DiskMesh, settings: &Settings, control: Control<'_>) -> Result<Solution, SolveError> {
-    match settings.method {
+    match &settings.method {
         Method::Lee(_) => Ok(Padded::new(mesh, settings.layers).solve(settings, control)?.0),
         Method::Slim => Ok(tutte(mesh, control)?.0),
         Method::Schnyder => Ok(Solution { embedding: schnyder(mesh), gauge_completed: true, ..Solution::default() }),
@@ -95,8 +95,8 @@ impl Prepared {
     /// the method, degenerate weights, a singular matrix, or the
     /// caller's wish to stop.
     pub fn new(mesh: &DiskMesh, settings: &Settings, pins: &Pins, control: Control<'_>) -> Result<Self, SolveError> {
-        settings.family().check_for(settings.method)?;
-        let method = settings.method;
+        settings.family().check_for(&settings.method)?;
+        let method = &settings.method;
         if !method.begins_with_pins_held() && !matches!(method, Method::Convex(_) | Method::Stretch(_)) {
             return Err(SolveError::NoLinearSolve { method: method.name() });
         }
@@ -104,7 +104,7 @@ impl Prepared {
         check_pins(mesh, pins)?;
         control.enter(Phase::Assemble)?;
         let start = Instant::now();
-        let mut own_places = match settings.method {
+        let mut own_places = match &settings.method {
             Method::Convex(shape) | Method::Stretch(shape) => Some(convex_boundary(mesh, shape, settings.spacing)?),
             _ if pins.len() < GAUGE_PINS => Some(gauge_pins(mesh)),
             _ => None,
@@ -112,7 +112,7 @@ impl Prepared {
         let asked = settings.held(pins);
         let pins = own_places.clone().map_or_else(|| asked.clone(), fixed_pins);
         let mut seconds = PhaseSeconds::default();
-        let (system, values) = match settings.method {
+        let (system, values) = match &settings.method {
             Method::Convex(_) | Method::Stretch(_) => {
                 let system = FreeSystem::new(mesh, |v| pins.contains_key(&v), control)?;
                 let family = if settings.method.uses_family() { settings.family() } else { Family::MeanValue };
@@ -135,7 +135,7 @@ impl Prepared {
                 (ready.system, Values::Free(Box::new(ready.solve)))
             }
         };
-        Ok(Self { settings: *settings, asked, own_places, system, values, seconds })
+        Ok(Self { settings: settings.clone(), asked, own_places, system, values, seconds })
     }
 
     /// Whether this preparation serves these settings and pins: where they are to go does not matter.

@@ -1,11 +1,10 @@
-//! A convex polygon that a person gives: read, checked, and as small to copy as a number.
+//! Convex polygons that a user gives as a boundary: reading and checks.
 //!
-//! As text its corners stand between semicolons or line ends, each as two numbers with a space or a comma between; what
-//! follows a `#` up to the end of its line is a comment. Corners run counter-clockwise, and each turns left, in exact
-//! arithmetic. Every polygon is kept once, for as long as the program runs.
+//! Text form: corners separated by semicolons or line ends, each of two numbers separated by a space or a comma. Text from
+//! a `#` to the end of its line is a comment. Corners run counter-clockwise, and each turns left in exact arithmetic.
 
 use std::fmt;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Arc;
 
 use glam::DVec2;
 
@@ -18,9 +17,18 @@ const MOST_CORNERS: usize = 10_000;
 const GREATEST: f64 = 1e100;
 const LEAST_EXTENT: f64 = 1e-100;
 
-/// A strictly convex polygon, its corners counter-clockwise. Two are equal where their corners are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ConvexPolygon(&'static [DVec2]);
+/// A strictly convex polygon with counter-clockwise corners. Cheap to clone. Polygons with equal corners are equal.
+#[derive(Clone, Debug)]
+pub struct ConvexPolygon(Corners);
+
+/// Storage of the corners.
+#[derive(Clone, Debug)]
+enum Corners {
+    /// Corners of a polygon that is part of the program.
+    Static(&'static [DVec2]),
+    /// Corners of a polygon that was read, shared by its copies.
+    Shared(Arc<[DVec2]>),
+}
 
 /// Why a text or a list of corners is no convex polygon.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -77,14 +85,14 @@ pub enum PolygonFault {
 
 impl ConvexPolygon {
     /// A regular hexagon, where nobody says which polygon it is to be.
-    pub const HEXAGON: Self = Self(&[
+    pub const HEXAGON: Self = Self(Corners::Static(&[
         DVec2::new(1.0, 0.0),
         DVec2::new(0.5, 0.866_025_403_784_438_6),
         DVec2::new(-0.5, 0.866_025_403_784_438_6),
         DVec2::new(-1.0, 0.0),
         DVec2::new(-0.5, -0.866_025_403_784_438_6),
         DVec2::new(0.5, -0.866_025_403_784_438_6),
-    ]);
+    ]));
 
     /// Takes corners that make a convex polygon, counter-clockwise.
     ///
@@ -94,8 +102,8 @@ impl ConvexPolygon {
     pub fn new(corners: &[DVec2]) -> Result<Self, PolygonFault> {
         check(corners)?;
         // A negative zero is zero.
-        let corners: Vec<DVec2> = corners.iter().map(|&corner| corner + DVec2::ZERO).collect();
-        Ok(Self(kept_once(corners)))
+        let corners = corners.iter().map(|&corner| corner + DVec2::ZERO).collect();
+        Ok(Self(Corners::Shared(corners)))
     }
 
     /// Reads corners.
@@ -113,8 +121,17 @@ impl ConvexPolygon {
     }
 
     /// The corners, counter-clockwise.
-    pub fn corners(&self) -> &'static [DVec2] {
-        self.0
+    pub fn corners(&self) -> &[DVec2] {
+        match &self.0 {
+            Corners::Static(corners) => corners,
+            Corners::Shared(corners) => corners,
+        }
+    }
+}
+
+impl PartialEq for ConvexPolygon {
+    fn eq(&self, other: &Self) -> bool {
+        self.corners() == other.corners()
     }
 }
 
@@ -123,7 +140,7 @@ impl Eq for ConvexPolygon {}
 /// The corners as they are read.
 impl fmt::Display for ConvexPolygon {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let corners: Vec<String> = self.0.iter().map(|corner| format!("{} {}", corner.x, corner.y)).collect();
+        let corners: Vec<String> = self.corners().iter().map(|corner| format!("{} {}", corner.x, corner.y)).collect();
         f.write_str(&corners.join("; "))
     }
 }
@@ -177,16 +194,4 @@ fn check(corners: &[DVec2]) -> Result<(), PolygonFault> {
         Some(1) => Ok(()),
         turns => Err(PolygonFault::WindsAround { turns: turns.unwrap_or_default() }),
     }
-}
-
-/// The one list of these corners that all polygons share.
-fn kept_once(corners: Vec<DVec2>) -> &'static [DVec2] {
-    static KEPT: Mutex<Vec<&'static [DVec2]>> = Mutex::new(Vec::new());
-    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(same) = kept.iter().find(|same| ***same == *corners) {
-        return same;
-    }
-    let new: &'static [DVec2] = Box::leak(corners.into_boxed_slice());
-    kept.push(new);
-    new
 }

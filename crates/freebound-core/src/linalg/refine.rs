@@ -80,6 +80,15 @@ impl Accept {
     }
 }
 
+/// Norms of a vector, or ratios of two such norms.
+#[derive(Clone, Copy)]
+struct Sizes {
+    /// Euclidean norm.
+    plain: f64,
+    /// Euclidean norm with scaled rows.
+    scaled: f64,
+}
+
 pub(super) struct System<'a, T> {
     pub(super) operator: Operator<'a, T>,
     /// Factors of the rows of op(A), if they are scaled.
@@ -92,18 +101,18 @@ pub(super) struct System<'a, T> {
 }
 
 impl<T: Scalar> System<'_, T> {
-    /// ‖v‖, plain and with scaled rows.
-    fn sizes(&self, v: &[T]) -> (f64, f64) {
+    /// Norms of `v`.
+    fn sizes(&self, v: &[T]) -> Sizes {
         let plain = norm(v.iter().copied());
         let scaled = |scale: &[f64]| norm(v.iter().zip(scale).map(|(&v, &scale)| v.scale(scale)));
-        (plain, self.row_scale.map_or(plain, scaled))
+        Sizes { plain, scaled: self.row_scale.map_or(plain, scaled) }
     }
 
     /// The relative residuals that `r` is of.
-    fn relative(&self, r: &[T], b: (f64, f64)) -> (f64, f64) {
+    fn relative(&self, r: &[T], b: Sizes) -> Sizes {
         let ratio = |r: f64, b: f64| if r == 0.0 { 0.0 } else { r / b };
-        let (plain, scaled) = self.sizes(r);
-        (ratio(plain, b.0), ratio(scaled, b.1))
+        let r = self.sizes(r);
+        Sizes { plain: ratio(r.plain, b.plain), scaled: ratio(r.scaled, b.scaled) }
     }
 }
 
@@ -122,9 +131,9 @@ pub(super) fn refined<T: Scalar>(system: &System<'_, T>, rhs: &[T]) -> Result<So
         let mut columns: Vec<Column<'_, T>> = columns.map(|(x, b)| Column::new(system, x, b)).collect();
         refine(system, &mut columns)?;
         for column in &mut columns {
-            let (plain, scaled) = accept(system, column)?;
-            all.residual = all.residual.max(plain);
-            all.scaled_residual = all.scaled_residual.max(scaled);
+            let relative = accept(system, column)?;
+            all.residual = all.residual.max(relative.plain);
+            all.scaled_residual = all.scaled_residual.max(relative.scaled);
             all.backward_error = all.backward_error.max(column.backward_error);
             all.refinement_steps = all.refinement_steps.max(column.steps);
         }
@@ -134,14 +143,14 @@ pub(super) fn refined<T: Scalar>(system: &System<'_, T>, rhs: &[T]) -> Result<So
 }
 
 /// Betters a refined answer by GMRES if need be, and returns its relative residuals if they are good.
-fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Result<(f64, f64), LinalgError> {
+fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Result<Sizes, LinalgError> {
     let measure = |x: &[T]| {
         let mut r = vec![T::ZERO; x.len()];
         system.operator.residual(x, column.b, &mut r)?;
         Ok(system.relative(&r, column.b_sizes))
     };
     // A NaN is not good, and neither is an infinity on one side.
-    let good = |limit: f64, (plain, scaled): (f64, f64)| plain.min(scaled) <= limit && (plain + scaled).is_finite();
+    let good = |limit: f64, Sizes { plain, scaled }: Sizes| plain.min(scaled) <= limit && (plain + scaled).is_finite();
     let mut relative = column.relative;
     // Written so that a NaN counts as stalled.
     let converged = column.backward_error <= STALLED;
@@ -153,25 +162,32 @@ fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Resu
     if good(LIMIT, relative) || at_the_floor {
         return Ok(relative);
     }
-    Err(LinalgError::ResidualTooLarge { residual: relative.0, limit: LIMIT })
+    Err(LinalgError::ResidualTooLarge { residual: relative.plain, limit: LIMIT })
 }
 
 /// One right-hand side and its answer under way.
 struct Column<'a, T> {
     x: &'a mut [T],
     b: &'a [T],
-    /// ‖b‖, plain and with scaled rows.
-    b_sizes: (f64, f64),
+    /// ‖b‖.
+    b_sizes: Sizes,
     backward_error: f64,
     /// The relative residuals of `x`; no numbers before it was judged.
-    relative: (f64, f64),
+    relative: Sizes,
     steps: usize,
 }
 
 impl<'a, T: Scalar> Column<'a, T> {
     fn new(system: &System<'_, T>, x: &'a mut [T], b: &'a [T]) -> Self {
         let b_sizes = system.sizes(b);
-        Self { x, b, b_sizes, backward_error: f64::INFINITY, relative: (f64::NAN, f64::NAN), steps: 0 }
+        Self {
+            x,
+            b,
+            b_sizes,
+            backward_error: f64::INFINITY,
+            relative: Sizes { plain: f64::NAN, scaled: f64::NAN },
+            steps: 0,
+        }
     }
 }
 

@@ -34,7 +34,7 @@ pub(crate) struct Corner {
 ///
 /// [`SolveError::BoundaryTooShort`] where the shape has more corners than the boundary has vertices,
 /// [`SolveError::NoHull`] where the boundary's projection has no hull to lie on.
-pub fn convex_boundary(mesh: &DiskMesh, shape: BoundaryShape, spacing: Spacing) -> Result<PinPositions, SolveError> {
+pub fn convex_boundary(mesh: &DiskMesh, shape: &BoundaryShape, spacing: Spacing) -> Result<PinPositions, SolveError> {
     let places = on_shape(mesh, &boundary_lengths(mesh), shape, spacing)?;
     Ok(mesh.boundary_loop().iter().copied().zip(places).collect())
 }
@@ -49,7 +49,7 @@ pub(crate) fn boundary_lengths(mesh: &DiskMesh) -> Vec<f64> {
 pub(crate) fn on_shape(
     mesh: &DiskMesh,
     lengths: &[f64],
-    shape: BoundaryShape,
+    shape: &BoundaryShape,
     spacing: Spacing,
 ) -> Result<Vec<DVec2>, SolveError> {
     let count = lengths.len();

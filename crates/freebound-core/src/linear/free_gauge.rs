@@ -63,7 +63,7 @@ impl FreeProblem<'_> {
         seconds: &mut PhaseSeconds,
         control: Control<'_>,
     ) -> Result<FreeReady, SolveError> {
-        let treatment = self.settings.treatment_on(Stage::Natural, self.asked.len());
+        let treatment = self.settings.treatment_on(&Stage::Natural, self.asked.len());
         let mut choice = Try { own_places, way: Way { treatment, gauge: None } };
         for _ in 1..MOST_GAUGES {
             let outcome = self.factored(&choice, seconds, control);

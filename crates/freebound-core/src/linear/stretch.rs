@@ -88,7 +88,7 @@ impl StretchMinimising {
     /// A boundary that does not go with the shape, or the caller's wish to stop.
     pub fn new(
         mesh: &DiskMesh,
-        shape: BoundaryShape,
+        shape: &BoundaryShape,
         spacing: Spacing,
         control: Control<'_>,
     ) -> Result<Self, SolveError> {

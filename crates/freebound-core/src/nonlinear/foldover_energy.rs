@@ -23,6 +23,16 @@
 
 use glam::DVec2;
 
+/// How strongly an element resists distortion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stiffness {
+    /// Factor of the energy.
+    pub weight: f64,
+    /// Least ratio of height to longest side. The energy of a rest shape thinner than this is computed as if the shape were
+    /// that thick.
+    pub thinnest: f64,
+}
+
 /// A triangle with the shape that it is to have.
 #[derive(Clone, Copy, Debug)]
 pub struct Element {
@@ -128,9 +138,8 @@ pub(crate) fn energy_of(elements: &[Element], z: &[DVec2], energy: Energy) -> f6
 }
 
 impl Element {
-    /// A triangle that is at rest in the shape `[a, b, c]`, counter-clockwise. One that is thinner than `thinnest`, height
-    /// to longest side, is measured as if it were so thick.
-    pub fn new(corners: [u32; 3], [a, b, c]: [DVec2; 3], (weight, thinnest): (f64, f64)) -> Self {
+    /// Makes an element with the counter-clockwise rest shape `[a, b, c]`.
+    pub fn new(corners: [u32; 3], [a, b, c]: [DVec2; 3], Stiffness { weight, thinnest }: Stiffness) -> Self {
         let longest = [b - a, c - b, a - c].iter().map(|side| side.length_squared()).fold(0.0, f64::max);
         let double_area = (b - a).perp_dot(c - a).max(thinnest * longest);
         let gradients = [c - b, a - c, b - a].map(|side| side.perp() / double_area);

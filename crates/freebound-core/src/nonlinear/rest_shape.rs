@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 
 use super::Scaffold;
 use super::energy_problem::{EnergyProblem, Planning, Spring};
-use super::foldover_energy::{Element, Energy};
+use super::foldover_energy::{Element, Energy, Stiffness};
 use super::scaffold::outside_elements;
 use crate::geom::double_area;
 use crate::mesh::{DiskMesh, VertexId};
@@ -207,7 +207,11 @@ fn element_beside(mesh: &DiskMesh, embedding: &Embedding, area: f64) -> impl Fn(
         measured_of(mesh.mesh().real_triangles(), |face| 0.5 * double_area(face.map(|vertex| embedding[vertex])));
     let scale = (flat.iter().sum::<f64>() / area).sqrt();
     move |shape| {
-        Element::new(shape.corners.map(VertexId::number), shape.flat.map(|z| scale * z), (shape.share, THINNEST))
+        Element::new(
+            shape.corners.map(VertexId::number),
+            shape.flat.map(|z| scale * z),
+            Stiffness { weight: shape.share, thinnest: THINNEST },
+        )
     }
 }
 

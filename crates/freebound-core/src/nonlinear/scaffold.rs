@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::foldover_energy::Element;
+use super::foldover_energy::{Element, Stiffness};
 use crate::geom::{Bounds, double_area, outside_triangles};
 use crate::linalg::run_apart;
 use crate::mesh::{DiskMesh, TriMesh, VertexId};
@@ -94,7 +94,11 @@ pub(crate) fn outside_elements<'a>(
     let shape = |t: &[VertexId; 3]| t.map(|v| points[v.index()]);
     let total: f64 = triangles.clone().map(|t| double_area(shape(t))).sum();
     let element = |t: &[VertexId; 3]| {
-        Element::new(t.map(VertexId::number), shape(t), (weight * double_area(shape(t)) / total, THINNEST))
+        Element::new(
+            t.map(VertexId::number),
+            shape(t),
+            Stiffness { weight: weight * double_area(shape(t)) / total, thinnest: THINNEST },
+        )
     };
     triangles.map(element).collect()
 }

@@ -44,7 +44,7 @@ use crate::parallel::prelude::*;
 use glam::DVec2;
 
 use super::energy_problem::{EnergyProblem, Planning};
-use super::foldover_energy::{Element, EnergyModel, conjugate, flat};
+use super::foldover_energy::{Element, EnergyModel, Stiffness, conjugate, flat};
 use super::rest_shape::{THINNEST, laid_flat};
 use crate::geom::{Orientation, double_area, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
@@ -157,7 +157,11 @@ impl Slim {
         let element = |face: usize| {
             let kind = if face < real_faces { 1.0 } else { FILLING_WEIGHT };
             let weight = kind * double_area(shapes[face]) / on_surface;
-            Element::new(mesh.face(FaceId::from_index(face)).map(VertexId::number), shapes[face], (weight, THINNEST))
+            Element::new(
+                mesh.face(FaceId::from_index(face)).map(VertexId::number),
+                shapes[face],
+                Stiffness { weight, thinnest: THINNEST },
+            )
         };
         let elements = control.each(mesh.face_count(), element)?;
         let held = mesh.boundary_loop()[0].number();

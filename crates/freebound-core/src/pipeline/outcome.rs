@@ -192,7 +192,7 @@ pub fn pins_summary(outcome: &Outcome, coordinates: &Embedding) -> PinsSummary {
         };
         *largest = Some(largest.unwrap_or(0.0).max(error));
     }
-    let treatment = match settings.treatment_on(outcome.step.candidate.stage, targets.len()) {
+    let treatment = match settings.treatment_on(&outcome.step.candidate.stage, targets.len()) {
         Treatment::Eliminate if outcome.step.candidate.solution.linear.is_some_and(|solved| solved.keeps_equations) => {
             Treatment::LeastSquares
         }

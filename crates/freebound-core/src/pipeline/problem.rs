@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Target, Targets, pins_in_plane, upright};
 use crate::bijective::DragTarget;
-use crate::flatten::Flattener;
+use crate::flatten::{Flattener, Options};
 use crate::geom::{Bounds, PictureFrame};
 use crate::mesh::VertexId;
 use crate::problem::{Embedding, GaugeSize, Method, Pins, Settings, Variant};
@@ -30,7 +30,7 @@ impl Problem {
     pub fn new(settings: &Settings, frame: PictureFrame, has_picture: bool, targets: Targets) -> Self {
         let [low, high] = frame.corners();
         let size = if has_picture { GaugeSize::Within(Bounds { low, high }) } else { GaugeSize::TrueArea };
-        Self { settings: Settings { size, ..*settings }, frame, targets }
+        Self { settings: Settings { size, ..settings.clone() }, frame, targets }
     }
 
     /// Pins in the plane of the embedding.
@@ -38,9 +38,19 @@ impl Problem {
         pins_in_plane(&self.targets, self.frame)
     }
 
-    /// Flattener of this problem that starts from an existing layout. The layout has one texture coordinate per vertex, v up.
-    pub fn flattener_from(&self, layout: &Embedding) -> Flattener {
-        self.flattener().starting_from(Arc::new(self.in_plane(layout)))
+    /// Options of a flattener of this problem: each step is proved in the numbers that are written of it.
+    pub fn options(&self) -> Options {
+        Options {
+            settings: self.settings.clone(),
+            pins: self.pins(),
+            output_frame: self.output_frame(),
+            ..Options::default()
+        }
+    }
+
+    /// Options of a flattener that starts from an existing layout. The layout has one texture coordinate per vertex, v up.
+    pub fn options_from(&self, layout: &Embedding) -> Options {
+        Options { layout: Some(Arc::new(self.in_plane(layout))), ..self.options() }
     }
 
     /// Position of a layout in the plane. In the layout v runs up.
@@ -51,7 +61,7 @@ impl Problem {
 
     /// Flattener of this problem. Each step is proved in the numbers that are written of it.
     pub fn flattener(&self) -> Flattener {
-        Flattener::new(self.settings, self.pins()).with_output_frame(self.output_frame())
+        Flattener::with_options(self.options())
     }
 
     /// Frame in which embeddings are written.
@@ -78,13 +88,13 @@ impl Problem {
 
     /// This problem for another method.
     #[must_use]
-    pub fn by(&self, variant: Variant) -> Self {
+    pub fn by(&self, variant: &Variant) -> Self {
         Self { settings: variant.settings(&self.settings), ..self.clone() }
     }
 
     /// True if a method has something of its own to do here. A method that takes no constraints does not suit a problem with
     /// constraints, and a method that only meets constraints does not suit one without.
-    pub fn suits(&self, method: Method) -> bool {
+    pub fn suits(&self, method: &Method) -> bool {
         if self.settings.are_constraints(&self.pins()) {
             method.takes_constraints()
         } else {
@@ -95,7 +105,8 @@ impl Problem {
     /// True if a planar solution of another problem is a start for this one.
     pub fn continues_from(&self, before: &Self) -> bool {
         let of_way = |settings: Settings| Settings { new_vertices: true, ..settings };
-        let is_alike = of_way(self.settings).resolves_to(&of_way(before.settings)) && self.frame == before.frame;
+        let is_alike =
+            of_way(self.settings.clone()).resolves_to(&of_way(before.settings.clone())) && self.frame == before.frame;
         let stays = before
             .targets
             .iter()

@@ -60,7 +60,8 @@ impl Problem {
         layout: Option<&Embedding>,
         control: Control<'_>,
     ) -> Result<SolvedProblem, SolveError> {
-        let flattener = layout.map_or_else(|| self.flattener(), |layout| self.flattener_from(layout));
+        let options = layout.map_or_else(|| self.options(), |layout| self.options_from(layout));
+        let flattener = Flattener::with_options(options);
         self.solve(mesh, flattener, control, |_| Ok(()))
     }
 }

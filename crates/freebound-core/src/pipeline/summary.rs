@@ -95,7 +95,7 @@ pub enum Fit {
 impl NamedOption for Fit {
     const ALL: &'static [Self] = &[Self::Unit, Self::True];
 
-    fn labels(self) -> Labels {
+    fn labels(&self) -> Labels {
         match self {
             Self::Unit => Labels::new("unit", "Unit square").about("Uniformly into the unit square"),
             Self::True => Labels::new("true", "True scale").about("The area of the surface"),

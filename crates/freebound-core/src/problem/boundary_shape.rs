@@ -6,7 +6,7 @@ use super::{Labels, NamedOption};
 use crate::geom::ConvexPolygon;
 
 /// The shape that [`Method::Convex`](super::Method::Convex) and others lay a boundary on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum BoundaryShape {
     /// A circle.
     #[default]
@@ -27,7 +27,7 @@ impl BoundaryShape {
 impl NamedOption for BoundaryShape {
     const ALL: &'static [Self] = &[Self::Circle, Self::Square, Self::Hull, Self::Polygon(ConvexPolygon::HEXAGON)];
 
-    fn labels(self) -> Labels {
+    fn labels(&self) -> Labels {
         match self {
             Self::Circle => Labels::new("circle", "Circle").about("a circle"),
             Self::Square => Labels::new("square", "Square").about("a square"),
@@ -36,7 +36,7 @@ impl NamedOption for BoundaryShape {
         }
     }
 
-    fn written(self) -> Cow<'static, str> {
+    fn written(&self) -> Cow<'static, str> {
         match self {
             Self::Polygon(polygon) => format!("{}{polygon}", Self::POLYGON).into(),
             named => named.name().into(),
@@ -46,7 +46,7 @@ impl NamedOption for BoundaryShape {
     fn named(text: &str) -> Option<Self> {
         match text.strip_prefix(Self::POLYGON) {
             Some(corners) => ConvexPolygon::parse(corners).ok().map(Self::Polygon),
-            None => Self::ALL.iter().copied().find(|shape| shape.name() == text),
+            None => Self::ALL.iter().find(|shape| shape.name() == text).cloned(),
         }
     }
 }
@@ -64,7 +64,7 @@ pub enum Spacing {
 impl NamedOption for Spacing {
     const ALL: &'static [Self] = &[Self::Chord, Self::Even];
 
-    fn labels(self) -> Labels {
+    fn labels(&self) -> Labels {
         match self {
             Self::Chord => {
                 Labels::new("chord", "By length").about("boundary vertices lie as far apart as in space, in proportion")

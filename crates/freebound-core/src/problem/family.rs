@@ -42,7 +42,7 @@ impl Family {
     }
 
     /// Whether a method can be solved with these weights: those that are not three-point need a convex boundary.
-    pub const fn goes_with(self, method: Method) -> bool {
+    pub const fn goes_with(self, method: &Method) -> bool {
         self.power().is_some() || method.takes_any_family()
     }
 
@@ -51,7 +51,7 @@ impl Family {
     /// # Errors
     ///
     /// [`SolveError::FamilyNotApplicable`] where it cannot.
-    pub fn check_for(self, method: Method) -> Result<(), SolveError> {
+    pub fn check_for(self, method: &Method) -> Result<(), SolveError> {
         if !method.uses_family() || self.goes_with(method) {
             return Ok(());
         }
@@ -70,7 +70,7 @@ impl NamedOption for Family {
     const ALL: &'static [Self] =
         &[Self::Conformal, Self::MeanValue, Self::Wachspress, Self::Power(0.5), Self::Uniform, Self::ShapePreserving];
 
-    fn labels(self) -> Labels {
+    fn labels(&self) -> Labels {
         match self {
             Self::Conformal => Labels::new("conformal", "Conformal")
                 .about("d = r: cotangents, keeps angles; positive where opposite angles sum to less than 180°")
@@ -93,7 +93,7 @@ impl NamedOption for Family {
         }
     }
 
-    fn written(self) -> Cow<'static, str> {
+    fn written(&self) -> Cow<'static, str> {
         if let Self::Power(p) = self { format!("{POWER}{p}").into() } else { self.name().into() }
     }
 

@@ -3,7 +3,7 @@
 use super::{BoundaryShape, Family, Labels, NamedOption, Settings, Stage};
 
 /// A way to an embedding.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub enum Method {
     /// The flattener: natural boundary, mean-value iteration, virtual boundary, until the embedding is proved planar.
     #[default]
@@ -42,7 +42,7 @@ pub enum Method {
 
 impl Method {
     /// Traits of the method, in one table.
-    pub const fn traits(self) -> MethodTraits {
+    pub const fn traits(&self) -> MethodTraits {
         const NONE: MethodTraits = MethodTraits::NONE;
         match self {
             Self::Auto => MethodTraits {
@@ -109,32 +109,32 @@ impl Method {
     const SLIM_STEPS: usize = 20;
 
     /// True if the chosen family of weights counts.
-    pub const fn uses_family(self) -> bool {
+    pub const fn uses_family(&self) -> bool {
         !matches!(self.traits().families, FamilyChoice::None)
     }
 
     /// True if families that need a convex boundary can be chosen.
-    pub const fn takes_any_family(self) -> bool {
+    pub const fn takes_any_family(&self) -> bool {
         matches!(self.traits().families, FamilyChoice::Any)
     }
 
     /// True if the method puts layers of virtual triangles around the mesh.
-    pub const fn is_padded(self) -> bool {
+    pub const fn is_padded(&self) -> bool {
         self.traits().is_padded
     }
 
     /// Default family of weights.
-    pub const fn usual_family(self) -> Family {
+    pub const fn usual_family(&self) -> Family {
         self.traits().usual_family
     }
 
     /// True if the method iterates, so that a limit of its steps counts.
-    pub const fn iterates(self) -> bool {
+    pub const fn iterates(&self) -> bool {
         self.traits().iterations.is_some()
     }
 
     /// Default limit of iterations: mean-value ones, solves of less stretch, or those of SLIM.
-    pub const fn usual_steps(self) -> usize {
+    pub const fn usual_steps(&self) -> usize {
         match self.traits().iterations {
             Some(most) => most,
             None => Settings::MAX_STEPS,
@@ -142,38 +142,41 @@ impl Method {
     }
 
     /// True if the method takes more steps than one linear solve.
-    pub const fn takes_steps(self) -> bool {
+    pub const fn takes_steps(&self) -> bool {
         self.traits().takes_steps
     }
 
     /// True if every step on the way to the constraints is one-to-one.
-    pub const fn is_one_to_one(self) -> bool {
+    pub const fn is_one_to_one(&self) -> bool {
         self.traits().is_one_to_one
     }
 
     /// True if the method can continue from an existing layout.
-    pub const fn continues_from_layout(self) -> bool {
+    pub const fn continues_from_layout(&self) -> bool {
         !matches!(self.traits().layouts, LayoutUse::None)
     }
 
     /// True if the method can continue from a layout only if that is one-to-one.
-    pub const fn needs_planar_start(self) -> bool {
+    pub const fn needs_planar_start(&self) -> bool {
         matches!(self.traits().layouts, LayoutUse::Planar)
     }
 
     /// True if the method may bend the boundary, so that the growth of the pinned vertices counts.
-    pub const fn bends_boundary(self) -> bool {
+    pub const fn bends_boundary(&self) -> bool {
         self.traits().bends_boundary
     }
 
     /// True if pins count.
-    pub const fn uses_pins(self) -> bool {
+    pub const fn uses_pins(&self) -> bool {
         !matches!(self.traits().pins, PinUse::None)
     }
 
     /// The shape that it lays a boundary on.
-    pub fn boundary_shape(mut self) -> Option<BoundaryShape> {
-        self.boundary_shape_mut().copied()
+    pub const fn boundary_shape(&self) -> Option<&BoundaryShape> {
+        match self {
+            Self::Convex(shape) | Self::Stretch(shape) | Self::Lee(shape) => Some(shape),
+            _ => None,
+        }
     }
 
     /// The same, to be changed.
@@ -186,7 +189,7 @@ impl Method {
 
     /// The same with this shape, if it lays a boundary on one.
     #[must_use]
-    pub const fn on_shape(mut self, shape: BoundaryShape) -> Self {
+    pub fn on_shape(mut self, shape: BoundaryShape) -> Self {
         if let Some(own) = self.boundary_shape_mut() {
             *own = shape;
         }
@@ -194,27 +197,27 @@ impl Method {
     }
 
     /// True if pins do not change the shape: they say at most where the embedding lies.
-    pub const fn only_places_pins(self) -> bool {
+    pub const fn only_places_pins(&self) -> bool {
         matches!(self.traits().pins, PinUse::Placing)
     }
 
     /// True if the first step is one linear solve for positions, with the user's pins held.
-    pub const fn begins_with_pins_held(self) -> bool {
+    pub const fn begins_with_pins_held(&self) -> bool {
         self.traits().begins_with_pins_held
     }
 
     /// True if the method can meet constraints: pins beyond the two exact ones that fix the similarity.
-    pub const fn takes_constraints(self) -> bool {
+    pub const fn takes_constraints(&self) -> bool {
         matches!(self.traits().pins, PinUse::Constraints)
     }
 
     /// True if the method has nothing to do without constraints.
-    pub const fn only_meets_constraints(self) -> bool {
+    pub const fn only_meets_constraints(&self) -> bool {
         self.traits().only_meets_constraints
     }
 
     /// Lower-case words for messages.
-    pub fn words(self) -> &'static str {
+    pub fn words(&self) -> &'static str {
         match self {
             Self::Natural => Stage::Natural.words(),
             Self::Iterate => Stage::Iterate.words(),
@@ -328,7 +331,7 @@ impl NamedOption for Method {
     ];
 
     #[expect(clippy::too_many_lines, reason = "a table: an entry for each method")]
-    fn labels(self) -> Labels {
+    fn labels(&self) -> Labels {
         match self {
             Self::Auto => Labels::new("auto", "Auto (ladder)")
                 .about(

@@ -41,30 +41,30 @@ impl Labels {
 }
 
 /// One of a few things to choose by name.
-pub trait NamedOption: Copy + Send + Sync + 'static {
+pub trait NamedOption: Clone + Send + Sync + 'static {
     /// All there are to choose, in the order of menus; those with a number, with a usual one.
     const ALL: &'static [Self];
 
     /// What it is called.
-    fn labels(self) -> Labels;
+    fn labels(&self) -> Labels;
 
     /// The name, without the number that some have.
-    fn name(self) -> &'static str {
+    fn name(&self) -> &'static str {
         self.labels().name
     }
 
     /// The name as files have it, with its number.
-    fn written(self) -> Cow<'static, str> {
+    fn written(&self) -> Cow<'static, str> {
         self.name().into()
     }
 
     /// The one that is written so.
     fn named(text: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|choice| choice.name() == text)
+        Self::ALL.iter().find(|choice| choice.name() == text).cloned()
     }
 
     /// All names, as a message lists them.
     fn names() -> String {
-        Self::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>().join(", ")
+        Self::ALL.iter().map(Self::name).collect::<Vec<_>>().join(", ")
     }
 }

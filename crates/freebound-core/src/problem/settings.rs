@@ -19,7 +19,7 @@ pub enum Treatment {
 impl NamedOption for Treatment {
     const ALL: &'static [Self] = &[Self::Eliminate, Self::LeastSquares, Self::Weighted];
 
-    fn labels(self) -> Labels {
+    fn labels(&self) -> Labels {
         match self {
             Self::Eliminate => Labels::new("eliminate", "Eliminate")
                 .about("the equations of pinned vertices are dropped")
@@ -47,7 +47,7 @@ pub enum Growth {
 impl NamedOption for Growth {
     const ALL: &'static [Self] = &[Self::Double, Self::One];
 
-    fn labels(self) -> Labels {
+    fn labels(&self) -> Labels {
         match self {
             Self::Double => Labels::new("double", "Twice as many").about("quick: as many again are bent each time"),
             Self::One => {
@@ -82,7 +82,7 @@ pub enum Start {
 impl NamedOption for Start {
     const ALL: &'static [Self] = &[Self::FromScratch, Self::File];
 
-    fn labels(self) -> Labels {
+    fn labels(&self) -> Labels {
         match self {
             Self::FromScratch => Labels::new("afresh", "Afresh").about("the map is computed from the surface alone"),
             Self::File => Labels::new("file", "File's layout").about(
@@ -93,7 +93,7 @@ impl NamedOption for Start {
 }
 
 /// Everything about a solve but the mesh and the pins.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// The way to the embedding.
     pub method: Method,
@@ -157,7 +157,8 @@ impl Settings {
     /// The same by another method. What was asked for stays, but for weights that do not go with it.
     #[must_use]
     pub fn by(self, method: Method) -> Self {
-        Self { method, family: self.family.filter(|family| family.goes_with(method)), ..self }
+        let family = self.family.filter(|family| family.goes_with(&method));
+        Self { method, family, ..self }
     }
 
     /// The weights that were asked for, or those that are usual for the method.
@@ -175,7 +176,7 @@ impl Settings {
         let in_words = |settings: &Self| Self {
             family: Some(settings.family()),
             max_steps: Some(settings.max_steps()),
-            ..*settings
+            ..settings.clone()
         };
         in_words(self) == in_words(other)
     }
@@ -188,7 +189,7 @@ impl Settings {
     /// How a stage treats the equations of the pinned vertices, with so many pins of the user's. A boundary that the solver
     /// places is always eliminated. Up to two pins only fix the similarity and are eliminated, unless another treatment was
     /// asked for, so that conformal weights give the least-squares conformal map; more are constraints.
-    pub fn treatment_on(&self, stage: Stage, pin_count: usize) -> Treatment {
+    pub fn treatment_on(&self, stage: &Stage, pin_count: usize) -> Treatment {
         match stage {
             // By hand after a convex boundary, all of which is pinned.
             Stage::Iterate if !self.method.uses_pins() => Treatment::Eliminate,

@@ -5,7 +5,7 @@ use super::{BoundaryShape, Method, NoEquation, WeightSource};
 /// The stage of a method that made a step.
 ///
 /// A method has one stage or several. Relaxing, cutting and a given layout are stages only: nobody chooses them as methods.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub enum Stage {
     /// One linear solve with a natural boundary (paper §3.3).
     #[default]
@@ -48,11 +48,11 @@ pub enum Stage {
 
 impl Stage {
     /// The stage of the first linear solve of a method: its own for methods of a single solve, otherwise a natural boundary.
-    pub(crate) const fn of_linear_solve(method: Method) -> Self {
+    pub(crate) fn of_linear_solve(method: &Method) -> Self {
         match method {
-            Method::Convex(shape) => Self::Convex(shape),
-            Method::Lee(shape) => Self::Lee(shape),
-            Method::Stretch(shape) => Self::Stretch(shape),
+            Method::Convex(shape) => Self::Convex(shape.clone()),
+            Method::Lee(shape) => Self::Lee(shape.clone()),
+            Method::Stretch(shape) => Self::Stretch(shape.clone()),
             Method::Lscm => Self::Lscm,
             Method::Levy => Self::Levy,
             Method::Auto
@@ -70,7 +70,7 @@ impl Stage {
     }
 
     /// The fixed lower-case name, for reports, tables and files.
-    pub const fn name(self) -> &'static str {
+    pub const fn name(&self) -> &'static str {
         match self {
             Self::Natural => "natural",
             Self::Iterate => "iterate",
@@ -94,7 +94,7 @@ impl Stage {
     }
 
     /// Lower-case words for messages and summaries.
-    pub const fn words(self) -> &'static str {
+    pub const fn words(&self) -> &'static str {
         match self {
             Self::Natural => "natural boundary",
             Self::Iterate => "iteration",
@@ -103,7 +103,7 @@ impl Stage {
     }
 
     /// Words that fit a chip of the timeline or the status bar.
-    pub const fn short_words(self) -> &'static str {
+    pub const fn short_words(&self) -> &'static str {
         match self {
             Self::Iterate => "mean value",
             Self::VirtualBoundary => "virtual boundary",
@@ -117,22 +117,22 @@ impl Stage {
     }
 
     /// True if the step keeps an embedding one-to-one that is so.
-    pub const fn is_one_to_one(self) -> bool {
+    pub const fn is_one_to_one(&self) -> bool {
         matches!(self, Self::Continuation | Self::Matchmaker | Self::Relax | Self::Cut)
     }
 
     /// True if the chosen family of weights counts.
-    pub const fn uses_family(self) -> bool {
+    pub const fn uses_family(&self) -> bool {
         matches!(self, Self::Natural | Self::Iterate | Self::VirtualBoundary | Self::Convex(_) | Self::Lee(_))
     }
 
     /// True if pins do not change the shape: they say at most where the embedding lies.
-    pub const fn only_places_pins(self) -> bool {
+    pub const fn only_places_pins(&self) -> bool {
         matches!(self, Self::Schnyder | Self::Lee(_) | Self::Slim | Self::Spectral | Self::Abf | Self::AbfPlusPlus)
     }
 
     /// The shape that the stage lays a boundary on.
-    pub const fn boundary_shape(self) -> Option<BoundaryShape> {
+    pub const fn boundary_shape(&self) -> Option<&BoundaryShape> {
         match self {
             Self::Convex(shape) | Self::Stretch(shape) | Self::Lee(shape) => Some(shape),
             _ => None,
@@ -144,7 +144,7 @@ impl Stage {
     /// # Errors
     ///
     /// The reason why vertices have no equations with a barycentre.
-    pub const fn weight_source(self) -> Result<WeightSource, NoEquation> {
+    pub const fn weight_source(&self) -> Result<WeightSource, NoEquation> {
         match self {
             Self::Natural | Self::Convex(_) | Self::Lee(_) | Self::Lscm | Self::Spectral => Ok(WeightSource::Surface),
             Self::Iterate => Ok(WeightSource::StepBefore),

@@ -12,7 +12,7 @@ const FAMILY_MARK: char = '/';
 const SHAPE_MARK: char = '@';
 
 /// A method, on its boundary, with weights where it has a choice: `METHOD[/FAMILY][@BOUNDARY]`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Variant {
     /// The method, with its shape where it lays a boundary on one.
     pub method: Method,
@@ -23,21 +23,21 @@ pub struct Variant {
 impl Variant {
     /// The method and the weights of settings.
     pub fn of(settings: &Settings) -> Self {
-        let method = settings.method;
-        Self { method, family: method.uses_family().then(|| settings.family()) }
+        let family = settings.method.uses_family().then(|| settings.family());
+        Self { method: settings.method.clone(), family }
     }
 
     /// The settings that it is run with, everything else as in `base`: without weights of its own it takes those that were
     /// asked for there, where they go with the method; it goes on from a layout where that is wanted and the method can.
-    pub fn settings(self, base: &Settings) -> Settings {
-        let settings = base.by(self.method);
+    pub fn settings(&self, base: &Settings) -> Settings {
+        let settings = base.clone().by(self.method.clone());
         let start = if self.method.continues_from_layout() { base.start } else { Start::FromScratch };
         Settings { family: self.family.or(settings.family), start, ..settings }
     }
 
     /// The shape that its boundary is laid on, where that is not the usual one.
-    fn unusual_shape(&self) -> Option<BoundaryShape> {
-        self.method.boundary_shape().filter(|shape| *shape != BoundaryShape::default())
+    fn unusual_shape(&self) -> Option<&BoundaryShape> {
+        self.method.boundary_shape().filter(|shape| **shape != BoundaryShape::default())
     }
 
     /// Its name on the screen.
@@ -83,7 +83,7 @@ impl FromStr for Variant {
         let family = family.map(Family::from_str).transpose()?;
         match family {
             Some(_) if !method.uses_family() => Err(format!("{name} has no choice of weights: leave them out")),
-            Some(family) if !family.goes_with(method) => {
+            Some(family) if !family.goes_with(&method) => {
                 Err(format!("{family} weights are for convex boundaries only, not for {name}"))
             }
             _ => Ok(Self { method, family }),

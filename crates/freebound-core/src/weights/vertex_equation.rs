@@ -142,7 +142,7 @@ pub(crate) fn on_surface(mesh: &DiskMesh, family: Family, embedding: &Embedding,
             }
             _ => ones.clone(),
         };
-        return put_together(&fan, embedding, [weights, ones.clone(), ones]);
+        return put_together(&fan, embedding, Coefficients { weights, offsets: ones.clone(), radii: ones });
     };
     let shares = |next, previous| {
         let corner = mesh.shape([vertex, next, previous]);
@@ -150,7 +150,7 @@ pub(crate) fn on_surface(mesh: &DiskMesh, family: Family, embedding: &Embedding,
     };
     let radii: Vec<f64> = fan.neighbours.iter().map(|&v| mesh.length([v, vertex])).collect();
     let offsets = radii.iter().map(|r| r.powf(power)).collect();
-    put_together(&fan, embedding, [fan.sums(shares), offsets, radii])
+    put_together(&fan, embedding, Coefficients { weights: fan.sums(shares), offsets, radii })
 }
 
 /// Mean-value weights of one embedding, another one put into them.
@@ -166,12 +166,23 @@ pub(crate) fn in_plane(mesh: &DiskMesh, fan: &Fan, weights_from: &Embedding, emb
         radii[first] = edge_radius(corners(&faces[0]), 0);
         radii[last] = edge_radius(corners(&faces[faces.len() - 1]), 2);
     }
-    let ones = vec![1.0; weights.len()];
-    put_together(fan, embedding, [weights, ones, radii])
+    let offsets = vec![1.0; weights.len()];
+    put_together(fan, embedding, Coefficients { weights, offsets, radii })
 }
 
-/// The equation from k, d and r of each neighbour.
-fn put_together(fan: &Fan, embedding: &Embedding, [weights, offsets, radii]: [Vec<f64>; 3]) -> VertexEquation {
+/// Coefficients of the equation, one of each kind per neighbour.
+struct Coefficients {
+    /// k.
+    weights: Vec<f64>,
+    /// d.
+    offsets: Vec<f64>,
+    /// r.
+    radii: Vec<f64>,
+}
+
+/// Makes the equation from its coefficients.
+fn put_together(fan: &Fan, embedding: &Embedding, coefficients: Coefficients) -> VertexEquation {
+    let Coefficients { weights, offsets, radii } = coefficients;
     let neighbours = &fan.neighbours;
     let place = embedding[fan.vertex];
     let arms: Vec<DVec2> = neighbours.iter().map(|v| embedding[v] - place).collect();

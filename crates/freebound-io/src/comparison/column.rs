@@ -89,7 +89,7 @@ impl NamedOption for Column {
         Self::Memory,
     ];
 
-    fn labels(self) -> Labels {
+    fn labels(&self) -> Labels {
         let (name, title, about) = match self {
             Self::Method => ("method", "Method", "what the method is called"),
             Self::Ending => ("ending", "Ending", "why the method came to its end"),

@@ -203,8 +203,8 @@ impl ProjectFile {
 
     /// A project of a mesh, with nothing but settings made of it yet.
     pub fn new(mesh: ProjectSource, settings: &Settings) -> Self {
-        let boundary = settings.method.boundary_shape().unwrap_or_default();
-        let method = settings.method.on_shape(BoundaryShape::default());
+        let boundary = settings.method.boundary_shape().cloned().unwrap_or_default();
+        let method = settings.method.clone().on_shape(BoundaryShape::default());
         Self {
             freebound_project: PROJECT_VERSION,
             mesh,
@@ -242,7 +242,7 @@ impl ProjectFile {
     /// Method and weights. Their size follows from the picture, so that it is not in the file.
     pub fn settings(&self) -> Settings {
         Settings {
-            method: self.method.on_shape(self.boundary),
+            method: self.method.clone().on_shape(self.boundary.clone()),
             spacing: self.spacing,
             layers: self.layers.clamp(1, usize::from(Settings::MOST_LAYERS)),
             family: self.family,

@@ -64,7 +64,7 @@ impl Editor {
     }
 
     /// Takes a method as that of the document.
-    pub(in crate::ui::editor) fn take_contender(&self, variant: Variant) -> Action {
+    pub(in crate::ui::editor) fn take_contender(&self, variant: &Variant) -> Action {
         Action::SetSettings(variant.settings(&self.session.document().settings))
     }
 
@@ -130,11 +130,11 @@ fn usual_contenders(session: &Session) -> Vec<Variant> {
     let problem = session.document().problem();
     let own = Variant::of(&problem.settings);
     let is_own = |method: &Method| method.name() == own.method.name();
-    let mut methods: Vec<(usize, Method)> = Method::ALL.iter().copied().enumerate().collect();
-    methods.retain(|(_, method)| is_own(method) || problem.suits(*method));
+    let mut methods: Vec<(usize, Method)> = Method::ALL.iter().cloned().enumerate().collect();
+    methods.retain(|(_, method)| is_own(method) || problem.suits(method));
     methods.sort_by_key(|(place, method)| (!is_own(method), method.continues_from_layout(), *place));
     methods.truncate(COUNTS[1]);
     methods.sort_by_key(|(place, _)| *place);
     let of = |method: Method| Variant::of(&Variant { method, family: None }.settings(&problem.settings));
-    methods.into_iter().map(|(_, method)| if is_own(&method) { own } else { of(method) }).collect()
+    methods.into_iter().map(|(_, method)| if is_own(&method) { own.clone() } else { of(method) }).collect()
 }

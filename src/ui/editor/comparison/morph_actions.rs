@@ -36,7 +36,7 @@ impl Editor {
     fn morph_between(&mut self, before: Option<[Variant; 2]>, chosen: [Option<Variant>; 2]) {
         let Some([from, to]) = before else { return };
         let between = match chosen {
-            [Some(new), _] => [new, if new == to { from } else { to }],
+            [Some(new), _] => [new.clone(), if new == to { from } else { to }],
             [None, Some(new)] => [if new == from { to } else { from }, new],
             [None, None] => return,
         };
@@ -100,6 +100,6 @@ impl Editor {
             _ => false,
         };
         let (second, _) = others().find(|(_, end)| is_other(end)).or_else(|| others().next())?;
-        Some([*first, *second])
+        Some([first.clone(), second.clone()])
     }
 }

@@ -119,7 +119,7 @@ impl HullScene {
         let boundary = disk.boundary_loop();
         let points = result.outcome.step.candidate.solution.embedding.boundary(disk);
         let corners: Vec<VertexId> = convex_hull(&points).into_iter().map(|place| boundary[place]).collect();
-        let caption = match result.outcome.step.candidate.stage {
+        let caption = match &result.outcome.step.candidate.stage {
             Stage::Convex(shape) | Stage::Stretch(shape) => {
                 let count = boundary.len();
                 format!("{count} of {count} boundary vertices pinned on {}", shape.labels().about)

@@ -36,22 +36,23 @@ pub(super) fn chooser(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Req
 
 /// Every method, with the weights of the document where it has a choice.
 fn usual(editor: &Editor) -> Vec<Variant> {
-    let settings = editor.session.document().settings;
-    Method::ALL.iter().map(|&method| Variant::of(&Variant { method, family: None }.settings(&settings))).collect()
+    let settings = &editor.session.document().settings;
+    let usual = |method: &Method| Variant::of(&Variant { method: method.clone(), family: None }.settings(settings));
+    Method::ALL.iter().map(usual).collect()
 }
 
 /// Every method that has a choice, with all other weights and on all other shapes.
 fn others(editor: &Editor) -> Vec<Variant> {
     let usual = usual(editor);
     let mut all = Vec::new();
-    for &method in Method::ALL.iter().filter(|method| method.uses_family()) {
+    for method in Method::ALL.iter().filter(|method| method.uses_family()) {
         let on_shapes = match method {
-            Method::Convex(_) => BoundaryShape::ALL.iter().map(|&shape| Method::Convex(shape)).collect(),
-            method => vec![method],
+            Method::Convex(_) => BoundaryShape::ALL.iter().cloned().map(Method::Convex).collect(),
+            method => vec![method.clone()],
         };
         for method in on_shapes {
-            let families = Family::ALL.iter().filter(|family| family.goes_with(method));
-            all.extend(families.map(|&family| Variant { method, family: Some(family) }));
+            let families = Family::ALL.iter().filter(|family| family.goes_with(&method));
+            all.extend(families.map(|&family| Variant { method: method.clone(), family: Some(family) }));
         }
     }
     all.retain(|variant| !usual.contains(variant));
@@ -63,7 +64,7 @@ fn entry(ui: &mut egui::Ui, editor: &Editor, variant: Variant, requests: &mut Ve
     let chosen = editor.session.contenders();
     let mut is_chosen = chosen.iter().any(|contender| contender.variant() == variant);
     let [least, most] = COUNTS;
-    let suits = editor.session.document().problem().suits(variant.method);
+    let suits = editor.session.document().problem().suits(&variant.method);
     let why_not = match (is_chosen, suits) {
         (true, _) if chosen.len() <= least => Some("A comparison has two methods or more"),
         (false, _) if chosen.len() >= most => Some("Six at most: leave another one out first"),

@@ -57,7 +57,7 @@ fn ends_row(ui: &mut egui::Ui, editor: &Editor, ends: &[(Variant, Arc<Compared>)
         let menu = list(ui, name, width, &now.title(), |ui| {
             for (variant, _) in ends {
                 let entry = ui.selectable_label(*variant == now, variant.title());
-                entry.asks(Request::Morph(request(*variant)), requests);
+                entry.asks(Request::Morph(request(variant.clone())), requests);
             }
         });
         menu.on_hover_text("Methods with planar maps; the other one is chosen by itself where both would be the same");

@@ -11,7 +11,7 @@ use super::scaffold::LocalScaffold;
 use crate::geom::double_area;
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::nonlinear::energy_problem::{EnergyProblem, Planning, Spring};
-use crate::nonlinear::foldover_energy::Element;
+use crate::nonlinear::foldover_energy::{Element, Stiffness};
 use crate::nonlinear::rest_shape::THINNEST;
 use crate::nonlinear::scaffold::THINNEST as THINNEST_OUTSIDE;
 use crate::problem::{Control, Embedding, PinKind, Pins, SolveError};
@@ -295,16 +295,17 @@ impl Patch {
 fn elements(ground: &Ground<'_>, gathered: &Gathered, triangles: &[[u32; 3]]) -> (Vec<Element>, Vec<f64>) {
     let outside = ground.around.map_or(0.0, |around| OUTSIDE_WEIGHT / around.double_area);
     let kinds = [
-        (1.0 / ground.double_area, THINNEST),
-        (OUTSIDE_WEIGHT / ground.double_area, THINNEST_OUTSIDE),
-        (outside, THINNEST_OUTSIDE),
+        Stiffness { weight: 1.0 / ground.double_area, thinnest: THINNEST },
+        Stiffness { weight: OUTSIDE_WEIGHT / ground.double_area, thinnest: THINNEST_OUTSIDE },
+        Stiffness { weight: outside, thinnest: THINNEST_OUTSIDE },
     ];
     let of = |(at, (corners, &local)): (usize, (&[VertexId; 3], &[u32; 3]))| {
         let kind = usize::from(at >= gathered.face_count) + usize::from(at >= gathered.inside_count);
         let rest = corners.map(|corner| ground.at_rest(corner, kind == 2));
-        let (density, thinnest) = kinds[kind];
+        let per_area = kinds[kind];
         let area = double_area(rest).max(0.0);
-        (Element::new(local, rest, (density * area * softness(rest, thinnest), LEAST_THICKNESS)), LEAST_AREA * area)
+        let weight = per_area.weight * area * softness(rest, per_area.thinnest);
+        (Element::new(local, rest, Stiffness { weight, thinnest: LEAST_THICKNESS }), LEAST_AREA * area)
     };
     gathered.corners.iter().zip(triangles).enumerate().map(of).unzip()
 }

@@ -19,7 +19,7 @@ use super::triangulate::shortest_triangulation;
 use crate::geom::{Orientation, double_area, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::nonlinear::energy_problem::{EnergyProblem, Limits, Planning, Unfolding};
-use crate::nonlinear::foldover_energy::{Element, Energy, energy_of};
+use crate::nonlinear::foldover_energy::{Element, Energy, Stiffness, energy_of};
 use crate::nonlinear::rest_shape::{THINNEST, laid_flat};
 use crate::nonlinear::scaffold::{FRAME_POINTS, THINNEST as THINNEST_OUTSIDE, outside_of};
 use crate::problem::{Control, Phase, Pins, SolveError};
@@ -201,13 +201,17 @@ impl<'a> Room<'a> {
             let corners = t.corners.map(|v| patch.number_of(v));
             if t.source != OUTSIDE && !self.mesh.is_virtual(FaceId::new(t.source)) {
                 let flat = laid_flat(t.corners.map(|v| disk.position(VertexId::new(v)))).map(|z| self.scale * z);
-                return Element::new(corners, flat, (0.5 * double_area(flat) / self.mean_area, THINNEST));
+                return Element::new(
+                    corners,
+                    flat,
+                    Stiffness { weight: 0.5 * double_area(flat) / self.mean_area, thinnest: THINNEST },
+                );
             }
             let [a, b, c] = t.corners.map(|v| self.place(v));
             let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
             let equilateral = [DVec2::ZERO, DVec2::X, DVec2::from_angle(FRAC_PI_3)].map(|z| longest * z);
             let flat = if self.is_positive(t.corners) { [a, b, c] } else { equilateral };
-            Element::new(corners, flat, (OUTSIDE_WEIGHT, THINNEST_OUTSIDE))
+            Element::new(corners, flat, Stiffness { weight: OUTSIDE_WEIGHT, thinnest: THINNEST_OUTSIDE })
         };
         patch.triangles.iter().map(element).collect()
     }

@@ -71,9 +71,23 @@ const FEWEST_TREES: usize = 2;
 const TREES_AT_ONCE: usize = 2;
 const POINTS_OF_ALL_TREES: usize = 800_000;
 
-/// Another tree than the first is taken where it needs at most so many of so many new vertices: a few more or less say
-/// nothing about the map.
-const WORTHWHILE: [usize; 2] = [4, 5];
+/// A tree after the first replaces it if it needs at most 4 of 5 as many new vertices. A smaller difference says nothing
+/// about the map.
+const WORTHWHILE: Fraction = Fraction { numerator: 4, denominator: 5 };
+
+/// A fraction of whole numbers.
+#[derive(Clone, Copy)]
+struct Fraction {
+    numerator: usize,
+    denominator: usize,
+}
+
+impl Fraction {
+    /// The fraction of a count, rounded down.
+    fn of(self, count: usize) -> usize {
+        self.numerator * count / self.denominator
+    }
+}
 
 /// A planar embedding of a refined mesh that meets all exact pins to the last bit.
 #[derive(Clone, Debug)]
@@ -184,8 +198,8 @@ impl Surroundings {
                 laid += count;
                 match end {
                     Ok(()) if count <= at_most => {
-                        let [part, whole] = if fewest.is_none() { WORTHWHILE } else { [1, 1] };
-                        at_most = (part * count / whole).min(count.saturating_sub(1));
+                        let worthwhile = if fewest.is_none() { WORTHWHILE.of(count) } else { count };
+                        at_most = worthwhile.min(count.saturating_sub(1));
                         fewest = Some((number, paths));
                     }
                     Ok(()) | Err(SolveError::TooManyNewVertices { .. }) => {}

@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use super::surface::{Guide, Ring, Surface};
 use crate::geom::{Orientation, double_area, orientation};
 use crate::mesh::VertexId;
-use crate::nonlinear::foldover_energy::{Element, Energy};
+use crate::nonlinear::foldover_energy::{Element, Energy, Stiffness};
 use crate::nonlinear::rest_shape::{THINNEST, laid_flat};
 
 /// Vertices with more neighbours stay.
@@ -149,6 +149,7 @@ impl Surface<'_> {
     /// Half the symmetric Dirichlet energy of a triangle's map, at rest so many times as large as in space.
     fn energy(&self, face: [u32; 3], scale: f64) -> f64 {
         let flat = laid_flat(self.mesh.shape(face.map(VertexId::new))).map(|z| scale * z);
-        Element::new([0, 1, 2], flat, (1.0, THINNEST)).energy(self.in_plane(face), Energy::SymmetricDirichlet)
+        Element::new([0, 1, 2], flat, Stiffness { weight: 1.0, thinnest: THINNEST })
+            .energy(self.in_plane(face), Energy::SymmetricDirichlet)
     }
 }

@@ -11,8 +11,9 @@ use crate::problem::{Control, Embedding, Phase, SolveError};
 /// The corner of a boundary vertex's polygon that lies outside, and is no vertex.
 pub(super) const OUTSIDE: u32 = u32::MAX;
 
-/// The share of a round's candidates, those of the lowest cost, that may go: small triangles go first.
-const SHARE: [usize; 2] = [3, 5];
+/// Candidates of a round that may be removed, those of the lowest cost: 3 of 5. Small triangles go first.
+const REMOVED: usize = 3;
+const REMOVED_OF: usize = 5;
 
 /// A round that takes less than this share of the vertices is the last.
 const LEAST_SHARE: f64 = 0.01;
@@ -152,7 +153,7 @@ impl Surface<'_> {
             .flatten()
             .collect();
         found.par_sort_unstable_by(|a, b| a.cost.total_cmp(&b.cost).then(a.vertex.cmp(&b.vertex)));
-        found.truncate((found.len() * SHARE[0]).div_ceil(SHARE[1]));
+        found.truncate((found.len() * REMOVED).div_ceil(REMOVED_OF));
         let mut is_blocked = vec![false; self.points.len()];
         let mut ring = Ring::default();
         // A boundary of three vertices is the last that there can be.

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::geom::{Orientation, centre_of_gravity, kernel, orientation};
-use crate::nonlinear::foldover_energy::{Element, Energy};
+use crate::nonlinear::foldover_energy::{Element, Energy, Stiffness};
 use crate::nonlinear::rest_shape::{THINNEST, laid_flat};
 
 /// Newton steps of a vertex that is put back, its neighbours held.
@@ -113,7 +113,11 @@ pub(super) fn resistance(shape: [DVec3; 3], corners: [usize; 2], scale: f64) -> 
     let flat = laid_flat(shape).map(|x| scale * x);
     let [p, q, r] = flat;
     let number = |k: usize| u32::try_from(k + 1).expect("a vertex has few neighbours");
-    Element::new([0, number(corners[0]), number(corners[1])], flat, ((q - p).perp_dot(r - p), THINNEST))
+    Element::new(
+        [0, number(corners[0]), number(corners[1])],
+        flat,
+        Stiffness { weight: (q - p).perp_dot(r - p), thinnest: THINNEST },
+    )
 }
 
 #[cfg(test)]
@@ -140,8 +144,9 @@ mod tests {
     fn a_vertex_of_equal_triangles_goes_near_the_middle_of_its_polygon() {
         let polygon: Vec<DVec2> = (0..6).map(|k| DVec2::from_angle(f64::from(k) * 1.047_197_551_196_597_6)).collect();
         let rest = [DVec2::ZERO, polygon[0], polygon[1]];
-        let elements: Vec<Element> =
-            (0..6).map(|k| Element::new([0, k + 1, (k + 1) % 6 + 1], rest, (1.0, 0.0))).collect();
+        let elements: Vec<Element> = (0..6)
+            .map(|k| Element::new([0, k + 1, (k + 1) % 6 + 1], rest, Stiffness { weight: 1.0, thinnest: 0.0 }))
+            .collect();
         let room = Room { polygon: &polygon, elements: &elements };
         let far = DVec2::new(0.7, 0.1);
         let z = room.place(Some(far)).unwrap();

@@ -29,11 +29,11 @@ pub struct PlanarStart {
 
 impl PlanarStart {
     pub(super) fn new(task: &Task, embedding: Embedding) -> Self {
-        Self { size: task.settings.size, frame: task.sheet.frame(), embedding }
+        Self { size: task.settings.size, frame: task.frame.frame(), embedding }
     }
 
     /// True if another task would begin with it.
     pub(super) fn serves(&self, task: &Task) -> bool {
-        self.size == task.settings.size && self.frame == task.sheet.frame()
+        self.size == task.settings.size && self.frame == task.frame.frame()
     }
 }

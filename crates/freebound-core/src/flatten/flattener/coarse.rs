@@ -83,10 +83,10 @@ struct Flattened {
 
 /// A planar embedding of a disk, relaxed where its boundary was bent; `None` where there is none.
 fn flattened(disk: &DiskMesh, control: Control<'_>) -> Result<Option<Flattened>, SolveError> {
-    let mut ladder = Flattener::new(Settings::default(), Pins::new());
+    let mut flattener = Flattener::new(Settings::default(), Pins::new());
     let mut last: Option<Step> = None;
     let mut bent_vertices = 0;
-    ladder.finish(disk, control, |step| {
+    flattener.finish(disk, control, |step| {
         bent_vertices = bent_vertices.max(step.candidate.bent_vertices);
         last = Some(step);
     })?;

@@ -62,7 +62,7 @@ impl RunStage for Fit {
 /// no more, it stays where it lies.
 fn fitted(task: &Task, mesh: &DiskMesh, start: &Embedding, control: Control<'_>) -> Result<Embedding, SolveError> {
     let held = task.held();
-    let holds = |placed: &Embedding| control.go_on().map(|()| task.sheet.is_one_to_one(mesh, placed));
+    let holds = |placed: &Embedding| control.go_on().map(|()| task.frame.is_one_to_one(mesh, placed));
     let fit = |embedding: &Embedding| Placing::fitting(embedding, &held).best(embedding, holds);
     let mut placed = fit(start)?;
     let mut relaxing = Relaxing::new(mesh, start.clone(), &Pins::new());
@@ -130,8 +130,8 @@ impl RunStage for Continue {
         if let ContinuationPhase::Begin = self.stage {
             let start = latest.ok_or(SolveError::NotPlanar)?.embedding.clone();
             control.go_on()?;
-            let sheet = Arc::clone(&task.sheet);
-            let mut continuation = Box::new(Continuation::new(mesh, start, &held).with_output_frame(sheet));
+            let frame = Arc::clone(&task.frame);
+            let mut continuation = Box::new(Continuation::new(mesh, start, &held).with_output_frame(frame));
             let met = continuation.by_way_of_coarse(mesh, control)?;
             self.stage = ContinuationPhase::UnderWay(continuation);
             if let Some(advance) = met {

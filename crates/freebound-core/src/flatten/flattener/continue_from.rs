@@ -4,34 +4,31 @@
 use std::sync::Arc;
 
 use super::continuation::Continue;
-use super::sequence::{GOING_ON, StageKind};
-use super::stage::{PhaseGoal, StepState};
+use super::sequence::{CONTINUING, StageKind};
+use super::stage::{Attained, PhaseGoal, StepState};
 use super::strategy::{PhaseState, Strategy};
 use super::task::Task;
-use super::{Flattener, Pins, PlanarStart, SolverCache, Step};
+use super::{Flattener, Pins, PlanarStart, Step};
 use crate::mesh::DiskMesh;
 use crate::problem::{Embedding, Method, Settings, Stage};
 use crate::verify::is_one_to_one;
 
 impl Flattener {
     /// Continues from a one-to-one embedding, such as one under a dragged pin, and meets the constraints from there. If that
-    /// gets stuck, the usual stages follow. The embedding has one position per vertex, in the plane. Call this after all other
-    /// options. Methods that do not continue ignore the embedding, and so do pins that are no constraints.
+    /// gets stuck, the usual stages follow. The embedding has one position per vertex, in the plane. Methods that do not continue ignore the embedding, and so do pins that are no constraints.
     #[must_use]
     pub fn continue_from(mut self, embedding: &Embedding) -> Self {
         if !self.task.continues() {
             return self;
         }
-        self.plan = Strategy::going_on(&self.task, &self.kept);
+        self.strategy = Strategy::continuing(&self.task, &self.cache);
         self.latest = Some(StepState {
             embedding: self.units.embedding(embedding),
             onward: None,
             pins: Pins::new(),
             has_simple_boundary: true,
             is_one_to_one: true,
-            is_solved: false,
-            is_unplaced: false,
-            is_solved_but_for_polygons: false,
+            attained: Attained::Nothing,
             concave_polygons: Vec::new(),
             refinement: None,
         });
@@ -44,8 +41,8 @@ impl Flattener {
     #[must_use]
     pub fn warm_start(self, embedding: &Embedding) -> Self {
         let mut run = self.continue_from(embedding);
-        if run.plan.part().is_continued() {
-            run.plan.part_mut().stay();
+        if run.strategy.phase().is_continued() {
+            run.strategy.phase_mut().stay();
         }
         run
     }
@@ -56,9 +53,9 @@ impl Flattener {
     pub fn resume_after(mut self, step: &Step, stages: &[Stage]) -> Self {
         let is_climber = |stage: &Stage| matches!(stage, Stage::Continuation | Stage::Matchmaker);
         if step.is_continued {
-            self.plan = Strategy::going_on(&self.task, &self.kept);
+            self.strategy = Strategy::continuing(&self.task, &self.cache);
         } else if self.task.is_constrained() && stages.iter().any(is_climber) {
-            self.plan = Strategy::on_the_way(&self.task, &self.kept);
+            self.strategy = Strategy::on_the_way(&self.task, &self.cache);
         }
         self.adopt(step);
         self.step_count = step.index + 1;
@@ -71,7 +68,7 @@ impl Flattener {
             latest.embedding.len() != mesh.vertex_count() || !is_one_to_one(mesh, &latest.embedding)
         };
         if self.step_count == 0 && self.latest.as_ref().is_some_and(is_bad) {
-            self.plan = Strategy::new(&self.task, &self.kept, self.asked.start.as_ref());
+            self.strategy = Strategy::new(&self.task, &self.cache, self.asked.start.as_ref());
             self.latest = None;
             self.notes.take();
             self.notes.say("solved afresh, for the embedding before is not one-to-one".to_owned());
@@ -82,7 +79,7 @@ impl Flattener {
 impl PhaseState {
     /// Whether it goes on from an embedding that was there before the flattener began.
     pub(super) fn is_continued(&self) -> bool {
-        self.sequences == GOING_ON
+        self.sequences == CONTINUING
     }
 
     /// Leaves that as it is, where it meets all constraints.
@@ -92,30 +89,22 @@ impl PhaseState {
 }
 
 impl Flattener {
-    /// Reuses results of earlier flatteners on the mesh. Its steps keep the factors of linear solves for further flatteners;
-    /// without a cache the factors are dropped when they have served.
-    #[must_use]
-    pub fn with_cache(self, kept: &SolverCache) -> Self {
-        let plan = Strategy::new(&self.task, kept, self.asked.start.as_ref());
-        Self { plan, kept: kept.clone(), keeps_factors: true, ..self }
-    }
-
     /// Keeps a step as the planar start of flatteners with constraints, if their planar start would be this step: a flattener
     /// without constraints takes the same steps until only the energy is lowered. A step is kept once, and not if the mesh has
     /// polygons, which a planar start may leave concave.
     pub(super) fn keep_start(&mut self, step: &mut Step, mesh: &DiskMesh) {
-        let part = self.plan.part();
+        let phase = self.strategy.phase();
         let Task { settings, pins, start, .. } = &*self.task;
         let usual = Settings { size: settings.size, new_vertices: settings.new_vertices, ..Settings::default() };
         let has_polygons = mesh.mesh().polygon_of.is_some();
         let is_alone =
-            part.aim == PhaseGoal::Constraints && pins.is_empty() && start.is_none() && self.units.is_plane();
+            phase.aim == PhaseGoal::Constraints && pins.is_empty() && start.is_none() && self.units.is_plane();
         let is_alike = settings.method == Method::Auto && settings.resolves_to(&usual);
-        let is_end = step.verdict.planar && !step.verdict.mirrored && !part.relax.goes_on_for_digits();
-        if is_alone && is_alike && is_end && !has_polygons && self.kept.planar_start.is_none() {
-            let kept = Arc::new(PlanarStart::new(&self.task, step.candidate.solution.embedding.clone()));
-            self.kept.planar_start = Some(Arc::clone(&kept));
-            step.candidate.planar_start = Some(kept);
+        let is_end = step.verdict.planar && !step.verdict.mirrored && !phase.relax.goes_on_for_digits();
+        if is_alone && is_alike && is_end && !has_polygons && self.cache.planar_start.is_none() {
+            let start = Arc::new(PlanarStart::new(&self.task, step.candidate.solution.embedding.clone()));
+            self.cache.planar_start = Some(Arc::clone(&start));
+            step.candidate.planar_start = Some(start);
         }
     }
 }

@@ -63,7 +63,7 @@ fn begun(StageInput { task, mesh, .. }: StageInput<'_>, control: Control<'_>) ->
     }
     // Stage 5 makes what is written on other sheets.
     if task.adds_vertices()
-        && task.sheet.is_plain()
+        && task.frame.is_plain()
         && let Some(refinement) = with_boundary_clearance(mesh, &targets)
     {
         return with_new_vertices(task, mesh, refinement, control);
@@ -85,7 +85,7 @@ fn with_new_vertices(
     let (disk, held) = (refinement.disk(), task.held());
     let Some(targets) = targets_of_boundary(disk, &held) else { return Ok(None) };
     let Some((start, _)) = begun_on(task, disk, &targets, control)? else { return Ok(None) };
-    let mut continuation = Continuation::new(disk, start, &held).with_output_frame(Arc::clone(&task.sheet));
+    let mut continuation = Continuation::new(disk, start, &held).with_output_frame(Arc::clone(&task.frame));
     for _ in 0..MOST_STEPS {
         continuation.step(disk, control)?;
         if continuation.is_at_its_end() {
@@ -107,7 +107,7 @@ fn begun_on(
     targets: &[DVec2],
     control: Control<'_>,
 ) -> Result<Option<(Embedding, &'static str)>, SolveError> {
-    let is_one_to_one = |embedding: &Embedding| task.sheet.is_one_to_one(mesh, embedding);
+    let is_one_to_one = |embedding: &Embedding| task.frame.is_one_to_one(mesh, embedding);
     let at_once = with_boundary_at(mesh, targets, control)?.filter(is_one_to_one);
     Ok(if let Some(embedding) = at_once {
         Some((embedding, "mean-value equations with the whole boundary on its targets"))
@@ -122,7 +122,7 @@ fn begun_on(
 fn on_circle(mesh: &DiskMesh, targets: &[DVec2]) -> Result<Option<Vec<DVec2>>, SolveError> {
     let next = targets.iter().cycle().skip(1);
     let lengths: Vec<f64> = targets.iter().zip(next).map(|(a, b)| a.distance(*b)).collect();
-    let circle = on_shape(mesh, &lengths, BoundaryShape::Circle, Spacing::Chord)?;
+    let circle = on_shape(mesh, &lengths, &BoundaryShape::Circle, Spacing::Chord)?;
     let pairs: Vec<[DVec2; 2]> = circle.iter().zip(targets).map(|(&from, &to)| [from, to]).collect();
     Ok(Similarity::fitting(&pairs).map(|way| circle.into_iter().map(|z| way.apply(z)).collect()))
 }

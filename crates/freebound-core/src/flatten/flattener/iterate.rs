@@ -48,7 +48,7 @@ impl Iterate {
         let Task { settings, pins: asked, .. } = task;
         let pins = if latest.pins.len() >= 2 { latest.pins.clone() } else { gauge_in(mesh, &latest.embedding) };
         if self.iteration.as_ref().is_none_or(|iteration| !iteration.serves(&pins)) {
-            let treatment = settings.treatment_on(Stage::Iterate, asked.len());
+            let treatment = settings.treatment_on(&Stage::Iterate, asked.len());
             self.iteration = Some(Iteration::new(mesh, &latest.embedding, &pins, treatment, control)?);
         }
         let iteration = self.iteration.as_mut().expect("made above");

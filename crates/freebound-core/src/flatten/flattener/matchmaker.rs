@@ -47,25 +47,25 @@ enum MatchmakerPhase {
 impl RunStage for Match {
     fn step(&mut self, from: StageInput<'_>, control: Control<'_>) -> Result<Candidate, StageFailure> {
         let StageInput { task, mesh, latest } = from;
-        let (began, held, sheet) = (Instant::now(), task.held(), &*task.sheet);
+        let (began, held, frame) = (Instant::now(), task.held(), &*task.frame);
         // What lies on one line, or folds, is judged in the numbers that are written.
         let bare = |written: Matched| -> Result<Matched, SolveError> {
             let Matched { refinement, embedding } = simplified(mesh, written, control)?;
-            let embedding = if sheet.is_plain() { embedding } else { sheet.in_plane(&embedding, &held) };
+            let embedding = if frame.is_plain() { embedding } else { frame.in_plane(&embedding, &held) };
             Ok(Matched { refinement, embedding })
         };
         let (found, looks_left) = match &self.stage {
             MatchmakerPhase::Begin => {
                 let latest = latest.ok_or(SolveError::NotPlanar)?;
                 let start = latest.onward.as_ref().unwrap_or(&latest.embedding);
-                let pins = sheet.written_pins(&held);
-                let found = bare(matched(mesh, &sheet.written(start), &pins, control)?)?;
+                let pins = frame.written_pins(&held);
+                let found = bare(matched(mesh, &frame.written(start), &pins, control)?)?;
                 let looks = if is_tangle(&found.refinement) { 0 } else { REMOVALS };
                 (found, looks)
             }
             MatchmakerPhase::Refined { found: before, looks_left } => {
                 let Matched { refinement, embedding } = relaxed(before, task, control)?;
-                let bare = bare(Matched { embedding: sheet.written(&embedding).into_owned(), refinement })?;
+                let bare = bare(Matched { embedding: frame.written(&embedding).into_owned(), refinement })?;
                 let found = with_clearance_on_frame(mesh, bare, task, control)?;
                 let count = before.refinement.new_vertices().len();
                 let taken_out = count - found.refinement.new_vertices().len();
@@ -114,8 +114,8 @@ pub(super) fn is_tangle(refinement: &Refinement) -> bool {
 /// The same with its embedding relaxed.
 fn relaxed(found: &Matched, task: &Task, control: Control<'_>) -> Result<Matched, SolveError> {
     let disk: &DiskMesh = found.refinement.disk();
-    let sheet = Arc::clone(&task.sheet);
-    let mut relaxing = Relaxing::new(disk, found.embedding.clone(), &task.held()).with_output_frame(sheet);
+    let frame = Arc::clone(&task.frame);
+    let mut relaxing = Relaxing::new(disk, found.embedding.clone(), &task.held()).with_output_frame(frame);
     let mut embedding = found.embedding.clone();
     for _ in 0..ROUNDS_BEFORE_REMOVAL {
         embedding = relaxing.round(disk, control)?.embedding;
@@ -134,6 +134,6 @@ fn with_clearance_on_frame(
     control: Control<'_>,
 ) -> Result<Matched, SolveError> {
     let found = with_clearance(mesh, bare.clone(), &task.held(), control)?;
-    let is_sound = task.sheet.is_one_to_one(found.refinement.disk(), &found.embedding);
+    let is_sound = task.frame.is_one_to_one(found.refinement.disk(), &found.embedding);
     Ok(if is_sound { found } else { bare })
 }

@@ -2,12 +2,13 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `mod.rs` | [`Flattener`]: walks the plan, proves each candidate, remembers the latest step |
-//! | `strategy.rs` | the plan of every method: which stage follows which |
+//! | `mod.rs` | [`Flattener`]: walks the strategy, proves each candidate, remembers the latest step |
+//! | `strategy.rs` | the strategy of every method: which stage follows which |
 //! | `cache.rs` | what flatteners on a mesh have computed, for further ones |
 //! | `sequence.rs` | the stages by name, and the sequences of them that plans are made of |
 //! | `proof.rs` | a candidate proved in the numbers that are written of it: a step |
 //! | `stage.rs` | what a stage is: from the latest step to a candidate, or to a reason why there is none |
+//! | `options.rs` | [`Options`]: all that a flattener is built from |
 //! | `task.rs` | what is asked for: settings and pins |
 //! | `ending.rs` | why a flattener has come to its end |
 //! | `step.rs` | [`Candidate`]: what a stage gives, before it is proved; [`Step`]: a candidate with its verdict |
@@ -34,6 +35,7 @@ mod ending;
 mod held;
 mod iterate;
 mod matchmaker;
+mod options;
 mod proof;
 mod relax;
 mod sequence;
@@ -50,16 +52,16 @@ use std::sync::Arc;
 
 pub use self::cache::{PlanarStart, SolverCache};
 pub use self::ending::Ending;
+pub use self::options::Options;
 pub use self::step::{Candidate, Step, largest_move};
 
 use self::relax::Rounds;
-use self::stage::{Notes, PhaseGoal, StageFailure, StageInput, StepState};
+use self::stage::{Attained, Notes, PhaseGoal, StageFailure, StageInput, StepState};
 use self::strategy::Strategy;
 use self::task::Task;
 use crate::mesh::DiskMesh;
 use crate::problem::units::Units;
-use crate::problem::{Control, Embedding, Method, Pins, Settings, SolveError, Stage};
-use crate::verify::UvFrame;
+use crate::problem::{Control, Method, Pins, Settings, SolveError, Stage};
 
 /// A method under way on one mesh with one set of pins.
 #[derive(Debug)]
@@ -68,7 +70,7 @@ pub struct Flattener {
     units: Units,
     /// What is asked for, in units of the solve, as all but steps are.
     task: Arc<Task>,
-    plan: Strategy,
+    strategy: Strategy,
     step_count: usize,
     latest: Option<StepState>,
     /// A candidate whose proof was stopped: its stage has moved on.
@@ -77,54 +79,39 @@ pub struct Flattener {
     /// Notes on the next step: why stages before it gave no candidate.
     notes: Notes,
     /// What earlier flatteners on the mesh have computed.
-    kept: SolverCache,
+    cache: SolverCache,
     /// Whether its steps hand on factors, which are large.
     keeps_factors: bool,
 }
 
 impl Flattener {
-    /// A flattener that has not begun. `pins` are the user's.
+    /// Makes a flattener of these settings and the user's pins. All other options have their defaults.
     pub fn new(settings: Settings, pins: Pins) -> Self {
-        Self::of(Task::new(settings, pins, Arc::default()))
+        Self::with_options(Options { settings, pins, ..Options::default() })
     }
 
-    fn of(asked: Task) -> Self {
-        let (units, kept) = (asked.units(), SolverCache::default());
+    /// Makes a flattener. Methods that do not continue from a layout ignore [`Options::layout`].
+    pub fn with_options(options: Options) -> Self {
+        let Options { settings, pins, output_frame, layout, cache } = options;
+        let start = layout.filter(|_| settings.method.continues_from_layout());
+        let asked = Task { start, ..Task::new(settings, pins, Arc::new(output_frame)) };
+        let units = asked.units();
         let task = Arc::new(asked.in_units(&units));
-        let plan = Strategy::new(&task, &kept, asked.start.as_ref());
+        let (keeps_factors, cache) = (cache.is_some(), cache.unwrap_or_default());
+        let strategy = Strategy::new(&task, &cache, asked.start.as_ref());
         Self {
             asked,
             units,
             task,
-            plan,
+            strategy,
             step_count: 0,
             latest: None,
             unproved: None,
             ending: None,
             notes: Notes::default(),
-            kept,
-            keeps_factors: false,
+            cache,
+            keeps_factors,
         }
-    }
-
-    /// The same with every step proved in the numbers that are written of it, not in those of the plane.
-    #[must_use]
-    pub fn with_output_frame(self, sheet: UvFrame) -> Self {
-        Self::of(Task { sheet: Arc::new(sheet), ..self.asked })
-    }
-
-    /// The same from an embedding on: it is the first step, as it is, and where pins leave that open, all steps lie as it
-    /// does. One-to-one, it is what constraints are met from and relaxing begins with, or else what an iteration and a
-    /// virtual boundary begin with; where it meets all constraints, nothing is done to it, and where two of them, it is not
-    /// moved to where it fits the others; other methods then take the way that they take without it. Where it serves poorly,
-    /// it is relaxed only if rounds are asked for. One position per vertex, in the plane; those of vertices of no face do not
-    /// count. Methods of one linear solve pass over it.
-    #[must_use]
-    pub fn starting_from(self, embedding: Arc<Embedding>) -> Self {
-        if !self.asked.settings.method.continues_from_layout() {
-            return self;
-        }
-        Self::of(Task { start: Some(embedding), ..self.asked })
     }
 
     /// The same, going on from a step of another flattener's on the same mesh, which counts as this one's first.
@@ -191,9 +178,9 @@ impl Flattener {
             // Where no way led to the constraints, none does now.
             Some(Ending::Unmet) => Err(SolveError::Unmet),
             Some(_) => {
-                let task = Arc::clone(&self.plan.part().task);
+                let task = Arc::clone(&self.strategy.phase().task);
                 let from = StageInput { task: &task, mesh, latest: self.latest.as_ref() };
-                self.plan.part_mut().by_hand().step(from, control).map_err(|failure| failure.error)
+                self.strategy.phase_mut().by_hand().step(from, control).map_err(|failure| failure.error)
             }
         };
         if matches!(candidate, Err(SolveError::Unmet)) {
@@ -220,25 +207,25 @@ impl Flattener {
         if !self.can_relax() {
             return Err(SolveError::NotPlanar);
         }
-        self.plan.part_mut().relax.begin(Rounds { always: rounds, until_it_serves: 0 });
+        self.strategy.phase_mut().relax.begin(Rounds { always: rounds, until_it_serves: 0 });
         self.ending = (rounds == 0).then_some(Ending::Planar);
         Ok(())
     }
 
-    /// The next candidate by the plan. A stage that gives nothing leads on to the next sequence.
+    /// The next candidate by the strategy. A stage that gives nothing leads on to the next sequence.
     fn next_candidate(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
         loop {
-            let latest = self.latest.as_ref().filter(|_| !self.plan.part().begins_anew());
-            if self.plan.part().begins_anew() {
+            let latest = self.latest.as_ref().filter(|_| !self.strategy.phase().begins_anew());
+            if self.strategy.phase().begins_anew() {
                 self.notes.say("without the constraints, for a planar start".to_owned());
             }
-            let Some(place) = self.plan.part().next(latest) else {
-                self.enter_next_part()?;
+            let Some(place) = self.strategy.phase().next(latest) else {
+                self.enter_next_phase()?;
                 continue;
             };
-            let task = Arc::clone(&self.plan.part().task);
+            let task = Arc::clone(&self.strategy.phase().task);
             let from = StageInput { task: &task, mesh, latest };
-            let StageFailure { error, handover } = match self.plan.part_mut().enter(place).step(from, control) {
+            let StageFailure { error, handover } = match self.strategy.phase_mut().enter(place).step(from, control) {
                 Ok(candidate) => match candidate.solution.embedding.check_finite() {
                     Ok(()) => return Ok(candidate),
                     Err(error) => StageFailure::of(candidate.stage.words(), error),
@@ -247,11 +234,11 @@ impl Flattener {
             };
             let Some(handover) = handover else { return Err(error) };
             self.notes.say(handover.note);
-            if !self.plan.part_mut().leave_flight(place) {
-                if !self.plan.has_next_part() {
+            if !self.strategy.phase_mut().leave_sequence(place) {
+                if !self.strategy.has_next_phase() {
                     return Err(self.given_up(error));
                 }
-                self.enter_next_part()?;
+                self.enter_next_phase()?;
             }
             if let Some(latest) = &mut self.latest {
                 latest.onward = handover.embedding;
@@ -259,18 +246,18 @@ impl Flattener {
         }
     }
 
-    /// Goes on to the next part of the plan: from the planar start to the constraints only where it is planar.
-    fn enter_next_part(&mut self) -> Result<(), SolveError> {
+    /// Goes on to the next phase of the strategy: from the planar start to the constraints only where it is planar.
+    fn enter_next_phase(&mut self) -> Result<(), SolveError> {
         let has_start = || self.latest.as_ref().is_some_and(|latest| latest.is_one_to_one);
-        if !self.plan.has_next_part() || (self.plan.part().aim == PhaseGoal::PlanarStart && !has_start()) {
+        if !self.strategy.has_next_phase() || (self.strategy.phase().aim == PhaseGoal::PlanarStart && !has_start()) {
             let reasons = "the planar start without the constraints is not planar".to_owned();
             return Err(self.given_up(SolveError::StagesExhausted { reasons }));
         }
-        // A part may have given no step at all.
+        // A phase may have given no step at all.
         if let Some(latest) = &mut self.latest {
-            (latest.is_solved, latest.is_solved_but_for_polygons) = (false, false);
+            latest.attained = Attained::Nothing;
         }
-        self.plan.enter_next_part();
+        self.strategy.enter_next_phase();
         Ok(())
     }
 
@@ -288,48 +275,51 @@ impl Flattener {
     fn adopt(&mut self, step: &Step) {
         self.step_count += 1;
         let units = self.units_in_force();
-        let part = self.plan.part_mut();
+        let phase = self.strategy.phase_mut();
         // A mirror image is one-to-one, but not what the flattener is for.
-        let is_upright = !step.verdict.mirrored || part.task.settings.method != Method::Auto;
-        let is_met = part.aim == PhaseGoal::PlanarStart || step.unmet().is_empty();
+        let is_upright = !step.verdict.mirrored || phase.task.settings.method != Method::Auto;
+        let is_met = phase.aim == PhaseGoal::PlanarStart || step.unmet().is_empty();
         let is_given = step.candidate.stage == Stage::Given;
         // What fills the holes of a layout that was given may fold without harm.
         let is_proved = (step.verdict.is_one_to_one() || (is_given && step.verdict.planar)) && is_upright;
-        let is_solved_for_faces = is_proved && is_met;
         // The way from a planar start to the constraints keeps no polygon convex: that follows.
-        let is_solved = is_solved_for_faces && (step.verdict.planar || part.aim == PhaseGoal::PlanarStart);
+        let has_polygons = step.verdict.planar || phase.aim == PhaseGoal::PlanarStart;
+        let attained = match (is_proved, is_met) {
+            (true, true) if has_polygons => Attained::Goal,
+            (true, true) => Attained::AllButPolygons,
+            (true, false) if !phase.task.is_constrained() => Attained::AllButPlace,
+            _ => Attained::Nothing,
+        };
         self.latest = Some(StepState {
             embedding: units.embedding(&step.candidate.solution.embedding),
             onward: None,
             pins: units.pins(&step.candidate.solution.pins),
             has_simple_boundary: step.has_simple_boundary(),
             is_one_to_one: step.verdict.is_one_to_one(),
-            is_solved,
-            is_unplaced: is_proved && !is_met && !part.task.is_constrained(),
-            is_solved_but_for_polygons: is_solved_for_faces && !is_solved,
+            attained,
             concave_polygons: step.verdict.concave_polygons.clone(),
             refinement: step.candidate.refinement.clone(),
         });
-        part.observe(step);
+        phase.observe(step);
         if is_given && !is_proved && self.task.settings.method.needs_planar_start() {
-            self.begin_afresh(step);
+            self.start_from_scratch(step);
         }
         self.ending = self.ending_now();
     }
 
     /// Takes the way from the surface alone: the layout that was given is no map to go on from.
-    fn begin_afresh(&mut self, given: &Step) {
+    fn start_from_scratch(&mut self, given: &Step) {
         let fault = if given.verdict.is_one_to_one() { "a mirror image" } else { "not one-to-one" };
         self.notes.say(format!("solved afresh, for the layout of the file is {fault}"));
-        self.plan = Strategy::from_scratch(&self.task, &self.kept);
+        self.strategy = Strategy::from_scratch(&self.task, &self.cache);
         self.latest = None;
     }
 
     fn ending_now(&self) -> Option<Ending> {
-        let (part, latest) = (self.plan.part(), self.latest.as_ref());
-        if part.next(latest).is_some() || self.plan.leads_on(latest) {
+        let (phase, latest) = (self.strategy.phase(), self.latest.as_ref());
+        if phase.next(latest).is_some() || self.strategy.leads_on(latest) {
             return None;
         }
-        Some(if latest.is_some_and(|latest| latest.is_solved) { Ending::Planar } else { part.ending() })
+        Some(if latest.is_some_and(StepState::is_solved) { Ending::Planar } else { phase.ending() })
     }
 }

@@ -15,9 +15,9 @@ use crate::verify::hull_condition::vertices_outside_hull_unless;
 use crate::verify::verdict::verdict_unless;
 
 impl Flattener {
-    /// Those of the part under way: a planar start lies in the plane where it lies.
+    /// Those of the current phase: a planar start lies in the plane where it lies.
     pub(super) fn units_in_force(&self) -> Units {
-        if self.plan.part().aim == PhaseGoal::Constraints { self.units } else { Units::default() }
+        if self.strategy.phase().aim == PhaseGoal::Constraints { self.units } else { Units::default() }
     }
 
     /// A candidate with its verdict. Where the caller asks to stop it is kept, for the stage has moved on: the next step
@@ -28,7 +28,7 @@ impl Flattener {
         mesh: &DiskMesh,
         control: Control<'_>,
     ) -> Result<Step, SolveError> {
-        if self.plan.part().aim == PhaseGoal::PlanarStart || !self.keeps_factors {
+        if self.strategy.phase().aim == PhaseGoal::PlanarStart || !self.keeps_factors {
             // Factors are the largest part of all memory: what follows shall not come on top.
             candidate.prepared = None;
         }
@@ -49,20 +49,20 @@ impl Flattener {
     ) -> Result<Step, SolveError> {
         control.enter(Phase::Verify)?;
         let (start, units) = (Instant::now(), self.units_in_force());
-        let task = Arc::clone(&self.plan.part().task);
+        let task = Arc::clone(&self.strategy.phase().task);
         let refinement = candidate.refinement.clone();
         let disk = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
         candidate.solution.embedding.gather_unused(disk);
         let placing = task.place(disk, &mut candidate, control)?;
         let mut verdict = self.verdict_of(mesh, &candidate, control)?;
-        let is_start = self.plan.part().aim == PhaseGoal::PlanarStart;
+        let is_start = self.strategy.phase().aim == PhaseGoal::PlanarStart;
         let is_proved = verdict.is_one_to_one() && (verdict.planar || is_start);
         if !is_proved || !task.are_met(&candidate.solution.embedding) {
             let is_kept = self.keep_what_is_proved(&mut candidate);
             verdict = if is_kept { self.verdict_of(mesh, &candidate, control)? } else { verdict };
         }
         control.go_on()?;
-        if candidate.progress.is_none() && verdict.planar && self.plan.part().rounds_until_it_serves() > 0 {
+        if candidate.progress.is_none() && verdict.planar && self.strategy.phase().rounds_until_it_serves() > 0 {
             let of = candidate.mesh(mesh);
             candidate.progress = Some(RestShape::progress_at_end(of, &candidate.solution.embedding));
         }
@@ -75,7 +75,7 @@ impl Flattener {
         let max_move = self.latest.as_ref().map(moved).map(|length| units.length_in_plane(length));
         candidate.take_to_plane(&units, &self.asked.held());
         candidate.solution.embedding.check_finite()?;
-        if self.plan.part().is_from_layout {
+        if self.strategy.phase().is_from_layout {
             // Only a start from the surface alone serves others.
             candidate.planar_start = None;
         }
@@ -84,7 +84,7 @@ impl Flattener {
         candidate.note = self.notes.take();
         let set_aside = if is_start { self.asked.held() } else { Pins::new() };
         let lies_as_given = task.start.is_some();
-        let (index, is_continued) = (self.step_count, self.plan.part().is_continued());
+        let (index, is_continued) = (self.step_count, self.strategy.phase().is_continued());
         let step = Step {
             candidate,
             index,
@@ -128,18 +128,18 @@ impl Flattener {
     fn written<'a>(&self, candidate: &'a Candidate) -> Cow<'a, Embedding> {
         let (units, embedding) = (self.units_in_force(), &candidate.solution.embedding);
         if units.is_plane() {
-            return self.plan.part().task.sheet.written(embedding);
+            return self.strategy.phase().task.frame.written(embedding);
         }
         let mut in_plane = embedding.clone();
         units.embedding_to_plane(&mut in_plane, &self.asked.held());
-        Cow::Owned(self.asked.sheet.written(&in_plane).into_owned())
+        Cow::Owned(self.asked.frame.written(&in_plane).into_owned())
     }
 
     /// Gives back the embedding before a round of relaxing, where that was all that is asked for and this is not.
     /// Returns whether it did.
     fn keep_what_is_proved(&self, candidate: &mut Candidate) -> bool {
         let is_relaxed = candidate.stage == Stage::Relax;
-        let Some(latest) = self.latest.as_ref().filter(|latest| is_relaxed && latest.is_solved) else { return false };
+        let Some(latest) = self.latest.as_ref().filter(|latest| is_relaxed && latest.is_solved()) else { return false };
         candidate.solution.embedding.clone_from(&latest.embedding);
         candidate.solution.pins.clone_from(&latest.pins);
         (candidate.outside, candidate.progress) = (None, None);

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::matchmaker::is_tangle;
-use super::stage::{PhaseGoal, RunStage, StageFailure, StageInput, StepState};
+use super::stage::{Attained, PhaseGoal, RunStage, StageFailure, StageInput, StepState};
 use super::task::Task;
 use super::{Candidate, Step};
 use crate::bijective::relaxing::Relaxing;
@@ -55,7 +55,10 @@ impl Shortfall {
     fn of(step: &Step) -> Option<Self> {
         if step.verdict.planar && !step.verdict.planar_in_f32 {
             let bounds = step.candidate.solution.embedding.bounds();
-            let is_far = bounds.middle().abs().max_element() > FAR * bounds.size().max_element();
+            let vertices = step.candidate.solution.embedding.len() as f64;
+            // A face of the drawing is at least 1/n of a grid cell high, and a cell is 1/n of the drawing.
+            let far = FAR.max(1.0 / (f64::from(f32::EPSILON) * vertices * vertices));
+            let is_far = bounds.middle().abs().max_element() > far * bounds.size().max_element();
             return Some(Self::Digits { is_far });
         }
         let energy = step.candidate.progress.filter(|_| !step.is_of_planar_start()).map(|progress| progress.energy);
@@ -71,7 +74,7 @@ impl Shortfall {
 }
 
 impl Relax {
-    /// Of a part of the plan with such an aim.
+    /// Of a phase of the strategy with such an aim.
     pub(super) fn of(aim: PhaseGoal) -> Self {
         Self { is_before_constraints: aim == PhaseGoal::PlanarStart, ..Self::default() }
     }
@@ -109,9 +112,9 @@ impl Relax {
         // Up to two pins only say where the embedding is to lie: it is brought there after the round.
         let is_constrained = task.is_constrained();
         let held = if is_constrained { task.held() } else { Pins::new() };
-        let sheet = if is_constrained { Arc::clone(&task.sheet) } else { Arc::default() };
+        let frame = if is_constrained { Arc::clone(&task.frame) } else { Arc::default() };
         let begin = || {
-            let relaxing = Relaxing::new(mesh, latest.embedding.clone(), &held).with_output_frame(sheet);
+            let relaxing = Relaxing::new(mesh, latest.embedding.clone(), &held).with_output_frame(frame);
             if self.is_before_constraints { relaxing.before_constraints(mesh) } else { relaxing }
         };
         let relaxed = self.relaxing.get_or_insert_with(begin).round(mesh, control)?;
@@ -129,8 +132,8 @@ impl RunStage for Relax {
             Err(error) => error,
         };
         // What is one-to-one stays the result: a failure only ends the relaxing.
-        let kept = from.latest.filter(|latest| latest.is_one_to_one && error != SolveError::Cancelled);
-        let Some(StepState { embedding, pins, refinement, .. }) = kept else { return Err(error.into()) };
+        let latest = from.latest.filter(|latest| latest.is_one_to_one && error != SolveError::Cancelled);
+        let Some(StepState { embedding, pins, refinement, .. }) = latest else { return Err(error.into()) };
         self.has_failed = true;
         let note = Some(format!("relaxing gave nothing: {error}; the embedding before is kept"));
         let candidate = Candidate::one_to_one(Stage::Relax, embedding.clone(), pins);
@@ -139,9 +142,9 @@ impl RunStage for Relax {
 
     fn has_more(&self, _: &Task, latest: Option<&StepState>) -> bool {
         // Polygons that cannot be convex are cut.
-        let may_serve = self.lack.is_some() && latest.is_none_or(|latest| !latest.is_solved_but_for_polygons);
+        let may_serve = self.lack.is_some() && latest.is_none_or(|latest| latest.attained != Attained::AllButPolygons);
         // What fills the holes of a layout that was given may fold: there is no way on from that.
-        let may_begin = latest.is_none_or(|latest| latest.is_one_to_one || !latest.is_solved);
+        let may_begin = latest.is_none_or(|latest| latest.is_one_to_one || !latest.is_solved());
         let is_wanted = self.left.always > 0 || (self.left.until_it_serves > 0 && may_serve);
         is_wanted
             && may_begin

@@ -1,4 +1,4 @@
-//! The stages by name, and which sequences of them a part of a plan can have.
+//! The stages by name, and which sequences of them a part of a strategy can have.
 
 use self::StageKind::{
     Again, Angles, Continuation, FewVertices, Fit, Given, Held, Iterate, Lee, Matchmaker, Natural, Schnyder, Slim,
@@ -8,7 +8,7 @@ use super::SolverCache;
 use super::stage::RunStage;
 use super::{coarse, continuation, held, iterate, matchmaker, single_step, slim, stretch, virtual_boundary};
 
-/// The stages of a part, sequence by sequence.
+/// The stages of a phase, sequence by sequence.
 pub(super) type Sequence = &'static [&'static [StageKind]];
 
 /// Until planar.
@@ -41,7 +41,7 @@ pub(super) const MATCHED: Sequence = &[&[Fit, Matchmaker]];
 /// From a planar start until the constraints are met, with new vertices where it cannot be otherwise.
 pub(super) const CONTINUED_OR_MATCHED: Sequence = &[&[Fit, Continuation], &[Matchmaker]];
 /// From a one-to-one embedding, as it lies, until the constraints are met, or stuck.
-pub(super) const GOING_ON: Sequence = &[&[Continuation]];
+pub(super) const CONTINUING: Sequence = &[&[Continuation]];
 
 /// The layout that it starts from, as it is.
 pub(super) const GIVEN: Sequence = &[&[Given]];
@@ -72,10 +72,10 @@ pub(super) enum StageKind {
 }
 
 impl StageKind {
-    pub(super) fn stage(self, kept: &SolverCache) -> Box<dyn RunStage> {
+    pub(super) fn stage(self, cache: &SolverCache) -> Box<dyn RunStage> {
         match self {
             Given => Box::<single_step::Given>::default(),
-            Natural => Box::new(single_step::Natural { prepared: kept.prepared.clone() }),
+            Natural => Box::new(single_step::Natural { prepared: cache.prepared.clone() }),
             Iterate => Box::<iterate::Iterate>::default(),
             Again => Box::<single_step::Again>::default(),
             FewVertices => Box::<coarse::FewVertices>::default(),
@@ -86,7 +86,7 @@ impl StageKind {
             Lee => Box::<single_step::Pad>::default(),
             Spectral => Box::<single_step::Eigenvector>::default(),
             Angles => Box::<single_step::Angles>::default(),
-            Fit => Box::new(continuation::Fit { start: kept.planar_start.clone(), is_done: false }),
+            Fit => Box::new(continuation::Fit { start: cache.planar_start.clone(), is_done: false }),
             Held => Box::<held::HeldBoundary>::default(),
             Continuation => Box::<continuation::Continue>::default(),
             Matchmaker => Box::<matchmaker::Match>::default(),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::stage::{RunStage, StageFailure, StageInput, StepState};
+use super::stage::{Attained, RunStage, StageFailure, StageInput, StepState};
 use super::task::Task;
 use super::{Candidate, Step};
 use crate::bijective::{Padded, schnyder};
@@ -49,7 +49,7 @@ impl RunStage for Natural {
             self.prepared = Some(Arc::clone(&prepared));
         }
         let solution = solved.map_err(natural_failure)?;
-        let stage = Stage::of_linear_solve(settings.method);
+        let stage = Stage::of_linear_solve(&settings.method);
         Ok(Candidate { prepared: Some(prepared), ..Candidate::new(stage, settings.family(), solution) })
     }
 
@@ -103,7 +103,7 @@ impl RunStage for Pad {
         let (solution, outside) = padded.solve(settings, control)?;
         self.is_done = true;
         let candidate = Candidate::new(
-            Stage::Lee(settings.method.boundary_shape().unwrap_or_default()),
+            Stage::Lee(settings.method.boundary_shape().cloned().unwrap_or_default()),
             settings.family(),
             solution,
         );
@@ -226,6 +226,8 @@ impl RunStage for Cut {
 
     fn has_more(&self, task: &Task, latest: Option<&StepState>) -> bool {
         task.cuts_polygons()
-            && latest.is_some_and(|latest| latest.is_solved_but_for_polygons && !latest.concave_polygons.is_empty())
+            && latest.is_some_and(|latest| {
+                latest.attained == Attained::AllButPolygons && !latest.concave_polygons.is_empty()
+            })
     }
 }

@@ -87,9 +87,9 @@ impl Run {
 
     fn step(&mut self, from: StageInput<'_>, control: Control<'_>) -> Result<Candidate, SolveError> {
         let candidate = match &mut self.stage {
-            SlimPhase::Start(ladder) => {
-                let step = ladder.step(from.mesh, control)?;
-                let is_end = ladder.ending().is_some();
+            SlimPhase::Start(flattener) => {
+                let step = flattener.step(from.mesh, control)?;
+                let is_end = flattener.ending().is_some();
                 if step.verdict.is_one_to_one() {
                     self.look_for_start(from.mesh, &step.candidate.solution.embedding, control)?;
                 }

@@ -19,7 +19,7 @@ pub(super) trait RunStage: std::fmt::Debug + Send {
         false
     }
 
-    /// Takes in a step, its own or one of another stage of the same part.
+    /// Takes in a step, its own or one of another stage of the same phase.
     fn observe(&mut self, _step: &Step) {}
 
     /// Rounds of relaxing that follow a step of its own, where nobody says how many.
@@ -38,23 +38,42 @@ pub(super) trait RunStage: std::fmt::Debug + Send {
 pub(super) enum PhaseGoal {
     /// The request: planar, with the constraints met.
     Constraints,
-    /// A planar embedding without the constraints, for the next part to begin with.
+    /// A planar embedding without the constraints, for the next phase to begin with.
     PlanarStart,
 }
 
 /// Start of a step.
 #[derive(Clone, Copy)]
 pub(super) struct StageInput<'a> {
-    /// What the part of the plan is asked for.
+    /// What the phase of the strategy is asked for.
     pub(super) task: &'a Task,
     pub(super) mesh: &'a DiskMesh,
-    /// The latest step of the same part of the plan; of the part before, where that leads here.
+    /// The latest step of the same phase of the strategy; of the phase before, where that leads here.
     pub(super) latest: Option<&'a StepState>,
 }
 
-/// What is remembered of the latest step.
+/// Share of its phase's goal that a step has reached.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Attained {
+    /// Not the goal.
+    Nothing,
+    /// Planar, but not at the targets of up to two pins: the coordinates there would fold faces.
+    AllButPlace,
+    /// The goal, but polygons are concave.
+    AllButPolygons,
+    /// The goal.
+    Goal,
+}
+
+impl StepState {
+    /// True if the step is the goal of its phase.
+    pub(super) fn is_solved(&self) -> bool {
+        self.attained == Attained::Goal
+    }
+}
+
+/// Facts about the latest step that later stages need.
 #[derive(Debug)]
-#[expect(clippy::struct_excessive_bools, reason = "independent answers, each asked for by another rung")]
 pub(super) struct StepState {
     pub(super) embedding: Embedding,
     /// Start of the next stage, where it is not this step.
@@ -63,12 +82,8 @@ pub(super) struct StepState {
     pub(super) pins: Pins,
     pub(super) has_simple_boundary: bool,
     pub(super) is_one_to_one: bool,
-    /// Whether it is all that its part of the plan is for.
-    pub(super) is_solved: bool,
-    /// Whether it is planar but not where up to two pins want it: the numbers there would fold it.
-    pub(super) is_unplaced: bool,
-    /// Whether it would be, if no polygon were concave; and the polygons that are, by their first faces.
-    pub(super) is_solved_but_for_polygons: bool,
+    pub(super) attained: Attained,
+    /// Concave polygons, by their first faces.
     pub(super) concave_polygons: Vec<FaceId>,
     /// The mesh with new vertices that it is of.
     pub(super) refinement: Option<Arc<Refinement>>,

@@ -128,7 +128,7 @@ impl Step {
         pins.iter().filter(is_unmet).map(|(&vertex, _)| vertex).collect()
     }
 
-    /// Whether it is on the way to a planar start, in which the constraints have no part.
+    /// Whether it is on the way to a planar start, in which the constraints have no phase.
     pub fn is_of_planar_start(&self) -> bool {
         !self.set_aside.is_empty()
     }

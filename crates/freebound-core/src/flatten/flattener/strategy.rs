@@ -1,8 +1,8 @@
-//! The plan: which stage follows which, chosen once from method and pins.
+//! The strategy: which stage follows which, chosen once from method and pins.
 //!
-//! A plan has parts, a part has sequences, a sequence has stages. After a stage's last step the next one of its sequence
+//! A strategy has phases, a phase has sequences, a sequence has stages. After a stage's last step the next one of its sequence
 //! follows; a stage that gives nothing, or that does not apply where the flattener comes to it, leads to the next sequence.
-//! A part ends where it is solved, and relaxed; or with its last sequence.
+//! A phase ends where it is solved, and relaxed; or with its last sequence.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -10,11 +10,11 @@ use std::sync::Arc;
 use super::relax::{Relax, Rounds};
 use super::sequence::StageKind::{Continuation, Fit, Given, Iterate, Schnyder};
 use super::sequence::{
-    ANGLES, BENT, CONTINUED, CONTINUED_OR_MATCHED, DRAWN, GIVEN, GIVEN_BENT, GIVEN_ITERATED, GOING_ON, HELD, ITERATED,
-    LADDER, LESS_ENERGETIC, LESS_STRETCHED, LINEAR, MATCHED, PADDED, SPECTRAL, Sequence, StageKind,
+    ANGLES, BENT, CONTINUED, CONTINUED_OR_MATCHED, CONTINUING, DRAWN, GIVEN, GIVEN_BENT, GIVEN_ITERATED, HELD,
+    ITERATED, LADDER, LESS_ENERGETIC, LESS_STRETCHED, LINEAR, MATCHED, PADDED, SPECTRAL, Sequence, StageKind,
 };
 use super::single_step::Cut;
-use super::stage::{PhaseGoal, RunStage, StepState};
+use super::stage::{Attained, PhaseGoal, RunStage, StepState};
 use super::task::Task;
 use super::{Ending, SolverCache, Step};
 use crate::problem::{Embedding, Method, Pins, Settings, Stage};
@@ -25,93 +25,93 @@ const ROUNDS_UNTIL_IT_SERVES: usize = 60;
 /// Rounds of relaxing by which polygons become convex.
 const ROUNDS_TO_CONVEX: usize = 30;
 
-/// What is still to be done: the part under way first.
+/// What is still to be done: the phase under way first.
 #[derive(Debug)]
 pub(super) struct Strategy {
-    parts: VecDeque<PhaseState>,
+    phases: VecDeque<PhaseState>,
 }
 
 impl Strategy {
     /// From a layout in the plane on, where there is one.
-    pub(super) fn new(task: &Arc<Task>, kept: &SolverCache, layout: Option<&Arc<Embedding>>) -> Self {
-        layout.map_or_else(|| Self::from_scratch(task, kept), |layout| Self::from_given(task, kept, layout))
+    pub(super) fn new(task: &Arc<Task>, cache: &SolverCache, layout: Option<&Arc<Embedding>>) -> Self {
+        layout.map_or_else(|| Self::from_scratch(task, cache), |layout| Self::from_given(task, cache, layout))
     }
 
-    fn from_given(task: &Arc<Task>, kept: &SolverCache, layout: &Arc<Embedding>) -> Self {
+    fn from_given(task: &Arc<Task>, cache: &SolverCache, layout: &Arc<Embedding>) -> Self {
         // The layout is the planar start.
-        let kept = SolverCache { planar_start: None, ..kept.clone() };
-        let from_layout = |part| PhaseState { is_from_layout: true, ..part };
-        let part = |sequences| from_layout(PhaseState::new(task, PhaseGoal::Constraints, sequences, &kept));
+        let cache = SolverCache { planar_start: None, ..cache.clone() };
+        let from_layout = |phase| PhaseState { is_from_layout: true, ..phase };
+        let phase = |sequences| from_layout(PhaseState::new(task, PhaseGoal::Constraints, sequences, &cache));
         // Constraints are met from the layout as it is.
         let start = || {
             let settings = Settings { size: task.settings.size, ..Settings::default() };
-            let sheet = Arc::clone(&task.sheet);
-            let task = Task { start: Some(Arc::clone(layout)), ..Task::new(settings, Pins::new(), sheet) };
-            from_layout(PhaseState::new(&Arc::new(task), PhaseGoal::PlanarStart, GIVEN, &kept))
+            let frame = Arc::clone(&task.frame);
+            let task = Task { start: Some(Arc::clone(layout)), ..Task::new(settings, Pins::new(), frame) };
+            from_layout(PhaseState::new(&Arc::new(task), PhaseGoal::PlanarStart, GIVEN, &cache))
         };
         let to_constraints = |sequences| {
-            let as_it_lies = task.is_held_by_start().then(|| part(GOING_ON));
-            [start()].into_iter().chain(as_it_lies).chain([part(sequences)]).collect()
+            let as_it_lies = task.is_held_by_start().then(|| phase(CONTINUING));
+            [start()].into_iter().chain(as_it_lies).chain([phase(sequences)]).collect()
         };
-        let parts = match task.settings.method {
-            Method::Iterate => [part(GIVEN_ITERATED)].into(),
-            Method::VirtualBoundary => [part(GIVEN_BENT)].into(),
-            Method::Auto if !task.is_constrained() => [part(GIVEN)].into(),
-            _ if task.is_met_by_start() => [part(GIVEN)].into(),
-            _ => to_constraints(Self::flights_to_constraints(task)),
+        let phases = match task.settings.method {
+            Method::Iterate => [phase(GIVEN_ITERATED)].into(),
+            Method::VirtualBoundary => [phase(GIVEN_BENT)].into(),
+            Method::Auto if !task.is_constrained() => [phase(GIVEN)].into(),
+            _ if task.is_met_by_start() => [phase(GIVEN)].into(),
+            _ => to_constraints(Self::sequence_to_constraints(task)),
         };
-        Self { parts }
+        Self { phases }
     }
 
     /// From the surface alone.
-    pub(super) fn from_scratch(task: &Arc<Task>, kept: &SolverCache) -> Self {
-        let planar_start = kept.planar_start.clone().filter(|start| start.serves(task));
-        let kept = SolverCache { planar_start, ..kept.clone() };
-        let part = |sequences| PhaseState::new(task, PhaseGoal::Constraints, sequences, &kept);
+    pub(super) fn from_scratch(task: &Arc<Task>, cache: &SolverCache) -> Self {
+        let planar_start = cache.planar_start.clone().filter(|start| start.serves(task));
+        let cache = SolverCache { planar_start, ..cache.clone() };
+        let phase = |sequences| PhaseState::new(task, PhaseGoal::Constraints, sequences, &cache);
         let unconstrained = Settings { size: task.settings.size, ..Settings::default() };
         let start = || {
-            let task = Task::new(unconstrained, Pins::new(), Arc::new(task.sheet.without_pins()));
-            PhaseState::new(&Arc::new(task), PhaseGoal::PlanarStart, LADDER, &kept)
+            let task = Task::new(unconstrained, Pins::new(), Arc::new(task.frame.without_pins()));
+            PhaseState::new(&Arc::new(task), PhaseGoal::PlanarStart, LADDER, &cache)
         };
-        let from_start = |sequences| kept.planar_start.is_none().then(start).into_iter().chain([part(sequences)]);
-        let parts = match task.settings.method {
-            Method::Auto if !task.is_constrained() => [part(LADDER)].into(),
+        let from_start = |sequences| cache.planar_start.is_none().then(start).into_iter().chain([phase(sequences)]);
+        let phases = match task.settings.method {
+            Method::Auto if !task.is_constrained() => [phase(LADDER)].into(),
             Method::Auto => {
-                let first = [part(ITERATED), part(HELD)].into_iter();
-                first.chain(from_start(Self::flights_to_constraints(task))).collect()
+                let first = [phase(ITERATED), phase(HELD)].into_iter();
+                first.chain(from_start(Self::sequence_to_constraints(task))).collect()
             }
-            Method::Continuation | Method::Matchmaker => from_start(Self::flights_to_constraints(task)).collect(),
-            Method::Iterate => [part(ITERATED)].into(),
-            Method::VirtualBoundary => [part(BENT)].into(),
-            Method::Schnyder => [part(DRAWN)].into(),
-            Method::Stretch(_) => [part(LESS_STRETCHED)].into(),
-            Method::Slim => [part(LESS_ENERGETIC)].into(),
-            Method::Lee(_) => [part(PADDED)].into(),
-            Method::Spectral => [part(SPECTRAL)].into(),
-            Method::Abf | Method::AbfPlusPlus => [part(ANGLES)].into(),
-            Method::Natural | Method::Convex(_) | Method::Lscm | Method::Levy => [part(LINEAR)].into(),
+            Method::Continuation | Method::Matchmaker => from_start(Self::sequence_to_constraints(task)).collect(),
+            Method::Iterate => [phase(ITERATED)].into(),
+            Method::VirtualBoundary => [phase(BENT)].into(),
+            Method::Schnyder => [phase(DRAWN)].into(),
+            Method::Stretch(_) => [phase(LESS_STRETCHED)].into(),
+            Method::Slim => [phase(LESS_ENERGETIC)].into(),
+            Method::Lee(_) => [phase(PADDED)].into(),
+            Method::Spectral => [phase(SPECTRAL)].into(),
+            Method::Abf | Method::AbfPlusPlus => [phase(ANGLES)].into(),
+            Method::Natural | Method::Convex(_) | Method::Lscm | Method::Levy => [phase(LINEAR)].into(),
         };
-        Self { parts }
+        Self { phases }
     }
 
     /// From a one-to-one embedding to the constraints, as it lies; where it gets stuck, from the planar start.
-    pub(super) fn going_on(task: &Arc<Task>, kept: &SolverCache) -> Self {
-        let afresh_after =
-            Self::from_scratch(task, kept).parts.into_iter().skip_while(|part| part.sequences == ITERATED);
-        let going_on = PhaseState::new(task, PhaseGoal::Constraints, GOING_ON, kept);
-        Self { parts: std::iter::once(going_on).chain(afresh_after).collect() }
+    pub(super) fn continuing(task: &Arc<Task>, cache: &SolverCache) -> Self {
+        let from_scratch_after =
+            Self::from_scratch(task, cache).phases.into_iter().skip_while(|phase| phase.sequences == ITERATED);
+        let continuing = PhaseState::new(task, PhaseGoal::Constraints, CONTINUING, cache);
+        Self { phases: std::iter::once(continuing).chain(from_scratch_after).collect() }
     }
 
     /// At rest on the way from a planar start to the constraints, or at its end.
-    pub(super) fn on_the_way(task: &Arc<Task>, kept: &SolverCache) -> Self {
-        let part = PhaseState::new(task, PhaseGoal::Constraints, Self::flights_to_constraints(task), kept);
+    pub(super) fn on_the_way(task: &Arc<Task>, cache: &SolverCache) -> Self {
+        let phase = PhaseState::new(task, PhaseGoal::Constraints, Self::sequence_to_constraints(task), cache);
         // Behind the fit.
         let at = StageIndex { sequence: 0, stage: 1 };
-        Self { parts: [PhaseState { at, ..part }].into() }
+        Self { phases: [PhaseState { at, ..phase }].into() }
     }
 
     /// From a planar start.
-    fn flights_to_constraints(task: &Task) -> Sequence {
+    fn sequence_to_constraints(task: &Task) -> Sequence {
         match task.settings.method {
             Method::Matchmaker => MATCHED,
             _ if task.adds_vertices() => CONTINUED_OR_MATCHED,
@@ -119,26 +119,26 @@ impl Strategy {
         }
     }
 
-    pub(super) fn part(&self) -> &PhaseState {
-        &self.parts[0]
+    pub(super) fn phase(&self) -> &PhaseState {
+        &self.phases[0]
     }
 
-    pub(super) fn part_mut(&mut self) -> &mut PhaseState {
-        &mut self.parts[0]
+    pub(super) fn phase_mut(&mut self) -> &mut PhaseState {
+        &mut self.phases[0]
     }
 
-    pub(super) fn has_next_part(&self) -> bool {
-        self.parts.len() > 1
+    pub(super) fn has_next_phase(&self) -> bool {
+        self.phases.len() > 1
     }
 
-    pub(super) fn enter_next_part(&mut self) {
-        self.parts.pop_front();
+    pub(super) fn enter_next_phase(&mut self) {
+        self.phases.pop_front();
     }
 
-    /// Whether the next part follows the one under way, where that has no further step.
+    /// Whether the next phase follows the one under way, where that has no further step.
     pub(super) fn leads_on(&self, latest: Option<&StepState>) -> bool {
-        let is_end = self.part().aim == PhaseGoal::Constraints && latest.is_some_and(|latest| latest.is_solved);
-        self.has_next_part() && !is_end
+        let is_end = self.phase().aim == PhaseGoal::Constraints && latest.is_some_and(StepState::is_solved);
+        self.has_next_phase() && !is_end
     }
 }
 
@@ -149,7 +149,7 @@ pub(super) struct StageIndex {
     stage: usize,
 }
 
-/// What takes the next step of a part.
+/// What takes the next step of a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum NextStage {
     Stage(StageIndex),
@@ -170,19 +170,27 @@ pub(super) struct PhaseState {
     pub(super) is_from_layout: bool,
     pub(super) sequences: Sequence,
     pub(super) stages: BTreeMap<StageKind, Box<dyn RunStage>>,
-    /// Where the flattener stands, and whether it has taken a step there.
+    /// Current stage.
     at: StageIndex,
-    has_stepped: bool,
-    /// Whether the part has taken any step.
-    has_begun: bool,
+    progress: PhaseProgress,
+}
+
+/// Steps that a phase has taken so far.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum PhaseProgress {
+    /// No step.
+    NotBegun,
+    /// A step of an earlier stage, and none of the current stage.
+    StageEntered,
+    /// A step of the current stage.
+    StageStepped,
 }
 
 impl PhaseState {
-    fn new(task: &Arc<Task>, aim: PhaseGoal, sequences: Sequence, kept: &SolverCache) -> Self {
-        // The latest step of any part can be iterated on by hand, or relaxed where it is one-to-one.
+    fn new(task: &Arc<Task>, aim: PhaseGoal, sequences: Sequence, cache: &SolverCache) -> Self {
+        // The latest step of any phase can be iterated on by hand, or relaxed where it is one-to-one.
         let kinds = sequences.iter().copied().flatten().chain(&[Iterate]);
-        let stages = kinds.map(|&kind| (kind, kind.stage(kept))).collect();
-        let (at, has_stepped, has_begun) = (StageIndex::default(), false, false);
+        let stages = kinds.map(|&kind| (kind, kind.stage(cache))).collect();
         Self {
             aim,
             task: Arc::clone(task),
@@ -191,9 +199,8 @@ impl PhaseState {
             is_from_layout: false,
             sequences,
             stages,
-            at,
-            has_stepped,
-            has_begun,
+            at: StageIndex::default(),
+            progress: PhaseProgress::NotBegun,
         }
     }
 
@@ -207,26 +214,26 @@ impl PhaseState {
 
     /// Whether it is about to begin, and not from the latest step.
     pub(super) fn begins_anew(&self) -> bool {
-        self.aim == PhaseGoal::PlanarStart && !self.has_begun
+        self.aim == PhaseGoal::PlanarStart && self.progress == PhaseProgress::NotBegun
     }
 
-    /// What takes the next step; none where the part is at its end.
+    /// What takes the next step; none where the phase is at its end.
     pub(super) fn next(&self, latest: Option<&StepState>) -> Option<NextStage> {
         // Its next step goes on from its own, not from one that was relaxed.
         if self.stage(self.at).improves() {
             return Some(NextStage::Stage(self.at));
         }
         let relax = || self.relax.has_more(&self.task, latest).then_some(NextStage::Relax);
-        if latest.is_some_and(|latest| latest.is_solved) {
+        if latest.is_some_and(StepState::is_solved) {
             return relax().or_else(|| self.drawing().filter(|_| self.is_too_fine()).map(NextStage::Stage));
         }
         // What is too fine for its place may fit there once it has relaxed.
-        if latest.is_some_and(|latest| latest.is_unplaced)
+        if latest.is_some_and(|latest| latest.attained == Attained::AllButPlace)
             && let Some(place) = relax()
         {
             return Some(place);
         }
-        if latest.is_some_and(|latest| latest.is_solved_but_for_polygons) {
+        if latest.is_some_and(|latest| latest.attained == Attained::AllButPolygons) {
             let relaxes = self.relax.has_more(&self.task, latest).then_some(NextStage::Relax);
             let follows = relaxes.or_else(|| self.cut.has_more(&self.task, latest).then_some(NextStage::Cut));
             // Where constraints are met there is no further way to them.
@@ -234,7 +241,7 @@ impl PhaseState {
                 return follows;
             }
         }
-        let (mut at, mut has_stepped) = (self.at, self.has_stepped);
+        let (mut at, mut has_stepped) = (self.at, self.progress == PhaseProgress::StageStepped);
         while let Some(sequence) = self.sequences.get(at.sequence) {
             if self.stage(at).has_more(&self.task, latest) {
                 return Some(NextStage::Stage(at));
@@ -255,7 +262,7 @@ impl PhaseState {
         self.rounds_until_it_serves() > 0 && self.relax.is_too_fine()
     }
 
-    /// The grid drawing, where the part has one that is still to come: no face of it is fine.
+    /// The grid drawing, where the phase has one that is still to come: no face of it is fine.
     fn drawing(&self) -> Option<StageIndex> {
         let sequence = self.sequences.iter().position(|sequence| sequence[0] == Schnyder)?;
         let at = StageIndex { sequence, stage: 0 };
@@ -270,37 +277,44 @@ impl PhaseState {
             NextStage::Stage(at) => at,
         };
         if at != self.at {
-            (self.at, self.has_stepped) = (at, false);
+            self.go_to(at);
         }
-        self.rung_of(self.kind(at))
+        self.stage_of(self.kind(at))
     }
 
-    /// What goes on from the latest step, whether or not the part is at its end.
+    fn go_to(&mut self, at: StageIndex) {
+        self.at = at;
+        if self.progress == PhaseProgress::StageStepped {
+            self.progress = PhaseProgress::StageEntered;
+        }
+    }
+
+    /// What goes on from the latest step, whether or not the phase is at its end.
     pub(super) fn by_hand(&mut self) -> &mut dyn RunStage {
         match self.kind(StageIndex::default()) {
             Fit | Continuation => &mut self.relax,
             // What meets constraints as it is was brought there one-to-one.
             Given if self.task.is_constrained() => &mut self.relax,
-            _ => self.rung_of(Iterate),
+            _ => self.stage_of(Iterate),
         }
     }
 
-    fn rung_of(&mut self, kind: StageKind) -> &mut dyn RunStage {
-        &mut **self.stages.get_mut(&kind).expect("a part has all rungs of its flights")
+    fn stage_of(&mut self, kind: StageKind) -> &mut dyn RunStage {
+        &mut **self.stages.get_mut(&kind).expect("a phase has all stages of its sequences")
     }
 
     /// Goes on to the next sequence. Returns whether there is one.
-    pub(super) fn leave_flight(&mut self, place: NextStage) -> bool {
+    pub(super) fn leave_sequence(&mut self, place: NextStage) -> bool {
         let has_next = matches!(place, NextStage::Stage(_)) && self.at.sequence + 1 < self.sequences.len();
         if has_next {
-            (self.at, self.has_stepped) = (StageIndex { sequence: self.at.sequence + 1, stage: 0 }, false);
+            self.go_to(StageIndex { sequence: self.at.sequence + 1, stage: 0 });
         }
         has_next
     }
 
     /// Takes in a step: one of its own, or the first where a flattener goes on from another's.
     pub(super) fn observe(&mut self, step: &Step) {
-        (self.has_stepped, self.has_begun) = (true, true);
+        self.progress = PhaseProgress::StageStepped;
         for stage in self.stages.values_mut() {
             stage.observe(step);
         }
@@ -308,8 +322,8 @@ impl PhaseState {
             self.relax.observe(step);
         } else {
             let own = || {
-                let method = self.task.settings.method;
-                let is_for_planar = method == Method::Auto || method.is_one_to_one();
+                let method = &self.task.settings.method;
+                let is_for_planar = *method == Method::Auto || method.is_one_to_one();
                 let is_start = self.aim == PhaseGoal::PlanarStart;
                 let keeps_concave = !is_for_planar || is_start || step.verdict.concave_polygons.is_empty();
                 let to_convex = if keeps_concave { 0 } else { ROUNDS_TO_CONVEX };
@@ -332,9 +346,9 @@ impl PhaseState {
         if is_wanted { ROUNDS_UNTIL_IT_SERVES } else { 0 }
     }
 
-    /// Why the flattener ends where this was its last part, and it is not solved.
+    /// Why the flattener ends where this was its last phase, and it is not solved.
     pub(super) fn ending(&self) -> Ending {
-        let last = self.sequences.iter().copied().flatten().last().expect("a part has rungs");
+        let last = self.sequences.iter().copied().flatten().last().expect("a phase has stages");
         self.stages[last].ending(&self.task)
     }
 }

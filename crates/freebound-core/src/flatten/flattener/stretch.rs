@@ -40,7 +40,7 @@ enum Next {
 
 impl Run {
     fn begin(from: StageInput<'_>, shape: BoundaryShape, control: Control<'_>) -> Result<Self, SolveError> {
-        let minimising = StretchMinimising::new(from.mesh, shape, from.task.settings.spacing, control)?;
+        let minimising = StretchMinimising::new(from.mesh, &shape, from.task.settings.spacing, control)?;
         let first = minimising.first(from.mesh, control)?;
         Ok(Self { shape, minimising, next: Next::Solved(Box::new(first)), taken: 0 })
     }
@@ -82,14 +82,14 @@ impl Run {
         let pins = fixed_pins(self.minimising.places.keys().map(|&vertex| (vertex, embedding[vertex])));
         let solution =
             Solution { embedding, pins, gauge_completed: true, linear: Some(linear), convergence: None, seconds };
-        let stage = Stage::Stretch(self.shape);
+        let stage = Stage::Stretch(self.shape.clone());
         Ok(Candidate { note: Some(note), ..Candidate::new(stage, Family::MeanValue, solution) })
     }
 }
 
 impl RunStage for Stretch {
     fn step(&mut self, from: StageInput<'_>, control: Control<'_>) -> Result<Candidate, StageFailure> {
-        let shape = from.task.settings.method.boundary_shape().unwrap_or_default();
+        let shape = from.task.settings.method.boundary_shape().cloned().unwrap_or_default();
         let run = match &mut self.run {
             Some(run) => run,
             none => none.insert(Run::begin(from, shape, control)?),

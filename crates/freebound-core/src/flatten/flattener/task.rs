@@ -24,33 +24,34 @@ pub(super) struct Task {
     pub(super) settings: Settings,
     pub(super) pins: Pins,
     /// How embeddings are written: what is proved.
-    pub(super) sheet: Arc<UvFrame>,
+    pub(super) frame: Arc<UvFrame>,
     /// The layout to start from, one position per vertex.
     pub(super) start: Option<Arc<Embedding>>,
 }
 
 impl Task {
     /// Pins count only where the method uses them.
-    pub(super) fn new(settings: Settings, pins: Pins, sheet: Arc<UvFrame>) -> Self {
-        Self { settings, pins: if settings.method.uses_pins() { pins } else { Pins::new() }, sheet, start: None }
+    pub(super) fn new(settings: Settings, pins: Pins, frame: Arc<UvFrame>) -> Self {
+        let pins = if settings.method.uses_pins() { pins } else { Pins::new() };
+        Self { settings, pins, frame, start: None }
     }
 
     /// The units of its solves. Placing and pictures that are not square round in the numbers that are written: there the
     /// origin stays, so that stages prove these.
     pub(super) fn units(&self) -> Units {
         let units = Units::of(&self.pins, self.settings.size);
-        if self.is_constrained() && self.sheet.is_plain() { units } else { units.about_origin() }
+        if self.is_constrained() && self.frame.is_plain() { units } else { units.about_origin() }
     }
 
     /// The same in units of a solve. Where these are not the plane's own, stages prove what they solve, and what is written
     /// is proved of every step.
     pub(super) fn in_units(&self, units: &Units) -> Self {
-        let sheet = if units.is_plane() { Arc::clone(&self.sheet) } else { Arc::default() };
+        let frame = if units.is_plane() { Arc::clone(&self.frame) } else { Arc::default() };
         let in_units = |start: &Arc<Embedding>| {
             if units.is_plane() { Arc::clone(start) } else { Arc::new(units.embedding(start)) }
         };
         let start = self.start.as_ref().map(in_units);
-        Self { settings: units.settings(self.settings), pins: units.pins(&self.pins), sheet, start }
+        Self { settings: units.settings(self.settings.clone()), pins: units.pins(&self.pins), frame, start }
     }
 
     /// Whether the pins are constraints: up to two exact ones only fix the similarity.
@@ -103,7 +104,7 @@ impl Task {
 
     /// Checks what the first stage does not.
     pub(super) fn check(&self, mesh: &DiskMesh) -> Result<(), SolveError> {
-        match self.settings.method {
+        match &self.settings.method {
             method if self.is_constrained() && !method.takes_constraints() => {
                 Err(SolveError::TooManyPins { method: method.name(), count: self.pins.len(), most: GAUGE_PINS })
             }
@@ -145,11 +146,11 @@ impl Task {
             return Ok(Some(note.to_owned()));
         };
         control.go_on()?;
-        let is_planar = self.sheet.is_planar(mesh, embedding);
+        let is_planar = self.frame.is_planar(mesh, embedding);
         let holds = |embedding: &Embedding| {
-            let sheet = &self.sheet;
+            let frame = &self.frame;
             let holds =
-                || if is_planar { sheet.is_planar(mesh, embedding) } else { sheet.is_one_to_one(mesh, embedding) };
+                || if is_planar { frame.is_planar(mesh, embedding) } else { frame.is_one_to_one(mesh, embedding) };
             control.go_on().map(|()| holds())
         };
         let placed = placing.best(embedding, holds)?;

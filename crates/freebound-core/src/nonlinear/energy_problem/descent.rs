@@ -10,11 +10,14 @@ use super::{CHUNK, EnergyProblem};
 use crate::linear::block_pattern::HELD;
 use crate::problem::{Control, Phase, SolveError};
 
-/// ε² where a triangle is folded: a little, and a share of the worst determinant's square.
-const EPSILON_SQUARED: [f64; 2] = [1e-12, 0.04];
+/// Least ε² while a triangle is folded.
+const LEAST_EPSILON_SQUARED: f64 = 1e-12;
 
-/// The least ε² where unfolded triangles have barriers: folded ones end well unfolded, not without area.
-const EPSILON_SQUARED_BESIDE_BARRIERS: f64 = 1e-4;
+/// Least ε² while a triangle is folded and the others have barriers: folded triangles end with a clearly positive area.
+const LEAST_EPSILON_SQUARED_BESIDE_BARRIERS: f64 = 1e-4;
+
+/// Share of the worst determinant's square that is added to the least ε².
+const EPSILON_SQUARED_SHARE: f64 = 0.04;
 
 /// The share of the longest unfolded step that is taken at most.
 const STEP_SHARE: f64 = 0.9;
@@ -138,10 +141,9 @@ impl EnergyProblem {
             let own = is_sized.then(|| (self.own_count, self.own_sums(z).model()));
             return Energies { own, ..Energies::all(limits.unfolded) };
         }
-        let [little, share] = EPSILON_SQUARED;
         let has_barriers = limits.unfolding == Unfolding::BesideBarriers;
-        let floor = if has_barriers { EPSILON_SQUARED_BESIDE_BARRIERS } else { little };
-        let folded = Energy::Foldover((floor + share * least * least).sqrt());
+        let floor = if has_barriers { LEAST_EPSILON_SQUARED_BESIDE_BARRIERS } else { LEAST_EPSILON_SQUARED };
+        let folded = Energy::Foldover((floor + EPSILON_SQUARED_SHARE * least * least).sqrt());
         if !has_barriers {
             return Energies::all(folded);
         }

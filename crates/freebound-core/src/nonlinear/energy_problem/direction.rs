@@ -126,7 +126,7 @@ impl EnergyProblem {
 mod tests {
     use super::super::Planning;
     use super::*;
-    use crate::nonlinear::foldover_energy::Element;
+    use crate::nonlinear::foldover_energy::{Element, Stiffness};
 
     const SIDE: u32 = 9;
 
@@ -135,7 +135,9 @@ mod tests {
         let at = |point: u32| DVec2::new(f64::from(point % SIDE), f64::from(point / SIDE));
         let first_corners = (0..SIDE * (SIDE - 1)).filter(|point| point % SIDE + 1 < SIDE);
         let triangles = first_corners.flat_map(|a| [[a, a + 1, a + SIDE + 1], [a, a + SIDE + 1, a + SIDE]]);
-        let elements = triangles.map(|corners| Element::new(corners, corners.map(at), (1.0, 0.0))).collect();
+        let elements = triangles
+            .map(|corners| Element::new(corners, corners.map(at), Stiffness { weight: 1.0, thinnest: 0.0 }))
+            .collect();
         let planning = Planning { order: None, control: Control::unattended() };
         let count = SIDE * SIDE;
         let problem = EnergyProblem::new(count as usize, elements, Vec::new(), |point| point == 0, planning).unwrap();

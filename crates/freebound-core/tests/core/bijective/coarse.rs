@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use freebound_core::bijective::multires::{FineLevel, Hierarchy, Level};
 use freebound_core::bijective::schnyder;
-use freebound_core::flatten::{Ending, Flattener, Step};
+use freebound_core::flatten::{Ending, Flattener, Options, Step};
 use freebound_core::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound_core::problem::{Control, Embedding, Family, Method, Pin, Pins, Settings, SolveError, Stage, hard_pins};
 use freebound_core::verify::is_one_to_one;
@@ -189,7 +189,8 @@ fn far_pins() -> (DiskMesh, Arc<Embedding>, Pins) {
 
 fn ladder(method: Method, relax_rounds: usize, (pins, start): (&Pins, &Arc<Embedding>)) -> Flattener {
     let settings = Settings { relax_rounds: Some(relax_rounds), ..Settings::new(method, Family::default()) };
-    Flattener::new(settings, pins.clone()).starting_from(Arc::clone(start))
+    let (pins, layout) = (pins.clone(), Some(Arc::clone(start)));
+    Flattener::with_options(Options { settings, pins, layout, ..Options::default() })
 }
 
 fn all_steps(mesh: &DiskMesh, mut ladder: Flattener) -> (Vec<Step>, Ending) {

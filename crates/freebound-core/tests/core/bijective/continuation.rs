@@ -3,7 +3,7 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use freebound_core::flatten::{Ending, Flattener, SolverCache, Step};
+use freebound_core::flatten::{Ending, Flattener, Options, SolverCache, Step};
 use freebound_core::mesh::{DiskMesh, VertexId};
 use freebound_core::problem::{Control, Embedding, Family, Method, Phase, Pin, Pins, Settings, SolveError, Stage};
 use freebound_testkit::BuiltIn;
@@ -155,6 +155,11 @@ fn a_step_that_is_cancelled_anywhere_leaves_the_way_as_it_was() {
     assert!(whole.last().unwrap().unmet().is_empty());
 }
 
+fn from_cache(pins: Pins, cache: &SolverCache) -> Flattener {
+    let settings = one_to_one(Method::Continuation);
+    Flattener::with_options(Options { settings, pins, cache: Some(cache.clone()), ..Options::default() })
+}
+
 #[test]
 fn the_planar_start_is_among_the_steps_and_serves_other_targets_on_the_mesh() {
     let (mesh, pins) = swirl();
@@ -165,7 +170,7 @@ fn the_planar_start_is_among_the_steps_and_serves_other_targets_on_the_mesh() {
     assert!(steps[fitted - 1].verdict.planar, "no end, as the constraints are not met");
     assert!(steps[0].candidate.note.as_ref().is_some_and(|note| note.contains("without the constraints")));
     let kept = SolverCache { planar_start: steps[fitted].candidate.planar_start.clone(), prepared: None };
-    let mut run = Flattener::new(one_to_one(Method::Continuation), pins).with_cache(&kept);
+    let mut run = from_cache(pins, &kept);
     let mut shorter: Vec<Step> = Vec::new();
     run.finish(&mesh, Control::unattended(), |step| shorter.push(step)).unwrap();
     assert_eq!(shorter.len(), steps.len() - fitted);
@@ -189,7 +194,7 @@ fn a_ladder_without_constraints_finds_the_planar_start_of_those_with_some_to_the
         let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].into_iter().enumerate();
         let pins: Pins = corners.map(|(k, at)| (boundary[k * boundary.len() / 4], Pin::hard(at))).collect();
         let fitted = |kept: &SolverCache| {
-            let mut run = Flattener::new(one_to_one(Method::Continuation), pins.clone()).with_cache(kept);
+            let mut run = from_cache(pins.clone(), kept);
             let mut steps = std::iter::repeat_with(|| run.step(mesh, Control::unattended()).unwrap());
             let step = steps.by_ref().find(|step| step.candidate.planar_start.is_some()).unwrap();
             (step.index, step.candidate.solution.embedding.clone())

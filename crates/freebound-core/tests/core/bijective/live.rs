@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use freebound_core::bijective::{Blocker, DragFrame, DragSolver, DragTarget};
 use freebound_core::geom::{PictureFrame, VAxis};
 use freebound_core::mesh::{DiskMesh, Preparation, TriMesh, VertexId};
-use freebound_core::nonlinear::foldover_energy::{Element, Energy};
+use freebound_core::nonlinear::foldover_energy::{Element, Energy, Stiffness};
 use freebound_core::problem::{Control, Embedding, Pin, Pins, SolveError, hard_pins};
 use freebound_core::verify::{UvFrame, verdict};
 use glam::DVec2;
@@ -147,7 +147,11 @@ fn at_rest_no_free_vertex_is_drawn_anywhere_by_the_energy_of_the_faces() {
         for face in drag.mesh.faces() {
             let rest = drag.begin.corners(&drag.mesh, face);
             let area = (rest[1] - rest[0]).perp_dot(rest[2] - rest[0]);
-            let element = Element::new(drag.mesh.face(face).map(VertexId::number), rest, (area, 0.0));
+            let element = Element::new(
+                drag.mesh.face(face).map(VertexId::number),
+                rest,
+                Stiffness { weight: area, thinnest: 0.0 },
+            );
             let model = element.model(z.corners(&drag.mesh, face), Energy::Foldover(0.0));
             for (v, g) in drag.mesh.face(face).iter().zip(model.gradient.chunks_exact(2)) {
                 gradient[v.index()] += DVec2::from_slice(g);

@@ -29,7 +29,7 @@ fn slit() -> (DiskMesh, Pins) {
 fn what_is_proved_stays_the_result_where_relaxing_fails() {
     let (mesh, pins) = slit();
     for method in [Method::Auto, Method::Natural, Method::Lscm, Method::Iterate] {
-        let settings = Settings { relax_rounds: Some(3), ..Settings::new(method, Family::Conformal) };
+        let settings = Settings { relax_rounds: Some(3), ..Settings::new(method.clone(), Family::Conformal) };
         let (steps, ending) = steps(&mesh, settings, &pins);
         let last = steps.last().expect("a step");
         assert_eq!((ending, steps.len()), (Ending::Planar, 2), "{method:?}: a failure ends the relaxing");
@@ -68,7 +68,7 @@ fn weighted_constraints_do_not_keep_relaxing_from_going_on() {
     let mut pins = hard_pins([(0, 0.0), (12, 0.3), (156, -0.2)].map(|(v, x)| (VertexId::new(v), shifted(v, x))));
     pins.insert(VertexId::new(84), Pin::weighted(shifted(84, 0.2), 0.1));
     for method in [Method::Auto, Method::Continuation] {
-        let settings = Settings { relax_rounds: Some(20), ..Settings::new(method, Family::Conformal) };
+        let settings = Settings { relax_rounds: Some(20), ..Settings::new(method.clone(), Family::Conformal) };
         let (steps, ending) = steps(&mesh, settings, &pins);
         let rounds: Vec<&Step> = steps.iter().filter(|step| step.candidate.stage == Stage::Relax).collect();
         assert!(ending == Ending::Planar && !rounds.is_empty(), "{method:?}");

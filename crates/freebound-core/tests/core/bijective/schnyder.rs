@@ -77,9 +77,9 @@ corpus_test! {
 fn as_a_method_it_is_drawn_then_relaxed_and_every_step_is_proved() {
     let steps = steps(&disk(tube(5, 30)), Method::Schnyder, Pins::new()).unwrap();
     assert!(steps.iter().all(|step| step.verdict.planar && !step.verdict.mirrored));
-    let stages: Vec<Stage> = steps.iter().map(|step| step.candidate.stage).collect();
+    let stages: Vec<Stage> = steps.iter().map(|step| step.candidate.stage.clone()).collect();
     assert_eq!(stages[0], Stage::Schnyder);
-    assert!(stages.len() > 1 && stages[1..].iter().all(|&stage| stage == Stage::Relax), "{stages:?}");
+    assert!(stages.len() > 1 && stages[1..].iter().all(|stage| *stage == Stage::Relax), "{stages:?}");
     let energies: Vec<f64> = steps.iter().filter_map(|step| Some(step.candidate.progress?.energy)).collect();
     assert!(energies.last() < energies.first(), "{energies:?}");
 }

@@ -201,7 +201,7 @@ corpus_test! {
     fn more_boundary_vertices_are_pinned_until_the_boundary_is_simple() {
         let mesh = corpus_entry("cow_seamster.obj").disk();
         let settings = Settings::new(Method::VirtualBoundary, Family::Conformal);
-        let steps = steps_of(&mesh, settings);
+        let steps = steps_of(&mesh, settings.clone());
         let bent: BTreeSet<usize> = steps.iter().map(|step| step.candidate.bent_vertices).collect();
         assert!(bent.iter().copied().take(4).eq([0, 4, 8, 16]), "{bent:?}");
         let last = steps.last().unwrap();

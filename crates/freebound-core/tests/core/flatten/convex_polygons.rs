@@ -215,7 +215,7 @@ fn the_cut_of_polygons_does_not_show_in_a_linear_solve() {
         for method in [Method::Natural, Method::Lscm] {
             let solve = |triangles: TriMesh| {
                 let disk = DiskMesh::try_from(triangles).expect("a disk");
-                last_step(&disk, Settings { method, ..Settings::default() }, pins.clone())
+                last_step(&disk, Settings { method: method.clone(), ..Settings::default() }, pins.clone())
                     .candidate
                     .solution
                     .embedding

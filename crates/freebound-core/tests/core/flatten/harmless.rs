@@ -11,9 +11,9 @@ use glam::{DVec2, DVec3};
 use freebound_testkit::{Random, corpus_entry, corpus_test, disk, fan, grid, sheet};
 
 /// The last step of a run.
-fn last_step(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Step {
+fn last_step(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Step {
     let mut last = None;
-    Flattener::new(settings, pins.clone())
+    Flattener::new(settings.clone(), pins.clone())
         .finish(mesh, Control::unattended(), |step| last = Some(step))
         .unwrap_or_else(|error| panic!("{settings:?}: {error}"));
     last.expect("a step")
@@ -45,12 +45,12 @@ fn without(embedding: &Embedding, number: u32) -> Vec<DVec2> {
 #[test]
 fn a_vertex_of_no_face_changes_no_bit_of_an_embedding() {
     let last = u32::try_from(sheet(6, 0.4).vertex_count()).expect("few");
-    for &way in Method::ALL {
-        let expected = last_step(&disk(sheet(6, 0.4)), method(way), &Pins::new());
+    for way in Method::ALL {
+        let expected = last_step(&disk(sheet(6, 0.4)), &method(way.clone()), &Pins::new());
         for number in [0, 17, last] {
             let strange = disk(with_stray(sheet(6, 0.4), number));
             assert!(!strange.is_used(VertexId::new(number)));
-            let found = last_step(&strange, method(way), &Pins::new());
+            let found = last_step(&strange, &method(way.clone()), &Pins::new());
             let found = without(&found.candidate.solution.embedding, number);
             assert_eq!(found, expected.candidate.solution.embedding.to_vec(), "{}, stray vertex {number}", way.name());
         }
@@ -66,8 +66,8 @@ fn a_vertex_of_no_face_changes_no_bit_where_pins_need_every_rung() {
             hard_pins(corners.iter().map(|&(v, uv)| (VertexId::new(moved_up(v, number)), DVec2::from(uv))))
         };
         for way in [Method::Auto, Method::Matchmaker] {
-            let expected = last_step(&disk(sheet(6, 0.4)), method(way), &pins(u32::MAX));
-            let found = last_step(&disk(with_stray(sheet(6, 0.4), number)), method(way), &pins(number));
+            let expected = last_step(&disk(sheet(6, 0.4)), &method(way.clone()), &pins(u32::MAX));
+            let found = last_step(&disk(with_stray(sheet(6, 0.4), number)), &method(way.clone()), &pins(number));
             assert!(expected.verdict.planar && found.verdict.planar, "{}", way.name());
             let [expected, found] = [expected, found].map(|step| step.candidate.solution.embedding);
             assert_eq!(without(&found, number), expected.to_vec(), "{}, stray vertex {number}", way.name());
@@ -103,8 +103,8 @@ fn every_method_flattens_faces_without_area() {
     let found = diagnose(&mesh);
     assert!(matches!(&found.faults[..], [Fault::ZeroArea(faces)] if faces.triangles.len() > 10), "{found}");
     let mesh = disk(mesh);
-    for &way in Method::ALL {
-        let step = last_step(&mesh, method(way), &Pins::new());
+    for way in Method::ALL.iter().cloned() {
+        let step = last_step(&mesh, &method(way.clone()), &Pins::new());
         assert!(step.candidate.solution.embedding.check_finite().is_ok(), "{}", way.name());
         if matches!(way, Method::Auto | Method::VirtualBoundary | Method::Schnyder) {
             assert!(step.verdict.planar, "{}: {}", way.name(), step.verdict.summary());
@@ -117,14 +117,14 @@ fn faces_without_area_flatten_with_constraints_too() {
     let mesh = disk(with_flat_faces());
     let targets = [(0, [0.0, 0.0]), (8, [1.0, 0.1]), (40, [0.7, 0.3]), (72, [0.1, 1.0]), (80, [1.0, 0.9])];
     let pins = hard_pins(targets.map(|(v, uv)| (VertexId::new(v), DVec2::from(uv))));
-    let step = last_step(&mesh, Settings::default(), &pins);
+    let step = last_step(&mesh, &Settings::default(), &pins);
     assert!(step.verdict.planar && step.unmet().is_empty(), "{}", step.verdict.summary());
 }
 
 corpus_test! {
     fn every_bad_file_without_other_faults_ends_planar() {
         let entry = corpus_entry("bad/degenerate_capsule.obj");
-        let step = last_step(&entry.disk(), Settings::default(), &Pins::new());
+        let step = last_step(&entry.disk(), &Settings::default(), &Pins::new());
         assert!(step.verdict.planar, "{}: {}", entry.file, step.verdict.summary());
     }
 }
@@ -165,7 +165,7 @@ fn a_mesh_whose_faces_all_have_an_area_keeps_its_lengths() {
 #[test]
 fn a_flat_face_counts_in_the_distortion_as_the_triangle_that_it_is_taken_for() {
     let mesh = disk(with_flat_faces());
-    let step = last_step(&mesh, Settings::default(), &Pins::new());
+    let step = last_step(&mesh, &Settings::default(), &Pins::new());
     let summary = distortion(&mesh, &step.candidate.solution.embedding).summary;
     assert!(summary.symmetric_dirichlet.mean.is_finite() && summary.angle.max.is_finite(), "{summary:?}");
 }

@@ -113,8 +113,8 @@ fn every_method_flattens_sheets_with_random_holes() {
         let mesh = holed_sheet(&mut random, 6 + case % 4, 0.1);
         let (repaired, disk) = filled(&mesh);
         assert!(count(&repaired) > 0);
-        for &method in Method::ALL {
-            let settings = Settings { relax_rounds: Some(1), ..Settings::new(method, Family::default()) };
+        for method in Method::ALL.iter().cloned() {
+            let settings = Settings { relax_rounds: Some(1), ..Settings::new(method.clone(), Family::default()) };
             let (steps, _) =
                 steps_of(&disk, settings, &Pins::new()).unwrap_or_else(|error| panic!("{method:?}: {error}"));
             for step in &steps {
@@ -291,7 +291,7 @@ fn constraints_around_holes_are_met_with_new_vertices_where_that_takes_some() {
     let (_, disk) = filled(&mesh);
     let pins = hole_turned(&disk);
     for method in [Method::Auto, Method::Matchmaker] {
-        let (steps, ending) = steps_of(&disk, Settings::new(method, Family::default()), &pins).unwrap();
+        let (steps, ending) = steps_of(&disk, Settings::new(method.clone(), Family::default()), &pins).unwrap();
         let last = steps.last().unwrap();
         assert_eq!((ending, last.unmet()), (Ending::Planar, Vec::new()), "{method:?}");
         let of = last.candidate.mesh(&disk);

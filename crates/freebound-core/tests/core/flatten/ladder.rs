@@ -168,9 +168,9 @@ fn constraints_are_iterated_on_and_then_met_one_to_one_but_no_boundary_is_bent_f
     let mut steps = Vec::new();
     let ending = run.finish(&mesh, Control::unattended(), |step| steps.push(step)).unwrap();
     assert_eq!(ending, Ending::Planar);
-    let stages: Vec<Stage> = steps.iter().map(|step| step.candidate.stage).collect();
+    let stages: Vec<Stage> = steps.iter().map(|step| step.candidate.stage.clone()).collect();
     let tried = steps.iter().position(Step::is_of_planar_start).unwrap();
-    assert!(stages[0] == Stage::Natural && tried > 1 && stages[1..tried].iter().all(|&stage| stage == Stage::Iterate));
+    assert!(stages[0] == Stage::Natural && tried > 1 && stages[1..tried].iter().all(|stage| *stage == Stage::Iterate));
     assert!(!stages.contains(&Stage::VirtualBoundary));
     let is_met = |step: &Step| pins.iter().all(|(v, at)| step.candidate.solution.embedding[v] == at.target);
     assert!(steps[..tried].iter().all(is_met) && steps.last().is_some_and(|step| step.verdict.planar && is_met(step)));
@@ -202,12 +202,12 @@ fn disturbed(mesh: &DiskMesh, mut run: Flattener) -> Vec<Step> {
 }
 
 fn assert_cancelled_steps_leave_the_run_as_it_was(mesh: &DiskMesh, settings: Settings, pins: &Pins) {
-    let undisturbed = steps_of(mesh, settings, pins);
+    let undisturbed = steps_of(mesh, settings.clone(), pins);
     let found = disturbed(mesh, Flattener::new(settings, pins.clone()));
     let told = |steps: &[Step]| -> Vec<(usize, Stage, Option<String>, Embedding)> {
         let told = |s: &Step| {
             let c = &s.candidate;
-            (c.bent_vertices, c.stage, c.note.clone(), c.solution.embedding.clone())
+            (c.bent_vertices, c.stage.clone(), c.note.clone(), c.solution.embedding.clone())
         };
         steps.iter().map(told).collect()
     };
@@ -235,7 +235,10 @@ fn the_same_run_gives_the_same_bits() {
     let mesh = disk(BuiltIn::Cube.mesh());
     let settings = Settings::new(Method::Auto, Family::MeanValue);
     let bits = || -> Vec<Embedding> {
-        steps_of(&mesh, settings, &Pins::new()).into_iter().map(|step| step.candidate.solution.embedding).collect()
+        steps_of(&mesh, settings.clone(), &Pins::new())
+            .into_iter()
+            .map(|step| step.candidate.solution.embedding)
+            .collect()
     };
     assert_eq!(bits(), bits());
 }
@@ -291,7 +294,7 @@ fn every_method_can_be_taken_on_by_hand() {
     let mesh = disk(BuiltIn::Cube.mesh());
     let convex = Method::Convex(freebound_core::problem::BoundaryShape::Circle);
     for method in [convex, Method::Lscm, Method::Levy, Method::Natural, Method::VirtualBoundary] {
-        let mut run = Flattener::new(Settings::new(method, Family::MeanValue), Pins::new());
+        let mut run = Flattener::new(Settings::new(method.clone(), Family::MeanValue), Pins::new());
         run.finish(&mesh, Control::unattended(), |_| ()).unwrap();
         let further = run.step(&mesh, Control::unattended()).unwrap();
         assert_eq!(further.candidate.stage, Stage::Iterate, "after {method:?}");
@@ -302,7 +305,7 @@ fn every_method_can_be_taken_on_by_hand() {
 fn a_proof_that_is_stopped_is_all_that_the_next_step_has_to_do() {
     let mesh = disk(BuiltIn::Cube.mesh());
     let settings = Settings::new(Method::Natural, Family::Conformal);
-    let whole = Flattener::new(settings, Pins::new()).step(&mesh, Control::unattended()).unwrap();
+    let whole = Flattener::new(settings.clone(), Pins::new()).step(&mesh, Control::unattended()).unwrap();
     let (flag, mut run) = (AtomicBool::new(false), Flattener::new(settings, Pins::new()));
     let raise = |phase| flag.store(phase == Phase::Verify, Ordering::Relaxed);
     assert_eq!(run.step(&mesh, Control::new(&flag, &raise)).unwrap_err(), SolveError::Cancelled);

@@ -170,8 +170,8 @@ fn choices_that_do_not_go_together_are_named() {
         let error = solve(&dome(), &Settings::new(Method::Natural, family), &Pins::new()).unwrap_err();
         let SolveError::FamilyNotApplicable { method: "natural", remedy, .. } = error else { panic!("{error}") };
         let is_named = |other: &&Method| remedy.split([' ', ',']).any(|word| word == other.name());
-        let named: Vec<Method> = Method::ALL.iter().filter(is_named).copied().collect();
-        let wanted: Vec<Method> = Method::ALL.iter().filter(|other| other.takes_any_family()).copied().collect();
+        let named: Vec<Method> = Method::ALL.iter().filter(is_named).cloned().collect();
+        let wanted: Vec<Method> = Method::ALL.iter().filter(|other| other.takes_any_family()).cloned().collect();
         assert_eq!(named, wanted, "{remedy}");
     }
 }

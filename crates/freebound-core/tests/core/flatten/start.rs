@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use freebound_core::flatten::{Ending, Flattener, Step};
+use freebound_core::flatten::{Ending, Flattener, Options, Step};
 use freebound_core::geom::Bounds;
 use freebound_core::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound_core::problem::{Control, Embedding, Family, Method, Pins, Settings, SolveError, Stage, hard_pins};
@@ -28,7 +28,8 @@ fn folded(mesh: &DiskMesh) -> Embedding {
 }
 
 fn ladder(settings: Settings, pins: Pins, layout: &Embedding) -> Flattener {
-    Flattener::new(settings, pins).starting_from(Arc::new(layout.clone()))
+    let layout = Some(Arc::new(layout.clone()));
+    Flattener::with_options(Options { settings, pins, layout, ..Options::default() })
 }
 
 fn finished(mesh: &DiskMesh, mut ladder: Flattener) -> (Vec<Step>, Result<Ending, SolveError>) {
@@ -56,7 +57,8 @@ fn a_planar_layout_is_proved_and_stays_as_it_is() {
     let mesh = disk(bump(6));
     let layout = sheared(&mesh);
     for method in [Method::Auto, Method::Iterate] {
-        let (steps, ending) = finished(&mesh, ladder(Settings::new(method, Family::Conformal), Pins::new(), &layout));
+        let (steps, ending) =
+            finished(&mesh, ladder(Settings::new(method.clone(), Family::Conformal), Pins::new(), &layout));
         assert_eq!((steps.len(), ending), (1, Ok(Ending::Planar)), "{method:?}");
         assert_eq!(steps[0].candidate.stage, Stage::Given);
         assert_eq!(steps[0].candidate.solution.embedding, layout, "to the last bit");
@@ -79,7 +81,10 @@ fn a_planar_layout_of_high_energy_or_of_more_than_32_bits_is_relaxed_only_where_
         let settings = Settings::new(Method::Continuation, Family::Conformal);
         let (steps, ending) = finished(&mesh, ladder(settings, hard_pins(pins), &layout));
         assert_eq!(ending, Ok(Ending::Planar));
-        assert_eq!([steps[0].candidate.stage, steps[1].candidate.stage], [Stage::Given, Stage::Continuation]);
+        assert_eq!(
+            [steps[0].candidate.stage.clone(), steps[1].candidate.stage.clone()],
+            [Stage::Given, Stage::Continuation]
+        );
         let relaxed = Settings { relax_rounds: Some(3), ..one_of_each() };
         let (steps, _) = finished(&mesh, ladder(relaxed, Pins::new(), &layout));
         assert!(steps.len() > 1 && steps[1].candidate.stage == Stage::Relax);
@@ -132,7 +137,7 @@ fn a_folded_layout_is_shown_with_its_faults_and_then_solved() {
     assert!(count > 0);
     let (steps, ending) = finished(&mesh, ladder(one_of_each(), Pins::new(), &layout));
     assert_eq!(ending, Ok(Ending::Planar));
-    assert_eq!((steps[0].candidate.stage, steps[0].verdict.flipped_faces.len()), (Stage::Given, count));
+    assert_eq!((steps[0].candidate.stage.clone(), steps[0].verdict.flipped_faces.len()), (Stage::Given, count));
     assert_eq!(steps[0].candidate.solution.embedding, layout);
     assert_eq!(steps[1].candidate.stage, Stage::Natural);
     let note = steps[1].candidate.note.as_deref().unwrap_or_default();
@@ -155,8 +160,13 @@ fn an_iteration_goes_on_from_a_folded_layout() {
     let mesh = disk(bump(6));
     let layout = folded(&mesh);
     for (method, next) in [(Method::Iterate, Stage::Iterate), (Method::VirtualBoundary, Stage::VirtualBoundary)] {
-        let (steps, ending) = finished(&mesh, ladder(Settings::new(method, Family::Conformal), Pins::new(), &layout));
-        assert_eq!((steps[0].candidate.stage, steps[1].candidate.stage), (Stage::Given, next), "{method:?}");
+        let (steps, ending) =
+            finished(&mesh, ladder(Settings::new(method.clone(), Family::Conformal), Pins::new(), &layout));
+        assert_eq!(
+            (steps[0].candidate.stage.clone(), steps[1].candidate.stage.clone()),
+            (Stage::Given, next),
+            "{method:?}"
+        );
         assert_eq!(ending, Ok(Ending::Planar), "{method:?}");
     }
 }
@@ -184,12 +194,12 @@ fn constraints_are_met_from_the_layout_one_to_one() {
         [(0, inside(0.1, 0.0)), (6, inside(0.9, -0.2)), (count - 1, inside(1.0, 1.1)), (count / 2, inside(0.5, 0.6))];
     let pins = hard_pins(pins.map(|(v, target)| (VertexId::new(v), target)));
     for method in [Method::Auto, Method::Continuation, Method::Matchmaker] {
-        let settings = Settings::new(method, Family::Conformal);
+        let settings = Settings::new(method.clone(), Family::Conformal);
         let (steps, ending) = finished(&mesh, ladder(settings, pins.clone(), &layout));
         assert_eq!(ending, Ok(Ending::Planar), "{method:?}");
-        assert_eq!((steps[0].candidate.stage, &steps[0].candidate.solution.embedding), (Stage::Given, &layout));
+        assert_eq!((steps[0].candidate.stage.clone(), &steps[0].candidate.solution.embedding), (Stage::Given, &layout));
         assert!(steps[0].is_of_planar_start(), "the constraints have no part in the layout");
-        let stages: Vec<Stage> = steps.iter().map(|step| step.candidate.stage).collect();
+        let stages: Vec<Stage> = steps.iter().map(|step| step.candidate.stage.clone()).collect();
         assert!(!stages.contains(&Stage::Natural) && !stages.contains(&Stage::Iterate), "{stages:?}");
         assert!(steps.iter().all(|step| step.verdict.is_one_to_one()));
         assert!(steps[steps.len() - 1].unmet().is_empty());

@@ -92,7 +92,7 @@ fn the_boundary_lies_on_a_square_in_the_order_of_the_loop() {
 }
 
 /// Where the boundary comes to lie at the shape's own size and place.
-fn laid(mesh: &DiskMesh, shape: BoundaryShape, spacing: Spacing) -> Vec<DVec2> {
+fn laid(mesh: &DiskMesh, shape: &BoundaryShape, spacing: Spacing) -> Vec<DVec2> {
     let places = convex_boundary(mesh, shape, spacing).expect("a boundary of many vertices");
     mesh.boundary_loop().iter().map(|v| places[v]).collect()
 }
@@ -130,7 +130,7 @@ fn the_boundary_lies_on_a_polygon_with_vertices_on_its_corners() {
     for (name, mesh) in examples() {
         for polygon in polygons() {
             for spacing in [Spacing::Chord, Spacing::Even] {
-                let places = laid(&mesh, BoundaryShape::Polygon(polygon), spacing);
+                let places = laid(&mesh, &BoundaryShape::Polygon(polygon.clone()), spacing);
                 assert_runs_around(&places, &name);
                 for corner in polygon.corners() {
                     assert!(places.contains(corner), "{name}: no vertex at {corner}");
@@ -145,8 +145,8 @@ fn a_square_of_the_users_is_the_square() {
     for (name, mesh) in examples() {
         let polygon = ConvexPolygon::parse("0 0; 1 0; 1 1; 0 1").expect("convex");
         for spacing in [Spacing::Chord, Spacing::Even] {
-            let own = laid(&mesh, BoundaryShape::Polygon(polygon), spacing);
-            assert_eq!(own, laid(&mesh, BoundaryShape::Square, spacing), "{name}");
+            let own = laid(&mesh, &BoundaryShape::Polygon(polygon.clone()), spacing);
+            assert_eq!(own, laid(&mesh, &BoundaryShape::Square, spacing), "{name}");
         }
     }
 }
@@ -155,14 +155,14 @@ fn a_square_of_the_users_is_the_square() {
 fn vertices_lie_evenly_where_that_is_asked_for() {
     for (name, mesh) in examples() {
         let count = mesh.boundary_loop().len();
-        let on_circle = laid(&mesh, BoundaryShape::Circle, Spacing::Even);
+        let on_circle = laid(&mesh, &BoundaryShape::Circle, Spacing::Even);
         for (k, z) in on_circle.iter().enumerate() {
             let angle = k as f64 / count as f64 * std::f64::consts::TAU;
             assert!(z.distance(DVec2::from_angle(angle)) < 1e-14, "{name}: place {k}");
         }
         // On a shape with corners the vertices of each side lie evenly.
-        for shape in [BoundaryShape::Square, BoundaryShape::Hull, BoundaryShape::Polygon(polygons()[0])] {
-            let places = laid(&mesh, shape, Spacing::Even);
+        for shape in [BoundaryShape::Square, BoundaryShape::Hull, BoundaryShape::Polygon(polygons()[0].clone())] {
+            let places = laid(&mesh, &shape.clone(), Spacing::Even);
             let turns = |k: usize| {
                 let [a, b, c] = [k + count - 1, k, k + 1].map(|k| places[k % count]);
                 ((b - a).perp_dot(c - b) / ((b - a).length() * (c - b).length())).abs() > 1e-6
@@ -178,7 +178,7 @@ fn vertices_lie_evenly_where_that_is_asked_for() {
 #[test]
 fn the_hull_is_that_of_the_projection_along_which_the_boundary_extends_least() {
     for (name, mesh) in examples() {
-        assert_runs_around(&laid(&mesh, BoundaryShape::Hull, Spacing::Chord), &name);
+        assert_runs_around(&laid(&mesh, &BoundaryShape::Hull, Spacing::Chord), &name);
     }
     // An ellipse that is a little rough, tilted in space: all its vertices are corners, as far apart as on the ellipse.
     let ring: Vec<DVec2> = (0..30).map(|k| DVec2::from_angle(f64::from(k) * 0.2) * DVec2::new(3.0, 2.0)).collect();
@@ -186,7 +186,7 @@ fn the_hull_is_that_of_the_projection_along_which_the_boundary_extends_least() {
         [DVec3::new(2.0, -1.0, 2.0), DVec3::new(2.0, 2.0, -1.0), DVec3::new(-1.0, 2.0, 2.0)].map(|a| a / 3.0);
     let rough = |k: usize| if k.is_multiple_of(3) { 1e-3 } else { -1e-3 };
     let mesh = fan_of(&ring, |k, p| x * p.x + y * p.y + z * rough(k));
-    let places = laid(&mesh, BoundaryShape::Hull, Spacing::Chord);
+    let places = laid(&mesh, &BoundaryShape::Hull, Spacing::Chord);
     let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|v| ring[v.index() - 1]).collect();
     let unit = places[0].distance(places[10]) / boundary[0].distance(boundary[10]);
     for k in 0..30 {
@@ -201,7 +201,7 @@ fn the_hull_is_that_of_the_projection_along_which_the_boundary_extends_least() {
 fn a_flat_convex_boundary_comes_back_on_its_hull() {
     // A tilted hexagon: its own corners, turned into the plane, and with them the whole mesh by mean-value weights.
     let flat = fan_of(ConvexPolygon::HEXAGON.corners(), |_, p| DVec3::new(p.x, 0.6 * p.y, 0.8 * p.y));
-    let places = laid(&flat, BoundaryShape::Hull, Spacing::Chord);
+    let places = laid(&flat, &BoundaryShape::Hull, Spacing::Chord);
     for k in 0..6 {
         for l in 0..6 {
             let boundary = flat.boundary_loop();
@@ -222,7 +222,7 @@ fn a_boundary_that_crosses_itself_in_projection_lies_on_a_convex_outline_all_the
     let positions: Vec<DVec3> = std::iter::once(DVec3::new(0.0, 0.0, 2.0)).chain(rim).collect();
     let triangles: Vec<[u32; 3]> = (0..40).map(|k| [0, 1 + k, 1 + (k + 1) % 40]).collect();
     let mesh = DiskMesh::try_from(TriMesh::new(positions, &triangles)).expect("a disk");
-    let places = laid(&mesh, BoundaryShape::Hull, Spacing::Chord);
+    let places = laid(&mesh, &BoundaryShape::Hull, Spacing::Chord);
     assert_runs_around(&places, "eight");
     let embedding = embed(&mesh, &convex(BoundaryShape::Hull, Family::Uniform), "eight");
     assert!(verdict(&mesh, &embedding).planar);
@@ -233,15 +233,15 @@ fn a_boundary_without_a_hull_is_refused_by_name() {
     for way in [DVec3::X, DVec3::new(0.3, -0.7, 1.9)] {
         let line = [0.0, 1.0, 3.0, 2.0].map(|t| way * t).to_vec();
         let mesh = DiskMesh::try_from(TriMesh::new(line, &[[0, 1, 3], [1, 2, 3]])).expect("mollified");
-        assert_eq!(convex_boundary(&mesh, BoundaryShape::Hull, Spacing::Chord), Err(SolveError::NoHull));
+        assert_eq!(convex_boundary(&mesh, &BoundaryShape::Hull, Spacing::Chord), Err(SolveError::NoHull));
     }
 }
 
 #[test]
 fn a_polygon_of_the_users_is_not_turned_and_its_corners_stay_in_their_order() {
     let mesh = DiskMesh::try_from(BuiltIn::Face.mesh()).expect("well-formed by construction");
-    let polygon = polygons()[1];
-    let settings = convex(BoundaryShape::Polygon(polygon), Family::Uniform);
+    let polygon = polygons()[1].clone();
+    let settings = convex(BoundaryShape::Polygon(polygon.clone()), Family::Uniform);
     let step = Flattener::new(settings, Pins::new()).step(&mesh, Control::unattended()).expect("solvable");
     let places = step.candidate.solution.embedding.boundary(&mesh);
     let [low, high] =
@@ -268,7 +268,7 @@ fn every_interior_vertex_lies_at_its_weighted_mean() {
     for (name, mesh) in examples() {
         for shape in [BoundaryShape::Circle, BoundaryShape::Square] {
             for family in FAMILIES {
-                let embedding = embed(&mesh, &convex(shape, family), &name);
+                let embedding = embed(&mesh, &convex(shape.clone(), family), &name);
                 let weights = weights(&mesh, family).coefficients;
                 for v in mesh.vertices().filter(|&v| mesh.boundary_place(v).is_none()) {
                     let arm = |h| embedding[mesh.head(h)] - embedding[v];

@@ -277,7 +277,7 @@ fn two_pins_of_the_users_keep_all_equations_where_theirs_do_not_depend_on_the_ot
     let settings = natural(Family::MeanValue);
     assert!(sheet.solved(&settings, &pins).linear.expect("linear").keeps_equations);
     // Asked for, their equations are left out all the same, and the error says what that is.
-    let asked = Settings { treatment: Some(Treatment::Eliminate), ..settings };
+    let asked = Settings { treatment: Some(Treatment::Eliminate), ..settings.clone() };
     let eliminated = solve_once(&sheet.mesh, &asked, &pins, Control::unattended());
     assert!(matches!(eliminated, Err(SolveError::Singular { .. })), "{eliminated:?}");
     // A small grid has no need of it.

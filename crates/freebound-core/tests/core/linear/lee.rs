@@ -44,8 +44,8 @@ fn corpus_meshes() -> Vec<(String, DiskMesh)> {
 fn assert_positive_weights_end_planar_with_any_number_of_layers_and_any_shape(meshes: Vec<(String, DiskMesh)>) {
     let shapes = [BoundaryShape::Circle, BoundaryShape::Square, BoundaryShape::Polygon(ConvexPolygon::HEXAGON)];
     for (name, mesh) in meshes {
-        for (family, (layers, shape)) in POSITIVE.into_iter().zip([1, 3, 8].into_iter().zip(shapes)) {
-            let settings = Settings { layers, ..Settings::new(Method::Lee(shape), family) };
+        for (family, (layers, shape)) in POSITIVE.into_iter().zip([1, 3, 8].into_iter().zip(shapes.clone())) {
+            let settings = Settings { layers, ..Settings::new(Method::Lee(shape.clone()), family) };
             let step = step(&mesh, settings);
             assert!(step.verdict.planar, "{name}, {family}, {layers} layers: {}", step.verdict.summary());
             assert!(step.candidate.stage == Stage::Lee(shape) && !step.candidate.has_convex_boundary());

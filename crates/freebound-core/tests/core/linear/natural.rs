@@ -270,7 +270,7 @@ corpus_test! {
         let levy = Settings { method: Method::Levy, ..Settings::default() };
         for entry in corpus_disks() {
             let mesh = entry.disk();
-            for settings in families.into_iter().chain([levy]) {
+            for settings in families.clone().into_iter().chain([levy.clone()]) {
                 let solved = solve_once(&mesh, &settings, &Pins::new(), Control::unattended());
                 // Its squares leave Wachspress equations a further solution, as on a chess board: see `gauge`.
                 if entry.file == CORRIDORS && settings.family() == Family::Wachspress {
@@ -396,14 +396,14 @@ fn a_flag_raised_in_any_phase_stops_the_solve_there() {
 #[test]
 fn a_single_solve_is_the_first_step_of_its_method_or_refused() {
     let mesh = disk(BuiltIn::Dome.mesh());
-    for &method in Method::ALL {
-        let settings = Settings { method, ..Settings::default() };
+    for method in Method::ALL {
+        let settings = Settings { method: method.clone(), ..Settings::default() };
         let solved = solve_once(&mesh, &settings, &Pins::new(), Control::unattended());
         if method.is_one_to_one() {
             assert_eq!(solved, Err(SolveError::NoLinearSolve { method: method.name() }));
             continue;
         }
-        let first = Flattener::new(settings, Pins::new()).step(&mesh, Control::unattended()).expect("solvable");
+        let first = Flattener::new(settings.clone(), Pins::new()).step(&mesh, Control::unattended()).expect("solvable");
         let off = distance_up_to_similarity(&first.candidate.solution.embedding, &solved.expect("solvable").embedding);
         assert!(off < 1e-9, "{method:?}: {off:.1e}");
         let prepared = Prepared::new(&mesh, &settings, &Pins::new(), Control::unattended());

@@ -113,7 +113,7 @@ fn assert_it_ends_where_the_next_solve_would_not_fall(meshes: Vec<(String, DiskM
         let (steps, _) = run(&mesh, settings(ON_CIRCLE));
         let note = steps.last().expect("a step").candidate.note.as_deref().expect("a reason");
         assert!(note.contains("the minimum"), "{name}: {note}");
-        let minimising = StretchMinimising::new(&mesh, BoundaryShape::Circle, Spacing::Chord, Control::unattended())
+        let minimising = StretchMinimising::new(&mesh, &BoundaryShape::Circle, Spacing::Chord, Control::unattended())
             .expect("a disk");
         let mut solved = minimising.first(&mesh, Control::unattended()).expect("solvable");
         for _ in 1..steps.len() {
@@ -138,8 +138,8 @@ corpus_test! {
 
 fn assert_weights_are_divided_by_the_stretch_of_the_neighbour_and_stay_positive(meshes: Vec<(String, DiskMesh)>) {
     for (name, mesh) in meshes {
-        let minimising =
-            StretchMinimising::new(&mesh, BoundaryShape::Circle, Spacing::Even, Control::unattended()).expect("a disk");
+        let minimising = StretchMinimising::new(&mesh, &BoundaryShape::Circle, Spacing::Even, Control::unattended())
+            .expect("a disk");
         let mut solved = minimising.first(&mesh, Control::unattended()).expect("solvable");
         assert_eq!(
             solved.weights(),

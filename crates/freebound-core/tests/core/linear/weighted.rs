@@ -194,9 +194,9 @@ fn a_weight_means_the_same_at_every_size_of_the_mesh() {
     let pins = mixed(6, |_| 0.7, &small, &mut random);
     for family in FAMILIES {
         for method in [Method::Natural, Method::Iterate] {
-            let settings = Settings { max_steps: Some(1), ..Settings::new(method, family) };
+            let settings = Settings { max_steps: Some(1), ..Settings::new(method.clone(), family) };
             let last = |mesh: &DiskMesh| {
-                let mut run = freebound_core::flatten::Flattener::new(settings, pins.clone());
+                let mut run = freebound_core::flatten::Flattener::new(settings.clone(), pins.clone());
                 let mut found = Embedding::default();
                 run.finish(mesh, Control::unattended(), |step| found = step.candidate.solution.embedding).unwrap();
                 found
@@ -251,7 +251,7 @@ fn the_weighted_treatment_gives_hard_constraints_the_default_weight() {
     let hard = hard_pins([(v(3), DVec2::ZERO), (v(30), DVec2::X), (v(40), DVec2::ONE)]);
     let weighted: Pins = hard.iter().map(|(&v, pin)| (v, Pin::weighted(pin.target, Pin::DEFAULT_WEIGHT))).collect();
     let settings = Settings::new(Method::Natural, Family::Conformal);
-    let asked = Settings { treatment: Some(Treatment::Weighted), ..settings };
+    let asked = Settings { treatment: Some(Treatment::Weighted), ..settings.clone() };
     assert_eq!(solve(&mesh, &asked, &hard), solve(&mesh, &settings, &weighted));
 }
 

@@ -233,7 +233,7 @@ fn as_methods_they_are_one_step_with_a_note_and_a_verdict() {
     let mesh = disk(sheet(8, 0.5));
     for (method, stage) in [(Method::Abf, Stage::Abf), (Method::AbfPlusPlus, Stage::AbfPlusPlus)] {
         let steps = steps(&mesh, method, Pins::new()).unwrap();
-        assert_eq!((steps.len(), steps[0].candidate.stage), (1, stage));
+        assert_eq!((steps.len(), steps[0].candidate.stage.clone()), (1, stage));
         assert!(steps[0].verdict.planar && !steps[0].verdict.mirrored, "{}", steps[0].verdict.summary());
         let note = steps[0].candidate.note.as_deref().unwrap_or_default();
         assert!(note.contains("Newton steps: converged") && note.contains("conditions"), "{note}");
@@ -246,9 +246,9 @@ fn two_pins_only_place_it_and_three_are_refused() {
     let targets = [(0, [0.25, 0.5]), (44, [-3.0, 0.125]), (80, [1.0, 1.0])];
     let pins = |count: usize| hard_pins(targets[..count].iter().map(|&(v, at)| (VertexId::new(v), DVec2::from(at))));
     for method in [Method::Abf, Method::AbfPlusPlus] {
-        let free = &steps(&mesh, method, Pins::new()).unwrap()[0];
+        let free = &steps(&mesh, method.clone(), Pins::new()).unwrap()[0];
         for count in [1, 2] {
-            let placed = &steps(&mesh, method, pins(count)).unwrap()[0];
+            let placed = &steps(&mesh, method.clone(), pins(count)).unwrap()[0];
             for (vertex, target) in &targets[..count] {
                 assert_eq!(placed.candidate.solution.embedding[*vertex as usize], DVec2::from(*target));
             }
@@ -257,7 +257,7 @@ fn two_pins_only_place_it_and_three_are_refused() {
             assert!(error < 1e-12, "{count} pins changed the shape by {error:e}");
         }
         assert_eq!(
-            steps(&mesh, method, pins(3)).err(),
+            steps(&mesh, method.clone(), pins(3)).err(),
             Some(SolveError::TooManyPins { method: method.name(), count: 3, most: 2 })
         );
     }

@@ -1,10 +1,14 @@
 //! The energy of one triangle: its value against its derivatives.
 
-use freebound_core::nonlinear::foldover_energy::{Element, Energy};
+use freebound_core::nonlinear::foldover_energy::{Element, Energy, Stiffness};
 use glam::DVec2;
 
 fn element() -> Element {
-    Element::new([0, 1, 2], [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.4, 1.5)], (0.7, 1e-6))
+    Element::new(
+        [0, 1, 2],
+        [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.4, 1.5)],
+        Stiffness { weight: 0.7, thinnest: 1e-6 },
+    )
 }
 
 const PLACES: [[DVec2; 3]; 3] = [

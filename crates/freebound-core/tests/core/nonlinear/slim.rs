@@ -2,7 +2,7 @@
 
 use freebound_core::flatten::{Ending, Flattener, Step, solve_once};
 use freebound_core::mesh::{DiskMesh, VertexId};
-use freebound_core::nonlinear::foldover_energy::{Element, Energy};
+use freebound_core::nonlinear::foldover_energy::{Element, Energy, Stiffness};
 use freebound_core::nonlinear::slim::{Proxy, Slim};
 use freebound_core::problem::{
     BoundaryShape, Control, Embedding, Family, Method, Pins, Settings, SolveError, Stage, hard_pins,
@@ -88,7 +88,7 @@ fn pair_of_triangles() -> impl Strategy<Value = (Element, [DVec2; 3])> {
         })
     };
     (triangle(), triangle(), 0.1..3.0_f64)
-        .prop_map(|(rest, z, weight)| (Element::new([0, 1, 2], rest, (weight, 1e-9)), z))
+        .prop_map(|(rest, z, weight)| (Element::new([0, 1, 2], rest, Stiffness { weight, thinnest: 1e-9 }), z))
 }
 
 fn moved(mut z: [DVec2; 3], coordinate: usize, by: f64) -> [DVec2; 3] {
@@ -138,7 +138,7 @@ proptest! {
 #[test]
 fn at_rest_the_weights_are_those_of_a_rotation() {
     let rest = [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.4, 1.5)];
-    let element = Element::new([0, 1, 2], rest, (1.0, 1e-9));
+    let element = Element::new([0, 1, 2], rest, Stiffness { weight: 1.0, thinnest: 1e-9 });
     for angle in [0.0, 0.7, 3.0] {
         let z = rest.map(|z| DVec2::from_angle(angle).rotate(z));
         let proxy = Proxy::at(&element, z);

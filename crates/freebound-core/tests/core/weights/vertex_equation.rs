@@ -236,10 +236,10 @@ fn what_has_no_equation_says_why() {
         equation_of_step(&mesh, &step, None, vertex)
     };
     let convex = Method::Convex(BoundaryShape::Circle);
-    assert_eq!(reason(convex, Family::MeanValue, boundary), Err(NoEquation::Prescribed));
+    assert_eq!(reason(convex.clone(), Family::MeanValue, boundary), Err(NoEquation::Prescribed));
     assert_eq!(reason(Method::Levy, Family::Conformal, inside), Err(NoEquation::OfTriangles));
     for family in [Family::MeanValue, Family::Uniform, Family::ShapePreserving] {
-        assert!(reason(convex, family, inside).unwrap().0.residual < SOLVED, "{family}");
+        assert!(reason(convex.clone(), family, inside).unwrap().0.residual < SOLVED, "{family}");
     }
     assert_eq!(reason(Method::Spectral, Family::Conformal, boundary), Err(NoEquation::OfEigenvector));
     assert!(reason(Method::Spectral, Family::Conformal, inside).unwrap().0.residual < SOLVED);
