@@ -1,8 +1,8 @@
-//! How long a run goes on after it was told to stop: `cargo bench --bench cancel`.
+//! Time from a request to cancel until a run stops: `cargo bench --bench cancel`.
 //!
-//! Every method that solves for something runs on a large mesh again and again, and is stopped at moments spread over its first
-//! seconds; the wait is that from the wish to stop until the call has returned. Words behind `--` choose methods by their
-//! names, and a number the faces.
+//! Every method that solves a system runs on a large mesh repeatedly. Runs are cancelled at moments spread over
+//! their first seconds. The wait lasts from the request until the call has returned. Arguments after `--` select
+//! methods by name; a number sets the faces.
 
 mod common;
 
@@ -26,16 +26,16 @@ use freebound_testkit::bumpy_cap_of;
 
 const FACES: usize = 1_000_000;
 
-/// Moments at which a run is stopped.
+/// Number of moments at which a run is cancelled.
 const MOMENTS: u32 = 16;
 
-/// The part of a run over which they are spread, where it is longer.
+/// Part of a longer run over which the moments are spread.
 const SPREAD: Duration = Duration::from_secs(24);
 
-/// The longest wait wanted, in seconds.
+/// Target for the longest wait, seconds.
 const WANTED: f64 = 0.1;
 
-/// Methods, and whether their pins are constraints that lie elsewhere.
+/// Methods and families, and true if the pins are constraints with displaced targets.
 const METHODS: [(Method, Family, bool); 11] = [
     (Method::Natural, Family::Conformal, false),
     (Method::Natural, Family::MeanValue, false),
@@ -87,7 +87,7 @@ fn main() {
     table.print();
 }
 
-/// The mesh flattened without pins.
+/// Flattens the mesh without pins.
 fn flat(mesh: &DiskMesh) -> Embedding {
     let step = Flattener::new(Settings::new(Method::Natural, Family::Conformal), Pins::new())
         .step(mesh, Control::unattended())
@@ -108,7 +108,7 @@ fn pins(mesh: &DiskMesh, flat: &Embedding) -> Pins {
     hard_pins((0..8).map(|k| (nearest(place(k)), place(k) + (place(k + 2) - place(k)) * (4.0 / 3.0 / SQRT_2))))
 }
 
-/// What stopping came to.
+/// Waits of one method.
 #[derive(Default)]
 struct Waits {
     stopped: usize,
@@ -116,21 +116,21 @@ struct Waits {
     worst: Option<Wait>,
 }
 
-/// One wait.
+/// Wait of one cancelled run.
 struct Wait {
     seconds: f64,
-    /// The phase that was entered last, and the seconds from the beginning.
+    /// Phase that was entered last, and the seconds since the start.
     phase: Option<Phase>,
     at: f64,
 }
 
 impl Waits {
-    /// Runs the job again and again, and stops it. A run that ends before shortens the part that is looked at.
+    /// Runs the job repeatedly and cancels it. A run that finishes first shortens the spread of the moments.
     fn of(run: impl Fn(Control<'_>) -> Result<(), SolveError>) -> Self {
         let mut found = Self::default();
         let mut spread = SPREAD;
         for moment in 0..MOMENTS {
-            // From the last moment on, so that the length of a short run is known first.
+            // Starts at the last moment, so that the length of a short run is known first.
             let until = spread * (MOMENTS - moment) / MOMENTS;
             let start = Instant::now();
             match stopped(&run, until) {
@@ -150,8 +150,8 @@ impl Waits {
     }
 }
 
-/// Runs a job and stops it after a while; none where it came to its end before. One that comes to its end although it is
-/// to stop has kept its caller waiting, too.
+/// Runs a job and cancels it after a while; `None` if it finished before. A job that finishes although it was
+/// cancelled has kept its caller waiting too, and counts.
 fn stopped(run: impl Fn(Control<'_>) -> Result<(), SolveError>, until: Duration) -> Option<Wait> {
     let (flag, phase) = (AtomicBool::new(false), Mutex::new(None));
     let report = |entered| *phase.lock().expect("nobody panics") = Some(entered);

@@ -1,9 +1,9 @@
-//! Frame times of the whole window, both panes, on whatever graphics driver is there.
+//! Frame times of the whole window, both panes, on the available graphics driver.
 //!
-//! `cargo bench --bench frames [MESH.obj]` opens the mesh (the built-in face without one), then measures frames in
-//! which nothing changes, in which the mesh turns, in which the shading changes, and while iterations are solved in the
-//! background. The picture is read back from the graphics card in every frame, which a real window does not do: the
-//! figures are upper bounds. "window" is the part of a frame that is not drawing: the solver must never hold it up.
+//! `cargo bench --bench frames [MESH.obj]` opens the mesh; default: the built-in face. It measures frames in which
+//! nothing changes, in which the mesh turns, in which the shading changes, and while iterations run in the
+//! background. Every frame reads the picture back from the graphics card, which a real window does not do, so the
+//! times are upper bounds. "window" is the part of a frame that is not drawing; the solver must never delay it.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -15,10 +15,10 @@ use freebound::app::{App, LaunchFile};
 use freebound::session::Action;
 use freebound::ui::{Pane, Request, ShadingMode};
 
-/// Frames measured of each kind.
+/// Measured frames of each kind.
 const FRAMES: usize = 60;
 
-/// What the background is given to open and solve the mesh.
+/// Time limit for opening and solving the mesh in the background.
 const PATIENCE: Duration = Duration::from_mins(2);
 
 fn main() {
@@ -44,7 +44,7 @@ fn main() {
         begin.elapsed().as_secs_f64()
     );
     println!("{:<26} {:>12} {:>12} {:>12} {:>12}", "frame", "median ms", "worst ms", "window ms", "its worst");
-    // The first pictures upload everything.
+    // The first pictures include all uploads.
     for _ in 0..3 {
         picture(&mut window);
     }
@@ -72,7 +72,7 @@ fn button(pos: Pos2, pressed: bool) -> Event {
     Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE }
 }
 
-/// One frame with its picture read back. Gives the milliseconds of the frame's own work, and of all of it.
+/// Runs one frame and reads its picture back. Returns the milliseconds of the frame's own work, and of everything.
 fn picture(window: &mut Harness<'_, App>) -> [f64; 2] {
     let begin = Instant::now();
     window.step();

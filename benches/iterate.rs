@@ -1,6 +1,6 @@
-//! What one further iteration costs beside the first solve: `cargo bench --bench iterate`.
+//! Cost of a further iteration compared with the first solve: `cargo bench --bench iterate`.
 //!
-//! `cargo bench --bench iterate -- VERTICES…` takes other sizes.
+//! `cargo bench --bench iterate -- VERTICES…` sets other sizes.
 
 mod common;
 
@@ -18,17 +18,17 @@ use common::table::{Table, seconds};
 use common::{Times, arguments, time};
 use freebound_testkit::sheet_of_faces;
 
-/// Vertices of the meshes.
+/// Vertex counts of the meshes.
 const SIZES: [usize; 3] = [20_000, 100_000, 500_000];
 
 /// Rounds of every measurement.
 const ROUNDS: usize = 5;
 
-/// Moments, spread over a step, at which it is cancelled.
+/// Number of moments, spread over a step, at which it is cancelled.
 const CANCELS: u32 = 40;
 
-/// What is measured: the first steps of runs may look for a gauge, further ones know it. The last counts eliminating steps
-/// that are singular in 64 bits.
+/// Columns of the table. The first step of a run may search for a gauge; further steps know it. The last column
+/// counts eliminating steps that are singular in 64 bits.
 const HEADS: [&str; 11] = [
     "vertices",
     "first solve",
@@ -77,7 +77,7 @@ fn main() {
                         factor.add(step.seconds.factor);
                         moved = largest_move(&folded, &step.embedding);
                     }
-                    // Where an embedding is folded, equations may depend on each other but for rounding.
+                    // On a folded embedding the equations may be linearly dependent up to rounding.
                     Err(SolveError::Singular { .. }) if treatment == Treatment::Eliminate => singular += 1,
                     Err(error) => panic!("{error}"),
                 }
@@ -101,12 +101,13 @@ fn main() {
     cancelling();
 }
 
-/// The same pins where an embedding has them.
+/// Pins at the positions of an embedding.
 fn held_in(embedding: &Embedding, pins: &Pins) -> Pins {
     fixed_pins(pins.keys().map(|&v| (v, embedding[v])))
 }
 
-/// An embedding in which every fiftieth inner vertex was pushed across a neighbour: a planar one would be left alone.
+/// Embedding with every fiftieth inner vertex pushed across a neighbour. The iteration would not change a planar
+/// one.
 fn folded(mesh: &DiskMesh, embedding: &Embedding) -> Embedding {
     let mut folded = embedding.clone();
     for v in mesh.vertices().step_by(50).filter(|&v| mesh.boundary_place(v).is_none()) {
@@ -116,7 +117,7 @@ fn folded(mesh: &DiskMesh, embedding: &Embedding) -> Embedding {
     folded
 }
 
-/// How long it takes from the wish to stop until the step has stopped, at moments spread over the whole step.
+/// Measures the time from a cancellation until the step has stopped, at moments spread over the whole step.
 fn cancelling() {
     let heads = ["vertices", "median", "longest"];
     let mut table = Table::new("cancelling a least-squares step, seconds until it has stopped", &heads);

@@ -1,10 +1,10 @@
 //! Stages at which the flattener ends: `cargo bench --bench ladder`.
 //!
-//! `auto` on the twenty disks of `../shared/corpus`, each from twenty random pairs of boundary pins and with three
-//! families: 1200 runs. One line a mesh: how many ended planar on which stage, how many steps that took, and the time.
+//! `auto` on the twenty disks of `../shared/corpus`, each with twenty random pairs of boundary pins and three
+//! families: 1200 runs. Each mesh has one line: the number of planar runs by stage, the steps, and the time.
 //!
-//! `cargo bench --bench ladder -- PAIRS [NAME] [trace]` takes so many pairs, on meshes whose name contains NAME, and
-//! prints every step.
+//! `cargo bench --bench ladder -- PAIRS [NAME] [trace]` uses PAIRS pairs, on meshes whose name contains NAME;
+//! `trace` prints every step.
 
 mod common;
 
@@ -26,7 +26,7 @@ const PAIRS: usize = 20;
 
 const FAMILIES: [Family; 3] = [Family::Conformal, Family::MeanValue, Family::Wachspress];
 
-/// Where a run can end.
+/// End of a run.
 #[derive(Clone, Copy)]
 enum End {
     Natural,
@@ -38,16 +38,16 @@ enum End {
     NotPlanar,
 }
 
-/// The names of the ends, in their order.
+/// Names of the ends, in the order of [`End`].
 const ENDS: [&str; 7] =
     ["natural", "iterate", "started again", "virtual boundary, free", "convex", "grid", "not planar"];
 
-/// What is added up over the runs on one mesh, and over all.
+/// Statistics over the runs on one mesh, or over all runs.
 #[derive(Clone, Copy, Default)]
 struct Count {
     runs: usize,
     ends: [usize; ENDS.len()],
-    /// Runs that were relaxed after that.
+    /// Number of runs that were relaxed after their end.
     relaxed: usize,
     steps: usize,
     most_steps: usize,
@@ -94,7 +94,7 @@ fn main() {
     table.print();
 }
 
-/// The disks of the corpus whose name contains `name`, small ones first.
+/// Disks of the corpus whose name contains `name`, smallest first.
 fn meshes(name: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(corpus()).expect("the corpus is a folder");
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
@@ -117,7 +117,7 @@ fn on_mesh(mesh: &DiskMesh, pairs: usize, trace: bool) -> Count {
     count
 }
 
-/// Two different vertices of the boundary, at their distance in space.
+/// Pins two different vertices of the boundary at their distance in space.
 fn random_pins(mesh: &DiskMesh, random: &mut Random) -> Pins {
     let boundary = mesh.boundary_loop();
     let mut below = |limit: usize| usize::try_from(random.bits() >> 32).unwrap_or_default() % limit;
@@ -128,7 +128,7 @@ fn random_pins(mesh: &DiskMesh, random: &mut Random) -> Pins {
     fixed_pins([(first, DVec2::ZERO), (second, DVec2::new(distance, 0.0))])
 }
 
-/// One run: where it ended, and after how many steps.
+/// Runs once; returns its end and its number of steps as a [`Count`].
 fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool) -> Count {
     let mut run = Flattener::new(Settings::new(Method::Auto, family), pins.clone());
     let mut steps: Vec<StepReport> = Vec::new();
@@ -149,7 +149,7 @@ fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool) -> Count {
     Count { runs: 1, ends, relaxed, steps: steps.len(), most_steps: steps.len(), seconds: 0.0 }
 }
 
-/// The stage whose step was planar first, where the last one is.
+/// Stage of the first planar step, if the last step is planar.
 fn end_of(steps: &[StepReport]) -> End {
     let is_planar = steps.last().is_some_and(|last| last.planar);
     let Some(first) = steps.iter().position(|step| step.planar).filter(|_| is_planar) else { return End::NotPlanar };

@@ -1,8 +1,9 @@
 //! Times of the sparse factorizations: `cargo bench --bench linalg`, or `cargo bench --bench linalg -- 100000` for a
-//! mesh with that many vertices.
+//! mesh with this number of vertices.
 //!
-//! The Cholesky factorization of the conformal natural system and the LU of the mean-value natural system of one mesh
-//! have the same pattern and the same order, so that their times and memory compare. They are run in turns.
+//! The benchmark compares the Cholesky factorization of the conformal natural system with the LU of the mean-value
+//! natural system. On one mesh both have equal pattern and order, so their times and memory are comparable. They run
+//! alternately.
 
 mod common;
 
@@ -23,23 +24,23 @@ use freebound_testkit::jittered_sheet;
 
 type C = Complex<f64>;
 
-/// Vertices of the meshes, where none are asked for.
+/// Vertex counts of the meshes. Arguments override them.
 const SIZES: [usize; 2] = [100_000, 500_000];
 
-/// The greatest quotients of LU and Cholesky.
+/// Largest ratios of LU to Cholesky.
 const TIME_TARGET: f64 = 3.0;
 const FACTORS_TARGET: f64 = 2.2;
 const PEAK_TARGET: f64 = 3.5;
 
-/// The greatest relative residual.
+/// Largest relative residual.
 const RESIDUAL_TARGET: f64 = 1e-12;
 
-/// The longest that the LU may take to factor, seconds, by vertices.
+/// Time targets for factoring the LU, seconds, by vertices.
 const LU_TARGETS: [(usize, f64); 2] = [(100_000, 1.0), (500_000, 8.0)];
 
 static GO_ON: AtomicBool = AtomicBool::new(false);
 
-/// One factorization under measurement.
+/// Factorization under measurement.
 struct Job {
     name: &'static str,
     kind: Kind,
@@ -65,7 +66,7 @@ impl Job {
         Self { name, kind, matrix, rhs, analyze, factor, processor: f64::INFINITY, solve, adjoint, last: None }
     }
 
-    /// Orders, factors and solves once; the answer must be the same to the last bit every time.
+    /// Orders, factors and solves once; the result must be bitwise equal every time.
     fn run(&mut self) {
         let analysis = self.analyze.run(|| {
             Analysis::new(self.kind, self.matrix.pattern(), &AtomicBool::new(false)).expect("a symmetric pattern")

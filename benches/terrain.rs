@@ -1,8 +1,8 @@
-//! A rough terrain, which conformal weights fold: `cargo bench --bench terrain`.
+//! Rough terrain, which conformal weights fold: `cargo bench --bench terrain`.
 //!
-//! Fractional Brownian motion: octaves of smooth noise, each of half the wavelength and 2⁻ᴴ times the height of the
-//! one before, over a jittered grid. Where slopes are steep triangles have obtuse angles, cotangents turn negative, and
-//! every program that solves this system folds some faces. Nothing is done about it here: they are counted.
+//! Fractional Brownian motion over a jittered grid: octaves of smooth noise. Each octave has half the wavelength of
+//! the one before, and 2⁻ᴴ times its height. On steep slopes triangles have obtuse angles and cotangents turn
+//! negative. Every program that solves this system folds some faces. This benchmark only counts them.
 //!
 //! `cargo bench --bench terrain -- FILE.obj` writes the terrain, to be opened in the editor.
 
@@ -24,16 +24,16 @@ use freebound_testkit::{Random, sheet_of_faces};
 
 const FACES: usize = 100_000;
 
-/// Hurst exponent H: 1 is smooth, 0 is rough all the way down; mountains have about 0.8.
+/// Hurst exponent H: 1 is smooth, 0 is rough at every scale; mountains have about 0.8.
 const HURST: f64 = 0.8;
 
-/// Height of the first octave beside the terrain's width of 2.
+/// Height of the first octave; the terrain's width is 2.
 const HEIGHT: f64 = 0.4;
 
-/// The last octave has a wavelength of about two cells.
+/// Number of octaves: the last has a wavelength of about two cells.
 const OCTAVES: u32 = 7;
 
-/// Nodes of the noise's lattice along each axis.
+/// Nodes of the noise lattice along each axis.
 const LATTICE: usize = 512;
 
 /// Smooth noise on a periodic lattice of random values.
@@ -45,7 +45,7 @@ impl Noise {
         Self((0..LATTICE * LATTICE).map(|_| 2.0 * random.unit() - 1.0).collect())
     }
 
-    /// Values at the corners of the lattice's cell, blended by 3t² − 2t³.
+    /// Values at the corners of the lattice cell, blended by 3t² − 2t³.
     fn at(&self, point: DVec2) -> f64 {
         let cell = point.floor();
         let t = point - cell;
@@ -57,9 +57,9 @@ impl Noise {
         row(0) * (1.0 - t.y) + row(1) * t.y
     }
 
-    /// The sum of the octaves.
+    /// Sum of the octaves.
     fn fractal(&self, point: DVec2) -> f64 {
-        /// Lattice cells across the terrain in the first octave, and what keeps octaves from lying on each other.
+        /// Lattice cells across the terrain in the first octave, and offset that decorrelates the octaves.
         const FIRST: f64 = 2.0;
         const SHIFT: f64 = 17.3;
         (0..OCTAVES)
@@ -71,7 +71,7 @@ impl Noise {
     }
 }
 
-/// The sheet's grid seen from above, lifted by the noise.
+/// The sheet's grid seen from above, displaced by the noise.
 fn terrain() -> TriMesh {
     let noise = Noise::new(2005);
     let mut mesh = sheet_of_faces(FACES);

@@ -1,12 +1,12 @@
 //! Writes the built-in meshes, the portrait and the landmarks into `assets/`: `cargo run --release --example assets`.
 //!
-//! OBJ files have the fewest digits that read back as the same numbers.
+//! OBJ numbers have the fewest digits that read back exactly.
 
 use std::fs;
 use std::path::Path;
 
 use freebound_io::{MeshFile, Texture, write_obj};
-use freebound_testkit::{BuiltIn, PlacedLandmark};
+use freebound_testkit::{BuiltIn, PlacedLandmark, bumpy_ball, scan, table};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
 
@@ -22,11 +22,17 @@ fn main() {
         write_obj(&mut text, &MeshFile::from(&example.mesh()), &Texture::default()).expect("memory takes it");
         write(&format!("{}.obj", example.name()), &text);
     }
+    for (name, polygons) in [("ball", bumpy_ball()), ("scan", scan()), ("table", table())] {
+        let mut text = Vec::new();
+        let file = MeshFile { polygons, ..MeshFile::default() };
+        write_obj(&mut text, &file, &Texture::default()).expect("memory takes it");
+        write(&format!("{name}.obj"), &text);
+    }
     write("face-landmarks.txt", landmarks().as_bytes());
     write("portrait.png", &portrait());
 }
 
-/// The landmarks as a constraint file, each with its name.
+/// Landmarks as a constraint file, each with its name.
 fn landmarks() -> String {
     let head = "# vertex u v # name; vertices count from 0, left and right are the person's".to_owned();
     let line = |landmark: PlacedLandmark| {
@@ -37,7 +43,7 @@ fn landmarks() -> String {
     std::iter::once(head).chain(lines).map(|line| line + "\n").collect()
 }
 
-/// The portrait as a PNG file without opacity.
+/// Portrait as a PNG file without opacity.
 fn portrait() -> Vec<u8> {
     let picture = freebound_testkit::portrait(freebound_testkit::PORTRAIT_SIZE);
     let pixels = RgbaImage::from_raw(picture.width, picture.height, picture.pixels).expect("four bytes a pixel");

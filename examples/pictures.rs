@@ -1,4 +1,4 @@
-//! Draws the pictures of the README into `docs/pictures/`: `cargo run --release --example pictures`.
+//! Draws the pictures of the README into `book/src/pictures/`: `cargo run --release --example pictures`.
 //!
 //! All meshes and the portrait are made by the project's own code. The moving picture is a pin that is dragged around its
 //! target: every frame is an embedding that is proved planar before it is drawn.
@@ -22,16 +22,17 @@ use freebound_io::raster::{Canvas, RasterPaint, View, mesh_picture, write_png};
 use freebound_io::{AnimationForm, AnimationFrame, write_animation};
 use freebound_testkit::{BuiltIn, portrait};
 
-/// Pixels of a page per point.
+/// Pixels of a page per point, of a still and of the moving picture.
 const SCALE: f64 = 1.1;
+const MOVING_SCALE: f64 = 0.9;
 
 /// Pixels across a picture of a mesh in space.
 const PIXELS: u32 = 330;
 
 /// Frames of the moving picture, their duration in milliseconds, and the radius of the pin's path on the picture.
-const FRAMES: usize = 40;
-const MILLISECONDS: u16 = 70;
-const RADIUS: f64 = 0.09;
+const FRAMES: usize = 24;
+const MILLISECONDS: u16 = 90;
+const RADIUS: f64 = 0.05;
 
 /// Turns of the views, radians: the face nearly from the front, other meshes from the side.
 const FACE_TURN: f64 = 0.35;
@@ -40,7 +41,7 @@ const SIDE_TURN: f64 = 0.6;
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 fn main() -> Outcome {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/pictures");
     fs::create_dir_all(&folder)?;
     let face = Face::new();
     moving(&face, &folder.join("drag.png"))?;
@@ -118,7 +119,7 @@ impl Face {
         pair(
             ("portrait on the face", self.textured(&step.candidate.solution.embedding)),
             ("embedding", Drawing::Plane(PlaneDrawing::of_step(&self.mesh, &step))),
-            &format!("Twelve landmarks, met exactly. {}.", step.verdict.summary()),
+            &format!("Twelve landmarks, met exactly; {}.", step.verdict.summary()),
         )
     }
 
@@ -143,7 +144,7 @@ fn checker(mesh: &TriMesh, turn: f64) -> PrintedSheet {
     pair(
         ("checker", seen(mesh, turn, RasterPaint::Checker { coordinates: embedding, size })),
         ("embedding", Drawing::Plane(PlaneDrawing::new(&disk, embedding.clone()))),
-        &format!("{}.", step.verdict.summary()),
+        &format!("{} faces; {}.", mesh.triangles.len(), step.verdict.summary()),
     )
 }
 
@@ -211,7 +212,7 @@ fn swirl() -> PrintedSheet {
     pair(
         ("first linear solve", drawing(&all[0])),
         ("last step", drawing(last)),
-        &format!("Four inner pins turned by a quarter. {}.", last.verdict.summary()),
+        &format!("Four inner pins turned by a quarter; {}.", last.verdict.summary()),
     )
 }
 
@@ -242,9 +243,9 @@ fn moving(face: &Face, path: &Path) -> Outcome {
         let sheet = pair(
             ("the portrait follows", face.textured(&embedding)),
             ("a dragged pin", Drawing::Plane(drawing)),
-            &format!("Frame {} of {FRAMES}. {}.", frame + 1, now.verdict.summary()),
+            &format!("Frame {} of {FRAMES}; {}.", frame + 1, now.verdict.summary()),
         );
-        frames.push(AnimationFrame { picture: sheet.page().picture(SCALE), milliseconds: MILLISECONDS });
+        frames.push(AnimationFrame { picture: sheet.page().picture(MOVING_SCALE), milliseconds: MILLISECONDS });
     }
     let size = [frames[0].picture.width, frames[0].picture.height];
     let form = AnimationForm { size, frame_count: u32::try_from(frames.len())? };

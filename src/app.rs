@@ -1,4 +1,4 @@
-//! The window: eframe around the editor.
+//! Application window: eframe around the editor.
 
 use std::path::PathBuf;
 
@@ -10,42 +10,43 @@ use crate::session::{Action, Preferences, RecentFiles, recovery_folder};
 use crate::ui::{Dialogs, Editor, theme, window_ui};
 use freebound_io::machine_memory_bytes;
 
-/// Size of the window at the start, points.
+/// Initial size of the window, points.
 const WINDOW_SIZE: [f32; 2] = [1280.0, 800.0];
 
-/// Size below which the window does not shrink, points.
+/// Least size of the window, points.
 const LEAST_SIZE: [f32; 2] = [640.0, 420.0];
 
-/// A window wider or higher than this was never left, points.
+/// Largest plausible side of a stored window size, points. Larger values are ignored.
 const GREATEST_SIDE: f32 = 16_384.0;
 
-/// The editor in its window.
+/// Editor in its window.
 #[derive(Debug)]
 pub struct App {
     editor: Editor,
-    /// Where it is kept how the window is left.
+    /// File for the preferences, which include the window's state.
     preferences: Option<PathBuf>,
 }
 
-/// What to open at the start, and how.
+/// File to open at the start, and stores for the editor's files.
 #[derive(Clone, Debug, Default)]
 pub struct LaunchFile {
-    /// A mesh; the built-in face without one.
+    /// Mesh file. Default: the built-in face.
     pub file: Option<PathBuf>,
-    /// Where the list of recent files is kept; nowhere in tests.
+    /// Store of the list of recent files; `None` in tests.
     pub recent_store: Option<PathBuf>,
-    /// Where it is kept how the window is left; nowhere in tests.
+    /// Store of the preferences, which include the window's state; `None` in tests.
     pub preferences: Option<PathBuf>,
-    /// Where copies for recovery are kept; nowhere in tests.
+    /// Folder for recovery copies; `None` in tests.
     pub recovery_folder: Option<PathBuf>,
-    /// The machine's memory, bytes: a file that may take more than half of it is asked about. None asks about none.
+    /// Memory of the machine, bytes. The editor asks before it opens a file that may need more than half of it.
+    /// `None` never asks.
     pub memory: Option<u64>,
-    /// Whether to leave the system's file dialogs alone.
+    /// True to use dialogs inside the window instead of the system's file dialogs.
     pub dialogs_inside: bool,
 }
 
 impl App {
-    /// An editor that opens what `start` says.
+    /// Creates the editor and opens the file of `start`.
     pub fn new(context: &eframe::CreationContext<'_>, start: LaunchFile) -> Self {
         theme::install(&context.egui_ctx);
         let recent = start.recent_store.map_or_else(RecentFiles::default, RecentFiles::load);
@@ -66,16 +67,19 @@ impl App {
         if let Some(bytes) = start.memory {
             editor.session.heed_memory(bytes);
         }
+        if start.preferences.is_some() && start.file.is_none() && !editor.layout.has_seen_tour() {
+            editor.layout.start_tour();
+        }
         editor.session.handle(start.file.map_or(Action::OpenExample(Example::Face), Action::Open));
         Self { editor, preferences: start.preferences }
     }
 
-    /// The editor's state.
+    /// Read access to the editor's state.
     pub fn editor(&self) -> &Editor {
         &self.editor
     }
 
-    /// The editor's state, for tests that bring it somewhere first.
+    /// Write access to the editor's state, for tests.
     pub fn editor_mut(&mut self) -> &mut Editor {
         &mut self.editor
     }
@@ -91,14 +95,14 @@ impl eframe::App for App {
             self.editor.preferences().store(path);
         }
         self.editor.session.finish_writing();
-        // Where the person was not asked, such as at the end of a session of the system's, the copy stays.
+        // If the user was not asked to save, such as at the end of a system session, the recovery copy stays.
         if self.editor.gpu.is_quitting() || !self.editor.session.has_unsaved_work() {
             self.editor.session.close();
         }
     }
 }
 
-/// The size that the window was left in, where it makes sense.
+/// Stored size of the window if it is plausible, otherwise the initial size.
 fn size_of_window(left: &Preferences) -> [f32; 2] {
     let makes_sense = |[width, height]: &[f32; 2]| {
         (LEAST_SIZE[0]..=GREATEST_SIDE).contains(width) && (LEAST_SIZE[1]..=GREATEST_SIDE).contains(height)
@@ -110,7 +114,7 @@ fn size_of_window(left: &Preferences) -> [f32; 2] {
 ///
 /// # Errors
 ///
-/// Where there is no display, or no driver to draw with: one line that says so.
+/// A message of one line if there is no display, or no driver to draw with.
 pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     let preferences = Preferences::default_store();
     let left = preferences.as_deref().map(Preferences::load).unwrap_or_default();

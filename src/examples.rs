@@ -1,41 +1,41 @@
-//! Built-in meshes and a picture, from the files of `assets/`: no foreign mesh is part of the project.
+//! Built-in meshes and a picture, from the files of `assets/`. The project contains no mesh by others.
 //!
-//! `cargo run --release --example assets` makes the files; a test says that they are what it makes. Every mesh is a disk of
-//! good triangles, counter-clockwise seen from outside.
+//! `cargo run --release --example assets` generates the files; a test checks that they are up to date. Every mesh is
+//! a disk of well-shaped triangles, counter-clockwise seen from outside.
 
 use freebound_core::geom::Picture;
 use freebound_core::mesh::{TriMesh, VertexId};
 use freebound_io::{decode_picture, read_stream};
 
-/// A built-in mesh.
+/// Built-in mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Example {
-    /// A mask of a human face.
+    /// Mask of a human face.
     Face,
-    /// A cube without its bottom.
+    /// Cube without its bottom.
     Cube,
-    /// A flat L.
+    /// Flat L.
     Ell,
-    /// A cap below its equator.
+    /// Spherical cap that reaches below the equator.
     Dome,
-    /// A bumpy ball that is open at the bottom.
+    /// Bumpy ball, open at the bottom.
     BumpyCap,
-    /// A flat spiral strip.
+    /// Flat spiral strip.
     Spiral,
 }
 
-/// A vertex of the face mesh and its place in the portrait.
+/// Vertex of the face mesh with its position in the portrait.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landmark {
-    /// What it is; left and right are the person's.
+    /// Name of the landmark; left and right are the portrayed person's.
     pub name: &'static str,
-    /// The vertex of [`Example::Face`] nearest to it.
+    /// Vertex of [`Example::Face`] nearest to the landmark.
     pub vertex: VertexId,
-    /// u and v of the portrait, v up.
+    /// u and v in the portrait, v up.
     pub target: [f64; 2],
 }
 
-/// What is known of a built-in mesh.
+/// Data of a built-in mesh.
 struct Entry {
     name: &'static str,
     title: &'static str,
@@ -70,49 +70,49 @@ impl Example {
             Self::Dome => Entry {
                 name: "dome",
                 title: "Dome",
-                about: "A cap below its equator, the gentlest surface that cannot lie flat without distortion.",
+                about: "A cap of a ball, smaller than a hemisphere: it cannot lie flat without distortion.",
                 obj: include_bytes!("../assets/dome.obj"),
             },
             Self::BumpyCap => Entry {
                 name: "bumpy-cap",
                 title: "Bumpy cap",
-                about: "A bumpy ball open at the bottom, far past its equator, which needs real flattening.",
+                about: "A bumpy ball, open at the bottom and much larger than a hemisphere: hard to flatten.",
                 obj: include_bytes!("../assets/bumpy-cap.obj"),
             },
             Self::Spiral => Entry {
                 name: "spiral",
                 title: "Spiral strip",
-                about: "A long thin strip wound into a flat spiral, hard on everything that counts on a compact shape.",
+                about: "A long thin strip wound into a flat spiral: hard for methods that expect a compact shape.",
                 obj: include_bytes!("../assets/spiral.obj"),
             },
         }
     }
 
-    /// Short name, fit for a file or the command line.
+    /// Short name for a file or the command line.
     pub const fn name(self) -> &'static str {
         self.entry().name
     }
 
-    /// Words for a menu.
+    /// Title for a menu.
     pub const fn title(self) -> &'static str {
         self.entry().title
     }
 
-    /// One sentence on what the example is good for.
+    /// Sentence on the purpose of the example.
     pub const fn about(self) -> &'static str {
         self.entry().about
     }
 
-    /// The mesh.
+    /// Reads the mesh.
     ///
     /// # Panics
     ///
-    /// If its file was damaged when the program was built.
+    /// If the built-in file was damaged when the program was built.
     pub fn mesh(self) -> TriMesh {
         read_stream(self.entry().obj).expect("a test reads all built-in meshes").polygons.triangulate()
     }
 
-    /// Which of its vertices belong to which places of [`Self::picture`].
+    /// Vertices that belong to places of [`Self::picture`]; only the face has them.
     pub fn landmarks(self) -> Vec<Landmark> {
         match self {
             Self::Face => include_str!("../assets/face-landmarks.txt").lines().filter_map(landmark).collect(),
@@ -120,11 +120,11 @@ impl Example {
         }
     }
 
-    /// The picture that is made for it.
+    /// Picture made for the example; only the face has one.
     ///
     /// # Panics
     ///
-    /// If its file was damaged when the program was built.
+    /// If the built-in file was damaged when the program was built.
     pub fn picture(self) -> Option<Picture> {
         let portrait =
             || decode_picture(include_bytes!("../assets/portrait.png")).expect("a test decodes the portrait");
@@ -132,7 +132,55 @@ impl Example {
     }
 }
 
-/// A landmark from its line of a constraint file, "vertex u v # name"; `None` where the line is a comment.
+/// Files of a built-in example, for tutorials and trials on the command line.
+#[derive(Clone, Copy, Debug)]
+pub struct ExampleFiles {
+    /// Name of the example.
+    pub name: &'static str,
+    /// Sentence on the example.
+    pub about: &'static str,
+    /// Names and contents of the files; the mesh comes first.
+    pub files: &'static [(&'static str, &'static [u8])],
+}
+
+macro_rules! asset {
+    ($name:literal) => {
+        ($name, include_bytes!(concat!("../assets/", $name)).as_slice())
+    };
+}
+
+impl ExampleFiles {
+    /// All examples: those of the window, and meshes that are no disks.
+    pub const ALL: [Self; 9] = [
+        Self {
+            name: "face",
+            about: Example::Face.about(),
+            files: &[asset!("face.obj"), asset!("portrait.png"), asset!("face-landmarks.txt")],
+        },
+        Self { name: "cube", about: Example::Cube.about(), files: &[asset!("cube.obj")] },
+        Self { name: "ell", about: Example::Ell.about(), files: &[asset!("ell.obj")] },
+        Self { name: "dome", about: Example::Dome.about(), files: &[asset!("dome.obj")] },
+        Self { name: "bumpy-cap", about: Example::BumpyCap.about(), files: &[asset!("bumpy-cap.obj")] },
+        Self { name: "spiral", about: Example::Spiral.about(), files: &[asset!("spiral.obj")] },
+        Self {
+            name: "ball",
+            about: "A closed, bumpy ball of quads, which must be cut before it is flattened.",
+            files: &[asset!("ball.obj")],
+        },
+        Self {
+            name: "scan",
+            about: "The face with faults of a scan: three holes, a duplicate face and unreferenced vertices.",
+            files: &[asset!("scan.obj")],
+        },
+        Self {
+            name: "table",
+            about: "A table of five closed boxes: several charts in one layout.",
+            files: &[asset!("table.obj")],
+        },
+    ];
+}
+
+/// Parses a landmark from a line of a constraint file, "vertex u v # name"; `None` if the line is a comment.
 fn landmark(line: &'static str) -> Option<Landmark> {
     let (numbers, name) = line.split_once('#')?;
     let mut numbers = numbers.split_whitespace();

@@ -1,4 +1,4 @@
-//! Chooses between the editor and the command line.
+//! Starts the editor or the command line.
 
 use std::path::Path;
 use std::process::ExitCode;

@@ -1,4 +1,4 @@
-//! The machine that the figures belong to, as far as Linux tells.
+//! Description of the machine that the measurements belong to, as far as Linux provides it.
 
 use std::fs;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// How often a child's memory is looked at.
+/// Interval between two readings of a child's memory.
 const POLL: Duration = Duration::from_millis(5);
 
 /// Prints one line on processor, cores, memory and load.
@@ -21,34 +21,34 @@ pub(crate) fn print_machine() {
     println!("times are medians of wall-clock seconds; what is compared was run in turns\n");
 }
 
-/// The first value of a `name: value` line.
+/// First value of a `name: value` line.
 fn field(path: &str, name: &str) -> Option<String> {
     let text = fs::read_to_string(path).ok()?;
     let value = text.lines().find_map(|line| line.strip_prefix(name)?.trim_start().strip_prefix(':'))?;
     Some(value.trim().to_owned())
 }
 
-/// Seconds of processor time that this process has used; beside other programs it says more than the wall clock.
+/// Processor seconds used by this process; less affected by other programs than the wall clock.
 pub(crate) fn processor_seconds() -> f64 {
     seconds_of_stat([13, 14])
 }
 
-/// The same of all child processes that have ended and been waited for.
+/// Processor seconds used by all child processes that have ended and been waited for.
 pub(crate) fn processor_seconds_of_children() -> f64 {
     seconds_of_stat([15, 16])
 }
 
-/// Two of the kernel's times of this process, added: that of the program and that of the system on its behalf.
+/// Sum of two of the kernel's times of this process: user time and system time.
 fn seconds_of_stat(fields: [usize; 2]) -> f64 {
-    /// The kernel's unit of time for programs.
+    /// Clock ticks per second of the kernel's times.
     const TICKS_PER_SECOND: f64 = 100.0;
     let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let field = |index: usize| stat.split(' ').nth(index).and_then(|text| text.parse::<f64>().ok()).unwrap_or(0.0);
     fields.map(field).iter().sum::<f64>() / TICKS_PER_SECOND
 }
 
-/// Follows the peak memory of a child process until it ends: the kernel's own high-water mark, read every few
-/// milliseconds, so that only a rise in the very last of them is missed.
+/// Follows the peak memory of a child process until it ends. The kernel's high-water mark is read every few
+/// milliseconds, so only a rise in the last of them is missed.
 pub(crate) struct PeakWatch {
     stop: Arc<AtomicBool>,
     peak: Arc<AtomicU64>,
@@ -56,7 +56,7 @@ pub(crate) struct PeakWatch {
 }
 
 impl PeakWatch {
-    /// Begins to watch.
+    /// Starts watching.
     #[expect(clippy::disallowed_methods, reason = "a watcher that sleeps must not hold a worker of the pool")]
     pub(crate) fn new(process: u32) -> Self {
         let (stop, peak) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicU64::new(0)));
@@ -72,7 +72,7 @@ impl PeakWatch {
         Self { stop, peak, watcher }
     }
 
-    /// Ends watching; the peak in bytes.
+    /// Stops watching and returns the peak in bytes.
     pub(crate) fn finish(self) -> u64 {
         self.stop.store(true, Ordering::Relaxed);
         self.watcher.join().expect("the watcher does not panic");

@@ -1,10 +1,11 @@
-//! Stopping work after a while.
+//! Cancelling work after a time limit.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
-/// Does some work, and raises a flag where it takes longer. Also returns how long it went on from then, where it came to that.
+/// Runs `work` and raises `flag` after `limit`. Also returns how long the work continued after that; `None` if it
+/// finished in time.
 pub(crate) fn within<R>(limit: Duration, flag: &AtomicBool, work: impl FnOnce() -> R) -> (R, Option<Duration>) {
     std::thread::scope(|scope| {
         let (done, wait) = sync_channel::<()>(0);

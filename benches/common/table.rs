@@ -1,6 +1,6 @@
-//! Plain tables.
+//! Plain text tables.
 
-/// Rows under a head; columns as wide as they need to be.
+/// Rows under a head, with columns as wide as needed.
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
     title: String,
@@ -8,7 +8,7 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// A table with a title and the heads of its columns.
+    /// Empty table with a title and column heads.
     pub(crate) fn new(title: impl Into<String>, heads: &[&str]) -> Self {
         Self { title: title.into(), rows: vec![heads.iter().map(|&head| head.to_owned()).collect()] }
     }
@@ -18,7 +18,7 @@ impl Table {
         self.rows.push(cells.into_iter().collect());
     }
 
-    /// Prints it, the first column to the left, all others to the right.
+    /// Prints the table, the first column aligned left, the others aligned right.
     pub(crate) fn print(&self) {
         println!("{}", self.title);
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -36,22 +36,22 @@ impl Table {
     }
 }
 
-/// A time for a table.
+/// Formats seconds for a table.
 pub(crate) fn seconds(value: f64) -> String {
     format!("{value:.3}")
 }
 
-/// A number of bytes for a table, in millions.
+/// Formats a number of bytes for a table, in millions.
 pub(crate) fn megabytes(bytes: usize) -> String {
     format!("{:.1}", bytes as f64 / 1e6)
 }
 
-/// A quotient for a table.
+/// Formats a ratio for a table.
 pub(crate) fn ratio(value: f64) -> String {
     format!("{value:.2}")
 }
 
-/// Whether a target is met, in words.
+/// Formats an upper limit, and if a value meets it.
 pub(crate) fn target(value: f64, at_most: f64) -> String {
     let word = if value <= at_most { "met" } else { "MISSED" };
     format!("≤ {at_most:?} {word}")

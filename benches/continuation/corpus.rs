@@ -1,4 +1,5 @@
-//! The constrained problems of the corpus, relaxed at the end, beside the maps that were published with the meshes.
+//! Constrained problems of the corpus, relaxed at the end, compared with the maps that were published with the
+//! meshes.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +17,7 @@ use crate::common::table::{Table, seconds};
 use crate::outcome::Outcome;
 use freebound_testkit::corpus;
 
-/// Rounds of relaxing at the end.
+/// Rounds of relaxation at the end.
 const RELAX_ROUNDS: usize = 20;
 
 const HEADS: [&str; 13] = [
@@ -57,7 +58,7 @@ pub(crate) fn run(is_quick: bool) {
     table.print();
 }
 
-/// The constraint files, in the order of their names.
+/// Constraint files, sorted by name.
 pub(crate) fn sets() -> Vec<PathBuf> {
     let entries = fs::read_dir(corpus().join("constrained")).expect("the corpus has constrained sets");
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
@@ -70,7 +71,7 @@ pub(crate) fn name_of(set: &Path) -> String {
     set.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// A constraint file's name without the number of its constraints: `maze_k4.txt` belongs to `maze`.
+/// Name of a constraint file without the number of its constraints: `maze_k4.txt` belongs to `maze`.
 fn stem_of(set: &Path) -> String {
     let name = name_of(set);
     name.rsplit_once('_').map_or(name.clone(), |(mesh, _)| mesh.to_owned())
@@ -80,7 +81,7 @@ fn mesh_of(set: &Path) -> PathBuf {
     set.with_file_name("..").join(format!("{}.obj", stem_of(set)))
 }
 
-/// A set's mesh and pins.
+/// Reads a set's mesh and pins.
 pub(crate) fn read_set(path: &Path) -> Result<(DiskMesh, Pins), String> {
     let file = read_mesh(&mesh_of(path)).map_err(|error| error.to_string())?;
     let mesh = DiskMesh::try_from(file.polygons.triangulate()).map_err(|error| error.to_string())?;
@@ -111,7 +112,7 @@ fn row(path: &Path) -> Result<[String; 13], String> {
     ])
 }
 
-/// The largest distance of an exactly pinned vertex from its target.
+/// Largest distance of a hard-pinned vertex from its target.
 fn largest_error(step: &Step, pins: &Pins) -> f64 {
     let exact = pins.iter().filter(|(_, pin)| pin.kind.is_hard());
     exact.map(|(vertex, pin)| step.candidate.solution.embedding[vertex].distance(pin.target)).fold(0.0, f64::max)
@@ -122,7 +123,7 @@ fn energy(mesh: &DiskMesh, embedding: &Embedding) -> String {
     format!("{:.3}", distortion(mesh, embedding).summary.symmetric_dirichlet.mean)
 }
 
-/// The energy of the map that was published with a mesh, with what its verdict is where it is not planar.
+/// Energy of the map that was published with a mesh, and its verdict if it is not planar.
 fn published(set: &Path, mesh: &DiskMesh) -> Option<String> {
     let text = fs::read_to_string(set.with_file_name(format!("{}.publishedmap.txt", stem_of(set)))).ok()?;
     let mut map = Embedding::from(vec![DVec2::NAN; mesh.vertex_count()]);

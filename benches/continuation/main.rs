@@ -1,12 +1,19 @@
-//! Constraints as the flattener meets them: `cargo bench --bench continuation`.
+//! Constrained flattening: `cargo bench --bench continuation`.
 //!
-//! Words behind `--` choose the parts: `corpus` (the constrained problems of `../shared/corpus`), `synthetic` (bumpy caps
-//! with displaced, swirled, stretched and permuted pins), `size` (time and memory by the number of faces), `relax` (from
-//! the conformal map, without constraints), `matchmaker` (new vertices where pins are in each other's way), `seams` (disks
-//! with long seams, without constraints), `held` (whole boundaries held); all of them without any. `quick` takes few and
-//! small cases; `steps` shows every step.
+//! Arguments after `--` select the parts. Default: all parts.
 //!
-//! A run that takes longer than three minutes is stopped and says so; one that fails is a row like any other.
+//! - `corpus`: constrained problems of `../shared/corpus`
+//! - `synthetic`: bumpy caps with displaced, swirled, stretched and permuted pins
+//! - `size`: time and memory by the number of faces
+//! - `relax`: relaxation from the conformal map, without constraints
+//! - `matchmaker`: new vertices if pins block each other
+//! - `seams`: disks with long seams, without constraints
+//! - `held`: whole boundaries pinned
+//!
+//! `quick` selects few and small cases; `steps` prints every step.
+//!
+//! A run that takes longer than three minutes is cancelled, and its row reports that. A run that fails gets a row
+//! too.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -25,7 +32,7 @@ use common::arguments;
 use common::machine::print_machine;
 use outcome::SHOWS_STEPS;
 
-/// A part of the benchmark, which may take few and small cases.
+/// Part of the benchmark; true selects few and small cases.
 type Part = fn(bool);
 
 fn main() {

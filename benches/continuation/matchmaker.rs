@@ -1,7 +1,8 @@
-//! New vertices: how many, and how distorted maps are that need them.
+//! Number of new vertices, and distortion of maps that need them.
 //!
-//! The constrained sets of the corpus with their targets given to one another, whole boundaries held that cross
-//! themselves, and the sets as they are by stage 5 alone, beside stage 4, which needs no new vertex.
+//! The first cases are the constrained sets of the corpus with permuted targets. Others pin whole boundaries to
+//! curves that cross themselves. The last ones are the unchanged sets, by stage 5 alone and by stage 4, which needs
+//! no new vertex.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -17,17 +18,17 @@ use crate::outcome::Outcome;
 use crate::synthetic::{Cap, below};
 use freebound_testkit::Random;
 
-/// Vertices of the caps whose boundaries are held.
+/// Vertices of the caps with pinned boundaries.
 const CAPS: [usize; 3] = [300, 1_000, 4_000];
 
-/// A boundary that is held, as a closed curve.
+/// Closed curve that a boundary is pinned to.
 #[derive(Clone, Copy)]
 enum Course {
-    /// A circle on which so many pairs of neighbours have changed places.
+    /// Circle on which this number of pairs of neighbours have changed places.
     Swapped(usize),
-    /// A lemniscate: it crosses itself once.
+    /// Lemniscate, which crosses itself once.
     Eight,
-    /// A limaçon with an inner loop: it turns twice.
+    /// Limaçon with an inner loop, which turns twice.
     Loop,
 }
 
@@ -42,8 +43,8 @@ impl Course {
         }
     }
 
-    /// Where the boundary goes, counter-clockwise where it is a circle. No two places are the same: the steps are so
-    /// displaced that no two have a symmetric place.
+    /// Points of the boundary on the curve, counter-clockwise on a circle. The steps are offset so that no two
+    /// points are symmetric; all points differ.
     fn places(self, count: usize) -> Vec<DVec2> {
         let turns = (0..count).map(|k| TAU * (k as f64 + 0.37) / count as f64);
         match self {
@@ -93,7 +94,7 @@ pub(crate) fn run(is_quick: bool) {
     beside_rung_4(&few);
 }
 
-/// The sets as they are by stage 5 and by stage 4.
+/// Solves the unchanged sets by stage 5 and by stage 4.
 fn beside_rung_4(few: &dyn Fn(&Path) -> bool) {
     let heads = ["set", "new", "s", "energy", "s by rung 4", "energy by rung 4", "times"];
     let mut table = Table::new("rung 5 on sets that rung 4 can do", &heads);
@@ -132,7 +133,7 @@ fn row(name: &str, mesh: &DiskMesh, pins: &Pins, settings: Settings) -> Vec<Stri
     ]
 }
 
-/// New vertices of the last step, where that meets the pins.
+/// Number of new vertices of the last step if it meets the pins.
 fn new_at_end(found: &Outcome) -> String {
     let solved = found.last.as_ref().filter(|step| step.verdict.planar && step.unmet().is_empty());
     let count =
@@ -140,7 +141,7 @@ fn new_at_end(found: &Outcome) -> String {
     count.map_or("–".to_owned(), |count| count.to_string())
 }
 
-/// Mean symmetric Dirichlet energy of the last step, where that is planar and meets the pins.
+/// Mean symmetric Dirichlet energy of the last step if it is planar and meets the pins.
 fn energy(mesh: &DiskMesh, found: &Outcome) -> Option<f64> {
     let step = found.last.as_ref().filter(|step| step.verdict.planar && step.unmet().is_empty())?;
     Some(distortion(step.candidate.mesh(mesh), &step.candidate.solution.embedding).summary.symmetric_dirichlet.mean)
@@ -150,7 +151,7 @@ fn shown(energy: Option<f64>) -> String {
     energy.map_or("–".to_owned(), |energy| format!("{energy:.3}"))
 }
 
-/// The same vertices with the same targets, each of them given to another vertex: one cycle (Sattolo 1986).
+/// Vertices with a cyclic permutation of their targets (Sattolo 1986).
 fn permuted(pins: &Pins) -> Pins {
     let mut random = Random(16);
     let mut targets: Vec<DVec2> = pins.values().map(|pin| pin.target).collect();
@@ -160,7 +161,7 @@ fn permuted(pins: &Pins) -> Pins {
     pins.iter().zip(targets).map(|((&vertex, pin), target)| (vertex, Pin { target, ..*pin })).collect()
 }
 
-/// All vertices of the boundary along a curve.
+/// Pins all vertices of the boundary to a curve.
 fn held_boundary(mesh: &DiskMesh, course: Course) -> Pins {
     let boundary: &[VertexId] = mesh.boundary_loop();
     hard_pins(boundary.iter().copied().zip(course.places(boundary.len())))

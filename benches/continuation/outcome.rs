@@ -1,4 +1,4 @@
-//! One run with a limit of time, and what it came to.
+//! Outcome of one run with a time limit.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,28 +10,28 @@ use freebound_core::problem::{Control, Pins, Settings, SolveError};
 
 use crate::common::stop::within;
 
-/// The longest that a run may take.
+/// Time limit of a run.
 const LIMIT: Duration = Duration::from_mins(3);
 
-/// Whether every step is shown.
+/// True if every step is printed.
 pub(crate) static SHOWS_STEPS: AtomicBool = AtomicBool::new(false);
 
-/// What a run came to.
+/// Outcome of a run.
 pub(crate) struct Outcome {
-    /// Why it ended, in words.
+    /// Reason why the run ended, for the table.
     pub(crate) ending: String,
-    /// The first step that is planar with all exact pins on their targets, and the seconds until it was there.
+    /// First planar step with all hard pins on their targets, and the seconds until then.
     pub(crate) solved: Option<(f64, Step)>,
     /// The last step.
     pub(crate) last: Option<Step>,
-    /// How many steps there were, those on the way to a planar start aside.
+    /// Number of steps, without those of the start phase before a planar embedding.
     pub(crate) steps: usize,
-    /// Seconds in all.
+    /// Total seconds.
     pub(crate) seconds: f64,
 }
 
 impl Outcome {
-    /// Runs the method of the settings to its end, or to the limit.
+    /// Runs the method of the settings to its end or to the time limit.
     pub(crate) fn of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Self {
         let cancel = AtomicBool::new(false);
         let silent = |_| {};
@@ -62,19 +62,19 @@ impl Outcome {
         found
     }
 
-    /// New vertices of the solved step.
+    /// Number of new vertices of the solved step.
     pub(crate) fn new_vertices(&self) -> Option<usize> {
         let (_, step) = self.solved.as_ref()?;
         Some(step.candidate.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len()))
     }
 
-    /// Seconds until the solved step, or until the run gave up.
+    /// Seconds until the solved step, or until the run ended without one.
     pub(crate) fn seconds_to_solve(&self) -> f64 {
         self.solved.as_ref().map_or(self.seconds, |&(seconds, _)| seconds)
     }
 }
 
-/// A step in a line.
+/// Prints a step on one line.
 pub(crate) fn show(step: &Step) {
     let progress = step.candidate.progress.map_or_else(String::new, |progress| {
         format!(", energy {:.4}, distance left {:.3e}", progress.energy, progress.distance_left)

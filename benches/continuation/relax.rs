@@ -1,8 +1,8 @@
-//! Relaxing from the conformal map, without constraints, until it ends by itself.
+//! Relaxation from the conformal map, without constraints, until it ends by itself.
 //!
-//! A round of relaxing takes Newton steps until one lowers the energy by less than a ten-thousandth of it, five at most; a
-//! round that lowers it by less than a thousandth is the last. A step costs its part of its round: the outside, its order of
-//! elimination, factors, the proof.
+//! A round of relaxation takes Newton steps, at most five, until a step lowers the energy by less than a
+//! ten-thousandth. A round that lowers the energy by less than a thousandth is the last. The cost of a step is its
+//! share of its round: scaffold, elimination order, factorization, proof.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
@@ -19,17 +19,17 @@ use crate::outcome::{SHOWS_STEPS, show};
 use crate::size::forget_peak;
 use freebound_testkit::bumpy_cap_of;
 
-/// The most rounds.
+/// Largest number of rounds.
 const MOST_ROUNDS: usize = 30;
 
-/// The most Newton steps until relaxing ends, and seconds of a step.
+/// Targets for the number of Newton steps until relaxation ends, and for the seconds per step.
 const STEPS_TARGET: f64 = 12.0;
 const SECONDS_TARGET: f64 = 0.4;
 
-/// The most memory in millions of bytes.
+/// Target for the memory, in millions of bytes.
 const MEGABYTES_TARGET: f64 = 2000.0;
 
-/// Numbers of faces, and what has limits there.
+/// Numbers of faces, and the quantity with a target at each.
 const SIZES: [(usize, Limited); 3] =
     [(20_000, Limited::Nothing), (100_000, Limited::Time), (1_000_000, Limited::Memory)];
 
@@ -86,20 +86,20 @@ pub(crate) fn run(is_quick: bool) {
     table.print();
 }
 
-/// What relaxing came to.
+/// Outcome of relaxation.
 #[derive(Default)]
 struct Relaxed {
-    /// The mean symmetric Dirichlet energy of the conformal map, and in the end.
+    /// Mean symmetric Dirichlet energy of the conformal map, and at the end.
     energy_before: f64,
     energy: f64,
     rounds: Vec<Round>,
 }
 
-/// One round, with the verdict on it.
+/// Round with its verdict.
 struct Round {
     seconds: f64,
     processor: f64,
-    /// Newton steps.
+    /// Number of Newton steps.
     steps: usize,
 }
 
@@ -108,7 +108,7 @@ impl Relaxed {
         let settings =
             Settings { relax_rounds: Some(MOST_ROUNDS), ..Settings::new(Method::Natural, Family::Conformal) };
         let (cancel, newton_steps) = (AtomicBool::new(false), AtomicUsize::new(0));
-        // Each of Newton's steps enters this phase.
+        // Every Newton step enters this phase.
         let count = |phase| {
             newton_steps.fetch_add(usize::from(phase == Phase::Solve), Ordering::Relaxed);
         };

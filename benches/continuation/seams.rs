@@ -1,5 +1,5 @@
-//! Closed surfaces cut open along long random seams: without constraints, their free boundaries cross themselves; and with
-//! the whole boundary held on a simple polygon.
+//! Closed surfaces cut open along long random seams. Without constraints their free boundaries cross themselves; in
+//! the other cases the whole boundary is pinned to a simple polygon.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,11 +13,11 @@ use crate::common::table::{Table, seconds, target};
 use crate::outcome::Outcome;
 use freebound_testkit::{Relief, bumpy_cap_of, seamed_ball};
 
-/// A disk: its name, the maker's numbers, and the seconds that it may take on two cores.
+/// Disk, by the parameters of its maker.
 enum Surface {
-    /// Cells of an octahedron's side, edges of the seams, relief and seed.
+    /// Cells along an octahedron's side, number of edges of the seams, relief and seed.
     Ball(i32, usize, Relief, u64),
-    /// Vertices.
+    /// Number of vertices.
     Cap(usize),
 }
 
@@ -38,7 +38,7 @@ impl Surface {
     }
 }
 
-/// Without constraints, and the seconds that these may take.
+/// Disks that are flattened without constraints, and their time target in seconds.
 const FREE: [Surface; 6] = [
     Surface::Ball(79, 300, Relief::Bumps, 1),
     Surface::Ball(79, 1000, Relief::Bumps, 2),
@@ -49,23 +49,23 @@ const FREE: [Surface; 6] = [
 ];
 const FREE_SECONDS: f64 = 5.0;
 
-/// Where a whole boundary is held.
+/// Shape that a whole boundary is pinned to.
 #[derive(Clone, Copy, Debug)]
 enum Held {
-    /// On a circle, by its lengths.
+    /// Circle, by edge lengths.
     Circle,
-    /// On a flower with five petals, as by its lengths around the middle: nowhere straight, and in five places concave.
+    /// Flower with five petals, from the circle by edge lengths: nowhere straight, and concave in five places.
     Flower,
-    /// Where it lies without constraints, in waves: sheared along x, then along y.
+    /// Unconstrained boundary in waves: sheared along x, then along y.
     Waves,
-    /// Where it lies without constraints, but swirled: half a turn in the middle, none farthest from it.
+    /// Unconstrained boundary, swirled: half a turn in the middle, none at the farthest point.
     Swirl,
 }
 
 /// Height and number of petals, on a circle of radius 1.
 const PETALS: [f64; 2] = [0.4, 5.0];
 
-/// Height of a wave and number of waves, by the size.
+/// Height of a wave, and number of waves, relative to the size.
 const WAVES: [f64; 2] = [0.08, 2.0];
 
 const HELD: [(Surface, f64); 3] = [
@@ -121,7 +121,7 @@ fn show(table: &mut Table, row: [String; 11]) {
     table.row(row);
 }
 
-/// What is asked of a disk: the pins, in words, and the seconds that it may take.
+/// Case of a disk: name of the constraint, pins, and time target in seconds.
 struct Asked {
     held: String,
     pins: Pins,
@@ -132,7 +132,7 @@ fn row(surface: &Surface, mesh: &DiskMesh, Asked { held, pins, at_most }: Asked)
     let found = Outcome::of(mesh, Settings::default(), &pins);
     let solved = found.solved.as_ref().map(|(_, step)| step);
     let last = found.last.as_ref();
-    // What is shown is the end, relaxed, where nothing is held: until then it takes.
+    // Without pins the row shows the relaxed end, so the time is the whole run's.
     let taken = if pins.is_empty() { found.seconds } else { found.seconds_to_solve() };
     let energy = |step: &freebound_core::flatten::Step| {
         format!(
@@ -156,7 +156,7 @@ fn row(surface: &Surface, mesh: &DiskMesh, Asked { held, pins, at_most }: Asked)
 }
 
 impl Held {
-    /// All boundary vertices as pins; `None` where that needs a planar embedding, and there is none.
+    /// Pins all boundary vertices; `None` if that requires a planar embedding and there is none.
     fn pins(self, mesh: &DiskMesh) -> Option<Pins> {
         let places = match self {
             Self::Circle => on_circle(mesh),
@@ -177,7 +177,7 @@ impl Held {
     }
 }
 
-/// Places on a circle, angles by lengths on the surface.
+/// Points on a circle, angles in proportion to lengths on the surface.
 fn on_circle(mesh: &DiskMesh) -> Vec<DVec2> {
     let boundary = mesh.boundary_loop();
     let mut walked = vec![0.0];
@@ -188,8 +188,8 @@ fn on_circle(mesh: &DiskMesh) -> Vec<DVec2> {
     walked[..boundary.len()].iter().map(|length| DVec2::from_angle(TAU * length / walked[boundary.len()])).collect()
 }
 
-/// Where the boundary lies without constraints, moved by a map of the plane, which is told the place from the middle of the
-/// box around it and the box's longer side.
+/// Boundary of the unconstrained embedding, moved by a map of the plane. The map gets the position relative to the
+/// middle of the bounding box, and the box's longer side.
 fn moved(mesh: &DiskMesh, map: impl Fn(DVec2, f64) -> DVec2) -> Option<Vec<DVec2>> {
     let found = Outcome::of(mesh, Settings::default(), &Pins::new());
     let step = found.last.filter(|step| step.verdict.planar)?;

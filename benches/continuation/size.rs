@@ -1,4 +1,4 @@
-//! Time and memory by the number of faces: ten pins displaced by a tenth of the size, and eight by a third of it.
+//! Time and memory by the number of faces: ten pins displaced by a tenth of the size, and eight by a third.
 
 use std::fs;
 
@@ -10,7 +10,7 @@ use crate::outcome::Outcome;
 use crate::synthetic::{Cap, Change};
 use freebound_testkit::Random;
 
-/// Pins displaced by a part of the size, and the numbers of faces with the seconds that they may take on two cores.
+/// Pins displaced by a part of the size, and numbers of faces with their time targets in seconds on two cores.
 struct Growth {
     pins: usize,
     part: f64,
@@ -21,7 +21,7 @@ const NEAR: Growth = Growth { pins: 10, part: 0.1, faces: &[(5_000, 1.0), (20_00
 const FAR: Growth =
     Growth { pins: 8, part: 1.0 / 3.0, faces: &[(20_000, 1.5), (50_000, 4.0), (100_000, 10.0), (1_000_000, 150.0)] };
 
-/// The most memory in millions of bytes, whatever the size.
+/// Target for the memory at every size, in millions of bytes.
 const MOST_MEGABYTES: f64 = 2000.0;
 
 pub(crate) fn run(is_quick: bool) {
@@ -70,7 +70,7 @@ impl Growth {
     }
 }
 
-/// Makes the kernel's high-water mark of memory begin anew, where it can (Linux).
+/// Resets the kernel's high-water mark of memory; false if that is not supported (only Linux is).
 pub(crate) fn forget_peak() -> bool {
     fs::write("/proc/self/clear_refs", "5").is_ok()
 }

@@ -1,8 +1,8 @@
-//! Bumpy caps whose pins are displaced at random, swirled, stretched, or permuted.
+//! Bumpy caps with pins displaced at random, swirled, stretched, or permuted.
 //!
-//! Targets begin where the pins lie in a planar embedding without constraints. Its *size* is the longer side of the box
-//! around it. Pins that are displaced, swirled or stretched lie far from each other, as those of the constrained sets of
-//! real meshes do: each is the vertex farthest from those before, the first one is any. Pins that are permuted lie
+//! Targets start from the positions of the pins in a planar embedding without constraints. The *size* is the longer
+//! side of its bounding box. Displaced, swirled and stretched pins are far apart, like those of the constrained sets
+//! of real meshes: each is the vertex farthest from the pins before it, and the first is random. Permuted pins lie
 //! anywhere.
 
 use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
@@ -22,16 +22,16 @@ const VERTICES: [usize; 3] = [800, 5_000, 20_000];
 const PINS: [usize; 4] = [3, 6, 12, 24];
 const SEEDS: u64 = 3;
 
-/// How targets differ from where the vertices lie.
+/// Change from the positions of the vertices to their targets.
 #[derive(Clone, Copy)]
 pub(crate) enum Change {
-    /// By this part of the size, in random directions.
+    /// Displaced by this part of the size, in random directions.
     Displaced(f64),
-    /// Turned around the middle: a quarter turn there, not at all as far off as the outermost pin.
+    /// Turned around the middle: by a quarter turn there, not at all at the distance of the outermost pin.
     Swirled,
-    /// Twice as long as wide, at the same area.
+    /// Stretched to twice as long as wide, with unchanged area.
     Stretched,
-    /// Given to one another at random.
+    /// Permuted at random.
     Permuted,
 }
 
@@ -49,14 +49,14 @@ impl Change {
     }
 }
 
-/// A cap with a planar embedding that no constraint has touched.
+/// Cap with its planar embedding without constraints.
 pub(crate) struct Cap {
     pub(crate) mesh: DiskMesh,
     embedding: Embedding,
 }
 
 impl Cap {
-    /// A cap of about so many vertices; what went wrong where there is none.
+    /// Makes a cap of about this number of vertices. The error is a message.
     pub(crate) fn of(vertices: usize, seed: u64) -> Result<Self, String> {
         let mesh = DiskMesh::try_from(bumpy_cap_of(vertices, seed)).map_err(|diagnosis| diagnosis.to_string())?;
         let mut last = None::<Step>;
@@ -66,7 +66,7 @@ impl Cap {
         Ok(Self { mesh, embedding: step.candidate.solution.embedding })
     }
 
-    /// Pins on so many different vertices.
+    /// Pins this number of different vertices.
     pub(crate) fn pins(&self, count: usize, change: Change, random: &mut Random) -> Pins {
         let vertices = match change {
             Change::Permuted => self.vertices_anywhere(count, random),
@@ -128,12 +128,12 @@ impl Cap {
     }
 }
 
-/// A whole number below a limit.
+/// Random whole number below a limit.
 pub(crate) fn below(random: &mut Random, limit: usize) -> usize {
     usize::try_from(random.bits() >> 32).unwrap_or_default() % limit
 }
 
-/// What is counted over runs of one kind.
+/// Statistics over runs of one kind.
 #[derive(Default)]
 struct Count {
     runs: usize,
@@ -181,7 +181,7 @@ fn cap_or_word(vertices: usize, seed: u64) -> Option<Cap> {
     Cap::of(vertices, seed).map_err(|error| println!("cap of {vertices} vertices, seed {seed}: {error}")).ok()
 }
 
-/// All numbers of pins on all caps; runs that fail are named.
+/// Runs all numbers of pins on all caps; prints the names of runs that fail.
 fn over(caps: &[Cap], change: Change) -> Count {
     let mut count = Count::default();
     for (cap, seed) in caps.iter().zip(1_u64..) {

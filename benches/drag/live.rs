@@ -1,10 +1,12 @@
-//! A planar embedding under a pointer: `DragSolver` along a path that is the same at every run.
+//! Live dragging of a planar embedding: `DragSolver` along a fixed path.
 //!
-//! Eight hard constraints on a bumpy sheet, seen from above; one of them is dragged. The path is that of a hand: it sets out
-//! slowly, turns, and comes back, in as many moves as a screen has frames in two seconds. A *near* path stays within a fortieth of the
-//! sheet's size, as where a landmark is put right; a *far* one goes a third of it. Each move is one frame. "first" is from the press to
-//! the first frame, with all that is made for the drag; updates a second are those after it, which are timed without the
-//! whole verdict: that is taken of each frame besides, and counted where it is not the one proved of what moved.
+//! Eight hard pins on a bumpy sheet, seen from above; one of them is dragged. The path resembles that of a hand: it
+//! starts slowly, turns, and comes back, with one move per frame for two seconds. A *near* path stays within a
+//! fortieth of the sheet's size, like the correction of a landmark; a *far* path covers a third of it.
+//!
+//! "first" is the time from the press to the first frame, including the setup of the drag. Updates per second are
+//! those of the later frames, timed without the whole verdict. The whole verdict is computed separately for each
+//! frame. The last column counts the planar frames for which it equals the verdict proved for the moved part.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -19,13 +21,13 @@ use crate::common::table::{Table, seconds};
 use crate::common::time;
 use freebound_testkit::{disk, sheet_of_faces};
 
-/// Faces of the meshes.
+/// Face counts of the meshes.
 const SIZES: [usize; 3] = [20_000, 100_000, 1_000_000];
 
 /// Moves of the pointer.
 const MOVES: u32 = 120;
 
-/// How far the pointer goes, in sizes of the sheet, with the name of it.
+/// Name of a path, and its length relative to the sheet's size.
 const PATHS: [(&str, f64); 2] = [("near", 0.025), ("far", 0.33)];
 
 pub(crate) fn print(wanted: &[usize]) {
@@ -50,7 +52,7 @@ pub(crate) fn print(wanted: &[usize]) {
     table.print();
 }
 
-/// Where the pointer is after a share of the path, in units of the way.
+/// Position of the pointer after a share of the path, relative to its length.
 fn pointer(share: f64) -> DVec2 {
     let turned = DVec2::from_angle(0.4 + 0.6 * (TAU * share).sin());
     0.5 * (1.0 - (TAU * share).cos()) * turned

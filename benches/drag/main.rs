@@ -1,12 +1,13 @@
-//! What a move of a dragged pin costs: `cargo bench --bench drag`.
+//! Cost of one move of a dragged pin: `cargo bench --bench drag`.
 //!
-//! First a planar embedding that stays so, proved at every frame (see `live.rs`); then what follows where a method is linear, or
-//! the screen shows no planar embedding. `cargo bench --bench drag -- live` and `-- linear` print one of the two;
-//! further numbers are other sizes, in faces there and in vertices here. The constraints are hard but for every sixth, which pulls;
-//! all are dragged once. "first move" is what passes until the embedding follows: base and column are solved for with
-//! the factors of the run before. "move" is all that the session does for one further move, "arrays" what the window
-//! makes of it for the graphics card, "bytes" what it uploads; the verdict comes in its own time. A frame at 60 a second
-//! has 16.7 ms.
+//! The first part drags pins of an embedding that stays planar, proved at every frame (see `live.rs`). The second
+//! part is for linear methods, and for screens that show no planar embedding. `cargo bench --bench drag -- live` and
+//! `-- linear` run one part. Numbers set other sizes: faces in `live`, vertices in `linear`.
+//!
+//! In `linear` the pins are hard, except that every sixth is soft; all are dragged once. "first move" is the time
+//! until the embedding follows: base and column are solved with the factors of the run before. "move" is all work of
+//! the session for one further move. "arrays" is the window's work on arrays for the graphics card, and "bytes" is
+//! the size of the upload. The verdict is computed separately. A frame at 60 frames per second has 16.7 ms.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -29,13 +30,13 @@ use common::table::{Table, seconds};
 use common::{Times, arguments};
 use freebound_testkit::sheet_of_faces;
 
-/// Vertices of the meshes.
+/// Vertex counts of the meshes.
 const SIZES: [usize; 2] = [20_000, 100_000];
 
 /// Constraints on each mesh.
 const CONSTRAINTS: usize = 24;
 
-/// Moves of each drag that are measured.
+/// Measured moves of each drag.
 const MOVES: u32 = 3;
 
 fn main() {
@@ -65,7 +66,7 @@ fn print_linear(wanted: &[usize]) {
     table.print();
 }
 
-/// Polls until nothing goes on.
+/// Polls until the session is idle.
 fn settle(session: &mut Session) {
     while session.busy().is_some() || session.is_following() {
         session.poll();
@@ -87,7 +88,7 @@ fn opened(vertices: usize) -> Session {
 
 fn drag(vertices: usize) -> [String; 7] {
     let mut session = opened(vertices);
-    // The flattener would iterate after every drag, which is not what is measured here.
+    // The automatic strategy would iterate after every drag, which this benchmark does not measure.
     session.handle(Action::SetSettings(Settings::new(Method::Natural, Family::Conformal)));
     settle(&mut session);
     let mesh = Arc::clone(session.model().and_then(|model| model.disk()).expect("the sheet is a disk"));

@@ -1,4 +1,4 @@
-//! The program itself, run as a person would run it.
+//! End-to-end runs of the program.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -12,12 +12,12 @@ use crate::common::table::{Table, seconds, target};
 use crate::{COMMON_FACES, LARGE_FACES};
 use freebound_testkit::sheet_of_faces;
 
-/// Faces, runs, the most seconds, and the most memory in millions of bytes where there is a limit.
+/// Faces, runs, time target in seconds, and memory target in millions of bytes if there is one.
 const CASES: [(usize, usize, f64, Option<f64>); 2] =
     [(COMMON_FACES, 7, 0.6, None), (LARGE_FACES, 3, 8.0, Some(2000.0))];
 
-/// Wall clock of `freebound flatten IN --output OUT --report REPORT` from start to exit, its parts as the report has
-/// them, and the peak memory of the process.
+/// Measures `freebound flatten IN --output OUT --report REPORT`: wall clock from start to exit, seconds of each part
+/// from the report, and peak memory of the process.
 pub(crate) fn end_to_end() {
     let heads = ["faces", "wall s", "read", "solve", "verify", "write", "target s", "peak MB", "target MB"];
     let mut table = Table::new("end to end: freebound flatten IN --output OUT --report REPORT", &heads);
@@ -52,10 +52,10 @@ pub(crate) fn end_to_end() {
     table.print();
 }
 
-/// What one run of the program says of itself.
+/// Measurements of one run of the program.
 struct Run {
     wall: f64,
-    /// Reading with diagnosis, solving, verifying, writing.
+    /// Seconds of reading with diagnosis, of solving, of verifying, and of writing.
     parts: [f64; 4],
     peak_bytes: f64,
 }
@@ -82,7 +82,7 @@ impl Run {
         let text = std::fs::read_to_string(&report_path).expect("a report was written");
         let report: serde_json::Value = serde_json::from_str(&text).expect("the report is JSON");
         let part = |name: &str| report["seconds"][name].as_f64().expect("the report has the phase");
-        // The report is made before the mesh is written, so it cannot know a later peak.
+        // The report is made before the mesh is written, so it may miss a later peak.
         let told = report["peak_memory_bytes"].as_f64().unwrap_or(0.0);
         Self { wall, parts: ["read", "solve", "verify", "write"].map(part), peak_bytes: told.max(watched) }
     }

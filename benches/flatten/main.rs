@@ -1,16 +1,16 @@
 //! From a mesh to a flattening: `cargo bench --bench flatten`, or `cargo bench --bench flatten -- solve phases`.
 //!
-//! | word | what is measured |
+//! | word | measurement |
 //! |---|---|
 //! | `solve` | the conformal natural boundary against a real Laplacian Cholesky and the real 2n×2n system |
 //! | `phases` | every phase at growing sizes |
-//! | `again` | factoring and solving again with what is known already |
+//! | `again` | factoring with a known symbolic analysis, and solving with known factors |
 //! | `proof` | verdict and distortion |
 //! | `reader` | reading and writing OBJ and PLY |
 //! | `end` | the program itself as a child process: time and peak memory |
-//! | `methods` | every method on one mesh: time, memory, and what it came to |
+//! | `methods` | every method on one mesh: time, memory, and outcome |
 //!
-//! Without words all of them. Meshes are made by code (`common/sheet.rs`); files go into a temporary folder.
+//! Default: all sections. Meshes are generated (`freebound_testkit`); files go into a temporary folder.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -25,10 +25,10 @@ use common::arguments;
 use common::machine::print_machine;
 use freebound_testkit::sheet_of_faces;
 
-/// The size that an editor must handle with ease.
+/// Mesh size that an editor must handle with ease.
 const COMMON_FACES: usize = 100_000;
 
-/// The size that a program must handle at all.
+/// Mesh size that a program must handle at all.
 const LARGE_FACES: usize = 1_000_000;
 
 fn main() {

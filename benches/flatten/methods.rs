@@ -1,4 +1,4 @@
-//! Every method on one mesh, each in a process of its own: `freebound compare MESH --methods METHOD`.
+//! Every method on one mesh, each in a separate process: `freebound compare MESH --methods METHOD`.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -12,13 +12,13 @@ use crate::common::machine::{PeakWatch, processor_seconds_of_children};
 use crate::common::table::{Table, megabytes, seconds, target};
 use freebound_testkit::sheet_of_faces;
 
-/// The size that figures of angle based and stretch minimising methods are quoted for.
+/// Mesh size that the literature quotes for angle-based and stretch-minimising methods.
 const FACES: usize = 40_000;
 
 /// Runs of each method.
 const ROUNDS: usize = 3;
 
-/// The methods, and the most seconds of solving where there is a limit.
+/// Methods, and their time targets for solving in seconds if they have one.
 const METHODS: [(&str, Option<f64>); 8] = [
     ("natural", None),
     ("spectral", None),
@@ -30,7 +30,8 @@ const METHODS: [(&str, Option<f64>); 8] = [
     ("convex", None),
 ];
 
-/// Seconds of solving, processor seconds and peak memory of the whole process, and what the method came to.
+/// Prints seconds of solving, processor seconds and peak memory of the whole process, and the outcome of each
+/// method.
 pub(crate) fn side_by_side() {
     let heads =
         ["method", "solve s", "target s", "wall s", "cpu s", "peak MB", "steps", "end", "planar", "L²", "energy"];
@@ -72,7 +73,7 @@ pub(crate) fn side_by_side() {
     table.print();
 }
 
-/// What one run of the program says of its one method.
+/// Measurements of one run of the program with one method.
 struct Run {
     wall: f64,
     processor: f64,
@@ -100,7 +101,7 @@ impl Run {
         assert_eq!(status.code(), Some(0), "compare ended with {status}");
         let text = std::fs::read_to_string(&report_path).expect("a report was written");
         let mut report: Value = serde_json::from_str(&text).expect("the report is JSON");
-        // The watch may miss the last rise, the report all that came after it.
+        // The watcher may miss the last rise, and the report every rise after it was made.
         let told = report["peak_memory_bytes"].as_u64().and_then(|bytes| usize::try_from(bytes).ok());
         let peak_bytes = watched.max(told.unwrap_or(0));
         Self { wall, processor, peak_bytes, method: report["methods"][0].take() }

@@ -1,4 +1,4 @@
-//! Every phase at growing sizes; the proof; the reader.
+//! Every phase at growing sizes; verification; readers and writers.
 
 use std::path::Path;
 
@@ -14,22 +14,22 @@ use crate::common::{Times, time};
 use crate::{COMMON_FACES, LARGE_FACES, disk_of_faces};
 use freebound_testkit::{jittered_sheet, sheet_of_faces};
 
-/// Sizes, in thousands of vertices.
+/// Mesh sizes, in thousands of vertices.
 const THOUSANDS: [usize; 5] = [25, 50, 100, 250, 500];
 
-/// The longest that the verdict may take at the common size, seconds.
+/// Time target of the verdict at the common size, seconds.
 const VERDICT_TARGET: f64 = 0.15;
 
-/// The longest that reading the large mesh may take, seconds.
+/// Time targets for reading the large mesh, seconds.
 const OBJ_SECONDS: f64 = 0.4;
 const PLY_SECONDS: f64 = 0.15;
 
-/// Rounds at a size: more where they are short.
+/// Number of rounds at a size: more for short ones.
 fn rounds(vertex_count: usize) -> usize {
     if vertex_count < 200_000 { 5 } else { 3 }
 }
 
-/// Times of the phases of one flattening after another.
+/// Times of the phases over repeated flattenings.
 #[derive(Default)]
 struct PhaseTimes {
     read: Times,
@@ -43,7 +43,7 @@ struct PhaseTimes {
 }
 
 impl PhaseTimes {
-    /// One flattening of the file at `source`, written to `result`; the bytes of the factors and the residual.
+    /// Flattens the file at `source` once and writes `result`. Returns the bytes of the factors, and the residual.
     fn run(&mut self, source: &Path, result: &Path) -> (usize, f64) {
         let file = self.read.run(|| read_mesh(source).expect("written by this benchmark"));
         let mesh = self.diagnose.run(|| DiskMesh::try_from(file.polygons.triangulate()).expect("a sheet is a disk"));
@@ -72,7 +72,7 @@ fn write(path: &Path, mesh: &MeshFile, texture: &Embedding) {
         .expect("the temporary folder has room");
 }
 
-/// Seconds of every phase by size.
+/// Prints the seconds of every phase by size.
 pub(crate) fn growth() {
     let heads = [
         "vertices",
@@ -122,7 +122,7 @@ pub(crate) fn growth() {
     table.print();
 }
 
-/// Seconds of verdict and distortion.
+/// Prints the seconds of verdict and distortion.
 pub(crate) fn proof() {
     let mut table = Table::new("proof (seconds)", &["faces", "verdict", "distortion", "planar", "verdict's target"]);
     for faces in [COMMON_FACES, LARGE_FACES] {
@@ -147,7 +147,7 @@ pub(crate) fn proof() {
     table.print();
 }
 
-/// Seconds and millions of bytes per second of readers and writers.
+/// Prints the seconds, and millions of bytes per second, of readers and writers.
 pub(crate) fn reader() {
     let heads = ["file", "faces", "MB", "read s", "target s", "read MB/s", "write s", "write MB/s"];
     let mut table = Table::new("mesh files, from and to the file system's cache", &heads);

@@ -1,4 +1,4 @@
-//! The linear solve against what it can be measured by.
+//! The linear solve compared with related solves.
 
 use std::sync::atomic::AtomicBool;
 
@@ -21,26 +21,27 @@ type C = Complex<f64>;
 /// Runs of each job at the common size.
 const ROUNDS: usize = 9;
 
-/// The greatest multiple of a real Laplacian Cholesky's time that the whole solve may take, assembly included.
+/// Largest time of the whole solve, assembly included, relative to a real Laplacian Cholesky factorization.
 const LAPLACIAN_TARGET: f64 = 2.5;
 
-/// The greatest part of the real 2n×2n solve's time, order, factor and solve on both sides.
+/// Largest time relative to the real 2n×2n solve; both count order, factor and solve.
 const REAL_TARGET: f64 = 0.7;
 
-/// The same of order, factor and solve against these of the Laplacian, one right-hand side each.
+/// Largest time of order, factor and solve relative to these of the Laplacian, with one right-hand side each.
 const SOLVED_TARGET: f64 = 1.2;
 
 static GO_ON: AtomicBool = AtomicBool::new(false);
 
-/// The conformal natural boundary system of a mesh, and its real relatives.
+/// Conformal natural boundary system of a mesh, and related real systems.
 struct Systems {
     laplacian: CscMatrix<f64>,
     laplacian_rhs: Vec<f64>,
     complex: CscMatrix<C>,
     rhs: Vec<C>,
-    /// x and y as unknowns, with the entries that are not zero: only the boundary couples them.
+    /// System with x and y as unknowns and only the nonzero entries: only the boundary couples them.
     real: CscMatrix<f64>,
-    /// The same with all entries that normal equations of triangles (LSCM) have, most of them cancelled to zero.
+    /// System with x and y as unknowns and all entries of the normal equations of triangles (LSCM). Most of these
+    /// cancel to zero.
     real_full: CscMatrix<f64>,
     real_rhs: Vec<f64>,
 }
@@ -66,8 +67,8 @@ impl Systems {
     }
 }
 
-/// The real matrix of twice the order that does the same: a + bi becomes (a −b; b a). Coupling entries ±b go in where
-/// `coupled` says so.
+/// Equivalent real matrix of twice the order: a + bi becomes (a −b; b a). Coupling entries ±b are included if
+/// `coupled` returns true for b.
 fn realified(matrix: &CscMatrix<C>, coupled: impl Fn(f64) -> bool) -> CscMatrix<f64> {
     let n = matrix.nrows();
     let mut entries = CooMatrix::new(2 * n, 2 * n);
@@ -83,7 +84,7 @@ fn realified(matrix: &CscMatrix<C>, coupled: impl Fn(f64) -> bool) -> CscMatrix<
     CscMatrix::from(&entries)
 }
 
-/// Orders, factors, and solves where there is a right-hand side.
+/// Orders and factors, and solves if there is a right-hand side.
 fn run<T: freebound_core::linalg::Scalar>(matrix: &CscMatrix<T>, rhs: Option<&[T]>) -> FactorStats {
     let analysis =
         Analysis::new(Kind::Hermitian, matrix.pattern(), &AtomicBool::new(false)).expect("a symmetric pattern");
@@ -94,7 +95,7 @@ fn run<T: freebound_core::linalg::Scalar>(matrix: &CscMatrix<T>, rhs: Option<&[T
     factor.stats()
 }
 
-/// The whole solve as the program does it. The numeric peak is not told.
+/// Solves as the program does. The numeric peak is not measured.
 fn flatten(mesh: &DiskMesh) -> FactorStats {
     let (settings, pins, control) = (Settings::default(), Pins::new(), Control::unattended());
     let prepared = Prepared::new(mesh, &settings, &pins, control).expect("a regular system");
@@ -103,7 +104,7 @@ fn flatten(mesh: &DiskMesh) -> FactorStats {
     FactorStats { replaced_pivots: 0, factor_bytes, peak_bytes: 0 }
 }
 
-/// The time of the whole solve as parts of the times of real systems on the same mesh.
+/// Prints the time of the whole solve relative to real systems on one mesh.
 pub(crate) fn against_laplacian() {
     for (faces, rounds) in [(COMMON_FACES, ROUNDS), (LARGE_FACES, 5)] {
         against_laplacian_of(&disk_of_faces(faces), rounds);
@@ -155,7 +156,7 @@ fn against_laplacian_of(mesh: &DiskMesh, rounds: usize) {
     targets.print();
 }
 
-/// What is saved by knowing the symbolic analysis, and by knowing the factors.
+/// Prints the savings from a known symbolic analysis, and from known factors.
 pub(crate) fn again() {
     let heads = ["faces", "n", "analyze", "factor", "fresh", "again/fresh", "first solve", "drag"];
     let mut table = Table::new("factoring again, and solving again for other targets (a drag)", &heads);

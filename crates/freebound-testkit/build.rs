@@ -1,8 +1,8 @@
-//! Sets `cfg(corpus)` if the test corpus is there, so that tests over it are ignored, and counted, where it is missing.
+//! Sets `cfg(corpus)` if the test corpus is there, so that tests over it are ignored, and counted, if it is missing.
 //!
-//! The corpus lies in `../shared/corpus`, beside the workspace, or in the folder that `FREEBOUND_CORPUS` names. A corpus
-//! that arrives after the first build is seen if that variable changes or this file is touched: to watch a file that is
-//! missing would rebuild the crate every time.
+//! The corpus is in `../shared/corpus`, beside the workspace, or in the folder that `FREEBOUND_CORPUS` names. A
+//! corpus added after the first build is detected only if that variable changes or this file is touched. Watching a
+//! missing file would rebuild the crate every time.
 
 use std::env;
 use std::path::{self, Path, PathBuf};

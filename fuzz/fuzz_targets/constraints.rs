@@ -1,4 +1,4 @@
-//! Any text as a constraint file.
+//! Parses any text as a constraint file.
 #![no_main]
 
 use freebound_io::Constraints;

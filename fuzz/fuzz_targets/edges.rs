@@ -1,4 +1,4 @@
-//! Any text as an edges file, of a sheet of quads.
+//! Parses any text as an edges file of a sheet of quads.
 #![no_main]
 
 use freebound_io::{parse_edges, write_edges};

@@ -1,4 +1,5 @@
-//! Any bytes as a mesh: what can be read and mended is flattened, every chart of it, and what is planar is proved again.
+//! Reads any bytes as a mesh. Every chart of a readable, repaired mesh is flattened, and its verdict is checked
+//! again.
 #![no_main]
 
 use freebound_core::mesh::Preparation;
@@ -6,7 +7,7 @@ use freebound::session::Model;
 use freebound_core::flatten::{Options, flatten};
 use libfuzzer_sys::fuzz_target;
 
-/// Larger meshes only take longer.
+/// Face limit: larger meshes only take longer.
 const MOST_FACES: usize = 120;
 
 fuzz_target!(|bytes: &[u8]| {

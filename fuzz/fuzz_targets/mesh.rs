@@ -1,16 +1,16 @@
-//! Any bytes as a mesh file of any format: read or refused, mended where that can be, and written again.
+//! Reads any bytes as a mesh file of any format: accepted or refused, repaired if possible, and written again.
 #![no_main]
 
 use freebound_io::{Texture, read_stream, write_obj};
 use freebound_core::mesh::Preparation;
 use libfuzzer_sys::fuzz_target;
 
-/// Larger meshes only take longer.
+/// Corner limit: larger meshes only take longer.
 const MOST_CORNERS: usize = 3_000;
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(file) = read_stream(bytes) else { return };
-    // What is not finite is read, to be named, and refused where it is written.
+    // Numbers that are not finite are accepted by the reader, for the diagnosis, and refused by the writer.
     let are_finite = file.polygons.positions.iter().all(|at| at.is_finite());
     let texture = file.texture.clone().unwrap_or_default();
     if file.polygons.corners.len() > MOST_CORNERS || !are_finite || !texture.coordinates.iter().all(|uv| uv.is_finite()) {

@@ -1,4 +1,4 @@
-//! Any bytes as a project file: read or refused; what is read is written and read again as it was.
+//! Reads any bytes as a project file: accepted or refused. An accepted project is written and read again unchanged.
 #![no_main]
 
 use freebound_io::{PathStyle, ProjectFile};

@@ -1,5 +1,6 @@
-//! `freebound check`: the diagnosis of a mesh, and the verdict on its texture coordinates where it has some.
+//! `freebound check`: diagnosis of a mesh, and verdict on its texture coordinates if there are any.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::args::CheckArguments;
@@ -9,8 +10,10 @@ use super::opened::disk_of;
 use super::places::OutputPaths;
 use super::progress::go_on;
 use super::standard::{MemoryLimit, read_model};
-use super::summary::deliver;
+use super::summary::{deliver, mesh_words};
+use crate::session::Model;
 use freebound_core::mesh::{DiskMesh, Preparation, parts};
+use freebound_core::pipeline::{PreparedMesh, Surface};
 use freebound_core::verify::{atlas_verdict, distortion, verdict};
 use freebound_io::{MeshReport, Report, Seconds, TextureError, TextureMesh, verdict_as_in_file};
 
@@ -25,27 +28,12 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandE
     let mut texture = match model.source.texture_mesh() {
         Ok(texture) => texture,
         Err(TextureError::None) => {
-            let mesh = disk_of(&model)?;
-            go_on()?;
-            let report = report(MeshReport::new(path, mesh), start, start.elapsed().as_secs_f64());
-            let notes = &report.mesh;
-            let holes = match mesh.mesh().holes().len() {
-                0 => String::new(),
-                1 => "with a hole, ".to_owned(),
-                count => format!("with {count} holes, "),
-            };
-            let words = format!(
-                "{}: a disk {holes}of {} vertices and {} faces, {} on the boundary, {} dividing edges, {} ears; no \
-                 texture coordinates",
-                notes.path, notes.vertices, notes.faces, notes.boundary_vertices, notes.dividing_edges, notes.ears
-            );
-            deliver(&report, arguments.report.as_deref(), || words)?;
-            return Ok(CommandOutcome::Fine);
+            return check_mesh(&model, arguments, path, start);
         }
         Err(error) => return Err(CommandError::Texture { path, error }),
     };
     let disk = DiskMesh::try_from(texture.mesh.clone()).or_else(|_| {
-        // Looked at again without faces that add nothing, which a repair leaves in the file.
+        // Try again without redundant faces, which repairs leave in the file.
         texture.mesh = std::mem::take(&mut texture.mesh).without_repeats();
         texture.drop_collapsed_faces();
         DiskMesh::try_from(texture.mesh.clone())
@@ -71,15 +59,66 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandE
     Ok(if verdict.planar { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
 }
 
-/// The texture coordinates of a file.
+/// Diagnosis of a mesh without texture coordinates: its size, and all faults that a default run repairs or ignores.
+fn check_mesh(
+    model: &Model,
+    arguments: &CheckArguments,
+    path: String,
+    start: Instant,
+) -> Result<CommandOutcome, CommandError> {
+    let disk = disk_of(model)?;
+    go_on()?;
+    let count = model.prepared.chart_count();
+    let (mesh, kind) = if count > 1 {
+        let charts: Vec<PreparedMesh> = (0..count).map(|chart| model.prepared.of_chart(chart)).collect();
+        let disk = |chart: &PreparedMesh| match &chart.surface {
+            Surface::Disk(disk) => Ok(Arc::clone(disk)),
+            Surface::Faulty(_, diagnosis) => {
+                let (path, diagnosis) = (path.clone(), Box::new(diagnosis.as_ref().clone()));
+                Err(CommandError::NotADisk { path, diagnosis, remedy: None })
+            }
+        };
+        let disks = charts.iter().map(disk).collect::<Result<Vec<_>, _>>()?;
+        let holes = match disks.iter().map(|disk| disk.mesh().holes().len()).sum::<usize>() {
+            0 => String::new(),
+            1 => ", with a hole".to_owned(),
+            count => format!(", with {count} holes"),
+        };
+        let given = model.source.polygons.positions.len();
+        let vertices = model.whole_repaired().map_or(given, |whole| whole.polygons().positions.len());
+        (
+            MeshReport::of_disks(path, vertices, disks.iter().map(AsRef::as_ref)),
+            format!("{count} parts, each a disk{holes}"),
+        )
+    } else {
+        let holes = match disk.mesh().holes().len() {
+            0 => String::new(),
+            1 => " with a hole".to_owned(),
+            count => format!(" with {count} holes"),
+        };
+        (MeshReport::new(path, disk), format!("a disk{holes}"))
+    };
+    let repairs = model.whole_repaired().map(|repaired| repaired.done().to_vec()).unwrap_or_default();
+    let report = report(MeshReport { repairs, ..mesh }, start, start.elapsed().as_secs_f64());
+    let notes = &report.mesh;
+    let first = format!(
+        "{}: {kind}, {} vertices, {} faces, {} on the boundary, {} dividing edges, {} ears; no texture coordinates",
+        notes.path, notes.vertices, notes.faces, notes.boundary_vertices, notes.dividing_edges, notes.ears
+    );
+    let words = std::iter::once(first).chain(mesh_words(notes)).collect::<Vec<_>>().join("\n");
+    deliver(&report, arguments.report.as_deref(), || words)?;
+    Ok(CommandOutcome::Fine)
+}
+
+/// Texture coordinates of a file.
 #[derive(Clone, Copy)]
 struct Layout<'a> {
     texture: &'a TextureMesh,
-    /// Whether the file has no other numbers: what is proved of them holds in 32 bits.
+    /// True if the file stores only 32-bit numbers, so that a proof also holds in 32 bits.
     is_of_32_bits: bool,
 }
 
-/// The verdict on a layout of several charts, or of one with holes.
+/// Verdict on a layout of several charts or with holes.
 fn check_charts(
     arguments: &CheckArguments,
     Layout { texture, is_of_32_bits }: Layout<'_>,
@@ -107,7 +146,7 @@ fn check_charts(
     Ok(status)
 }
 
-/// A report on the mesh alone.
+/// Report on the mesh alone.
 fn report(mesh: MeshReport, start: Instant, read: f64) -> Report {
     let total = start.elapsed().as_secs_f64();
     Report { seconds: Seconds { read, verify: total - read, total, ..Seconds::default() }, ..Report::of_mesh(mesh) }

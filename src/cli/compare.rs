@@ -1,5 +1,5 @@
-//! `freebound compare`: several methods on one mesh, one after the other, each with all threads and from its beginning, so that
-//! their times can be compared. Their verdicts and failures are data.
+//! `freebound compare`: several methods on one mesh. Each method runs alone, with all threads and from the beginning,
+//! so that their times can be compared. Verdicts and failures of the methods are results, not errors.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -40,7 +40,7 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<CommandOutcome, Comman
     }
     let is_drawn = [&arguments.png, &arguments.svg, &arguments.morph].iter().any(|path| path.is_some());
     if arguments.shading.is_some() && !is_drawn {
-        return Err(CommandError::Usage("--shading is of the picture: give --png, --svg or --morph, too".into()));
+        return Err(CommandError::Usage("--shading colours pictures only: add --png, --svg or --morph".into()));
     }
     await_report(arguments.report.as_deref());
     set_threads(solve.threads)?;
@@ -71,7 +71,7 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<CommandOutcome, Comman
     })
 }
 
-/// The chart that is asked for, or the largest; the mesh itself, where it is one.
+/// Requested chart, or the largest one. The mesh itself if it is one chart.
 fn chart_of(model: &Model, wanted: Option<usize>) -> Result<Model, CommandError> {
     let count = model.chart_count();
     match wanted {
@@ -86,22 +86,22 @@ fn chart_of(model: &Model, wanted: Option<usize>) -> Result<Model, CommandError>
     }
 }
 
-/// The targets by the vertices of the chart.
+/// Targets of the chart, by its own vertices.
 fn targets_of_chart(model: &Model, targets: Targets) -> Result<Targets, CommandError> {
     let own = |(vertex, target)| match model.vertex_of_file(vertex) {
         Some(own) => Ok((own, target)),
-        // What no mesh has the solver refuses.
+        // The solver rejects vertices that do not exist.
         None if model.prepared.chart.is_none() => Ok((vertex, target)),
         None => {
             let number = model.prepared.chart.as_ref().map_or(0, |of| of.number);
-            let text = format!("vertex {vertex} is pinned, but lies on another chart than {number}, which is compared");
-            Err(CommandError::Usage(format!("{}: {text}: choose that one with --chart", model.path_words())))
+            let text = format!("vertex {vertex} is pinned, but is not on chart {number}, which is compared");
+            Err(CommandError::Usage(format!("{}: {text}: choose its chart with --chart", model.path_words())))
         }
     };
     targets.into_iter().map(own).collect()
 }
 
-/// The problem of each method that is asked for; of all that suit the pins, where none is.
+/// Problems of the requested methods. Default: all methods that suit the pins.
 fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Problem>, CommandError> {
     let suited = || Method::ALL.iter().filter(|method| problem.suits(method));
     let mut variants = arguments.methods.clone();
@@ -110,13 +110,10 @@ fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Probl
     }
     let methods: Vec<Method> = variants.iter().map(|variant| variant.method.clone()).collect();
     if arguments.morph.is_some() && methods.len() < 2 {
-        return Err(CommandError::Usage("--morph goes from one method's map to another's: name two or more".into()));
+        return Err(CommandError::Usage("--morph needs the maps of at least two methods: add one to --methods".into()));
     }
     if let Some((option, why)) = arguments.solve.idle_option(&methods) {
-        return Err(CommandError::Usage(format!(
-            "no method that is compared takes {option}: {}: {why}",
-            methods[0].name()
-        )));
+        return Err(CommandError::Usage(format!("no compared method uses {option}: {}: {why}", methods[0].name())));
     }
     if let Some(family) = arguments.solve.family {
         give_weights(&mut variants, family)?;
@@ -125,17 +122,17 @@ fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Probl
     for (count, second) in problems.iter().enumerate() {
         if problems[..count].iter().any(|first| first.settings.resolves_to(&second.settings)) {
             let name = Variant::of(&second.settings);
-            return Err(CommandError::Usage(format!("--methods: {name} would run twice: leave out one of them")));
+            return Err(CommandError::Usage(format!("--methods: {name} would run twice: remove one of them")));
         }
     }
     Ok(problems)
 }
 
-/// Gives the weights that were asked for to the methods that name none and can take them.
+/// Sets the requested weights for the methods that name none and support them.
 ///
 /// # Errors
 ///
-/// Where there are none of these.
+/// [`CommandError`] if there is no such method.
 fn give_weights(variants: &mut [Variant], family: Family) -> Result<(), CommandError> {
     let mut refused = None;
     let mut are_given = false;
@@ -148,9 +145,7 @@ fn give_weights(variants: &mut [Variant], family: Family) -> Result<(), CommandE
     match refused {
         _ if are_given => Ok(()),
         Some(error) => Err(error.into()),
-        None => {
-            Err(CommandError::Usage("no method that is compared takes --family: all name their own weights".into()))
-        }
+        None => Err(CommandError::Usage("no compared method uses --family: all name their own weights".into())),
     }
 }
 
@@ -158,7 +153,7 @@ fn give_weights(variants: &mut [Variant], family: Family) -> Result<(), CommandE
 ///
 /// # Errors
 ///
-/// Where the user asked to stop, or pins that no method can take.
+/// [`CommandError`] if the user interrupts, or no method supports the pins.
 fn run_all(model: &Model, problems: Vec<Problem>, progress: &ProgressLine) -> Result<Vec<Compared>, CommandError> {
     let report_phase = |phase: Phase| progress.enter(phase.words());
     let control = Control::new(&INTERRUPTED, &report_phase);
@@ -178,14 +173,14 @@ fn run_all(model: &Model, problems: Vec<Problem>, progress: &ProgressLine) -> Re
     Ok(methods)
 }
 
-/// What is drawn.
+/// Results to be drawn.
 struct Found<'a> {
     model: &'a Model,
     methods: &'a [&'a Compared],
     tour: Option<&'a MorphTour>,
 }
 
-/// Writes all files but the report. The picture is drawn once, where it is asked for.
+/// Writes all files except the report. The picture is drawn only if it is requested, and only once.
 fn write(arguments: &CompareArguments, report: &ComparisonReport, found: &Found<'_>) -> Result<(), CommandError> {
     let Found { model, methods, tour } = *found;
     let shading = arguments.shading.unwrap_or_default();
@@ -206,7 +201,7 @@ fn write(arguments: &CompareArguments, report: &ComparisonReport, found: &Found<
     Ok(())
 }
 
-/// Writes a file whole or not at all, or to standard output for `-`.
+/// Writes a file atomically, or to standard output for `-`.
 fn put(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
     if is_standard(path) {
         write_to_standard_output(|out| write(out))
@@ -215,7 +210,7 @@ fn put(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Res
     }
 }
 
-/// Says the table, and writes the report. What goes to standard output as a file stands there alone.
+/// Prints the table and writes the report. If a file goes to standard output, nothing else is printed there.
 fn conclude(arguments: &CompareArguments, report: &ComparisonReport) -> Result<CommandOutcome, CommandError> {
     let to = arguments.report.as_deref();
     let is_taken = arguments.outputs().iter().any(|(_, _, path)| is_standard(path)) || to.is_some_and(is_standard);

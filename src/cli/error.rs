@@ -1,4 +1,4 @@
-//! Errors of a command: their words and their exit status.
+//! Errors of a command: their messages and their exit statuses.
 
 use std::fmt::{self, Display, Formatter};
 use std::path::Path;
@@ -8,64 +8,64 @@ use freebound_core::mesh::{Diagnosis, Done, Repairs};
 use freebound_core::problem::{Cause, Method, NamedOption as _, SolveError};
 use freebound_io::{ConstraintsError, EdgesError, MemoryShortage, PictureError, ReadError, TextureError, WriteError};
 
-/// Our fault, or the system's.
+/// Exit status of an internal or system error.
 const INTERNAL: u8 = 1;
 
-/// Options that do not go together; clap's number too.
+/// Exit status of invalid usage. clap uses this number, too.
 pub(super) const WRONG_USE: u8 = 2;
 
-/// A file that cannot be used.
+/// Exit status of an input that cannot be used.
 pub(super) const UNUSABLE_INPUT: u8 = 3;
 
-/// [`CommandOutcome::FallsShort`], and no embedding at all.
+/// Exit status of [`CommandOutcome::FallsShort`], and of a run without an embedding.
 pub(super) const FALLS_SHORT: u8 = 4;
 
-/// What to do where only some corners have texture coordinates.
+/// Remedy if only some corners have texture coordinates.
 pub(super) const TEXTURE_REMEDY: &str = "give every corner texture coordinates, or none";
 
-/// What to do where a file may take too much memory.
-pub(super) const MEMORY_REMEDY: &str = "--large reads it all the same";
+/// Remedy if a file may take too much memory.
+pub(super) const MEMORY_REMEDY: &str = "add --large to read it anyway";
 
-/// What to do where a single method gives no embedding.
+/// Remedy if a single method finds no embedding.
 pub(super) const METHOD_REMEDY: &str = "try --method auto";
 
-/// What to do where there is no morph through the maps of the methods.
+/// Remedy if there is no morph through the maps of the methods.
 pub(super) const MORPH_REMEDY: &str =
-    "choose with --methods those with planar maps that lie alike, such as convex,schnyder,auto";
+    "use --methods to choose planar maps of one orientation, such as convex,schnyder,auto";
 
-/// What to do where the frames of a morph take too much memory.
-pub(super) const FRAMES_REMEDY: &str = "ask for fewer --frames, or name fewer --methods";
+/// Remedy if the frames of a morph take too much memory.
+pub(super) const FRAMES_REMEDY: &str = "use fewer --frames or fewer --methods";
 
-/// Ended by Ctrl-C.
+/// Exit status after Ctrl-C.
 pub(super) const INTERRUPTED: u8 = 130;
 
-/// A command that ran to its end.
+/// Outcome of a command that ran to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommandOutcome {
-    /// Planar and proved, or nothing to object to.
+    /// The result is planar and proved, or there is nothing to object to.
     Fine,
-    /// Finished and written, but not planar, or a constraint is not met.
+    /// The result is written, but is not planar or misses a constraint.
     FallsShort,
 }
 
-/// A command that could not do its work.
+/// Error of a command that failed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CommandError {
     /// The file cannot be read.
     #[error("{}; {}", on_each_line(path, error), error.remedy())]
     Read {
-        /// The file.
+        /// Name of the file.
         path: String,
-        /// What is wrong with it.
+        /// Reason of the failure.
         error: ReadError,
     },
     /// The file may take more than half of the machine's memory.
     #[error("{path}: {shortage}; {MEMORY_REMEDY}")]
     Memory {
-        /// The file.
+        /// Name of the file.
         path: String,
-        /// What it may take, and what there is.
+        /// Memory that the file may take, and memory of the machine.
         shortage: MemoryShortage,
     },
     /// The constraint file cannot be used.
@@ -77,73 +77,73 @@ pub enum CommandError {
     /// The picture cannot be read.
     #[error("{0}")]
     Picture(#[from] PictureError),
-    /// The texture coordinates make no mesh.
+    /// The texture coordinates are incomplete.
     #[error("{path}: {error}; {TEXTURE_REMEDY}")]
     Texture {
-        /// The file.
+        /// Name of the file.
         path: String,
-        /// What is wrong with them.
+        /// Fault of the texture coordinates.
         error: TextureError,
     },
     /// The mesh is not a disk.
-    #[error("{path}: cannot be flattened as it is\n{diagnosis}{}", remedy.as_ref().map(Remedy::to_string).unwrap_or_default())]
+    #[error("{path}: the mesh cannot be flattened\n{diagnosis}{}", remedy.as_ref().map(Remedy::to_string).unwrap_or_default())]
     NotADisk {
-        /// The file.
+        /// Name of the file.
         path: String,
-        /// Everything that is wrong with it.
+        /// All faults of the mesh.
         diagnosis: Box<Diagnosis>,
-        /// What would make a disk of it, where that can be.
+        /// Repair that makes the mesh a disk, if there is one.
         remedy: Option<Remedy>,
     },
-    /// The solver gave no embedding. The name of the mesh is said before it.
+    /// The solver found no embedding. The name of the mesh is printed before the message.
     #[error("{0}")]
     Solve(#[from] SolveError),
-    /// A single method gave none.
+    /// A single method found no embedding.
     #[error("{method}: {error}; {METHOD_REMEDY}")]
     Method {
-        /// The method's name.
+        /// Name of the method.
         method: &'static str,
-        /// Why it gave none.
+        /// Reason of the failure.
         error: SolveError,
     },
     /// There is no planar morph through the maps of the methods.
     #[error("{path}: {what}; {MORPH_REMEDY}")]
     NoMorph {
-        /// The file.
+        /// Name of the file.
         path: String,
-        /// Why there is none.
+        /// Reason of the failure.
         what: String,
     },
     /// The frames of a morph would take more than half of the machine's memory.
     #[error("{path}: {shortage}; {FRAMES_REMEDY}")]
     MorphMemory {
-        /// The file.
+        /// Name of the file.
         path: String,
-        /// What they would take, and what there is.
+        /// Memory that the frames would take, and memory of the machine.
         shortage: MorphShortage,
     },
-    /// A result could not be written, or a file that is copied with it could not be read.
+    /// A result cannot be written, or a file to be copied with it cannot be read.
     #[error("{0}")]
     Write(#[from] WriteError),
-    /// Standard output takes no more.
+    /// Standard output cannot be written.
     #[error("standard output: cannot be written: {0}")]
     StandardOutput(#[source] std::io::Error),
-    /// Asked for something that cannot be.
+    /// The options or their combination are invalid.
     #[error("{0}")]
     Usage(String),
 }
 
-/// How a mesh can be mended.
+/// Repair of a mesh that makes it a disk or several disks.
 #[derive(Clone, Debug)]
 pub struct Remedy {
-    /// What is done then.
+    /// Repairs that are applied.
     done: Vec<Done>,
-    /// Options that go with those that were given.
+    /// Options to add to the given ones.
     options: Vec<&'static str>,
 }
 
 impl Remedy {
-    /// What would make a disk of a mesh, or several, where that can be.
+    /// Repair that makes a mesh a disk or several disks, if there is one.
     pub(super) fn of(model: &Model) -> Option<Self> {
         let form = &model.prepared.form;
         let all = (form.repair.and(Repairs::ALL) != form.repair).then_some("--repair all");
@@ -156,15 +156,15 @@ impl Remedy {
 impl Display for Remedy {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         if self.done.is_empty() {
-            return f.write_str("\nnone of this does harm: it can be flattened without --repair none");
+            return f.write_str("\nthese faults are harmless: drop --repair none to flatten the mesh");
         }
         let done: Vec<String> = self.done.iter().map(ToString::to_string).collect();
-        write!(f, "\nit can be mended by adding {}: {}", self.options.join(" "), done.join(", "))
+        write!(f, "\nto repair the mesh, add {}: {}", self.options.join(" "), done.join(", "))
     }
 }
 
 impl CommandError {
-    /// A method's failure: where another may do better, with that hint.
+    /// Creates the error of a method. The message suggests another method if that can help.
     pub fn of_method(method: &Method, error: SolveError) -> Self {
         if error.is_failure_of_method() && *method != Method::Auto {
             return Self::Method { method: method.name(), error };
@@ -172,8 +172,8 @@ impl CommandError {
         Self::Solve(error)
     }
 
-    /// The exit status: 1 internal, 2 wrong use, 3 unusable input, 4 no embedding by this method or no morph, 130 interrupted. Every
-    /// error is named, so that a new one has to choose.
+    /// Exit status: 1 internal, 2 invalid usage, 3 unusable input, 4 no embedding by this method or no morph, 130
+    /// interrupted. The match lists every error, so that a new variant needs a decision.
     pub fn code(&self) -> u8 {
         match self {
             Self::Read { error: ReadError::Cancelled, .. } => INTERRUPTED,
@@ -203,13 +203,13 @@ const fn code_of_solve(error: &SolveError) -> u8 {
     }
 }
 
-/// A message with the name of its file before each line.
+/// Message with the name of its file before each line.
 fn on_each_line(path: &str, message: &impl Display) -> String {
     let lines: Vec<String> = message.to_string().lines().map(|line| format!("{path}: {line}")).collect();
     lines.join("\n")
 }
 
-/// The message of an error, the name of the run's mesh first if there is one.
+/// Message of an error, preceded by the name of the run's mesh if the error does not name it.
 pub(super) fn message_of(error: &CommandError, mesh: Option<&Path>) -> String {
     match (error, mesh) {
         (CommandError::Solve(_) | CommandError::Method { .. }, Some(mesh)) => {

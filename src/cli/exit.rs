@@ -1,4 +1,4 @@
-//! The end of a command: its last words, its report and its exit status.
+//! End of a command: its last message, its report and its exit status.
 
 use std::process::ExitCode;
 
@@ -6,7 +6,7 @@ use super::error::{CommandError, CommandOutcome, FALLS_SHORT, message_of};
 use super::failed::ReportTarget;
 use super::say::warn;
 
-/// Prints an error, writes the report of a run that failed, and turns the outcome into the exit status of the process.
+/// Prints an error, writes the report of a failed run, and returns the exit status of the process.
 pub(super) fn conclude(outcome: Result<CommandOutcome, CommandError>, subject: Option<ReportTarget<'_>>) -> ExitCode {
     match outcome {
         Ok(CommandOutcome::Fine) => ExitCode::SUCCESS,

@@ -1,4 +1,4 @@
-//! The report of a run that came to nothing. The report of an earlier run is never left in its place.
+//! Report of a failed run. The report of an earlier run never stays in its place.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use super::report_file::put_report;
 use super::say::warn;
 use freebound_io::{ErrorReport, ErrorWords, FaultReport, ReadError};
 
-/// What a run is about, and where its report goes.
+/// Mesh of a run, and path of its report.
 #[derive(Clone, Copy)]
 pub(super) struct ReportTarget<'a> {
     pub(super) mesh: &'a Path,
@@ -19,8 +19,8 @@ pub(super) struct ReportTarget<'a> {
 }
 
 impl ReportTarget<'_> {
-    /// Writes the report of a run that failed: one with the error where the input cannot be used or the method gives
-    /// nothing. Where a run broke off there is none, and wrong use leaves everything as it is.
+    /// Writes the report of a failed run. It holds the error if the input cannot be used or the method fails. After an
+    /// interruption or internal error an earlier report is removed. Invalid usage leaves all files unchanged.
     pub(super) fn report_failure(self, failure: &CommandError) {
         let Some(path) = self.report else { return };
         match failure.code() {
@@ -58,7 +58,7 @@ fn remedy_and_faults(failure: &CommandError) -> (Option<&'static str>, Vec<Fault
     }
 }
 
-/// What could not be used or done, in a word.
+/// Short name of the failure.
 fn kind_of(failure: &CommandError) -> &'static str {
     match failure {
         CommandError::Read { error, .. } => match error {
@@ -91,8 +91,8 @@ mod tests {
     fn frames_that_take_too_much_memory_are_no_result_and_the_remedy_is_fewer() {
         let shortage = MorphShortage { frames: 1000, needed: 3 << 30, memory: 4 << 30 };
         let failure = CommandError::MorphMemory { path: "mesh.obj".to_owned(), shortage };
-        let words = "mesh.obj: 1000 frames from map to map take 3.0 GiB in all, more than half of the machine's memory of 4.0 GiB; \
-                     ask for fewer --frames, or name fewer --methods";
+        let words = "mesh.obj: 1000 frames between maps need 3.0 GiB, more than half of the machine's memory of 4.0 GiB; \
+                     use fewer --frames or fewer --methods";
         assert_eq!(failure.to_string(), words);
         assert_eq!((failure.code(), kind_of(&failure)), (FALLS_SHORT, "too-large-for-memory"));
         let (remedy, faults) = remedy_and_faults(&failure);

@@ -1,5 +1,5 @@
-//! `freebound flatten`: read, solve, prove, write. And the main job without a screen: the built-in example, flattened
-//! into a folder.
+//! `freebound flatten`: read, solve, prove, write. The module also flattens the built-in example into a folder, which
+//! the program does if no window can be opened.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -27,22 +27,22 @@ use freebound_core::pipeline::{Fit, PipelineOptions, Targets, hard_targets};
 use freebound_core::problem::NamedOption as _;
 use freebound_io::{Materials, OutputKind, PictureFile, Precision, WriteError};
 
-/// Folder that the example is written into, in the current one.
+/// Folder for the example, relative to the current folder.
 const FOLDER: &str = "freebound-example";
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<CommandOutcome, CommandError> {
     let FlattenArguments { input, solve, .. } = arguments;
     if let Some((option, why)) = arguments.idle_option() {
         let name = arguments.settings().method.name();
-        return Err(CommandError::Usage(format!("--method {name} takes no {option}: {why}")));
+        return Err(CommandError::Usage(format!("--method {name} does not use {option}: {why}")));
     }
     if arguments.fit == Some(Fit::True) && (solve.aspect.is_some() || arguments.picture.is_some()) {
         return Err(CommandError::Usage(
-            "--fit true makes no texture coordinates of a picture: leave out one of them".into(),
+            "--fit true does not scale to a picture: remove --fit true, or --picture and --aspect".into(),
         ));
     }
     if solve.start.is_some() && arguments.fit == Some(Fit::Unit) {
-        return Err(CommandError::Usage("--start keeps the place of the layout: leave out --fit unit".into()));
+        return Err(CommandError::Usage("--start keeps the position of the layout: remove --fit unit".into()));
     }
     refuse_unwritten_formats(arguments.output.as_deref())?;
     let places = OutputPaths::of_flatten(arguments);
@@ -82,17 +82,18 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<CommandOutcome, Comman
     })
 }
 
-/// Refuses names that belong to formats which are read and not written.
+/// Rejects names of formats that can be read but not written.
 fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), CommandError> {
     let extension = output.and_then(Path::extension).unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     if matches!(extension.as_str(), "gltf" | "off" | "stl") {
-        let text = format!("-o: .{extension} files are not written: end the name in .obj, .ply or .glb");
+        let text = format!("-o: .{extension} files cannot be written: end the name in .obj, .ply or .glb");
         return Err(CommandError::Usage(text));
     }
     Ok(())
 }
 
-/// How many times as large as the others charts are packed, by their first faces. Those with targets are not packed.
+/// Relative sizes of charts, by their first faces. Sizes of charts with targets are rejected, because these charts are
+/// not packed.
 fn sizes(given: &[ChartSize], model: &Model, targets: &Targets) -> Result<BTreeMap<FaceId, f64>, CommandError> {
     let count = model.chart_count();
     let charts = model.prepared.chart.as_ref().map(|of| &of.charts);
@@ -112,8 +113,8 @@ fn sizes(given: &[ChartSize], model: &Model, targets: &Targets) -> Result<BTreeM
     for &ChartSize { chart, size } in given {
         let is_twice = sizes.insert(first_face(chart)?, size).is_some();
         let faults = [
-            (is_twice, "the chart has a size twice: leave out one of them"),
-            (held.contains(&chart), "pins hold the chart, and it is not packed: leave out its size or its pins"),
+            (is_twice, "the chart has two sizes: remove one of them"),
+            (held.contains(&chart), "the chart is pinned, so it is not packed: remove its size or its pins"),
         ];
         if let Some((_, why)) = faults.into_iter().find(|(is_so, _)| *is_so) {
             return Err(CommandError::Usage(format!("--chart-size {chart}: {why}")));
@@ -122,7 +123,7 @@ fn sizes(given: &[ChartSize], model: &Model, targets: &Targets) -> Result<BTreeM
     Ok(sizes)
 }
 
-/// Refuses files that would be written over, by the run itself or as results of one another.
+/// Rejects outputs that would overwrite an input or another output.
 fn refuse_clashes(arguments: &FlattenArguments, places: &OutputPaths) -> Result<(), CommandError> {
     places.keep_apart()?;
     places.spare_inputs(&arguments.input, &arguments.solve)?;
@@ -134,14 +135,14 @@ fn refuse_clashes(arguments: &FlattenArguments, places: &OutputPaths) -> Result<
     }
     let beside = [(arguments.picture.is_some(), "--picture"), (arguments.copy_materials, "--copy-materials")];
     match beside.into_iter().find(|(given, _)| *given && arguments.output.as_deref().is_some_and(is_standard)) {
-        Some((_, option)) => {
-            Err(CommandError::Usage(format!("standard output: -o has no folder there for {option}: name a file")))
-        }
+        Some((_, option)) => Err(CommandError::Usage(format!(
+            "standard output: {option} needs a folder for its files: name a file with -o"
+        ))),
         None => Ok(()),
     }
 }
 
-/// Flattens the built-in face and writes mesh, report and picture into a folder that it names.
+/// Flattens the built-in face and writes mesh, report and picture into the folder `freebound-example`.
 pub fn run_example() -> ExitCode {
     stop_on_interrupt();
     conclude(flatten_example(), None)

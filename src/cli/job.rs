@@ -1,4 +1,4 @@
-//! A flattening without a screen: solve, prove, write, sum up. One chart, or several.
+//! Flattening without a screen, of one chart or several: solve, prove, write, print the summary.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -19,11 +19,11 @@ use freebound_core::problem::{Control, Phase, SolveError};
 use freebound_core::verify::{Conflict, conflicts};
 use freebound_io::{Materials, Output, OutputKind, PictureFile, Precision, StepReport, StepsFolder};
 
-/// A flattening without a screen, the mesh already read.
+/// Flattening without a screen of a mesh that is read.
 pub(super) struct HeadlessJob<'a> {
-    /// Targets are of the vertices of the mesh, however many charts it has.
+    /// Options. Targets use the vertex numbers of the mesh, also with several charts.
     pub(super) options: PipelineOptions,
-    /// The picture that is mapped on the mesh.
+    /// Picture that is mapped onto the mesh.
     pub(super) picture: Option<Arc<PictureFile>>,
     /// Size of the texture coordinates.
     pub(super) fit: Fit,
@@ -37,7 +37,7 @@ pub(super) struct HeadlessJob<'a> {
 }
 
 impl HeadlessJob<'_> {
-    /// Flattens, proves, writes, and prints the summary. `start` is when reading began.
+    /// Flattens, proves, writes, and prints the summary. `start` is the time when reading began.
     pub(super) fn run(
         &self,
         model: &Model,
@@ -58,7 +58,7 @@ impl HeadlessJob<'_> {
         self.conclude(&output, || summary(&output.report, &ending_words(&solved, &output)))
     }
 
-    /// The same for a mesh of several charts, which are solved side by side.
+    /// Flattens a mesh with several charts, which are solved in parallel.
     fn run_atlas(
         &self,
         model: &Model,
@@ -74,7 +74,7 @@ impl HeadlessJob<'_> {
         let work = models.par_iter().zip(problems);
         let solved: Vec<Result<SolvedChart, CommandError>> =
             work.map(|(model, problem)| solve(model, problem, None, progress)).collect();
-        // In the order of the charts: which of them fails first depends on the threads.
+        // Report the first failure in the order of the charts, independent of the threads.
         let solved: Vec<SolvedChart> = solved.into_iter().collect::<Result<_, _>>()?;
         progress.enter("packing");
         let charts: Vec<SolvedModel<'_>> = models
@@ -95,22 +95,22 @@ impl HeadlessJob<'_> {
         self.conclude(&output, || atlas_summary(&output.report))
     }
 
-    /// Refuses what means nothing to several charts.
+    /// Rejects options that do not apply to several charts.
     fn refuse_idle_options(&self) -> Result<(), CommandError> {
         let of_size = self.fit == Fit::True || self.svg_fit == Fit::True;
         let cases = [
-            (of_size, "--fit true and --svg-scale true", "they are packed into the unit square"),
-            (self.steps.is_some(), "--steps", "it draws the steps of one"),
+            (of_size, "--fit true and --svg-scale true", "charts are packed into the unit square"),
+            (self.steps.is_some(), "--steps", "it draws the steps of one chart"),
         ];
         match cases.into_iter().find(|(given, ..)| *given) {
             Some((_, option, why)) => {
-                Err(CommandError::Usage(format!("the mesh has several charts, which take no {option}: {why}")))
+                Err(CommandError::Usage(format!("the mesh has several charts: remove {option}: {why}")))
             }
             None => Ok(()),
         }
     }
 
-    /// Writes all files but the report.
+    /// Writes all files except the report.
     fn write<'b>(
         &'b self,
         output: &mut Output<'b>,
@@ -146,7 +146,7 @@ impl HeadlessJob<'_> {
         Ok(())
     }
 
-    /// Says what came of it, and writes the report.
+    /// Prints the summary and writes the report.
     fn conclude(&self, output: &Output<'_>, words: impl FnOnce() -> String) -> Result<CommandOutcome, CommandError> {
         let report = &output.report;
         if self.outputs.iter().any(|(_, path)| is_standard(path)) {
@@ -160,7 +160,7 @@ impl HeadlessJob<'_> {
     }
 }
 
-/// Says which constraints on a mesh or chart contradict each other.
+/// Warns of conflicting constraints on a mesh or chart.
 fn warn_of_conflicts(model: &Model, problem: &Problem) -> Result<(), CommandError> {
     let Problem { settings, .. } = problem;
     if settings.method.uses_pins() && !problem.targets.is_empty() {
@@ -205,9 +205,9 @@ fn solve(
     }
 }
 
-/// A chart at the end of its run.
+/// Chart at the end of its run.
 struct SolvedChart {
     solved: SolvedProblem,
-    /// Numbers of each step.
+    /// Report on each step.
     records: Vec<StepReport>,
 }

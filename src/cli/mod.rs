@@ -1,38 +1,40 @@
-//! The command line: the same library without a screen.
+//! Command line: the library without a screen.
 //!
-//! | file          | what it holds                                                          |
-//! |---------------|------------------------------------------------------------------------|
-//! | `mod`         | runs a command; list of methods and families                           |
-//! | `args/`       | what can be typed                                                      |
-//! | `typed`       | what is typed for an option, read                                      |
-//! | `flatten`     | reads, solves, proves and writes; the example where no window opens    |
-//! | `job`         | a flattening of one chart or several, written and summed up            |
-//! | `check`       | diagnosis of a mesh, verdict on its texture coordinates                |
-//! | `compare`     | several methods on one mesh, side by side                              |
-//! | `morph`       | the planar morph through maps that were compared                       |
-//! | `figures`     | the paper's figures, computed again                                    |
-//! | `study`       | the iteration on many random trials                                    |
-//! | `progress`    | the line that follows the work, and Ctrl-C                             |
-//! | `summary`     | the lines that sum a run up, and where its report goes                 |
-//! | `failed`      | the report of a run that came to nothing                               |
-//! | `opened`      | the mesh of a run in its form, with its pins and its picture           |
-//! | `parts`       | the parts of a mesh that are flattened                                 |
-//! | `pins`        | the pins that are asked for                                            |
-//! | `places`      | files of a run that must not be one another                            |
-//! | `seams`       | the form that a mesh is asked for in, with its seams                   |
-//! | `standard`    | `-` as a file: standard input and output                               |
-//! | `say`         | words on standard output and standard error                            |
-//! | `error`       | errors of a command: their words and their exit status                 |
-//! | `exit`        | the end of a command: last words, report, exit status                  |
-//! | `report_file` | the report as a file                                                   |
-//! | `awaited`     | the report file of a run under way                                     |
-//! | `threads`     | the threads of a run                                                   |
+//! | file          | content                                                                  |
+//! |---------------|--------------------------------------------------------------------------|
+//! | `mod`         | runs a command; list of methods and families                             |
+//! | `args/`       | arguments of the program                                                 |
+//! | `typed`       | parsers for values of options                                            |
+//! | `flatten`     | command `flatten`; the example if no window can be opened                |
+//! | `job`         | flattening of one chart or several, with outputs and summary             |
+//! | `check`       | command `check`: diagnosis of a mesh, verdict on its texture coordinates |
+//! | `compare`     | command `compare`: several methods on one mesh                           |
+//! | `morph`       | planar morph through the maps of compared methods                        |
+//! | `figures/`    | command `figures`: reproduction of the paper's figures                   |
+//! | `study`       | command `study`: the iteration on many random trials                     |
+//! | `progress`    | progress line, and Ctrl-C                                                |
+//! | `summary`     | summary of a run, and output of its report                               |
+//! | `failed`      | report of a failed run                                                   |
+//! | `opened`      | loaded mesh of a run in its preparation, with its pins and its picture   |
+//! | `parts`       | parts of a mesh that are flattened                                       |
+//! | `pins`        | requested pins                                                           |
+//! | `places`      | clashes between the files of a run                                       |
+//! | `seams`       | requested preparation of a mesh, with its seams                          |
+//! | `standard`    | `-` as a file: standard input and output                                 |
+//! | `say`         | lines on standard output and standard error                              |
+//! | `error`       | errors of a command: their messages and exit statuses                    |
+//! | `example`     | files of a built-in example                                            |
+//! | `exit`        | end of a command: last message, report, exit status                      |
+//! | `report_file` | writing of report files                                                  |
+//! | `awaited`     | report file of the current run                                           |
+//! | `threads`     | number of threads of a run                                               |
 
 mod args;
 mod awaited;
 mod check;
 mod compare;
 mod error;
+mod example;
 mod exit;
 mod failed;
 mod figures;
@@ -59,15 +61,15 @@ use self::failed::ReportTarget;
 use freebound_core::problem::{Family, Labels, Method, NamedOption};
 
 pub use args::{
-    Arguments, CompareArguments, ComparisonFile, Cut, FlattenArguments, MeshArguments, SeamKind, SolveArguments,
-    StartOf, StudyArguments, Subcommands, ThreadArguments, TypedShape,
+    Arguments, CompareArguments, ComparisonFile, Cut, ExampleArguments, FlattenArguments, MeshArguments, SeamKind,
+    SolveArguments, StartOf, StudyArguments, Subcommands, ThreadArguments, TypedShape,
 };
 pub use error::{CommandError, CommandOutcome, Remedy};
 pub use figures::pairs;
 pub use flatten::run_example;
 pub use say::warn;
 
-/// Runs a command and says how it ended.
+/// Runs a command and returns its exit status.
 pub fn run(command: &Subcommands) -> ExitCode {
     progress::stop_on_interrupt();
     let (outcome, subject) = match command {
@@ -76,6 +78,7 @@ pub fn run(command: &Subcommands) -> ExitCode {
         Subcommands::Check(arguments) => (check::run(arguments), Some((&arguments.mesh, &arguments.report))),
         Subcommands::Figures(arguments) => (figures::run(&arguments.folder), None),
         Subcommands::Study(arguments) => (study::run(arguments), None),
+        Subcommands::Example(arguments) => (example::run(arguments), None),
         Subcommands::Methods => {
             let lists = [list::<Method>("Methods (--method)"), list::<Family>("Families of weights (--family)")];
             (say::say(lists.join("\n\n")).map(|()| CommandOutcome::Fine), None)
@@ -84,7 +87,7 @@ pub fn run(command: &Subcommands) -> ExitCode {
     exit::conclude(outcome, subject.map(|(mesh, report)| ReportTarget { mesh, report: report.as_deref() }))
 }
 
-/// Names on the left; beside each what it does, and below that where it comes from.
+/// List of names, each with its description and its source.
 fn list<C: NamedOption>(title: &str) -> String {
     let entry = |Labels { name, about, source, .. }| format!("  {name:<17} {about}\n  {:<17} {source}", "");
     let entries = C::ALL.iter().map(|choice| entry(choice.labels()));

@@ -1,4 +1,4 @@
-//! The planar morph through the maps that methods have come to.
+//! Planar morph through the maps of compared methods.
 
 use super::args::CompareArguments;
 use super::error::CommandError;
@@ -8,15 +8,16 @@ use freebound_core::bijective::NoMorph;
 use freebound_core::problem::{Control, Phase, SolveError};
 use freebound_io::{LeftOutReport, machine_memory_bytes};
 
-/// Finds the morphs that are asked for, from each planar map to the next; none where none are asked for.
+/// Finds the requested morphs between consecutive planar maps. `None` if no morph is requested.
 ///
 /// # Errors
 ///
-/// Fewer than two planar maps; more frames than there is memory for; two without a morph between them; the user asked to stop.
+/// [`CommandError`] if there are fewer than two planar maps, the frames need too much memory, two maps have no morph,
+/// or the user interrupts.
 ///
 /// # Panics
 ///
-/// If the model is no disk.
+/// If the model is not a disk.
 pub(super) fn tour_of(
     arguments: &CompareArguments,
     model: &Model,
@@ -44,10 +45,10 @@ pub(super) fn tour_of(
     })
 }
 
-/// That there are too few maps, with the reason for each that is left out.
+/// Message that there are too few maps, with the reason for each method that is left out.
 fn too_few(stops: &MorphStops) -> String {
-    let has = if stops.stops.is_empty() { "no method has one that can take part" } else { "one method alone has it" };
+    let has = if stops.stops.is_empty() { "no method has one that can be used" } else { "only one method has one" };
     let reasons: Vec<String> =
         stops.left_out.iter().map(|LeftOutReport { name, why }| format!("{name}: {why}")).collect();
-    format!("a morph goes from one planar map to another, and {has} ({})", reasons.join("; "))
+    format!("a morph needs two planar maps, but {has} ({})", reasons.join("; "))
 }

@@ -1,4 +1,4 @@
-//! The mesh of a run, opened: in its form, with the pins and the picture that are asked for.
+//! Loading of a run's mesh in its preparation, with the requested pins and picture.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ use freebound_core::mesh::{DiskMesh, Fault, WeldDistance};
 use freebound_core::pipeline::{Surface, Targets};
 use freebound_io::{LayoutError, PictureFile, TextureError};
 
-/// What is to be opened.
+/// Files to load.
 #[derive(Clone, Copy)]
 pub(super) struct InputSpec<'a> {
     pub(super) input: &'a MeshArguments,
@@ -25,26 +25,27 @@ pub(super) struct InputSpec<'a> {
     pub(super) picture: Option<&'a Path>,
 }
 
-/// What is solved on.
+/// Input of a solve.
 pub(super) struct LoadedMesh {
-    /// The mesh in its form: a disk, or several charts.
+    /// Mesh in its preparation: a disk, or several charts.
     pub(super) model: Model,
     pub(super) picture: Option<PictureFile>,
-    /// By the vertices of the file.
+    /// Targets by the vertices of the file.
     pub(super) targets: Targets,
 }
 
 impl InputSpec<'_> {
-    /// Opens it.
+    /// Loads the files.
     ///
     /// # Errors
     ///
-    /// A file that cannot be used or that the run would write over, a mesh that is no disk, pins that cannot be.
+    /// [`CommandError`] if a file cannot be used or an output would overwrite it, if the mesh is not a disk, or if pins
+    /// are invalid.
     pub(super) fn open(self, places: &OutputPaths, progress: &ProgressLine) -> Result<LoadedMesh, CommandError> {
         let Self { input, solve, picture } = self;
         let is_layout_of_stream = matches!(&solve.start, Some(StartOf::File(layout)) if is_standard(layout));
         if is_layout_of_stream && is_standard(&input.mesh) {
-            let text = "standard input: the mesh and --start cannot both come from there: name a file for one of them";
+            let text = "standard input: it cannot be both the mesh and --start: name a file for one of them";
             return Err(CommandError::Usage(text.to_owned()));
         }
         progress.enter("reading");
@@ -62,14 +63,14 @@ impl InputSpec<'_> {
     }
 }
 
-/// The mesh with the texture coordinates of another file to start from.
+/// Mesh that starts from the texture coordinates of another file.
 fn starting_from(model: Model, path: &Path, input: &MeshArguments) -> Result<Model, CommandError> {
     let layout = read_model(path, MemoryLimit::typed(input.large))?.source;
     let path = name_of_input(path);
     model.with_layout_of(path.clone(), &layout).map_err(|error| failure_of_other_layout(path, error))
 }
 
-/// Why a mesh or chart cannot be started from its layout, and what to do.
+/// Error of a mesh or chart that cannot start from its layout, with the remedy.
 pub(super) fn failure_of_layout(model: &Model, error: LayoutError) -> CommandError {
     if let Some(file) = &model.layout_file {
         return failure_of_other_layout(file.path.clone(), error);
@@ -78,38 +79,36 @@ pub(super) fn failure_of_layout(model: &Model, error: LayoutError) -> CommandErr
     match error {
         LayoutError::Texture(error @ TextureError::Missing(_)) => CommandError::Texture { path, error },
         LayoutError::Torn { .. } => {
-            let remedy =
-                "cut the surface along the seams of its texture coordinates with --charts uv, or leave out --start uv";
+            let remedy = "add --charts uv to cut the surface along its texture seams, or remove --start uv";
             CommandError::Usage(format!("{path}: {error}: {remedy}"))
         }
         LayoutError::Texture(_) | LayoutError::NoVertex { .. } => {
-            CommandError::Usage(format!("{path}: {error}: leave out --start uv"))
+            CommandError::Usage(format!("{path}: {error}: remove --start uv"))
         }
     }
 }
 
-/// The same of the layout of another file.
+/// Error of a mesh that cannot start from the layout of another file, with the remedy.
 fn failure_of_other_layout(path: String, error: LayoutError) -> CommandError {
     let remedy = match error {
         LayoutError::Texture(error @ TextureError::Missing(_)) => return CommandError::Texture { path, error },
-        LayoutError::Texture(_) => "name a file that has them, or leave out --start",
-        LayoutError::Torn { .. } => {
-            "flatten this file itself, along the seams of its texture coordinates, with --charts uv --start uv"
-        }
-        LayoutError::NoVertex { .. } => "name a layout of this very mesh, with the same numbers of vertices",
+        LayoutError::Texture(_) => "choose a file that has them, or remove --start",
+        LayoutError::Torn { .. } => "flatten this file itself with --charts uv --start uv",
+        LayoutError::NoVertex { .. } => "choose a layout of this mesh with equal vertex numbers",
     };
     CommandError::Usage(format!("{path}: {error}: {remedy}"))
 }
 
-/// The disk, or everything that keeps the mesh from being one.
+/// Disk of the mesh, or an error with all faults that prevent it from being a disk.
 pub(super) fn disk_of(model: &Model) -> Result<&DiskMesh, CommandError> {
     match &model.prepared.surface {
         Surface::Disk(disk) => Ok(disk),
         Surface::Faulty(_, diagnosis) => {
             let distance = model.prepared.form.repair.weld_distance().map(WeldDistance::get);
             if let Some(distance) = distance.filter(|_| diagnosis.faults.contains(&Fault::NoFaces)) {
-                let text =
-                    format!("no face is left after joining vertices within {distance}: choose a smaller distance");
+                let text = format!(
+                    "--weld: no face is left if vertices within {distance} are joined: choose a smaller distance"
+                );
                 return Err(CommandError::Usage(format!("{}: {text}", model.path_words())));
             }
             let (diagnosis, remedy) = (Box::new(diagnosis.as_ref().clone()), Remedy::of(model));

@@ -1,4 +1,4 @@
-//! The parts of a mesh that are flattened.
+//! Parts of a mesh that are flattened.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -8,12 +8,12 @@ use super::typed::Parts;
 use crate::session::Model;
 use freebound_core::mesh::{PartFaces, Preparation};
 
-/// The mesh without the parts that are not asked for.
+/// Mesh without the parts that are not requested.
 pub(super) fn with_parts(model: Model, wanted: Option<&Parts>) -> Result<Model, CommandError> {
     let Some(wanted) = wanted else { return Ok(model) };
     let parts = model.parts();
     let kept = match wanted {
-        // The first of the largest.
+        // The first of the largest parts.
         Parts::Largest => (0..parts.len()).rev().max_by_key(|&part| parts[part].count).into_iter().collect(),
         Parts::Numbered(numbers) => numbers.clone(),
     };

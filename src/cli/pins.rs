@@ -1,4 +1,4 @@
-//! The pins that are asked for.
+//! Requested pins.
 
 use std::path::Path;
 
@@ -11,11 +11,11 @@ use freebound_core::pipeline::{Target, Targets};
 use freebound_core::problem::SolveError;
 use freebound_io::Constraints;
 
-/// The targets of all pins, by the vertices of the mesh, however many charts it has. `input` is its file.
+/// Targets of all pins, by the vertices of the mesh, also with several charts. `input` is the mesh file.
 ///
 /// # Errors
 ///
-/// A file that cannot be used, a pin that clashes with another one, or one of a vertex that cannot be pinned.
+/// [`CommandError`] if a file cannot be used, pins clash, or a vertex cannot be pinned.
 pub(super) fn targets_on(model: &Model, input: &Path, arguments: &SolveArguments) -> Result<Targets, CommandError> {
     let targets = gather(input, arguments, model.vertex_count_in_file())?;
     refuse_pins_of_joined_vertices(model, &targets)?;
@@ -23,11 +23,11 @@ pub(super) fn targets_on(model: &Model, input: &Path, arguments: &SolveArguments
     Ok(targets)
 }
 
-/// The targets of all pins, for a mesh with so many vertices.
+/// Targets of all pins, for a mesh with `vertex_count` vertices.
 ///
 /// # Errors
 ///
-/// A file that cannot be used, or a pin that clashes with another one; where that stands in the file, with its line.
+/// [`CommandError`] if a file cannot be used or pins clash. The message names the line of a clash with the file.
 fn gather(input: &Path, arguments: &SolveArguments, vertex_count: usize) -> Result<Targets, CommandError> {
     let file = match &arguments.constraints {
         Some(path) => Constraints::read(path, vertex_count)?,
@@ -37,28 +37,23 @@ fn gather(input: &Path, arguments: &SolveArguments, vertex_count: usize) -> Resu
     let mut targets = file.targets.clone();
     for (vertex, target) in &arguments.pins {
         if let Some(line) = file.lines.get(vertex) {
-            let text = format!("line {line}: vertex {vertex} is pinned by --pin, too: leave out one of them");
+            let text = format!("line {line}: vertex {vertex} is also pinned by --pin: remove one of them");
             return Err(CommandError::Usage(format!("{}: {text}", place.display())));
         }
         if let Some(first) = in_the_way(&file.targets, target) {
             let line = file.lines[&first];
-            let text = format!("line {line}: vertex {first} has the target that --pin gives to vertex {vertex}");
-            return Err(CommandError::Usage(format!(
-                "{}: {text}: move one of them, or give a weight",
-                place.display()
-            )));
+            let text = format!("line {line}: vertex {first} has the same target as vertex {vertex} of --pin");
+            return Err(CommandError::Usage(format!("{}: {text}: move one of them, or add a weight", place.display())));
         }
         if targets.insert(*vertex, *target).is_some() {
             let mesh = name_of_input(input);
-            return Err(CommandError::Usage(format!(
-                "{mesh}: vertex {vertex} is pinned twice: leave out one of the --pin"
-            )));
+            return Err(CommandError::Usage(format!("{mesh}: vertex {vertex} is pinned twice: remove one --pin")));
         }
     }
     Ok(targets)
 }
 
-/// Refuses pins of vertices that were joined with others: these stand for them.
+/// Rejects pins of vertices that were joined with others. The vertex that they were joined with can be pinned instead.
 fn refuse_pins_of_joined_vertices(model: &Model, targets: &Targets) -> Result<(), CommandError> {
     let Some(repaired) = model.whole_repaired() else { return Ok(()) };
     match targets.keys().find_map(|&vertex| Some((vertex, repaired.stands_for(vertex)?))) {
@@ -70,7 +65,7 @@ fn refuse_pins_of_joined_vertices(model: &Model, targets: &Targets) -> Result<()
     }
 }
 
-/// Refuses pins of vertices that belong to no chart, where the mesh has several.
+/// Rejects pins of vertices without a chart, if the mesh has several charts.
 fn refuse_pins_of_no_face(model: &Model, targets: &Targets) -> Result<(), CommandError> {
     let Some(of) = &model.prepared.chart else { return Ok(()) };
     let count = model.vertex_count_in_file();
@@ -81,7 +76,7 @@ fn refuse_pins_of_no_face(model: &Model, targets: &Targets) -> Result<(), Comman
     }
 }
 
-/// The exact pin that has the target of another exact one.
+/// Hard pin with the target of another hard pin.
 fn in_the_way(targets: &Targets, target: &Target) -> Option<VertexId> {
     let clashes = |other: &Target| target.kind.is_hard() && other.kind.is_hard() && other.uv == target.uv;
     targets.iter().find(|(_, other)| clashes(other)).map(|(&vertex, _)| vertex)

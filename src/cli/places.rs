@@ -1,4 +1,4 @@
-//! Files of a run that must not be one another: no input is written over, and no two results go to one place.
+//! Clashes between the files of a run: no output overwrites an input, and no two outputs have one path.
 
 use std::path::{Path, PathBuf};
 
@@ -12,14 +12,14 @@ use freebound_io::{
     would_replace,
 };
 
-/// A file that is written.
+/// File to write.
 struct OutputPath {
-    /// The option that asks for it.
+    /// Option that requests the file.
     option: &'static str,
     path: PathBuf,
 }
 
-/// Where a run writes.
+/// All outputs of a run.
 pub(super) struct OutputPaths {
     files: Vec<OutputPath>,
     steps: Option<PathBuf>,
@@ -53,7 +53,7 @@ impl OutputPaths {
         Self { files: asked.into_iter().filter_map(place).collect(), steps: None }
     }
 
-    /// Refuses two results in one place.
+    /// Rejects two outputs with one path.
     pub(super) fn keep_apart(&self) -> Result<(), CommandError> {
         for (count, second) in self.files.iter().enumerate() {
             let Some(first) = self.files[..count].iter().find(|first| clash(&first.path, &second.path)) else {
@@ -67,11 +67,11 @@ impl OutputPaths {
         }
     }
 
-    /// Refuses results where copies are to lie beside the mesh: of its picture, or of its materials.
+    /// Rejects outputs that clash with copies beside the mesh: of its picture or of its materials.
     ///
     /// # Errors
     ///
-    /// Wrong use, or a file to be copied that cannot be read.
+    /// [`CommandError`] if outputs clash with copies, or a file to be copied cannot be read.
     pub(super) fn spare_copies(
         &self,
         arguments: &FlattenArguments,
@@ -98,18 +98,18 @@ impl OutputPaths {
         Ok(())
     }
 
-    /// Whether a file is the folder of steps, or one that is written into it.
+    /// True if a file is the folder of steps, or would be overwritten in it.
     fn is_of_steps(&self, path: &Path) -> bool {
         let is_of = |folder: &PathBuf| StepsFolder::would_replace(folder, path) || is_same_file(path, folder);
         !is_standard(path) && self.steps.as_ref().is_some_and(is_of)
     }
 
-    /// Refuses to write over files that the mesh's materials name.
+    /// Rejects outputs that would overwrite files named by the mesh's materials.
     pub(super) fn spare_materials(&self, source: &MeshFile, mesh: &Path) -> Result<(), CommandError> {
         material_files(source, mesh).iter().try_for_each(|file| self.spare(file, "a file that belongs to the mesh"))
     }
 
-    /// Refuses to write over the files that say what is solved: mesh, constraints, edges.
+    /// Rejects outputs that would overwrite the input files: mesh, constraints, layout, edges.
     pub(super) fn spare_inputs(&self, input: &MeshArguments, solve: &SolveArguments) -> Result<(), CommandError> {
         self.spare(&input.mesh, "the mesh")?;
         if let Some(constraints) = &solve.constraints {
@@ -124,16 +124,16 @@ impl OutputPaths {
         }
     }
 
-    /// Refuses to write over a file that is read. `what` it is, in words.
+    /// Rejects outputs that would overwrite an input file. `what` describes the file.
     pub(super) fn spare(&self, input: &Path, what: &str) -> Result<(), CommandError> {
         let over = |option: &str| {
             let input = input.display();
-            Err(CommandError::Usage(format!("{input}: {option} would write over {what}: choose another place for it")))
+            Err(CommandError::Usage(format!("{input}: {option} would overwrite {what}: choose another path")))
         };
         if is_standard(input) {
             return match self.files.iter().find(|place| !is_standard(&place.path) && is_standard_input(&place.path)) {
                 Some(OutputPath { option, path }) => Err(CommandError::Usage(format!(
-                    "{}: {option} would write over {what}, which standard input comes from: choose another place for it",
+                    "{}: {option} would overwrite {what}, the source of standard input: choose another path",
                     path.display()
                 ))),
                 None => Ok(()),
@@ -149,16 +149,16 @@ impl OutputPaths {
     }
 }
 
-/// Whether one file would be written over by the other.
+/// True if writing one file would overwrite the other.
 fn clash(a: &Path, b: &Path) -> bool {
     if is_standard(a) || is_standard(b) { a == b } else { would_replace(a, b) }
 }
 
-/// The words for two results in one place.
+/// Error for two outputs with one path.
 fn both_write(path: &Path, [first, second]: [&str; 2]) -> CommandError {
     CommandError::Usage(if is_standard(path) {
-        format!("standard output: {first} and {second} cannot both go there: name a file for one of them")
+        format!("standard output: {first} and {second} cannot both use it: name a file for one of them")
     } else {
-        format!("{}: {first} and {second} would both write it: give one of them another name", path.display())
+        format!("{}: {first} and {second} would both write this file: rename one of them", path.display())
     })
 }

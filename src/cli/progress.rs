@@ -1,4 +1,4 @@
-//! Progress on a terminal, and Ctrl-C.
+//! Progress on the terminal, and Ctrl-C.
 
 use std::io::{IsTerminal as _, Write as _};
 use std::sync::Mutex;
@@ -12,29 +12,28 @@ use super::say::warn;
 use freebound_core::problem::SolveError;
 use freebound_io::discard_unfinished;
 
-/// Work shorter than this goes by without a word.
+/// Time before the progress line appears.
 const QUIET: Duration = Duration::from_millis(500);
 
-/// Time between two looks at the clock.
+/// Update interval of the progress line.
 const TICK: Duration = Duration::from_millis(100);
 
-/// Time that work has to stop by itself once it is asked to. With what it takes to end the process, a tenth of a second.
+/// Time for the work to stop after an interrupt. Together with ending the process it takes a tenth of a second.
 const GRACE: Duration = Duration::from_millis(50);
 
-/// Time for the last word.
+/// Time for the last message.
 const LAST_WORD: Duration = Duration::from_millis(10);
 
-/// The flag that Ctrl-C raises.
+/// Flag that Ctrl-C sets.
 pub(super) static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// Whether the user asked to stop.
+/// True if the user interrupted the run.
 pub(super) fn is_interrupted() -> bool {
     INTERRUPTED.load(Ordering::Relaxed)
 }
 
-/// Makes Ctrl-C and the system's wish to end the program raise the flag. Work that has not stopped a moment later is left
-/// where it is; a second signal does not wait for that moment. Files are written aside and renamed, so neither leaves one
-/// half-written.
+/// Sets [`INTERRUPTED`] on Ctrl-C and on termination signals. Work that does not stop within a short time is aborted; a
+/// second signal aborts it at once. Files are written aside and renamed, so no file is left half-written.
 pub(super) fn stop_on_interrupt() {
     let handler = || {
         let is_second = INTERRUPTED.swap(true, Ordering::Relaxed);
@@ -44,57 +43,57 @@ pub(super) fn stop_on_interrupt() {
         }
     };
     if let Err(error) = ctrlc::set_handler(handler) {
-        warn(format_args!("Ctrl-C will end the program without clearing up: {error}"));
+        warn(format_args!("Ctrl-C will end the program without cleaning up: {error}"));
     }
 }
 
-/// Ends the process as an interrupted one if it has not ended by itself, and says so where somebody reads it.
+/// Ends the process as interrupted, with a message, if it has not ended by itself.
 fn end_after_grace() {
     std::thread::sleep(GRACE);
-    // Standard error may be blocked.
+    // Standard error may be blocked, so a thread writes the message.
     std::thread::Builder::new().name("last word".to_owned()).spawn(|| warn(SolveError::Cancelled)).ok();
     std::thread::sleep(LAST_WORD);
     end();
 }
 
-/// Ends the process as an interrupted one, whatever it is doing.
+/// Ends the process as interrupted, at once.
 fn end() {
     discard_unfinished();
     forget_awaited();
     std::process::exit(INTERRUPTED_CODE.into());
 }
 
-/// What the program is doing, shown on a terminal once it takes over half a second.
+/// Progress line, shown on a terminal if the work takes over half a second.
 #[derive(Debug, Default)]
 pub(super) struct ProgressLine {
     words: Mutex<Words>,
 }
 
-/// The line's words.
+/// Text of the progress line.
 #[derive(Debug, Default)]
 struct Words {
-    /// What is done: the last step.
+    /// Last result: the newest step.
     done: String,
-    /// What is being done.
+    /// Current activity.
     doing: &'static str,
 }
 
 impl ProgressLine {
-    /// Names what begins now.
+    /// Sets the current activity.
     pub(super) fn enter(&self, words: &'static str) {
         if let Ok(mut line) = self.words.lock() {
             line.doing = words;
         }
     }
 
-    /// Says what has been reached, until something else is.
+    /// Sets the last result.
     pub(super) fn reach(&self, words: String) {
         if let Ok(mut line) = self.words.lock() {
             line.done = words;
         }
     }
 
-    /// Both in one line.
+    /// Progress line with both texts.
     fn line(&self) -> String {
         self.words.lock().map_or_else(
             |_| "working".to_owned(),
@@ -102,7 +101,7 @@ impl ProgressLine {
         )
     }
 
-    /// Runs `work` while a line on the terminal follows it.
+    /// Runs `work` while the terminal shows the progress line.
     pub(super) fn follow<T>(&self, work: impl FnOnce() -> T) -> T {
         if !std::io::stderr().is_terminal() {
             return work();
@@ -134,7 +133,7 @@ impl ProgressLine {
     }
 }
 
-/// Stops the run if the user asked for it.
+/// Returns an error if the user interrupted the run.
 ///
 /// # Errors
 ///

@@ -1,15 +1,15 @@
-//! Words on standard output and standard error. `println!` panics where they cannot be written; these do not.
+//! Lines on standard output and standard error. `println!` panics if it cannot write; these functions do not.
 
 use std::fmt::Display;
 use std::io::{ErrorKind, Write as _, stderr, stdout};
 
 use super::error::CommandError;
 
-/// Writes a line to standard output. A reader who has had enough and closed the pipe is no fault.
+/// Writes a line to standard output. A closed pipe is no error.
 ///
 /// # Errors
 ///
-/// Where it cannot be written: on a full disk, say.
+/// [`CommandError::StandardOutput`] if the line cannot be written, for example on a full disk.
 pub(super) fn say(text: impl Display) -> Result<(), CommandError> {
     let mut out = stdout().lock();
     match writeln!(out, "{text}").and_then(|()| out.flush()) {
@@ -18,7 +18,7 @@ pub(super) fn say(text: impl Display) -> Result<(), CommandError> {
     }
 }
 
-/// Writes a line to standard error. Where that is impossible, there is nobody to tell.
+/// Writes a line to standard error. Errors of writing are ignored.
 pub fn warn(text: impl Display) {
     writeln!(stderr().lock(), "freebound: {text}").ok();
 }

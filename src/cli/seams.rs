@@ -1,4 +1,4 @@
-//! The form that a mesh is asked for in, with its seams.
+//! Requested preparation of a mesh, with its seams.
 
 use super::args::{Cut, MeshArguments, SeamKind};
 use super::error::CommandError;
@@ -6,17 +6,17 @@ use crate::session::Model;
 use freebound_core::mesh::{Preparation, VertexId};
 use freebound_io::{LabelError, TextureError, read_edges};
 
-/// The mesh, read and without a form, in the form that is asked for.
+/// Mesh in the requested preparation. `model` is read, but not prepared.
 ///
 /// # Errors
 ///
-/// Seams along what the file does not have, or a file of edges that cannot be used.
+/// [`CommandError`] if seams need data that the file lacks, or a file of edges cannot be used.
 pub(super) fn formed(model: &Model, arguments: &MeshArguments) -> Result<Model, CommandError> {
     let mut form = arguments.form();
     if form.seams.of_texture {
         check_texture(model)?;
     }
-    // What a repair joins counts as joined.
+    // Vertices that a repair joins count as joined.
     let uncut = model.asking_for(Preparation { repair: form.repair, ..Preparation::default() });
     if let Cut::Along(path) = &arguments.cut {
         form.seams = form.seams.with(read_edges(path, &model.source.polygons)?);
@@ -34,14 +34,14 @@ fn edges_of(model: &Model, kind: SeamKind) -> Result<Vec<[VertexId; 2]>, Command
         SeamKind::Groups => ("groups", model.group_borders()),
     };
     let path = model.path_words();
-    edges.map_err(|error: LabelError| CommandError::Usage(format!("{path}: {error}: leave out --seams {option}")))
+    edges.map_err(|error: LabelError| CommandError::Usage(format!("{path}: {error}: remove --seams {option}")))
 }
 
-/// Refuses to cut along texture coordinates that not all corners have.
+/// Rejects a cut along texture coordinates if some corners have none.
 fn check_texture(model: &Model) -> Result<(), CommandError> {
     let path = model.path_words();
     model.source.texture_labels().map(drop).map_err(|error| match error {
-        TextureError::None => CommandError::Usage(format!("{path}: {error}: leave out --charts uv")),
+        TextureError::None => CommandError::Usage(format!("{path}: {error}: remove --charts uv")),
         TextureError::Missing(_) => CommandError::Texture { path, error },
     })
 }

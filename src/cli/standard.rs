@@ -11,29 +11,29 @@ use super::progress::is_interrupted;
 use crate::session::Model;
 use freebound_io::{ReadError, check_memory, machine_memory_bytes};
 
-/// Bytes read at once.
+/// Maximum number of bytes of one read.
 const CHUNK: usize = 256 << 10;
 
-/// Time between two looks whether to stop, while nothing comes.
+/// Interval of checks for an interrupt while no input arrives.
 const TICK: Duration = Duration::from_millis(20);
 
-/// Which files are read.
+/// Size limit of files to read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum MemoryLimit {
-    /// Those that half of the machine's memory is enough for.
+    /// Files that need at most half of the machine's memory.
     WithinMemory,
-    /// All.
+    /// All files.
     Any,
 }
 
 impl MemoryLimit {
-    /// As `--large` says.
+    /// Limit for the value of `--large`.
     pub(super) const fn typed(large: bool) -> Self {
         if large { Self::Any } else { Self::WithinMemory }
     }
 }
 
-/// Reads a mesh from a file or from standard input. It has no form yet.
+/// Reads a mesh from a file or from standard input. The mesh is not prepared yet.
 pub(super) fn read_model(path: &Path, sizes: MemoryLimit) -> Result<Model, CommandError> {
     if sizes == MemoryLimit::WithinMemory && !is_standard(path) {
         let large = |shortage| CommandError::Memory { path: name_of_input(path), shortage };
@@ -45,12 +45,12 @@ pub(super) fn read_model(path: &Path, sizes: MemoryLimit) -> Result<Model, Comma
 
 fn read_standard_input() -> Result<Model, ReadError> {
     let read = Model::read_stream(STANDARD_INPUT, Input::begin()?, &is_interrupted);
-    // An interrupted stream ends early: what came of it is not the mesh.
+    // An interrupted stream ends early, so its mesh is incomplete.
     if is_interrupted() { Err(ReadError::Cancelled) } else { read }
 }
 
-/// Standard input, read on a thread of its own, so that an interrupt is heard while nothing comes. It ends where the
-/// stream does or the user asks to stop.
+/// Standard input, read on a separate thread, so that an interrupt is noticed while no input arrives. The stream ends
+/// at its end or when the user interrupts.
 struct Input {
     chunks: Receiver<io::Result<Vec<u8>>>,
     chunk: io::Cursor<Vec<u8>>,
@@ -59,13 +59,13 @@ struct Input {
 impl Input {
     fn begin() -> io::Result<Self> {
         let (sender, chunks) = sync_channel(1);
-        // It may wait for ever for what never comes: the end of the process ends it.
+        // The thread may wait forever for input. The end of the process ends it.
         Builder::new().name("standard input".to_owned()).spawn(move || hand_on(&sender))?;
         Ok(Self { chunks, chunk: io::Cursor::default() })
     }
 }
 
-/// Hands on what comes until the stream ends, breaks off, or nobody listens.
+/// Sends chunks of standard input until the stream ends, fails, or the receiver is gone.
 fn hand_on(sender: &SyncSender<io::Result<Vec<u8>>>) {
     let mut input = stdin().lock();
     loop {

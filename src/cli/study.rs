@@ -24,13 +24,13 @@ pub(super) fn run(arguments: &StudyArguments) -> Result<CommandOutcome, CommandE
     refuse_standard(arguments)?;
     if let Some(option) = arguments.idle_option() {
         return Err(CommandError::Usage(format!(
-            "--add takes no {option}: its runs are made: give a mesh to run on, too"
+            "{option} does not apply to the finished runs of --add: name a mesh, too"
         )));
     }
     places.keep_apart()?;
     arguments.meshes.iter().try_for_each(|mesh| places.spare(mesh, "a mesh"))?;
-    arguments.add.iter().try_for_each(|table| places.spare(table, "a table that is added"))?;
-    // Tried before all work: runs that nobody can write down are lost.
+    arguments.add.iter().try_for_each(|table| places.spare(table, "an added table"))?;
+    // Check the output paths before all work, so that no results are lost.
     arguments.csv.iter().chain(&arguments.svg).try_for_each(|path| try_place(path))?;
     set_threads(arguments.threads)?;
     let progress = ProgressLine::default();
@@ -64,19 +64,18 @@ pub(super) fn run(arguments: &StudyArguments) -> Result<CommandOutcome, CommandE
     })
 }
 
-/// Refuses runs on a mesh from two places: they may be the same.
+/// Rejects a mesh that appears twice, because its runs may be equal.
 fn refuse_doubles(added: &[Studied], meshes: &[PathBuf]) -> Result<(), CommandError> {
     let mut names: Vec<String> = added.iter().map(|studied| studied.mesh.clone()).collect();
     names.extend(meshes.iter().map(|path| name_of_input(path)));
     names.sort();
     match names.windows(2).find(|pair| pair[0] == pair[1]) {
-        Some(pair) => Err(CommandError::Usage(format!("{}: the mesh is there twice: leave out one of them", pair[0]))),
+        Some(pair) => Err(CommandError::Usage(format!("{}: the mesh is given twice: remove one of them", pair[0]))),
         None => Ok(()),
     }
 }
 
-/// Refuses runs that might go on for longer than others: shares and steps of all would mean nothing. `table` is the one
-/// that was read last.
+/// Rejects tables whose runs have other limits: totals over them would be meaningless. `table` was read last.
 fn refuse_other_limits(arguments: &StudyArguments, studied: &[Studied], table: &Path) -> Result<(), CommandError> {
     let own = (!arguments.meshes.is_empty()).then(|| arguments.limits());
     let Some(first) = own.or(studied.first().map(|studied| studied.limits)) else { return Ok(()) };
@@ -85,16 +84,16 @@ fn refuse_other_limits(arguments: &StudyArguments, studied: &[Studied], table: &
         let past_stall = if limits.patience == Patience::ToTheLimit { " --past-stall" } else { "" };
         format!("--max-steps {}{past_stall}", limits.max_steps)
     };
-    let text = format!("its runs are of {}, others of {}", typed(other.limits), typed(first));
-    Err(CommandError::Usage(format!("{}: {text}: leave it out, or make both with the same", table.display())))
+    let text = format!("its runs used {}, others {}", typed(other.limits), typed(first));
+    Err(CommandError::Usage(format!("{}: {text}: remove it, or use equal limits for both", table.display())))
 }
 
-/// Tables and drawings go into files: standard output has the summary.
+/// Rejects tables and drawings on standard output, which shows the summary.
 fn refuse_standard(arguments: &StudyArguments) -> Result<(), CommandError> {
     let asked = [("--csv", &arguments.csv), ("--svg", &arguments.svg)];
     match asked.into_iter().find(|(_, path)| path.as_deref().is_some_and(is_standard)) {
         Some((option, _)) => {
-            Err(CommandError::Usage(format!("standard output: the summary goes there, not {option}: name a file")))
+            Err(CommandError::Usage(format!("{option}: standard output is reserved for the summary: name a file")))
         }
         None => Ok(()),
     }
@@ -110,8 +109,8 @@ fn studied_mesh(
     places.spare_materials(&model.source, path)?;
     let mesh = disk_of(&model)?;
     if model.chart_count() > 1 {
-        let text = format!("the mesh has {} charts, and study takes one disk", model.chart_count());
-        return Err(CommandError::Usage(format!("{}: {text}: give a file with one of them alone", model.path_words())));
+        let text = format!("the mesh has {} charts, but study needs one disk", model.chart_count());
+        return Err(CommandError::Usage(format!("{}: {text}: use a file with one chart", model.path_words())));
     }
     let quiet = |_| {};
     let control = Control::new(&INTERRUPTED, &quiet);
@@ -127,11 +126,11 @@ fn studied_mesh(
     Ok(Studied { mesh: name, form: subject.form, limits: study.limits, records })
 }
 
-/// The summary in columns, for a person.
+/// Summary in columns, for the terminal.
 fn table(groups: &[Group]) -> String {
     let percent = |share: f64| if share.is_nan() { "-".to_owned() } else { format!("{:.1} %", 100.0 * share) };
     let steps = |count: Option<usize>| count.map_or_else(|| "-".to_owned(), |count| count.to_string());
-    let head = ["runs", "planar at once", "mended of the rest", "planar", "median", "p90"].map(str::to_owned);
+    let head = ["runs", "planar at once", "repaired of the rest", "planar", "median", "p90"].map(str::to_owned);
     let mut rows = vec![(String::new(), head)];
     let mut by = "all";
     for group in groups {
@@ -153,7 +152,7 @@ fn table(groups: &[Group]) -> String {
     in_columns(&rows)
 }
 
-/// Names on the left, cells in columns of their own on the right.
+/// Rows in aligned columns: names left, cells right.
 fn in_columns(rows: &[(String, [String; 6])]) -> String {
     let first = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
     let widths: [usize; 6] =

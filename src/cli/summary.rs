@@ -1,4 +1,4 @@
-//! What a person reads: the line that follows the work, and the lines that sum it up.
+//! Texts for the terminal: the progress line and the summary of a run.
 
 use std::path::Path;
 
@@ -16,10 +16,10 @@ use freebound_io::{
     Seconds,
 };
 
-/// Most vertices or conflicts that are named; the others are only counted.
+/// Maximum number of vertices, conflicts or charts that are listed. The others are only counted.
 const NAMED: usize = 10;
 
-/// Vertices by name, the first ones where there are many.
+/// List of vertices, shortened if there are many.
 fn listed(vertices: &[VertexId]) -> String {
     let mut names: Vec<String> = vertices.iter().take(NAMED).map(ToString::to_string).collect();
     if vertices.len() > NAMED {
@@ -28,17 +28,17 @@ fn listed(vertices: &[VertexId]) -> String {
     names.join(", ")
 }
 
-/// Says on standard error which constraints on a file's mesh contradict each other, before any work is done on them.
+/// Warns of conflicting constraints on the mesh of a file, before the solve.
 pub(super) fn warn_of(file: &str, conflicts: &[Conflict]) {
     for conflict in conflicts.iter().take(NAMED) {
         warn(format_args!("{file}: {}", conflict.words()));
     }
     if conflicts.len() > NAMED {
-        warn(format_args!("{file}: and {} more conflicts like these", conflicts.len() - NAMED));
+        warn(format_args!("{file}: and {} more conflicts", conflicts.len() - NAMED));
     }
 }
 
-/// What a step reached, for the line that follows the work.
+/// Text for a step, for the progress line.
 pub(super) fn step_words(step: &Step) -> String {
     let number = if step.candidate.stage == Stage::Iterate { format!(" {}", step.index) } else { String::new() };
     let left = step.candidate.progress.map(|progress| progress.distance_left).filter(|&distance| distance > 0.0);
@@ -46,7 +46,7 @@ pub(super) fn step_words(step: &Step) -> String {
     format!("{}{number}: {}{left}", step.candidate.stage.words(), step.verdict.summary())
 }
 
-/// The verdict, and after how many steps and on which stage a run of several came to it.
+/// Text for the verdict. For a method with several steps it includes their number, the last stage and the ending.
 pub(super) fn ending_words(solved: &SolvedProblem, output: &Output) -> String {
     let mut words = output.summary();
     let SolvedProblem { outcome, ending } = solved;
@@ -57,40 +57,42 @@ pub(super) fn ending_words(solved: &SolvedProblem, output: &Output) -> String {
         let why = match ending {
             Ok(Ending::Planar | Ending::Done) => String::new(),
             Ok(Ending::Unmet) | Err(SolveError::Unmet) => ", constraints not met".to_owned(),
-            Ok(Ending::Stalled) => ", which gets no better".to_owned(),
-            Ok(Ending::Limit) => ", as many as it may take".to_owned(),
-            Err(error) => format!("; the next gave nothing: {error}"),
+            Ok(Ending::Stalled) => ", no further improvement".to_owned(),
+            Ok(Ending::Limit) => ", step limit reached".to_owned(),
+            Err(error) => format!("; the next step failed: {error}"),
         };
         let steps = if count == 1 { "step" } else { "steps" };
         let stage = step.candidate.stage.words();
         words = format!("{words} after {count} {steps} ({stage}{boundary}{why})");
     }
     if output.report.placement == Some(Placement::Unmoved) {
-        words += "; not moved into the unit square, whose numbers would fold it";
+        words += "; not moved into the unit square: rounding there would fold it";
     } else if step.verdict.planar && !output.is_planar() && !is_folded(&output.report) {
-        words += "; it was planar before it was brought to this size: try --fit true";
+        words += "; it was planar before scaling: try --fit true";
     }
     words
 }
 
-/// Whether rounding to 32 bits folds what was planar.
+/// True if rounding to 32 bits folds a planar map.
 fn is_folded(report: &Report) -> bool {
     report.rounding.is_some_and(|rounding| rounding.folded)
 }
 
-/// What rounding to 32 bits did.
+/// Text for the effect of rounding to 32 bits.
 fn rounding_words(report: &Report) -> Option<String> {
     if is_folded(report) {
         let text =
-            "32 bits are too few: it is planar in 64; write OBJ or PLY with --precision f64, or split it into charts";
+            "planar in 64 bits, but not in 32: write OBJ or PLY with --precision f64, or split the map into charts";
         return Some(text.to_owned());
     }
     let moved = report.rounding.map(|rounding| rounding.moved).filter(|&moved| moved > 0)?;
     let vertices = if moved == 1 { "vertex" } else { "vertices" };
-    Some(format!("32 bits: {moved} {vertices} moved by a few units of the last place, where rounding folds faces"))
+    Some(format!(
+        "32 bits: {moved} {vertices} moved by a few units of the last place, to keep rounding from folding faces"
+    ))
 }
 
-/// What became of the user's pins.
+/// Text for the errors of the user's pins.
 fn pins_words(pins: &PinsSummary) -> Option<String> {
     let hard = pins.max_hard_error.map(|error| {
         let count = pins.count - pins.soft.len();
@@ -102,13 +104,14 @@ fn pins_words(pins: &PinsSummary) -> Option<String> {
     let worst = pins.soft.iter().max_by(|a, b| a.error.total_cmp(&b.error));
     let weighted = worst.map(|worst| {
         let count = pins.soft.len();
-        format!("{count} weighted met within {:.1e} (the farthest is vertex {})", worst.error, worst.vertex)
+        format!("{count} soft met within {:.1e} (farthest: vertex {})", worst.error, worst.vertex)
     });
     let parts: Vec<String> = hard.into_iter().chain(weighted).collect();
     (!parts.is_empty()).then(|| format!("constraints: {}", parts.join(", ")))
 }
 
-/// Says the words for a person, and writes the report where one is wanted. On standard output a report stands alone.
+/// Prints the summary, and writes the report if it is requested. If the report goes to standard output, the summary is
+/// omitted.
 pub(super) fn deliver(report: &Report, to: Option<&Path>, words: impl FnOnce() -> String) -> Result<(), CommandError> {
     if !to.is_some_and(is_standard) {
         say(words())?;
@@ -116,20 +119,20 @@ pub(super) fn deliver(report: &Report, to: Option<&Path>, words: impl FnOnce() -
     to.map_or(Ok(()), |path| Ok(put_report(report, path)?))
 }
 
-/// What had to be done with the mesh.
-fn mesh_words(mesh: &MeshReport) -> Option<String> {
+/// Text for repairs and other treatment of the mesh.
+pub(super) fn mesh_words(mesh: &MeshReport) -> Option<String> {
     let unused = match mesh.unused_vertices {
         0 => None,
-        1 => Some("1 vertex of no face".to_owned()),
-        count => Some(format!("{count} vertices of no face")),
+        1 => Some("1 unreferenced vertex".to_owned()),
+        count => Some(format!("{count} unreferenced vertices")),
     };
     let longer = Some(mesh.mollification).filter(|&by| by > 0.0);
-    let longer = longer.map(|by| format!("faces without area, measured by lengths longer by {by:.1e}"));
+    let longer = longer.map(|by| format!("zero-area faces, edge lengths increased by {by:.1e}"));
     let words: Vec<String> = mesh.repairs.iter().map(ToString::to_string).chain(unused).chain(longer).collect();
     (!words.is_empty()).then(|| format!("mesh: {}", words.join(", ")))
 }
 
-/// The first line: what the mesh is.
+/// First line: size of the mesh.
 fn first_words(mesh: &MeshReport) -> String {
     format!(
         "{}: {} vertices, {} faces, {} on the boundary, {} dividing edges, {} ears",
@@ -137,7 +140,7 @@ fn first_words(mesh: &MeshReport) -> String {
     )
 }
 
-/// What a run of several charts came to.
+/// Summary of a run with several charts.
 pub(super) fn atlas_summary(report: &Report) -> String {
     let mut lines = vec![first_words(&report.mesh)];
     lines.extend(mesh_words(&report.mesh));
@@ -169,14 +172,14 @@ pub(super) fn atlas_summary(report: &Report) -> String {
     lines.join("\n")
 }
 
-/// What can be done about areas that differ badly, where the map is planar.
+/// Advice on areas that differ badly, if the map is planar.
 fn relaxing_words(report: &Report) -> Option<String> {
     let is_planar = report.verdict.as_ref().is_some_and(|verdict| verdict.planar);
     let distortion = report.distortion.as_ref().filter(|_| is_planar && report.method.is_some())?;
     distortion.bad_ratio_of_areas().map(|ratio| areas_words(ratio, "mesh and map"))
 }
 
-/// The same of the chart whose areas differ most, where all are planar.
+/// Advice on the chart whose areas differ most, if all charts are planar.
 fn relaxing_words_of_charts(report: &Report) -> Option<String> {
     let is_planar = report.atlas.as_ref().is_some_and(|atlas| atlas.planar);
     let charts = report.charts.iter().filter(|_| is_planar && report.method.is_some());
@@ -187,10 +190,10 @@ fn relaxing_words_of_charts(report: &Report) -> Option<String> {
 
 fn areas_words(ratio: f64, between: &str) -> String {
     let ratio = if ratio < 1e6 { format!("{ratio:.0}") } else { format!("{ratio:.0e}") };
-    format!("areas differ {ratio} : 1 between {between}: --relax 20 lowers the distortion, one-to-one throughout")
+    format!("areas of {between} differ by {ratio} : 1: add --relax 20 to lower the distortion")
 }
 
-/// What methods that were compared came to: a table, and below it why some failed.
+/// Summary of compared methods: a table, followed by the reasons of failures.
 pub(super) fn comparison_summary(report: &ComparisonReport, by: Option<Column>) -> String {
     let mut lines = vec![first_words(&report.mesh)];
     lines.extend(mesh_words(&report.mesh));
@@ -211,7 +214,7 @@ fn chart_words(chart: &ChartReport, packing: Option<PackingSummary>) -> String {
     let faces = if chart.faces == 1 { "1 face".to_owned() } else { format!("{} faces", chart.faces) };
     let energy = chart.distortion.symmetric_dirichlet.mean;
     let pins = pins_words(&chart.pins).map(|words| format!("; {words}")).unwrap_or_default();
-    // Most charts have the density that all are packed at.
+    // Most charts have the common density of the packing.
     let is_own = packing.is_none_or(|packing| (chart.density / packing.density - 1.0).abs() > 1e-6);
     let density = if is_own { format!("; {:.4} pixels per unit", chart.density) } else { String::new() };
     format!("chart of face {face}: {faces}, {steps}{stage}; symmetric Dirichlet energy {energy:.3}{density}{pins}")
@@ -224,12 +227,12 @@ fn seconds_words(seconds: &Seconds) -> String {
     )
 }
 
-/// What a run came to.
+/// Summary of a run.
 pub(super) fn summary(report: &Report, verdict: &str) -> String {
     let mut lines = vec![first_words(&report.mesh)];
     lines.extend(mesh_words(&report.mesh));
     let family = report.family.map(|family| format!(", {family} weights")).unwrap_or_default();
-    // Where there is no linear system, there is no residual.
+    // Without a linear system there is no residual.
     let residual = report.steps.last().and_then(|step| step.residual).filter(|residual| residual.is_finite());
     let residual = residual.map(|residual| format!("; residual {residual:.1e}")).unwrap_or_default();
     let in_f32 = report.verdict.as_ref().and_then(Verdict::summary_in_f32);

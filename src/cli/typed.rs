@@ -1,4 +1,4 @@
-//! What is typed for an option, read.
+//! Parsers for values of options.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use freebound_core::pipeline::Target;
 use freebound_core::problem::{NamedOption, PinKind};
 use freebound_io::ConstraintFault;
 
-/// Takes one of a few choices by its name, and lists them with a line on each.
+/// Parser for named options, which lists all names with a description of each.
 pub(super) fn choice<C: NamedOption>() -> impl TypedValueParser<Value = C> {
     let values = C::ALL.iter().map(|choice| PossibleValue::new(choice.name()).help(choice.labels().about));
     PossibleValuesParser::new(values).map(|name| C::named(&name).expect("only these names pass"))
@@ -38,7 +38,7 @@ pub(super) fn parse_pin(text: &str) -> Result<(VertexId, Target), String> {
     }
 }
 
-/// Width and height of "widthxheight", in pixels.
+/// Parses a size "widthxheight", in pixels.
 pub(super) fn parse_pixels(text: &str) -> Result<UVec2, String> {
     let parsed = || {
         let (width, height) = text.split_once(['x', 'X', '×'])?;
@@ -48,7 +48,7 @@ pub(super) fn parse_pixels(text: &str) -> Result<UVec2, String> {
     parsed().ok_or_else(|| format!("write WIDTHxHEIGHT, for example 2048x1024, up to {}", PackingOptions::LONGEST_SIDE))
 }
 
-/// Width over height of "width:height".
+/// Parses an aspect ratio "width:height" and returns width over height.
 pub(super) fn parse_aspect(text: &str) -> Result<f64, String> {
     let parsed = || {
         let (width, height) = text.split_once(':')?;
@@ -63,16 +63,16 @@ pub(super) fn parse_weld_distance(text: &str) -> Result<WeldDistance, String> {
     parsed.ok_or_else(|| "write a distance of 0 or more, for example 0.001".to_owned())
 }
 
-/// How many times as large as the others a chart is packed.
+/// Size of a chart relative to the others.
 #[derive(Clone, Copy, Debug)]
 pub struct ChartSize {
-    /// The chart, as the report counts them.
+    /// Number of the chart, counted as in the report.
     pub chart: usize,
-    /// How many times.
+    /// Size relative to the others.
     pub size: f64,
 }
 
-/// Number and size of a chart in "number=size".
+/// Parses "number=size", the number and the relative size of a chart.
 pub(super) fn parse_chart_size(text: &str) -> Result<ChartSize, String> {
     let parsed = || {
         let (chart, size) = text.split_once('=')?;
@@ -83,7 +83,7 @@ pub(super) fn parse_chart_size(text: &str) -> Result<ChartSize, String> {
     parsed().ok_or_else(|| format!("write CHART=SIZE, for example 0=2, with a size from {low} to {high}"))
 }
 
-/// "sharp", "sharp=degrees", "materials" or "groups".
+/// Parses "sharp", "sharp=degrees", "materials" or "groups".
 pub(super) fn parse_seam_kind(text: &str) -> Result<SeamKind, String> {
     let parsed = || match text.split_once('=') {
         Some(("sharp", degrees)) => {
@@ -98,16 +98,16 @@ pub(super) fn parse_seam_kind(text: &str) -> Result<SeamKind, String> {
     parsed().ok_or_else(|| "write sharp, sharp=DEGREES (above 0, up to 180), materials or groups".to_owned())
 }
 
-/// Which parts of a mesh are flattened.
+/// Parts of a mesh that are flattened.
 #[derive(Clone, Debug)]
 pub enum Parts {
-    /// The one with the most faces.
+    /// Part with the most faces.
     Largest,
-    /// Those with these numbers.
+    /// Parts with these numbers.
     Numbered(BTreeSet<usize>),
 }
 
-/// Numbers of parts, with commas between.
+/// Parses "largest", or numbers of parts separated by commas.
 pub(super) fn parse_parts(text: &str) -> Result<Parts, String> {
     if text.trim() == "largest" {
         return Ok(Parts::Largest);
@@ -115,5 +115,5 @@ pub(super) fn parse_parts(text: &str) -> Result<Parts, String> {
     let numbers: Result<BTreeSet<usize>, _> = text.split(',').map(|number| number.trim().parse()).collect();
     numbers
         .map(Parts::Numbered)
-        .map_err(|_| "write numbers with commas between, for example 0,2, or largest".to_owned())
+        .map_err(|_| "write numbers separated by commas, for example 0,2, or largest".to_owned())
 }

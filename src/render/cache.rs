@@ -1,4 +1,4 @@
-//! Vertex buffers by what they hold: made when first asked for, dropped when no pane uses them.
+//! Vertex buffers by content: created on first request, dropped when no pane uses them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,7 +8,7 @@ use wgpu::util::DeviceExt as _;
 use super::gpu::Stats;
 use crate::view::Revision;
 
-/// What a buffer holds.
+/// Content of a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Key {
     /// Positions of a mesh, corner by corner.
@@ -19,11 +19,11 @@ pub(super) enum Key {
     Plane(Revision),
     /// Colours and flags, corner by corner.
     Paint(Revision),
-    /// Zeros, so many bytes: stands for what is not there.
+    /// Zeros, this number of bytes: a placeholder for a missing stream.
     Zeros(u64),
-    /// Flipped faces of an embedding: corners, and their paint.
+    /// Corners of the flipped faces of an embedding: revisions of the embedding and of the paint.
     FlippedPlane(Revision, Revision),
-    /// Flipped faces' colours and flags.
+    /// Colours and flags of flipped faces.
     FlippedPaint(Revision),
     /// Lines of a list on a mesh.
     MeshLines(Revision, Revision),
@@ -41,8 +41,9 @@ pub(super) struct Cache {
 }
 
 impl Cache {
-    /// Sees to it that a buffer is there. Empty contents, or more than the device takes, make none, and what would be
-    /// drawn with it is left out. The usual limit of 256 MiB is an embedding of 5.5 million faces.
+    /// Creates the buffer if it does not exist. Empty contents, or contents larger than the device accepts, create
+    /// none, and the draw calls that need them are skipped. The usual limit of 256 MiB is an embedding of 5.5
+    /// million faces.
     pub(super) fn ensure<'a>(
         &mut self,
         device: &wgpu::Device,
@@ -66,7 +67,7 @@ impl Cache {
         self.buffers.insert(key, buffer);
     }
 
-    /// Sees to it that there is a buffer of zeros. Nothing is sent: the device clears what it hands out.
+    /// Creates a buffer of zeros if it does not exist. Nothing is uploaded, since the device clears new buffers.
     pub(super) fn ensure_zeros(&mut self, device: &wgpu::Device, size: u64) {
         if size == 0 || size > device.limits().max_buffer_size {
             return;
@@ -81,7 +82,7 @@ impl Cache {
         });
     }
 
-    /// The buffer, if it could be made.
+    /// Returns the buffer if it could be created.
     pub(super) fn get(&self, key: Key) -> Option<&wgpu::Buffer> {
         self.buffers.get(&key)
     }

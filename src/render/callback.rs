@@ -1,4 +1,4 @@
-//! The way into egui.
+//! Paint callbacks for egui.
 
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
 use eframe::{egui, wgpu};
@@ -9,27 +9,27 @@ use super::gpu::{BufferSlot, GpuResources, Io, Stats};
 use super::plan::{Plan, Planner};
 use super::uniforms::PaneSize;
 
-/// Compiles the pipelines and puts them where the panes find them. Once per window.
+/// Compiles the pipelines and stores them in egui's callback resources. Call once per window.
 ///
-/// egui's own pass must be as it is by default: without multisampling and without a depth buffer.
+/// egui's own render pass must have its defaults: no multisampling and no depth buffer.
 pub fn install(state: &RenderState) {
     let gpu = GpuResources::new(&state.device, &state.queue, state.target_format);
     state.renderer.write().callback_resources.insert(gpu);
 }
 
-/// What the renderer has done since [`install`]; `None` before it.
+/// Counters of the renderer since [`install`]; `None` before it.
 pub fn stats(state: &RenderState) -> Option<Stats> {
     state.renderer.read().callback_resources.get::<GpuResources>().map(GpuResources::stats)
 }
 
-/// The 3D pane, to be added to a painter. The rectangle must lie within the window.
+/// Paint callback of the 3D pane. The rectangle must lie within the window.
 pub fn mesh_pane(pane: PaneId, rect: egui::Rect, frame: MeshFrame) -> egui::PaintCallback {
     let picture = frame.picture.clone();
     let plan = Box::new(move |planner: &mut Planner<'_>| planner.mesh(&frame));
     Callback::new_paint_callback(rect, PaneCallback { pane, rect, picture, plan })
 }
 
-/// The embedding's pane, to be added to a painter. The rectangle must lie within the window.
+/// Paint callback of the embedding's pane. The rectangle must lie within the window.
 pub fn plane_pane(pane: PaneId, rect: egui::Rect, frame: PlaneFrame) -> egui::PaintCallback {
     let picture = frame.picture.clone();
     let plan = Box::new(move |planner: &mut Planner<'_>| planner.plane(&frame));
@@ -72,7 +72,7 @@ impl CallbackTrait for PaneCallback {
     }
 }
 
-/// The rectangle in whole pixels, rounded as egui rounds the viewport that it paints into.
+/// Size of the rectangle in whole pixels, rounded as egui rounds its viewport.
 fn pane_size(rect: egui::Rect, screen: &ScreenDescriptor) -> PaneSize {
     let viewport = ViewportInPixels::from_points(&rect, screen.pixels_per_point, screen.size_in_pixels);
     let side = |length: i32| u32::try_from(length).unwrap_or(0);

@@ -1,4 +1,4 @@
-//! What a pane shows in one frame. Cheap to make: the arrays are shared, the rest is small.
+//! Content of a pane in one frame. Cheap to build: the arrays are shared, the rest is small.
 
 use std::sync::Arc;
 
@@ -7,48 +7,49 @@ use crate::view::{
 };
 use freebound_core::geom::Bounds;
 
-/// Tells panes apart, so that each keeps its own target. Two panes in one window must not share a name.
+/// Name of a pane, so that each keeps its own target. Panes in one window need different names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PaneId(pub &'static str);
 
-/// Where the colours of the faces come from. Flipped faces show in their own colour in all of them.
+/// Source of the face colours. Flipped faces have their own colour in every shading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FaceShading {
     /// Clay on the mesh, one flat colour in the plane.
     #[default]
     Plain,
-    /// A checker in the plane, carried over to the mesh.
+    /// Checker pattern in the plane, mapped to the mesh.
     Checker,
     /// The colours of the [`FacePaint`].
     Paint,
-    /// The picture in the plane, carried over to the mesh.
+    /// Picture in the plane, mapped to the mesh.
     Picture,
 }
 
-/// How the mesh's light is computed.
+/// Normals for the light on the mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Normals {
-    /// Smooth but for creases.
+    /// Smooth except at creases.
     #[default]
     Smooth,
-    /// One per face.
+    /// Flat normals, a single normal per face.
     Flat,
 }
 
-/// How faces look, apart from their colours.
+/// Appearance of faces other than their colours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
-    /// Where the colours come from.
+    /// Source of the face colours.
     pub shading: FaceShading,
-    /// How the mesh's light is computed.
+    /// Normals for the light on the mesh.
     pub normals: Normals,
     /// Width of the wireframe in points, 0 for none.
     pub wire_in_points: f32,
-    /// Width of the outline of flipped faces in points, 0 for none. It shows faces too thin to see.
+    /// Width of the outline of flipped faces in points, 0 for none. The outline shows faces that are too thin to
+    /// see.
     pub flipped_outline_in_points: f32,
     /// Side of a check, embedding units.
     pub check_size: f64,
-    /// Opacity of the faces in the plane, 0 to 1; flipped ones are opaque, as all on the mesh are.
+    /// Opacity of the faces in the plane, 0 to 1. Flipped faces and all faces of the mesh are opaque.
     pub face_opacity: f32,
 }
 
@@ -68,112 +69,112 @@ impl Default for Style {
 /// Edges drawn as lines of one colour and width.
 #[derive(Clone, Debug)]
 pub struct LineLayer {
-    /// Which edges.
+    /// Edges to draw.
     pub edges: Arc<EdgeList>,
-    /// Their colour.
+    /// Colour of the lines.
     pub colour: Srgb,
-    /// Their width.
+    /// Width of the lines, points.
     pub width_in_points: f32,
 }
 
-/// Faces that are not the mesh's, filled with one colour. They show where no face of the mesh lies over them.
+/// Faces that do not belong to the mesh, filled with one colour. Faces of the mesh cover them.
 #[derive(Clone, Debug)]
 pub struct FillLayer {
-    /// Which faces.
+    /// Faces to fill.
     pub faces: Arc<DrawnFaces>,
-    /// Their colour.
+    /// Fill colour.
     pub colour: Srgb,
 }
 
-/// A line over the embedding whose vertices are not the embedding's.
+/// Line over the embedding with vertices of another embedding.
 #[derive(Clone, Debug)]
 pub struct GhostLayer {
-    /// Where its vertices lie, in the same unit space as the embedding.
+    /// Positions of the line's vertices, in the unit space of the shown embedding.
     pub plane: Arc<PlaneArrays>,
-    /// The line.
+    /// Line to draw.
     pub line: LineLayer,
 }
 
-/// How a picture's pixels show where they are larger than the screen's.
+/// Sampling of a picture whose pixels are larger than the screen's.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sampling {
-    /// Each fades into the next.
+    /// Interpolated between pixels.
     #[default]
     Smooth,
-    /// Each is a square of one colour.
+    /// Squares of one colour.
     Sharp,
 }
 
-/// A picture in the plane.
+/// Picture in the plane.
 #[derive(Clone, Debug)]
 pub struct PictureLayer {
-    /// The pixels.
+    /// Pixels of the picture.
     pub picture: Arc<PictureQuad>,
-    /// Where the picture lies, embedding units: the unit square, unless the embedding is kept otherwise.
+    /// Position of the picture, embedding units. Default: the unit square.
     pub bounds: Bounds,
     /// Opacity behind the embedding, 0 to 1. On faces it is opaque.
     pub opacity: f32,
-    /// How its pixels show.
+    /// Sampling of the pixels.
     pub sampling: Sampling,
 }
 
-/// What stands around the mesh, in the same unit space.
+/// Other parts around the mesh, in the same unit space.
 #[derive(Clone, Debug)]
 pub struct Surroundings {
-    /// Its faces.
+    /// Faces of the other parts.
     pub mesh: Arc<MeshArrays>,
-    /// How they stand back: [`FacePaint::faint`].
+    /// Faint paint of the other parts: [`FacePaint::faint`].
     pub paint: Arc<FacePaint>,
 }
 
-/// The 3D pane.
+/// Content of the 3D pane.
 #[derive(Clone, Debug)]
 pub struct MeshFrame {
-    /// What stands around the mesh.
+    /// Other parts around the mesh.
     pub around: Option<Surroundings>,
-    /// The mesh.
+    /// Mesh to show.
     pub mesh: Arc<MeshArrays>,
-    /// Its embedding, for checker and picture. Without one they stay plain.
+    /// Embedding, for checker and picture. Without it these shadings are plain.
     pub plane: Option<Arc<PlaneArrays>>,
-    /// Colours and flags of the faces. Without it none is flipped.
+    /// Colours and flags of the faces. Without it no face is flipped.
     pub paint: Option<Arc<FacePaint>>,
-    /// Lines, the later over the earlier.
+    /// Lines; later ones cover earlier ones.
     pub lines: Vec<LineLayer>,
-    /// Lines on what stands around the mesh.
+    /// Lines on the other parts around the mesh.
     pub around_lines: Vec<LineLayer>,
     /// The picture for [`FaceShading::Picture`].
     pub picture: Option<PictureLayer>,
-    /// From where it is seen.
+    /// Camera of the pane.
     pub camera: OrbitCamera,
-    /// How it looks.
+    /// Appearance of the faces.
     pub style: Style,
-    /// Its colours.
+    /// Colours of the pane.
     pub palette: Palette,
 }
 
-/// The embedding's pane.
+/// Content of the embedding's pane.
 #[derive(Clone, Debug)]
 pub struct PlaneFrame {
-    /// The mesh, for its faces.
+    /// Mesh, for its faces.
     pub mesh: Arc<MeshArrays>,
-    /// The embedding. Without one only the background shows.
+    /// Embedding. Without it only the background shows.
     pub plane: Option<Arc<PlaneArrays>>,
-    /// Colours and flags of the faces. Without it none is flipped.
+    /// Colours and flags of the faces. Without it no face is flipped.
     pub paint: Option<Arc<FacePaint>>,
-    /// Faces beside the mesh's.
+    /// Faces that do not belong to the mesh.
     pub fills: Vec<FillLayer>,
-    /// Lines, the later over the earlier.
+    /// Lines; later ones cover earlier ones.
     pub lines: Vec<LineLayer>,
-    /// A line of another embedding, over all others.
+    /// Line of another embedding, over all other lines.
     pub ghost: Option<GhostLayer>,
-    /// The picture behind the embedding.
+    /// Picture behind the embedding.
     pub picture: Option<PictureLayer>,
-    /// What is outlined: the unit square of texture coordinates, as it lies in the plane.
+    /// Outlined box: the unit square of texture coordinates, in the plane.
     pub outlined: Bounds,
-    /// What part of the plane is seen.
+    /// Camera of the pane.
     pub camera: PlaneCamera,
-    /// How it looks.
+    /// Appearance of the faces.
     pub style: Style,
-    /// Its colours.
+    /// Colours of the pane.
     pub palette: Palette,
 }

@@ -1,4 +1,4 @@
-//! What lives on the device from frame to frame: pipelines, buffers, and a target per pane.
+//! Device state that lasts from frame to frame: pipelines, buffers, and a target per pane.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -13,27 +13,27 @@ use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
 use crate::view::Revision;
 use freebound_core::geom::Picture;
 
-/// Distance of two lines' uniforms in their buffer: the largest alignment that a device may ask for.
+/// Stride of the uniforms of two lines in their buffer: the largest alignment that a device may require.
 const LINE_STRIDE: u64 = 256;
-/// Samples along the long side of a pixel of the screen where it is seen at a slant, at most.
+/// Largest number of anisotropic samples.
 const ANISOTROPY: u16 = 8;
-/// A pane that was not asked for during so many others is gone.
+/// Number of prepared panes after which a pane that was not among them is dropped.
 const PANE_LIFETIME: u64 = 1000;
 
-/// What the renderer has done since it was installed.
+/// Work of the renderer since it was installed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
-    /// Vertex buffers and pictures that were filled.
+    /// Number of vertex buffers and pictures uploaded.
     pub uploads: u64,
-    /// The bytes of those.
+    /// Bytes of these uploads.
     pub uploaded_bytes: u64,
-    /// Pictures of panes that were drawn, because something in them had changed.
+    /// Number of pane pictures redrawn because their content had changed.
     pub drawn_panes: u64,
-    /// Draw calls in those pictures.
+    /// Draw calls in these pictures.
     pub draw_calls: u64,
 }
 
-/// All of it, kept among egui's callback resources.
+/// Device state, stored among egui's callback resources.
 pub(super) struct GpuResources {
     pipelines: Pipelines,
     cache: Cache,
@@ -44,14 +44,14 @@ pub(super) struct GpuResources {
     tick: u64,
 }
 
-/// One pane from frame to frame.
+/// State of one pane that lasts from frame to frame.
 struct PaneState {
     target: Target,
     uniforms: wgpu::Buffer,
     line_uniforms: wgpu::Buffer,
     line_group: wgpu::BindGroup,
     blit_group: wgpu::BindGroup,
-    /// What the target shows.
+    /// Plan of the picture in the target.
     shown: Option<Plan>,
     last_tick: u64,
 }
@@ -64,12 +64,12 @@ impl GpuResources {
                 mag_filter: magnified,
                 min_filter: wgpu::FilterMode::Linear,
                 mipmap_filter: wgpu::MipmapFilterMode::Linear,
-                // More than one sample needs a filter in every direction.
+                // Anisotropic sampling requires linear filters in every direction.
                 anisotropy_clamp: if magnified == wgpu::FilterMode::Linear { ANISOTROPY } else { 1 },
                 ..Default::default()
             })
         };
-        // Stands for the picture where there is none.
+        // Placeholder for a missing picture.
         let clear = picture_view(device, queue, &[Arc::new(Picture::filled(1, 1, [0; 4]))]);
         Self {
             pipelines: Pipelines::new(device, window_format),
@@ -86,7 +86,7 @@ impl GpuResources {
         self.cache.stats
     }
 
-    /// Draws a pane into its target if what it shows has changed.
+    /// Draws a pane into its target if its content has changed.
     pub(super) fn prepare(
         &mut self,
         io: &mut Io<'_>,
@@ -135,7 +135,7 @@ impl GpuResources {
         self.forget(tick);
     }
 
-    /// Puts a pane's picture into egui's window.
+    /// Draws a pane's picture into egui's window.
     pub(super) fn paint(&self, pane: PaneId, pass: &mut wgpu::RenderPass<'static>) {
         let Some(state) = self.panes.get(&pane).filter(|state| state.shown.is_some()) else { return };
         pass.set_pipeline(&self.pipelines.blit);
@@ -155,7 +155,7 @@ impl GpuResources {
         self.pictures.insert(key, picture_view(io.device, io.queue, sizes));
     }
 
-    /// Drops what no pane shows any more.
+    /// Drops panes that are no longer prepared, and the buffers and pictures that no pane shows.
     fn forget(&mut self, tick: u64) {
         self.panes.retain(|_, state| tick - state.last_tick < PANE_LIFETIME);
         let shown = || self.panes.values().filter_map(|state| state.shown.as_ref());
@@ -166,7 +166,7 @@ impl GpuResources {
     }
 }
 
-/// What egui hands to a callback.
+/// Objects that egui passes to a callback.
 pub(super) struct Io<'a> {
     pub(super) device: &'a wgpu::Device,
     pub(super) queue: &'a wgpu::Queue,
@@ -215,7 +215,7 @@ impl PaneState {
     }
 }
 
-/// What the draw calls of a pane share.
+/// Objects that the draw calls of a pane share.
 struct Scene<'a> {
     pipelines: &'a Pipelines,
     cache: &'a Cache,
@@ -278,7 +278,7 @@ impl Scene<'_> {
         calls
     }
 
-    /// Binds the vertex buffers of a draw call. False if one could not be made.
+    /// Binds the vertex buffers of a draw call. Returns false if one is missing.
     fn bind(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) -> bool {
         for (slot, &key) in (0..).zip(&draw.buffers) {
             let Some(buffer) = self.cache.get(key) else { return false };
@@ -297,7 +297,7 @@ fn uniform_buffer(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
     })
 }
 
-/// A picture in several sizes, each half the one before.
+/// Texture with a picture in several sizes, each half the one before.
 fn picture_view(device: &wgpu::Device, queue: &wgpu::Queue, sizes: &[Arc<Picture>]) -> wgpu::TextureView {
     let extent =
         |picture: &Picture| wgpu::Extent3d { width: picture.width, height: picture.height, depth_or_array_layers: 1 };

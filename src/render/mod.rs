@@ -1,25 +1,25 @@
-//! The two panes on the graphics card: pipelines, buffers, and the callbacks that egui runs.
+//! Both panes on the graphics card: pipelines, buffers, and the callbacks that egui runs.
 //!
-//! A pane is drawn into a target of its own (four samples a pixel, depth) before egui paints, and only when something
-//! that it shows has changed; egui then merely puts the finished picture into its rectangle. Buffers are made once per
-//! revision of what they hold. A frame in which nothing changed sends nothing and draws two triangles.
+//! A pane is drawn into its own target (four samples per pixel, depth) before egui paints, and only if its content
+//! has changed. egui then draws the finished picture into the pane's rectangle. Buffers are created once per
+//! revision of their content. A frame without changes uploads nothing and draws two triangles.
 //!
 //! ```text
-//! view::{MeshArrays, PlaneArrays, FacePaint, EdgeList, Picture}   immutable, shared by Arc, each with a revision
+//! view::{MeshArrays, PlaneArrays, FacePaint, EdgeList, PictureQuad}   immutable, shared by Arc, with a revision
 //!         │
-//! MeshFrame, PlaneFrame      what one pane shows in this frame: arrays, camera, style, palette
+//! MeshFrame, PlaneFrame      content of one pane in one frame: arrays, camera, style, palette
 //!         │ mesh_pane, plane_pane
 //! egui::PaintCallback        add it to the painter
 //! ```
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
-//! | `frame.rs` | what a pane shows |
-//! | `callback.rs` | the way into egui |
-//! | `plan.rs`, `uniforms.rs` | from a frame to draw calls and the small numbers of the shaders |
-//! | `gpu.rs`, `pipelines.rs`, `cache.rs` | what lives on the device |
+//! | `frame.rs` | content of a pane |
+//! | `callback.rs` | paint callbacks for egui |
+//! | `plan.rs`, `uniforms.rs` | from a frame to draw calls and uniforms |
+//! | `gpu.rs`, `pipelines.rs`, `cache.rs` | state on the device |
 //!
-//! [`install`] must have run once; without it, or where egui runs without a graphics card, a pane stays empty.
+//! Call [`install`] once; without it, or if egui runs without a graphics card, a pane stays empty.
 
 mod cache;
 mod callback;

@@ -1,5 +1,5 @@
-//! The pipelines: which shader, which vertex buffers, how it blends, what it does to depth; and the textures that they
-//! draw a pane into: colour and depth with four samples a pixel, and the picture that they resolve to.
+//! Render pipelines: shader, vertex buffers, blending and depth of each. Also the textures that they draw a pane
+//! into: colour and depth with four samples per pixel, and the picture that these resolve to.
 
 use eframe::wgpu;
 use wgpu::{BlendComponent, BlendFactor, BlendOperation, BlendState, ColorWrites, CompareFunction};
@@ -13,12 +13,12 @@ const SAMPLES: u32 = 4;
 const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// A shader with what it shares with others in front of it.
+/// Shader with its shared parts in front.
 #[derive(Clone, Copy, Debug)]
 pub struct ShaderFile {
-    /// Its file in `shaders/`.
+    /// File in `shaders/`.
     pub name: &'static str,
-    /// Its whole text.
+    /// Full source text.
     pub source: &'static str,
 }
 
@@ -40,7 +40,7 @@ const BLIT: ShaderFile = shader!("common.wgsl", "blit.wgsl");
 /// All shaders, for tests that read them without a GPU.
 pub const SHADERS: [ShaderFile; 5] = [MESH, PLANE, BACKGROUND, LINES, BLIT];
 
-/// Everything that is made once per device.
+/// Objects created once per device.
 #[derive(Debug)]
 pub(super) struct Pipelines {
     pub(super) pane_layout: wgpu::BindGroupLayout,
@@ -105,7 +105,7 @@ impl Pipelines {
     }
 }
 
-/// Colour covers by the share that the pass sets as its constant; alpha counts how many faces lie on each other.
+/// Colour covers by the share in the pass's blend constant; alpha counts the faces that lie over each other.
 const COUNTING: BlendState = BlendState {
     color: BlendComponent {
         src_factor: BlendFactor::Constant,
@@ -147,7 +147,7 @@ static PLANE_BUFFERS: [Buffer; 2] = [
     buffer(16, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x4]),
     buffer(4, PER_VERTEX, &wgpu::vertex_attr_array![1 => Unorm8x4]),
 ];
-/// Corners of `FaceList` in an embedding.
+/// `DrawnFaces` in an embedding, corner by corner.
 static PLANE_FILL_BUFFERS: [Buffer; 1] =
     [buffer(PLANE_POINT_STRIDE, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x4])];
 /// Two points in unit space.
@@ -157,7 +157,7 @@ static MESH_LINE_BUFFERS: [Buffer; 1] =
 static PLANE_LINE_BUFFERS: [Buffer; 1] =
     [buffer(PLANE_LINE_STRIDE, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4])];
 
-/// What tells one pipeline from another.
+/// Settings that differ between pipelines.
 struct Recipe<'a> {
     shader: ShaderFile,
     vertex_entry: &'static str,
@@ -166,7 +166,7 @@ struct Recipe<'a> {
     buffers: &'a [Buffer],
     blend: Option<BlendState>,
     writes: ColorWrites,
-    /// How depth is compared, and whether it is written.
+    /// Depth comparison, and true if depth is written.
     depth: Option<(CompareFunction, bool)>,
     samples: u32,
     format: wgpu::TextureFormat,
@@ -240,11 +240,11 @@ impl<'a> Recipe<'a> {
     }
 }
 
-/// The layouts of what shaders read: of a pane, of a layer, of the picture that goes to the window.
+/// Bind group layouts of a pane, of a layer, and of the picture that goes to the window.
 fn layouts(device: &wgpu::Device) -> [wgpu::BindGroupLayout; 3] {
     use wgpu::{BindingType, ShaderStages};
     let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
-    // One buffer holds the numbers of all layers: an offset chooses.
+    // One buffer holds the uniforms of all layers; a dynamic offset selects one.
     let uniforms = |size: usize, has_dynamic_offset: bool| BindingType::Buffer {
         ty: wgpu::BufferBindingType::Uniform,
         has_dynamic_offset,
@@ -267,7 +267,7 @@ fn layouts(device: &wgpu::Device) -> [wgpu::BindGroupLayout; 3] {
     )
 }
 
-/// The textures of one pane, of one size.
+/// Textures of one pane at one size.
 #[derive(Debug)]
 pub(super) struct Target {
     pub(super) size: [u32; 2],
@@ -277,7 +277,7 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// Textures of a size, which must not be zero.
+    /// Creates the textures. The size must not be zero.
     pub(super) fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let make = |format, sample_count, usage| {

@@ -1,4 +1,4 @@
-//! From a frame to draw calls: which buffers, in which order, with which small numbers.
+//! Draw calls of a frame: their buffers, their order and their uniforms.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -11,9 +11,9 @@ use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
 use crate::view::{EdgeList, FacePaint, MeshArrays, Palette, PlaneArrays};
 use freebound_core::mesh::VertexId;
 
-/// Share of its distance by which a line comes nearer to the eye than the surface that it lies on.
+/// Shift of a line from its surface towards the eye, relative to the distance.
 const LIFT: f32 = 0.0015;
-/// The most layers of a pane: fills and lines, outlines of flipped faces included.
+/// Largest number of layers of a pane: fills and lines, outlines of flipped faces included.
 pub(super) const LAYER_LIMIT: usize = 16;
 
 /// Bytes of a line on the mesh: two points.
@@ -23,7 +23,7 @@ pub(super) const PLANE_POINT_STRIDE: u64 = 16;
 /// Bytes of a line in the plane: two split points.
 pub(super) const PLANE_LINE_STRIDE: u64 = 32;
 
-/// What the draw calls of a pane draw with.
+/// Pipelines that a pane is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Mesh,
@@ -34,15 +34,15 @@ pub(super) enum Kind {
 pub(super) struct Draw {
     /// Vertex buffers in the order of their slots.
     pub(super) buffers: Vec<Key>,
-    /// Vertices of faces and fills, instances of lines.
+    /// Number of vertices of faces and fills, or of instances of lines.
     pub(super) count: u32,
 }
 
-/// A draw call of faces.
+/// Draw call of faces.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Faces {
     pub(super) draw: Draw,
-    /// In the plane; faces of the mesh are opaque.
+    /// Opacity in the plane; faces of the mesh are opaque.
     pub(super) opacity: f64,
 }
 
@@ -52,12 +52,12 @@ pub(super) enum Shape {
     Line,
 }
 
-/// A draw call with a colour of its own.
+/// Draw call with its own colour.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Layer {
     pub(super) shape: Shape,
     pub(super) draw: Draw,
-    /// The bytes of a [`LineUniforms`].
+    /// Bytes of a [`LineUniforms`].
     pub(super) uniforms: Vec<u8>,
 }
 
@@ -66,10 +66,10 @@ pub(super) struct Layer {
 pub(super) struct Plan {
     pub(super) kind: Kind,
     pub(super) size: [u32; 2],
-    /// The bytes of [`PaneUniforms`].
+    /// Bytes of a [`PaneUniforms`].
     pub(super) uniforms: Vec<u8>,
     pub(super) faces: Vec<Faces>,
-    /// First the fills, then the lines.
+    /// Fills first, then lines.
     pub(super) layers: Vec<Layer>,
     pub(super) picture: Option<crate::view::Revision>,
     pub(super) sampling: Sampling,
@@ -98,7 +98,7 @@ impl Plan {
             layers: Vec::new(),
             picture: picture.map(|layer| layer.picture.revision),
             sampling: picture.map_or(Sampling::default(), |layer| layer.sampling),
-            // Alpha counts faces; there are none yet.
+            // Alpha counts faces, so it starts at 0.
             clear: [r, g, b, 0.0],
         }
     }
@@ -110,7 +110,7 @@ impl Plan {
     }
 }
 
-/// Where buffers are made while planning.
+/// Access to the device and the buffers while planning.
 pub(super) struct Planner<'a> {
     pub(super) device: &'a wgpu::Device,
     pub(super) cache: &'a mut Cache,
@@ -118,7 +118,7 @@ pub(super) struct Planner<'a> {
 }
 
 impl Planner<'_> {
-    /// Plans the 3D pane and makes the buffers that it lacks.
+    /// Plans the 3D pane and creates the buffers that it lacks.
     pub(super) fn mesh(&mut self, frame: &MeshFrame) -> Plan {
         let uniforms = PaneUniforms::of_mesh(frame, self.size);
         let mut plan = Plan::new(Kind::Mesh, self.size, &uniforms, &frame.palette, frame.picture.as_ref());
@@ -142,7 +142,7 @@ impl Planner<'_> {
         plan
     }
 
-    /// The faces of a mesh, with its embedding and its colours.
+    /// Draw call of the faces of a mesh, with its embedding and its colours.
     fn mesh_faces(
         &mut self,
         mesh: &MeshArrays,
@@ -162,7 +162,7 @@ impl Planner<'_> {
         let mut plan = Plan::new(Kind::Plane, self.size, &uniforms, &frame.palette, frame.picture.as_ref());
         let Some(plane) = frame.plane.as_ref() else { return plan };
         let mesh = &frame.mesh;
-        // Flipped faces come first: they lie in front, and what lies behind them is then not drawn.
+        // Flipped faces are drawn first: they are in front, and the depth test skips faces behind them.
         if let Some(paint) = frame.paint.as_ref().filter(|paint| !paint.flipped.is_empty()) {
             let corners = Key::FlippedPlane(plane.revision, paint.revision);
             let colours = Key::FlippedPaint(paint.revision);
@@ -178,7 +178,7 @@ impl Planner<'_> {
 
         for layer in &frame.fills {
             let key = Key::PlaneFills(plane.revision, layer.faces.revision);
-            // Corners at vertices that are not there fall together.
+            // Corners at missing vertices coincide, so such faces vanish.
             let position = |v: VertexId| plane.points.get(v.index()).copied().unwrap_or_default();
             self.ensure_with(key, || layer.faces.triangles.iter().flat_map(|corners| corners.map(position)).collect());
             let uniforms = LineUniforms::new(layer.colour, 0.0, 1.0, 0.0);
@@ -214,7 +214,8 @@ impl Planner<'_> {
         self.stream_or_zeros(paint.map(|paint| (Key::Paint(paint.revision), &*paint.corners)), mesh)
     }
 
-    /// One value per corner of the mesh. A stream of another mesh is worse than none.
+    /// Buffer with one value per corner of the mesh. A stream of another length belongs to another mesh and is
+    /// replaced by zeros.
     fn stream_or_zeros<T: bytemuck::Pod>(&mut self, stream: Option<(Key, &[T])>, mesh: &MeshArrays) -> Key {
         let count = mesh.corner_positions.len();
         if let Some((key, corners)) = stream.filter(|(_, corners)| corners.len() == count) {
@@ -226,7 +227,7 @@ impl Planner<'_> {
         Key::Zeros(size)
     }
 
-    /// One call for all that is in a buffer.
+    /// Draw call of a whole buffer.
     fn draw_of(&self, key: Key, stride: u64) -> Draw {
         let size = self.cache.get(key).map_or(0, wgpu::Buffer::size);
         Draw { buffers: vec![key], count: u32::try_from(size / stride).unwrap_or(0) }
@@ -257,12 +258,12 @@ fn vertex_pairs(edges: &EdgeList) -> impl Iterator<Item = [usize; 2]> + '_ {
     edges.ends.iter().map(|ends| ends.map(VertexId::index))
 }
 
-/// Begin and end of each line; lines to vertices that are not there shrink to a point.
+/// Start and end of each line; lines to missing vertices shrink to a point.
 fn segments<P: Copy + Default + bytemuck::Pod>(points: &[P], ends: impl Iterator<Item = [usize; 2]>) -> Vec<P> {
     ends.flat_map(|ends| ends.map(|v| points.get(v).copied().unwrap_or_default())).collect()
 }
 
-/// Sides of flipped faces that no other flipped face shares: around each red region, not all over it.
+/// Sides of flipped faces that no other flipped face shares: the outline of each flipped region.
 fn flipped_outline(mesh: &MeshArrays, paint: &FacePaint) -> impl Iterator<Item = [usize; 2]> {
     let faces = paint.flipped.iter().filter_map(|face| mesh.triangles.get(face.index()));
     let mut sides: Vec<[usize; 2]> = faces

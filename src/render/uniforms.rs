@@ -1,4 +1,4 @@
-//! The small numbers that change every frame, in the layout of the shaders. No GPU in here.
+//! Uniforms that change every frame, in the layout of the shaders. This file needs no GPU.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, Vec3};
@@ -7,9 +7,9 @@ use super::frame::{FaceShading, MeshFrame, Normals, PictureLayer, PlaneFrame, St
 use crate::view::{OrbitCamera, Palette, PlaneCamera, Sphere, Srgb, UnitPlane};
 use freebound_core::geom::Bounds;
 
-/// Pixel coordinates beyond this are far outside any pane and need no digits.
+/// Bound of pixel coordinates. Points beyond it are far outside any pane, and their digits do not matter.
 const FAR_PIXEL: f64 = 1e7;
-/// Grid lines nearer to each other than the first are not drawn, at the second in full; points.
+/// Spacing in points at which grid lines start to fade in, and at which they show in full.
 const GRID_FADE: [f64; 2] = [16.0, 45.0];
 
 /// Matches `Pane` of shaders/common.wgsl, field by field.
@@ -42,7 +42,7 @@ pub(super) struct LineUniforms {
 }
 
 impl LineUniforms {
-    /// A line of a width in points. In 3D it is lifted towards the eye by a share of its distance.
+    /// Line with a width in points. In 3D it is lifted towards the eye by a share of its distance.
     pub(super) fn new(colour: Srgb, width_in_points: f32, pixels_per_point: f32, lift: f32) -> Self {
         let half_width = 0.5 * width_in_points * pixels_per_point;
         Self { colour: colour.to_linear(), shape: [half_width, lift, 0.0, 0.0] }
@@ -77,7 +77,7 @@ impl PaneUniforms {
                 uniforms.set_picture(plane.frame, origin, layer);
             }
         }
-        // Without coordinates, or without a picture, there is nothing to carry over.
+        // Without coordinates, or without a picture, there is nothing to map to the mesh.
         let bare = frame.plane.is_none() || (frame.picture.is_none() && frame.style.shading == FaceShading::Picture);
         if bare && matches!(frame.style.shading, FaceShading::Checker | FaceShading::Picture) {
             uniforms.choice[0] = FaceShading::Plain as u32;
@@ -124,7 +124,7 @@ impl PaneUniforms {
 
     fn set_orbit(&mut self, camera: &OrbitCamera, frame: Sphere, size: PaneSize) {
         self.clip_from_unit = camera.clip_from_unit(frame, size.in_points()).to_cols_array_2d();
-        // Unit space is the world moved and scaled: directions are the same.
+        // Unit space is the world moved and scaled, so directions are equal.
         let axis = |k: usize| camera.view_from_world().row(k).truncate().as_vec3();
         self.right = with(axis(0), self.right[3]);
         self.up = with(axis(1), 0.0);
@@ -132,10 +132,11 @@ impl PaneUniforms {
         self.eye = with(frame.unit_from_world(camera.eye()), 1.0);
     }
 
-    /// Checks are counted from the embedding's origin. The fraction is taken in f64, about the pane's middle.
+    /// Sets the checker, counted from the embedding's origin. The fraction is computed in f64, about the pane's
+    /// middle.
     fn set_checker(&mut self, unit: UnitPlane, origin: DVec2, check_size: f64) {
         let size = if check_size.is_normal() && check_size > 0.0 { check_size } else { 1.0 };
-        // Two checks make a period.
+        // Two checks form a period.
         let offset = (origin / size).rem_euclid(DVec2::splat(2.0)).as_vec2();
         self.checker = [single(unit.embedding_per_unit / size), offset.x, offset.y, 0.0];
     }
@@ -161,10 +162,10 @@ impl PaneUniforms {
     }
 }
 
-/// Place of the wireframe's colour among [`colours`].
+/// Index of the wireframe's colour in [`colours`].
 const WIRE: usize = 9;
 
-/// In the order of the fields of `Pane`.
+/// Colours in the order of the fields of `Pane`.
 fn colours(palette: &Palette) -> [[f32; 4]; 11] {
     [
         palette.background,
@@ -182,7 +183,7 @@ fn colours(palette: &Palette) -> [[f32; 4]; 11] {
     .map(Srgb::to_linear)
 }
 
-/// Left, top, right, bottom of a box of the plane, pixels of the pane.
+/// Left, top, right and bottom of a box of the plane, pixels of the pane.
 fn pixel_box(bounds: Bounds, camera: &PlaneCamera, size: PaneSize) -> [f32; 4] {
     let corners = [DVec2::new(bounds.low.x, bounds.high.y), DVec2::new(bounds.high.x, bounds.low.y)];
     let [a, b] = corners.map(|corner| {
@@ -196,7 +197,7 @@ fn with(v: Vec3, fourth: f32) -> [f32; 4] {
     v.extend(fourth).to_array()
 }
 
-/// A number as shaders hold it.
+/// Converts a number to f32 for shaders.
 fn single(value: f64) -> f32 {
     DVec2::splat(value).as_vec2().x
 }
@@ -208,7 +209,7 @@ mod tests {
     use super::*;
     use crate::render::SHADERS;
 
-    /// Size of a structure in the shader that mentions it.
+    /// Size of a structure, from the shader that declares it.
     fn size_in_shader(name: &str) -> usize {
         let sizes = SHADERS.iter().flat_map(|shader| {
             let module = naga::front::wgsl::parse_str(shader.source).expect("valid, as another test shows");

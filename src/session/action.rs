@@ -1,4 +1,4 @@
-//! Something the user asked for. [`Session::handle`](super::Session::handle) carries it out.
+//! Requests of the user. [`Session::handle`](super::Session::handle) carries them out.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -13,176 +13,177 @@ use freebound_core::pipeline::{Fit, Target};
 use freebound_core::problem::{PinKind, Settings, Variant};
 use freebound_io::OutputKind;
 
-/// A file to write.
+/// Request to write a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SaveRequest {
-    /// Where.
+    /// Path of the file.
     pub path: PathBuf,
-    /// What.
+    /// Format and content of the file.
     pub kind: OutputKind,
-    /// At which size, where the user's pins do not say.
+    /// Size of the layout, unless the user's pins set the size.
     pub fit: Fit,
 }
 
 /// Files that are opened together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UndoGroup {
-    /// The mesh, or the project.
+    /// Path of the mesh or project.
     pub mesh: PathBuf,
-    /// A picture for it.
+    /// Picture for the mesh.
     pub picture: Option<PathBuf>,
-    /// Constraints on it.
+    /// Constraint files for the mesh.
     pub constraints: Vec<PathBuf>,
-    /// Files that are not opened, for there is one mesh at a time, with one picture.
+    /// Files that are not opened, because only one mesh with one picture can be open at a time.
     pub left: Vec<PathBuf>,
 }
 
-/// One request.
+/// Request of the user.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
-    /// Opens a mesh file, or a project.
+    /// Opens a mesh file or a project.
     Open(PathBuf),
-    /// Opens a mesh file or a project, and what belongs to it.
+    /// Opens a mesh file or a project together with a picture and constraints.
     OpenTogether(UndoGroup),
     /// Opens a built-in mesh.
     OpenExample(Example),
-    /// Opens the file that waits for a word, for it may take more than half of the machine's memory.
+    /// Opens the file that waits for confirmation because it may take more than half of the machine's memory.
     OpenLarge,
-    /// Leaves it.
+    /// Declines to open the file that waits for confirmation.
     LeaveLarge,
-    /// Forgets the files opened last.
+    /// Clears the list of recently opened files.
     ClearRecent,
-    /// Pins vertices where they lie.
+    /// Pins vertices at their current positions.
     Fix(Vec<VertexId>),
-    /// Opens a picture to map on the mesh.
+    /// Opens a picture to be mapped onto the mesh.
     OpenPicture(PathBuf),
-    /// Goes without a picture.
+    /// Removes the picture.
     RemovePicture,
-    /// Chooses where v = 0 is on the picture. The targets keep their places on it.
+    /// Sets the side of the picture with v = 0. The targets keep their positions on the picture.
     SetVAxis(VAxis),
-    /// Turns the mesh's faces around: the other side is the outside.
+    /// Reverses the orientation of all faces, which swaps the inside and the outside of the mesh.
     TurnFaces,
-    /// Mends what keeps the mesh from being a disk, and cuts it open.
+    /// Applies all available repairs and cuts the mesh to a disk.
     Mend,
-    /// Cuts the mesh along these seams, and no others. They are of edges that the file has.
+    /// Replaces the seams that the mesh is cut along. Each seam edge has to be an edge of the file.
     SetSeams(Seams),
-    /// Chooses what becomes of the mesh's holes.
+    /// Sets the treatment of holes.
     SetHoles(HoleTreatment),
-    /// Starts from the texture coordinates of the file, cut along their seams, where they have any.
+    /// Starts from the texture coordinates of the file and cuts the mesh along their seams, if there are any.
     TakeLayout,
-    /// Cuts the mesh along the edges of a file, too.
+    /// Adds the edges in a file to the seams.
     ImportSeams(PathBuf),
-    /// Writes the seams as a file of edges.
+    /// Writes the seams to a file of edges.
     ExportSeams(PathBuf),
-    /// Mends one kind of fault of the mesh.
+    /// Allows one kind of repair of the mesh.
     AllowRepair(Repair),
-    /// Leaves out parts of the mesh, by the file's numbers of their first faces, and no others.
+    /// Replaces the set of parts that are left out. A part is identified by its first face, numbered in the file.
     LeaveOut(BTreeSet<u32>),
-    /// Joins vertices of the mesh that lie within a distance, or does not any more.
+    /// Welds vertices within a distance, or stops welding.
     Weld(Option<WeldDistance>),
-    /// Counts the vertices that a distance would join.
+    /// Counts the vertices that welding within a distance would join.
     CountNear(WeldDistance),
-    /// Puts another chart on the screen, where the mesh has several.
+    /// Shows another chart of a mesh with several charts.
     ShowChart(usize),
-    /// Chooses how charts are packed.
+    /// Sets the packing options.
     SetPacking(PackingOptions),
-    /// Chooses how many times as large as the others a chart is packed.
+    /// Sets the size of a chart relative to the other packed charts.
     SetChartSize {
         /// The chart.
         chart: usize,
-        /// How many times, within [`PackingOptions::SIZES`].
+        /// Relative size, within [`PackingOptions::SIZES`].
         size: f64,
     },
-    /// Places a constraint: pins a vertex, which may be pinned already.
+    /// Places a constraint: pins a vertex, or replaces its pin.
     Place {
         /// The vertex.
         vertex: VertexId,
         /// Its target.
         target: Target,
     },
-    /// Moves a pin, as part of a drag. A gauge pin becomes the user's, with all others.
+    /// Moves one pin during a drag. If the vertex is a gauge pin, all gauge pins become pins of the user.
     MovePin {
         /// The pinned vertex.
         vertex: VertexId,
-        /// Where it is to go, in texture coordinates.
+        /// New target, in texture coordinates.
         target: DVec2,
     },
-    /// Moves several pins of the user's, as part of a drag.
+    /// Moves several of the user's pins during a drag.
     MovePins(Vec<(VertexId, DVec2)>),
-    /// The pointer rests in the middle of a drag: the steps after the first are worth taking.
+    /// Reports that the pointer pauses during a drag, so that the remaining steps are taken.
     Rest,
-    /// Holds pins in another way.
+    /// Changes the kind of pins.
     SetPinKind {
         /// The pinned vertices.
         vertices: Vec<VertexId>,
-        /// How they are to be held.
+        /// New kind of the pins.
         kind: PinKind,
     },
-    /// The same as part of a drag of a slider.
+    /// Changes the kind of pins during a drag of a slider.
     SlideHold {
         /// The pinned vertices.
         vertices: Vec<VertexId>,
-        /// How they are to be held.
+        /// New kind of the pins.
         kind: PinKind,
     },
-    /// Mirrors all targets left to right, within the box around them.
+    /// Mirrors all targets left to right within their bounding box.
     MirrorTargets,
-    /// Turns, scales and moves all targets together to where they fit the undistorted embedding best, in the picture.
+    /// Moves all targets by the similarity that fits them best to the undistorted embedding within the picture.
     FitTargets,
-    /// Takes over the constraints of a file; those of other vertices stay.
+    /// Imports the constraints of a file. Constraints on other vertices are kept.
     ImportConstraints(PathBuf),
-    /// Writes the user's pins as a constraint file.
+    /// Writes the user's pins to a constraint file.
     ExportConstraints(PathBuf),
     /// Saves the project.
     SaveProject(PathBuf),
-    /// Opens what was left of a session that ended without saving.
+    /// Opens the recovery copy of a session that ended without saving.
     Recover(PathBuf),
-    /// Forgets it.
+    /// Deletes a recovery copy.
     DiscardRecovery(PathBuf),
     /// Ends a drag.
     EndGesture,
-    /// Gives a drag up: everything is as it was before it.
+    /// Cancels a drag and restores the state before it.
     GiveUpGesture,
-    /// Frees vertices.
+    /// Unpins vertices.
     Unpin(Vec<VertexId>),
-    /// Frees all vertices.
+    /// Unpins all vertices.
     UnpinAll,
-    /// Chooses method and weights.
+    /// Sets method and weights.
     SetSettings(Settings),
-    /// Chooses method and weights as part of a drag of a slider.
+    /// Sets method and weights during a drag of a slider.
     SlideSettings(Settings),
-    /// Takes back the last edit.
+    /// Undoes the last edit.
     Undo,
-    /// Repeats the last edit taken back.
+    /// Redoes the edit that was undone last.
     Redo,
-    /// Solves from scratch: goes on from nothing that was there.
+    /// Solves from scratch, ignoring the current embedding.
     Solve,
-    /// Takes one further step.
+    /// Takes one more step.
     Step,
-    /// Goes on until a stop condition holds or the method has ended.
+    /// Continues until a stop condition holds or the method ends.
     Run,
-    /// Lowers the distortion of a planar embedding, one-to-one throughout, constraints exact.
+    /// Lowers the distortion of a planar embedding. Every step is one-to-one and meets the constraints exactly.
     Relax,
-    /// Takes all steps of the flattener where the newest one is at fault.
+    /// Takes all steps of the automatic method if the newest step is not planar.
     Repair,
-    /// Stops what is going on in the background. The steps that there are stay.
+    /// Stops the work in the background. Steps that are finished are kept.
     Cancel,
-    /// Puts a step on the screen.
+    /// Shows a step.
     ShowStep(usize),
-    /// Compares the step on the screen with another one, or with none.
+    /// Compares the shown step with another step, or ends the comparison.
     Compare(Option<usize>),
-    /// Compares these methods in the background, on the document as it is and as it will be; none ends that.
+    /// Compares methods in the background. They run again after each edit of the document. An empty list ends the
+    /// comparison.
     CompareMethods(Vec<Variant>),
-    /// Finds the planar morph between the maps of two methods that are compared, as they are and as they will be; none ends that.
+    /// Finds the planar morph between the maps of two compared methods, again after each edit. `None` ends the morph.
     Morph(Option<[Variant; 2]>),
-    /// Chooses where a run comes to rest.
+    /// Sets the stop conditions of runs.
     SetStop(StopConditions),
     /// Writes a file.
     Save(SaveRequest),
-    /// Says that a name does not tell what kind of file to write.
+    /// Reports a file name whose extension selects no kind of output.
     RefuseName(PathBuf),
-    /// Shows the folder that a file lies in.
+    /// Shows the folder of a file in the system's file manager.
     ShowFolder(PathBuf),
-    /// Takes a message off the screen.
+    /// Dismisses a message.
     Dismiss(u64),
 }

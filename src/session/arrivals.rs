@@ -1,4 +1,4 @@
-//! What background jobs bring for the document: pictures and constraints that were read, the mesh in another form.
+//! Results of background jobs for the document: pictures, constraints, seams, and the mesh in another preparation.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use freebound_core::pipeline::Targets;
 use freebound_io::{Constraints, ConstraintsError, PictureFile};
 
 impl Session {
-    /// Reads a picture.
+    /// Reads a picture in the background.
     pub(super) fn open_picture(&mut self, path: PathBuf) {
         if self.model().is_none() {
             return self.complain("a picture needs a mesh: open one first", None);
@@ -19,7 +19,7 @@ impl Session {
         self.jobs.send("reading the picture", move |_| BackgroundJob::Picture(PictureFile::read(&path)));
     }
 
-    /// Reads constraints.
+    /// Reads constraints in the background.
     pub(super) fn import_constraints(&mut self, path: PathBuf) {
         if self.model().is_none() {
             return self.complain("constraints need a mesh: open one first", None);
@@ -31,7 +31,7 @@ impl Session {
         });
     }
 
-    /// Takes in the jobs that came back.
+    /// Applies the results of finished jobs.
     pub(super) fn poll_jobs(&mut self) {
         loop {
             let is_forming = !self.has_form_as_wanted() && self.jobs.is_under_way(FORMING);
@@ -73,13 +73,13 @@ impl Session {
         }
     }
 
-    /// Says why a constraint file is not used, and shows the vertices that it is about.
+    /// Reports the reason why a constraint file is rejected, and shows the vertices concerned.
     fn tell_constraints(&mut self, error: &ConstraintsError) {
         let model = self.model();
         let of_chart = |vertex| model.and_then(|model| model.vertex_of_file(vertex));
         let vertices = error.vertices().into_iter().filter_map(of_chart).collect();
         let message = Message::error(MessagePlace::Embedding, error.to_string()).with_vertices(vertices);
-        self.messages.say(message.with_remedy("mend the file and import it again: nothing of it was taken"));
+        self.messages.say(message.with_remedy("nothing was imported: repair the file and import it again"));
     }
 
     fn take_constraints(&mut self, targets: Targets) {
@@ -88,8 +88,8 @@ impl Session {
         }
         let Some(model) = self.model().cloned() else { return };
         if !self.has_form_as_wanted() {
-            let text = "the constraints were not taken: the mesh does not have its form yet";
-            return self.complain(text, Some("solve, and import them again"));
+            let text = "the constraints were not imported: the mesh is not prepared yet";
+            return self.complain(text, Some("solve, then import them again"));
         }
         if self.takes_pins() {
             let mut by_chart = model.by_chart(targets);

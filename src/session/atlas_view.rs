@@ -1,4 +1,5 @@
-//! The layout of all charts, once each is solved: for files, and proved in the background for the screen.
+//! Layout of all charts, once each of them is solved. Layouts are written to files, and proved in the background for
+//! the screen.
 
 use std::sync::Arc;
 
@@ -18,7 +19,7 @@ pub(super) struct SolvedAtlas {
     arrangement: Arrangement,
 }
 
-/// One of them.
+/// Chart with the step that is written.
 #[derive(Clone, Debug)]
 pub(super) struct ChartResult {
     pub(super) model: Arc<Model>,
@@ -27,28 +28,28 @@ pub(super) struct ChartResult {
     pub(super) size: f64,
 }
 
-/// The layout as it would be written.
+/// Layout in the form in which it would be written.
 #[derive(Clone, Debug)]
 pub struct AtlasView {
-    /// The boundary of each chart, in texture coordinates.
+    /// Boundary of each chart, in texture coordinates.
     pub outlines: Vec<Vec<DVec2>>,
-    /// The verdict on all charts together.
+    /// Verdict on all charts together.
     pub verdict: AtlasVerdict,
-    /// How they are packed; none where pins hold them all.
+    /// Summary of the packing. `None` if pins hold all charts.
     pub packing: Option<PackingSummary>,
-    /// Pixels of the picture per unit of length on the surface, of each chart.
+    /// Density of each chart: pixels of the picture per unit of length on the surface.
     pub densities: Vec<f64>,
 }
 
-/// Layouts that are made, by what they are made of.
+/// Layout of all charts, computed in the background and kept with its key.
 pub(super) struct AtlasViews {
     job: Background<AtlasKey, AtlasView>,
     made: Option<(AtlasKey, AtlasView)>,
-    /// What no layout could be made of: it is not tried again.
+    /// Key of the last layout that failed. A failed layout is not tried again.
     failed: Option<AtlasKey>,
 }
 
-/// What a layout is made of: steps by their places in memory, which they keep while they are shown.
+/// Inputs of a layout. Steps are compared by their addresses, which stay valid while the key holds them.
 #[derive(Clone, Debug)]
 pub(super) struct AtlasKey {
     pub(super) outcomes: Vec<Arc<Outcome>>,
@@ -73,12 +74,12 @@ impl ChartResult {
 }
 
 impl SolvedAtlas {
-    /// All charts with their results, packed with these options.
+    /// Collects all charts with their results and the packing options.
     pub(super) fn new(charts: Vec<ChartResult>, options: PackingOptions) -> Self {
         Self { charts, options, arrangement: Arrangement::AsGiven }
     }
 
-    /// The layout, proved as it is written.
+    /// Layout in its written form, with its proof.
     pub(super) fn output(&self) -> Output<'_> {
         let charts: Vec<SolvedModel<'_>> = self.charts.iter().map(ChartResult::chart).collect();
         finished_atlas(&charts, self.options, self.arrangement)
@@ -103,7 +104,7 @@ impl AtlasViews {
         Self { job: Background::new("atlas", wake), made: None, failed: None }
     }
 
-    /// Takes in a layout that was made, or could not be made.
+    /// Stores the layout that was computed, or its failure.
     pub(super) fn poll(&mut self) {
         match self.job.poll() {
             Some((key, Ok(view))) => self.made = Some((key, view)),
@@ -112,27 +113,27 @@ impl AtlasViews {
         }
     }
 
-    /// Forgets the layout that was made.
+    /// Drops the stored layout.
     pub(super) fn forget(&mut self) {
         self.made = None;
     }
 
-    /// True while a layout is being made.
+    /// True while a layout is being computed.
     pub(super) fn is_busy(&self) -> bool {
         self.job.is_busy()
     }
 
-    /// True if a layout was made of this, or could not be made.
+    /// True if the layout with this key was computed or failed.
     pub(super) fn knows(&self, key: &AtlasKey) -> bool {
         self.made.iter().map(|(key, _)| key).chain(&self.failed).any(|known| known.is(key))
     }
 
-    /// Makes a layout in the background.
+    /// Computes a layout in the background.
     pub(super) fn make(&mut self, key: AtlasKey, solved: SolvedAtlas) {
         self.job.start(key, move |_| solved.view());
     }
 
-    /// The key of the layout that was made, and the layout.
+    /// Stored layout with its key.
     pub(super) fn made(&self) -> Option<(&AtlasKey, &AtlasView)> {
         self.made.as_ref().map(|(key, view)| (key, view))
     }

@@ -1,39 +1,39 @@
-//! Work on background threads: a slot for each kind of it.
+//! Work on background threads, with one slot for each kind of work.
 //!
 //! ```text
 //! start(key, work) ──▶ thread: work(&cancel) ──▶ wake ──▶ poll() = Some((key, outcome)), once
 //! ```
 //!
-//! The key says what a piece of work is for; its owner compares it on arrival and drops what is out of date. A thread
-//! that panicked, or that could not be started, arrives as a [`JobFailure`].
+//! The key identifies a piece of work. Its owner compares the key on arrival and drops outdated results. A thread that
+//! panicked, or that could not be started, arrives as a [`JobFailure`].
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 use std::{fmt, thread};
 
-/// Asks the screen to look again; called from background threads.
+/// Callback that requests another frame. Background threads call it.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
-/// Why work gave no outcome.
+/// Reason why a job returned no outcome.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum JobFailure {
-    /// The operating system started no thread, for this reason.
+    /// The operating system started no thread, with this error.
     NoThread(String),
     /// The thread panicked.
     Lost,
 }
 
 impl JobFailure {
-    /// What to tell a person, where `work` is a noun, such as "saving".
+    /// Message for the user. `work` is a noun, such as "saving".
     pub fn words(&self, work: &str) -> String {
         match self {
-            Self::NoThread(error) => format!("no thread for {work}: {error}"),
+            Self::NoThread(error) => format!("{work} could not start a thread: {error}"),
             Self::Lost => format!("{work} stopped unexpectedly"),
         }
     }
 
-    /// What to do about it.
+    /// Action that the message suggests.
     pub const fn remedy(&self) -> Option<&'static str> {
         match self {
             Self::NoThread(_) => None,
@@ -42,14 +42,14 @@ impl JobFailure {
     }
 }
 
-/// Work of one kind in the background, as a rule one piece at a time. Dropping it asks the work to stop.
+/// Background work of one kind, usually one job at a time. Dropping the slot asks its jobs to stop.
 pub struct Background<K, T> {
     name: &'static str,
     wake: Wake,
     jobs: Vec<Job<K, T>>,
 }
 
-/// One piece of work.
+/// Job on a thread.
 struct Job<K, T> {
     key: K,
     cancel: CancelOnDrop,
@@ -57,51 +57,51 @@ struct Job<K, T> {
 }
 
 impl<K, T> Background<K, T> {
-    /// A slot without work. `name` is that of its threads; `wake` is called at the end of each piece of work.
+    /// Returns an empty slot. `name` names its threads. `wake` is called at the end of each job.
     pub fn new(name: &'static str, wake: &Wake) -> Self {
         Self { name, wake: Arc::clone(wake), jobs: Vec::new() }
     }
 
-    /// The key of the work under way, the oldest where there are several.
+    /// Key of the oldest job.
     pub fn key(&self) -> Option<&K> {
         self.keys().next()
     }
 
-    /// The keys of all work under way, in the order of its beginning.
+    /// Keys of all jobs, oldest first.
     pub fn keys(&self) -> impl Iterator<Item = &K> {
         self.jobs.iter().map(|job| &job.key)
     }
 
-    /// Whether work is under way, or its outcome was not taken yet.
+    /// True if a job is running or its outcome has not been polled yet.
     pub fn is_busy(&self) -> bool {
         !self.jobs.is_empty()
     }
 
-    /// Drops all work.
+    /// Drops all jobs.
     pub fn cancel(&mut self) {
         self.jobs.clear();
     }
 
-    /// Drops all work but what has one of these keys.
+    /// Drops all jobs whose key is not kept.
     pub(super) fn cancel_but(&mut self, is_kept: impl Fn(&K) -> bool) {
         self.jobs.retain(|job| is_kept(&job.key));
     }
 
-    /// Asks the work to stop at its next check. Its outcome still arrives.
+    /// Asks the jobs to stop at their next check. Their outcomes still arrive.
     pub fn interrupt(&self) {
         for job in &self.jobs {
             job.cancel.0.store(true, Ordering::Relaxed);
         }
     }
 
-    /// The outcome of a piece of work that has ended, each once. Call once per frame.
+    /// Returns the outcome of a job that has ended. Each outcome is returned once. Call once per frame.
     pub fn poll(&mut self) -> Option<(K, Result<T, JobFailure>)> {
         let ended = |(index, job): (usize, &Job<K, T>)| Some((index, job.outcome()?));
         let (index, outcome) = self.jobs.iter().enumerate().find_map(ended)?;
         Some((self.jobs.remove(index).key, outcome))
     }
 
-    /// As [`poll`](Self::poll); of pieces of work with the same key, the one that began first comes first.
+    /// Returns an outcome as [`poll`](Self::poll) does, but in the order of starting for jobs with equal keys.
     pub(super) fn poll_in_order(&mut self) -> Option<(K, Result<T, JobFailure>)>
     where
         K: PartialEq,
@@ -115,22 +115,22 @@ impl<K, T> Background<K, T> {
 }
 
 impl<K, T: Send + 'static> Background<K, T> {
-    /// Starts work in the place of what is under way. It looks at its flag now and then, and stops where that is raised.
+    /// Starts a job and drops the jobs before it. `work` checks its flag regularly and stops once the flag is set.
     pub fn start(&mut self, key: K, work: impl FnOnce(&AtomicBool) -> T + Send + 'static) {
         self.cancel();
         self.add(key, work);
     }
 
-    /// Starts work beside what is under way.
+    /// Starts a job beside the running jobs.
     pub fn add(&mut self, key: K, work: impl FnOnce(&AtomicBool) -> T + Send + 'static) {
         let cancel = CancelOnDrop(Arc::new(AtomicBool::new(false)));
         let (sender, receiver) = sync_channel(1);
         let (flag, wake) = (Arc::clone(&cancel.0), Arc::clone(&self.wake));
         let run = move || {
             let outcome = work(&flag);
-            // The owner may be gone; then nobody wants the outcome.
+            // Sending fails if the owner is gone. The outcome is not needed then.
             sender.send(outcome).ok();
-            // Closed before the wake, so that whoever wakes sees the final state.
+            // Disconnect the channel before waking, so that the woken thread sees the final state.
             drop(sender);
             wake();
         };
@@ -153,7 +153,7 @@ impl<K, T> Job<K, T> {
     }
 }
 
-/// The flag that asks work to stop. It is raised where nobody waits for the outcome any more.
+/// Cancellation flag of a job. Dropping it sets the flag, because nothing waits for the outcome then.
 struct CancelOnDrop(Arc<AtomicBool>);
 
 impl Drop for CancelOnDrop {

@@ -1,5 +1,5 @@
-//! Small pieces of work for the document that take time: pictures and constraints to read, faces to turn, an embedding
-//! to fit the targets to. Each becomes one edit when it comes back.
+//! Short background jobs for the document: reading pictures and constraints, preparing the mesh, flattening it to fit
+//! the targets. Each result becomes one edit.
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -12,52 +12,52 @@ use freebound_core::mesh::{Preparation, VertexId, WeldDistance};
 use freebound_core::problem::{Embedding, SolveError};
 use freebound_io::{Constraints, ConstraintsError, EdgesError, PictureError, PictureFile};
 
-/// The job that brings the mesh into another form, or takes a chart out of it.
-pub(super) const FORMING: &str = "turning or mending the faces";
+/// Name of the job that prepares the mesh as the document wants it, or extracts a chart.
+pub(super) const FORMING: &str = "reversing or repairing the faces";
 
-/// The job that forms the mesh for an edit of its form.
-pub(super) const RESHAPING: &str = "cutting or mending the mesh";
+/// Name of the job that prepares the mesh for an edit of its preparation.
+pub(super) const RESHAPING: &str = "cutting or repairing the mesh";
 
-/// The mesh flattened without pins, upright in the middle of the picture.
+/// Mesh flattened without pins, upright in the middle of the picture.
 pub(super) struct Flat {
-    /// The picture's frame.
+    /// Frame of the picture.
     pub(super) frame: PictureFrame,
-    /// The form that the mesh had, and the chart that it was.
+    /// Preparation of the mesh, and the number of its chart.
     pub(super) form: Preparation,
     pub(super) chart: Option<usize>,
     pub(super) embedding: Result<Embedding, SolveError>,
 }
 
-/// What a job brings back.
+/// Result of a job.
 pub(super) enum BackgroundJob {
     Picture(Result<PictureFile, PictureError>),
-    /// Constraints for the open mesh, from a file.
+    /// Constraints for the open mesh, read from a file.
     Constraints {
         path: PathBuf,
         read: Result<Constraints, ConstraintsError>,
     },
-    /// Seams for the open mesh, from a file.
+    /// Seams for the open mesh, read from a file.
     Seams(Result<Vec<[VertexId; 2]>, EdgesError>),
-    /// The open mesh in another form, for an edit of it.
+    /// Open mesh in another preparation, for an edit.
     Reshaped(Box<Reshaped>),
-    /// So many vertices of the open mesh lie within a distance of another.
+    /// Number of vertices of the open mesh within a distance of another vertex.
     Near {
         distance: WeldDistance,
         count: usize,
     },
-    /// The open mesh in the form that the document has.
+    /// Open mesh in the preparation of the document.
     Formed(Box<Model>),
-    /// The open mesh flattened, to fit the targets to.
+    /// Open mesh, flattened to fit the targets to it.
     Flat(Flat),
 }
 
-/// Jobs under way, and those that came back while no edit may be made: in the middle of a drag, and while the mesh is brought
-/// into its form.
+/// Jobs in progress, and finished jobs that have to wait because no edit is allowed: during a drag, and while the mesh
+/// is being prepared.
 pub(super) struct BackgroundJobs {
-    /// By what they do, in words.
+    /// Running jobs. The key is a description of the job.
     under_way: Background<&'static str, BackgroundJob>,
     arrived: VecDeque<(&'static str, BackgroundJob)>,
-    /// Whether a person has stopped the work since the mesh is being formed.
+    /// True if the user stopped the work after the preparation of the mesh began.
     is_stopped: bool,
 }
 
@@ -66,18 +66,18 @@ impl BackgroundJobs {
         Self { under_way: Background::new("job", wake), arrived: VecDeque::new(), is_stopped: false }
     }
 
-    /// What the oldest job does that is under way.
+    /// Description of the oldest running job.
     pub(super) fn words(&self) -> Option<&'static str> {
         self.under_way.key().copied()
     }
 
-    /// Whether a job that does this is under way, or waits to be taken in.
+    /// True if a job with this description is running or its result waits.
     pub(super) fn is_under_way(&self, what: &str) -> bool {
         let arrived = self.arrived.iter().map(|(of, _)| of);
         self.under_way.keys().chain(arrived).any(|of| *of == what)
     }
 
-    /// Sends a job. `what` it does goes on as "… stopped unexpectedly" where it fails.
+    /// Starts a job. `what` describes it and completes the message "… stopped unexpectedly".
     pub(super) fn send(
         &mut self,
         what: &'static str,
@@ -86,31 +86,32 @@ impl BackgroundJobs {
         self.under_way.add(what, work);
     }
 
-    /// Drops all jobs: they were for another mesh.
+    /// Drops all jobs, because another mesh is open.
     pub(super) fn forget(&mut self) {
         self.under_way.cancel();
         self.arrived.clear();
     }
 
-    /// Drops the jobs that nobody wants any more. The mesh is still brought into the form that the document has.
+    /// Drops all jobs except [`FORMING`], so that the mesh still gets the preparation of the document.
     pub(super) fn stop(&mut self) {
         self.under_way.cancel_but(|what| *what == FORMING);
         self.arrived.clear();
         self.is_stopped = true;
     }
 
-    /// Notes that a solve is wanted once the mesh has its form.
+    /// Notes that a solve follows once the mesh is prepared.
     pub(super) fn go_on(&mut self) {
         self.is_stopped = false;
     }
 
-    /// Whether nothing is to be solved once the mesh has its form.
+    /// True if no solve follows once the mesh is prepared.
     pub(super) fn is_stopped(&self) -> bool {
         self.is_stopped
     }
 
-    /// The next job that came back, or failed, with what it does: of those that do the same, in the order in which they were sent.
-    /// While they are held back only a mesh in its form is let through, which is no edit.
+    /// Returns the next result or failure, with the description of its job. Jobs with equal descriptions return in the
+    /// order in which they were sent. If `is_held`, only failures and results of [`FORMING`] are returned, which are no
+    /// edits.
     pub(super) fn poll(&mut self, is_held: bool) -> Option<(&'static str, Result<BackgroundJob, JobFailure>)> {
         while let Some((what, job)) = self.under_way.poll_in_order() {
             match job {

@@ -1,4 +1,4 @@
-//! Charts of a mesh that has several: the one on the screen, the others in the background, and their layout.
+//! Actions on meshes with several charts: the shown chart, the charts in the background, and their layout.
 
 use std::sync::Arc;
 
@@ -9,12 +9,12 @@ use freebound_core::mesh::Charts;
 use freebound_core::pipeline::Outcome;
 
 impl Session {
-    /// The charts of the open mesh, where it has several.
+    /// Charts of the open mesh, if it has several.
     pub fn charts(&self) -> Option<&Arc<Charts>> {
         self.model()?.prepared.chart.as_ref().map(|of| &of.charts)
     }
 
-    /// The chart on the screen.
+    /// Number of the shown chart.
     pub fn chart_on_screen(&self) -> Option<usize> {
         self.model()?.prepared.chart.as_ref().map(|of| of.number)
     }
@@ -39,7 +39,7 @@ impl Session {
         }
     }
 
-    /// Puts another chart on the screen, as an edit; once it has been taken out of the mesh, where it has not yet.
+    /// Shows another chart, as an edit. A chart that is not extracted from the mesh yet is shown once it is extracted.
     pub(super) fn show_chart(&mut self, number: usize) {
         let model = self.model().filter(|_| self.has_numbers_as_wanted());
         let Some(of) = model.and_then(|model| model.prepared.chart.clone()) else { return };
@@ -63,12 +63,12 @@ impl Session {
         self.follow_chart();
     }
 
-    /// Chooses how charts are packed, as an edit. No chart is solved anew for it.
+    /// Sets the packing options, as an edit. No chart is solved again.
     pub(super) fn set_packing(&mut self, options: PackingOptions) {
         self.apply(Command::SetPacking(options));
     }
 
-    /// Chooses how large a chart is packed, as an edit. No chart is solved anew for it.
+    /// Sets the relative size of a chart, as an edit. No chart is solved again.
     pub(super) fn set_chart_size(&mut self, chart: usize, size: f64) {
         let first_face = self.charts().filter(|charts| chart < charts.count()).map(|charts| charts.first_face(chart));
         if let Some(first_face) = first_face.filter(|_| PackingOptions::SIZES.contains(&size)) {
@@ -85,7 +85,7 @@ impl Session {
         self.charts().map(of).unwrap_or_default()
     }
 
-    /// Solves for what the document wants on the screen, where it is not there, or on its way.
+    /// Solves for the chart that the document shows, unless it is solved or its run is in progress.
     pub(super) fn follow_chart(&mut self) {
         self.drag.end();
         let is_there = self.bring_form();
@@ -96,9 +96,9 @@ impl Session {
         }
     }
 
-    /// Takes in what was done to the charts that are not on the screen, and has more done.
+    /// Processes the results of the charts in the background and starts their next runs.
     pub(super) fn poll_charts(&mut self) {
-        // In another form the document has other charts.
+        // With another preparation the document has other charts.
         let Some(model) = self.model().filter(|_| self.has_numbers_as_wanted()).cloned() else { return };
         let Some(of) = model.prepared.chart.clone() else { return };
         let revision = self.model_revision();
@@ -112,7 +112,7 @@ impl Session {
     }
 }
 
-/// The layout of all charts.
+/// Layout of all charts.
 impl Session {
     /// Packing options; the picture sets the size, if there is one.
     pub fn packing(&self) -> PackingOptions {
@@ -122,11 +122,11 @@ impl Session {
         PackingOptions { picture: picture.unwrap_or(options.picture), ..options }
     }
 
-    /// All charts, each with its step.
+    /// Collects all charts, each with its step.
     ///
     /// # Errors
     ///
-    /// The number of charts without a step for the current document.
+    /// Number of charts without a step for the current document.
     pub(super) fn solved_atlas(&self) -> Result<SolvedAtlas, usize> {
         let solved = |(model, outcome, timeline): (&Arc<Model>, Arc<Outcome>, &Timeline)| {
             let steps = timeline.records()[..=outcome.step.index].to_vec();
@@ -140,7 +140,7 @@ impl Session {
         }
     }
 
-    /// The charts that are solved for the document as it is.
+    /// Charts that are solved for the current document: model, step and timeline of each.
     fn solved_charts(&self) -> impl Iterator<Item = (&Arc<Model>, Arc<Outcome>, &Timeline)> {
         let count = self.charts().map_or(0, |charts| charts.count());
         (0..count).filter_map(|number| self.solved_chart(number))
@@ -163,14 +163,14 @@ impl Session {
         is_whole.then(|| AtlasKey { outcomes, sizes: self.sizes(), options: self.packing() })
     }
 
-    /// Has the layout of all charts made, once each is solved.
+    /// Computes the layout of all charts in the background, once each of them is solved.
     pub(super) fn poll_atlas(&mut self) {
         self.atlas_views.poll();
         if self.charts().is_none() {
             self.atlas_views.forget();
             return;
         }
-        // One after the other: steps may come faster than layouts.
+        // Only one layout at a time: steps may arrive faster than layouts are computed.
         let Some(key) = self.to_be_made().filter(|_| !self.atlas_views.is_busy()) else { return };
         if self.atlas_views.knows(&key) {
             return;
@@ -180,7 +180,7 @@ impl Session {
         }
     }
 
-    /// The layout of all charts, where each is solved and it was made.
+    /// Layout of all charts, if each is solved and the layout is computed.
     pub fn atlas(&self) -> Option<&AtlasView> {
         let (key, view) = self.atlas_views.made()?;
         self.to_be_made().is_some_and(|now| key.is(&now)).then_some(view)

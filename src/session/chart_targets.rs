@@ -1,4 +1,4 @@
-//! Pins of a mesh with several charts: by the vertices of the mesh in files, by those of each chart in the document.
+//! Pins of a mesh with several charts. Files number the vertices of the mesh, the document those of each chart.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -8,13 +8,13 @@ use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Target, Targets};
 
 impl Model {
-    /// How many vertices a file of pins can name: those of the repaired mesh, where it has several charts.
+    /// Number of vertices that a pin file can name. With several charts these are the vertices of the repaired mesh.
     pub fn vertex_count_in_file(&self) -> usize {
         let whole = self.prepared.chart.as_ref().map(|of| of.charts.whole().polygons().positions.len());
         whole.unwrap_or_else(|| self.vertex_count())
     }
 
-    /// The targets of each chart, of those of the mesh; what is of no chart is left out.
+    /// Splits the targets of the mesh by chart. Targets on vertices that belong to no chart are dropped.
     pub(super) fn by_chart(&self, of_mesh: Targets) -> BTreeMap<usize, Targets> {
         let Some(of) = &self.prepared.chart else { return BTreeMap::from([(0, of_mesh)]) };
         let mut found: BTreeMap<usize, Targets> = BTreeMap::new();
@@ -31,7 +31,7 @@ impl Model {
         found
     }
 
-    /// The targets of all charts, of the vertices of the mesh.
+    /// Targets of all charts, on the vertices of the mesh.
     pub(super) fn all_targets(&self, document: &Document) -> Targets {
         let Some(of) = &self.prepared.chart else { return document.targets.clone() };
         let here = (of.charts.pick(document.chart), &document.targets);
@@ -48,8 +48,8 @@ impl Model {
 }
 
 impl Document {
-    /// Takes over what a project says of the charts of its mesh: pins by the mesh's vertices, and rounds of relaxing of charts that
-    /// are not on the screen.
+    /// Applies the chart data of a project: pins on the vertices of the mesh, and relaxation rounds of charts that are
+    /// not shown.
     pub(super) fn take_charts(&mut self, model: &Model, targets: Targets, relaxed: &BTreeMap<usize, usize>) {
         let here = model.prepared.chart.as_ref().map_or(0, |of| of.number);
         let mut by_chart = model.by_chart(targets);

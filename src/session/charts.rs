@@ -1,8 +1,8 @@
-//! The charts that are not on the screen: each is solved in the background, as the one on the screen is, and keeps its steps.
+//! Charts that are not shown. Each of them is solved in the background like the shown chart, and keeps its steps.
 //!
-//! One chart is on the screen; the session's own run is its. When another takes its place, runs and steps change places with
-//! it, so that nothing is solved twice. The others wait for a thread, the first ones first, and are solved again where
-//! the document has changed for them.
+//! The run of the session belongs to the shown chart. If another chart is shown, the two charts swap runs and steps, so
+//! that nothing is solved twice. The other charts wait for a thread in the order of their numbers. A chart is solved
+//! again if the document has changed for it.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -12,39 +12,40 @@ use super::stop::Goal;
 use super::{Background, ChartEdits, Document, Messages, Model, StopConditions, TIMELINE_BUDGET, Timeline, Wake};
 use freebound_core::pipeline::{ChartOf, Outcome, Problem};
 
-/// The most charts that are solved at once beside the one on the screen.
+/// Maximum number of charts that are solved at once beside the shown chart.
 const AT_ONCE: usize = 2;
 
-/// How a chart stands to the document.
+/// State of a chart relative to the document.
 #[derive(Clone, Debug)]
 pub enum ChartState {
-    /// It waits for its turn, or is being solved.
+    /// The chart waits for its turn or is being solved.
     Solving,
-    /// Its newest step belongs to the document.
+    /// The newest step of the chart belongs to the document.
     Solved(Arc<Outcome>),
-    /// Nothing was found for the document as it is.
+    /// The solve failed for the current document.
     Failed,
 }
 
-/// Charts that are not on the screen.
+/// Charts that are not shown.
 pub(super) struct OtherCharts {
     wake: Wake,
     others: BTreeMap<usize, Other>,
-    /// Charts that are taken out of their mesh, by their number and the mesh's revision.
+    /// Charts being extracted from the mesh, by the mesh's revision and their number.
     forming: Background<(u64, usize), Model>,
-    /// The chart that a person asked for, until it has been taken out.
+    /// Chart that the user requested, until it is extracted.
     asked: Option<usize>,
 }
 
-/// A chart that is not on the screen.
+/// Chart that is not shown.
 struct Other {
     model: Arc<Model>,
     solving: Solving,
-    /// What its runs have to say; nobody reads it while another chart is on the screen.
+    /// Messages of its runs. They are not displayed while another chart is shown.
     messages: Messages,
 }
 
-/// Bytes that the steps of a chart which is not on the screen may take: together no more than those of the one that is.
+/// Memory budget for the steps of a chart that is not shown, bytes. All these charts together use at most the budget of
+/// the shown chart.
 fn share(of: &ChartOf) -> usize {
     TIMELINE_BUDGET / of.charts.count()
 }
@@ -54,29 +55,29 @@ impl OtherCharts {
         Self { wake: Arc::clone(wake), others: BTreeMap::new(), forming: Background::new("chart", wake), asked: None }
     }
 
-    /// Drops all: another mesh is open, or the same one in another form.
+    /// Drops all charts, because another mesh is open or the mesh has another preparation.
     pub(super) fn forget(&mut self) {
         self.others.clear();
         self.forming.cancel();
         self.asked = None;
     }
 
-    /// A chart that has been taken out of the mesh.
+    /// Model of a chart that is extracted.
     pub(super) fn model(&self, number: usize) -> Option<&Arc<Model>> {
         self.others.get(&number).map(|other| &other.model)
     }
 
-    /// Whether a person asked for a chart that is not there yet.
+    /// True if the user requested a chart that is not extracted yet.
     pub(super) fn is_asked(&self) -> bool {
         self.asked.is_some()
     }
 
-    /// Forgets the chart that a person asked for and that is not there yet.
+    /// Cancels the request for a chart that is not extracted yet.
     pub(super) fn forget_asked(&mut self) {
         self.asked = None;
     }
 
-    /// Exchanges the chart on the screen, `model` with its run, for another one, whose run takes its place.
+    /// Swaps the shown chart `model` and its run with the chart `number`, whose run becomes the shown run.
     pub(super) fn exchange(&mut self, model: &Arc<Model>, solving: &mut Solving, number: usize) {
         let Some(of) = &model.prepared.chart else { return };
         let coming = self.others.remove(&number).map(|other| other.solving);
@@ -87,7 +88,7 @@ impl OtherCharts {
         self.others.insert(of.number, other);
     }
 
-    /// A chart that has been taken out of the mesh, with its steps.
+    /// Model and steps of a chart that is extracted.
     pub(super) fn other(&self, number: usize) -> Option<(&Arc<Model>, &Timeline)> {
         self.others.get(&number).map(|other| (&other.model, other.solving.timeline()))
     }
@@ -96,26 +97,26 @@ impl OtherCharts {
         self.others.values().filter(|other| other.solving.is_running()).count()
     }
 
-    /// Notes the chart that a person asks for, until it has been taken out.
+    /// Requests a chart that is not extracted yet.
     pub(super) fn ask(&mut self, number: usize) {
         self.asked = Some(number);
     }
 
-    /// The chart that a person asked for, once it has been taken out.
+    /// Number of the requested chart, once it is extracted.
     pub(super) fn asked_and_formed(&self) -> Option<usize> {
         self.asked.filter(|&number| self.model(number).is_some())
     }
 
-    /// The run of a chart that has been taken out.
+    /// Run of a chart that is extracted.
     pub(super) fn solving(&self, number: usize) -> Option<&Solving> {
         self.others.get(&number).map(|other| &other.solving)
     }
 
-    /// Takes in charts that were taken out of the mesh of a revision, while `of` is on the screen.
+    /// Stores charts that were extracted from the mesh with this revision. `of` is the shown chart.
     pub(super) fn poll_forming(&mut self, of: &ChartOf, revision: u64) {
         while let Some(((of_mesh, number), formed)) = self.forming.poll() {
             if formed.is_err() {
-                // Nobody waits for what does not come.
+                // The requested chart will not arrive.
                 self.asked.take_if(|asked| *asked == number);
             }
             if let Some(model) = formed.ok().filter(|_| of_mesh == revision && number != of.number) {
@@ -126,20 +127,21 @@ impl OtherCharts {
         }
     }
 
-    /// Takes in what the runs have done, and has them go on; new ones begin only at rest, to these conditions.
+    /// Processes the results of the runs and continues them. New runs begin only if `is_at_rest`, with these stop
+    /// conditions.
     pub(super) fn poll_runs(&mut self, document: &Document, of: &ChartOf, stop: StopConditions, is_at_rest: bool) {
         let mut free = AT_ONCE.saturating_sub(self.running_count());
         for (&number, other) in &mut self.others {
             let ChartEdits { targets, relaxed } = document.edits_of(number, of);
             let problem = document.problem_with(targets);
-            // A run of what is wanted no more gives its place to the next.
+            // A run of an outdated problem passes its place to the next run.
             let may_begin = is_at_rest && (free > 0 || other.solving.is_running());
             let has_begun = other.poll(problem, relaxed, may_begin.then_some(stop));
             free = free.saturating_sub(usize::from(has_begun));
         }
     }
 
-    /// Has the next chart taken out of the mesh.
+    /// Extracts the next chart in the background.
     pub(super) fn form_next(&mut self, model: &Arc<Model>, of: &ChartOf, revision: u64) {
         let is_open = |number: &usize| *number != of.number && !self.others.contains_key(number);
         let next = self.asked.into_iter().chain(0..of.charts.count()).find(is_open);
@@ -151,8 +153,9 @@ impl OtherCharts {
 }
 
 impl Other {
-    /// Takes in what its run has done, and has it go on; where it is to be solved anew, to these conditions, if it may. `relaxed`
-    /// rounds of relaxing follow its end. Returns whether a run has begun.
+    /// Processes the results of the chart's run and continues it. If the chart has to be solved again and `begin` holds
+    /// conditions, a run with these conditions begins. `relaxed` relaxation rounds follow the end of the run. Returns
+    /// true if a run has begun.
     fn poll(&mut self, problem: Problem, relaxed: usize, begin: Option<StopConditions>) -> bool {
         let was_running = self.solving.is_running();
         let news = self.solving.poll(&mut self.messages);

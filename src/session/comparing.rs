@@ -1,5 +1,5 @@
-//! Part: methods that are compared on the mesh on the screen, one after the other in the background, with the document's pins and
-//! settings. Where these change, all run again; what was found before stays to be looked at until then.
+//! Methods that are compared on the shown mesh, one after the other in the background, with the document's pins and
+//! settings. If pins or settings change, all methods run again. Their former results stay available until then.
 
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -12,10 +12,10 @@ use freebound_core::problem::{Control, Phase, SolveError, Variant};
 pub(super) struct Comparing {
     wake: Wake,
     contenders: Vec<Contender>,
-    /// The mesh that they run on, by its revision.
+    /// Revision of the mesh that the methods run on.
     model: Option<u64>,
     running: Option<Running>,
-    /// Counts what has come in.
+    /// Number of changes of the results.
     revision: u64,
 }
 
@@ -24,33 +24,33 @@ pub(super) struct Comparing {
 pub struct Contender {
     variant: Variant,
     state: State,
-    /// What it came to last, perhaps of pins and settings that were others.
+    /// Last result. Its pins and settings may be outdated.
     found: Option<Arc<Compared>>,
 }
 
-/// How far a method has come with a problem.
+/// Progress of a method with a problem.
 #[derive(Debug)]
 enum State {
-    /// It waits for its turn.
+    /// The method waits for its turn.
     Waiting,
-    /// It is running.
+    /// The method is running.
     Running,
-    /// It has come to its end with the problem of what was found.
+    /// The method has ended. The result holds the problem.
     Done,
-    /// Its thread was lost, in words, with a problem.
+    /// The thread of this problem was lost, with this message.
     Lost(Problem, String),
 }
 
-/// How a method stands to the document.
+/// State of a method relative to the document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ContenderState {
-    /// It waits for its turn.
+    /// The method waits for its turn.
     Waiting,
-    /// It is running; what it does, and how many steps it has taken.
+    /// The method is running, in this phase and with this number of finished steps.
     Running(Option<Phase>, usize),
-    /// What was found belongs to the document.
+    /// The result belongs to the document.
     Done,
-    /// Nothing will be found, for this reason.
+    /// No result can be found, for this reason.
     Lost(String),
 }
 
@@ -60,7 +60,7 @@ impl Contender {
         self.variant.clone()
     }
 
-    /// What it came to last. While it is not done that is of pins and settings that were others.
+    /// Last result. Unless the method is done, its pins and settings are outdated.
     pub fn found(&self) -> Option<&Arc<Compared>> {
         self.found.as_ref()
     }
@@ -73,7 +73,7 @@ struct Running {
     progress: Arc<Mutex<RunProgress>>,
 }
 
-/// What the background does.
+/// Progress of the background thread.
 #[derive(Clone, Copy, Debug, Default)]
 struct RunProgress {
     phase: Option<Phase>,
@@ -85,7 +85,7 @@ impl Comparing {
         Self { wake: Arc::clone(wake), contenders: Vec::new(), model: None, running: None, revision: 0 }
     }
 
-    /// Compares these methods, in this order; none ends the comparison. What is known of them stays.
+    /// Sets the methods to compare, in this order. An empty list ends the comparison. Known results are kept.
     pub(super) fn choose(&mut self, variants: &[Variant]) {
         let mut before = std::mem::take(&mut self.contenders);
         for variant in variants {
@@ -100,7 +100,7 @@ impl Comparing {
         self.revision += 1;
     }
 
-    /// Drops what belongs to another mesh.
+    /// Drops all results if another mesh is open.
     pub(super) fn follow_mesh(&mut self, revision: u64) {
         if self.model.replace(revision) != Some(revision) {
             self.running = None;
@@ -111,7 +111,7 @@ impl Comparing {
         }
     }
 
-    /// Has all run again whose problem is another one now.
+    /// Marks the methods whose problem has changed to run again.
     pub(super) fn restart_outdated(&mut self, problem: &Problem) {
         let of = |variant: &Variant| problem.by(variant);
         let is_outdated = |running: &mut Running| {
@@ -134,7 +134,7 @@ impl Comparing {
         }
     }
 
-    /// Takes in what has come to its end.
+    /// Stores the result of the run that has ended.
     pub(super) fn poll(&mut self) {
         let Some(running) = &mut self.running else { return };
         let Some((problem, outcome)) = running.job.poll() else { return };
@@ -144,13 +144,13 @@ impl Comparing {
         let Some(contender) = self.contenders.iter_mut().find(|contender| contender.variant == variant) else { return };
         (contender.state, contender.found) = match outcome {
             Ok(Ok(compared)) => (State::Done, Some(Arc::new(compared))),
-            // Nobody asked it to stop that still waits for it.
+            // Cancelled. Nothing waits for a cancelled run.
             Ok(Err(_)) => (State::Waiting, contender.found.take()),
             Err(failure) => (State::Lost(problem, failure.words(variant.method.words())), None),
         };
     }
 
-    /// Begins with the next method, where none runs.
+    /// Starts the next method, unless a method is running.
     pub(super) fn begin_next(&mut self, model: &Arc<Model>, problem: &Problem) {
         if self.running.is_some() {
             return;
@@ -174,22 +174,22 @@ impl Comparing {
         self.revision += 1;
     }
 
-    /// The methods, in the order in which they were chosen.
+    /// Methods in the order in which they were chosen.
     pub(super) fn contenders(&self) -> &[Contender] {
         &self.contenders
     }
 
-    /// The count of what has come in.
+    /// Number of changes of the results.
     pub(super) fn revision(&self) -> u64 {
         self.revision
     }
 
-    /// True if some methods are still to be run.
+    /// True if a method waits or is running.
     pub(super) fn is_open(&self) -> bool {
         self.contenders.iter().any(|contender| matches!(contender.state, State::Waiting | State::Running))
     }
 
-    /// The state of a method; one that is done counts only if the document has come to rest.
+    /// State of a method. A finished method counts as done only if `is_at_rest`.
     pub(super) fn state_of(&self, contender: &Contender, is_at_rest: bool) -> ContenderState {
         match &contender.state {
             State::Running => {

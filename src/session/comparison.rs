@@ -1,4 +1,4 @@
-//! Methods run beside each other on one mesh: each from its beginning to its end, by itself, with nothing kept from another,
+//! Methods that run independently on one mesh, each from its beginning to its end. No method reuses results of another,
 //! so that their times can be compared.
 
 use std::sync::Arc;
@@ -13,30 +13,30 @@ use freebound_io::{
     TimedStep, VerdictCounts,
 };
 
-/// A method that has come to its end.
+/// Method that has ended, with its result.
 #[derive(Clone, Debug)]
 pub struct Compared {
-    /// What it solved.
+    /// Problem that the method solved.
     pub problem: Problem,
-    /// The last step in which the constraints had a part; none where there is none.
+    /// Last step that is not part of a planar start, if there is one.
     pub outcome: Option<Arc<Outcome>>,
-    /// Why it came to its end; the error, where a stage failed.
+    /// Reason for the end of the run, or the error of a stage that failed.
     pub ending: Result<Ending, SolveError>,
-    /// What is reported of it. Vertices are those of the file that the model came from.
+    /// Report on the method. Vertices are numbered as in the file of the model.
     pub report: MethodReport,
 }
 
 impl Compared {
-    /// Runs a problem's method from its beginning to its end, and hands over the numbers of each step as it is there. It begins
-    /// with the layout of the file where that is wanted and is there.
+    /// Runs a problem's method to its end and passes the numbers of each step to `take`. The run starts from the layout
+    /// of the file if the problem asks for it and the layout exists.
     ///
     /// # Errors
     ///
-    /// [`SolveError::Cancelled`] where the caller asked to stop. All other errors are the method's end.
+    /// [`SolveError::Cancelled`] if the caller cancels. All other errors end the method and are part of the result.
     ///
     /// # Panics
     ///
-    /// If the model is no disk.
+    /// If the model is not a disk.
     pub fn run(
         model: &Model,
         problem: Problem,
@@ -50,7 +50,7 @@ impl Compared {
         let mut since = Instant::now();
         let ending = ladder.finish(mesh, control, |step| {
             seconds.verify += step.verify_seconds;
-            // Where an embedding folds is found out for whoever looks on: no part of the method.
+            // The verdict and the hull condition inform the user. They are no part of the method.
             let aside = step.verify_seconds + step.hull_seconds;
             seconds.solve += (since.elapsed().as_secs_f64() - aside).max(0.0);
             let outcome = Outcome::new(mesh, problem.clone(), step);
@@ -60,10 +60,10 @@ impl Compared {
             if !outcome.step.is_of_planar_start() {
                 last = Some(Arc::new(outcome));
             }
-            // What was measured for the comparison does not count.
+            // Time spent on the comparison itself is not counted.
             since = Instant::now();
         });
-        // What a stage tried in vain counts too.
+        // Time of failed attempts is counted, too.
         seconds.solve += since.elapsed().as_secs_f64();
         if ending == Err(SolveError::Cancelled) {
             return Err(SolveError::Cancelled);
@@ -74,11 +74,11 @@ impl Compared {
     }
 }
 
-/// What is reported of methods that have run on a model, in their order.
+/// Report on methods that have run on a model, in their order.
 ///
 /// # Panics
 ///
-/// If the model is no disk.
+/// If the model is not a disk.
 pub fn comparison_report(model: &Model, methods: &[&Compared]) -> ComparisonReport {
     let disk = model.disk().expect("methods run on disks only");
     let repairs = model.whole_repaired().map(|repaired| repaired.done().to_vec()).unwrap_or_default();
@@ -90,9 +90,9 @@ pub fn comparison_report(model: &Model, methods: &[&Compared]) -> ComparisonRepo
     report
 }
 
-/// What a run came to, its embedding aside.
+/// Numbers of a run, without its embedding.
 struct Numbers {
-    /// The error, where a stage failed.
+    /// Ending, or the error of a stage that failed.
     ending: Result<Ending, SolveError>,
     steps: Vec<TimedStep>,
     seconds: MethodSeconds,
@@ -120,7 +120,7 @@ impl Numbers {
     }
 }
 
-/// The numbers of a step, with what it has come to by then.
+/// Numbers of a step, with the time elapsed.
 fn timed(outcome: &Outcome, seconds: MethodSeconds) -> TimedStep {
     let summary = &outcome.distortion.summary;
     TimedStep {

@@ -1,4 +1,4 @@
-//! Methods that are compared, and the morph between two of them: what a session asks of both and says of them.
+//! Actions and queries of the session for compared methods and the morph between two of them.
 
 use std::sync::Arc;
 
@@ -7,12 +7,12 @@ use super::{Compared, Contender, ContenderState, MorphState, Session, morph_end}
 use freebound_core::problem::Variant;
 
 impl Session {
-    /// The methods that are compared, in the order in which they were chosen; none where there is no comparison.
+    /// Methods that are compared, in the order in which they were chosen. Empty without a comparison.
     pub fn contenders(&self) -> &[Contender] {
         self.comparing.contenders()
     }
 
-    /// Changes with what is known of them.
+    /// Number of changes of the comparison. Cached views compare it.
     pub fn comparison_revision(&self) -> u64 {
         self.comparing.revision()
     }
@@ -23,26 +23,26 @@ impl Session {
         self.comparing.state_of(contender, is_there && !self.history.is_in_gesture())
     }
 
-    /// True if some of them are still to be run, and can be.
+    /// True if a method is still to be run and the mesh is a disk.
     pub fn is_comparing(&self) -> bool {
         self.disk().is_some() && self.comparing.is_open()
     }
 
-    /// Compares these methods, or none any more.
+    /// Sets the methods to compare. An empty list ends the comparison.
     pub(super) fn compare_methods(&mut self, variants: &[Variant]) {
         self.comparing.choose(variants);
         self.poll_comparing();
     }
 
-    /// Takes in what the methods have come to, and has the next one run: while nothing else is solved on the mesh, so that the
-    /// machine is its own and times can be compared.
+    /// Stores the results of methods and starts the next method. Methods run only while nothing else is solved, so that
+    /// their times can be compared.
     pub(super) fn poll_comparing(&mut self) {
         if self.comparing.contenders().is_empty() {
             return;
         }
         self.comparing.follow_mesh(self.model_revision());
         self.comparing.poll();
-        // In a gesture the document changes from moment to moment.
+        // During a gesture the document changes every frame.
         if self.history.is_in_gesture() || !self.has_form_as_wanted() {
             return;
         }
@@ -56,25 +56,25 @@ impl Session {
     }
 }
 
-/// The morph.
+/// Morph between two methods.
 impl Session {
     /// State of the requested morph.
     pub fn morph(&self) -> MorphState {
         self.morphing.state()
     }
 
-    /// The methods whose maps are wanted as ends of a morph.
+    /// Methods at the ends of the requested morph.
     pub fn morph_between(&self) -> Option<[Variant; 2]> {
         self.morphing.between()
     }
 
-    /// True if a morph is yet to be found, and can be.
+    /// True if the requested morph is still to be found and both methods have a result.
     pub fn is_morphing(&self) -> bool {
         let is_open = matches!(self.morph(), MorphState::Waiting | MorphState::Running(..));
         is_open && self.ends_of_morph().is_some()
     }
 
-    /// The methods that have a map, in their order, that a morph can begin or end with.
+    /// Methods with a map that a morph can begin or end with, in their order.
     pub fn morph_ends(&self) -> Vec<(Variant, Arc<Compared>)> {
         let of = |contender: &Contender| {
             let found = contender.found().filter(|_| self.contender_state(contender) == ContenderState::Done)?;
@@ -83,7 +83,7 @@ impl Session {
         self.contenders().iter().filter_map(of).collect()
     }
 
-    /// Wants the morph between two methods, or none any more.
+    /// Requests the morph between two methods, or ends it.
     pub(super) fn want_morph(&mut self, between: Option<[Variant; 2]>) {
         self.morphing.want(between);
         self.poll_morph();
@@ -99,7 +99,8 @@ impl Session {
         Some([found(first)?, found(second)?])
     }
 
-    /// Takes in what was found, drops what belongs to other maps, and begins where all is there and the machine is free.
+    /// Stores a morph that was found and drops one between other maps. Begins the requested morph once both results
+    /// exist and nothing else is running.
     pub(super) fn poll_morph(&mut self) {
         let now = self.ends_of_morph();
         self.morphing.keep_of(now.as_ref());

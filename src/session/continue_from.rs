@@ -1,12 +1,13 @@
-//! What a run of the document goes on from: the planar embedding that is there.
+//! Start of a run after an edit: the planar embedding that exists.
 //!
-//! An edit of a pin, and of whether edges may be split, goes on from it. A choice of method, weights, form, chart or picture
-//! does not: what they mean shows only where the map is made by them alone. Where constraints are only added, and the map meets
-//! them already, as those of vertices that are fixed where they lie, it stays as it is.
+//! An edit of a pin, or of the permission to split edges, continues from the existing embedding. A change of method,
+//! weights, preparation, chart or picture solves from scratch, because only then the result shows the effect of the
+//! change. If constraints are only added and the map already meets them, the map is unchanged. Pins at the current
+//! positions of their vertices are an example.
 //!
-//! At least two pins have to stay where they are. They hold the map in its place, at its size: from there the others go
-//! their ways. Where none stays (targets that are mirrored, fitted or replaced), the map lies anywhere beside them, and the
-//! whole of it would have to be dragged there.
+//! At least two pins have to stay at their targets. They keep the position and the size of the map while the other pins
+//! move. Without them (mirrored, fitted or replaced targets) the map lies anywhere beside the targets, and all of it
+//! would have to be dragged there.
 
 use std::sync::Arc;
 
@@ -16,8 +17,8 @@ use super::solving::Beginning;
 use freebound_core::pipeline::{Outcome, Problem};
 
 impl Session {
-    /// The embedding that a run of the document goes on from after an edit: that on the screen, or else that of the newest
-    /// step. None where it is solved from scratch.
+    /// Embedding that a run of the document continues from after an edit. Prefers the shown embedding to the newest
+    /// step. `None` if the run solves from scratch.
     pub(super) fn beginning(&self) -> Option<Beginning> {
         if !self.has_form_as_wanted() {
             return None;
@@ -29,12 +30,13 @@ impl Session {
         };
         let serves = |screen: &Screen| screen.is_planar && wanted.continues_from(&screen.problem);
         let screen = self.screen().filter(serves).or_else(newest)?;
-        // Where constraints only came, the map is as good as it was where it meets them, too.
+        // If constraints were only added, a map that meets them too is as good as before.
         let stays = screen.problem.targets.iter().all(|(vertex, target)| wanted.targets.get(vertex) == Some(target));
         Some(Beginning { embedding: screen.embedding, stays })
     }
 
-    /// The embedding on the screen where it is planar, and made by the document's method: the end of a drag goes on from it.
+    /// Shown embedding, if it is planar and the document's method made it. A run at the end of a drag continues from
+    /// it.
     pub(super) fn planar_on_screen(&self) -> Option<Beginning> {
         let wanted = self.document.problem();
         let is_alike = |screen: &Screen| {
@@ -44,18 +46,18 @@ impl Session {
         self.screen().filter(is_alike).map(|screen| Beginning { embedding: screen.embedding, stays: false })
     }
 
-    /// Whether the map on the screen goes on from one that was there before an edit: solved from scratch, it may be another.
+    /// True if the shown map continues one from before an edit. Solving from scratch may give another map.
     pub fn is_continued(&self) -> bool {
         self.outcome().is_some_and(|outcome| outcome.step.is_continued)
     }
 }
 
 impl Screen {
-    /// A step, on a mesh of so many vertices: of new ones it has nothing to say. Whether it is one-to-one without them, the run
-    /// finds out.
+    /// State of the screen for a step, with the first `vertex_count` vertices. New vertices are dropped. The run checks
+    /// if the embedding is one-to-one without them.
     pub(super) fn of(outcome: &Outcome, vertex_count: usize) -> Option<Self> {
         let (step, problem) = (&outcome.step, outcome.problem.clone());
-        // A planar start sets constraints aside: it is nothing to hold them where they are.
+        // A planar start sets constraints aside, so its pins are not at their targets.
         let is_planar = step.verdict.planar && !step.verdict.mirrored && !step.is_of_planar_start();
         let embedding = step.candidate.solution.embedding.get(..vertex_count)?.to_vec().into();
         Some(Self { embedding: Arc::new(embedding), problem, is_planar })

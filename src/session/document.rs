@@ -1,4 +1,4 @@
-//! What the user edits, and one edit of it.
+//! Document that the user edits, and its undoable edits.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,60 +11,60 @@ use freebound_core::pipeline::{ChartOf, Problem, Target, Targets, hard_targets, 
 use freebound_core::problem::{Pins, Settings};
 use freebound_io::PictureFile;
 
-/// What the user edits. Small: mesh and pictures are immutable and kept elsewhere.
+/// Document that the user edits. It is small, because mesh and pictures are immutable and stored elsewhere.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Document {
-    /// The user's pins by their targets.
+    /// Targets of the user's pins.
     pub targets: Targets,
     /// Method and weights.
     pub settings: Settings,
     /// The picture that is mapped on the mesh.
     pub picture: Option<Arc<PictureFile>>,
-    /// Width over height of a picture that is not at hand.
+    /// Aspect ratio (width over height) of a picture that is not available.
     pub aspect: Option<f64>,
-    /// Where v = 0 is on the picture.
+    /// Side of the picture with v = 0.
     pub v_axis: VAxis,
-    /// What is made of the mesh's faces.
+    /// Preparation of the mesh.
     pub form: Preparation,
-    /// The chart on the screen, where the mesh has several; none stands for the largest.
+    /// Number of the shown chart, if the mesh has several. Default: the largest chart.
     pub chart: Option<usize>,
-    /// How several charts are packed, where there is no picture that they go on.
+    /// Packing options for several charts. If there is a picture, its size replaces the size in the options.
     pub packing: PackingOptions,
-    /// How many times as large as the others charts are packed, by their first faces in the file; 1 without it. Above
-    /// [`PackingOptions::SIZES`] and below, the nearest end of it is taken.
+    /// Sizes of charts relative to the others, by their first faces in the file. Default: 1. Sizes outside
+    /// [`PackingOptions::SIZES`] are clamped.
     pub sizes: BTreeMap<FaceId, f64>,
-    /// What the user has edited of charts that are not on the screen.
+    /// Edits of charts that are not shown.
     pub elsewhere: BTreeMap<usize, ChartEdits>,
-    /// Rounds of relaxing that a person has asked for: they follow wherever a run comes to its end, whatever happens to
-    /// pins, picture and faces. Choosing method or weights in any way, a repair and solving again drop them; a pause leaves
-    /// those that were taken.
+    /// Number of relaxation rounds that the user requested. They follow the end of each run, also after edits of pins,
+    /// picture and faces. A change of method or weights, a repair and solving from scratch reset the number. A pause
+    /// keeps the rounds that were taken.
     pub relaxed: usize,
 }
 
-/// What the user edits of one chart of several.
+/// Edits of one chart of several.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ChartEdits {
-    /// The pins by their targets. Vertices are the chart's own.
+    /// Targets of the chart's pins, by the chart's own vertices.
     pub targets: Targets,
-    /// As [`Document::relaxed`].
+    /// Number of relaxation rounds that the user requested, see [`Document::relaxed`].
     pub relaxed: usize,
 }
 
-/// What is made of the mesh's faces, with all that is edited of vertices and charts, whose numbers belong to it.
+/// Preparation of the mesh, with all edits whose vertex and chart numbers depend on it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shape {
-    /// As [`Document::form`].
+    /// Preparation of the mesh, see [`Document::form`].
     pub form: Preparation,
-    /// As [`Document::chart`].
+    /// Number of the shown chart, see [`Document::chart`].
     pub chart: Option<usize>,
-    /// What is edited of the chart on the screen, or of the mesh.
+    /// Edits of the shown chart, or of the whole mesh.
     pub shown: ChartEdits,
-    /// As [`Document::elsewhere`].
+    /// Edits of charts that are not shown, see [`Document::elsewhere`].
     pub elsewhere: BTreeMap<usize, ChartEdits>,
 }
 
 impl Shape {
-    /// Takes the place of the document's, which it becomes.
+    /// Swaps all fields with those of the document.
     fn exchange(&mut self, document: &mut Document) {
         std::mem::swap(&mut self.form, &mut document.form);
         std::mem::swap(&mut self.chart, &mut document.chart);
@@ -75,7 +75,7 @@ impl Shape {
 }
 
 impl Document {
-    /// A built-in mesh's landmarks as constraints, on the picture that belongs to it.
+    /// Document of a built-in mesh: its landmarks as constraints, on its picture.
     pub fn of_example(example: Example) -> Self {
         let landmarks = example.landmarks().into_iter();
         Self {
@@ -85,18 +85,18 @@ impl Document {
         }
     }
 
-    /// How texture coordinates lie in the plane where the mesh is flattened.
+    /// Frame of texture coordinates in the plane of the embedding.
     pub fn frame(&self) -> PictureFrame {
         let aspect = self.picture.as_ref().map(|picture| picture.aspect()).or(self.aspect);
         PictureFrame { aspect: aspect.unwrap_or(1.0), v_axis: self.v_axis }
     }
 
-    /// What a run of it is to solve: where there is a picture, the embedding is made to lie on it.
+    /// Problem that a run of the document solves. If there is a picture, the embedding is placed on it.
     pub fn problem(&self) -> Problem {
         self.problem_with(self.targets.clone())
     }
 
-    /// What the user has edited of a chart.
+    /// Edits of a chart.
     pub(super) fn edits_of(&self, number: usize, of: &ChartOf) -> ChartEdits {
         if of.charts.pick(self.chart) == number {
             return ChartEdits { targets: self.targets.clone(), relaxed: self.relaxed };
@@ -104,83 +104,83 @@ impl Document {
         self.elsewhere.get(&number).cloned().unwrap_or_default()
     }
 
-    /// The same with other targets.
+    /// Problem of the document with other targets.
     pub(super) fn problem_with(&self, targets: Targets) -> Problem {
         let has_picture = self.picture.is_some() || self.aspect.is_some();
         Problem::new(&self.settings, self.frame(), has_picture, targets)
     }
 
-    /// How many times as large as the others a chart is packed.
+    /// Size of a chart relative to the others.
     pub fn size_of(&self, charts: &Charts, number: usize) -> f64 {
         self.sizes.get(&charts.first_face(number)).copied().unwrap_or(1.0)
     }
 
-    /// Keeps what is edited of a chart that is not on the screen; nothing is no entry.
+    /// Stores the edits of a chart that is not shown. Default edits get no entry.
     pub(super) fn put_elsewhere(&mut self, chart: usize, edits: ChartEdits) {
         if edits != ChartEdits::default() {
             self.elsewhere.insert(chart, edits);
         }
     }
 
-    /// The user's pins in that plane.
+    /// User's pins, in the plane of [`frame`](Self::frame).
     pub fn pins(&self) -> Pins {
         pins_in_plane(&self.targets, self.frame())
     }
 }
 
-/// One undoable edit.
+/// Undoable edit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Pins `vertex`, or frees it when `target` is `None`.
+    /// Pins `vertex`, or unpins it if `target` is `None`.
     SetPin {
-        /// The vertex to pin or free.
+        /// Vertex to pin or unpin.
         vertex: VertexId,
         /// Its target.
         target: Option<Target>,
     },
-    /// Chooses method and weights.
+    /// Sets method and weights.
     SetSettings(Settings),
-    /// Chooses the picture.
+    /// Sets the picture.
     SetPicture(Option<Arc<PictureFile>>),
-    /// Chooses where v = 0 is.
+    /// Sets the side of the picture with v = 0.
     SetVAxis(VAxis),
-    /// Takes the mesh's faces in another form.
+    /// Sets the preparation of the mesh.
     SetForm(Preparation),
-    /// Takes the mesh in another form, with all that is edited of its vertices.
+    /// Sets the preparation of the mesh, together with all edits of its vertices.
     Reshape(Box<Shape>),
-    /// Chooses how many rounds of relaxing follow a run.
+    /// Sets the number of relaxation rounds that follow a run.
     SetRelaxed(usize),
-    /// Puts another chart on the screen.
+    /// Shows another chart.
     ShowChart {
-        /// The chart.
+        /// Number of the chart to show.
         to: usize,
-        /// The one that is on the screen.
+        /// Number of the chart that is shown now.
         from: usize,
-        /// How the document has it: none stands for the largest.
+        /// New value of [`Document::chart`]. `None` means the largest chart.
         chart: Option<usize>,
     },
-    /// Chooses how charts are packed.
+    /// Sets the packing options.
     SetPacking(PackingOptions),
-    /// Chooses how large a chart is packed, by its first face in the file.
+    /// Sets the relative size of a chart.
     SetSize {
-        /// The face.
+        /// First face of the chart, numbered in the file.
         first_face: FaceId,
-        /// How many times as large as the others; none for as large.
+        /// Size relative to the others. `None` means the default size.
         size: Option<f64>,
     },
-    /// Changes what is edited of a chart that is not on the screen.
+    /// Sets the edits of a chart that is not shown.
     SetElsewhere {
         /// The chart.
         chart: usize,
-        /// All that is edited of it.
+        /// All edits of the chart.
         edits: ChartEdits,
     },
-    /// Several edits that are one for the user.
+    /// Several edits that are one edit for the user.
     Together(Vec<Command>),
 }
 
 impl Command {
-    /// Carries out the edit and returns the command that takes it back.
+    /// Carries out the edit and returns its inverse.
     #[must_use = "dropping the inverse makes the edit impossible to undo"]
     pub fn apply(self, document: &mut Document) -> Self {
         match self {

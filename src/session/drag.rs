@@ -1,14 +1,14 @@
-//! A pin that follows the pointer.
+//! Preview of pins that follow the pointer.
 //!
-//! Where the screen shows a planar embedding and the method goes on from one, that embedding follows and stays planar: see
-//! the module `live`. Elsewhere what follows is linear.
+//! If the screen shows a planar embedding and the method continues from one, that embedding follows the pins and stays
+//! planar: see the module `live`. Otherwise the preview is linear.
 //!
 //! The first solve is complex-linear in the targets: z = Φ t. Moving pins by δ adds δ times their columns of Φ, one
-//! multiply-add a vertex, at any size. So when a drag begins, the column of what is dragged is solved for once, in the
-//! background; from then on every move shows at once, as what was on the screen plus that change, so that nothing jumps; as the
-//! first solve plus that change where the screen shows new vertices, or where the pin was the solver's own. The exact verdict
-//! on it lags behind, and says so. Where the method does not begin with that solve, nothing follows the pointer until it
-//! rests.
+//! multiply-add per vertex, at any mesh size. The column of the dragged pins is solved for once, in the background,
+//! when the drag begins. Then every move is shown at once. The base of the preview is the embedding on the screen, so
+//! that nothing jumps. If the screen shows new vertices, or the dragged pin was a gauge pin, the base is the first
+//! solve. The exact verdict on the preview arrives later and is marked so. If the method does not begin with this
+//! solve, the embedding does not move until the pointer pauses.
 //!
 //! ```text
 //! first move ──▶ job: column ──▶ Follow
@@ -32,27 +32,27 @@ use freebound_core::pipeline::Problem;
 use freebound_core::problem::{Control, Embedding, SolveError};
 use freebound_core::verify::{Verdict, verdict};
 
-/// Pins moved together may differ in their way by this share of it: rounding of the pointer's place.
+/// Relative tolerance of the displacements of pins that move together: rounding of the pointer's position.
 const SAME_WAY: f64 = 1e-9;
 
-/// What follows pins while they are dragged.
+/// Embedding shown while pins are dragged.
 #[derive(Clone, Debug)]
 pub struct Preview {
-    /// Where vertices lie, in the plane.
+    /// Positions of the vertices, in the plane.
     pub embedding: Arc<Embedding>,
-    /// Counts the moves of this session, so that a screen can tell when to draw anew.
+    /// Number of previews in this session. A screen redraws if it changes.
     pub revision: u64,
-    /// Where it is a planar embedding that stays so: how far it has followed.
+    /// State of the planar drag. `None` if the preview is linear.
     pub live: Option<LivePreview>,
-    /// The vertices that may have moved, if it is a planar embedding that stays so.
+    /// Vertices that may have moved in a planar drag.
     moved: Option<MovedVertices>,
-    /// The problem that it follows to.
+    /// Problem with the targets of this preview.
     problem: Problem,
-    /// The newest verdict that there is, with the revision that it is on.
+    /// Newest verdict, with the revision of the preview that it belongs to.
     checked: Option<(u64, Arc<Verdict>)>,
 }
 
-/// Vertices that may have moved since a drag began; all others lie where they did.
+/// Vertices that may have moved since a drag began. All other vertices are unchanged.
 #[derive(Clone, Debug)]
 pub struct MovedVertices {
     begin: Arc<Embedding>,
@@ -60,46 +60,46 @@ pub struct MovedVertices {
 }
 
 impl MovedVertices {
-    /// The embedding that the drag began with. It stays the same object during the drag.
+    /// Embedding at the beginning of the drag. Its address does not change during the drag.
     pub fn begin(&self) -> &Arc<Embedding> {
         &self.begin
     }
 
-    /// The vertices.
+    /// Vertices that may have moved.
     pub fn vertices(&self) -> &[VertexId] {
         &self.vertices
     }
 }
 
-/// How far a planar embedding has followed.
+/// State of a planar drag.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LivePreview {
-    /// What is in the way of a pin that cannot follow.
+    /// Obstacle of a pin that cannot follow the pointer.
     pub obstacle: Option<Blocker>,
 }
 
 impl Preview {
-    /// The vertices that may have moved since the drag began, if it is a planar embedding that stays so.
+    /// Vertices that may have moved since the drag began. `None` if the preview is linear.
     pub fn moved(&self) -> Option<&MovedVertices> {
         self.moved.as_ref()
     }
 
-    /// The problem that it follows to.
+    /// Problem with the targets of this preview.
     pub(super) fn problem(&self) -> &Problem {
         &self.problem
     }
 
-    /// The verdict on this very embedding, once it is there.
+    /// Verdict on this revision of the preview, once it is computed.
     pub fn verdict(&self) -> Option<&Arc<Verdict>> {
         self.checked.as_ref().filter(|(revision, _)| *revision == self.revision).map(|(_, verdict)| verdict)
     }
 }
 
-/// What is solved for once, for all moves of a drag.
+/// Column of a drag, solved for once and reused by all moves.
 pub(super) struct Follow {
-    /// The problem that the base is of.
+    /// Problem that the base solves.
     problem: Problem,
-    /// The pins that are dragged, ascending.
+    /// Dragged pins, ascending.
     dragged: Vec<VertexId>,
     prepared: Arc<Prepared>,
     base: Arc<Embedding>,
@@ -111,7 +111,7 @@ impl Follow {
         &self.problem
     }
 
-    /// The pins that are dragged, ascending.
+    /// Dragged pins, ascending.
     pub(super) fn dragged(&self) -> &[VertexId] {
         &self.dragged
     }
@@ -120,17 +120,17 @@ impl Follow {
         &self.prepared
     }
 
-    /// Whether it serves a drag of these pins in this problem: only their targets differ.
+    /// True if the column applies to a drag of these pins in this problem: only their targets differ.
     fn serves(&self, problem: &Problem, dragged: &[VertexId]) -> bool {
         self.dragged == dragged && self.problem.differs_in_targets_of(problem, dragged)
     }
 
-    /// Goes on from what is on the screen.
+    /// Uses the embedding on the screen as the base.
     fn go_on_from(&mut self, screen: &Screen) {
         (self.base, self.problem) = (Arc::clone(&screen.embedding), screen.problem.clone());
     }
 
-    /// The base with the change of the first solve; none where the dragged pins did not all go the same way.
+    /// Base plus the change of the first solve. `None` if the displacements of the dragged pins differ.
     fn embedding(&self, problem: &Problem) -> Option<Embedding> {
         let (from, to) = (self.problem.pins(), problem.pins());
         let way = |vertex: &VertexId| Some(to.get(vertex)?.target - from.get(vertex)?.target);
@@ -142,7 +142,7 @@ impl Follow {
         let moved = |(base, column): (&DVec2, &DVec2)| *base + by.rotate(*column);
         let mut embedding: Embedding = self.base.par_iter().zip(&self.column).map(moved).collect::<Vec<_>>().into();
         for (vertex, pin) in to.iter().filter(|(_, pin)| problem.settings.is_hard(pin.kind)) {
-            // What was met stays met, to the last bit.
+            // Hard pins that were met stay met, bit for bit.
             if from.get(vertex).is_some_and(|before| before.target == self.base[vertex]) {
                 embedding[*vertex] = pin.target;
             }
@@ -151,21 +151,21 @@ impl Follow {
     }
 }
 
-/// What a column is solved for.
+/// Problem and pins of a column that is being solved for.
 struct WantedPreview {
     problem: Problem,
     dragged: Vec<VertexId>,
 }
 
-/// What the screen shows while pins are dragged.
+/// Preview and solvers of a drag.
 pub(super) struct Drag {
     preview: Option<Preview>,
-    /// Counts previews.
+    /// Number of previews.
     revision: u64,
     live: LiveDrag,
     follow: Option<Follow>,
     following: Background<WantedPreview, Result<Follow, SolveError>>,
-    /// Proves previews, by their revisions, one at a time.
+    /// Verdicts on previews, by their revisions, one at a time.
     proving: Background<u64, Verdict>,
 }
 
@@ -181,13 +181,13 @@ impl Drag {
         }
     }
 
-    /// Whether a column, a frame, or the verdict on a preview, is being computed.
+    /// True if a column, a frame or the verdict on a preview is being computed.
     pub(super) fn is_busy(&self) -> bool {
         self.following.is_busy() || self.proving.is_busy() || self.live.is_busy()
     }
 
-    /// Lets the embedding follow pins that were moved, at once where their column is known; otherwise that is solved
-    /// for first, unless it is under way.
+    /// Moves the embedding with the dragged pins, at once if their column is known. Otherwise solves for the column
+    /// first, unless its solve is in progress.
     pub(super) fn follow(&mut self, request: DragRequest, prepared: Option<&Arc<Prepared>>) {
         if self.preview.is_none()
             && let (Some(follow), Some(screen)) = (&mut self.follow, request.base())
@@ -207,7 +207,7 @@ impl Drag {
         }
     }
 
-    /// Solves for the column in the background, and for a base where there is none on the screen.
+    /// Solves for the column in the background, and for the base if the screen provides none.
     fn solve_column(&mut self, request: DragRequest, prepared: Option<Arc<Prepared>>) {
         let base = request.base().cloned();
         let DragRequest { task: Task { mesh, problem, .. }, dragged, .. } = request;
@@ -228,7 +228,7 @@ impl Drag {
         });
     }
 
-    /// Shows the base with the change of the first solve. Returns whether the column gives it.
+    /// Shows the base plus the change of the first solve. Returns true if the column applies.
     fn show_linear(&mut self, task: &Task) -> bool {
         let embedding = self.follow.as_ref().and_then(|follow| follow.embedding(&task.problem));
         let Some(embedding) = embedding else { return false };
@@ -237,19 +237,19 @@ impl Drag {
         true
     }
 
-    /// Shows an embedding.
+    /// Shows an embedding as a linear preview.
     fn show(&mut self, embedding: Arc<Embedding>, problem: Problem) {
         self.revision += 1;
         let checked = self.preview.take().and_then(|before| before.checked);
         self.preview = Some(Preview { embedding, revision: self.revision, live: None, moved: None, problem, checked });
     }
 
-    /// Shows a frame of a planar embedding, with its verdict. What is shown already of the same drag changes in place.
+    /// Shows a frame of a planar drag with its verdict. A preview of the same drag is updated in place.
     pub(super) fn show_live(&mut self, frame: Frame) {
         let Frame { begin, moved, problem, result } = frame;
         let before = self.preview.take();
         let checked = before.as_ref().and_then(|preview| preview.checked.as_ref()).map(|(_, verdict)| verdict);
-        // The same verdict stays the same to a screen that looks at it: nothing is coloured anew.
+        // Reuse an equal verdict, so that the screen does not recolour the faces.
         let verdict = match checked {
             Some(before) if **before == result.verdict => Arc::clone(before),
             _ => Arc::new(result.verdict),
@@ -263,7 +263,7 @@ impl Drag {
         for &(vertex, place) in &moved {
             places[vertex] = place;
         }
-        // The neighbourhood that moves never shrinks during a drag; without one, nothing has moved in this frame.
+        // The neighbourhood that moves never shrinks during a drag. A frame without one has moved nothing.
         let vertices =
             if moved.len() < known.len() { known } else { moved.into_iter().map(|(vertex, _)| vertex).collect() };
         self.revision += 1;
@@ -277,7 +277,7 @@ impl Drag {
         });
     }
 
-    /// Proves the newest preview in the background, one at a time.
+    /// Computes the verdict on the newest preview in the background, one at a time.
     pub(super) fn prove(&mut self, mesh: &Arc<DiskMesh>) {
         let Some(preview) = self.preview.as_ref().filter(|preview| preview.verdict().is_none()) else { return };
         if !self.proving.is_busy() {
@@ -286,47 +286,47 @@ impl Drag {
         }
     }
 
-    /// Nothing follows the pointer any more; what is on the screen stays.
+    /// Stops following the pointer. The preview stays on the screen.
     pub(super) fn stop_following(&mut self) {
         self.following.cancel();
         self.live.end();
     }
 
-    /// A step has taken the preview's place; the column still serves.
+    /// Removes the preview, because a step replaces it. The column stays usable.
     pub(super) fn end_preview(&mut self) {
         self.preview = None;
         self.proving.cancel();
         self.live.end();
     }
 
-    /// The drag is over.
+    /// Ends the drag.
     pub(super) fn end(&mut self) {
         self.end_preview();
         self.follow = None;
         self.following.cancel();
     }
 
-    /// The map that the screen shows while pins are dragged.
+    /// Preview, while pins are dragged.
     pub(super) fn preview(&self) -> Option<&Preview> {
         self.preview.as_ref()
     }
 
-    /// The planar embedding that follows the pointer.
+    /// Solver of the planar drag.
     pub(super) fn live_mut(&mut self) -> &mut LiveDrag {
         &mut self.live
     }
 
-    /// A column that was solved for. If its solve failed, the run at the end of the drag says why.
+    /// Column that was solved for. If the solve failed, the run at the end of the drag reports the reason.
     pub(super) fn poll_column(&mut self) -> Option<Follow> {
         self.following.poll()?.1.ok()?.ok()
     }
 
-    /// Takes a column for the moves that follow.
+    /// Stores a column for further moves.
     pub(super) fn take_column(&mut self, follow: Follow) {
         self.follow = Some(follow);
     }
 
-    /// Takes in the verdict on a preview. Returns whether there was one.
+    /// Stores the verdict on a preview. Returns true if a job has ended.
     pub(super) fn poll_proof(&mut self) -> bool {
         let Some((revision, verdict)) = self.proving.poll() else { return false };
         if let Some(preview) = &mut self.preview {

@@ -1,4 +1,4 @@
-//! Pins on their way: the request of a drag, and the map on the screen that it starts from.
+//! Request of a drag, and the map on the screen that the drag starts from.
 
 use std::sync::Arc;
 
@@ -7,16 +7,17 @@ use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Problem;
 use freebound_core::problem::Embedding;
 
-/// Embedding on the screen when pins begin to move, and the problem that it was made for.
+/// Embedding on the screen when the drag begins, with its problem.
 #[derive(Clone, Debug)]
 pub(super) struct Screen {
     pub(super) embedding: Arc<Embedding>,
     pub(super) problem: Problem,
-    /// True if it is proved planar as it lies.
+    /// True if the embedding is proved planar.
     pub(super) is_planar: bool,
 }
 
-/// Pins on their way: the task with their targets, what is dragged, ascending, and what the screen shows.
+/// Request of a drag: the task with the new targets, the dragged vertices in ascending order, and the state of the
+/// screen.
 pub(super) struct DragRequest {
     pub(super) task: Task,
     pub(super) dragged: Vec<VertexId>,
@@ -24,7 +25,7 @@ pub(super) struct DragRequest {
 }
 
 impl DragRequest {
-    /// Embedding on the screen, if its problem differs in the dragged pins' targets alone.
+    /// State of the screen, if its problem differs in the targets of the dragged pins alone.
     pub(super) fn base(&self) -> Option<&Screen> {
         let problem = &self.task.problem;
         self.screen.as_ref().filter(|screen| screen.problem.differs_in_targets_of(problem, &self.dragged))

@@ -1,4 +1,4 @@
-//! A drag of pins: what follows them, frame by frame.
+//! Frames of a drag of pins.
 
 use std::sync::Arc;
 
@@ -8,24 +8,24 @@ use super::{MessagePlace, Preview, Session};
 use freebound_core::mesh::VertexId;
 
 impl Session {
-    /// Preview that the screen shows while pins are dragged.
+    /// Preview, while pins are dragged.
     pub fn preview(&self) -> Option<&Preview> {
         self.drag.preview()
     }
 
-    /// Lets the embedding follow pins that were moved.
+    /// Moves the embedding with the dragged pins.
     pub(super) fn follow(&mut self, dragged: Vec<VertexId>) {
         let Some(task) = self.task() else { return };
         let request = DragRequest { task, dragged, screen: self.screen() };
         let Some(request) = self.drag.live_mut().follow(request) else { return };
-        // Where the method begins with something else than the solve that follows pins, the screen keeps what is proved. Where
-        // the mesh is to be turned around, a solve follows by itself.
+        // If the method does not begin with the solve that follows pins, the proved step stays on the screen. If the
+        // mesh is still being prepared, a solve follows later.
         if request.task.problem.settings.begin_with_pins_held() {
             self.drag.follow(request, self.solving.prepared());
         }
     }
 
-    /// Embedding on the screen, of the mesh as given.
+    /// Embedding on the screen, on the mesh as given.
     pub(super) fn screen(&self) -> Option<Screen> {
         if let Some(preview) = self.preview() {
             let (embedding, problem) = (Arc::clone(&preview.embedding), preview.problem().clone());
@@ -35,7 +35,7 @@ impl Session {
         Screen::of(outcome, outcome.step.candidate.solution.embedding.len())
     }
 
-    /// Takes in what a drag has waited for.
+    /// Processes the results of the drag's jobs.
     pub(super) fn poll_drag(&mut self) {
         self.poll_live();
         if let Some(follow) = self.drag.poll_column() {
@@ -61,7 +61,7 @@ impl Session {
         }
     }
 
-    /// Takes in a frame, and has the next one follow as long as something moves.
+    /// Shows a finished frame and starts the next frame as long as something moves.
     pub(super) fn poll_live(&mut self) {
         let Some((dragged, outcome)) = self.drag.live_mut().poll() else { return };
         if !self.history.is_in_gesture() || self.is_running() {

@@ -1,4 +1,4 @@
-//! What is done to the document: pins and their targets, method and weights. Each edit is undoable, and solved for.
+//! Edits of the document: pins and their targets, method and weights. Each edit is undoable and starts a solve.
 
 use glam::DVec2;
 
@@ -11,9 +11,9 @@ use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Target, Targets};
 use freebound_core::problem::{Control, Family, GaugeSize, Method, PinKind, Pins, Settings};
 
-/// Edits.
+/// Edits of the document.
 impl Session {
-    /// Carries out edits that are one for the user, and solves.
+    /// Applies edits as one undoable edit and solves.
     pub(super) fn edit(&mut self, mut commands: Vec<Command>) {
         let command = match commands.len() {
             0 => return,
@@ -25,7 +25,7 @@ impl Session {
         }
     }
 
-    /// Applies an edit as a step of its own. Returns whether it changed anything.
+    /// Applies an edit as a separate undo step. Returns true if the document changed.
     pub(super) fn apply(&mut self, command: Command) -> bool {
         self.remember();
         self.history.apply(command, &mut self.document)
@@ -39,13 +39,13 @@ impl Session {
         self.history.apply_in_gesture(command, &mut self.document);
     }
 
-    /// The same as part of a drag of a slider.
+    /// Applies an edit of a slider drag and solves.
     fn slide(&mut self, command: Command) {
         self.apply_in_gesture(command);
         self.solve();
     }
 
-    /// Chooses method and weights. Their own result shows, without the relaxing that was asked for on another one.
+    /// Sets method and weights. Requested relaxation is dropped, so that the result of the new settings is visible.
     pub(super) fn choose(&mut self, settings: Settings) {
         if settings != self.document.settings {
             let edits = std::iter::once(Command::SetSettings(settings)).chain(self.drop_relaxing());
@@ -53,7 +53,7 @@ impl Session {
         }
     }
 
-    /// The edits that drop the relaxing that was asked for, on all charts.
+    /// Edits that drop the requested relaxation on all charts.
     pub(super) fn drop_relaxing(&self) -> Vec<Command> {
         let relaxed = self.document.elsewhere.iter().filter(|(_, edits)| edits.relaxed > 0);
         let elsewhere = relaxed.map(|(&chart, edits)| {
@@ -63,7 +63,7 @@ impl Session {
         std::iter::once(Command::SetRelaxed(0)).chain(elsewhere).collect()
     }
 
-    /// Chooses method and weights as part of a drag of a slider.
+    /// Sets method and weights during a drag of a slider.
     pub(super) fn slide_settings(&mut self, settings: Settings) {
         if settings != self.document.settings {
             let edits = std::iter::once(Command::SetSettings(settings)).chain(self.drop_relaxing());
@@ -71,30 +71,30 @@ impl Session {
         }
     }
 
-    /// Says why where the method takes no pins.
+    /// True if pins can be placed now. Reports the reason if the method takes no pins.
     pub(super) fn takes_pins(&mut self) -> bool {
         if !self.has_form_as_wanted() {
-            // The vertices on the screen are those of another form or chart, for a moment.
+            // The vertices on the screen still belong to another preparation or chart.
             return false;
         }
         if self.document.settings.method.uses_pins() {
             return true;
         }
-        let text = "a convex boundary takes no pins: every boundary vertex has its place";
+        let text = "a convex boundary takes no pins: the method places every boundary vertex";
         self.complain(text, Some("choose another method to pin vertices"));
         false
     }
 }
 
-/// Pins.
+/// Edits of pins.
 impl Session {
-    /// Pins vertices where they lie.
+    /// Pins vertices at their current positions.
     pub(super) fn fix(&mut self, vertices: &[VertexId]) {
         let Some(outcome) = self.outcome().cloned().filter(|_| self.takes_pins()) else { return };
-        // What the screen shows is the preview, where there is one.
+        // If there is a preview, the screen shows it instead of the step.
         let preview = self.preview().map(|preview| (self.document.frame(), &*preview.embedding));
         let (frame, shown) = preview.unwrap_or((outcome.problem.frame, &outcome.step.candidate.solution.embedding));
-        // New vertices belong to one embedding alone: they cannot be pinned.
+        // New vertices belong to one embedding only and cannot be pinned.
         let count = self.vertex_count();
         let fresh = vertices.iter().filter(|v| v.index() < count && !self.document.targets.contains_key(v));
         let fixed = |z: DVec2| Target::fixed(frame.uv_from_plane(z));
@@ -103,7 +103,7 @@ impl Session {
         self.edit(commands);
     }
 
-    /// Pins a vertex, or places its pin anew.
+    /// Pins a vertex, or replaces its pin.
     pub(super) fn place(&mut self, vertex: VertexId, target: Target) {
         let is_valid =
             vertex.index() < self.vertex_count() && target.uv.is_finite() && target.kind.invalid_weight().is_none();
@@ -112,14 +112,14 @@ impl Session {
         }
     }
 
-    /// Moves pins as part of a drag. Where one of them is a gauge pin, all of those become the user's first.
+    /// Moves pins during a drag. If one of them is a gauge pin, all gauge pins become pins of the user first.
     pub(super) fn move_pins(&mut self, moves: &[(VertexId, DVec2)]) {
         if !self.has_form_as_wanted() {
             return;
         }
         let is_users = |(vertex, _): &(VertexId, DVec2)| self.document.targets.contains_key(vertex);
         if !moves.iter().all(is_users) {
-            // Where the solver chose no gauge, those it has are pins of the user's that are freed by now.
+            // If the solver chose no gauge, the pins of the outcome are user's pins that were removed since.
             let Some(outcome) = self.outcome().filter(|outcome| outcome.step.candidate.solution.gauge_completed) else {
                 return;
             };
@@ -146,13 +146,13 @@ impl Session {
         self.follow(dragged);
     }
 
-    /// Holds pins in another way, as an edit of its own.
+    /// Changes the kind of pins, as a separate edit.
     pub(super) fn set_pin_kind(&mut self, vertices: &[VertexId], kind: PinKind) {
         let commands = self.holds(vertices, kind);
         self.edit(commands);
     }
 
-    /// Holds pins in another way as part of a drag.
+    /// Changes the kind of pins during a drag of a slider.
     pub(super) fn slide_hold(&mut self, vertices: &[VertexId], kind: PinKind) {
         let commands = self.holds(vertices, kind);
         if !commands.is_empty() {
@@ -169,23 +169,23 @@ impl Session {
         vertices.iter().filter(|_| is_valid).filter_map(command).collect()
     }
 
-    /// Frees vertices.
+    /// Unpins vertices.
     pub(super) fn unpin(&mut self, vertices: &[VertexId]) {
         let has_form = self.has_form_as_wanted();
         let pinned = vertices.iter().filter(|v| has_form && self.document.targets.contains_key(v));
         self.edit(pinned.map(|&vertex| Command::SetPin { vertex, target: None }).collect());
     }
 
-    /// Frees all vertices of the mesh or chart.
+    /// Unpins all vertices of the mesh or chart.
     pub(super) fn unpin_all(&mut self) {
         let pinned = self.document.targets.keys();
         self.edit(pinned.map(|&vertex| Command::SetPin { vertex, target: None }).collect());
     }
 }
 
-/// All targets together.
+/// Edits of all targets together.
 impl Session {
-    /// Mirrors all targets left to right, within the box around them.
+    /// Mirrors all targets left to right within their bounding box.
     pub(super) fn mirror_targets(&mut self) {
         let across = self.document.targets.values().map(|target| target.uv.x);
         let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), u| (low.min(u), high.max(u)));
@@ -194,16 +194,16 @@ impl Session {
         self.move_targets(&targets);
     }
 
-    /// Flattens the mesh, to fit the targets to it.
+    /// Flattens the mesh in the background to fit the targets to it.
     pub(super) fn fit_targets(&mut self) {
         if self.document.targets.len() < 2 {
-            let text = "one target can be anywhere: fitting needs two pins or more";
-            return self.complain(text, Some("place another constraint"));
+            let text = "fitting needs at least two pins";
+            return self.complain(text, Some("add another pin"));
         }
         let model = self.model();
         let Some((disk, form)) = model.and_then(|model| Some((model.disk()?.clone(), model.prepared.form.clone())))
         else {
-            return self.complain("a mesh with faults has nothing to fit to", None);
+            return self.complain("targets cannot be fitted to a mesh with faults: repair it first", None);
         };
         let (frame, chart) = (self.document.frame(), self.chart_on_screen());
         let [low, high] = frame.corners();
@@ -225,14 +225,14 @@ impl Session {
         let embedding = match &flat.embedding {
             Ok(embedding) => embedding,
             Err(error) => {
-                let message = Message::error(MessagePlace::Embedding, format!("there is nothing to fit to: {error}"));
+                let message = Message::error(MessagePlace::Embedding, format!("the targets cannot be fitted: {error}"));
                 self.messages.say(message.with_vertices(error.vertices()));
                 return;
             }
         };
         let is_of_chart = flat.chart == self.chart_on_screen() && self.has_form_as_wanted();
         if flat.frame != self.document.frame() || flat.form != self.document.form || !is_of_chart {
-            let text = "picture, faces or chart changed while the targets were being fitted";
+            let text = "the targets were not fitted: picture, faces or chart have changed";
             return self.complain(text, Some("fit them again"));
         }
         let pairs: Vec<[DVec2; 2]> =
@@ -242,20 +242,21 @@ impl Session {
         });
         match fitted.filter(|targets| targets.iter().all(|target| target.is_finite())) {
             Some(targets) => self.move_targets(&targets),
-            None => self.complain("no turn and no size fits these targets", None),
+            None => self.complain("no rotation and scale fits these targets", None),
         }
     }
 
-    /// Gives the pins other targets, in their order, as one edit.
+    /// Sets the targets of all pins, in their order, as one edit.
     fn move_targets(&mut self, targets: &[DVec2]) {
         let moved = self.document.targets.iter().zip(targets).filter(|((_, before), uv)| before.uv != **uv);
         self.edit(moved.map(|((&vertex, before), &uv)| pin(vertex, Target { uv, ..*before })).collect());
     }
 }
 
-/// The side of the picture that v starts from.
+/// Side of the picture with v = 0.
 impl Session {
-    /// Chooses where v = 0 is. The targets keep their places on the picture; chosen back, they are as they were.
+    /// Sets the side with v = 0. The targets keep their positions on the picture. Setting it back restores them
+    /// exactly.
     pub(super) fn set_v_axis(&mut self, v_axis: VAxis) {
         if v_axis == self.document.v_axis {
             return;
@@ -278,7 +279,7 @@ pub(super) fn pin(vertex: VertexId, target: Target) -> Command {
     Command::SetPin { vertex, target: Some(target) }
 }
 
-/// The gauge pins as targets of the user's, each where it lies; the user's own stay what they are.
+/// Gauge pins as targets of the user, at their current positions. Pins of the user are not changed.
 fn adopted(document: &Document, in_force: &Pins, frame: PictureFrame) -> Targets {
     let fresh = in_force.iter().filter(|(vertex, _)| !document.targets.contains_key(vertex));
     fresh.map(|(&vertex, pin)| (vertex, Target::fixed(frame.uv_from_plane(pin.target)))).collect()

@@ -1,4 +1,4 @@
-//! Files of the session: what is open and what is saved of it, what is being read, what is being written.
+//! Files of the session: files that are open, being read and being written.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -14,21 +14,21 @@ use super::{Background, Document, MessagePlace, Messages, Model, RecentFiles, Wa
 use crate::examples::Example;
 use freebound_io::{ProjectFile, ProjectView, RecoveryNote, WriteError};
 
-/// Patience of the end of a session with files that a person asked for, which may be large.
+/// Maximum time that the end of a session waits for files that the user writes, which may be large.
 const PATIENCE: Duration = Duration::from_mins(1);
 
-/// What is open, read and written.
+/// State of open files, of reading and of writing.
 pub(super) struct Files {
     table: OpenProject,
-    /// What is being opened.
+    /// Job that opens a file.
     loading: Background<OpenRequest, Result<Opened, OpenError>>,
-    /// The machine's memory, bytes: what may take more than half of it is opened once a person has said so.
+    /// Memory of the machine, bytes. Files that may take more than half of it need a confirmation.
     memory: Option<u64>,
-    /// What waits for that.
+    /// File that waits for a confirmation.
     large: Option<LargeFile>,
-    /// What follows once that is open.
+    /// Files that are opened after the mesh.
     together: Option<UndoGroup>,
-    /// Results being written.
+    /// Jobs that write results.
     outputs: Background<(), Result<Written, WriteError>>,
     projects: ProjectSaves,
     folder: FolderViewer,
@@ -52,7 +52,7 @@ impl Files {
         }
     }
 
-    /// What to call what is open.
+    /// Name of the open document.
     pub(super) fn name(&self, model: Option<&Model>) -> Option<String> {
         let stem = self.table.project.as_ref().and_then(|path| path.file_stem());
         let stem = stem.map(|stem| stem.to_string_lossy().into_owned());
@@ -67,22 +67,22 @@ impl Files {
         self.loading.is_busy()
     }
 
-    /// Whether a file is being written that a person asked for.
+    /// True while a file that the user requested is being written.
     pub(super) fn is_saving(&self) -> bool {
         self.outputs.is_busy() || self.projects.is_busy()
     }
 
-    /// The file of constraints that was imported last.
+    /// Constraint file that was imported last.
     pub(super) fn constraints(&self) -> Option<&PathBuf> {
         self.table.constraints.as_ref()
     }
 
-    /// Remembers where constraints were imported from.
+    /// Remembers the constraint file that was imported last.
     pub(super) fn remember_constraints(&mut self, path: PathBuf) {
         self.table.constraints = Some(path);
     }
 
-    /// The document as a project file holds it.
+    /// Project file of a document.
     pub(super) fn project_file(&self, model: &Model, document: &Document) -> Option<ProjectFile> {
         let mut project = project_of(model, document)?;
         if document.picture.is_none() {
@@ -92,22 +92,22 @@ impl Files {
         Some(project)
     }
 
-    /// The count of what was opened.
+    /// Number of openings so far.
     pub(super) fn opening(&self) -> u64 {
         self.table.opening
     }
 
-    /// The project that the document is saved to.
+    /// Project that the document is saved to.
     pub(super) fn project(&self) -> Option<&PathBuf> {
         self.table.project.as_ref()
     }
 
-    /// The view that is saved with the project.
+    /// View that is saved with the project.
     pub(super) fn view(&self) -> &ProjectView {
         &self.table.view
     }
 
-    /// Takes the view that is saved with the project.
+    /// Sets the view that is saved with the project.
     pub(super) fn set_view(&mut self, view: ProjectView) {
         self.table.view = view;
     }
@@ -117,27 +117,27 @@ impl Files {
         self.projects.is_busy()
     }
 
-    /// The machine's memory, bytes.
+    /// Memory of the machine, bytes.
     pub(super) fn memory(&self) -> Option<u64> {
         self.memory
     }
 
-    /// Takes the machine's memory, bytes.
+    /// Sets the memory of the machine, bytes.
     pub(super) fn set_memory(&mut self, bytes: u64) {
         self.memory = Some(bytes);
     }
 
-    /// The file that waits for a person's word.
+    /// File that waits for a confirmation.
     pub(super) fn large(&self) -> Option<&LargeFile> {
         self.large.as_ref()
     }
 
-    /// The files opened last.
+    /// Recently opened files.
     pub(super) fn recent(&self) -> &RecentFiles {
         &self.recent
     }
 
-    /// The files opened last, to be changed.
+    /// Recently opened files, mutable.
     pub(super) fn recent_mut(&mut self) -> &mut RecentFiles {
         &mut self.recent
     }
@@ -147,17 +147,17 @@ impl Files {
         self.folder.show(file);
     }
 
-    /// The copies for recovery.
+    /// Recovery copies.
     pub(super) fn autosave(&self) -> &Autosave {
         &self.autosave
     }
 
-    /// The copies for recovery, to be changed.
+    /// Recovery copies, mutable.
     pub(super) fn autosave_mut(&mut self) -> &mut Autosave {
         &mut self.autosave
     }
 
-    /// Waits until all files are written that were asked for, or the disk hangs.
+    /// Waits until all requested files are written, at most [`PATIENCE`].
     pub(super) fn finish_writing(&mut self, messages: &mut Messages) {
         let begun = Instant::now();
         while self.is_saving() && begun.elapsed() < PATIENCE {
@@ -166,14 +166,14 @@ impl Files {
         }
     }
 
-    /// Opens what waits for a word.
+    /// Opens the file that waits for a confirmation.
     pub(super) fn open_large(&mut self) {
         if let Some(large) = self.large.take() {
             self.load(large.wanted, None);
         }
     }
 
-    /// Leaves it.
+    /// Drops the file that waits for a confirmation.
     pub(super) fn leave_large(&mut self) {
         if self.large.take().is_some() {
             self.end_opening();
@@ -181,14 +181,14 @@ impl Files {
     }
 }
 
-/// Reading.
+/// Reading of files.
 impl Files {
     /// Opens a mesh file or a project.
     pub(super) fn open(&mut self, path: PathBuf) {
         self.begin(OpenRequest::File(path));
     }
 
-    /// Opens something, with nothing that follows, and nothing else.
+    /// Opens a file alone and drops what would follow an earlier request.
     fn begin(&mut self, wanted: OpenRequest) {
         self.together = None;
         self.load(wanted, self.memory);
@@ -199,13 +199,13 @@ impl Files {
         self.loading.start(wanted.clone(), move |_| wanted.open(memory));
     }
 
-    /// Nothing came of what was to be opened.
+    /// Ends an opening that failed or was cancelled.
     fn end_opening(&mut self) {
         self.together = None;
         self.autosave.give_up_claim();
     }
 
-    /// Opens a mesh or a project; what belongs to it follows.
+    /// Opens a mesh or a project. Its picture and constraints follow.
     pub(super) fn open_together(&mut self, files: UndoGroup) {
         self.open(files.mesh.clone());
         self.together = Some(files);
@@ -216,24 +216,24 @@ impl Files {
         self.begin(OpenRequest::Example(example));
     }
 
-    /// Opens what a session before has left. It belongs to this session from now on.
+    /// Opens a recovery copy, which belongs to this session from now on.
     pub(super) fn recover(&mut self, path: PathBuf, messages: &mut Messages) {
         if self.autosave.claim(&path) {
             self.begin(OpenRequest::Recovery(path));
         } else {
-            let text = format!("another session works with it already, or it is gone: {}", path.display());
+            let text = format!("the recovery copy is gone, or in use by another session: {}", path.display());
             messages.fail(MessagePlace::Mesh, text, None);
         }
     }
 
-    /// Opens nothing, whatever was asked for.
+    /// Cancels the opening of files.
     pub(super) fn cancel_loading(&mut self) {
         self.loading.cancel();
         self.large = None;
         self.end_opening();
     }
 
-    /// What has been read.
+    /// Returns the document that was opened. Reports errors.
     pub(super) fn poll_loading(&mut self, messages: &mut Messages) -> Option<Opened> {
         let (wanted, loaded) = self.loading.poll()?;
         match loaded {
@@ -254,12 +254,12 @@ impl Files {
         None
     }
 
-    /// What is to follow what was opened.
+    /// Takes the files to be opened after the mesh.
     pub(super) fn take_together(&mut self) -> Option<UndoGroup> {
         self.together.take()
     }
 
-    /// Puts what was opened on the table, in the place of what was there.
+    /// Replaces the open document by the opened one.
     pub(super) fn put_on_table(&mut self, opened: &Opened) {
         let Opened { document, view, origin, missing_picture, is_partial, .. } = opened;
         let is_recovered = matches!(origin, Origin::Recovery(_));
@@ -272,7 +272,7 @@ impl Files {
         self.table = OpenProject {
             opening: self.table.opening + 1,
             name,
-            // What is left out, the file keeps: saving asks for another place.
+            // The project file keeps what is left out here, so saving asks for another path.
             project: project.filter(|_| !is_partial),
             saved: Some(document.clone()).filter(|_| !is_recovered),
             constraints: None,
@@ -282,20 +282,20 @@ impl Files {
     }
 }
 
-/// Writing.
+/// Writing of files.
 impl Files {
-    /// Writes files that a person asked for.
+    /// Writes files that the user requested, in the background.
     pub(super) fn write(&mut self, work: impl FnOnce() -> Result<Written, WriteError> + Send + 'static) {
         self.outputs.add((), move |_| work());
     }
 
-    /// Saves the project, after those that were asked for before.
+    /// Saves the project after the projects requested before.
     pub(super) fn save_project(&mut self, path: PathBuf, project: ProjectFile, document: &Document) {
         let request = Request { path, document: document.clone(), opening: self.table.opening };
         self.projects.start(request, project);
     }
 
-    /// Takes in what was written.
+    /// Reports files that were written.
     pub(super) fn poll_saving(&mut self, messages: &mut Messages) {
         while let Some(((), written)) = self.outputs.poll() {
             match written {
@@ -308,14 +308,14 @@ impl Files {
         while let Some(Request { path, document, opening }) = self.projects.poll(messages) {
             self.recent.remember(&path);
             messages.note("saved", Written::file(path.clone()));
-            // Something else may have been opened meanwhile.
+            // Another document may have been opened meanwhile.
             if opening == self.table.opening {
                 (self.table.project, self.table.saved) = (Some(path), Some(document));
             }
         }
     }
 
-    /// Makes a copy of the document where one is due. Nothing is open without a model.
+    /// Writes a recovery copy of the document if one is due. Without a model nothing is open.
     pub(super) fn poll_copies(
         &mut self,
         now: Instant,

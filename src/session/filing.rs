@@ -1,4 +1,4 @@
-//! What a person opens and writes: from files to the parts of the session, and back.
+//! Opening and saving: between files and the parts of the session.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -12,20 +12,20 @@ use freebound_core::pipeline::{Fit, Surface};
 use freebound_core::problem::{Settings, Start};
 use freebound_io::{EXTENSIONS, OutputKind, Precision, write_atomically, write_constraints, write_durably};
 
-/// The most faults with a bar each, where all can be mended.
+/// Maximum number of faults that are reported separately if all of them can be repaired.
 const FAULTS_TOLD: usize = 2;
 
 impl Session {
-    /// Puts something on the table. The document before it is gone, its history with it.
+    /// Replaces the open document, including its history.
     pub(super) fn take_opened(&mut self, mut opened: Opened) {
         let is_mesh = matches!(opened.origin, Origin::Mesh);
         if is_mesh {
-            // A layout to start from was one of the mesh before.
+            // A layout to start from would belong to the mesh before.
             opened.document.settings = Settings { start: Start::FromScratch, ..self.document.settings.clone() };
         }
         self.files.put_on_table(&opened);
         let Opened { model, document, remarks, .. } = opened;
-        // An example is there to be watched: it waits for the person to take the steps.
+        // An example only takes its first step, so that the user can watch the others.
         let waits = model.example.is_some() && is_mesh;
         self.document = document;
         self.history = History::default();
@@ -49,7 +49,7 @@ impl Session {
         }
     }
 
-    /// Opens what belongs to the mesh that was opened, and says what is not opened.
+    /// Opens the picture and the constraints of the opened mesh, and reports files that are not opened.
     fn open_beside(&mut self, UndoGroup { picture, constraints, left, .. }: UndoGroup) {
         if let Some(path) = picture {
             self.open_picture(path);
@@ -60,7 +60,7 @@ impl Session {
         if !left.is_empty() {
             let name = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let names: Vec<String> = left.iter().map(name).collect();
-            let text = format!("one mesh is open at a time, with one picture; not opened: {}", names.join(", "));
+            let text = format!("only one mesh and one picture can be open at a time; not opened: {}", names.join(", "));
             self.messages.say(Message::error(MessagePlace::Mesh, text).with_remedy("drop it by itself to open it"));
         }
     }
@@ -68,7 +68,7 @@ impl Session {
     pub(super) fn tell_faults(&mut self) {
         let Some(model) = self.model().cloned() else { return };
         let Surface::Faulty(_, diagnosis) = &model.prepared.surface else { return };
-        // More of them would hide the mesh behind bars; the tab of defects lists them all, and one click mends them.
+        // More messages would hide the mesh. The list of defects names all of them, and one click repairs them.
         if model.prepared.remedy.is_some() && diagnosis.faults.len() > FAULTS_TOLD {
             return;
         }
@@ -84,7 +84,7 @@ impl Session {
             return self.complain("there is nothing to save yet: open a mesh first", None);
         };
         if !self.is_current() {
-            let text = "the embedding on the screen does not belong to these settings and pins yet";
+            let text = "the embedding on the screen does not match the settings and pins yet";
             return self.complain(text, Some("save again when it is solved"));
         }
         if self.refuses_to_replace(&request.path, None) {
@@ -107,15 +107,15 @@ impl Session {
     /// Writes the layout of all charts.
     fn save_atlas(&mut self, SaveRequest { path, kind, fit }: SaveRequest) {
         if kind == OutputKind::Svg && fit == Fit::True {
-            let text = "several charts are drawn as they are packed: none at true scale";
+            let text = "several charts have no true scale, because they are packed";
             return self.complain(text, Some("export the layout in the unit square"));
         }
         let solved = match self.solved_atlas() {
             Ok(solved) => solved,
             Err(missing) => {
                 let charts = if missing == 1 { "1 chart has" } else { &format!("{missing} charts have") };
-                let text = format!("{charts} no embedding for these settings and pins yet");
-                return self.complain(&text, Some("the list of charts tells which: save again when they are solved"));
+                let text = format!("{charts} no embedding for the current settings and pins yet");
+                return self.complain(&text, Some("save again when they are solved; the list of charts shows them"));
             }
         };
         let picture = self.document.picture.clone();
@@ -142,7 +142,7 @@ impl Session {
         }
     }
 
-    /// Writes the targets as a constraint file.
+    /// Writes the targets to a constraint file.
     pub(super) fn export_constraints(&mut self, path: PathBuf) {
         if self.refuses_formless() {
             return;
@@ -161,18 +161,18 @@ impl Session {
         });
     }
 
-    /// Whether the mesh does not have the form of the document yet, so that nobody can say which vertices its pins are; then
-    /// says so.
+    /// True if the mesh does not have the preparation of the document yet, so that the vertices of its pins are
+    /// unknown. Reports this.
     fn refuses_formless(&mut self) -> bool {
         let is_formless = !self.has_numbers_as_wanted();
         if is_formless {
-            let text = "nothing was written: the mesh is still being brought into its form";
-            self.complain(text, Some("write it again in a moment"));
+            let text = "nothing was written: the mesh is still being prepared";
+            self.complain(text, Some("try again in a moment"));
         }
         is_formless
     }
 
-    /// Writes a file in the background, made there by `write`.
+    /// Writes a file in the background. `write` writes its content.
     pub fn write_file(&mut self, path: PathBuf, write: impl FnOnce(&mut dyn Write) -> io::Result<()> + Send + 'static) {
         if self.refuses_to_replace(&path, None) {
             return;
@@ -183,9 +183,9 @@ impl Session {
         });
     }
 
-    /// Says that a name does not tell what kind of file to write.
+    /// Reports a file name whose extension selects no kind of output.
     pub(super) fn refuse_name(&mut self, path: &Path) {
-        let text = format!("{} does not say what to write", path.display());
-        self.complain(text, Some(&format!("end the name in {EXTENSIONS}")));
+        let text = format!("{} has no known file extension", path.display());
+        self.complain(text, Some(&format!("use a name that ends in {EXTENSIONS}")));
     }
 }

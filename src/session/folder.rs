@@ -1,11 +1,11 @@
-//! Shows where a file lies, in the system's own program for folders.
+//! Display of a file's folder in the system's file manager.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use super::{Background, MessagePlace, Messages, Wake};
 
-/// The program that shows a folder.
+/// Program that shows a folder.
 const PROGRAM: &str = if cfg!(target_os = "windows") {
     "explorer"
 } else if cfg!(target_os = "macos") {
@@ -14,16 +14,16 @@ const PROGRAM: &str = if cfg!(target_os = "windows") {
     "xdg-open"
 };
 
-/// Shows a folder in a program. Says why where that does not work.
+/// Shows a folder in a program. Returns the reason of a failure.
 fn show(program: &str, folder: &Path) -> Result<(), String> {
     let mut command = Command::new(program);
     command.arg(folder).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     let status = command.status().map_err(|error| format!("{program}: {error}"))?;
-    // The one of Windows fails even where it has shown the folder.
+    // The file manager of Windows returns an error code even on success.
     if status.success() || cfg!(target_os = "windows") { Ok(()) } else { Err(format!("{program} failed: {status}")) }
 }
 
-/// The folder of a file that is being shown.
+/// Background job that shows the folder of a file.
 pub(super) struct FolderViewer {
     shown: Background<PathBuf, Result<(), String>>,
 }
@@ -33,19 +33,19 @@ impl FolderViewer {
         Self { shown: Background::new("folder", wake) }
     }
 
-    /// Shows the folder of a file, in the background: the program may take its time.
+    /// Shows the folder of a file, in the background because the program may be slow.
     pub(super) fn show(&mut self, file: PathBuf) {
         let folder = std::path::absolute(&file).ok().and_then(|file| file.parent().map(PathBuf::from));
         let folder = folder.unwrap_or_else(|| PathBuf::from("."));
         self.shown.start(file, move |_| show(PROGRAM, &folder));
     }
 
-    /// Says where a folder could not be shown.
+    /// Reports a folder that could not be shown.
     pub(super) fn poll(&mut self, messages: &mut Messages) {
         match self.shown.poll() {
             Some((file, Ok(Err(reason)))) => {
                 let text = format!("the folder of {} cannot be shown: {reason}", file.display());
-                messages.fail(MessagePlace::Embedding, text, Some("open it by hand"));
+                messages.fail(MessagePlace::Embedding, text, Some("open it manually"));
             }
             Some((_, Err(failure))) => {
                 messages.fail_background(MessagePlace::Embedding, "showing the folder", &failure);

@@ -1,4 +1,4 @@
-//! The form that the mesh is to have, and the chart of it that is to be on the screen.
+//! Preparation of the mesh that the document wants, and the chart that it shows.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -10,11 +10,11 @@ use super::{Command, Document, MessagePlace, Session};
 use freebound_core::mesh::{HoleTreatment, Preparation, WeldDistance, near_vertices};
 use freebound_core::problem::{Method, Settings, Start};
 
-/// The job that counts vertices near each other.
+/// Name of the job that counts vertices near each other.
 const COUNTING: &str = "counting near vertices";
 
 impl Session {
-    /// Turns the faces around: vertices and charts keep their numbers.
+    /// Reverses the orientation of all faces. Vertices and charts keep their numbers.
     pub(super) fn turn_faces(&mut self) {
         if self.model().is_some() {
             let form = self.document.form.clone();
@@ -23,19 +23,19 @@ impl Session {
         }
     }
 
-    /// Mends the mesh as far as that can be done, and cuts it open.
+    /// Applies all available repairs and cuts the mesh to a disk.
     pub(super) fn mend(&mut self) {
         if self.model().is_some_and(|model| model.prepared.remedy.is_some()) {
             self.want_form(self.form_to_be().with_all_repairs());
         }
     }
 
-    /// Leaves out the parts with these first faces, and no others.
+    /// Replaces the set of parts that are left out, by their first faces.
     pub(super) fn leave_out(&mut self, first_faces: BTreeSet<u32>) {
         self.want_form(Preparation { left_out: Arc::new(first_faces), ..self.form_to_be().clone() });
     }
 
-    /// Fills holes while the mesh is flattened, or cuts it open from them to the outside.
+    /// Sets the treatment of holes. Cutting holes cuts the mesh.
     pub(super) fn set_holes(&mut self, holes: HoleTreatment) {
         let form = self.form_to_be().clone();
         if holes != form.holes {
@@ -44,8 +44,8 @@ impl Session {
         }
     }
 
-    /// Starts from the texture coordinates of the file, and cuts the mesh along their seams, where they have any: one edit. Where there
-    /// are pins, which go along with the cut, it is an edit of its own that follows.
+    /// Starts from the texture coordinates of the file and cuts the mesh along their seams, if there are any. Without
+    /// pins this is one edit. With pins, which are moved to the cut mesh, the cut is a second edit that follows.
     pub(super) fn take_layout(&mut self) {
         let Some(model) = self.model() else { return };
         let is_torn = match model.source.has_texture_seams() {
@@ -65,13 +65,14 @@ impl Session {
         self.edit(vec![Command::SetForm(Preparation { seams, ..form }), Command::SetSettings(settings)]);
     }
 
-    /// Joins vertices that lie within a distance; or does not.
+    /// Welds vertices within a distance, or stops welding.
     pub(super) fn weld(&mut self, within: Option<WeldDistance>) {
         let form = self.form_to_be().clone();
         self.want_form(Preparation { repair: form.repair.welding(within), ..form });
     }
 
-    /// Counts the vertices that a distance would join, in the background: one distance at a time, and once.
+    /// Counts the vertices that welding within a distance would join. The count runs in the background, once for each
+    /// distance and one distance at a time.
     pub(super) fn count_near(&mut self, distance: WeldDistance) {
         let Some(source) = self.model().map(|model| Arc::clone(&model.source)) else { return };
         let is_known = self.mesh.near().is_some_and(|near| near.distance == distance);
@@ -82,13 +83,13 @@ impl Session {
         }
     }
 
-    /// How many vertices a distance would join, where that was counted last.
+    /// Number of vertices that welding within a distance would join, if this distance was counted last.
     pub fn near_count(&self, distance: WeldDistance) -> Option<usize> {
         self.mesh.near().filter(|near| near.distance == distance)?.count
     }
 
-    /// Brings the mesh into the form, and to the chart, that the document wants. Where that takes time, a solve follows by
-    /// itself. Returns whether it is there now.
+    /// Brings the mesh to the preparation and chart of the document. If this takes time, a solve follows. Returns true
+    /// if the mesh is ready now.
     pub(super) fn bring_form(&mut self) -> bool {
         if self.has_form_as_wanted() {
             return true;
@@ -101,7 +102,7 @@ impl Session {
             self.mesh.take_other(Arc::clone(other));
         }
         if wanted.is_none() {
-            // What goes on is of no use any more.
+            // The run in progress belongs to another preparation.
             self.solving.give_up_all();
         }
         if let Some(before) = self.mesh.change(&form, chart) {
@@ -129,14 +130,14 @@ impl Session {
     }
 }
 
-/// The mesh in another form, as an edit.
+/// Edits of the preparation.
 impl Session {
-    /// The form that the document has, or is to have next.
+    /// Preparation of the document, or the requested one that will replace it.
     pub(super) fn form_to_be(&self) -> &Preparation {
         self.mesh.wanted().unwrap_or(&self.document.form)
     }
 
-    /// Takes the mesh in another form, as one edit.
+    /// Requests another preparation of the mesh, as one edit.
     pub(super) fn want_form(&mut self, form: Preparation) {
         if self.model().is_none() || form == *self.form_to_be() {
             return;
@@ -149,14 +150,14 @@ impl Session {
         }
     }
 
-    /// Whether nothing is edited of vertices and charts, so that the mesh takes another form at once.
+    /// True if nothing refers to vertices or charts, so that the mesh can change its preparation at once.
     pub(super) fn is_bare(&self) -> bool {
         let Document { targets, elsewhere, relaxed, chart, .. } = &self.document;
         let is_bare = targets.is_empty() && elsewhere.is_empty() && *relaxed == 0 && chart.is_none();
         is_bare && self.mesh.wanted().is_none()
     }
 
-    /// Has the mesh formed as it is wanted, once it has the form that the document has.
+    /// Starts the requested preparation in the background, once the mesh has the preparation of the document.
     pub(super) fn follow_form(&mut self) {
         let is_free = self.has_form_as_wanted() && !self.jobs.is_under_way(RESHAPING);
         let wanted = self.mesh.wanted().filter(|_| is_free);
@@ -165,7 +166,7 @@ impl Session {
         }
     }
 
-    /// Takes in the mesh as it was formed, where that is still what is wanted.
+    /// Applies the requested preparation as an edit, if the result still matches the request.
     pub(super) fn take_reshaped(&mut self, reshaped: Reshaped) {
         let is_of_screen = self.model().is_some_and(|model| Arc::ptr_eq(model, reshaped.before()));
         let is_wanted = self.mesh.wanted() == Some(reshaped.form());

@@ -1,4 +1,4 @@
-//! How an edit is taken back.
+//! Undo and redo.
 
 use std::collections::BTreeSet;
 
@@ -11,25 +11,25 @@ use freebound_core::mesh::VertexId;
 pub struct History {
     undo: Vec<Edit>,
     redo: Vec<Edit>,
-    /// The gesture whose edits the last step collects.
+    /// Gesture whose edits the last step collects.
     gesture: Option<Gesture>,
-    /// What could be repeated when the gesture began: it can be again where the gesture comes to nothing.
+    /// Redo stack at the beginning of the gesture. Restored if the gesture changes nothing.
     redo_before: Vec<Edit>,
-    /// How far a person has taken the document's run, step by step: as far as this step of it; 0 where nobody did.
+    /// Index of the step up to which the user took the run by single steps. Default: 0.
     taken_to: usize,
-    /// What was solved for the documents that it leads to.
+    /// Solutions of the documents in the history.
     past: Past,
 }
 
-/// A step of the history.
+/// Step of the history.
 #[derive(Debug)]
 struct Edit {
     command: Command,
-    /// How far the run was taken of the document that the command leads to.
+    /// Value of `taken_to` for the document that the command leads to.
     taken_to: usize,
 }
 
-/// What a gesture edits. Two gestures of different kinds never share a step, even where the end of the first was missed.
+/// Kind of a gesture. Gestures of different kinds never share a step, even if the end of the first was missed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Gesture {
     Pins,
@@ -43,7 +43,7 @@ impl Gesture {
 }
 
 impl History {
-    /// Applies an edit as a step of its own. Returns whether it changed anything; one that did not is no step.
+    /// Applies an edit as a separate step. Returns true if the document changed; otherwise no step is added.
     pub fn apply(&mut self, command: Command, document: &mut Document) -> bool {
         self.end_gesture(document);
         let before = document.clone();
@@ -56,8 +56,7 @@ impl History {
         true
     }
 
-    /// Changes the document together with the last step, which takes this back too: no step of its own. One that changes
-    /// nothing any more is dropped.
+    /// Changes the document as part of the last step. The step is dropped if it no longer changes anything.
     pub(super) fn amend(&mut self, command: Command, document: &mut Document) {
         let inverse = command.apply(document);
         if let Some(edit) = self.undo.last_mut() {
@@ -68,7 +67,7 @@ impl History {
         }
     }
 
-    /// Applies an edit that belongs to a gesture: until the gesture ends, edits share one step.
+    /// Applies an edit of a gesture. All edits of a gesture share one step.
     pub fn apply_in_gesture(&mut self, command: Command, document: &mut Document) {
         let gesture = Gesture::of(&command);
         let inverse = command.apply(document);
@@ -82,12 +81,12 @@ impl History {
         self.gesture = Some(gesture);
     }
 
-    /// Whether a gesture has edited the document and has not ended.
+    /// True if a gesture has edited the document and has not ended.
     pub fn is_in_gesture(&self) -> bool {
         self.gesture.is_some()
     }
 
-    /// Marks the end of a gesture: the next edit starts a new step. A gesture that ended where it began is none.
+    /// Ends the gesture. A gesture without any effect adds no step.
     pub fn end_gesture(&mut self, document: &mut Document) {
         let Some(gesture) = self.gesture.take() else { return };
         if gesture == Gesture::Settings {
@@ -99,7 +98,7 @@ impl History {
         self.redo_before.clear();
     }
 
-    /// Gives back the relaxing that a slider has dropped which came back to where it was.
+    /// Restores the relaxation that a slider dropped, if the slider returned to its former value.
     fn take_back_relaxed(&self, document: &mut Document) {
         let Some(edit) = self.undo.last() else { return };
         let mut before = document.clone();
@@ -109,7 +108,7 @@ impl History {
         }
     }
 
-    /// Drops the last step where it leads to the document as it is. Returns whether it did.
+    /// Drops the last step if undoing it would not change the document. Returns true if it was dropped.
     fn drop_idle_step(&mut self, document: &Document) -> bool {
         let is_idle = self.undo.last().is_some_and(|edit| {
             let mut before = document.clone();
@@ -122,7 +121,7 @@ impl History {
         is_idle
     }
 
-    /// Takes back the gesture that has not ended, for good. Returns whether there was one.
+    /// Reverts the gesture that has not ended, without a redo step. Returns true if there was a gesture.
     pub fn give_up_gesture(&mut self, document: &mut Document) -> bool {
         if self.gesture.take().is_none() {
             return false;
@@ -135,58 +134,60 @@ impl History {
         true
     }
 
-    /// How far a person has taken the document's run, step by step: as far as this step of it; 0 where nobody did.
+    /// Index of the step up to which the user took the run by single steps, or 0.
     pub(super) fn taken_to(&self) -> usize {
         self.taken_to
     }
 
-    /// Remembers how far. It is no edit: it is forgotten with the next one, and comes back where that is taken back.
+    /// Sets the index of the step up to which the user took the run. This is no edit. The next edit resets the index,
+    /// and undoing that edit restores it.
     pub(super) fn set_taken_to(&mut self, step: usize) {
         self.taken_to = step;
     }
 
-    /// How many steps there are to take back.
+    /// Number of steps that can be undone.
     pub fn depth(&self) -> usize {
         self.undo.len()
     }
 
-    /// Whether there is a step to take back.
+    /// True if there is a step to undo.
     pub fn can_undo(&self) -> bool {
         !self.undo.is_empty()
     }
 
-    /// Whether there is a step to repeat.
+    /// True if there is a step to redo.
     pub fn can_redo(&self) -> bool {
         !self.redo.is_empty()
     }
 
-    /// Takes back the last step. Returns whether there was one.
+    /// Undoes the last step. Returns true if there was one.
     pub fn undo(&mut self, document: &mut Document) -> bool {
         self.end_gesture(document);
         replay([&mut self.undo, &mut self.redo], document, &mut self.taken_to)
     }
 
-    /// Repeats the last step taken back. Returns whether there was one.
+    /// Redoes the step that was undone last. Returns true if there was one.
     pub fn redo(&mut self, document: &mut Document) -> bool {
         self.end_gesture(document);
         replay([&mut self.redo, &mut self.undo], document, &mut self.taken_to)
     }
 
-    /// Solutions of the documents that it leads to.
+    /// Solutions of the documents in the history.
     pub(super) fn past_mut(&mut self) -> &mut Past {
         &mut self.past
     }
 }
 
 impl Edit {
-    /// Takes a later inverse in.
+    /// Adds the inverse of a later edit.
     fn join(&mut self, later: Command) {
         let earlier = std::mem::replace(&mut self.command, Command::Together(Vec::new()));
         self.command = joined(later, earlier);
     }
 }
 
-/// Two inverses as one. What sets the same things again is dropped: only the state before the first of them matters.
+/// Joins two inverses. Commands of the later edit that set an item again are dropped, because only its first state
+/// matters.
 fn joined(later: Command, earlier: Command) -> Command {
     let earlier = parts(earlier);
     let vertex_of = |command: &Command| if let Command::SetPin { vertex, .. } = command { Some(*vertex) } else { None };
@@ -204,7 +205,7 @@ fn joined(later: Command, earlier: Command) -> Command {
     if commands.len() == 1 { commands.remove(0) } else { Command::Together(commands) }
 }
 
-/// Whether a command chooses method and weights, alone or together with others.
+/// True if a command sets method and weights, alone or among others.
 fn sets_settings(command: &Command) -> bool {
     match command {
         Command::SetSettings(_) => true,
@@ -213,7 +214,7 @@ fn sets_settings(command: &Command) -> bool {
     }
 }
 
-/// A command's single edits, in their order.
+/// Single edits of a command, in their order.
 fn parts(command: Command) -> Vec<Command> {
     match command {
         Command::Together(commands) => commands.into_iter().flat_map(parts).collect(),

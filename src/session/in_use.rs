@@ -1,11 +1,11 @@
-//! Files that are open, which nothing else is written over.
+//! Open files, which must not be overwritten by other outputs.
 
 use std::path::{Path, PathBuf};
 
 use super::Session;
 use freebound_io::{material_files, would_replace};
 
-/// What a file is to the session.
+/// Role of an open file in the session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Mesh,
@@ -28,16 +28,15 @@ impl Role {
 }
 
 impl Session {
-    /// Whether writing a file would replace one that is open; then says so. A file of the kind that is written may be
-    /// brought up to date.
+    /// True if writing a file would replace an open file; reports this. A file of the same role `own` may be replaced.
     pub(super) fn refuses_to_replace(&mut self, path: &Path, own: Option<Role>) -> bool {
         let Some(role) = self.role_of(path).filter(|&role| Some(role) != own) else { return false };
-        let text = format!("{}: this would write over {}, which is open", path.display(), role.words());
+        let text = format!("{}: this would overwrite {}, which is open", path.display(), role.words());
         self.complain(text, Some("choose another name"));
         true
     }
 
-    /// What a file is that is open.
+    /// Role of a file, if it is open.
     fn role_of(&self, path: &Path) -> Option<Role> {
         let model = self.model()?;
         let is = |file: Option<&PathBuf>| file.is_some_and(|file| would_replace(path, file));

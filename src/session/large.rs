@@ -1,5 +1,4 @@
-//! What is to be opened; and a mesh file whose reading may take more than half of the machine's memory, which waits for a
-//! person's word.
+//! Requests to open files. A mesh file that may take more than half of the machine's memory waits for a confirmation.
 
 use std::path::PathBuf;
 
@@ -7,19 +6,19 @@ use super::opened::{OpenError, Opened};
 use crate::examples::Example;
 use freebound_io::MemoryShortage;
 
-/// What is to be opened.
+/// Request to open a file.
 #[derive(Clone, Debug)]
 pub(super) enum OpenRequest {
     /// A mesh file or a project.
     File(PathBuf),
     /// A built-in mesh.
     Example(Example),
-    /// What a session before has left.
+    /// A recovery copy of an earlier session.
     Recovery(PathBuf),
 }
 
 impl OpenRequest {
-    /// Opens it, unless its mesh may take more than half of this memory, bytes; without a number, whatever it takes.
+    /// Opens the file, unless its mesh may take more than half of `memory`, bytes. `None` means no limit.
     pub(super) fn open(&self, memory: Option<u64>) -> Result<Opened, OpenError> {
         match self {
             Self::File(path) => Opened::read(path, memory),
@@ -29,13 +28,13 @@ impl OpenRequest {
     }
 }
 
-/// A file that is not read without a person's word.
+/// File that needs a confirmation before it is read.
 #[derive(Clone, Debug)]
 pub struct LargeFile {
-    /// What was to be opened: the file itself, or a project with it.
+    /// Original request: the mesh file, or a project with it.
     pub(super) wanted: OpenRequest,
-    /// The mesh file.
+    /// Path of the mesh file.
     pub path: PathBuf,
-    /// What reading it may take.
+    /// Memory that reading the file may take.
     pub shortage: MemoryShortage,
 }

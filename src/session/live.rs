@@ -1,13 +1,13 @@
-//! A planar embedding that follows the pointer, and stays planar: proved at every frame.
+//! Planar embedding that follows the pointer and stays planar. Every frame is proved.
 //!
 //! ```text
-//! first move ──▶ job: from what is on the screen, a frame towards the targets ──▶ Preview, proved
-//! its end    ──▶ job: the next frame, towards the targets as they are by then; none where nothing moves any more
-//! rest, end  ──▶ run of the document, which goes on from the newest frame
+//! first move ──▶ job: a frame from the embedding on the screen towards the targets ──▶ Preview, proved
+//! its end    ──▶ job: the next frame towards the current targets, until nothing moves any more
+//! rest, end  ──▶ run of the document, which continues from the newest frame
 //! ```
 //!
-//! That is for methods that continue from an embedding, and for constraints; up to two exact pins only say where the
-//! embedding lies. Where what is on the screen is no beginning, the drag is linear.
+//! Planar drags need a method that continues from an embedding, and constraints: up to two hard pins only fix the
+//! position of the embedding. If the embedding on the screen is no valid start, the drag is linear.
 
 use std::sync::Arc;
 
@@ -20,45 +20,45 @@ use freebound_core::mesh::{DiskMesh, VertexId};
 use freebound_core::pipeline::Problem;
 use freebound_core::problem::{Control, Embedding};
 
-/// Frames under way, and the embedding between them.
+/// Frames in progress, and the solver between frames.
 pub(super) struct LiveDrag {
     held: Option<HeldPins>,
-    /// Whether what was on the screen is no embedding to begin with.
+    /// True if the embedding on the screen was no valid start.
     has_no_beginning: bool,
     frames: Background<DragGoal, Option<(HeldPins, Frame)>>,
 }
 
-/// What a frame goes to, and the pins that are dragged there, ascending.
+/// Problem that a frame moves towards, and the dragged pins, ascending.
 #[derive(Clone)]
 struct DragGoal {
     problem: Problem,
     dragged: Vec<VertexId>,
 }
 
-/// An embedding between two frames.
+/// Solver of a drag between two frames.
 pub(super) struct HeldPins {
     live: DragSolver,
-    /// The embedding that the drag began with.
+    /// Embedding at the beginning of the drag.
     begin: Arc<Embedding>,
-    /// The problem that the drag began with.
+    /// Problem at the beginning of the drag.
     problem: Problem,
 }
 
-/// A frame that has ended: with the solver for the next one, or nothing if the drag has no start.
+/// Finished frame, with the solver for the next one. `None` if the drag has no valid start.
 type EndedFrame = Result<Option<(HeldPins, Frame)>, JobFailure>;
 
-/// A frame.
+/// Frame of a planar drag.
 pub(super) struct Frame {
-    /// The embedding that the drag began with.
+    /// Embedding at the beginning of the drag.
     pub(super) begin: Arc<Embedding>,
-    /// The vertices that may have moved since then, and where they lie now.
+    /// Vertices that may have moved since the beginning, with their positions.
     pub(super) moved: Vec<(VertexId, DVec2)>,
-    /// The problem that it goes to.
+    /// Problem that the frame moves towards.
     pub(super) problem: Problem,
     pub(super) result: DragFrame,
 }
 
-/// What a frame begins with.
+/// Start of a frame.
 enum DragStart {
     Held(Box<HeldPins>),
     Screen(Screen),
@@ -73,19 +73,19 @@ impl LiveDrag {
         self.frames.is_busy()
     }
 
-    /// No further frame is wanted.
+    /// Ends the drag and drops its frames.
     pub(super) fn end(&mut self) {
         self.frames.cancel();
         (self.held, self.has_no_beginning) = (None, false);
     }
 
-    /// Lets a planar embedding follow. Gives the pins back where there is none.
+    /// Starts a frame for dragged pins. Returns the request if no planar drag is possible.
     pub(super) fn follow(&mut self, request: DragRequest) -> Option<DragRequest> {
         let problem = &request.task.problem;
         let is_under_way =
             |to: &DragGoal| to.dragged == request.dragged && to.problem.differs_in_targets_of(problem, &to.dragged);
         if self.frames.key().is_some_and(is_under_way) {
-            // Its end takes the targets up.
+            // The next frame uses the new targets.
             return None;
         }
         self.frames.cancel();
@@ -119,17 +119,17 @@ impl LiveDrag {
         });
     }
 
-    /// A frame that has ended, with the pins that are dragged; none inside if what was on the screen is no beginning.
+    /// Finished frame with its dragged pins. The frame is `None` if the embedding on the screen was no valid start.
     pub(super) fn poll(&mut self) -> Option<(Vec<VertexId>, EndedFrame)> {
         self.frames.poll().map(|(goal, outcome)| (goal.dragged, outcome))
     }
 
-    /// Keeps the embedding for the next frame.
+    /// Stores the solver for the next frame.
     pub(super) fn hold(&mut self, held: HeldPins) {
         self.held = Some(held);
     }
 
-    /// Notes that what is on the screen is no embedding to begin with.
+    /// Notes that the embedding on the screen is no valid start.
     pub(super) fn give_up(&mut self) {
         self.has_no_beginning = true;
     }

@@ -1,14 +1,14 @@
-//! What the session has to tell a person: what happened, where, and what to do.
+//! Messages to the user: the event, its place and a remedy.
 
 use std::path::PathBuf;
 
 use super::JobFailure;
 use freebound_core::mesh::VertexId;
 
-/// The most vertices that are named one by one.
+/// Maximum number of vertices that are listed one by one.
 const MOST_NAMED: usize = 4;
 
-/// Vertices by their names: all of a few, the first of many.
+/// Names of vertices: all of a few, the first of many.
 pub fn named(vertices: &[VertexId]) -> String {
     let names: Vec<String> = vertices.iter().take(MOST_NAMED).map(VertexId::to_string).collect();
     match vertices.len().saturating_sub(MOST_NAMED) {
@@ -17,59 +17,59 @@ pub fn named(vertices: &[VertexId]) -> String {
     }
 }
 
-/// How bad it is.
+/// Severity of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// Good news, such as a file that was written.
+    /// Success, such as a file that was written.
     Note,
-    /// Something did not work.
+    /// Failure.
     Error,
 }
 
-/// The pane that a message belongs to.
+/// Pane that a message belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MessagePlace {
-    /// The mesh in space.
+    /// Pane of the mesh in space.
     Mesh,
-    /// Its embedding.
+    /// Pane of the embedding.
     Embedding,
 }
 
-/// One thing said.
+/// Message to the user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Message {
-    /// Tells this message from all others of the session.
+    /// Unique number of the message within the session.
     pub id: u64,
-    /// How bad it is.
+    /// Severity of the message.
     pub severity: Severity,
-    /// Where it belongs.
+    /// Pane that the message belongs to.
     pub place: MessagePlace,
-    /// What happened.
+    /// Text of the message.
     pub text: String,
-    /// What to do about it.
+    /// Action that the message suggests.
     pub remedy: Option<String>,
-    /// Vertices of the element concerned, to be shown; empty where it is about the whole.
+    /// Vertices to highlight. Empty if the message concerns no single element.
     pub vertices: Vec<VertexId>,
-    /// Files that were written, the one asked for first.
+    /// Files that were written, the requested file first.
     pub files: Vec<PathBuf>,
 }
 
-/// What was written.
+/// Result of writing files.
 #[derive(Debug)]
 pub(super) struct Written {
-    /// Every file, the one asked for first. They lie in one folder.
+    /// Written files, the requested file first. All of them are in one folder.
     pub(super) files: Vec<PathBuf>,
-    /// What there is to say about it.
+    /// Summary of the content.
     pub(super) about: Option<String>,
 }
 
 impl Written {
-    /// One file of which there is nothing to say.
+    /// Result for a single file without a summary.
     pub(super) fn file(path: PathBuf) -> Self {
         Self { files: vec![path], about: None }
     }
 
-    /// The first file with its folder, the others by their names.
+    /// Names of the files, the first with its folder.
     fn names(&self) -> String {
         let others = self.files.iter().skip(1).map(|path| path.file_name().unwrap_or_default().to_string_lossy());
         let first = self.files.first().map(|path| path.display().to_string());
@@ -78,24 +78,24 @@ impl Written {
 }
 
 impl Message {
-    /// A failure. [`Messages::say`] gives it its number.
+    /// Creates a failure. [`Messages::say`] sets its number.
     pub(super) fn error(place: MessagePlace, text: impl Into<String>) -> Self {
         let (text, vertices, files) = (text.into(), Vec::new(), Vec::new());
         Self { id: 0, severity: Severity::Error, place, text, remedy: None, vertices, files }
     }
 
-    /// With what to do about it.
+    /// Adds a remedy.
     pub(super) fn with_remedy(self, remedy: impl Into<String>) -> Self {
         Self { remedy: Some(remedy.into()), ..self }
     }
 
-    /// With the vertices concerned.
+    /// Adds the vertices concerned.
     pub(super) fn with_vertices(self, vertices: Vec<VertexId>) -> Self {
         Self { vertices, ..self }
     }
 }
 
-/// What was said and not dismissed.
+/// Messages that were not dismissed.
 #[derive(Debug, Default)]
 pub(super) struct Messages {
     list: Vec<Message>,
@@ -103,14 +103,14 @@ pub(super) struct Messages {
 }
 
 impl Messages {
-    /// Says something. Returns the message's number.
+    /// Adds a message and returns its number.
     pub(super) fn say(&mut self, message: Message) -> u64 {
         self.last_id += 1;
         self.list.push(Message { id: self.last_id, ..message });
         self.last_id
     }
 
-    /// Says that files were written, together with what still stands of others.
+    /// Reports written files. Merges the report with earlier success messages.
     pub(super) fn note(&mut self, verb: &str, written: Written) {
         let about = written.about.as_ref().map_or_else(String::new, |about| format!(" ({about})"));
         let news = format!("{verb} {}{about}", written.names());
@@ -127,13 +127,13 @@ impl Messages {
         self.say(Message { severity: Severity::Note, files, ..message });
     }
 
-    /// Says that something did not work, and what to do about it.
+    /// Reports a failure with its remedy.
     pub(super) fn fail(&mut self, place: MessagePlace, text: impl Into<String>, remedy: Option<&str>) {
         let message = Message::error(place, text);
         self.say(Message { remedy: remedy.map(str::to_owned), ..message });
     }
 
-    /// Says that work in the background gave no outcome. `work` is a noun, such as "saving".
+    /// Reports a background job without an outcome. `work` is a noun, such as "saving".
     pub(super) fn fail_background(&mut self, place: MessagePlace, work: &str, failure: &JobFailure) {
         self.fail(place, failure.words(work), failure.remedy());
     }
@@ -142,12 +142,12 @@ impl Messages {
         self.list.retain(|message| message.id != id);
     }
 
-    /// Takes away what was said of the mesh: it is another one now.
+    /// Removes messages about the mesh, because the mesh has changed.
     pub(super) fn forget_mesh(&mut self) {
         self.list.retain(|message| message.place != MessagePlace::Mesh);
     }
 
-    /// Takes away what went well.
+    /// Removes success messages.
     pub(super) fn forget_notes(&mut self) {
         self.list.retain(|message| message.severity != Severity::Note);
     }

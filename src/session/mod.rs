@@ -1,59 +1,59 @@
-//! One open document: what the user edits, its history, and the work that goes on in the background. No screen.
+//! Open document: the user's edits, their history, and the work in the background. Independent of the screen.
 //!
-//! The session is made of parts, each with fields of its own that nothing else touches. Requests come in through
-//! `Session::handle`, what the background has finished through `Session::poll`.
+//! The session consists of parts with private fields. Requests enter through `Session::handle`, results of background
+//! work through `Session::poll`.
 //!
-//! | file                 | what it holds                                                             |
-//! |----------------------|---------------------------------------------------------------------------|
-//! | `state`              | the session: its parts, `handle`, `poll`                                  |
-//! | `action`             | what a person can ask for                                                 |
-//! | `status`             | the state of the work on the screen                                       |
-//! | `queries`            | questions that the parts answer                                           |
-//! | `edits`              | what is done to the document                                              |
-//! | `chart_actions`      | charts on the screen and in the background, and their layout              |
-//! | `comparison_actions` | methods that are compared, and the morph between two of them              |
-//! | `dragging`           | a drag of pins, frame by frame                                            |
-//! | `arrivals`           | what background jobs bring for the document                               |
-//! | `forming`            | the form that the mesh is to have, and its chart on the screen            |
-//! | `reshaping`          | the mesh in another form, with the pins that it has                       |
-//! | `seams`              | seams that a person draws, and files of them                              |
-//! | `v_axis`             | part: how v was turned around last                                        |
-//! | `runs`               | how the document is solved                                                |
-//! | `filing`             | what is opened and written                                                |
-//! | `in_use`             | files that are open, which nothing else is written over                   |
-//! | `document`           | part: what the user edits; one edit                                       |
-//! | `history`            | part: undo and redo                                                       |
-//! | `past`               | of history: what was solved for documents that undo and redo come back to |
-//! | `open_mesh`          | part: the open mesh, its faces one way around or the other                |
-//! | `solving/`           | part: a run, its timeline, and where it comes to rest                     |
-//! | `timeline`           | the steps of a run                                                        |
-//! | `stop`               | where a run comes to rest                                                 |
-//! | `comparing`          | part: methods that are compared in the background                         |
-//! | `comparison`         | methods run beside each other on one mesh                                 |
-//! | `morphing`           | part: the morph between two methods that are compared                     |
-//! | `morphs`             | planar morphs through what methods have come to                           |
-//! | `atlas_view`         | part: that layout for files, and for the screen                           |
-//! | `chart_targets`      | pins of a mesh with several charts, in files and in the document          |
-//! | `charts`             | part: charts that are not on the screen, solved in the background         |
-//! | `drag`               | part: what follows the pointer                                            |
-//! | `drag_request`       | pins on their way, and what is on the screen when they begin to move      |
-//! | `continue_from`      | what a run of an edited document goes on from                             |
-//! | `live`               | part: a planar embedding that follows the pointer, proved at every frame  |
-//! | `background_jobs`    | part: small work for the document that takes time                         |
-//! | `target_checks`      | part: conflicts among targets, and whether they look mirrored             |
-//! | `files`              | part: what is open and saved, read and written                            |
-//! | `open_project`       | of files: the project that is open, and the document as it was saved      |
-//! | `opened`             | what opening brings                                                       |
-//! | `large`              | what is to be opened; files that ask for much memory                      |
-//! | `model`              | a mesh as it was opened                                                   |
-//! | `seam_edges`         | edges of a mesh that seams follow as a rule                               |
-//! | `saving`             | projects on their way to the disk                                         |
-//! | `recovery`           | copies for recovery                                                       |
-//! | `folder`             | shows where a file lies                                                   |
-//! | `recent`             | the files opened last                                                     |
-//! | `preferences`        | how the window was left, kept between runs                                |
-//! | `messages`           | part: what there is to tell a person                                      |
-//! | `background`         | slots for work on background threads                                      |
+//! | file                 | content                                                                |
+//! |----------------------|------------------------------------------------------------------------|
+//! | `state`              | the session: its parts, `handle`, `poll`                               |
+//! | `action`             | requests of the user                                                   |
+//! | `status`             | state of the work on the screen                                        |
+//! | `queries`            | queries that the parts answer                                          |
+//! | `edits`              | edits of the document                                                  |
+//! | `chart_actions`      | shown chart, charts in the background, and their layout                |
+//! | `comparison_actions` | compared methods, and the morph between two of them                    |
+//! | `dragging`           | frames of a drag of pins                                               |
+//! | `arrivals`           | results of background jobs for the document                            |
+//! | `forming`            | wanted preparation of the mesh, and its shown chart                    |
+//! | `reshaping`          | mesh in another preparation, with its pins                             |
+//! | `seams`              | seams that the user draws, and their files                             |
+//! | `v_axis`             | part: last reversal of v                                               |
+//! | `runs`               | runs that solve the document                                           |
+//! | `filing`             | opening and saving                                                     |
+//! | `in_use`             | open files, which must not be overwritten                              |
+//! | `document`           | part: the document that the user edits; its edits                      |
+//! | `history`            | part: undo and redo                                                    |
+//! | `past`               | of history: solutions of documents that undo and redo return to        |
+//! | `open_mesh`          | part: the open mesh in its preparations                                |
+//! | `solving/`           | part: a run, its timeline, and its stop conditions                     |
+//! | `timeline`           | steps of a run                                                         |
+//! | `stop`               | stop conditions of a run                                               |
+//! | `comparing`          | part: methods that are compared in the background                      |
+//! | `comparison`         | independent runs of methods on one mesh                                |
+//! | `morphing`           | part: morph between two compared methods                               |
+//! | `morphs`             | planar morphs through the results of methods                           |
+//! | `atlas_view`         | part: layout of all charts, for files and for the screen               |
+//! | `chart_targets`      | pins of a mesh with several charts, in files and in the document       |
+//! | `charts`             | part: charts that are not shown, solved in the background              |
+//! | `drag`               | part: preview of a drag                                                |
+//! | `drag_request`       | request of a drag, and the state of the screen at its start            |
+//! | `continue_from`      | start of a run after an edit                                           |
+//! | `live`               | part: planar embedding that follows the pointer, proved at every frame |
+//! | `background_jobs`    | part: short background jobs for the document                           |
+//! | `target_checks`      | part: conflicts among targets, and the check for mirrored targets      |
+//! | `files`              | part: files that are open, read and written                            |
+//! | `open_project`       | of files: the open project, and the document in its saved state        |
+//! | `opened`             | result of opening a file                                               |
+//! | `large`              | requests to open files; files that need much memory                    |
+//! | `model`              | opened mesh                                                            |
+//! | `seam_edges`         | edges of a mesh that seams usually follow                              |
+//! | `saving`             | projects being written                                                 |
+//! | `recovery`           | recovery copies                                                        |
+//! | `folder`             | display of a file's folder                                             |
+//! | `recent`             | recently opened files                                                  |
+//! | `preferences`        | state of the window, kept between runs                                 |
+//! | `messages`           | part: messages to the user                                             |
+//! | `background`         | slots for work on background threads                                   |
 
 mod action;
 mod arrivals;

@@ -1,5 +1,5 @@
-//! The planar morph between the maps of two methods that are compared: found and proved in the background, once both have run
-//! and nothing else does. It belongs to these very maps: where one of them is solved again, the morph goes, and is found anew.
+//! Planar morph between the maps of two compared methods. The background finds and proves it once both methods have run
+//! and nothing else is running. If a method is solved again, its morph is dropped and found again.
 
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -7,37 +7,37 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::{Background, Compared, MORPH_FRAMES, MissingLeg, Model, MorphShortage, MorphStops, MorphTour, Wake};
 use freebound_core::problem::{Control, Phase, Variant};
 
-/// The maps of a morph.
+/// Results of the methods at both ends of a morph.
 pub(super) type Ends = [Arc<Compared>; 2];
 
-/// What is known of the morph that is wanted.
+/// State of the requested morph.
 #[derive(Clone, Debug, Default)]
 pub enum MorphState {
-    /// None is wanted, or its methods have yet to run.
+    /// No morph is requested, or its methods have not run yet.
     #[default]
     Waiting,
-    /// It is being found: what is done, and how many frames were looked at so far, on whatever way.
+    /// The morph is being found: the current phase, and the number of frames verified so far on all routes.
     Running(Option<Phase>, usize),
-    /// It is there: a tour from the one map to the other.
+    /// The morph is found: a tour between the two maps.
     Done(Arc<MorphTour>),
-    /// There is none, for this reason.
+    /// There is no morph, for this reason.
     Failed(String),
-    /// It is not sought: its frames would take too much memory.
+    /// The morph is not computed, because its frames would take too much memory.
     TooLarge(MorphShortage),
 }
 
-/// The morph that is wanted.
+/// Requested morph.
 pub(super) struct Morphing {
     wake: Wake,
     between: Option<[Variant; 2]>,
-    /// The maps that the state is of.
+    /// Ends that the state belongs to.
     ends: Option<Ends>,
     job: Background<(), Result<MorphTour, MissingLeg>>,
     progress: Arc<Mutex<Progress>>,
     state: MorphState,
 }
 
-/// What the background does.
+/// Progress of the background thread.
 #[derive(Clone, Copy, Debug, Default)]
 struct Progress {
     phase: Option<Phase>,
@@ -60,13 +60,13 @@ impl Morphing {
         self.job.is_busy()
     }
 
-    /// Drops what was found, or is being found.
+    /// Drops the morph and cancels its search.
     fn forget(&mut self) {
         self.job.cancel();
         (self.ends, self.state) = (None, MorphState::Waiting);
     }
 
-    /// Takes in what the background has found.
+    /// Stores the result of the search.
     pub(super) fn poll(&mut self) {
         let Some(((), outcome)) = self.job.poll() else { return };
         self.state = match outcome {
@@ -76,7 +76,7 @@ impl Morphing {
         };
     }
 
-    /// Finds the morph between two maps of a model's disk.
+    /// Starts the search for a morph between two maps of a model's disk.
     pub(super) fn begin(&mut self, model: Arc<Model>, ends: Ends) {
         let progress = Arc::new(Mutex::new(Progress::default()));
         let (of_job, wake) = (Arc::clone(&progress), Arc::clone(&self.wake));
@@ -105,12 +105,12 @@ impl Morphing {
         self.state.clone()
     }
 
-    /// The methods whose maps are wanted as ends.
+    /// Methods at the ends of the requested morph.
     pub(super) fn between(&self) -> Option<[Variant; 2]> {
         self.between.clone()
     }
 
-    /// Wants the morph between two methods, or none any more.
+    /// Requests the morph between two methods, or ends it.
     pub(super) fn want(&mut self, between: Option<[Variant; 2]>) {
         if self.between != between {
             self.between = between;
@@ -118,7 +118,7 @@ impl Morphing {
         }
     }
 
-    /// Drops what belongs to other maps than these.
+    /// Drops the morph unless it belongs to these ends.
     pub(super) fn keep_of(&mut self, now: Option<&Ends>) {
         let is_of = |[a, b]: &Ends, [c, d]: &Ends| Arc::ptr_eq(a, c) && Arc::ptr_eq(b, d);
         if self.ends.as_ref().is_some_and(|of| now.is_none_or(|now| !is_of(of, now))) {
@@ -131,13 +131,13 @@ impl Morphing {
         self.ends.is_none()
     }
 
-    /// Refuses the morph between two maps.
+    /// Stores the reason for not computing the morph.
     pub(super) fn refuse(&mut self, state: MorphState, ends: Ends) {
         (self.state, self.ends) = (state, Some(ends));
     }
 }
 
-/// Why no morph between two maps is sought within half of this memory, bytes; none where one is.
+/// Reason for not computing a morph within half of `memory`, bytes. `None` if it can be computed.
 pub(super) fn refused(model: &Model, ends: &Ends, memory: Option<u64>) -> Option<MorphState> {
     let stops = MorphStops::of(&[&ends[0], &ends[1]]);
     if let Some(left_out) = stops.left_out.first() {

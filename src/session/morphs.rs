@@ -1,8 +1,7 @@
-//! Planar morphs through what methods have come to: which of their maps take part, and the way from one to the next, every
-//! frame proved by itself.
+//! Planar morphs through the results of methods: the maps that take part, and the morph from each map to the next.
 //!
-//! A frame is proved twice: [`morph`] takes no frame that is not one-to-one, and each frame gets a [`Verdict`] of its own, which also
-//! says whether polygons are convex and whether it holds in 32 bits.
+//! Each frame is proved twice. [`morph`] accepts only one-to-one frames, and each frame gets its own [`Verdict`]. The
+//! verdict also tells if polygons are convex and if the map is planar in 32 bits.
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -16,35 +15,35 @@ use freebound_core::problem::{Control, Embedding};
 use freebound_core::verify::{Verdict, distortion, verdict};
 use freebound_io::{LeftOutReport, LegReport, MorphReport, bytes_in_words};
 
-/// Frames of a morph between two maps where nobody says how many, both maps included: an odd number, so that one is half way.
+/// Default number of frames of a morph between two maps, both included. Odd, so that one frame lies half-way.
 pub const MORPH_FRAMES: usize = 49;
 
 /// Bytes of a vertex in a frame: two coordinates of 64 bits. All frames of a tour are kept.
 const BYTES_PER_VERTEX: u64 = 16;
 
-/// The share of the machine's memory that they may take: one half.
+/// Divisor of the machine's memory that gives the limit for frames: one half.
 const SHARE: u64 = 2;
 
-/// A map that a morph begins or ends with.
+/// Map at an end of a morph.
 #[derive(Clone, Debug)]
 pub struct MorphStop {
-    /// The method, as it is typed.
+    /// Name of the method on the command line.
     pub name: String,
-    /// What it has come to: planar, one-to-one as the mesh is filled, of the mesh as given.
+    /// Result of the method: planar, one-to-one also with filled holes, without new vertices.
     pub outcome: Arc<Outcome>,
 }
 
-/// The maps that take part, in the order of the methods.
+/// Maps that take part, in the order of the methods.
 #[derive(Clone, Debug, Default)]
 pub struct MorphStops {
-    /// Those that do.
+    /// Maps that take part.
     pub stops: Vec<MorphStop>,
-    /// The other methods, each with the reason.
+    /// Methods that do not take part, each with the reason.
     pub left_out: Vec<LeftOutReport>,
 }
 
 impl MorphStops {
-    /// Chooses among what methods on one mesh have come to. All are mirror images where the first is one, and none where it is not.
+    /// Selects the results that can take part. All of them have the orientation of the first: mirrored or not.
     pub fn of(methods: &[&Compared]) -> Self {
         let mut found = Self::default();
         for method in methods {
@@ -63,11 +62,11 @@ impl MorphStops {
         found
     }
 
-    /// Whether all frames of a tour through these maps of a mesh fit into half of this memory, bytes; without a number they do.
+    /// Checks that all frames of a tour through these maps fit into half of `memory`, bytes. `None` means no limit.
     ///
     /// # Errors
     ///
-    /// [`MorphShortage`] says what they would take.
+    /// [`MorphShortage`] with the memory needed.
     pub fn check_memory(&self, mesh: &DiskMesh, frames: usize, memory: Option<u64>) -> Result<(), MorphShortage> {
         let Some(memory) = memory else { return Ok(()) };
         let counts = [frames, mesh.vertex_count(), self.stops.len().saturating_sub(1)];
@@ -76,55 +75,55 @@ impl MorphStops {
     }
 }
 
-/// Frames that would take more than half of the machine's memory.
+/// Error: frames would take more than half of the machine's memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{frames} frames from map to map take {} in all, more than half of the machine's memory of {}",
+    "{frames} frames between maps need {}, more than half of the machine's memory of {}",
     bytes_in_words(*needed),
     bytes_in_words(*memory)
 )]
 pub struct MorphShortage {
-    /// From one map to the next, both included.
+    /// Number of frames from one map to the next, both included.
     pub frames: usize,
-    /// What all of them take, bytes.
+    /// Memory of all frames, bytes.
     pub needed: u64,
-    /// What the machine has, bytes.
+    /// Memory of the machine, bytes.
     pub memory: u64,
 }
 
-/// The map of a method, where a morph can begin or end with it; else why not, in a few lower-case words.
+/// Map of a method, if a morph can begin or end with it.
 ///
 /// # Errors
 ///
-/// The reason.
+/// Reason, in a few lower-case words.
 pub fn morph_end(method: &Compared) -> Result<&Arc<Outcome>, &'static str> {
     let outcome = method.outcome.as_ref().ok_or("no map")?;
     let step = &outcome.step;
     match &step.verdict {
         verdict if !verdict.planar => Err("not planar"),
-        verdict if !verdict.is_one_to_one() => Err("the filling of a hole folds"),
-        _ if step.candidate.refinement.is_some() => Err("new vertices: of another mesh"),
+        verdict if !verdict.is_one_to_one() => Err("the filling of a hole is folded"),
+        _ if step.candidate.refinement.is_some() => Err("new vertices change the mesh"),
         _ => Ok(outcome),
     }
 }
 
-/// The way from one map to the next.
+/// Morph from one map to the next.
 #[derive(Clone, Debug)]
 pub struct MorphLeg {
-    /// By what way.
+    /// Route that the morph takes.
     pub route: Route,
-    /// Both maps and what lies between.
+    /// Both maps and the frames between them.
     pub frames: Vec<Embedding>,
-    /// The verdict on each frame.
+    /// Verdict on each frame.
     pub verdicts: Vec<Verdict>,
     /// Smallest determinant of a face's map from the surface in any frame, each at equal total areas.
     pub least_determinant: f64,
-    /// Seconds that it took to find and to prove.
+    /// Time to find and to prove the morph, seconds.
     pub seconds: f64,
 }
 
 impl MorphLeg {
-    /// Finds a morph between two maps of a mesh, with so many frames, two at least.
+    /// Finds a morph of `frame_count` frames between two maps of a mesh. `frame_count` is at least 2.
     ///
     /// # Errors
     ///
@@ -132,7 +131,7 @@ impl MorphLeg {
     ///
     /// # Panics
     ///
-    /// If a map is of another mesh.
+    /// If a map belongs to another mesh.
     pub fn between(
         mesh: &DiskMesh,
         ends: [&Outcome; 2],
@@ -145,12 +144,12 @@ impl MorphLeg {
         let mut verdicts = Vec::with_capacity(found.frames.len());
         let mut least_determinant = f64::INFINITY;
         for frame in &found.frames {
-            // Not announced: each frame was, when the search proved it.
+            // No progress is reported here: the search reported each frame when it proved it.
             if control.cancel().load(Ordering::Relaxed) {
                 return Err(NoMorph::Cancelled);
             }
             verdicts.push(verdict(mesh, frame));
-            // At equal total areas the determinant of a face's map is the ratio of its areas.
+            // At equal total areas the determinant of a face's map is the ratio of the face's areas.
             let least = distortion(mesh, frame).faces.iter().map(|face| face.area).fold(f64::INFINITY, f64::min);
             least_determinant = least_determinant.min(least);
         }
@@ -158,39 +157,39 @@ impl MorphLeg {
         Ok(Self { route: found.route, frames: found.frames, verdicts, least_determinant, seconds })
     }
 
-    /// How many of its frames are proved one-to-one.
+    /// Number of frames that are proved one-to-one.
     pub fn proved(&self) -> usize {
         self.verdicts.iter().filter(|verdict| verdict.is_one_to_one()).count()
     }
 }
 
-/// Morphs from each of some maps to the next.
+/// Sequence of morphs through several maps.
 #[derive(Clone, Debug)]
 pub struct MorphTour {
-    /// The maps.
+    /// Maps of the tour.
     pub stops: MorphStops,
-    /// The ways between them, one fewer.
+    /// Morphs between consecutive maps.
     pub legs: Vec<MorphLeg>,
 }
 
-/// A morph of a tour that there is not.
+/// Error: a morph of a tour does not exist.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("from {from} to {to}: {reason}")]
 pub struct MissingLeg {
-    /// The method that it was to begin with.
+    /// Method at the beginning of the morph.
     pub from: String,
-    /// The method that it was to end with.
+    /// Method at the end of the morph.
     pub to: String,
-    /// Why there is none.
+    /// Reason of the failure.
     pub reason: NoMorph,
 }
 
 impl MorphTour {
-    /// Finds all ways, each with so many frames, two at least.
+    /// Finds the morphs between consecutive maps, each of `frame_count` frames. `frame_count` is at least 2.
     ///
     /// # Errors
     ///
-    /// The first that there is not.
+    /// [`MissingLeg`] for the first morph that is not found.
     pub fn through(
         mesh: &DiskMesh,
         stops: MorphStops,
@@ -205,7 +204,7 @@ impl MorphTour {
         Ok(Self { stops, legs })
     }
 
-    /// What is reported of it.
+    /// Report on the tour.
     pub fn report(&self) -> MorphReport {
         let leg = |(leg, pair): (&MorphLeg, &[MorphStop])| LegReport {
             from: pair[0].name.clone(),

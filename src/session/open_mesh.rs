@@ -1,29 +1,29 @@
-//! The open mesh, in one form or another.
+//! Open mesh in its preparations.
 
 use std::sync::Arc;
 
 use super::Model;
 use freebound_core::mesh::{Preparation, WeldDistance};
 
-/// How many vertices of the mesh lie within a distance of another.
+/// Number of vertices of the mesh within a distance of another vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     pub(super) distance: WeldDistance,
-    /// None while they are counted, and where the count was stopped or failed.
+    /// `None` during the count, and if the count was stopped or failed.
     pub(super) count: Option<usize>,
 }
 
-/// The open mesh.
+/// Open mesh.
 #[derive(Debug, Default)]
 pub(super) struct OpenMesh {
     model: Option<Arc<Model>>,
-    /// The same mesh in the form that was wanted before, or is wanted next; or another chart of it.
+    /// Mesh in the preparation before, or in the one wanted next; or another chart of it.
     other: Option<Arc<Model>>,
-    /// The form that a person asked for, while the mesh is brought into it for an edit.
+    /// Preparation that the user requested, while the mesh is prepared for the edit.
     wanted: Option<Preparation>,
-    /// The vertices near each other that were to be counted last.
+    /// Last count of vertices near each other.
     near: Option<Near>,
-    /// Counts the meshes opened, and their changes of form.
+    /// Number of meshes opened and of changes of their preparation.
     revision: u64,
 }
 
@@ -32,17 +32,17 @@ impl OpenMesh {
         *self = Self { model: Some(Arc::new(model)), revision: self.revision + 1, ..Self::default() };
     }
 
-    /// The form that a person asked for, while the mesh is brought into it for an edit.
+    /// Preparation that the user requested, while the mesh is prepared for the edit.
     pub(super) fn wanted(&self) -> Option<&Preparation> {
         self.wanted.as_ref()
     }
 
-    /// Notes the form that a person asks for; or that none is asked for any more.
+    /// Sets or drops the requested preparation.
     pub(super) fn want(&mut self, form: Option<Preparation>) {
         self.wanted = form;
     }
 
-    /// Turns the faces around of the form that is asked for, where one is.
+    /// Reverses the faces of the requested preparation, if there is one.
     pub(super) fn turn_wanted(&mut self) {
         if let Some(form) = &mut self.wanted {
             form.faces_turned = !form.faces_turned;
@@ -53,18 +53,18 @@ impl OpenMesh {
         self.near
     }
 
-    /// Notes what is counted, or was.
+    /// Stores a count or its beginning.
     pub(super) fn take_near(&mut self, near: Near) {
         self.near = Some(near);
     }
 
-    /// Takes in the mesh in another form, for [`change`](Self::change).
+    /// Stores the mesh in another preparation, for [`change`](Self::change).
     pub(super) fn take_other(&mut self, model: Arc<Model>) {
         self.other = Some(model);
     }
 
-    /// Shows the mesh in another form, or another chart of it. Returns the one that was there before; none where the one
-    /// wanted is not at hand.
+    /// Switches to the stored mesh with this preparation and chart. Returns the mesh before, or `None` if no such mesh
+    /// is stored.
     pub(super) fn change(&mut self, form: &Preparation, chart: Option<usize>) -> Option<Arc<Model>> {
         let other = self.other.take_if(|other| other.prepared.form == *form && other.is_chart(chart))?;
         self.other = self.model.replace(other);
@@ -77,7 +77,7 @@ impl OpenMesh {
         self.model.as_ref()
     }
 
-    /// The count of the meshes opened, and of their changes of form.
+    /// Number of meshes opened and of changes of their preparation.
     pub(super) fn revision(&self) -> u64 {
         self.revision
     }

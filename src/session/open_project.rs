@@ -1,25 +1,25 @@
-//! State of what is open: its project, its name, and the document as it was saved.
+//! State of the open document: its project, its name, and its saved content.
 
 use std::path::PathBuf;
 
 use super::Document;
 use freebound_io::{ProjectSource, ProjectView};
 
-/// State of what is open, apart from what is edited: what an edit is compared with.
+/// State of the open document apart from the edits. Edits are compared with it.
 #[derive(Debug, Default)]
 pub(super) struct OpenProject {
-    /// Counts what was opened.
+    /// Number of openings so far.
     pub(super) opening: u64,
-    /// Name of work that no project and no mesh names.
+    /// Name of a document that is named by neither a project nor a mesh.
     pub(super) name: Option<String>,
-    /// The project that it is saved to.
+    /// Project that the document is saved to.
     pub(super) project: Option<PathBuf>,
-    /// The document as it was opened or saved; none where it is nowhere but here.
+    /// Document when it was opened or saved. `None` if it is not saved anywhere.
     pub(super) saved: Option<Document>,
-    /// The file of constraints that was imported last.
+    /// Constraint file that was imported last.
     pub(super) constraints: Option<PathBuf>,
-    /// The project's picture, where it could not be read: it stays in the project until there is another.
+    /// Picture of the project that could not be read. It stays in the project until another picture is set.
     pub(super) missing_picture: Option<ProjectSource>,
-    /// View to be saved with it.
+    /// View to be saved with the project.
     pub(super) view: ProjectView,
 }

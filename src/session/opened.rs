@@ -1,4 +1,4 @@
-//! What opening brings: mesh, picture, pins and view, with what there is to say about them.
+//! Result of opening a file: mesh, picture, pins and view, with remarks.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -14,25 +14,25 @@ use freebound_io::{
     ReadError, RecoveryNote, check_memory, material_picture,
 };
 
-/// Something that was opened, ready to be put on the table.
+/// Result of opening a file.
 #[derive(Debug)]
 pub(super) struct Opened {
     pub(super) model: Model,
     pub(super) document: Document,
     pub(super) view: ProjectView,
     pub(super) origin: Origin,
-    /// What is not as it ought to be.
+    /// Remarks on missing or changed files and elements.
     pub(super) remarks: Vec<Message>,
-    /// The project's picture, where it could not be read.
+    /// Picture of the project, if it could not be read.
     pub(super) missing_picture: Option<ProjectSource>,
-    /// Whether pins or seams of the project are left out.
+    /// True if pins or seams of the project are left out.
     pub(super) is_partial: bool,
 }
 
-/// Where it came from.
+/// Origin of the opened document.
 #[derive(Debug)]
 pub(super) enum Origin {
-    /// A mesh file or an example: method and weights stay what they are.
+    /// A mesh file or an example. Method and weights are kept.
     Mesh,
     /// A project.
     Project(PathBuf),
@@ -40,7 +40,7 @@ pub(super) enum Origin {
     Recovery(RecoveryNote),
 }
 
-/// Why something was not opened.
+/// Reason for not opening a file.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum OpenError {
     #[error("{}: {source}", path.display())]
@@ -49,27 +49,28 @@ pub(super) enum OpenError {
     Memory { path: PathBuf, source: MemoryShortage },
     #[error(transparent)]
     Project(#[from] ProjectError),
-    #[error("{}: the mesh of the project is not there", mesh.display())]
+    #[error("{}: the mesh of the project does not exist", mesh.display())]
     NoMesh { mesh: PathBuf },
-    #[error("the project is of a built-in mesh that there is not: \"{name}\"")]
+    #[error("the built-in mesh of the project is unknown: \"{name}\"")]
     NoExample { name: String },
 }
 
 impl OpenError {
-    /// What to do about it.
+    /// Action that the message suggests.
     pub(super) fn remedy(&self) -> &'static str {
         match self {
             Self::Mesh { source, .. } => source.remedy(),
             Self::Memory { .. } => "open it on a machine with more memory, or simplify the mesh",
             Self::Project(error) => error.remedy(),
-            Self::NoMesh { .. } => "put it back, or write where it is now into the project, which is a text file",
+            Self::NoMesh { .. } => "restore the file, or edit its path in the project, which is a text file",
             Self::NoExample { .. } => "open it with a newer version of Freebound",
         }
     }
 }
 
 impl Opened {
-    /// Opens a project or a mesh file, by the extension of its name, within half of this memory, bytes, where it is told.
+    /// Opens a project or a mesh file, by the extension of its name. `memory` is the machine's memory in bytes; at most
+    /// half of it may be used. `None` means no limit.
     pub(super) fn read(path: &Path, memory: Option<u64>) -> Result<Self, OpenError> {
         let is_project = path.extension().is_some_and(|found| found.eq_ignore_ascii_case(PROJECT_EXTENSION));
         if is_project {
@@ -85,14 +86,14 @@ impl Opened {
         Ok(Self { remarks, ..Self::mesh(model, document) })
     }
 
-    /// Opens what a session before has left, within half of this memory.
+    /// Opens a recovery copy. At most half of `memory`, bytes, may be used.
     pub(super) fn recovered(path: &Path, memory: Option<u64>) -> Result<Self, OpenError> {
         let mut project = ProjectFile::read(path)?;
         let note = project.recovery.take().unwrap_or_default();
         Self::project(project, Origin::Recovery(note), memory)
     }
 
-    /// A built-in mesh, with the picture and the constraints that belong to it.
+    /// Opens a built-in mesh with its picture and constraints.
     pub(super) fn example(example: Example) -> Self {
         Self::mesh(Model::example(example), Document::of_example(example))
     }
@@ -133,7 +134,7 @@ impl Opened {
             ..Document::default()
         };
         document.take_charts(&model, targets, &project.relaxed_elsewhere);
-        // Saving must not take out of the file what only was not to be had this time.
+        // Saving must keep a picture that was only unavailable this time.
         let missing_picture = project.picture.filter(|_| document.picture.is_none());
         let mut view = project.view;
         view.selection.retain(|&vertex| (vertex as usize) < model.vertex_count());
@@ -141,13 +142,13 @@ impl Opened {
     }
 }
 
-/// Reads a mesh, within half of this memory, bytes.
+/// Reads a mesh that takes at most half of `memory`, bytes.
 fn read_model(path: &Path, form: Preparation, memory: Option<u64>) -> Result<Model, OpenError> {
     check_memory(path, memory).map_err(|source| OpenError::Memory { path: path.to_owned(), source })?;
     Model::read(path, form).map_err(|source| OpenError::Mesh { path: path.to_owned(), source })
 }
 
-/// The mesh of a project, with what there is to say where it has changed since.
+/// Mesh of a project, with a remark if it has changed since the project was saved.
 fn project_mesh(
     source: &ProjectSource,
     form: Preparation,
@@ -167,7 +168,7 @@ fn project_mesh(
     }
 }
 
-/// What there is to say where a mesh is not as it was when its project was saved.
+/// Remark on a mesh that has changed since its project was saved.
 fn change_remark(path: &Path, stamp: Option<&FileStamp>, mesh: &Model) -> Option<Message> {
     has_changed(stamp, mesh.stamp.as_ref()).then(|| {
         let text = format!("{}: the mesh has changed since the project was saved", path.display());
@@ -180,11 +181,11 @@ fn project_picture(source: &ProjectSource, remarks: &mut Vec<Message>) -> Option
     match source {
         ProjectSource::Example(name) => example_called(name).and_then(example_picture),
         ProjectSource::File { path, stamp } => {
-            let remedy = "the embedding has no picture now: open one, or mend this and open the project again";
+            let remedy = "open another picture, or repair this one and open the project again";
             let picture = if path.exists() {
                 PictureFile::read(path).map_err(|error| error.to_string())
             } else {
-                Err(format!("{}: the picture of the project is not there", path.display()))
+                Err(format!("{}: the picture of the project does not exist", path.display()))
             };
             let picture = picture.map_err(|text| remarks.push(picture_remark(text, remedy))).ok()?;
             if has_changed(stamp.as_ref(), picture.stamp.as_ref()) {
@@ -203,7 +204,7 @@ fn picture_remark(text: String, remedy: &str) -> Message {
     Message::error(MessagePlace::Embedding, text).with_remedy(remedy)
 }
 
-/// Whether a file is in another state than it was. Where one of the two is not known there is nothing to say.
+/// True if the state of a file has changed. False if one of the states is unknown.
 fn has_changed(before: Option<&FileStamp>, now: Option<&FileStamp>) -> bool {
     before.zip(now).is_some_and(|(before, now)| before != now)
 }
@@ -212,7 +213,7 @@ fn example_called(name: &str) -> Option<Example> {
     Example::ALL.into_iter().find(|example| example.name() == name)
 }
 
-/// The form without edges of seams that no face has, with a remark about them. Nothing is cut there, whether they are listed or not.
+/// Preparation without seam edges that do not exist in the mesh, with a remark about them. These edges are never cut.
 fn with_seams_there_are(form: &Preparation, model: &Model, remarks: &mut Vec<Message>) -> Preparation {
     let lost = form.seams.missing_in(&model.source.polygons);
     if lost.is_empty() {
@@ -223,12 +224,12 @@ fn with_seams_there_are(form: &Preparation, model: &Model, remarks: &mut Vec<Mes
     let text = format!(
         "{count} of the project's {before} seam edges are left out ({a}–{b}{others}): the mesh has no such edges"
     );
-    let remedy = "draw them again, or put the mesh back as it was and open the project again";
+    let remedy = "draw them again, or restore the mesh and open the project again";
     remarks.push(Message::error(MessagePlace::Mesh, text).with_remedy(remedy));
     Preparation { seams: form.seams.without(lost), ..form.clone() }
 }
 
-/// The targets of vertices that the mesh has, with a remark about the others.
+/// Targets on existing vertices, with a remark about the others.
 fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Message>) -> Targets {
     let count = model.vertex_count_in_file();
     let before = targets.len();
@@ -244,7 +245,7 @@ fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Mess
             lost.len(),
             named(&lost)
         );
-        let remedy = "place them again, or put the mesh back as it was and open the project again";
+        let remedy = "place them again, or restore the mesh and open the project again";
         remarks.push(Message::error(MessagePlace::Embedding, text).with_remedy(remedy));
     }
     targets

@@ -1,7 +1,7 @@
-//! What was solved for documents that undo and redo come back to: it is shown again to the last bit, and nothing is solved.
+//! Solutions of documents that undo and redo return to. They are restored bit for bit, without solving.
 //!
-//! An edit goes on from what was solved before it: solved from scratch, an earlier document has another embedding than it had. A
-//! document is known by its place in the history: how many edits can be taken back from it.
+//! An edit continues from the solution before it, so solving an earlier document from scratch would give another
+//! embedding. A document is identified by its place in the history: the number of edits that can be undone.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,20 +9,20 @@ use std::sync::Arc;
 use super::solving::{Solved, Task};
 use freebound_core::mesh::DiskMesh;
 
-/// Bytes that all of it may take: what is farthest from the present document goes first. At a million faces that is some
-/// ten edits.
+/// Memory budget of all solutions, bytes. The solution farthest from the current document is dropped first. At a
+/// million faces the budget holds about ten edits.
 const BUDGET: usize = 512_000_000;
 
-/// Bytes that the steps of one document may take, but for those without which it is not shown.
+/// Memory budget for the steps of one document, bytes. The steps needed to show it are kept in any case.
 pub(super) const BUDGET_OF_ONE: usize = 16_000_000;
 
-/// What was solved, by its place in the history.
+/// Solutions by their place in the history.
 #[derive(Debug, Default)]
 pub(super) struct Past {
     states: BTreeMap<usize, State>,
 }
 
-/// What was solved for a document.
+/// Solution of a document.
 #[derive(Debug)]
 pub(super) struct State {
     pub(super) mesh: Arc<DiskMesh>,
@@ -39,17 +39,17 @@ impl Past {
         }
     }
 
-    /// Drops what cannot be come back to.
+    /// Drops solutions after a place, which redo cannot reach any more.
     pub(super) fn forget_beyond(&mut self, place: usize) {
         self.states.retain(|&other, _| other <= place);
     }
 
-    /// Forgets the state at a place.
+    /// Drops the solution at a place.
     pub(super) fn forget(&mut self, place: usize) {
         self.states.remove(&place);
     }
 
-    /// Takes out what was solved at a place, if it is of a task with so many rounds of relaxing.
+    /// Removes the solution at a place. Returns it if it solves this task with this number of relaxation rounds.
     pub(super) fn take(&mut self, place: usize, task: &Task, relaxed: usize) -> Option<Solved> {
         let is_of = |state: &State| {
             Arc::ptr_eq(&state.mesh, &task.mesh) && state.relaxed == relaxed && state.solved.is_of(&task.problem)

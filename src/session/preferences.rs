@@ -1,4 +1,4 @@
-//! How the window was left: kept between runs, beside the copies for recovery.
+//! State of the window, kept between runs beside the recovery copies.
 
 use std::path::{Path, PathBuf};
 
@@ -7,32 +7,34 @@ use serde::{Deserialize, Serialize};
 use super::recovery::state_folder;
 use freebound_io::write_atomically;
 
-/// How the window was left. What is not there, or makes no sense, is as at the first start.
+/// State of the window. Missing values, and all values of an invalid file, are the defaults of the first start.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Preferences {
-    /// Whether the theme is dark; as the system has it where nobody chose.
+    /// True for a dark theme. Default: the theme of the system.
     pub dark: Option<bool>,
-    /// Whether the wireframe shows.
+    /// True if the wireframe is shown.
     pub wireframe: bool,
-    /// Name of the shading of the mesh's pane.
+    /// Name of the shading in the mesh pane.
     pub mesh_shading: Option<String>,
-    /// Name of the shading of the embedding's pane.
+    /// Name of the shading in the embedding pane.
     pub plane_shading: Option<String>,
-    /// Width of the panels at the right, points.
+    /// Width of the panels on the right, points.
     pub panel_width: Option<f32>,
     /// Width and height of the window, points.
     pub window_size: Option<[f32; 2]>,
+    /// True once the guided tour was started.
+    pub tour_seen: bool,
 }
 
 impl Preferences {
-    /// Reads what a run before left. A missing or broken file is none.
+    /// Reads the stored preferences. A missing or broken file gives the defaults.
     pub fn load(path: &Path) -> Self {
         let text = std::fs::read_to_string(path).unwrap_or_default();
         serde_json::from_str(&text).unwrap_or_default()
     }
 
-    /// Writes them, aside first. Preferences that cannot be written are no reason to disturb anybody.
+    /// Writes the preferences atomically. Failures are ignored.
     pub fn store(&self, path: &Path) {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).ok();
@@ -40,7 +42,7 @@ impl Preferences {
         write_atomically(path, |out| serde_json::to_writer(out, self).map_err(Into::into)).ok();
     }
 
-    /// Where they are kept on this system, `None` where it has no place for them.
+    /// Path of the preferences on this system. `None` if the system has no folder for them.
     pub fn default_store() -> Option<PathBuf> {
         Some(state_folder()?.join("window.json"))
     }

@@ -1,4 +1,4 @@
-//! Questions to the session that its parts answer.
+//! Queries to the session that its parts answer.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,19 +13,19 @@ use freebound_core::problem::Pins;
 use freebound_core::verify::Conflict;
 use freebound_io::ProjectView;
 
-/// The open mesh.
+/// Queries of the open mesh.
 impl Session {
     /// The open mesh.
     pub fn model(&self) -> Option<&Arc<Model>> {
         self.mesh.model()
     }
 
-    /// Changes whenever another mesh is open, or the same one in another form.
+    /// Number of changes of the open mesh and of its preparation.
     pub fn model_revision(&self) -> u64 {
         self.mesh.revision()
     }
 
-    /// The open mesh, where it is a disk.
+    /// Open mesh, if it is a disk.
     pub(super) fn disk(&self) -> Option<&Arc<DiskMesh>> {
         self.model()?.disk()
     }
@@ -35,38 +35,37 @@ impl Session {
         self.model().map_or(0, |model| model.vertex_count())
     }
 
-    /// True if the chart on the screen is the one that the document wants.
+    /// True if the shown chart is the one that the document wants, or nothing is open.
     pub(super) fn has_chart_as_wanted(&self) -> bool {
         self.model().is_none_or(|model| model.is_chart(self.document.chart))
     }
 
-    /// True if the mesh has the form that the document wants, and is the chart that it wants. Where nothing is open,
-    /// there is none.
+    /// True if preparation and chart of the mesh are those that the document wants, or nothing is open.
     pub(super) fn has_form_as_wanted(&self) -> bool {
         self.has_numbers_as_wanted() && self.has_chart_as_wanted()
     }
 
-    /// True if the mesh has the form that the document wants, so that vertices and charts have the numbers that the document has
-    /// for them, whichever chart is on the screen.
+    /// True if the preparation of the mesh is the one that the document wants, or nothing is open. Then vertices and
+    /// charts have the document's numbers, whichever chart is shown.
     pub(super) fn has_numbers_as_wanted(&self) -> bool {
         self.model().is_none_or(|model| model.prepared.form == self.document.form)
     }
 }
 
-/// Files.
+/// Queries of files.
 impl Session {
-    /// Changes whenever something was opened. Unlike [`model_revision`](Self::model_revision) it stays where the same
-    /// mesh is turned around, when no camera is to move.
+    /// Number of openings. Unlike [`model_revision`](Self::model_revision) it ignores changes of the preparation, when
+    /// the camera has to stay.
     pub fn opening_revision(&self) -> u64 {
         self.files.opening()
     }
 
-    /// The files opened last.
+    /// Recently opened files.
     pub fn recent(&self) -> &RecentFiles {
         self.files.recent()
     }
 
-    /// The project that the document is saved to.
+    /// Project that the document is saved to.
     pub fn project_path(&self) -> Option<&PathBuf> {
         self.files.project()
     }
@@ -76,7 +75,7 @@ impl Session {
         self.files.name(self.model().map(AsRef::as_ref))
     }
 
-    /// True if something would be lost if the session ended now.
+    /// True if the session has unsaved work.
     pub fn has_unsaved_work(&self) -> bool {
         self.model().is_some() && !self.files.has_saved(&self.document)
     }
@@ -86,72 +85,72 @@ impl Session {
         self.files.is_saving_project()
     }
 
-    /// View that was saved with the document, for the screen to take over when
-    /// [`opening_revision`](Self::opening_revision) changes.
+    /// View that was saved with the document. The screen adopts it when [`opening_revision`](Self::opening_revision)
+    /// changes.
     pub fn view(&self) -> &ProjectView {
         self.files.view()
     }
 
-    /// Says how the person looks at it, to be saved with the project. A view alone is no unsaved work.
+    /// Sets the view to be saved with the project. A changed view alone is no unsaved work.
     pub fn set_view(&mut self, view: ProjectView) {
         self.files.set_view(view);
     }
 
-    /// Waits until all files are written that were asked for, or the disk hangs. For the end of the program, which
-    /// would break them off.
+    /// Waits until all requested files are written or a time limit is reached. Call it at the end of the program, which
+    /// would interrupt the writing.
     pub fn finish_writing(&mut self) {
         self.files.finish_writing(&mut self.messages);
     }
 
-    /// Asks before it opens what may take more than half of this memory, bytes.
+    /// Sets the machine's memory, bytes. Files that may take more than half of it need a confirmation.
     pub fn heed_memory(&mut self, bytes: u64) {
         self.files.set_memory(bytes);
     }
 
-    /// The file that waits for [`Action::OpenLarge`](super::Action::OpenLarge) or
+    /// File that waits for [`Action::OpenLarge`](super::Action::OpenLarge) or
     /// [`Action::LeaveLarge`](super::Action::LeaveLarge).
     pub fn large_file(&self) -> Option<&LargeFile> {
         self.files.large()
     }
 
-    /// Makes copies for recovery in a folder from now on, and looks at what is there.
+    /// Sets the folder for recovery copies and lists the copies found there.
     pub fn keep_copies_in(&mut self, folder: PathBuf) {
         self.files.autosave_mut().keep_in(folder);
     }
 
-    /// Work that sessions before have left unsaved, newest first.
+    /// Unsaved work of earlier sessions, newest first.
     pub fn recoverable(&self) -> &[Recoverable] {
         self.files.autosave().found()
     }
 
-    /// Ends the session as a person wishes: what is not saved is not wanted, so the copy is deleted, and no further one
-    /// made. A session that is merely dropped leaves its copy behind.
+    /// Ends the session at the user's request: deletes its recovery copy and makes no further one. A session that is
+    /// merely dropped keeps its copy.
     pub fn close(&mut self) {
         self.files.autosave_mut().close();
     }
 }
 
-/// Messages.
+/// Messages to the user.
 impl Session {
     /// Messages that were not dismissed, oldest first.
     pub fn messages(&self) -> &[Message] {
         self.messages.list()
     }
 
-    /// Says that work in the background gave no outcome. `work` is a noun, such as "drawing".
+    /// Reports a background job without an outcome. `work` is a noun, such as "drawing".
     pub fn tell_failure(&mut self, place: MessagePlace, work: &str, failure: &JobFailure) {
         self.messages.fail_background(place, work, failure);
     }
 
-    /// Says beside the embedding that something did not work, and what to do about it.
+    /// Reports a failure in the embedding pane, with its remedy.
     pub(super) fn complain(&mut self, text: impl Into<String>, remedy: Option<&str>) {
         self.messages.fail(MessagePlace::Embedding, text, remedy);
     }
 }
 
-/// Steps.
+/// Queries of steps.
 impl Session {
-    /// The steps that there are, and which of them is on the screen.
+    /// Steps of the run, and the shown one.
     pub fn timeline(&self) -> &Timeline {
         self.solving.timeline()
     }
@@ -161,17 +160,17 @@ impl Session {
         self.timeline().outcome(self.timeline().shown()?)
     }
 
-    /// The step that the one on the screen is compared with.
+    /// Step that the shown one is compared with.
     pub fn compared(&self) -> Option<&Arc<Outcome>> {
         self.timeline().outcome(self.timeline().compared()?)
     }
 
-    /// Changes whenever another step is on the screen, or none any more.
+    /// Number of changes of the shown step.
     pub fn outcome_revision(&self) -> u64 {
         self.solving.outcome_revision()
     }
 
-    /// When a run that goes on by itself comes to rest.
+    /// Stop conditions of runs.
     pub fn stop_conditions(&self) -> StopConditions {
         self.solving.stop_conditions()
     }
@@ -181,15 +180,15 @@ impl Session {
         self.solving.is_running()
     }
 
-    /// Reason why the run stopped, unless a person stopped it.
+    /// Reason for the stop of the run, unless the user stopped it.
     pub fn stopped(&self) -> Option<RunStop> {
         self.solving.stopped()
     }
 }
 
-/// Targets.
+/// Checks of targets.
 impl Session {
-    /// Brings what is known of the targets up to date. Call once per frame.
+    /// Updates the checks of targets. Call once per frame.
     pub(super) fn refresh_target_checks(&mut self) {
         if !self.has_form_as_wanted() {
             return;
@@ -201,17 +200,17 @@ impl Session {
         self.target_checks.flatten(revision, disk, self.document.targets.len());
     }
 
-    /// Constraints of the document that contradict each other on the mesh as it is.
+    /// Conflicts among the constraints of the document on the current mesh.
     pub fn conflicts(&self) -> &[Conflict] {
         self.target_checks.conflicts()
     }
 
-    /// The first conflict that a pin takes part in.
+    /// First conflict that involves a pin.
     pub fn conflict_of(&self, vertex: VertexId) -> Option<&Conflict> {
         self.conflicts().iter().find(|conflict| conflict.vertices().contains(&vertex))
     }
 
-    /// True if the targets of the document look mirrored: known only some time after there are enough of them.
+    /// True if the targets of the document look mirrored. Known some time after there are enough targets.
     pub fn targets_look_mirrored(&self) -> bool {
         let uses_pins = self.document.settings.method.uses_pins();
         uses_pins && self.target_checks.look_mirrored(self.model_revision(), &self.document.pins())

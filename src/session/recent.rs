@@ -1,14 +1,14 @@
-//! The files opened last, kept between runs.
+//! Recently opened files, kept between runs.
 
 use std::path::{Path, PathBuf};
 
 use super::recovery::system_folder;
 use freebound_io::write_atomically;
 
-/// How many are remembered.
+/// Maximum number of remembered files.
 const CAPACITY: usize = 10;
 
-/// Files opened last, newest first.
+/// Recently opened files, newest first.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RecentFiles {
     paths: Vec<PathBuf>,
@@ -16,24 +16,24 @@ pub struct RecentFiles {
 }
 
 impl RecentFiles {
-    /// Reads the list that a run before left in `store`. A missing or broken list is an empty one.
+    /// Reads the list stored in `store`. A missing or broken list is empty.
     pub fn load(store: PathBuf) -> Self {
         let text = std::fs::read_to_string(&store).unwrap_or_default();
         let paths: Vec<PathBuf> = serde_json::from_str(&text).unwrap_or_default();
         Self { paths, store: Some(store) }
     }
 
-    /// Where the list is kept on this system, `None` where it has no place for settings.
+    /// Path of the list on this system. `None` if the system has no folder for settings.
     pub fn default_store() -> Option<PathBuf> {
         Some(system_folder(["XDG_CONFIG_HOME", "APPDATA"], ".config")?.join("recent.json"))
     }
 
-    /// The files, newest first.
+    /// Files, newest first.
     pub fn paths(&self) -> &[PathBuf] {
         &self.paths
     }
 
-    /// Puts a file first and writes the list. A list that cannot be written is no reason to disturb anybody.
+    /// Moves a file to the front and writes the list. Failures of writing are ignored.
     pub fn remember(&mut self, path: &Path) {
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         self.paths.retain(|known| *known != path);
@@ -42,7 +42,7 @@ impl RecentFiles {
         self.store();
     }
 
-    /// Forgets all files.
+    /// Clears the list.
     pub fn clear(&mut self) {
         self.paths.clear();
         self.store();

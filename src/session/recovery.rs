@@ -1,7 +1,7 @@
-//! Copies for recovery: made while a person works, and what sessions that ended badly have left.
+//! Recovery copies of the current work, and copies left by sessions that ended badly.
 //!
-//! A session keeps one copy, and beside it a lock that it holds as long as it lives; the system lets go of the lock
-//! however the session ends. So a copy whose lock can be taken was left by the dead.
+//! A session keeps one copy, with a lock that it holds while it lives. The system releases the lock however the session
+//! ends. Therefore a copy whose lock is free belongs to a dead session.
 
 use std::fs::{self, File};
 use std::io;
@@ -12,51 +12,52 @@ use std::time::{Duration, Instant, SystemTime};
 use super::{Background, Document, MessagePlace, Messages, Wake};
 use freebound_io::{PROJECT_EXTENSION, PathStyle, ProjectFile, WriteError};
 
-/// Time from one copy to the next: what a crash may cost.
+/// Minimum time between two copies: the work that a crash may lose.
 const INTERVAL: Duration = Duration::from_secs(5);
 
-/// How long the end of a session waits for a copy that is being written. It is small: longer means that the disk hangs.
+/// Maximum time that the end of a session waits for a copy. Copies are small, so a longer time means that the disk
+/// hangs.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// Extension of a lock's name.
+/// Extension of lock files.
 const LOCK_EXTENSION: &str = "lock";
 
-/// Writes a copy of a document.
+/// Job that writes a copy of a document.
 type CopyJob = Background<Document, Result<(), WriteError>>;
 
-/// Work that a session left unsaved.
+/// Unsaved work of a session.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recoverable {
-    /// The copy.
+    /// Path of the copy.
     pub path: PathBuf,
-    /// What the work was called.
+    /// Name of the document.
     pub name: String,
-    /// The project that it was last saved to.
+    /// Project that the document was last saved to.
     pub project: Option<PathBuf>,
-    /// When the copy was made.
+    /// Time of the copy.
     pub time: SystemTime,
-    /// How many pins it has.
+    /// Number of pins in the copy.
     pub pin_count: usize,
 }
 
-/// Where copies are kept on this system, `None` where it has no place for them.
+/// Folder of recovery copies on this system. `None` if the system has no folder for them.
 pub fn recovery_folder() -> Option<PathBuf> {
     Some(state_folder()?.join("recovery"))
 }
 
-/// Where the program keeps what is its own from run to run.
+/// Folder for the program's own state.
 pub(super) fn state_folder() -> Option<PathBuf> {
     system_folder(["XDG_STATE_HOME", "LOCALAPPDATA"], ".local/state")
 }
 
-/// The program's folder under the first of these variables that is set, or under a folder of the person's home.
+/// Folder of the program under the first variable that is set, or under `in_home` in the user's home folder.
 pub(super) fn system_folder(variables: [&str; 2], in_home: &str) -> Option<PathBuf> {
     let value = |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     let folder = variables.into_iter().find_map(value).or_else(|| value("HOME").map(|home| home.join(in_home)))?;
     Some(folder.join("freebound"))
 }
 
-/// What dead sessions have left in a folder, newest first. What cannot be read is left alone.
+/// Copies of dead sessions in a folder, newest first. Unreadable copies are skipped.
 fn left_behind(folder: &Path) -> Vec<Recoverable> {
     let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -67,7 +68,7 @@ fn left_behind(folder: &Path) -> Vec<Recoverable> {
 }
 
 fn recoverable(path: PathBuf) -> Option<Recoverable> {
-    // The lock is let go of at once: looking is not taking.
+    // Release the lock at once: a listed copy is not claimed.
     drop(Slot::claim(&path)?);
     let project = ProjectFile::read(&path).ok()?;
     let time = fs::metadata(&path).and_then(|data| data.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
@@ -75,20 +76,20 @@ fn recoverable(path: PathBuf) -> Option<Recoverable> {
     Some(Recoverable { path, name: note.name, project: note.project, time, pin_count: project.targets.len() })
 }
 
-/// The copy of this session's work.
+/// Recovery copy of this session.
 pub(super) struct Autosave {
-    /// Where copies are kept; none are made without it.
+    /// Folder of the copies. Without it no copies are made.
     folder: Option<PathBuf>,
-    /// What dead sessions have left there.
+    /// Copies of dead sessions in the folder.
     found: Vec<Recoverable>,
     slot: Option<Slot>,
-    /// The copy that is being opened, to become the slot.
+    /// Copy that is being opened. It becomes the slot.
     claimed: Option<Slot>,
-    /// The document in the slot.
+    /// Document in the slot.
     written: Option<Document>,
-    /// The copy being written, by its document.
+    /// Job that writes a copy. The key is its document.
     under_way: CopyJob,
-    /// Slots that are given up, but still written to.
+    /// Abandoned slots whose copies are still being written.
     leaving: Vec<(Slot, CopyJob)>,
     begun: Option<Instant>,
     has_failed: bool,
@@ -111,19 +112,20 @@ impl Autosave {
         }
     }
 
-    /// Takes what a dead session has left. Nothing else is ever taken, so that nothing else is ever deleted.
+    /// Claims the copy of a dead session. Only copies from the list can be claimed, so that nothing else is ever
+    /// deleted.
     pub(super) fn claim(&mut self, path: &Path) -> bool {
         let is_found = self.found.iter().any(|found| found.path == path);
         self.claimed = if is_found { Slot::claim(path) } else { None };
         self.claimed.is_some()
     }
 
-    /// What was claimed stays where it is: it could not be opened.
+    /// Releases the claimed copy, which could not be opened.
     pub(super) fn give_up_claim(&mut self) {
         self.claimed = None;
     }
 
-    /// Deletes what a dead session has left.
+    /// Deletes the copy of a dead session.
     pub(super) fn discard(&mut self, path: &Path) {
         let is_found = self.found.iter().any(|found| found.path == path);
         self.found.retain(|found| found.path != path);
@@ -132,7 +134,8 @@ impl Autosave {
         }
     }
 
-    /// Something else is on the table: the copy of what was there is of no use, and `recovered` has one already.
+    /// Starts with another document. The copy of the document before is deleted. A `recovered` document adopts its
+    /// copy.
     pub(super) fn begin_anew(&mut self, recovered: Option<&Document>) {
         self.leave_slot();
         self.slot = self.claimed.take().filter(|_| recovered.is_some());
@@ -143,7 +146,7 @@ impl Autosave {
         }
     }
 
-    /// Deletes the copy, or has it deleted once it is written.
+    /// Deletes the copy, at once or when its writing has ended.
     pub(super) fn leave_slot(&mut self) {
         let job = std::mem::replace(&mut self.under_way, Background::new("copy", &self.wake));
         match self.slot.take() {
@@ -164,7 +167,7 @@ impl Autosave {
         }
     }
 
-    /// Takes in a copy that was written.
+    /// Stores the result of writing a copy.
     pub(super) fn poll(&mut self, messages: &mut Messages) {
         self.clear_left();
         match self.under_way.poll() {
@@ -175,14 +178,14 @@ impl Autosave {
         }
     }
 
-    /// Whether a copy of the document is to be made now.
+    /// True if a copy of the document is due.
     pub(super) fn is_due(&self, now: Instant, document: &Document) -> bool {
         let is_time = self.begun.is_none_or(|begun| now.saturating_duration_since(begun) >= INTERVAL);
         let is_new = self.written.as_ref() != Some(document);
         self.folder.is_some() && is_time && is_new && !self.under_way.is_busy()
     }
 
-    /// Writes a copy of the document.
+    /// Starts writing a copy of the document.
     pub(super) fn begin_copy(
         &mut self,
         now: Instant,
@@ -202,26 +205,26 @@ impl Autosave {
         self.under_way.start(document.clone(), move |_| project.write(&path, PathStyle::Absolute));
     }
 
-    /// Says once that there is no copy: it is no reason to disturb a person again and again.
+    /// Reports a failure to write copies, once per session.
     fn tell_no_copy(&mut self, reason: &str, messages: &mut Messages) {
         if !std::mem::replace(&mut self.has_failed, true) {
-            let text = format!("no copy is kept for recovery: {reason}");
-            messages.fail(MessagePlace::Embedding, text, Some("save the project by hand"));
+            let text = format!("no recovery copy is kept: {reason}");
+            messages.fail(MessagePlace::Embedding, text, Some("save the project manually"));
         }
     }
 
-    /// Makes copies in a folder from now on, and looks at what is there.
+    /// Sets the folder of copies and lists the copies in it.
     pub(super) fn keep_in(&mut self, folder: PathBuf) {
         self.found = left_behind(&folder);
         self.folder = Some(folder);
     }
 
-    /// Copies that dead sessions have left, newest first.
+    /// Copies of dead sessions, newest first.
     pub(super) fn found(&self) -> &[Recoverable] {
         &self.found
     }
 
-    /// Deletes the copy, and makes no further one.
+    /// Deletes the copy and stops making copies.
     pub(super) fn close(&mut self) {
         self.leave_slot();
         let begun = Instant::now();
@@ -234,16 +237,16 @@ impl Autosave {
     }
 }
 
-/// A place for a copy that belongs to this session.
+/// Place of a copy that belongs to this session.
 #[derive(Debug)]
 struct Slot {
     path: PathBuf,
-    /// Held until the slot is dropped.
+    /// Lock, held until the slot is dropped.
     _lock: File,
 }
 
 impl Slot {
-    /// Makes a new place.
+    /// Creates a new slot.
     fn new(folder: &Path) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
         let suffix = format!(".{LOCK_EXTENSION}");
@@ -253,7 +256,7 @@ impl Slot {
         Ok(Self { path: path.with_extension(PROJECT_EXTENSION), _lock: lock })
     }
 
-    /// Takes over a copy that no living session holds.
+    /// Claims a copy that no living session holds.
     fn claim(path: &Path) -> Option<Self> {
         if !path.is_file() {
             return None;
@@ -264,7 +267,8 @@ impl Slot {
         Some(Self { path: path.to_owned(), _lock: lock })
     }
 
-    /// Deletes the copy. The lock goes last, so that nobody takes the copy for one of the dead.
+    /// Deletes the copy. The lock is deleted last, so that no other session mistakes the copy for one of a dead
+    /// session.
     fn remove(self) {
         fs::remove_file(&self.path).ok();
         fs::remove_file(self.path.with_extension(LOCK_EXTENSION)).ok();

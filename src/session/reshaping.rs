@@ -1,9 +1,9 @@
-//! The mesh in another form, with the pins that it has.
+//! Mesh in another preparation, with its pins.
 //!
-//! Vertices and charts have other numbers where the mesh is cut or mended otherwise. So where there is something that is edited of
-//! them, the mesh is formed in the background first; then form, pins and rounds of relaxing change together, in one edit. A pin stays
-//! with the first corner in the file of those that its vertex had, and goes where none of them has a vertex any more. Where two pins
-//! come to one vertex, that of the lower number stays.
+//! Another cut or repair changes the numbers of vertices and charts. If edits refer to these numbers, the mesh is first
+//! prepared in the background. Then preparation, pins and relaxation rounds change together, in one edit. A pin moves
+//! to the vertex at the first corner, in the file's order, that still has one. A pin without such a corner is dropped.
+//! If two pins meet at one vertex, the pin of the vertex with the lower number is kept.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -12,15 +12,15 @@ use super::{ChartEdits, Document, Model, Shape};
 use freebound_core::mesh::{FaceId, Preparation, Repaired, VertexId};
 use freebound_core::pipeline::Targets;
 
-/// The open mesh in another form, its faces the same way around.
+/// Open mesh in another preparation, with the same orientation of its faces.
 pub(super) struct Reshaped {
     before: Arc<Model>,
     now: Model,
-    /// The chart that is to be on the screen.
+    /// Chart to be shown.
     chart: Option<usize>,
-    /// The vertex that each vertex of the mesh as it was is now.
+    /// New vertex of each former vertex.
     vertices_now: Vec<Option<VertexId>>,
-    /// The chart of the mesh as it was that has the first face of each chart.
+    /// Former chart that holds the first face of each new chart.
     charts_before: Vec<Option<usize>>,
 }
 
@@ -28,7 +28,7 @@ impl Reshaped {
     pub(super) fn new(before: Arc<Model>, form: Preparation) -> Self {
         let now = before.in_form(form);
         let [were, are] = [at_corners(&before), at_corners(&now)];
-        // The chart on the screen stays there, or the one that has its first face.
+        // Show the new chart that holds the first face of the shown chart.
         let first = before.prepared.chart.as_ref().map(|of| of.charts.first_face(of.number));
         let chart = first.and_then(|face| chart_at(&now, &are, face));
         let count = now.prepared.chart.as_ref().map_or(0, |of| of.charts.count());
@@ -38,7 +38,7 @@ impl Reshaped {
         Self { now: now.with_chart(chart), chart, vertices_now, charts_before, before }
     }
 
-    /// The form with what the document says of the mesh as it was.
+    /// Preparation with the document's edits, transferred to the new vertices and charts.
     pub(super) fn shape(&self, document: &Document) -> Shape {
         let mut pins = Targets::new();
         for (vertex, target) in self.before.all_targets(document) {
@@ -59,7 +59,7 @@ impl Reshaped {
         Shape { form: self.now.prepared.form.clone(), chart: self.chart, shown, elsewhere }
     }
 
-    /// The rounds of relaxing that were asked for of what a chart was before.
+    /// Relaxation rounds of the former chart that a new chart continues.
     fn rounds(&self, document: &Document, number: usize) -> usize {
         let (Some(before), Some(_)) = (&self.before.prepared.chart, &self.now.prepared.chart) else {
             return document.relaxed;
@@ -68,24 +68,24 @@ impl Reshaped {
         chart.map_or(0, |chart| document.edits_of(chart, before).relaxed)
     }
 
-    /// The mesh as it was.
+    /// Mesh before the change.
     pub(super) fn before(&self) -> &Arc<Model> {
         &self.before
     }
 
-    /// The form of the mesh now.
+    /// New preparation.
     pub(super) fn form(&self) -> &Preparation {
         &self.now.prepared.form
     }
 
-    /// The mesh in its new form.
+    /// Mesh in the new preparation.
     pub(super) fn into_model(self) -> Model {
         self.now
     }
 }
 
-/// The vertex of a mesh in its new form that each of its vertices is: the one at the first corner that it has in the file. One
-/// without corners keeps its number; one whose corners have no vertex any more is none.
+/// New vertex of each former vertex: the vertex at the first of its corners in the file that still has one. A vertex
+/// without corners keeps its number. A vertex whose corners all lost their vertex has none.
 fn vertices_now(before: &Model, were: &[Option<VertexId>], are: &[Option<VertexId>]) -> Vec<Option<VertexId>> {
     let mut vertices: Vec<Option<VertexId>> =
         (0..before.vertex_count_in_file()).map(|index| Some(VertexId::from_index(index))).collect();
@@ -102,7 +102,7 @@ fn vertices_now(before: &Model, were: &[Option<VertexId>], are: &[Option<VertexI
     vertices
 }
 
-/// The vertex of all charts together at each corner of the file.
+/// Vertex of the whole mesh at each corner of the file.
 fn at_corners(model: &Model) -> Vec<Option<VertexId>> {
     let source = &model.source.polygons;
     let whole: Option<&Repaired> = match &model.prepared.chart {
@@ -115,7 +115,7 @@ fn at_corners(model: &Model) -> Vec<Option<VertexId>> {
     }
 }
 
-/// The chart that a face of the file is of, by the vertices at its corners.
+/// Chart of a face of the file, found by the vertices at its corners.
 fn chart_at(model: &Model, at_corners: &[Option<VertexId>], face: FaceId) -> Option<usize> {
     let charts = &model.prepared.chart.as_ref()?.charts;
     let corners = model.source.polygons.corner_range(face.index());

@@ -1,4 +1,4 @@
-//! How the document is solved: a run takes its steps.
+//! Runs that solve the document.
 
 use super::past::{BUDGET_OF_ONE, State};
 use super::solving::{Beginning, Next, StopReason, Task};
@@ -6,19 +6,19 @@ use super::stop::Goal;
 use super::{Command, Session};
 use freebound_core::problem::{Method, Settings};
 
-/// The most rounds of relaxing that are asked for at once.
+/// Number of relaxation rounds of one request.
 const RELAX_ROUNDS: usize = 20;
 
 impl Session {
-    /// What is to be solved, once the mesh is there with its faces as the document wants them.
+    /// Task of the document, if the mesh is a disk and has the wanted preparation.
     pub(super) fn task(&mut self) -> Option<Task> {
         let has_form = self.bring_form();
         let mesh = self.disk().filter(|_| has_form)?.clone();
         Some(Task { model: self.model()?.clone(), mesh, problem: self.document.problem(), from: None })
     }
 
-    /// Begins a run of the document as it is now, from what is there where that serves. While a gesture goes on it takes only
-    /// its first step: then what is dragged is followed at the pace of the solver.
+    /// Starts a run of the current document, from the existing embedding if possible. During a gesture the run takes
+    /// only its first step, so that the result follows the drag at the speed of the solver.
     pub(super) fn solve(&mut self) {
         self.solve_from(self.beginning());
     }
@@ -31,8 +31,8 @@ impl Session {
         }
     }
 
-    /// Begins a run of the document as it is now. What a drag shows stays until its first step is there. Where what is on the
-    /// screen is planar, the run goes on from it.
+    /// Starts a run of the current document. The preview stays until the first step arrives. If the shown embedding is
+    /// planar, the run continues from it.
     fn run_document(&mut self) {
         self.solving.follow_newest();
         let (goal, from) = (Goal::Until(self.stop_conditions()), self.planar_on_screen());
@@ -41,14 +41,14 @@ impl Session {
         }
     }
 
-    /// Begins a run, or lets the first step that is under way finish where only targets differ.
+    /// Starts a run. If only targets differ from the run in progress, its first step is finished before.
     pub(super) fn begin(&mut self, goal: Goal) {
         if let Some(task) = self.task() {
             self.solving.begin(task, goal);
         }
     }
 
-    /// Goes on with the run at rest, or begins one where the document has changed since.
+    /// Continues the stopped run, or starts a run if the document has changed since.
     fn go_on(&mut self, goal: Goal) {
         let from = self.beginning();
         if let Some(task) = self.task() {
@@ -56,8 +56,8 @@ impl Session {
         }
     }
 
-    /// Takes one further step, whether or not the method has ended. A run that goes on by itself comes to rest after
-    /// the step that it is taking. How far it was taken so is remembered for when the document is as it is again.
+    /// Takes one more step, even if the method has ended. A run in progress stops after its current step. The history
+    /// remembers the number of steps for the next time that the document has this state.
     pub(super) fn step(&mut self) {
         self.solving.follow_newest();
         if !self.resume_relaxing(1)
@@ -71,7 +71,7 @@ impl Session {
         }
     }
 
-    /// Goes on until something stops it, and takes up relaxing that was paused.
+    /// Continues until a stop condition holds, and resumes relaxation that was paused.
     pub(super) fn run_on(&mut self) {
         if !self.is_running() && self.can_run() {
             self.resume_relaxing(usize::MAX);
@@ -79,7 +79,7 @@ impl Session {
         self.run_further();
     }
 
-    /// Goes on until something stops it.
+    /// Continues until a stop condition holds.
     fn run_further(&mut self) {
         self.solving.follow_newest();
         let goal = Goal::Until(self.stop_conditions());
@@ -93,8 +93,8 @@ impl Session {
         }
     }
 
-    /// Lowers the distortion of the newest step on a person's wish, one-to-one throughout, constraints exact. The wish is
-    /// an edit: it holds for the runs that follow, and is undone and repeated with the others.
+    /// Lowers the distortion of the newest step at the user's request. Every step is one-to-one and meets the
+    /// constraints exactly. The request is an edit: it applies to later runs and can be undone.
     pub(super) fn relax(&mut self) {
         self.solving.follow_newest();
         self.remember();
@@ -104,8 +104,7 @@ impl Session {
         }
     }
 
-    /// Takes up rounds of relaxing that a pause has cut short, so many at most: a wish like the first. Returns whether
-    /// there are any.
+    /// Resumes at most `most` relaxation rounds that a pause cut short, as an edit. Returns true if there are any.
     fn resume_relaxing(&mut self, most: usize) -> bool {
         if self.is_current() {
             self.remember();
@@ -116,15 +115,15 @@ impl Session {
         }
         let relaxed = Command::SetRelaxed(self.document.relaxed.saturating_add(rounds));
         if self.history.can_redo() {
-            // What can be repeated stays so: nothing new was asked for.
+            // Keep the redo stack, because nothing new was requested.
             self.history.amend(relaxed, &mut self.document);
             return true;
         }
         self.history.apply(relaxed, &mut self.document)
     }
 
-    /// Takes a run that has come to rest as far as a person had taken it: by rounds of relaxing that the document has and
-    /// it was not asked for yet, and by single steps.
+    /// Takes a stopped run to the state that the user took it to before: by relaxation rounds of the document that the
+    /// run lacks, and by single steps.
     fn go_on_as_before(&mut self) {
         let rounds = self.document.relaxed.saturating_sub(self.solving.rounds_asked());
         if rounds > 0 && self.solving.has_ended() && self.relax_by(rounds) {
@@ -137,14 +136,14 @@ impl Session {
         }
     }
 
-    /// The run rests where it was not taken as far as it was before: it is not to go there again.
+    /// Records that the run stopped earlier than before, so that it is not taken further again.
     fn stay_here(&mut self) {
         let newest = self.timeline().newest().unwrap_or(0);
         self.history.set_taken_to(self.history.taken_to().min(newest));
     }
 
-    /// Takes all steps of the flattener, until the embedding is planar or nothing is left to try. Another method gives way
-    /// to it, as an edit.
+    /// Takes all steps of the automatic method until the embedding is planar or no stage is left. Another method is
+    /// replaced by the automatic one, as an edit.
     pub(super) fn repair(&mut self) {
         if !self.can_repair() {
             return;
@@ -163,7 +162,7 @@ impl Session {
         }
     }
 
-    /// Lets rounds of relaxing follow the newest step. Returns whether they do.
+    /// Adds relaxation rounds after the newest step. Returns true if they begin.
     fn relax_by(&mut self, rounds: usize) -> bool {
         match self.task().filter(|_| self.can_relax()) {
             Some(task) => self.solving.relax(task, rounds, &mut self.messages),
@@ -171,14 +170,14 @@ impl Session {
         }
     }
 
-    /// Solves from scratch what is asked for, whatever was there, and without the relaxing that was asked for afterwards.
+    /// Solves from scratch, ignoring the current embedding and dropping the requested relaxation.
     pub(super) fn solve_from_scratch(&mut self) {
         self.apply(Command::SetRelaxed(0));
         self.history.set_taken_to(0);
         self.solve_from(None);
     }
 
-    /// The end of a gesture: where only the first step was taken, or none, the others follow.
+    /// Ends a gesture. If no step or only the first one was taken, the remaining steps follow.
     pub(super) fn end_gesture(&mut self) {
         let was_in_gesture = self.history.is_in_gesture();
         self.history.end_gesture(&mut self.document);
@@ -187,7 +186,7 @@ impl Session {
             return;
         }
         if !self.is_running() && self.is_current() {
-            // It ended where it began, or the steps were taken while the pointer rested.
+            // The gesture ended where it began, or the steps were taken while the pointer paused.
             self.drag.end();
         }
         if !self.is_running() && !self.is_current() {
@@ -197,7 +196,7 @@ impl Session {
         }
     }
 
-    /// A gesture was given up and the document is as it was before: so are the steps, where they are its own still.
+    /// Restores the steps after a gesture was cancelled. Steps that still belong to the document are kept.
     pub(super) fn give_up_drag(&mut self) {
         if self.is_current() && !self.solving.is_outdated() {
             self.drag.end();
@@ -207,7 +206,7 @@ impl Session {
         }
     }
 
-    /// The pointer rests in the middle of a drag: the whole run is worth taking.
+    /// Takes all steps of the run while the pointer pauses during a drag.
     pub(super) fn rest(&mut self) {
         if self.history.is_in_gesture() && self.preview().is_some() && !self.is_running() {
             self.drag.stop_following();
@@ -215,13 +214,13 @@ impl Session {
         }
     }
 
-    /// Takes in what the run has done.
+    /// Processes the results of the run.
     pub(super) fn poll_solving(&mut self) {
         let news = self.solving.poll(&mut self.messages);
         if news.has_begun {
             self.drag.end_preview();
         }
-        // What an opened project asks for stays: there is no step of the history that it could be a part of.
+        // Relaxation rounds of an opened project stay: there is no step in the history to change.
         if news.rounds_cut > 0 && self.history.can_undo() {
             let relaxed = self.document.relaxed.saturating_sub(news.rounds_cut);
             self.history.amend(Command::SetRelaxed(relaxed), &mut self.document);
@@ -235,24 +234,24 @@ impl Session {
         }
     }
 
-    /// Drops all that was solved: it belongs to another mesh, or to other faces.
+    /// Drops all solutions, because they belong to another mesh or preparation.
     pub(super) fn forget_steps(&mut self) {
         self.solving.forget(&mut self.messages);
         self.drag.end();
     }
 
-    /// Whether a run that goes on by itself would take a step.
+    /// True if a run until the stop conditions would take a step.
     pub fn can_run(&self) -> bool {
         self.disk().is_some() && !(self.is_current() && self.solving.stopped_for_good().is_some())
     }
 
-    /// Whether the newest step is at fault, and the flattener has steps left that it has not taken.
+    /// True if the newest step is not planar and the automatic method has steps left.
     pub fn can_repair(&self) -> bool {
         let is_at_rest = !self.is_running() && self.preview().is_none() && !self.history.is_in_gesture();
         is_at_rest && self.is_current() && self.solving.can_go_on_from_fault(&self.document.problem())
     }
 
-    /// Whether the newest step is one-to-one, its constraints met, and its run waits to be taken on.
+    /// True if the newest step is one-to-one and meets its constraints, and its run can be continued.
     pub fn can_relax(&self) -> bool {
         self.is_current() && self.solving.can_relax(&self.document.problem())
     }
@@ -260,7 +259,7 @@ impl Session {
 
 /// Solutions of earlier documents.
 impl Session {
-    /// Keeps what is solved for the document as it is, where a run has come to rest with it: it is about to become another.
+    /// Stores the solution of the current document before an edit, if its run has stopped.
     pub(super) fn remember(&mut self) {
         let place = self.history.depth();
         if !self.history.can_redo() {
@@ -277,7 +276,7 @@ impl Session {
         }
     }
 
-    /// Shows what was solved for the document when it was as it is again. Returns whether that is kept.
+    /// Shows the stored solution of the document. Returns false if none is stored.
     pub(super) fn recall(&mut self) -> bool {
         let Some(task) = self.task() else { return false };
         let (place, relaxed) = (self.history.depth(), self.document.relaxed);

@@ -1,4 +1,4 @@
-//! Projects on their way to the disk, one after the other.
+//! Projects being written, one after the other.
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -7,17 +7,17 @@ use super::{Background, Document, MessagePlace, Messages, Model, Wake};
 use freebound_core::mesh::Preparation;
 use freebound_io::{PathStyle, PictureFile, ProjectFile, ProjectSource, WriteError};
 
-/// A wish to save a project.
+/// Request to save a project.
 #[derive(Debug)]
 pub(super) struct Request {
     pub(super) path: PathBuf,
-    /// What is saved by it.
+    /// Document to be saved.
     pub(super) document: Document,
-    /// What was on the table.
+    /// Number of the opening that the document belongs to.
     pub(super) opening: u64,
 }
 
-/// Projects on their way to the disk: one after the other, so that the last one asked for is the last one written.
+/// Queue of projects to write. They are written in order, so that the last request is the last one written.
 pub(super) struct ProjectSaves {
     under_way: Background<Request, Result<(), WriteError>>,
     waiting: VecDeque<(Request, ProjectFile)>,
@@ -28,12 +28,12 @@ impl ProjectSaves {
         Self { under_way: Background::new("save", wake), waiting: VecDeque::new() }
     }
 
-    /// Whether a project is being written, or waits to be.
+    /// True if a project is being written or waits.
     pub(super) fn is_busy(&self) -> bool {
         self.under_way.is_busy() || !self.waiting.is_empty()
     }
 
-    /// Writes a project once those before it are written.
+    /// Writes a project after those before it.
     pub(super) fn start(&mut self, request: Request, project: ProjectFile) {
         self.waiting.push_back((request, project));
         self.begin_next();
@@ -48,14 +48,14 @@ impl ProjectSaves {
         self.under_way.start(request, move |_| project.write(&path, PathStyle::Relative));
     }
 
-    /// A project that was written. Tells where one was not.
+    /// Returns the request of a project that was written. Reports a failure.
     pub(super) fn poll(&mut self, messages: &mut Messages) -> Option<Request> {
         let (request, result) = self.under_way.poll()?;
         self.begin_next();
         match result {
             Ok(Ok(())) => return Some(request),
             Ok(Err(error)) => {
-                messages.fail(MessagePlace::Embedding, error.to_string(), Some("save the project in another place"));
+                messages.fail(MessagePlace::Embedding, error.to_string(), Some("save the project in another folder"));
             }
             Err(failure) => messages.fail_background(MessagePlace::Embedding, "saving", &failure),
         }
@@ -63,14 +63,14 @@ impl ProjectSaves {
     }
 }
 
-/// Where a mesh comes from.
+/// Origin of a mesh.
 fn source_of(model: &Model) -> Option<ProjectSource> {
     let example = model.example.map(|example| ProjectSource::Example(example.name().to_owned()));
     let file = || Some(ProjectSource::File { path: model.path.clone()?, stamp: model.stamp.clone() });
     example.or_else(file)
 }
 
-/// Where a picture comes from. One without a file belongs to the built-in mesh.
+/// Origin of a picture. A picture without a file belongs to the built-in mesh.
 fn picture_source(picture: &PictureFile, model: &Model) -> Option<ProjectSource> {
     match &picture.path {
         Some(path) => Some(ProjectSource::File { path: path.clone(), stamp: picture.stamp.clone() }),
@@ -78,7 +78,7 @@ fn picture_source(picture: &PictureFile, model: &Model) -> Option<ProjectSource>
     }
 }
 
-/// The project file of a document, without the view and without a picture that could not be read.
+/// Project file of a document, without the view and without a picture that could not be read.
 pub(super) fn project_of(model: &Model, document: &Document) -> Option<ProjectFile> {
     let mut project = ProjectFile::new(source_of(model)?, &document.settings);
     let Preparation { faces_turned, repair, holes, cut, seams, left_out } = document.form.clone();

@@ -1,4 +1,4 @@
-//! Seams that a person draws, and files of them.
+//! Seams that the user draws, and their files.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -9,17 +9,17 @@ use freebound_core::mesh::{Preparation, Seams, VertexId};
 use freebound_io::{EdgesError, read_edges, write_durably, write_edges};
 
 impl Session {
-    /// The seams that the mesh is cut along, or is to be next.
+    /// Seams of the mesh, or of the requested preparation.
     pub fn seams(&self) -> &Seams {
         &self.form_to_be().seams
     }
 
-    /// Cuts the mesh along these seams, and no others, as one edit.
+    /// Replaces all seams, as one edit.
     pub(super) fn set_seams(&mut self, seams: Seams) {
         self.want_form(Preparation { seams, ..self.form_to_be().clone() });
     }
 
-    /// Reads seams; those that there are stay.
+    /// Reads seams in the background, to be added to the existing ones.
     pub(super) fn import_seams(&mut self, path: PathBuf) {
         let Some(source) = self.model().map(|model| Arc::clone(&model.source)) else {
             return self.complain("seams need a mesh: open one first", None);
@@ -27,7 +27,7 @@ impl Session {
         self.jobs.send("reading the seams", move |_| BackgroundJob::Seams(read_edges(&path, &source.polygons)));
     }
 
-    /// Takes in seams that were read.
+    /// Adds seams that were read.
     pub(super) fn take_seams(&mut self, read: Result<Vec<[VertexId; 2]>, EdgesError>) {
         match read {
             Ok(edges) if edges.is_empty() => self.complain("the file has no edges", None),
@@ -37,12 +37,12 @@ impl Session {
                 let of_chart = |vertex| model.and_then(|model| model.vertex_of_file(vertex));
                 let vertices = error.vertices().into_iter().filter_map(of_chart).collect();
                 let message = Message::error(MessagePlace::Mesh, error.to_string()).with_vertices(vertices);
-                self.messages.say(message.with_remedy("mend the file and import it again: nothing of it was taken"));
+                self.messages.say(message.with_remedy("nothing was imported: repair the file and import it again"));
             }
         }
     }
 
-    /// Writes the seams as a file of edges.
+    /// Writes the seams to a file of edges.
     pub(super) fn export_seams(&mut self, path: PathBuf) {
         let seams = self.seams().clone();
         if seams.edges().is_empty() {

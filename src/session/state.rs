@@ -1,4 +1,4 @@
-//! The session itself: one place where requests are carried out by its parts.
+//! Session: carries out requests by its parts.
 
 use std::time::Instant;
 
@@ -15,12 +15,12 @@ use super::target_checks::TargetChecks;
 use super::v_axis::TurnedV;
 use super::{Action, Command, Document, History, Messages, RecentFiles, TIMELINE_BUDGET, Wake};
 
-/// One open document and the work on it.
+/// Open document and the work on it.
 pub struct Session {
     pub(super) mesh: OpenMesh,
     pub(super) document: Document,
     pub(super) history: History,
-    /// The steps of the document's run.
+    /// Run of the document with its steps.
     pub(super) solving: Solving,
     pub(super) charts: OtherCharts,
     pub(super) atlas_views: AtlasViews,
@@ -41,7 +41,7 @@ impl std::fmt::Debug for Session {
 }
 
 impl Session {
-    /// An empty session. `wake` is called from background threads when there is something to [`poll`](Self::poll).
+    /// Creates an empty session. Background threads call `wake` when there is something to [`poll`](Self::poll).
     pub fn new(wake: Wake, recent: RecentFiles) -> Self {
         Self {
             mesh: OpenMesh::default(),
@@ -61,7 +61,7 @@ impl Session {
         }
     }
 
-    /// What the user edits.
+    /// Document that the user edits.
     pub fn document(&self) -> &Document {
         &self.document
     }
@@ -71,7 +71,7 @@ impl Session {
         &self.history
     }
 
-    /// Carries out a request. Work that takes time goes on in the background.
+    /// Carries out a request. Work that takes time continues in the background.
     #[expect(clippy::too_many_lines, reason = "a line for each request")]
     pub fn handle(&mut self, action: Action) {
         match action {
@@ -138,12 +138,12 @@ impl Session {
         }
     }
 
-    /// Takes in what the background has finished. Call once per frame.
+    /// Processes the results of the background. Call once per frame.
     pub fn poll(&mut self) {
         self.poll_at(Instant::now());
     }
 
-    /// As [`poll`](Self::poll), at a time of the caller's: copies for recovery are made every few seconds.
+    /// Processes the results of the background at the time `now`. Recovery copies are due every few seconds.
     pub fn poll_at(&mut self, now: Instant) {
         if let Some(opened) = self.files.poll_loading(&mut self.messages) {
             self.take_opened(opened);
@@ -163,7 +163,7 @@ impl Session {
         }
     }
 
-    /// Takes back the last edit: a form that the mesh is only being brought into, where there is one.
+    /// Undoes the last edit. A preparation in progress is dropped instead.
     fn undo(&mut self) {
         if self.mesh.wanted().is_some() {
             self.mesh.want(None);
@@ -172,7 +172,7 @@ impl Session {
         }
     }
 
-    /// Repeats the last edit taken back, in the place of a form that the mesh is only being brought into.
+    /// Redoes the edit that was undone last. A preparation in progress is dropped.
     fn redo(&mut self) {
         if self.history.can_redo() {
             self.mesh.want(None);
@@ -180,8 +180,8 @@ impl Session {
         self.travel(History::redo);
     }
 
-    /// Goes to another state of the document, and shows what was solved for it; where that is not kept, and it is another one
-    /// for the solver, solves.
+    /// Moves to another state of the document and shows its solution. If none is stored and the state needs another
+    /// solution, a solve follows.
     fn travel(&mut self, to: impl FnOnce(&mut History, &mut Document) -> bool) {
         let (chart, was_in_gesture) = (self.document.chart, self.history.is_in_gesture());
         let wanted =

@@ -1,4 +1,4 @@
-//! The state of the work on the screen, in one word, and the questions that it is made of.
+//! State of the work on the screen.
 
 use std::sync::Arc;
 
@@ -6,39 +6,38 @@ use super::{Preview, Session};
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::Phase;
 
-/// What goes on in the background.
+/// Work in the background.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Busy {
     /// Reading and diagnosing a mesh.
     Loading,
-    /// Reading or computing something for the mesh; what it is, in words.
+    /// Reading or computing something for the mesh, with a description.
     Job(&'static str),
-    /// Solving; the phase where it is known.
+    /// Solving, with the phase if it is known.
     Solving(Option<Phase>),
     /// Writing a file.
     Saving,
 }
 
-/// How what the screen shows stands to the document.
+/// State of the screen relative to the document.
 #[derive(Clone, Copy, Debug)]
 pub enum Status<'a> {
-    /// A gesture goes on, or the run after it has no step yet: the screen shows what follows the pointer, as a preview where
-    /// there is one.
+    /// A gesture is in progress, or its run has no step yet. The screen shows the preview, if there is one.
     Preview(Option<&'a Preview>),
-    /// A run is under way, and has given one step at most.
+    /// A run is in progress and has at most one step.
     Solving,
-    /// The document has changed since the step on the screen; what replaces it is on its way.
+    /// The shown step is outdated, and its replacement is being computed.
     Following,
-    /// The step on the screen does not belong to the document, or there is none, and nothing is on its way.
+    /// The shown step is outdated or missing, and nothing is being computed.
     Stale,
-    /// The step on the screen belongs to the document, and is its run's first; the run waits to be taken on.
+    /// The shown step belongs to the document and is the first of its run, which can be continued.
     Held,
-    /// The step on the screen belongs to the document.
+    /// The shown step belongs to the document.
     Current,
 }
 
 impl Session {
-    /// How what the screen shows stands to the document.
+    /// State of the screen relative to the document.
     pub fn status(&self) -> Status<'_> {
         let is_first = self.timeline().records().len() <= 1;
         let is_current = self.is_current();
@@ -54,26 +53,26 @@ impl Session {
         } else if !is_current {
             Status::Stale
         } else if self.solving.is_at_first_step() {
-            // Neither a preview nor running: nobody else takes the steps.
+            // There is neither a preview nor a run in progress, so further steps need a request.
             Status::Held
         } else {
             Status::Current
         }
     }
 
-    /// Whether a drag goes on that has edited the document: until it ends, edits like its own are part of it.
+    /// True if a drag has edited the document and has not ended. Similar edits belong to the drag until then.
     pub fn is_in_gesture(&self) -> bool {
         self.history.is_in_gesture()
     }
 
-    /// What goes on in the background that is worth waiting for.
+    /// Work in the background that is worth waiting for.
     pub fn busy(&self) -> Option<Busy> {
         if self.files.is_loading() {
             Some(Busy::Loading)
         } else if let Some(what) = self.jobs.words() {
             Some(Busy::Job(what))
         } else if self.charts.is_asked() {
-            Some(Busy::Job("taking the chart out of the mesh"))
+            Some(Busy::Job("extracting the chart from the mesh"))
         } else if self.is_running() {
             Some(Busy::Solving(self.solving.phase()))
         } else {
@@ -81,14 +80,14 @@ impl Session {
         }
     }
 
-    /// Whether the outcome on the screen belongs to the document as it is now.
+    /// True if the shown outcome belongs to the current document.
     pub fn is_current(&self) -> bool {
         let is_solved = |outcome: &Arc<Outcome>| outcome.problem.has_steps_of(&self.document.problem());
         self.has_form_as_wanted() && self.outcome().is_some_and(is_solved)
     }
 
-    /// Whether what a drag needs is being computed: its next frame, its column, or the verdict on its preview. That is no
-    /// work to wait for: it goes on as long as the drag.
+    /// True if a frame, the column or the verdict of a drag is being computed. This work is not waited for, because it
+    /// lasts as long as the drag.
     pub fn is_following(&self) -> bool {
         self.drag.is_busy()
     }

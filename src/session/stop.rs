@@ -1,19 +1,18 @@
-//! When a run that goes on by itself comes to rest.
+//! Stop conditions of a run.
 
 use freebound_core::flatten::Ending;
 use freebound_core::pipeline::Outcome;
 
-/// At which steps a run comes to rest. Where its method has no further step, or has taken as many as it may, it always
-/// does.
+/// Stop conditions of a run. A run always stops if its method has no further step or has reached its step limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StopConditions {
-    /// Where the embedding is proved planar.
+    /// True to stop if the embedding is proved planar.
     pub planar: bool,
-    /// Where the iteration gets no better.
+    /// True to stop if the iteration no longer improves.
     pub stalled: bool,
-    /// Where the boundary crosses itself.
+    /// True to stop if the boundary crosses itself.
     pub crossing: bool,
-    /// At this step.
+    /// Index of the step to stop at.
     pub at_step: Option<usize>,
 }
 
@@ -23,34 +22,34 @@ impl Default for StopConditions {
     }
 }
 
-/// Why a run has come to rest.
+/// Reason for the stop of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunStop {
-    /// It has come to its end.
+    /// The run has ended by itself.
     Ended(Ending),
     /// The boundary crosses itself.
     Crossing,
-    /// The step that was asked for.
+    /// The run has reached the step to stop at.
     AtStep,
 }
 
 impl RunStop {
-    /// Words for the screen.
+    /// Text for the screen.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Ended(Ending::Planar) => "planar",
             Self::Ended(Ending::Done) => "the method has no further step",
             Self::Ended(Ending::Unmet) => "constraints cannot be met without new vertices",
-            Self::Ended(Ending::Stalled) => "stalled: it gets no better",
+            Self::Ended(Ending::Stalled) => "stalled: no further improvement",
             Self::Ended(Ending::Limit) => "the step limit is reached",
             Self::Crossing => "the boundary crosses itself",
-            Self::AtStep => "the step to stop at is reached",
+            Self::AtStep => "the chosen step is reached",
         }
     }
 }
 
 impl StopConditions {
-    /// Why a run is at rest after a step, if it is. `ending` is what the run says after that step.
+    /// Reason for a stop after a step, if there is one. `ending` is the run's ending after this step.
     pub fn reason(&self, outcome: &Outcome, ending: Option<Ending>) -> Option<RunStop> {
         self.reason_for_good(outcome, ending)
             .or_else(|| {
@@ -59,9 +58,9 @@ impl StopConditions {
             .or_else(|| (self.at_step == Some(outcome.step.index)).then_some(RunStop::AtStep))
     }
 
-    /// The same for the reasons that hold however often the run is asked to go on.
+    /// Reason for a stop after a step that holds however often the run is continued.
     pub fn reason_for_good(&self, outcome: &Outcome, ending: Option<Ending>) -> Option<RunStop> {
-        // Beyond the method's own ending the number of steps is the only limit that is left.
+        // If the ending is ignored, the number of steps is the only remaining limit.
         let beyond = (outcome.step.index >= outcome.problem.settings.max_steps()).then_some(Ending::Limit);
         let ending = match ending? {
             Ending::Planar if !self.planar => beyond,
@@ -72,19 +71,19 @@ impl StopConditions {
     }
 }
 
-/// How far a run is to go on.
+/// Goal of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Goal {
-    /// So many further steps.
+    /// Number of further steps.
     Steps(usize),
-    /// Until one of these holds.
+    /// Continue until a stop condition holds.
     Until(StopConditions),
-    /// Until the run itself has come to its end.
+    /// Continue until the run has ended by itself.
     End,
 }
 
 impl Goal {
-    /// Whether the run has gone far enough with this step.
+    /// True if the run has reached its goal with this step.
     pub(super) fn is_reached(&self, outcome: &Outcome, ending: Option<Ending>) -> bool {
         match self {
             Self::Steps(left) => *left == 0,

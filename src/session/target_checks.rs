@@ -1,7 +1,6 @@
-//! What is known of the targets before they are solved for: conflicts on the mesh as it is, and whether they look
-//! mirrored.
+//! Checks of the targets before a solve: conflicts on the current mesh, and mirrored targets.
 //!
-//! An embedding keeps the faces' orientation, so mirrored targets can hardly be met, and never well: a reflection then
+//! An embedding keeps the orientation of the faces, so mirrored targets can hardly be met, and never well. A reflection
 //! fits them much better than a rotation. They are compared with the mesh flattened without pins, once, in the
 //! background.
 
@@ -14,15 +13,15 @@ use freebound_core::mesh::DiskMesh;
 use freebound_core::problem::{Control, Embedding, Family, Method, Pins, Settings, SolveError};
 use freebound_core::verify::{Conflict, conflicts};
 
-/// With fewer pins either fits.
+/// Minimum number of pins. With fewer pins a reflection fits as well as a rotation.
 const LEAST_PINS: usize = 3;
 
-/// What is known of the targets.
+/// Results of the checks.
 pub(super) struct TargetChecks {
-    /// What conflicts were looked for in: the mesh by its revision, and the pins as they are held.
+    /// Input of the last search for conflicts: the revision of the mesh, and its pins.
     looked_in: (u64, Pins),
     conflicts: Vec<Conflict>,
-    /// The mesh flattened without pins, by its revision; none where it cannot be flattened.
+    /// Mesh flattened without pins, by its revision. The embedding is `None` if the flattening failed.
     flat: Option<(u64, Option<Embedding>)>,
     flattening: Background<u64, Result<Embedding, SolveError>>,
 }
@@ -33,7 +32,7 @@ impl TargetChecks {
         Self { looked_in: Default::default(), conflicts: Vec::new(), flat: None, flattening }
     }
 
-    /// Looks for conflicts among pins, on the mesh of a revision, unless they are known.
+    /// Searches for conflicts among pins on the mesh with this revision, unless they are known.
     pub(super) fn find_conflicts(&mut self, revision: u64, disk: Option<&DiskMesh>, pins: Pins) {
         let looked_in = (revision, pins);
         if self.looked_in != looked_in {
@@ -42,7 +41,7 @@ impl TargetChecks {
         }
     }
 
-    /// Flattens the mesh of a revision without pins in the background, if there are enough targets and it is not known.
+    /// Flattens the mesh without pins in the background, if there are enough targets and the result is not known.
     pub(super) fn flatten(&mut self, revision: u64, disk: Option<Arc<DiskMesh>>, target_count: usize) {
         let Self { flat, flattening, .. } = self;
         if let Some((of, embedding)) = flattening.poll() {
@@ -62,7 +61,7 @@ impl TargetChecks {
         &self.conflicts
     }
 
-    /// True if pins on the mesh of a revision look mirrored; false while that is not known.
+    /// True if pins on the mesh with this revision look mirrored. False while this is unknown.
     pub(super) fn look_mirrored(&self, revision: u64, pins: &Pins) -> bool {
         let Some((of, Some(embedding))) = &self.flat else { return false };
         if *of != revision || pins.len() < LEAST_PINS {

@@ -1,7 +1,7 @@
-//! The steps of a run, kept to be looked at again.
+//! Steps of a run, kept for later inspection.
 //!
-//! The numbers of every step stay. Embeddings stay as long as they fit into a budget of memory: the first, the last and
-//! the best, those that the screen shows, then every one that is proved planar, then an even sample of the rest.
+//! The numbers of every step are kept. Embeddings are kept within a memory budget. Priority: the first, the newest and
+//! the best step, the steps on the screen, then planar steps, then an even sample of the others.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,17 +11,17 @@ use freebound_core::pipeline::Outcome;
 use freebound_core::problem::Progress;
 use freebound_io::StepReport;
 
-/// Bytes that the steps kept whole may take together.
+/// Memory budget for the steps of a run that are kept whole, bytes.
 pub const TIMELINE_BUDGET: usize = 512_000_000;
 
-/// Where a step stands on the way to the constraints.
+/// Progress of a step towards the constraints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepDistortion {
-    /// The numbers of a continuation or a relaxing.
+    /// Progress of a continuation or a relaxation.
     pub progress: Option<Progress>,
-    /// Exact pins that are not on their targets.
+    /// Number of hard pins that are not at their targets.
     pub unmet: usize,
-    /// Vertices that its mesh has beyond those of the mesh as given.
+    /// Number of vertices that the step added to the mesh.
     pub new_vertices: usize,
 }
 
@@ -33,20 +33,20 @@ impl StepDistortion {
     }
 }
 
-/// The steps of one run, in order.
+/// Steps of one run, in order.
 #[derive(Clone, Debug)]
 pub struct Timeline {
     budget: usize,
     records: Vec<StepReport>,
     standings: Vec<StepDistortion>,
     kept: BTreeMap<usize, Arc<Outcome>>,
-    /// Sum over `kept`.
+    /// Total size of the steps in `kept`.
     bytes: usize,
-    /// The first step with the fewest defects.
+    /// First step with the fewest defects.
     best: Option<usize>,
     shown: Option<usize>,
     compared: Option<usize>,
-    /// Whether the step shown is always the newest one.
+    /// True if the newest step is always shown.
     follows_newest: bool,
 }
 
@@ -57,7 +57,7 @@ impl Default for Timeline {
 }
 
 impl Timeline {
-    /// A timeline without steps that keeps `budget` bytes of them whole.
+    /// Creates an empty timeline with a memory budget of `budget` bytes.
     pub fn with_budget(budget: usize) -> Self {
         Self {
             budget,
@@ -72,14 +72,14 @@ impl Timeline {
         }
     }
 
-    /// From now on keeps `budget` bytes of steps whole.
+    /// Sets the memory budget, bytes.
     pub fn set_budget(&mut self, budget: usize) {
         self.budget = budget;
         self.thin();
     }
 
-    /// The same with so many bytes of steps whole; where those that are needed take more, with the newest and the one on the
-    /// screen alone. Factors of linear solves are left out.
+    /// Copy with a memory budget of `budget` bytes, without factors of linear solves. If the essential steps exceed the
+    /// budget, only the newest and the shown step are kept.
     #[must_use]
     pub fn condensed(&self, budget: usize) -> Self {
         let mut condensed = self.clone();
@@ -96,74 +96,74 @@ impl Timeline {
         condensed
     }
 
-    /// A timeline without steps and with the same budget.
+    /// Creates an empty timeline with an equal budget.
     #[must_use]
     pub fn begun_anew(&self) -> Self {
         Self::with_budget(self.budget)
     }
 
-    /// The numbers of every step.
+    /// Numbers of every step.
     pub fn records(&self) -> &[StepReport] {
         &self.records
     }
 
-    /// Where every step stands on the way to the constraints.
+    /// Progress of every step towards the constraints.
     pub fn standings(&self) -> &[StepDistortion] {
         &self.standings
     }
 
-    /// A step, where it is kept whole.
+    /// Step with this index, if it is kept whole.
     pub fn outcome(&self, index: usize) -> Option<&Arc<Outcome>> {
         self.kept.get(&index)
     }
 
-    /// The place of a step, where it is one of these and kept whole.
+    /// Index of a step, if it belongs to this timeline and is kept whole.
     pub fn index_of(&self, outcome: &Arc<Outcome>) -> Option<usize> {
         let index = outcome.step.index;
         self.outcome(index).filter(|kept| Arc::ptr_eq(kept, outcome)).map(|_| index)
     }
 
-    /// The steps kept whole, in order.
+    /// Steps that are kept whole, in order.
     pub fn kept(&self) -> impl DoubleEndedIterator<Item = (usize, &Arc<Outcome>)> {
         self.kept.iter().map(|(&index, outcome)| (index, outcome))
     }
 
-    /// The newest step.
+    /// Index of the newest step.
     pub fn newest(&self) -> Option<usize> {
         self.records.len().checked_sub(1)
     }
 
-    /// The first step with the fewest defects.
+    /// First step with the fewest defects.
     pub fn best(&self) -> Option<usize> {
         self.best
     }
 
-    /// The step on the screen. It is always kept whole.
+    /// Index of the shown step, which is always kept whole.
     pub fn shown(&self) -> Option<usize> {
         self.shown
     }
 
-    /// The step that the one on the screen is compared with. It is always kept whole.
+    /// Index of the step that the shown one is compared with. It is always kept whole.
     pub fn compared(&self) -> Option<usize> {
         self.compared
     }
 
-    /// The next step after `index` that is kept whole.
+    /// First step after `index` that is kept whole.
     pub fn next_kept(&self, index: usize) -> Option<usize> {
         self.kept.range(index + 1..).next().map(|(&index, _)| index)
     }
 
-    /// The last step before `index` that is kept whole.
+    /// Last step before `index` that is kept whole.
     pub fn previous_kept(&self, index: usize) -> Option<usize> {
         self.kept.range(..index).next_back().map(|(&index, _)| index)
     }
 
-    /// Bytes of the steps kept whole.
+    /// Memory of the steps that are kept whole, bytes.
     pub fn bytes(&self) -> usize {
         self.bytes
     }
 
-    /// Takes in the next step. Returns whether it is now the one on the screen.
+    /// Adds the next step. Returns true if the step is shown.
     ///
     /// # Panics
     ///
@@ -186,20 +186,21 @@ impl Timeline {
         self.follows_newest
     }
 
-    /// Puts a step on the screen, or the nearest one before it that is kept whole. Returns whether that is another one
-    /// than before. Whoever looks at the newest step sees the next one as soon as it is there.
+    /// Shows a step, or the nearest one before it that is kept whole. Returns true if the shown step changed. After the
+    /// newest step was shown, each newer step is shown on arrival.
     pub fn show(&mut self, index: usize) -> bool {
         let Some(found) = self.kept_at_or_before(index) else { return false };
         self.follows_newest = Some(found) == self.newest();
         self.shown.replace(found) != Some(found)
     }
 
-    /// From now on the newest step is on the screen as soon as it is there.
+    /// Shows each new step on arrival from now on.
     pub fn follow_newest(&mut self) {
         self.follows_newest = true;
     }
 
-    /// Compares the step on the screen with another one, or the nearest one before it that is kept whole; or with none.
+    /// Compares the shown step with a step, or the nearest one before it that is kept whole. `None` ends the
+    /// comparison.
     pub fn compare(&mut self, index: Option<usize>) {
         self.compared = index.and_then(|index| self.kept_at_or_before(index));
     }
@@ -208,7 +209,7 @@ impl Timeline {
         self.kept.range(..=index).next_back().map(|(&index, _)| index)
     }
 
-    /// Lets go of whole steps until the rest fits into the budget.
+    /// Drops whole steps until the others fit into the budget.
     fn thin(&mut self) {
         while self.bytes > self.budget {
             let expendable = self.most_expendable(|outcome| !outcome.step.verdict.planar);
@@ -219,7 +220,7 @@ impl Timeline {
         }
     }
 
-    /// Of the steps of some kind, the one whose neighbours are nearest to each other: what remains is even.
+    /// Step of a kind whose kept neighbours are closest to each other, so that the others stay evenly spaced.
     fn most_expendable(&self, is_of_kind: impl Fn(&Outcome) -> bool) -> Option<usize> {
         let needed = [Some(0), self.newest(), self.best, self.shown, self.compared];
         let kept: Vec<(usize, &Arc<Outcome>)> = self.kept().collect();

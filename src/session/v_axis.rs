@@ -1,4 +1,4 @@
-//! Where v = 0 is on the picture.
+//! Side of the picture with v = 0.
 
 use std::collections::BTreeMap;
 
@@ -7,8 +7,8 @@ use glam::DVec2;
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Target, Targets};
 
-/// How the targets' v were turned around last, by chart and vertex, each as it was before and after. 1 − v rounds, and so does not always come
-/// back: turned around again, a number that is known from before is that number to the last bit.
+/// Last reversal of the targets' v, by chart and vertex: the value before and after. 1 − v rounds and so cannot always
+/// be inverted. A second reversal restores the stored value bit for bit.
 #[derive(Debug, Default)]
 pub(super) struct TurnedV(BTreeMap<(usize, VertexId), [f64; 2]>);
 
@@ -20,7 +20,7 @@ impl TurnedV {
         }
     }
 
-    /// The targets of a chart turned around, which `into` remembers.
+    /// Targets of a chart with reversed v. `into` stores the reversal.
     pub(super) fn targets(&self, chart: usize, targets: &Targets, into: &mut Self) -> Targets {
         let turned = |(&vertex, target): (&VertexId, &Target)| {
             let v = self.turned(chart, vertex, target.uv.y);

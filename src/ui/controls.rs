@@ -1,4 +1,4 @@
-//! What panels are put together from: controls that ask for something, lists to choose from, and rows of numbers.
+//! Building blocks of panels: controls that make requests, drop-down lists, and rows of numbers.
 
 use eframe::egui::{self, ComboBox, Grid, Response, RichText, Role, Ui, WidgetInfo};
 
@@ -6,15 +6,15 @@ use super::keys::keys_of;
 use super::state::Request;
 use super::theme::theme_of;
 
-/// What a panel does with a control once it is there.
+/// Helpers for the response of a control.
 pub(in crate::ui) trait Control {
-    /// Gives it a name for those who do not see it.
+    /// Sets role and name for screen readers.
     fn named(self, role: Role, name: &str) -> Self;
 
-    /// Asks for something where it was clicked. Returns whether it was.
+    /// Pushes the request if the control was clicked. Returns true on a click.
     fn asks(&self, request: impl Into<Request>, requests: &mut Vec<Request>) -> bool;
 
-    /// Whether a gesture with it ends in this frame: a drag, or typing.
+    /// True if a gesture with the control ends in this frame: a drag, or typing.
     fn has_ended(&self) -> bool;
 }
 
@@ -37,7 +37,7 @@ impl Control for Response {
     }
 }
 
-/// A tip, and behind it the keys that ask for the same.
+/// Tooltip text, followed by the shortcuts of the request in parentheses.
 pub(in crate::ui) fn tip_with_keys(ui: &Ui, tip: &str, request: &Request) -> String {
     match keys_of(ui.ctx(), request) {
         keys if keys.is_empty() => tip.to_owned(),
@@ -45,7 +45,7 @@ pub(in crate::ui) fn tip_with_keys(ui: &Ui, tip: &str, request: &Request) -> Str
     }
 }
 
-/// A small button: what it says, what it does, and what it asks for.
+/// Small button: its label, its tooltip and its request.
 pub(in crate::ui) struct Offer {
     pub(in crate::ui) words: &'static str,
     pub(in crate::ui) tip: &'static str,
@@ -58,7 +58,7 @@ impl Offer {
         Self { words, tip, request: request.into(), enabled: true }
     }
 
-    /// The same, to be clicked only where a condition holds.
+    /// Enables the button only if the condition is true.
     pub(in crate::ui) fn when(self, enabled: bool) -> Self {
         Self { enabled, ..self }
     }
@@ -69,29 +69,30 @@ impl Offer {
     }
 }
 
-/// The most that a list opens to, points.
+/// Greatest height of an open list, points.
 const LIST_HEIGHT: f32 = 480.0;
 
-/// A list to choose from: its name, its width in points, what is chosen, and the entries where it is open.
+/// Drop-down list with name, width in points, selected text and entries. The entries are built only while the list is
+/// open.
 pub(in crate::ui) fn list(ui: &mut Ui, name: &str, width: f32, shown: &str, entries: impl FnOnce(&mut Ui)) -> Response {
-    // All entries at once: who has to scroll does not see what there is.
+    // Show all entries at once if they fit: users overlook entries that need scrolling.
     let height = LIST_HEIGHT.min(ui.ctx().content_rect().height() - 60.0);
     let list = ComboBox::from_id_salt(name).selected_text(shown).width(width).height(height);
     list.show_ui(ui, entries).response.named(Role::ComboBox, name)
 }
 
-/// A remark in small, weak letters.
+/// Label in small, weak letters.
 pub(in crate::ui) fn remark(ui: &mut Ui, words: impl Into<String>) -> Response {
     let weak = theme_of(ui).weak_text;
     ui.label(RichText::new(words).small().color(weak))
 }
 
-/// Two columns: names and what belongs to them.
+/// Grid of two columns: names and their values.
 pub(in crate::ui) fn pairs(ui: &mut Ui, name: &str, spacing: [f32; 2], rows: impl FnOnce(&mut Ui)) {
     Grid::new(name).num_columns(2).spacing(spacing).show(ui, rows);
 }
 
-/// A name and its number, which lies at the right. For those who do not see it the number says its name.
+/// Row of a name and its number, right-aligned. Screen readers read the name with the number.
 pub(in crate::ui) fn number(ui: &mut Ui, name: &str, value: impl Into<String>) -> Response {
     let label = ui.label(name);
     let value = value.into();
@@ -101,14 +102,14 @@ pub(in crate::ui) fn number(ui: &mut Ui, name: &str, value: impl Into<String>) -
     label
 }
 
-/// Numbers of one row under each other's columns, each so many letters wide, with one name for all of them.
+/// Numbers of one table row, each right-aligned in `width` letters. Screen readers read `name` with each number.
 pub(in crate::ui) fn figures(ui: &mut Ui, name: &str, width: usize, values: &[String]) {
     for value in values {
         ui.monospace(format!("{value:>width$}")).named(Role::Label, &format!("{name}: {value}"));
     }
 }
 
-/// The heads of such columns.
+/// Column heads over the numbers of [`figures`], with equal `width`.
 pub(in crate::ui) fn heads(ui: &mut Ui, width: usize, words: &[String]) {
     let weak = theme_of(ui).weak_text;
     for words in words {
@@ -116,7 +117,7 @@ pub(in crate::ui) fn heads(ui: &mut Ui, width: usize, words: &[String]) {
     }
 }
 
-/// A cross that closes something, painted at a place of its own.
+/// Close button: a cross painted into `rect`.
 pub(in crate::ui) fn close_button(ui: &Ui, id: egui::Id, rect: egui::Rect, [name, tip]: [&str; 2]) -> Response {
     let response = ui.interact(rect, id, egui::Sense::click());
     let theme = theme_of(ui);
@@ -135,7 +136,7 @@ pub(in crate::ui) fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 
-/// A number of 0 or more with the five digits that mean something.
+/// Formats a number ≥ 0 with at most five significant digits.
 pub(in crate::ui) fn five_digits(number: f64) -> String {
     if number != 0.0 && !(1e-3..1e5).contains(&number) {
         return format!("{number:.1e}");
@@ -144,7 +145,7 @@ pub(in crate::ui) fn five_digits(number: f64) -> String {
     ((number * unit).round() / unit).to_string()
 }
 
-/// A number with four digits that mean something.
+/// Formats a number with four significant digits.
 pub(in crate::ui) fn short(value: f64) -> String {
     let size = value.abs();
     match size {
@@ -160,9 +161,9 @@ pub(in crate::ui) fn short(value: f64) -> String {
     }
 }
 
-/// The words with a capital at the beginning.
+/// Capitalises the first letter.
 pub fn sentence(words: &str) -> String {
-    // A message begins with the file's name where it has one, and that is spelt as it is.
+    // A message may begin with a file name, which keeps its spelling.
     if words.split(' ').next().is_some_and(|first| first.contains(['.', '/', '\\'])) {
         return words.to_owned();
     }

@@ -1,6 +1,6 @@
-//! Asking for a file: the system's own dialog where there is one, else a small one inside the window.
+//! File dialogs: the native dialog of the system if there is one, else a small dialog inside the window.
 //!
-//! The system's dialog runs off the UI thread, so that the window lives on while it is open.
+//! The native dialog runs off the UI thread, so that the window stays responsive while it is open.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -10,7 +10,7 @@ use eframe::egui;
 use super::state::{DialogForm, FileDialogKind};
 use crate::session::{Background, JobFailure, Wake};
 
-/// A dialog that answers faster than this was not seen by a person: the system has none.
+/// An answer faster than this means that no dialog appeared: the system has none.
 const TOO_QUICK: Duration = Duration::from_millis(1200);
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,16 +19,16 @@ pub struct DialogChoice {
     pub path: PathBuf,
 }
 
-/// The dialog that is open, if one is.
+/// The open dialog, if any.
 #[derive(Debug, Default)]
 pub struct Dialogs {
     native: Option<Background<Asked, Option<PathBuf>>>,
     browser: Option<Browser>,
-    /// Set once the system has shown that it has no dialog of its own.
+    /// True if the system has turned out to have no native dialog.
     native_missing: bool,
 }
 
-/// What the system's dialog was asked for, and when.
+/// Request to the native dialog, and its time.
 struct Asked {
     kind: FileDialogKind,
     suggestion: PathBuf,
@@ -36,7 +36,7 @@ struct Asked {
 }
 
 impl Dialogs {
-    /// Dialogs inside the window only: for tests, and where the system has none.
+    /// Dialogs inside the window only, for tests and for systems without native dialogs.
     pub fn inside_the_window() -> Self {
         Self { native_missing: true, ..Self::default() }
     }
@@ -45,7 +45,7 @@ impl Dialogs {
         self.native.is_some() || self.browser.is_some()
     }
 
-    /// Asks for a file. `suggestion` is the name to begin with.
+    /// Opens a dialog, unless one is open. `suggestion` is the suggested folder and name.
     pub(in crate::ui) fn ask(&mut self, wake: &Wake, kind: FileDialogKind, suggestion: PathBuf) {
         if self.is_open() {
             return;
@@ -59,7 +59,7 @@ impl Dialogs {
         native.start(Asked { kind, suggestion, since: Instant::now() }, |_| pollster::block_on(dialog));
     }
 
-    /// The file chosen in the system's dialog, once.
+    /// Returns the file chosen in the native dialog, once.
     pub fn poll(&mut self) -> Option<DialogChoice> {
         let (asked, answer) = self.native.as_mut()?.poll()?;
         self.native = None;
@@ -73,7 +73,7 @@ impl Dialogs {
         Some(DialogChoice { kind: asked.kind, path: answer? })
     }
 
-    /// Shows the dialog inside the window, where one is open. Gives the file chosen.
+    /// Shows the dialog inside the window, if it is open. Returns the file once chosen.
     pub fn show(&mut self, context: &egui::Context) -> Option<DialogChoice> {
         let browser = self.browser.as_mut()?;
         let answer = browser.show(context)?;
@@ -85,13 +85,13 @@ impl Dialogs {
         }
     }
 
-    /// Closes the dialog inside the window. Returns whether one was open.
+    /// Closes the dialog inside the window. Returns true if it was open.
     pub fn close(&mut self) -> bool {
         self.browser.take().is_some()
     }
 }
 
-/// Whether a dialog of the system's can be there at all: on Linux it comes over the session bus, or from zenity.
+/// True if the system can have a native dialog. On Linux this needs the session bus or zenity.
 fn may_have_native() -> bool {
     if !cfg!(target_os = "linux") {
         return true;
@@ -123,7 +123,7 @@ fn name_of(path: &Path) -> String {
     path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// A file dialog inside the window: a folder's contents and a name.
+/// File dialog inside the window: the contents of a folder and a name.
 #[derive(Debug)]
 struct Browser {
     kind: FileDialogKind,
@@ -131,12 +131,12 @@ struct Browser {
     name: String,
     entries: Vec<Entry>,
     problem: Option<String>,
-    /// Whether it has not been shown yet: the name then takes the keyboard.
+    /// True until the dialog has been shown: its first frame focuses the name field.
     is_fresh: bool,
     answer: Option<DialogAnswer>,
 }
 
-/// A folder's entry. Folders come before files.
+/// Entry of a folder. Folders sort before files.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Entry {
     Folder(String),
@@ -153,7 +153,7 @@ impl Browser {
     fn new(kind: FileDialogKind, suggestion: &Path) -> Self {
         let here = std::env::current_dir().unwrap_or_default();
         let folder = suggestion.parent().filter(|f| f.is_dir()).map_or(here, Path::to_owned);
-        // Without the dots of a relative path, so that going up always works.
+        // Resolve the dots of a relative path, so that "Up" always works.
         let folder = folder.canonicalize().unwrap_or(folder);
         let name = if kind.is_reading() { String::new() } else { name_of(suggestion) };
         let (entries, problem, answer) = (Vec::new(), None, None);
@@ -186,7 +186,7 @@ impl Browser {
         self.list();
     }
 
-    /// Shows it, and gives the answer once there is one.
+    /// Shows the dialog. Returns the answer once there is one.
     fn show(&mut self, context: &egui::Context) -> Option<DialogAnswer> {
         let mut open = true;
         egui::Window::new(self.kind.form().title)
@@ -203,7 +203,7 @@ impl Browser {
     fn contents(&mut self, ui: &mut egui::Ui) {
         ui.horizontal(|ui| {
             let parent = self.folder.parent().map(Path::to_owned);
-            let up = ui.add_enabled(parent.is_some(), egui::Button::new("Up")).on_hover_text("The folder above");
+            let up = ui.add_enabled(parent.is_some(), egui::Button::new("Up")).on_hover_text("Open the parent folder");
             if let (true, Some(parent)) = (up.clicked(), parent) {
                 self.enter(parent);
             }
@@ -244,11 +244,11 @@ impl Browser {
         if let Some(folder) = folder_to_enter {
             self.enter(folder);
         } else if self.entries.is_empty() && self.problem.is_none() {
-            ui.weak("Nothing here that fits. Go up, or type a name.");
+            ui.weak("No matching files here. Go up, or type a name.");
         }
     }
 
-    /// The field for the name. Returns whether Enter was pressed in it.
+    /// Field for the name. Returns true if Enter was pressed in the field.
     fn name_ui(&mut self, ui: &mut egui::Ui) -> bool {
         let label = ui.label("Name");
         let field = egui::TextEdit::singleline(&mut self.name).desired_width(f32::INFINITY);
@@ -274,7 +274,7 @@ impl Browser {
         }
     }
 
-    /// The file named, with the extension that the kind asks for where it has none.
+    /// Path of the named file. A name without extension gets the default extension of the dialog kind when saving.
     fn path(&self) -> Option<PathBuf> {
         let name = self.name.trim();
         if name.is_empty() {

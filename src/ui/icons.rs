@@ -1,4 +1,4 @@
-//! Small drawings for the tools.
+//! Small drawings for tools and verdicts.
 
 use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke};
 
@@ -12,8 +12,8 @@ fn on_grid(rect: Rect, points: &[(f32, f32)]) -> Vec<Pos2> {
     points.iter().map(|&(x, y)| rect.min + egui::vec2(x, y) * scale).collect()
 }
 
-/// Draws a tool into a square: an arrow as the mouse has it; a drawing pin; a dot, and a diamond that it is joined with; a
-/// path with stitches across.
+/// Draws the icon of a tool into a square. Icons: a mouse arrow, a drawing pin, a dot joined with a diamond, a path
+/// with stitches.
 pub(super) fn tool(painter: &egui::Painter, rect: Rect, tool: Tool, colour: Color32) {
     let stroke = Stroke::new(1.6, colour);
     let outline: &[(f32, f32)] = match tool {
@@ -43,25 +43,25 @@ pub(super) fn tool(painter: &egui::Painter, rect: Rect, tool: Tool, colour: Colo
     }
 }
 
-/// What a sign says at a glance. Good, bad and doubtful differ in form too, so that colour is never the only difference.
+/// Sign of a verdict. Good, bad and doubtful signs differ in shape, so that colour is never the only difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sign {
     /// A check mark.
     Good,
     /// A cross.
     Bad,
-    /// A triangle with a stroke: something is not up to date, or may not be meant.
+    /// Triangle with a stroke: something is not up to date, or may be unintended.
     Warning,
-    /// The same in another colour: a planar embedding does not meet constraints.
+    /// Triangle with a stroke in another colour: a planar embedding misses constraints.
     Unmet,
     /// A ring of dots.
     Working,
-    /// An arrow: the sheet is on its way.
+    /// Arrow: the embedding glides to another step.
     Moving,
 }
 
 impl Sign {
-    /// Its colour, and that of the words beside it.
+    /// Colour of the sign and of the words beside it.
     pub(super) fn colour(self, theme: &Theme) -> Color32 {
         match self {
             Self::Good => theme.planar,
@@ -73,7 +73,7 @@ impl Sign {
     }
 }
 
-/// An arrow head, up for a column whose numbers grow downwards.
+/// Arrow head of a sorted column: up for ascending numbers, down for descending ones.
 pub(super) fn order(painter: &egui::Painter, rect: Rect, direction: Direction, colour: Color32) {
     let points = match direction {
         Direction::Up => [(3.0, 18.0), (21.0, 18.0), (12.0, 5.0)],
@@ -82,7 +82,7 @@ pub(super) fn order(painter: &egui::Painter, rect: Rect, direction: Direction, c
     painter.add(Shape::convex_polygon(on_grid(rect, &points), colour, Stroke::NONE));
 }
 
-/// A check mark.
+/// Check mark.
 pub(super) fn check(painter: &egui::Painter, rect: Rect, colour: Color32) {
     let points = on_grid(rect, &[(4.0, 13.0), (10.0, 19.0), (20.0, 5.0)]);
     painter.add(Shape::line(points, Stroke::new(1.8, colour)));

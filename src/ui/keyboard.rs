@@ -1,5 +1,5 @@
-//! Presses of keys: the requests that they make. The arrow keys move the selected pins by pixels of the picture; while a key is
-//! held, that is one gesture.
+//! Requests of key presses. The arrow keys move the selected pins by pixels of the picture; all moves while a key is
+//! held form one gesture.
 
 use eframe::egui::{self, Key, Modifiers};
 use glam::DVec2;
@@ -12,10 +12,10 @@ use freebound_core::mesh::VertexId;
 
 const NONE: Modifiers = Modifiers::NONE;
 
-/// Pixels that Shift makes of one.
+/// Pixels of a nudge with Shift.
 const LARGE: f64 = 10.0;
 
-/// Without a picture a nudge is this part of the embedding's extent.
+/// Number of nudges across the embedding, for documents without a picture.
 const PARTS: f64 = 512.0;
 
 const ARROWS: [(Key, DVec2); 4] = [
@@ -25,16 +25,16 @@ const ARROWS: [(Key, DVec2); 4] = [
     (Key::ArrowDown, DVec2::NEG_Y),
 ];
 
-/// Requests of the keys pressed in this pass, each press as often as it came. While a text field has the keyboard, only
-/// Esc and combinations with Ctrl are the window's; Ctrl+Z stays the field's. While a menu or a list is open, Esc, Space
-/// and the arrows are the menu's; otherwise what has the keyboard's focus keeps those of them that it needs. Shift+Tab
-/// moves the focus, as it does everywhere.
+/// Requests of the keys pressed in this pass, one for each press. While a text field has the focus, the window uses
+/// only Esc and combinations with Ctrl, except Ctrl+Z and Ctrl+Y. While a menu or a list is open, Esc, Space and the
+/// arrows belong to the menu. Otherwise the focused control keeps those of these keys that it needs. Shift+Tab always
+/// moves the focus.
 pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request> {
     if editor.is_asking() {
         let is_left = context.input_mut(|input| input.consume_key(NONE, Key::Escape));
         return if is_left { vec![Request::Escape] } else { Vec::new() };
     }
-    // Before the others: with pins selected the arrows are not the timeline's.
+    // Before the other keys: if pins are selected, the arrows do not move along the timeline.
     let nudges = nudges(context, editor);
     let keyboard = Keyboard::of(context);
     let mut requests = Vec::new();
@@ -42,34 +42,34 @@ pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request>
         input.events.retain(|event| {
             let Some((binding, is_repeat)) = keyboard.press_of(event) else { return true };
             let request = (binding.request)();
-            // No steps that nobody waits for any more when the key is let go.
+            // Ignore repeats during a run, whose steps would continue after the key is released.
             let is_wanted = request.repeats() && !(editor.session.is_running() && request == Request::Do(Action::Step));
             requests.extend(Some(request).filter(|_| !is_repeat || is_wanted));
             false
         });
     });
     if requests.contains(&Request::TogglePane) {
-        // Tab has its work here; egui would also hand the keyboard to the next control.
+        // Tab toggles the pane here; egui would also move the focus to the next control.
         context.memory_mut(|memory| memory.move_focus(egui::FocusDirection::None));
     }
     requests.extend(nudges);
     requests
 }
 
-/// Who has the keyboard.
+/// Owner of the keyboard.
 struct Keyboard {
     is_typing: bool,
     menu_open: bool,
     focus: Focus,
 }
 
-/// Kinds of controls that have the keyboard's focus.
+/// Kinds of controls with the keyboard focus.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Focus {
     Nothing,
-    /// A control that moves by the arrows, or a list.
+    /// Control that moves by the arrows, or a list.
     Control,
-    /// A control that Space clicks.
+    /// Control that Space clicks.
     Clickable,
 }
 
@@ -85,18 +85,18 @@ impl Keyboard {
         Self { is_typing: context.text_edit_focused(), menu_open: egui::Popup::is_any_open(context), focus }
     }
 
-    /// The binding that an event presses, where its keys are the window's, and whether they are held down.
+    /// Binding that an event presses, if its keys belong to the window, and true if the key repeats.
     fn press_of(&self, event: &egui::Event) -> Option<(&'static Binding, bool)> {
         let &egui::Event::Key { key, pressed: true, repeat, modifiers, .. } = event else { return None };
         let binding = BINDINGS.iter().find(|binding| binding.is_pressed(key, modifiers))?;
         self.leaves(binding).then_some((binding, repeat))
     }
 
-    /// True if the keys of a binding are the window's.
+    /// True if the keys of a binding belong to the window.
     fn leaves(&self, binding: &Binding) -> bool {
         let is_of_another = match binding.shortcut.logical_key {
             Key::Escape => self.menu_open,
-            // Once a control has the keyboard, Tab walks on to the next.
+            // Once a control has the focus, Tab moves it to the next control.
             Key::Tab => self.focus != Focus::Nothing,
             Key::Space | Key::Enter if !binding.shortcut.modifiers.command => {
                 self.menu_open || self.focus == Focus::Clickable
@@ -110,7 +110,7 @@ impl Keyboard {
 }
 
 impl Request {
-    /// True if a key that is held down asks for it again and again.
+    /// True if a held key repeats the request.
     fn repeats(&self) -> bool {
         matches!(
             self,
@@ -122,7 +122,7 @@ impl Request {
     }
 }
 
-/// Requests of the arrow keys in this frame, if pins are selected. The keys are then nobody else's.
+/// Requests of the arrow keys in this frame, if pins are selected. The arrow keys then belong to these pins alone.
 fn nudges(context: &egui::Context, editor: &Editor) -> Vec<Request> {
     let is_elsewhere = context.text_edit_focused()
         || egui::Popup::is_any_open(context)
@@ -141,7 +141,7 @@ fn nudges(context: &egui::Context, editor: &Editor) -> Vec<Request> {
     requests
 }
 
-/// The sum of all presses of arrow keys, which are taken out of the input.
+/// Sum of all presses of arrow keys, which are removed from the input.
 fn take_push(input: &mut egui::InputState) -> DVec2 {
     let mut push = DVec2::ZERO;
     input.events.retain(|event| {
@@ -157,7 +157,7 @@ fn take_push(input: &mut egui::InputState) -> DVec2 {
 }
 
 impl Editor {
-    /// Moves the selected pins by pixels of the picture; y runs up.
+    /// Moves the selected pins by pixels of the picture; y points up.
     pub(super) fn nudge(&mut self, pixels: DVec2) {
         let document = self.session.document();
         let frame = document.frame();
@@ -165,7 +165,7 @@ impl Editor {
             Some(picture) => 1.0 / f64::from(picture.pixels.height),
             None => self.plane.scene().map_or(1.0, |scene| scene.arrays.bounds.extent()) / PARTS,
         };
-        // The frame has no offset: it takes differences to differences.
+        // The frame has no offset, so it maps differences to differences.
         let by = frame.uv_from_plane(pixels * step);
         let nudged = |vertex: VertexId| Some((vertex, document.targets.get(&vertex)?.uv + by));
         let moves: Vec<(VertexId, DVec2)> = self.pins_selected().filter_map(nudged).collect();

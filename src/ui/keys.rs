@@ -1,17 +1,17 @@
-//! Keyboard shortcuts: one table serves the keyboard, the tooltips and the list of keys.
+//! Keyboard shortcuts: one table for the keyboard, the tooltips and the list of keys.
 
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 
 use super::state::{FileDialogKind, Request, ShadingMode, StepTarget, Tool};
 use crate::session::Action;
 
-/// One shortcut.
+/// Keyboard shortcut and its request.
 pub struct Binding {
-    /// The keys.
+    /// Keys of the shortcut.
     pub shortcut: KeyboardShortcut,
-    /// What it does, for people.
+    /// Description for the user.
     pub about: &'static str,
-    /// What it asks for.
+    /// Request of the shortcut.
     pub request: fn() -> Request,
 }
 
@@ -27,11 +27,11 @@ const fn bind(modifiers: Modifiers, key: Key, about: &'static str, request: fn()
 
 /// All shortcuts.
 pub const BINDINGS: &[Binding] = &[
-    bind(ALT, Key::F, "The File menu; from there the arrows", || Request::OpenMenu(0)),
-    bind(ALT, Key::E, "The Edit menu", || Request::OpenMenu(1)),
-    bind(ALT, Key::V, "The View menu", || Request::OpenMenu(2)),
-    bind(ALT, Key::S, "The Solve menu", || Request::OpenMenu(3)),
-    bind(ALT, Key::H, "The Help menu", || Request::OpenMenu(4)),
+    bind(ALT, Key::F, "Open the File menu; arrow keys lead to the others", || Request::OpenMenu(0)),
+    bind(ALT, Key::E, "Open the Edit menu", || Request::OpenMenu(1)),
+    bind(ALT, Key::V, "Open the View menu", || Request::OpenMenu(2)),
+    bind(ALT, Key::S, "Open the Solve menu", || Request::OpenMenu(3)),
+    bind(ALT, Key::H, "Open the Help menu", || Request::OpenMenu(4)),
     bind(CTRL_SHIFT, Key::Z, "Redo", || Request::Do(Action::Redo)),
     bind(CTRL, Key::Y, "Redo", || Request::Do(Action::Redo)),
     bind(CTRL, Key::Z, "Undo", || Request::Do(Action::Undo)),
@@ -40,13 +40,13 @@ pub const BINDINGS: &[Binding] = &[
     bind(CTRL, Key::S, "Save the project", || Request::SaveProject),
     bind(CTRL, Key::E, "Export: mesh, layout, pictures, report", || Request::ToggleExports),
     bind(CTRL, Key::Q, "Quit", || Request::Quit),
-    bind(CTRL, Key::Enter, "Solve afresh: go on from nothing that was there", || Request::Do(Action::Solve)),
+    bind(CTRL, Key::Enter, "Solve from scratch, ignoring the current map", || Request::Do(Action::Solve)),
     bind(NONE, Key::R, "Relax: lower the distortion of a planar embedding", || Request::Do(Action::Relax)),
     bind(SHIFT, Key::D, "Previous defect", || Request::StepDefect(-1)),
     bind(NONE, Key::D, "Next defect", || Request::StepDefect(1)),
     bind(NONE, Key::PageUp, "Previous chart", || Request::StepChart(-1)),
     bind(NONE, Key::PageDown, "Next chart", || Request::StepChart(1)),
-    bind(SHIFT, Key::Space, "Run, or pause the run", || Request::RunOrPause),
+    bind(SHIFT, Key::Space, "Run or pause", || Request::RunOrPause),
     bind(NONE, Key::Space, "Take one step", || Request::Do(Action::Step)),
     bind(NONE, Key::ArrowLeft, "Previous step", || Request::GoToStep(StepTarget::Previous)),
     bind(NONE, Key::ArrowRight, "Next step", || Request::GoToStep(StepTarget::Next)),
@@ -59,7 +59,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::Enter, "End the seam that is being drawn", || Request::EndSeam),
     bind(NONE, Key::Delete, "Free the selected pins", || Request::UnpinSelected),
     bind(NONE, Key::Backspace, "Free the selected pins", || Request::UnpinSelected),
-    bind(SHIFT, Key::C, "Compare methods side by side, and back", || Request::ToggleComparison),
+    bind(SHIFT, Key::C, "Show or hide the comparison of methods", || Request::ToggleComparison),
     bind(NONE, Key::F, "Frame the selection, or all", || Request::Frame),
     bind(NONE, Key::G, "Go to a vertex, edge or face by number", || Request::AskGoTo),
     bind(NONE, Key::Num1, "Plain shading", || Request::SetShading(ShadingMode::Plain)),
@@ -68,26 +68,28 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::Num4, ShadingMode::Angle.title(), || Request::SetShading(ShadingMode::Angle)),
     bind(NONE, Key::Num5, ShadingMode::Area.title(), || Request::SetShading(ShadingMode::Area)),
     bind(NONE, Key::Num6, ShadingMode::Stretch.title(), || Request::SetShading(ShadingMode::Stretch)),
-    bind(NONE, Key::Num7, "Move since the compared step, or the one before", || Request::SetShading(ShadingMode::Move)),
+    bind(NONE, Key::Num7, "Movement since the compared or the previous step", || {
+        Request::SetShading(ShadingMode::Move)
+    }),
     bind(NONE, Key::Num8, "See-through embedding", || Request::SetShading(ShadingMode::SeeThrough)),
     bind(NONE, Key::W, "Wireframe", || Request::ToggleWireframe),
     bind(NONE, Key::H, "Hull and pockets of the virtual boundary", || Request::ToggleHull),
-    bind(NONE, Key::Tab, "The pane under the pointer in full size, and back", || Request::TogglePane),
+    bind(NONE, Key::Tab, "Maximise or restore the pane under the pointer", || Request::TogglePane),
     bind(NONE, Key::Escape, "End the gesture, then the tool, then the selection", || Request::Escape),
-    bind(NONE, Key::F10, "The File menu", || Request::OpenMenu(0)),
-    bind(NONE, Key::F1, "This list", || Request::ToggleKeys),
-    bind(NONE, Key::Questionmark, "This list", || Request::ToggleKeys),
+    bind(NONE, Key::F10, "Open the File menu", || Request::OpenMenu(0)),
+    bind(NONE, Key::F1, "Show or hide this list", || Request::ToggleKeys),
+    bind(NONE, Key::Questionmark, "Show or hide this list", || Request::ToggleKeys),
 ];
 
 impl Binding {
-    /// Whether a press is exactly that of its keys: with Alt it is another. The question mark needs Shift on most keyboards.
+    /// True if a press matches the shortcut exactly, with no other modifiers. The question mark may need Shift.
     pub(super) fn is_pressed(&self, key: Key, modifiers: Modifiers) -> bool {
         let modifiers = if key == Key::Questionmark { Modifiers { shift: false, ..modifiers } } else { modifiers };
         key == self.shortcut.logical_key && modifiers.matches_exact(self.shortcut.modifiers)
     }
 }
 
-/// The keys of a request, such as "Ctrl+Z", for tooltips and menus. Empty where it has none.
+/// Keys of a request, such as "Ctrl+Z", for tooltips and menus. Empty if it has none.
 pub(super) fn keys_of(context: &egui::Context, request: &Request) -> String {
     BINDINGS
         .iter()
@@ -96,17 +98,17 @@ pub(super) fn keys_of(context: &egui::Context, request: &Request) -> String {
         .unwrap_or_default()
 }
 
-/// The mouse, for the list of keys.
+/// Mouse gestures, for the list of keys.
 pub(super) const MOUSE: &[(&str, &str)] = &[
     ("Left drag on the mesh", "Orbit"),
     ("Left drag on the embedding", "Pan; on a pin: move it"),
     ("Ctrl + left drag", "Select the vertices and pins in a box"),
-    ("Arrows, with pins selected", "Nudge them by a pixel of the picture; Shift by ten"),
-    ("Alt, while a place is chosen", "Between the pixels of the picture"),
+    ("Arrows, with pins selected", "Move them by a pixel of the picture; with Shift, by ten"),
+    ("Alt, while choosing a position", "Do not snap to pixels of the picture"),
     ("Middle, right or Shift + left drag", "Pan"),
     ("Wheel or pinch", "Zoom to the pointer"),
     ("Double click on the mesh", "Set the point to orbit about"),
-    ("Click, Shift + click", "The tool's work; add to the selection"),
-    ("Shift + click on a step", "Compare with it the step on the screen"),
-    ("Shift + Tab, then Tab", "From control to control"),
+    ("Click, Shift + click", "Use the tool; add to the selection"),
+    ("Shift + click on a step", "Compare the step on the screen with it"),
+    ("Shift + Tab, then Tab", "Move from control to control"),
 ];

@@ -1,18 +1,18 @@
-//! The window's panels and panes: they show the editor's state and collect requests.
+//! Panels and panes of the window: they show the editor's state and collect requests.
 //!
 //! | file | what |
 //! |---|---|
 //! | `window.rs` | one frame: all panels and panes in their places |
-//! | `controls.rs` | what panels are put together from |
-//! | `typed.rs` | fields of numbers, marked where what was typed cannot be taken |
+//! | `controls.rs` | building blocks of panels |
+//! | `typed.rs` | number fields that mark invalid input |
 //! | `state/` | plain data that editor, panels and panes share: requests, tools, views |
-//! | `editor/` | the editor's state and what a request does to it |
+//! | `editor/` | the editor's state, and the handling of requests |
 //! | `panes/` | mesh and embedding |
 //! | `panels/` | menus, bars, panels, dialogs |
 //! | `timeline/` | the strip under the panes |
-//! | `presses.rs` | every press of a key or a button in a pass of its own |
-//! | `keys.rs`, `keyboard.rs` | keys and what they ask for; presses, and pins moved by arrow keys |
-//! | `dialogs.rs` | choice of a file |
+//! | `presses.rs` | delivery of every key and button press in its own pass |
+//! | `keys.rs`, `keyboard.rs` | table of shortcuts; requests of key presses, pins moved by arrow keys |
+//! | `dialogs.rs` | file dialogs |
 //! | `icons.rs` | signs of tools and verdicts |
 //! | `theme.rs` | colours and sizes |
 
@@ -45,7 +45,7 @@ pub use panes::PinMark;
 use state::FileDialogKind;
 pub use state::{
     ComparisonExport, Half, HullStage, Intent, MorphRequest, Pane, Request, SeamClick, SeamRule, ShadingMode,
-    StepTarget, Tab, Tool,
+    StepTarget, Tab, Tool, Tour, TourCard,
 };
 use theme::{Theme, theme_of};
 use typed::Typed;

@@ -1,64 +1,65 @@
-//! Every press counts, however slow the frames are. egui looks once in a pass where the pointer is and which modifiers
-//! are held, at the end of all events that have come in; a click that began and ended since the last frame, or two keys,
-//! would be taken for one another. So the events are handed over in batches, each in a pass of its own:
+//! Delivery of every press, even if frames are slow. egui reads pointer position and modifiers once in a pass, after
+//! all events of that pass. If a click began and ended since the last frame, or two keys were pressed, egui would
+//! confuse them. So the events are delivered in batches, each in its own pass:
 //!
 //! ```text
 //! moves, press │ moves │ release │ │ key with its text, and as it repeats │ │ another key │ │ pasted, text, key
 //! ```
 //!
-//! A pass without events follows each click and each key: what it has opened is shown first, and has the keyboard then.
+//! A pass without events follows each click and each key. It shows a popup that the click or key opened, and gives it
+//! the focus before the next event.
 //!
-//! All passes belong to one frame: only the last one is painted. Moves are never torn apart, so that what waits is
-//! bounded by the presses that a person makes.
+//! All passes belong to one frame: only the last one is painted. Moves are never split, so the number of waiting
+//! events is bounded by the presses of the user.
 
 use std::collections::VecDeque;
 use std::num::NonZeroUsize;
 
 use eframe::egui::{self, Event, Key, Modifiers, Pos2};
 
-/// Passes of one frame at most. What is left goes into the next one.
+/// Greatest number of passes in one frame. Remaining events wait for the next frame.
 const PASSES: NonZeroUsize = NonZeroUsize::new(16).expect("not zero");
 
-/// Hands over the events.
+/// Queue of the events.
 #[derive(Debug, Default)]
 pub(super) struct Presses {
     waiting: VecDeque<Event>,
-    /// Where the pointer was at the end of the batch before.
+    /// Position of the pointer after the last batch.
     pointer: Option<Pos2>,
-    /// The modifiers that are held by then.
+    /// Modifiers held after the last batch.
     modifiers: Modifiers,
-    /// The modifiers of the press that has not ended: they are those of the click.
+    /// Modifiers at the press of the button that is held, which count for the whole click.
     pressed_with: Option<Modifiers>,
-    /// Whether the next batch is empty, after a click or a key.
+    /// True if the next batch is empty, after a click or a key.
     pauses: bool,
 }
 
-/// The events of a pass.
+/// Events of a pass.
 #[derive(Default)]
 struct Batch {
     events: Vec<Event>,
     has_moved: bool,
-    /// The key that is pressed in it.
+    /// Key pressed in the pass.
     chord: Option<Chord>,
 }
 
-/// A key that is pressed.
+/// Pressed key.
 struct Chord {
     key: Key,
     modifiers: Modifiers,
     is_down: bool,
-    /// Whether its text may come.
+    /// True if the text of the key may follow.
     types: bool,
 }
 
 impl Batch {
-    /// Whether an event can be handed over with those before it.
+    /// True if an event fits into the pass of the events before it.
     fn has_room_for(&self, event: &Event) -> bool {
         let Some(chord) = &self.chord else {
             return !self.has_moved || !matches!(event, Event::PointerButton { pressed: false, .. });
         };
         match event {
-            // A key that repeats is pressed again before it was let go.
+            // A repeating key is pressed again before it is released.
             &Event::Key { key, pressed: true, modifiers, .. } => {
                 chord.is_down && (key, modifiers) == (chord.key, chord.modifiers) && !is_for_focus(key)
             }
@@ -83,17 +84,17 @@ impl Batch {
     }
 }
 
-/// A press that is longer is no click, seconds: a slow frame may lie between press and release.
+/// Longest press that counts as a click, seconds. A slow frame may lie between press and release.
 const CLICK_SECONDS: f64 = 10.0;
 
-/// Whether controls take a key once a pass, however often it was pressed.
+/// True if controls handle a key once a pass, however often it was pressed.
 const fn is_for_focus(key: Key) -> bool {
     use Key::{ArrowDown, ArrowLeft, ArrowRight, ArrowUp, Enter, Space, Tab};
     matches!(key, ArrowDown | ArrowLeft | ArrowRight | ArrowUp | Enter | Space | Tab)
 }
 
 impl Presses {
-    /// Hands all events of a window over in batches from now on.
+    /// Delivers all events of a window in batches from now on.
     pub(super) fn install(context: &egui::Context) {
         context.add_plugin(Self::default());
         context.options_mut(|options| {
@@ -102,12 +103,12 @@ impl Presses {
         });
     }
 
-    /// Whether events wait for the next pass.
+    /// True if events wait for the next pass.
     pub(super) fn are_waiting(context: &egui::Context) -> bool {
         context.plugin_opt::<Self>().is_some_and(|presses| !presses.lock().waiting.is_empty())
     }
 
-    /// The events of the next pass.
+    /// Events of the next pass.
     fn next_batch(&mut self) -> Vec<Event> {
         let mut batch = Batch::default();
         if std::mem::take(&mut self.pauses) {
@@ -116,7 +117,7 @@ impl Presses {
         while let Some(event) = self.waiting.pop_front() {
             match event {
                 Event::PointerButton { pos, pressed: false, .. } if !batch.has_moved && self.pointer != Some(pos) => {
-                    // The way to where it was let go, which may have no event of its own.
+                    // Move the pointer to the place of release first, which may have no event.
                     self.waiting.push_front(event);
                     self.waiting.push_front(Event::PointerMoved(pos));
                 }
@@ -147,7 +148,7 @@ impl Presses {
         batch.events
     }
 
-    /// Remembers pointer and modifiers as they are after an event.
+    /// Records pointer and modifiers after an event.
     fn note(&mut self, event: &Event) {
         match event {
             Event::PointerMoved(pos) => self.pointer = Some(*pos),

@@ -1,4 +1,4 @@
-//! Colours and type sizes: every colour on the screen has its one place here.
+//! Colours and type sizes: the only place for every colour on the screen.
 
 use eframe::egui;
 use eframe::egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, TextStyle, Visuals};
@@ -11,12 +11,12 @@ pub const TOP_HEIGHT: f32 = 30.0;
 pub const BOTTOM_HEIGHT: f32 = 24.0;
 /// Width of the tool bar, points.
 pub const TOOLS_WIDTH: f32 = 44.0;
-/// Width of the panels at the right at the first start, points.
+/// Initial width of the panels at the right, points.
 pub const PANEL_WIDTH: f32 = 280.0;
-/// How narrow and how wide a person can make them, points.
+/// Limits of the width of the panels at the right, points.
 pub const PANEL_WIDTHS: egui::Rangef = egui::Rangef { min: 220.0, max: 420.0 };
 
-/// Colours of one of the two themes.
+/// Colours of a theme.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Theme {
     /// A flipped face.
@@ -31,45 +31,46 @@ pub struct Theme {
     pub outside_hull: Color32,
     /// A pin.
     pub pin: Color32,
-    /// A constraint, its line and its residual.
+    /// Constraint, its line and its residual.
     pub constraint: Color32,
-    /// What is selected or under the pointer.
+    /// Element that is selected or under the pointer.
     pub selection: Color32,
-    /// Planar and proved.
+    /// Planar embedding, proved.
     pub planar: Color32,
     /// A constraint that a planar embedding does not meet.
     pub unmet: Color32,
-    /// Something that is not up to date.
+    /// State that is not up to date.
     pub stale: Color32,
-    /// The one accent of controls.
+    /// Accent colour of controls.
     pub accent: Color32,
-    /// Behind the meshes.
+    /// Background of the panes.
     pub background: Color32,
-    /// Behind the panels.
+    /// Background of the panels.
     pub panel: Color32,
     /// Text.
     pub text: Color32,
-    /// Text of lesser weight.
+    /// Text of less weight.
     pub weak_text: Color32,
-    /// Thin lines between things.
+    /// Thin separator lines.
     pub separator: Color32,
-    /// The boundary's line.
+    /// Line of the boundary.
     pub boundary: Srgb,
-    /// Where the mesh is cut along seams.
+    /// Seams of the mesh.
     pub seam: Srgb,
-    /// The outline of a step that is compared.
+    /// Outline of the compared step.
     pub ghost: Srgb,
-    /// The hull of a virtual boundary.
+    /// Hull of a virtual boundary.
     pub hull: Srgb,
     /// Edges of the pockets between boundary and hull.
     pub pocket: Srgb,
-    /// The pockets' faces: a quarter of the colour as screens mix it. The card mixes light, and so takes another share.
+    /// Faces of the pockets: one quarter of the colour as screens blend it. The graphics card blends linear light, so
+    /// its alpha differs.
     pub pocket_fill: Srgb,
-    /// What the graphics card draws with.
+    /// Colours that the graphics card draws with.
     pub palette: Palette,
 }
 
-/// A colour of a scale.
+/// Colour of a scale.
 pub const fn rgb([r, g, b]: [u8; 3]) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
@@ -80,7 +81,7 @@ pub const LIGHT: Theme = theme(Column(egui::Theme::Light));
 /// The dark theme.
 pub const DARK: Theme = theme(Column(egui::Theme::Dark));
 
-/// The column of the table of colours that a theme is made from.
+/// Column of the table of colours: light or dark.
 #[derive(Clone, Copy)]
 struct Column(egui::Theme);
 
@@ -92,7 +93,7 @@ impl Column {
         }
     }
 
-    /// A colour from `0xRRGGBB`.
+    /// Colour from `0xRRGGBB`.
     const fn srgb(self, light: u32, dark: u32) -> Srgb {
         Srgb::from_hex(self.of(light, dark))
     }
@@ -102,12 +103,12 @@ impl Column {
     }
 }
 
-/// A colour of the graphics card as the window's controls have it, opaque.
+/// Colour of the graphics card as an opaque colour of egui.
 pub(super) const fn on_screen(Srgb([r, g, b, _]): Srgb) -> Color32 {
     rgb([r, g, b])
 }
 
-/// The table: all colours, light and dark.
+/// Table of all colours, light and dark.
 const fn theme(tone: Column) -> Theme {
     let selection = tone.srgb(0x00E0_A100, 0x00FF_D24A);
     let pocket = tone.srgb(0x003F_A34D, 0x0058_C46B);
@@ -151,12 +152,12 @@ const fn theme(tone: Column) -> Theme {
     }
 }
 
-/// The theme that is on.
+/// Active theme.
 pub fn theme_of(ui: &egui::Ui) -> &'static Theme {
     if ui.visuals().dark_mode { &DARK } else { &LIGHT }
 }
 
-/// Gives egui both themes, type sizes and spacing. Once, at the start.
+/// Installs both themes, type sizes and spacing in egui. Call once at the start.
 pub fn install(context: &egui::Context) {
     context.set_visuals_of(egui::Theme::Light, visuals(&LIGHT, Visuals::light()));
     context.set_visuals_of(egui::Theme::Dark, visuals(&DARK, Visuals::dark()));

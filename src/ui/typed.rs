@@ -1,4 +1,4 @@
-//! What is typed into a field of a number: where it cannot be taken the field is marked, and nothing changes.
+//! Number fields: invalid input marks the field and changes nothing.
 
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
@@ -8,13 +8,13 @@ use eframe::egui::{Id, Response, Role, Stroke, StrokeKind, Ui};
 use super::controls::Control;
 use super::theme::theme_of;
 
-/// The numbers that a field takes.
+/// Range of valid numbers of a field.
 pub(in crate::ui) struct Typed {
-    /// What the number is: "a weight".
+    /// Noun for the number in messages: "a weight".
     what: &'static str,
     range: RangeInclusive<f64>,
     is_whole: bool,
-    /// What was typed in this frame, and whether it was taken.
+    /// Text typed in this frame, and true if it was valid.
     last: RefCell<Option<(String, bool)>>,
 }
 
@@ -23,12 +23,12 @@ impl Typed {
         Self { what, range, is_whole: false, last: RefCell::default() }
     }
 
-    /// The same for whole numbers alone.
+    /// Allows whole numbers only.
     pub(in crate::ui) fn whole(self) -> Self {
         Self { is_whole: true, ..self }
     }
 
-    /// The number that a text stands for, where it is taken.
+    /// Number of a text, if it is valid.
     pub(in crate::ui) fn number(&self, text: &str) -> Option<f64> {
         let number = parsed(text).filter(|number| self.range.contains(number));
         let number = number.filter(|number| !self.is_whole || number.fract() == 0.0);
@@ -36,13 +36,13 @@ impl Typed {
         number
     }
 
-    /// The number that the field shows was typed again.
+    /// Records that the shown number was typed again, and returns it with all digits.
     pub(in crate::ui) fn again(&self, number: f64) -> f64 {
         self.last.replace(Some((String::new(), true)));
         number
     }
 
-    /// Names the field, and marks it where what was typed last was not taken.
+    /// Sets the name of the field, and marks the field if the last input was invalid.
     pub(in crate::ui) fn name(self, ui: &Ui, field: Response, name: &str) -> Response {
         let key = Id::unique(("not taken", name));
         if field.gained_focus() || field.dragged() {
@@ -67,14 +67,14 @@ impl Typed {
     }
 
     fn refusal(&self, text: &str) -> String {
-        let Some(_) = parsed(text) else { return format!("“{text}” is no number") };
+        let Some(_) = parsed(text) else { return format!("“{text}” is not a number") };
         let [least, most] = [self.range.start(), self.range.end()].map(|&end| in_words(end));
-        let kind = if self.is_whole { ", and is whole" } else { "" };
-        format!("{text} is not taken: {} lies between {least} and {most}{kind}", self.what)
+        let kind = if self.is_whole { ", as a whole number" } else { "" };
+        format!("{text} is not valid: {} must lie between {least} and {most}{kind}", self.what)
     }
 }
 
-/// A finite number, its sign a minus or a hyphen.
+/// Parses a finite number with a minus sign or a hyphen.
 fn parsed(text: &str) -> Option<f64> {
     text.trim().replace('−', "-").parse().ok().filter(|number: &f64| number.is_finite())
 }

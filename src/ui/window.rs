@@ -1,4 +1,4 @@
-//! The window as a whole: bars, panels, panes, and the keyboard.
+//! Complete window: bars, panels, panes, and keyboard.
 
 use eframe::egui::{self, Frame, Margin, Panel, Rect, Sense, Vec2};
 
@@ -11,15 +11,15 @@ use crate::ui::panes::mesh_pane::mesh_pane_ui;
 use crate::ui::panes::plane_pane::plane_pane_ui;
 use crate::ui::timeline::{CURVES_FROM, timeline_ui};
 
-/// Width of the bar between the panes that can be grabbed, points.
+/// Width of the splitter between the panes, points.
 const SPLITTER: f32 = 6.0;
 
-/// Shows everything and carries out what was asked for.
+/// Shows the window and carries out the collected requests.
 pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     editor.poll();
     unsaved::hold_window(ui.ctx(), editor);
     let mut requests = keyboard::requests(ui.ctx(), editor);
-    // Before the panes are shown: egui ends a drag at the same key, and the pane would forget what was dragged.
+    // Before the panes are shown: egui ends a drag at Esc, and the pane would forget the dragged pin.
     for escape in requests.extract_if(.., |request| *request == Request::Escape) {
         editor.handle(escape);
     }
@@ -54,7 +54,7 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     editor.plane.pane.hide();
     egui::CentralPanel::default().frame(Frame::new().fill(fill)).show(ui, |ui| panes(ui, editor, &mut requests));
     if editor.pointer.pane().is_none() && editor.tools.dragged().is_none() {
-        // Not before: the pane drawn first shows what the pointer found in the other.
+        // Only now: the pane drawn first shows the vertex found in the other pane.
         editor.pointer.set_vertex(None);
         editor.tools.seam.set_under(None);
     }
@@ -69,7 +69,7 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     }
 }
 
-/// Adds something in the room that there is, however much it would like to have.
+/// Adds contents within the available room, even if they want more.
 fn within(ui: &mut egui::Ui, add: impl FnOnce(&mut egui::Ui)) {
     let room = ui.available_rect_before_wrap();
     let mut part = ui.new_child(egui::UiBuilder::new().max_rect(room));
@@ -78,7 +78,7 @@ fn within(ui: &mut egui::Ui, add: impl FnOnce(&mut egui::Ui)) {
     ui.advance_cursor_after_rect(room);
 }
 
-/// The two panes with the splitter between them, or one of them alone.
+/// Two panes with a splitter between them, or one pane alone.
 fn panes(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let all = ui.available_rect_before_wrap();
     let part = |ui: &mut egui::Ui, rect: Rect, add: &mut dyn FnMut(&mut egui::Ui)| {
@@ -102,7 +102,7 @@ fn panes(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     }
 }
 
-/// The embedding, or methods side by side.
+/// Embedding pane, or the method comparison.
 fn plane(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     if editor.plane.comparison.is_shown() {
         comparison_ui(ui, editor, requests);
@@ -130,7 +130,7 @@ fn splitter(ui: &egui::Ui, editor: &mut Editor, all: Rect, middle: f32) {
     ui.painter().vline(middle, all.y_range(), egui::Stroke::new(1.0, colour));
 }
 
-/// Files dropped on the window are opened.
+/// Requests for files dropped on the window.
 fn dropped_files(ui: &egui::Ui) -> Vec<Request> {
     let paths = |input: &egui::InputState| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect();
     Editor::dropped(ui.input(paths))

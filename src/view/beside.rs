@@ -1,5 +1,5 @@
-//! Embeddings of one mesh beside each other, under one camera: each has a place and a size of its own in the plane, and is seen as if
-//! these were the same.
+//! Frames for several embeddings of one mesh side by side under one camera. Each frame maps an embedding's own plane
+//! to a common plane that the camera shows.
 
 use glam::DVec2;
 
@@ -8,51 +8,52 @@ use freebound_core::geom::{Bounds, double_area};
 use freebound_core::mesh::{DiskMesh, VertexId};
 use freebound_core::pipeline::Outcome;
 
-/// Free space around an embedding, relative to its extent.
+/// Margin around an embedding, relative to its extent.
 const MARGIN: f64 = 0.04;
 
-/// An embedding that is so many times as large as the median one is cut off, rather than that all others get small.
+/// Largest embedding that is shown whole, as a multiple of the lower median extent. A larger embedding is cropped,
+/// so that the others stay readable.
 const LARGEST: f64 = 2.5;
 
-/// How an embedding lies in the plane that all of them are seen in.
+/// Similarity from the common plane to the plane of one embedding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellFrame {
-    /// The point of the embedding that is the origin there.
+    /// Point of the embedding at the origin of the common plane.
     origin: DVec2,
-    /// Units of the embedding for one there.
+    /// Embedding units per unit of the common plane.
     size: f64,
 }
 
-/// How several embeddings lie in one plane.
+/// Frames of several embeddings in one common plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellFrames {
-    /// Each of them.
+    /// Frame of each embedding.
     pub frames: Vec<CellFrame>,
-    /// What is to be seen of that plane.
+    /// Part of the common plane to show.
     pub bounds: Bounds,
 }
 
 impl CellFrame {
-    /// The point of the embedding that is seen at a point of the common plane.
+    /// Returns the point of the embedding at a point of the common plane.
     pub fn own(self, common: DVec2) -> DVec2 {
         self.origin + self.size * common
     }
 
-    /// How many units of the embedding one of the common plane is.
+    /// Embedding units per unit of the common plane.
     pub fn size(self) -> f64 {
         self.size
     }
 
-    /// The camera that shows of the embedding what `camera` shows of the common plane.
+    /// Returns the camera that shows the embedding as `camera` shows the common plane.
     pub fn camera(self, camera: &PlaneCamera) -> PlaneCamera {
         camera.over_similar(self.origin, self.size)
     }
 }
 
 impl CellFrames {
-    /// Lays out steps on one mesh as given. Embeddings that pins hold stay where they are. The others are seen each about its own
-    /// middle: at their own size, which is that of the surface or of the picture; or, where pins hold some, with the area of the
-    /// first of those.
+    /// Lays out the steps `outcomes` on the mesh `given`. Embeddings held by pins keep their position. Every other
+    /// embedding is centred on the middle of its bounding box. It keeps its size if pins hold no embedding;
+    /// otherwise it is scaled to the area of the first held embedding.
     pub fn new(given: &DiskMesh, outcomes: &[&Outcome]) -> Self {
         let pinned = outcomes.iter().find(|outcome| outcome.is_held());
         let size_of = |outcome: &Outcome| match pinned {
@@ -81,13 +82,13 @@ fn is_scale(size: f64) -> bool {
     size.is_normal() && size > 0.0
 }
 
-/// The square around a point with so long a side.
+/// Returns the square with the given middle and side.
 fn square(middle: DVec2, side: f64) -> Bounds {
     let half = DVec2::splat(side / 2.0);
     Bounds { low: middle - half, high: middle + half }
 }
 
-/// The square around boxes, those much larger than the others left out; none of none.
+/// Returns the square around boxes, leaving out boxes much larger than the others; `None` for no boxes.
 fn around(boxes: &[Bounds]) -> Option<Bounds> {
     let side = common_side(boxes.iter().map(|bounds| bounds.size().max_element()));
     let usual = boxes.iter().filter(|bounds| bounds.size().max_element() <= side);
@@ -95,8 +96,8 @@ fn around(boxes: &[Bounds]) -> Option<Bounds> {
     Some(square(all.middle(), all.size().max_element().max(f64::MIN_POSITIVE) * (1.0 + 2.0 * MARGIN)))
 }
 
-/// The side of a square, with a margin, that all of some extents fit into; one that is [`LARGEST`] times as long as the lower median
-/// does not count.
+/// Returns the side of a square, margin included, that fits the extents. An extent above [`LARGEST`] times the lower
+/// median is cut off there.
 fn common_side(extents: impl Iterator<Item = f64>) -> f64 {
     let mut extents: Vec<f64> = extents.filter(|extent| extent.is_finite()).collect();
     extents.sort_by(f64::total_cmp);
@@ -106,7 +107,7 @@ fn common_side(extents: impl Iterator<Item = f64>) -> f64 {
     extent.max(f64::MIN_POSITIVE) * (1.0 + 2.0 * MARGIN)
 }
 
-/// The area that an embedding covers, folds counted as often as they lie there.
+/// Area covered by an embedding, with overlaps counted repeatedly.
 fn area(given: &DiskMesh, outcome: &Outcome) -> f64 {
     let embedding = &outcome.step.candidate.solution.embedding;
     let covered = |corners: &[VertexId; 3]| double_area(corners.map(|v| embedding[v])).abs();

@@ -1,27 +1,29 @@
-//! A bounding-volume hierarchy over triangles: what does a ray hit first, and which triangles may lie in a region.
+//! A bounding-volume hierarchy over triangles: finds the first hit of a ray, and the triangles that may lie in a
+//! region.
 //!
-//! Halved at the median of the centroids along the longest side: within a factor of two of the best tree in queries,
-//! built in a few ten milliseconds for 100 k faces. Boxes are f64, as the mesh is.
+//! Nodes are split at the median of the centroids along the longest side. Queries cost at most twice those of the
+//! best tree, and construction takes a few tens of milliseconds for 100,000 faces. Boxes are in f64, like the mesh.
 
 use glam::DVec3;
 
 use super::Ray;
 
-/// Triangles in a leaf.
+/// Largest number of triangles in a leaf.
 const LEAF_SIZE: usize = 4;
 
-/// A box around a run of triangles. An inner node's first child follows it; `skip` is where its subtree ends.
+/// Bounding box of a run of triangles. The first child of an inner node follows it; `skip` is the index after its
+/// subtree.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     low: DVec3,
     high: DVec3,
-    /// First triangle in `order` and how many; none in an inner node.
+    /// Index in `order` of the first triangle; `count` triangles follow, none in an inner node.
     first: u32,
     count: u32,
     skip: u32,
 }
 
-/// A hierarchy over the triangles of one mesh.
+/// Hierarchy over the triangles of one mesh.
 #[derive(Clone, Debug)]
 pub(super) struct Bvh {
     nodes: Vec<Node>,
@@ -29,7 +31,8 @@ pub(super) struct Bvh {
 }
 
 impl Bvh {
-    /// A hierarchy over triangles given by their corners.
+    /// Builds the hierarchy of triangles given by their corners. Triangles with a corner that is not finite are left
+    /// out.
     pub(super) fn new(triangles: &[[DVec3; 3]]) -> Self {
         let mut entries: Vec<(DVec3, u32)> = triangles
             .iter()
@@ -64,7 +67,7 @@ impl Bvh {
         self.nodes[place].skip = u32::try_from(self.nodes.len()).expect("fewer nodes than faces");
     }
 
-    /// Calls `leaf` with every triangle whose boxes `enter` lets pass.
+    /// Calls `leaf` for every triangle in a leaf whose box and all ancestor boxes pass `enter`.
     pub(super) fn visit(&self, mut enter: impl FnMut(DVec3, DVec3) -> bool, mut leaf: impl FnMut(u32)) {
         let mut at = 0;
         while let Some(node) = self.nodes.get(at) {
@@ -78,9 +81,10 @@ impl Bvh {
         }
     }
 
-    /// The first triangle that a ray meets before `limit`, and where: distance and the weights of corners 1 and 2.
+    /// Returns the first triangle that a ray meets before `limit`, with the distance and the weights of corners 1
+    /// and 2.
     ///
-    /// `accept` can leave triangles out.
+    /// Triangles that fail `accept` are ignored.
     pub(super) fn first_hit(
         &self,
         ray: Ray,
@@ -111,11 +115,11 @@ fn widest_axis(entries: &[(DVec3, u32)]) -> usize {
     (high - low).max_position()
 }
 
-/// Whether a ray enters a box before `limit`.
+/// True if a ray enters a box before `limit`.
 fn enters(ray: Ray, inverse: DVec3, [low, high]: [DVec3; 2], limit: f64) -> bool {
     let a = (low - ray.origin) * inverse;
     let b = (high - ray.origin) * inverse;
-    // `min` and `max` of numbers drop a NaN, which 0 · ∞ gives where the ray runs in a side of the box.
+    // A ray that runs in a side of the box gives 0 · ∞ = NaN; `min` and `max` ignore NaN.
     let (mut enter, mut leave) = (0.0_f64, limit);
     for axis in 0..3 {
         enter = enter.max(a[axis].min(b[axis]));
@@ -124,7 +128,8 @@ fn enters(ray: Ray, inverse: DVec3, [low, high]: [DVec3; 2], limit: f64) -> bool
     enter <= leave * (1.0 + 1e-12)
 }
 
-/// Where a ray meets a triangle, from either side: distance, weight of corner 1, weight of corner 2.
+/// Returns the intersection of a ray and a triangle, from either side: distance, weight of corner 1, weight of
+/// corner 2.
 ///
 /// Möller and Trumbore, "Fast, minimum storage ray/triangle intersection" (1997).
 fn meet(ray: Ray, corners: [DVec3; 3]) -> Option<[f64; 3]> {
@@ -136,6 +141,6 @@ fn meet(ray: Ray, corners: [DVec3; 3]) -> Option<[f64; 3]> {
     let q = from_a.cross(to_b);
     let v = ray.direction.dot(q) / determinant;
     let distance = to_c.dot(q) / determinant;
-    // A determinant of zero gives NaN or ∞, which fail these.
+    // A determinant of zero gives NaN or ∞, which fails these tests.
     (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0 && distance.is_finite()).then_some([distance, u, v])
 }

@@ -1,5 +1,5 @@
-//! Colours: those that a renderer is given, and scales of the per-face quantities with their ranges and legends. The theme
-//! holds the values of the first; shaders get them as uniforms.
+//! Colours of the renderer, and colour scales of per-face quantities with their ranges and legends. The theme holds
+//! the values of the renderer's colours; shaders receive them as uniforms.
 //!
 //! | scale   | value                  | colours             | range                                       |
 //! |---------|------------------------|---------------------|---------------------------------------------|
@@ -8,13 +8,13 @@
 //! | stretch | root mean square of σ  | viridis             | 1st to 99th percentile                      |
 //! | move    | distance in the plane  | viridis             | 0 to the 99th percentile                    |
 //!
-//! Viridis is by S. van der Walt and N. Smith (CC0); nine samples of it stand here.
+//! Viridis is by S. van der Walt and N. Smith (CC0); this module holds nine samples of it.
 
-/// Least width of a scale. Below it differences are rounding and shall not be blown up to full colour.
+/// Least width of a scale. Smaller differences are rounding and must not span the full range of colours.
 const LEAST_WIDTH: f64 = 0.1;
-/// Shares of the faces that lie below and above the range.
+/// Share of the faces below the range, and share above it.
 const TAIL: f64 = 0.01;
-/// The most ticks on a legend.
+/// Largest number of steps between the ticks of a legend.
 const TICK_COUNT: usize = 5;
 
 const ANGLE: [[u8; 3]; 5] = [[255, 255, 255], [227, 214, 245], [187, 158, 229], [138, 92, 205], [84, 36, 156]];
@@ -31,10 +31,10 @@ const VIRIDIS: [[u8; 3]; 9] = [
     [173, 220, 48],
     [253, 231, 37],
 ];
-/// Where a value is not a number.
+/// Colour of values that are not a number.
 const NO_VALUE: [u8; 3] = [128, 128, 128];
 
-/// What a face's number means, and so how it is coloured.
+/// Quantity of a face that determines its colour scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
     /// Ratio of the singular values, at least 1.
@@ -43,11 +43,11 @@ pub enum Scale {
     Area,
     /// Stretch, or any positive quantity.
     Stretch,
-    /// Distance that a face has moved, embedding units. It may be of any size.
+    /// Distance that a face has moved, embedding units, of any magnitude.
     Move,
 }
 
-/// The values that the ends of a scale stand for.
+/// Values at the two ends of a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
     /// Value of the first colour.
@@ -57,14 +57,14 @@ pub struct Range {
 }
 
 impl Range {
-    /// Where a value lies: 0 at the low end, 1 at the high end, beyond them cut off. NaN stays NaN.
+    /// Position of a value in the range: 0 at the low end, 1 at the high end, clamped. NaN stays NaN.
     pub fn share(self, value: f64) -> f64 {
         ((value - self.low) / (self.high - self.low)).clamp(0.0, 1.0)
     }
 }
 
 impl Scale {
-    /// The range that shows the bulk of the values: outliers, one in a hundred at either end, do not widen it.
+    /// Range that shows the bulk of the values. The lowest and highest hundredth of the values do not widen it.
     pub fn robust_range(self, values: &[f64]) -> Range {
         let [low, high] = tails(values);
         match self {
@@ -82,12 +82,12 @@ impl Scale {
         }
     }
 
-    /// The colour of a value, sRGB.
+    /// Colour of a value, sRGB.
     pub fn colour(self, value: f64, range: Range) -> [u8; 3] {
         self.colour_at(range.share(value))
     }
 
-    /// The colour at a place along the scale, from 0 to 1: what a legend's bar shows.
+    /// Colour at a position along the scale, from 0 to 1, as a legend's bar shows it.
     pub fn colour_at(self, share: f64) -> [u8; 3] {
         match self {
             Self::Angle => sample(&ANGLE, share),
@@ -96,7 +96,7 @@ impl Scale {
         }
     }
 
-    /// Places and numbers for a legend. Areas are told as ratios: ½, 1, 2.
+    /// Tick positions and labels for a legend. Areas are labelled as ratios: ½, 1, 2.
     pub fn ticks(self, range: Range) -> Vec<Tick> {
         let values = nice_values(range.low, range.high, TICK_COUNT);
         let tick = |(value, step): (f64, f64)| Tick {
@@ -110,7 +110,7 @@ impl Scale {
     }
 }
 
-/// The values that a hundredth of all finite ones lie below and above.
+/// 1st and 99th percentile of the finite values.
 fn tails(values: &[f64]) -> [f64; 2] {
     let mut finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
     if finite.is_empty() {
@@ -136,7 +136,7 @@ fn sample(stops: &[[u8; 3]], share: f64) -> [u8; 3] {
     std::array::from_fn(|k| mix(stops[below][k], stops[below + 1][k]))
 }
 
-/// A power of two as a ratio.
+/// Label of a power of two as a ratio.
 fn ratio_label(exponent: f64, step: f64) -> String {
     let whole = step >= 1.0 - 1e-9;
     match exponent.round() {
@@ -149,19 +149,19 @@ fn ratio_label(exponent: f64, step: f64) -> String {
     }
 }
 
-/// A labelled place on a legend's bar.
+/// Labelled tick on a legend's bar.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// Place along the bar: 0 at the low end, 1 at the high end.
+    /// Position along the bar: 0 at the low end, 1 at the high end.
     pub at: f64,
-    /// The number, with the digits that mean something.
+    /// Number with its significant digits.
     pub label: String,
 }
 
-/// Slack when a nice number is compared with a bound, relative: powers of ten are rounded.
+/// Relative slack for comparing a nice number with a bound, since powers of ten are rounded.
 const SLACK: f64 = 1e-9;
 
-/// The smallest of 1, 2, 5 × 10ᵏ that is at least `width`. 1 for a width that is not positive and finite.
+/// Returns the smallest of 1, 2, 5 × 10ᵏ that is at least `width`; 1 if `width` is not positive and finite.
 pub fn nice_step_at_least(width: f64) -> f64 {
     if !(width.is_normal() && width > 0.0) {
         return 1.0;
@@ -171,7 +171,7 @@ pub fn nice_step_at_least(width: f64) -> f64 {
     leading.unwrap_or(10.0) * decade
 }
 
-/// Multiples of a nice step from `low` to `high`, at most `count` of them and as many as fit.
+/// Multiples of a nice step from `low` to `high`, each with the step; at most `count` + 1 of them.
 fn nice_values(low: f64, high: f64, count: usize) -> Vec<(f64, f64)> {
     let step = nice_step_at_least((high - low) / count.max(2) as f64);
     let first = (low / step - SLACK).ceil();
@@ -182,7 +182,7 @@ fn nice_values(low: f64, high: f64, count: usize) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// A value with as many decimals as its step needs.
+/// Formats a value with the decimals that its step needs.
 fn label(value: f64, step: f64) -> String {
     let magnitude = step.abs().log10().floor();
     if !(-5.0..=5.0).contains(&magnitude) {
@@ -197,25 +197,25 @@ fn label(value: f64, step: f64) -> String {
     format!("{:.decimals$}", value + 0.0).replace('-', "−")
 }
 
-/// A colour as designers write it: sRGB with straight alpha.
+/// Colour in sRGB with straight alpha, as designers write it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Srgb(pub [u8; 4]);
 
 impl Srgb {
-    /// An opaque colour from `0xRRGGBB`.
+    /// Opaque colour from `0xRRGGBB`.
     pub const fn from_hex(hex: u32) -> Self {
         let [_, r, g, b] = hex.to_be_bytes();
         Self([r, g, b, 255])
     }
 
-    /// The same colour with another opacity, 0 to 255.
+    /// Returns this colour with another opacity, 0 to 255.
     #[must_use]
     pub const fn with_alpha(self, alpha: u8) -> Self {
         let [r, g, b, _] = self.0;
         Self([r, g, b, alpha])
     }
 
-    /// Linear light, straight alpha: what shaders compute with.
+    /// Linear light with straight alpha, as the shaders compute.
     pub fn to_linear(self) -> [f32; 4] {
         let [r, g, b, a] = self.0.map(|byte| f32::from(byte) / 255.0);
         [linear(r), linear(g), linear(b), a]
@@ -230,19 +230,19 @@ fn linear(encoded: f32) -> f32 {
 /// Colours of both panes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Palette {
-    /// Behind everything.
+    /// Background of the panes.
     pub background: Srgb,
-    /// Grid lines of the embedding; the stronger ones take it at full alpha.
+    /// Grid lines of the embedding; major lines at full alpha.
     pub grid: Srgb,
     /// Outline of the unit square.
     pub unit_square: Srgb,
-    /// The mesh's front.
+    /// Front of the mesh.
     pub clay: Srgb,
-    /// The mesh's back.
+    /// Back of the mesh.
     pub clay_back: Srgb,
-    /// Faces of the embedding, plain.
+    /// Faces of the embedding in plain shading.
     pub plane_face: Srgb,
-    /// Where faces of the embedding lie over each other the picture is mixed with this.
+    /// Mixed into areas covered by overlapping faces of the embedding.
     pub overlap: Srgb,
     /// The two colours of the checker.
     pub checker: [Srgb; 2],

@@ -1,5 +1,5 @@
-//! The picture of a comparison: the embeddings of several methods side by side at one scale, with one scale of colours, and the
-//! numbers of each below it.
+//! Picture of a comparison: the embeddings of several methods side by side on one scale and with one colour scale.
+//! The numbers of each method are below its embedding.
 
 use glam::DVec2;
 
@@ -13,24 +13,24 @@ use freebound_core::verify::Distortion;
 use freebound_io::figure::{CellContent, ColourBar, Curve, Curves, GridCell, Page, PanelGrid, TintedDrawing, Window};
 use freebound_io::raster::{Canvas, Colour, RasterPaint, View, mesh_picture};
 
-/// Colours that values are rounded to, so that few paths are drawn.
+/// Number of colours that values are rounded to, which keeps the number of paths small.
 const LEVELS: u32 = 64;
 
-/// Fields of the checker along the side of a square as large as the embedding.
+/// Checker fields along the side of a square with the area of the embedding.
 const CHECKER_FIELDS: f64 = 20.0;
 
-/// Pixels of a picture of the mesh.
+/// Side of a picture of the mesh, pixels.
 const PICTURE_SIZE: u32 = 460;
 
-/// Steps from which on a method's energy over time is a curve.
+/// Least number of steps for an energy curve over time.
 const CURVE_STEPS: usize = 3;
 
-/// How the cells of a comparison's picture are coloured.
+/// Colouring of the cells of a comparison's picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CellShading {
-    /// Faces of the embedding by a number each.
+    /// Faces of the embedding, coloured by a quantity per face.
     By(Quantity),
-    /// The mesh in space, under a checker of the plane.
+    /// Mesh in space under a checker pattern of the plane.
     Checker,
 }
 
@@ -49,26 +49,26 @@ impl NamedOption for CellShading {
             Self::By(Quantity::Angle) => ("angle", "ratio of the singular values of each face: 1 keeps angles"),
             Self::By(Quantity::Area) => ("area", "area in the plane over area on the surface"),
             Self::By(Quantity::Stretch) => ("stretch", "root mean square stretch from the plane to the surface"),
-            Self::Checker => ("checker", "the mesh in space, under a checker of the plane"),
+            Self::Checker => ("checker", "the mesh in space, with a checker of the plane"),
         };
         let title = if let Self::By(quantity) = self { quantity.title() } else { "Checker" };
         Labels { name, title, about, source: "" }
     }
 }
 
-/// Methods that have run on a model, to be drawn side by side.
+/// Methods that ran on a model, to be drawn side by side.
 #[derive(Clone, Copy, Debug)]
 pub struct ComparisonPicture<'a> {
-    /// What they ran on: a disk.
+    /// Model that the methods ran on: a disk.
     pub model: &'a Model,
-    /// The methods.
+    /// Results of the methods.
     pub methods: &'a [&'a Compared],
-    /// How the cells are coloured.
+    /// Colouring of the cells.
     pub shading: CellShading,
 }
 
 impl ComparisonPicture<'_> {
-    /// Lays it out.
+    /// Lays out the page.
     ///
     /// # Panics
     ///
@@ -121,7 +121,7 @@ impl ComparisonPicture<'_> {
         format!("{}: {} vertices, {faces} faces{pins}. All at one scale.", self.model.name, mesh.real_vertex_count())
     }
 
-    /// Energy over time, where methods take several steps.
+    /// Energy over time of the methods that take at least [`CURVE_STEPS`] steps.
     fn curves(&self) -> Option<GridCell> {
         let curve = |method: &&Compared| {
             let report = &method.report;
@@ -138,7 +138,7 @@ impl ComparisonPicture<'_> {
     }
 }
 
-/// What a cell shows of its embedding, where all are to be seen within a square.
+/// Window of a cell's embedding that shows the square `bounds` of the common plane.
 fn window(frame: CellFrame, bounds: Bounds) -> Window {
     Window { centre: frame.own(bounds.middle()), half: frame.size() * bounds.size().max_element() / 2.0 }
 }
@@ -147,15 +147,15 @@ fn tinted(mesh: &DiskMesh, outcome: &Outcome, quantity: Quantity, range: Range, 
     TintedDrawing::of_step(mesh, &outcome.step, colours_of(&outcome.distortion, quantity, range), window)
 }
 
-/// A colour for each face.
+/// Returns one colour per face.
 pub(super) fn colours_of(distortion: &Distortion, quantity: Quantity, range: Range) -> Vec<Colour> {
     let levels = f64::from(LEVELS - 1);
     let colour = |value: f64| quantity.scale().colour_at((range.share(value) * levels).round() / levels);
     quantity.values(distortion).into_iter().map(colour).collect()
 }
 
-/// The mesh in space under a checker of the plane, seen from the side that most of it looks to; from the front where it is a
-/// closed surface that was cut open.
+/// Draws the mesh in space under a checker pattern of the plane. The view faces the side that most of the surface
+/// faces. A closed surface that was cut open is seen from the front.
 pub(super) fn checkered(disk: &DiskMesh, embedding: &Embedding) -> Picture {
     let mesh = disk.mesh();
     let triangles = mesh.real_triangles();

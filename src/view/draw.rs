@@ -1,10 +1,10 @@
-//! What the GPU is given: arrays that never change once made, each with a revision of its own.
+//! Immutable draw arrays for the GPU, each with its own revision.
 //!
-//! Faces are drawn without an index buffer: corner `3 f + k` is corner `k` of face `f`. A vertex shader then knows
-//! face and corner from its running number, so flat colours and wireframes need neither a geometry shader nor a
-//! storage buffer, and runs on GLES 3. The price is that positions repeat about six times; in exchange the three
-//! streams (mesh, embedding, paint) change apart from each other, and only what changed is sent. Fields are there to be
-//! read: what is changed is made anew.
+//! Faces are drawn without an index buffer: corner `3 f + k` is corner `k` of face `f`. A vertex shader gets face
+//! and corner from its vertex index. Flat colours and wireframes need neither a geometry shader nor a storage
+//! buffer, so GLES 3 suffices. Positions are repeated about six times. In exchange the three streams (mesh,
+//! embedding, paint) change independently, and only a changed stream is uploaded. Fields are public for reading
+//! only: a change means a new array with a new revision.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -15,40 +15,40 @@ use super::{Range, Scale, Sphere, UnitPlane, bounds_of};
 use freebound_core::geom::Bounds;
 use freebound_core::mesh::{FaceId, VertexId};
 
-/// Says whether two arrays are the same: every array made in this process has its own.
+/// Identity of an array: every array made in this process has a unique revision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Revision(u64);
 
 impl Revision {
-    /// A revision that nothing else has.
+    /// Returns a new, unique revision.
     pub(super) fn fresh() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(1);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }
 }
 
-/// The mesh in unit space. Made once per mesh; 100 k faces take some ten milliseconds, on any thread.
+/// Mesh in unit space. Built once per mesh on any thread; 100,000 faces take some ten milliseconds.
 #[derive(Debug)]
 pub struct MeshArrays {
-    /// Which mesh this is.
+    /// Revision of the mesh.
     pub revision: Revision,
-    /// Where unit space lies in the world.
+    /// Sphere in the world that unit space stands for.
     pub frame: Sphere,
-    /// The mean of the faces' normals, weighted by area: the side that the surface shows. Its length is 1 for a plane
-    /// sheet and 0 for a closed surface.
+    /// Mean of the unit face normals, weighted by area: the side that the surface faces. Its length is 1 for a plane
+    /// surface and 0 for a closed surface.
     pub mean_normal: DVec3,
     /// Vertices in unit space.
     pub points: Vec<[f32; 3]>,
     /// Positions in unit space, corner by corner.
     pub corner_positions: Vec<[f32; 3]>,
-    /// Normals, corner by corner, as 16-bit fractions; the fourth is nothing.
+    /// Normals, corner by corner, as 16-bit fractions; the fourth component is unused.
     pub corner_normals: Vec<[i16; 4]>,
     /// Corners of all faces.
     pub triangles: Vec<[VertexId; 3]>,
 }
 
 impl MeshArrays {
-    /// Draw arrays of triangles over shared positions.
+    /// Builds the draw arrays of triangles over shared positions.
     ///
     /// # Panics
     ///
@@ -57,7 +57,7 @@ impl MeshArrays {
         Self::in_frame(positions, triangles, Sphere::around(positions))
     }
 
-    /// The same in the unit space of another mesh, so that both can be drawn beside each other.
+    /// Builds the arrays in the unit space of another mesh, so that both can be drawn together.
     ///
     /// # Panics
     ///
@@ -87,23 +87,24 @@ fn packed_normal(normal: DVec3) -> [i16; 4] {
     [n.x as i16, n.y as i16, n.z as i16, 0]
 }
 
-/// An embedding in unit space, as sums of two f32, so that one can zoom in twelve decades. Made once per embedding.
+/// Embedding in unit space as sums of two f32 numbers, precise enough to zoom over twelve decades. Built once per
+/// embedding.
 #[derive(Debug)]
 pub struct PlaneArrays {
-    /// Which embedding this is.
+    /// Revision of the embedding.
     pub revision: Revision,
-    /// Where unit space lies in the plane.
+    /// Position and scale of unit space in the plane.
     pub frame: UnitPlane,
-    /// The smallest box around it.
+    /// Bounding box of the embedding.
     pub bounds: Bounds,
     /// Vertices: high parts, then low parts.
     pub points: Vec<[f32; 4]>,
-    /// The same, corner by corner.
+    /// Points of all faces, corner by corner.
     pub corners: Vec<[f32; 4]>,
 }
 
 impl PlaneArrays {
-    /// Draw arrays of an embedding, one point per vertex.
+    /// Builds the draw arrays of an embedding, one point per vertex.
     ///
     /// # Panics
     ///
@@ -112,7 +113,7 @@ impl PlaneArrays {
         Self::in_frame(embedding, triangles, UnitPlane::of(bounds_of(embedding)))
     }
 
-    /// The same in the unit space of another embedding, so that both can be drawn over each other.
+    /// Builds the arrays in the unit space of another embedding, so that both can be drawn over each other.
     ///
     /// # Panics
     ///
@@ -125,25 +126,25 @@ impl PlaneArrays {
     }
 }
 
-/// A colour and flags per face. Made anew when a quantity or the verdict changes.
+/// Colour and flags per face. Rebuilt when the quantity or the verdict changes.
 #[derive(Debug)]
 pub struct FacePaint {
-    /// Which colouring this is.
+    /// Revision of the colouring.
     pub revision: Revision,
-    /// Red, green, blue and the flags, corner by corner.
+    /// Red, green, blue and flags, corner by corner.
     pub corners: Vec<[u8; 4]>,
-    /// The flipped faces.
+    /// Flipped faces.
     pub flipped: Vec<FaceId>,
 }
 
 impl FacePaint {
-    /// The bit of a face that is flipped.
+    /// Bit of a flipped face.
     pub const FLIPPED: u8 = 1;
 
-    /// The bit of a face that stands back, plain in every shading.
+    /// Bit of a face in the background, plain in every shading.
     pub const FAINT: u8 = 2;
 
-    /// Faces that stand back.
+    /// Paint of faces in the background.
     pub fn faint(face_count: usize) -> Self {
         Self {
             revision: Revision::fresh(),
@@ -152,12 +153,12 @@ impl FacePaint {
         }
     }
 
-    /// White faces with the flipped ones marked. Faces that are not there are passed over.
+    /// White faces with the flipped ones marked. Flipped faces that do not exist are ignored.
     pub fn plain(face_count: usize, flipped: &[FaceId]) -> Self {
         Self::from_colours(vec![[255; 3]; face_count], flipped)
     }
 
-    /// Faces coloured by a quantity, one value each, with the flipped ones marked.
+    /// Faces coloured by a quantity, one value per face, with the flipped ones marked.
     pub fn by_value(values: &[f64], scale: Scale, range: Range, flipped: &[FaceId]) -> Self {
         Self::from_colours(values.iter().map(|&v| scale.colour(v, range)).collect(), flipped)
     }
@@ -174,57 +175,58 @@ impl FacePaint {
     }
 }
 
-/// Edges that are drawn as lines: the boundary, crossings, a path.
+/// Edges drawn as lines: a boundary, crossings, a path.
 #[derive(Debug)]
 pub struct EdgeList {
-    /// Which list this is.
+    /// Revision of the list.
     pub revision: Revision,
-    /// The ends of each edge.
+    /// End vertices of each edge.
     pub ends: Vec<[VertexId; 2]>,
 }
 
 impl EdgeList {
-    /// Edges by their ends.
+    /// List of edges by their end vertices.
     pub fn new(ends: Vec<[VertexId; 2]>) -> Self {
         Self { revision: Revision::fresh(), ends }
     }
 
-    /// The closed line through the vertices of a boundary loop.
+    /// Closed line through the vertices of a boundary loop.
     pub fn closed_loop(vertices: &[VertexId]) -> Self {
         Self::closed_loops(std::iter::once(vertices))
     }
 
-    /// The closed lines through the vertices of boundary loops.
+    /// Closed lines through the vertices of boundary loops.
     pub fn closed_loops<'a>(loops: impl Iterator<Item = &'a [VertexId]>) -> Self {
         let ends = |vertices: &'a [VertexId]| vertices.iter().zip(vertices.iter().cycle().skip(1));
         Self::new(loops.flat_map(ends).map(|(&a, &b)| [a, b]).collect())
     }
 }
 
-/// Faces that are not the mesh's, filled with one colour: the pockets of a virtual boundary.
+/// Faces that do not belong to the mesh, filled with one colour, such as the pockets of a virtual boundary.
 #[derive(Debug)]
 pub struct DrawnFaces {
-    /// Which list this is.
+    /// Revision of the list.
     pub revision: Revision,
-    /// The corners of each face.
+    /// Corners of each face.
     pub triangles: Vec<[VertexId; 3]>,
 }
 
 impl DrawnFaces {
-    /// Faces by their corners.
+    /// List of faces by their corners.
     pub fn new(triangles: Vec<[VertexId; 3]>) -> Self {
         Self { revision: Revision::fresh(), triangles }
     }
 }
 
-/// Cosine of the angle between two faces above which the edge between them shows, 70°: a cube has edges, and a
+/// Cosine of the crease angle, 70°: an edge between faces that bend more is shaded sharp. A cube has such edges, a
 /// coarse nose has none.
 const CREASE_COSINE: f64 = 0.34;
 
-/// One normal per corner, in the order of the triangles' corners.
+/// Returns one normal per corner, in the order of the triangles' corners.
 ///
-/// A corner's normal is the area-weighted mean over the faces around its vertex that bend away from its own face by
-/// less than the crease angle. Faces without area take that of their neighbours.
+/// A corner's normal is the area-weighted mean over the faces around its vertex. Faces that bend away from the
+/// corner's own face by the crease angle or more are left out. Faces without area take the normal of their
+/// neighbours.
 pub fn crease_normals(positions: &[DVec3], triangles: &[[VertexId; 3]]) -> Vec<DVec3> {
     let areas = area_vectors(positions, triangles);
     let units: Vec<DVec3> = areas.iter().map(|a| a.normalize_or_zero()).collect();
@@ -242,13 +244,13 @@ pub fn crease_normals(positions: &[DVec3], triangles: &[[VertexId; 3]]) -> Vec<D
     normals
 }
 
-/// Twice the area of each face, along its normal.
+/// Area vector of each face: along its normal, twice its area long.
 fn area_vectors(positions: &[DVec3], triangles: &[[VertexId; 3]]) -> Vec<DVec3> {
     let corners = triangles.iter().map(|triangle| triangle.map(|v| positions[v.index()]));
     corners.map(|[a, b, c]| (b - a).cross(c - a)).collect()
 }
 
-/// For each vertex the faces around it: where its list begins, and all lists one after the other.
+/// Returns the faces around each vertex: the start of each vertex's list, and all lists concatenated.
 fn faces_by_vertex(vertex_count: usize, triangles: &[[VertexId; 3]]) -> (Vec<u32>, Vec<u32>) {
     let mut starts = vec![0_u32; vertex_count + 1];
     for vertex in triangles.iter().flatten() {

@@ -1,21 +1,21 @@
-//! What lies under the pointer in the embedding's pane: the nearest point, by a balanced k-d tree in one array.
+//! Picking in the embedding's pane: the nearest point to the pointer, by a balanced k-d tree in one array.
 //!
-//! A grid would be simpler, but embeddings squeeze parts of a mesh over ten decades: all of it would fall into a cell.
+//! A grid would be simpler, but embeddings squeeze parts of a mesh over ten decades and would fill a single cell.
 
 use glam::DVec2;
 
 use super::{PICK_RADIUS, PlaneCamera, VertexPick};
 use freebound_core::mesh::VertexId;
 
-/// Picks in the embedding's pane. Made once per embedding. Points are in the order of a balanced tree: the middle of a
-/// range is its root, its halves are the subtrees.
+/// Picking in the embedding's pane. Built once per embedding. Points are stored in the order of a balanced tree: the
+/// middle of a range is its root, its halves are the subtrees.
 #[derive(Clone, Debug)]
 pub struct PlanePicker {
     points: Vec<DVec2>,
     numbers: Vec<u32>,
 }
 
-/// The nearest point of those that were looked at; before the first one, how far it may lie.
+/// Nearest point found so far; `distance` is the search radius until a point is found.
 struct Nearest {
     place: Option<usize>,
     distance: f64,
@@ -30,7 +30,7 @@ impl PlanePicker {
         Self { points: entries.iter().map(|e| e.0).collect(), numbers: entries.iter().map(|e| e.1).collect() }
     }
 
-    /// The vertex nearest to the pointer, among those within [`PICK_RADIUS`].
+    /// Returns the vertex nearest to the pointer, within [`PICK_RADIUS`].
     pub fn nearest_vertex(&self, camera: &PlaneCamera, pane_size: DVec2, pointer: DVec2) -> Option<VertexPick> {
         let query = camera.embedding_from_pane(pointer, pane_size);
         let mut best = Nearest { place: None, distance: PICK_RADIUS / camera.points_per_unit() };

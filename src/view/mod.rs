@@ -1,27 +1,28 @@
-//! Pure mathematics between the document and its pixels: cameras, picking, draw arrays, colour scales.
+//! Mathematics between the document and its pixels: cameras, picking, draw arrays, colour scales.
 //!
-//! Here f64 becomes f32. Nothing in this module knows a screen or a graphics card, so all of it is tested without.
+//! Here f64 becomes f32. This module depends on neither screen nor graphics card, so all of it is tested without
+//! them.
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
 //! | `space.rs` | extents, and unit space |
 //! | `orbit.rs`, `plane.rs` | the cameras of the two panes |
-//! | `pick.rs`, `bvh.rs`, `kdtree.rs` | what lies under the pointer, and how it is found fast |
+//! | `pick.rs`, `bvh.rs`, `kdtree.rs` | picking under the pointer, and its search structures |
 //! | `draw.rs`, `picture.rs` | arrays for the graphics card, and normals; pictures with their smaller sizes |
 //! | `colour.rs` | scales of colours with their legends; the colours of the panes |
-//! | `beside.rs` | embeddings beside each other, under one camera |
+//! | `beside.rs` | embeddings side by side, under one camera |
 //! | `comparison.rs` | the picture of several methods side by side |
 //! | `morph.rs` | a morph through the maps of several methods, as an animated picture |
 //! | `quantity.rs` | numbers that faces are coloured by, on one scale for several embeddings |
 //!
-//! Spaces, as they appear in names:
+//! Spaces, as named in the code:
 //!
-//! | space     | is                                                                                      |
+//! | space     | meaning                                                                                  |
 //! |-----------|-----------------------------------------------------------------------------------------|
 //! | world     | the mesh's own units, f64                                                               |
 //! | embedding | the plane's own units, f64                                                              |
-//! | unit      | world or embedding moved and scaled so that all lies in [−1, 1]: what the GPU holds, f32 |
-//! | clip      | of the graphics card: x, y in [−1, 1], y up, z in [0, 1]                                 |
+//! | unit      | world or embedding moved and scaled into [−1, 1], as the GPU holds it, f32               |
+//! | clip      | clip space of the graphics card: x, y in [−1, 1], y up, z in [0, 1]                      |
 //! | pane      | points from a pane's upper left corner, y down                                          |
 
 mod beside;

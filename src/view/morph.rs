@@ -1,4 +1,5 @@
-//! A morph through the maps of several methods as pictures one after the other; between two maps there, and back by the same frames.
+//! Morph through the maps of several methods as a sequence of pictures. A morph of two maps runs forward, then back
+//! over the same frames.
 
 use std::io::{self, Write};
 
@@ -18,53 +19,53 @@ use freebound_io::{AnimationForm, AnimationFrame, write_animation};
 /// Pixels per point of a frame.
 const PIXELS: f64 = 1.25;
 
-/// How long a map of a method is seen, and each frame on the way, milliseconds.
+/// Display time of a method's map, then of each intermediate frame, milliseconds.
 const STAY: u16 = 1000;
 const FRAME: u16 = 40;
 
-/// Frames that are drawn at a time.
+/// Number of frames drawn in parallel.
 const DRAWN_TOGETHER: usize = 16;
 
-/// Free space around an embedding, relative to its extent.
+/// Margin around an embedding, relative to its extent.
 const MARGIN: f64 = 0.04;
 
-/// All frames are seen at one scale where the largest is at most so many times as large as the smallest.
+/// Largest ratio of frame sizes for which all frames share one scale.
 const SIZES: f64 = 2.5;
 
-/// A tour to be drawn.
+/// Tour of morphs to draw.
 #[derive(Debug)]
 pub struct MorphPicture<'a> {
     mesh: &'a DiskMesh,
     tour: &'a MorphTour,
     shading: CellShading,
-    /// The range of colours, one for all frames: that of the maps.
+    /// Colour range of the maps, shared by all frames.
     range: Option<Range>,
-    /// What is seen of each frame, where pins do not hold all of them.
+    /// Part of the plane that each frame shows.
     sight: MorphSight,
 }
 
-/// What is seen of the plane.
+/// Part of the plane that the frames show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MorphSight {
-    /// The same of every frame: pins hold all maps.
+    /// Fixed window for all frames, used if pins hold all maps.
     Fixed(Window),
-    /// Every frame from its middle, at one scale: half a side.
+    /// Window centred on each frame, with one scale for all: half a side.
     Along(f64),
-    /// Every frame by itself.
+    /// Window fitted to each frame.
     Whole,
 }
 
-/// A place on a tour.
+/// Position on a tour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MorphPlace {
-    /// The number of the leg.
+    /// Index of the leg.
     pub leg: usize,
-    /// The number of its frame.
+    /// Index of the frame in the leg.
     pub frame: usize,
 }
 
 impl<'a> MorphPicture<'a> {
-    /// Of a tour on a mesh.
+    /// Prepares the pictures of a tour on a mesh.
     pub fn new(mesh: &'a DiskMesh, tour: &'a MorphTour, shading: CellShading) -> Self {
         let stops = || tour.stops.stops.iter().map(|stop| &*stop.outcome);
         let range = match shading {
@@ -74,11 +75,11 @@ impl<'a> MorphPicture<'a> {
         Self { mesh, tour, shading, range, sight: MorphSight::new(tour) }
     }
 
-    /// All places in the order in which they are seen, each map once: from the first to the last; and back by the same frames, where
-    /// there are two.
+    /// Places in display order, from the first map to the last, each map once. A tour of one leg then runs back over
+    /// the same frames.
     pub fn places(&self) -> Vec<MorphPlace> {
         let of_leg = |(leg, of): (usize, &MorphLeg)| {
-            // A map that ends one leg begins the next.
+            // The map that ends one leg begins the next.
             let first = usize::from(leg > 0);
             (first..of.frames.len()).map(move |frame| MorphPlace { leg, frame })
         };
@@ -120,7 +121,7 @@ impl<'a> MorphPicture<'a> {
         place.frame + 1 == self.tour.legs[place.leg].frames.len()
     }
 
-    /// The frame at a place, drawn. A map is seen longer than what lies between two.
+    /// Draws the frame at a place. A map is displayed longer than an intermediate frame.
     ///
     /// # Panics
     ///
@@ -134,7 +135,7 @@ impl<'a> MorphPicture<'a> {
     ///
     /// # Errors
     ///
-    /// What the writer reports; a tour without a leg.
+    /// Errors of the writer, and a tour without a leg.
     pub fn write(&self, out: impl Write) -> io::Result<()> {
         let places = self.places();
         let Some(&first) = places.first() else { return Err(io::Error::other("a morph needs two maps")) };
@@ -148,7 +149,7 @@ impl<'a> MorphPicture<'a> {
 }
 
 impl MorphSight {
-    /// So that all of a tour can be seen.
+    /// Returns the choice that shows all of a tour.
     pub fn new(tour: &MorphTour) -> Self {
         let boxes: Vec<Bounds> = tour.legs.iter().flat_map(|leg| &leg.frames).map(Embedding::bounds).collect();
         let are_held = tour.stops.stops.iter().all(|stop| stop.outcome.is_held());
@@ -162,7 +163,7 @@ impl MorphSight {
         }
     }
 
-    /// What is seen where vertices lie so.
+    /// Window of a frame with the given embedding.
     pub fn window(self, embedding: &Embedding) -> Window {
         let bounds = embedding.bounds();
         let centre: DVec2 = bounds.middle();

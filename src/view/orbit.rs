@@ -1,6 +1,7 @@
-//! The camera of the 3D pane: a turntable. It circles a pivot and up stays up.
+//! Turntable camera of the 3D pane. The camera circles a pivot, and up stays up.
 //!
-//! All of it is f64 in world units, whatever the size of the mesh; the product with the unit frame is rounded last.
+//! All computations are in f64 and world units, whatever the size of the mesh. The product with the unit frame is
+//! rounded last.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -8,55 +9,55 @@ use glam::{DMat4, DVec2, DVec3, DVec4, Mat4};
 
 use super::Sphere;
 
-/// Vertical angle of view, radians: about 35°, a portrait lens.
+/// Vertical field of view, radians: about 35°, like a portrait lens.
 const FIELD_OF_VIEW: f64 = 0.61;
-/// Room around a framed ball, as a factor of its distance.
+/// Margin around a framed sphere, as a factor of its distance.
 const FRAME_MARGIN: f64 = 1.04;
 /// Radians per point of an orbit drag: half a turn in about 450 points.
 const ORBIT_RATE: f64 = 0.007;
-/// Nearest and farthest distance to the pivot, in radii of the scene.
+/// Least and greatest distance to the pivot, in radii of the scene.
 const DISTANCE_LIMITS: [f64; 2] = [1e-5, 1e3];
-/// Distance of the near plane as a share of the distance to the pivot, when the eye is inside the scene.
+/// Distance of the near plane when the eye is inside the scene, relative to the distance to the pivot.
 const NEAR_SHARE: f64 = 1e-3;
-/// Yaw and pitch by which the first view turns away from a frontal one, radians, so that depth shows.
+/// Yaw and pitch of the first view relative to a frontal one, radians, so that depth shows.
 const FIRST_TURN: DVec2 = DVec2::new(0.35, 0.2);
 
-/// Length of a surface's mean normal below which it faces no side. A head with an open neck has about 0.1.
+/// Least length of the mean normal of a surface that faces a side. A head with an open neck has about 0.1.
 const LEAST_FACING: f64 = 0.05;
-/// Length of a surface's mean normal above which it is a sheet rather than a body: a hemisphere has 0.5.
+/// Length of the mean normal above which a surface counts as flat rather than round: a hemisphere has 0.5.
 const NEARLY_FLAT: f64 = 0.6;
-/// Pitch of the first view of a sheet at most, radians: one that looks straight up is seen at a slant.
+/// Largest pitch of the first view of a flat surface, radians: a surface that faces straight up is seen at a slant.
 const STEEPEST_FIRST_PITCH: f64 = 1.0;
-/// Pitch of the first view of a body at most, radians: a bust that is open below is not seen from above.
+/// Largest pitch of the first view of a round surface, radians: a bust that is open below is not seen from above.
 const ROUND_FIRST_PITCH: f64 = 0.4;
 
-/// Which axis of the world points up on the screen.
+/// World axis that points up on the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UpAxis {
-    /// As in most models of characters and scans.
+    /// Up in most models of characters and scans.
     #[default]
     Y,
-    /// As in terrain, engineering and Blender.
+    /// Up in terrain, engineering and Blender.
     Z,
 }
 
-/// A half-line of the world.
+/// Half-line in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it begins.
+    /// Start of the ray.
     pub origin: DVec3,
-    /// Where it goes, length 1.
+    /// Direction of length 1.
     pub direction: DVec3,
 }
 
 impl Ray {
-    /// The point at a distance from the origin.
+    /// Returns the point at a distance from the origin.
     pub fn at(self, distance: f64) -> DVec3 {
         self.origin + distance * self.direction
     }
 }
 
-/// A turntable camera about a pivot. Sizes and pointers are in points of the pane, y down.
+/// Turntable camera about a pivot. Sizes and pointers are in points of the pane, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrbitCamera {
     pivot: DVec3,
@@ -68,7 +69,7 @@ pub struct OrbitCamera {
 }
 
 impl OrbitCamera {
-    /// A camera that sees the whole ball from the front, turned a little.
+    /// Camera that shows the whole sphere from the front, turned a little.
     pub fn framing(scene: Sphere, up_axis: UpAxis) -> Self {
         let mut camera = Self {
             pivot: scene.center,
@@ -82,15 +83,16 @@ impl OrbitCamera {
         camera
     }
 
-    /// A camera that sees the ball from the side that the surface faces, turned a little, never from below.
+    /// Camera that shows the sphere from the side that the surface faces, turned a little, never from below.
     ///
-    /// `mean_normal` is that of `MeshArrays`. Where it is short the surface faces no side, and the view is frontal.
+    /// `mean_normal` is [`MeshArrays::mean_normal`](super::MeshArrays::mean_normal). If it is short, the surface
+    /// faces no side and the view is frontal.
     pub fn facing(scene: Sphere, up_axis: UpAxis, mean_normal: DVec3) -> Self {
         let mut camera = Self::framing(scene, up_axis);
         let back = camera.turntable_from_world(mean_normal);
         if back.length() > LEAST_FACING {
             let across = back.x.hypot(back.z);
-            // Near the pole the direction around it says nothing.
+            // Near the pole the direction around it is undefined.
             if across > 0.1 {
                 camera.yaw += back.x.atan2(back.z);
             }
@@ -100,13 +102,13 @@ impl OrbitCamera {
         camera
     }
 
-    /// Turns about the pivot by a drag in points.
+    /// Orbits about the pivot by a drag in points.
     pub fn orbit(&mut self, drag_in_points: DVec2) {
         self.yaw = (self.yaw - ORBIT_RATE * drag_in_points.x).rem_euclid(TAU);
         self.pitch = (self.pitch + ORBIT_RATE * drag_in_points.y).clamp(-FRAC_PI_2, FRAC_PI_2);
     }
 
-    /// Moves sideways, so that what lies at the pivot's depth follows a drag in points.
+    /// Pans such that points at the pivot's depth follow a drag in points.
     pub fn pan(&mut self, drag_in_points: DVec2, pane_size: DVec2) {
         // World units per point.
         let scale = 2.0 * self.distance * (FIELD_OF_VIEW / 2.0).tan() / pane_size.y.max(1.0);
@@ -114,9 +116,9 @@ impl OrbitCamera {
         self.pivot += scale * (drag_in_points.y * up - drag_in_points.x * right);
     }
 
-    /// Comes nearer (`factor` < 1) or goes away such that `anchor` stays where it is on the screen.
+    /// Zooms in (`factor` < 1) or out such that `anchor` keeps its position on the screen.
     ///
-    /// The anchor is best the point of the surface under the pointer, else [`Self::point_at_pivot_depth`].
+    /// The best anchor is the surface point under the pointer, otherwise [`Self::point_at_pivot_depth`].
     pub fn zoom_about(&mut self, anchor: DVec3, factor: f64) {
         if !(factor.is_finite() && factor > 0.0) {
             return;
@@ -127,21 +129,21 @@ impl OrbitCamera {
         self.distance = wanted;
     }
 
-    /// The point under the pointer, at the depth of the pivot.
+    /// Returns the point under the pointer at the depth of the pivot.
     pub fn point_at_pivot_depth(&self, pointer: DVec2, pane_size: DVec2) -> DVec3 {
         let ray = self.ray(pointer, pane_size);
         let [_, _, back] = self.axes();
         ray.at(self.distance / -ray.direction.dot(back))
     }
 
-    /// Makes a point the one to turn about, and brings it to the middle of the pane.
+    /// Sets the pivot and moves it to the middle of the pane.
     pub fn set_pivot(&mut self, pivot: DVec3) {
         let [_, _, back] = self.axes();
         self.distance = self.within_limits((self.eye() - pivot).dot(back));
         self.pivot = pivot;
     }
 
-    /// Shows a whole ball in a pane of this size, in the direction that it looks in.
+    /// Shows a whole sphere in a pane of this size, keeping the viewing direction.
     pub fn frame(&mut self, ball: Sphere, pane_size: DVec2) {
         let half = FIELD_OF_VIEW / 2.0;
         let aspect = aspect_ratio(pane_size);
@@ -150,16 +152,16 @@ impl OrbitCamera {
         self.distance = self.within_limits(FRAME_MARGIN * ball.radius / half.min(half_across).sin());
     }
 
-    /// Pivot x, y, z and distance, world units; turn about the vertical y axis and height over the horizon, radians.
+    /// Pivot x, y, z and distance, world units; yaw about the vertical y axis and pitch above the horizon, radians.
     pub fn numbers(&self) -> [f64; 6] {
         let view_from_world = self.view_from_world();
         let [right, up, back] = [0, 1, 2].map(|axis| view_from_world.row(axis));
-        // By the axes rather than the eye, which says nothing of the yaw where it is right above the pivot.
+        // Computed from the axes: the eye does not determine the yaw if it is right above the pivot.
         let (yaw, pitch) = ((-right.z).atan2(right.x), back.y.atan2(up.y));
         [self.pivot.x, self.pivot.y, self.pivot.z, self.distance, yaw, pitch]
     }
 
-    /// The camera that such numbers are of, on the same scene; `None` where they are no camera's.
+    /// Returns the camera with these [`numbers`](Self::numbers) on the same scene; `None` if they are not valid.
     pub fn with_numbers(&self, numbers: &[f64]) -> Option<Self> {
         let &[x, y, z, distance, yaw, pitch]: &[f64; 6] = numbers.try_into().ok()?;
         if !(numbers.iter().all(|number| number.is_finite()) && distance > 0.0) {
@@ -173,13 +175,13 @@ impl OrbitCamera {
         camera.eye().is_finite().then_some(camera)
     }
 
-    /// Where the eye is.
+    /// Position of the eye.
     pub fn eye(&self) -> DVec3 {
         let [_, _, back] = self.axes();
         self.pivot + self.distance * back
     }
 
-    /// The point that the camera turns about.
+    /// Point that the camera orbits.
     pub fn pivot(&self) -> DVec3 {
         self.pivot
     }
@@ -189,7 +191,7 @@ impl OrbitCamera {
         self.distance
     }
 
-    /// The way from the world to clip space, in full precision.
+    /// Transform from the world to clip space, in f64.
     pub fn clip_from_world(&self, pane_size: DVec2) -> DMat4 {
         let [near, far] = self.depth_range();
         let clip_from_view =
@@ -197,19 +199,19 @@ impl OrbitCamera {
         clip_from_view * self.view_from_world()
     }
 
-    /// The way from unit space to clip space, as the GPU takes it.
+    /// Transform from unit space to clip space, in f32 for the GPU.
     pub fn clip_from_unit(&self, frame: Sphere, pane_size: DVec2) -> Mat4 {
         (self.clip_from_world(pane_size) * frame.world_from_unit()).as_mat4()
     }
 
-    /// The way from world directions to those of the eye: x right, y up, z towards the eye.
+    /// Transform from the world to view space: x right, y up, z towards the eye.
     pub fn view_from_world(&self) -> DMat4 {
         let [right, up, back] = self.axes();
         let rotation = DMat4::from_cols(right.extend(0.0), up.extend(0.0), back.extend(0.0), DVec4::W).transpose();
         rotation * DMat4::from_translation(-self.eye())
     }
 
-    /// The half-line from the eye through a point of the pane.
+    /// Ray from the eye through a point of the pane.
     pub fn ray(&self, pointer: DVec2, pane_size: DVec2) -> Ray {
         let [right, up, back] = self.axes();
         let across = (FIELD_OF_VIEW / 2.0).tan();
@@ -218,7 +220,7 @@ impl OrbitCamera {
         Ray { origin: self.eye(), direction: direction / direction.length() }
     }
 
-    /// Where a world point shows in the pane; `None` behind the eye. It may lie outside the pane.
+    /// Projects a world point into the pane; `None` behind the eye. The result may lie outside the pane.
     pub fn pane_from_world(&self, position_in_world: DVec3, pane_size: DVec2) -> Option<DVec2> {
         pane_from_clip(self.clip_from_world(pane_size) * position_in_world.extend(1.0), pane_size)
     }
@@ -228,7 +230,7 @@ impl OrbitCamera {
         distance.clamp(nearest, farthest)
     }
 
-    /// Right, up and backwards (from the pivot to the eye), each of length 1.
+    /// Axes right, up and back (from the pivot to the eye), each of length 1.
     fn axes(&self) -> [DVec3; 3] {
         let (sin_yaw, cos_yaw) = self.yaw.sin_cos();
         let (sin_pitch, cos_pitch) = self.pitch.sin_cos();
@@ -251,7 +253,7 @@ impl OrbitCamera {
         }
     }
 
-    /// Near and far plane that hold the scene and no more than it.
+    /// Distances of the near and far plane, tight around the scene.
     fn depth_range(&self) -> [f64; 2] {
         let to_center = self.eye().distance(self.scene.center);
         let reach = 1.01 * self.scene.radius;
@@ -260,7 +262,7 @@ impl OrbitCamera {
     }
 }
 
-/// Width over height, 1 for a pane without area.
+/// Width over height; 1 for a pane without area.
 fn aspect_ratio(pane_size: DVec2) -> f64 {
     let aspect = pane_size.x / pane_size.y;
     if aspect.is_finite() && aspect > 0.0 { aspect } else { 1.0 }
@@ -271,7 +273,7 @@ fn clip_from_pane(point: DVec2, pane_size: DVec2) -> DVec2 {
     DVec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y)
 }
 
-/// Where a point in clip space shows in the pane, `None` behind the eye.
+/// Point of the pane at a point in clip space; `None` behind the eye.
 pub(super) fn pane_from_clip(clip: DVec4, pane_size: DVec2) -> Option<DVec2> {
     (clip.w > 0.0).then(|| DVec2::new(1.0 + clip.x / clip.w, 1.0 - clip.y / clip.w) / 2.0 * pane_size.max(DVec2::ONE))
 }

@@ -1,4 +1,4 @@
-//! What lies under the pointer: the nearest vertex in either pane, and the point of the surface.
+//! Picking under the pointer: the nearest vertex in either pane, and the point of the surface.
 
 use glam::{DMat4, DVec2, DVec3};
 
@@ -7,50 +7,50 @@ use super::orbit::pane_from_clip;
 use super::{OrbitCamera, Ray};
 use freebound_core::mesh::{FaceId, VertexId};
 
-/// How far from the pointer a vertex can be picked, points.
+/// Largest distance between the pointer and a vertex that it picks, points.
 pub const PICK_RADIUS: f64 = 12.0;
-/// A face hides a vertex when it is nearer to the eye by more than this share of the distance. It lets the two
-/// sides of a cut, which lie at the same place, both be seen.
+/// Margin of hiding, relative to the distance: a face hides a vertex only if it is nearer to the eye by more than
+/// this. Both sides of a cut, which coincide, stay visible.
 const HIDING_MARGIN: f64 = 1e-6;
 
-/// Which vertices of the surface can be picked.
+/// Vertices of the surface that can be picked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Visibility {
-    /// Those that no face hides.
+    /// Vertices that no face hides.
     #[default]
     Visible,
-    /// All of them: X-ray.
+    /// All vertices (X-ray).
     All,
 }
 
-/// A vertex near the pointer.
+/// Vertex near the pointer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VertexPick {
-    /// The vertex.
+    /// Picked vertex.
     pub vertex: VertexId,
-    /// Its distance from the pointer, points.
+    /// Distance from the pointer, points.
     pub distance_in_points: f64,
 }
 
-/// A point of the surface.
+/// Point of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceHit {
-    /// The face that it lies in.
+    /// Face that contains the point.
     pub face: FaceId,
-    /// Where it lies in the world.
+    /// Position in the world.
     pub point: DVec3,
-    /// Its weights with regard to the face's corners; they sum to 1.
+    /// Barycentric coordinates in the face; they sum to 1.
     pub weights: [f64; 3],
-    /// Its distance from the ray's origin, world units.
+    /// Distance from the ray's origin, world units.
     pub distance: f64,
 }
 
-/// Picks in the 3D pane. Made once per mesh, on any thread.
+/// Picking in the 3D pane. Built once per mesh, on any thread.
 #[derive(Clone, Debug)]
 pub struct SurfacePicker {
     positions: Vec<DVec3>,
     triangles: Vec<[VertexId; 3]>,
-    /// For each vertex the first face around it, so that a search meets it once.
+    /// First face around each vertex, so that a search visits the vertex once.
     first_face: Vec<u32>,
     bvh: Bvh,
 }
@@ -65,7 +65,7 @@ impl SurfacePicker {
         let corners: Vec<[DVec3; 3]> = triangles.iter().map(|t| t.map(|v| positions[v.index()])).collect();
         let mut first_face = vec![u32::MAX; positions.len()];
         for (face, triangle) in (0_u32..).zip(triangles) {
-            // Faces with a corner nowhere are not in the hierarchy.
+            // Faces with a corner that is not finite are not in the hierarchy.
             let is_searched = corners[face as usize].iter().all(|p| p.is_finite());
             for vertex in triangle.iter().filter(|_| is_searched) {
                 let first = &mut first_face[vertex.index()];
@@ -75,14 +75,14 @@ impl SurfacePicker {
         Self { positions: positions.to_vec(), triangles: triangles.to_vec(), first_face, bvh: Bvh::new(&corners) }
     }
 
-    /// The first point of the surface on a ray.
+    /// Returns the first point of the surface on a ray.
     pub fn hit(&self, ray: Ray) -> Option<SurfaceHit> {
         let (number, [distance, u, v]) =
             self.bvh.first_hit(ray, f64::INFINITY, |number| self.corners(number), |_| true)?;
         Some(SurfaceHit { face: FaceId::new(number), point: ray.at(distance), weights: [1.0 - u - v, u, v], distance })
     }
 
-    /// The vertex nearest to the pointer, among those within [`PICK_RADIUS`].
+    /// Returns the vertex nearest to the pointer, within [`PICK_RADIUS`].
     pub fn nearest_vertex(
         &self,
         camera: &OrbitCamera,
@@ -98,7 +98,7 @@ impl SurfacePicker {
         near.into_iter().find(|pick| visibility == Visibility::All || self.is_visible(pick.vertex, eye))
     }
 
-    /// Whether no face lies between the eye and a vertex.
+    /// True if no face lies between the eye and a vertex.
     pub fn is_visible(&self, vertex: VertexId, eye: DVec3) -> bool {
         let to_vertex = self.positions[vertex.index()] - eye;
         let Some(direction) = to_vertex.try_normalize() else { return true };
@@ -120,7 +120,7 @@ impl SurfacePicker {
                 let corners = self.triangles[number as usize];
                 for vertex in corners.into_iter().filter(|v| self.first_face[v.index()] == number) {
                     let clip = *clip_from_world * self.positions[vertex.index()].extend(1.0);
-                    // Nothing before the near plane is drawn.
+                    // Nothing in front of the near plane is drawn.
                     let shown = pane_from_clip(clip, pane_size).filter(|_| clip.z >= 0.0);
                     let distance_in_points = shown.map_or(f64::INFINITY, |p| p.distance(pointer));
                     if distance_in_points <= PICK_RADIUS {
@@ -133,7 +133,7 @@ impl SurfacePicker {
     }
 }
 
-/// Whether a box may show within the pick radius of the pointer.
+/// True if a box may show within the pick radius of the pointer.
 fn may_show_near([low, high]: [DVec3; 2], clip_from_world: &DMat4, pane_size: DVec2, pointer: DVec2) -> bool {
     let mut shown = [DVec2::INFINITY, DVec2::NEG_INFINITY];
     for corner in 0..8 {
@@ -147,7 +147,7 @@ fn may_show_near([low, high]: [DVec3; 2], clip_from_world: &DMat4, pane_size: DV
     nearest.distance_squared(pointer) <= PICK_RADIUS * PICK_RADIUS
 }
 
-/// Texture coordinates at the nearest corner or middle of a pixel.
+/// Snaps texture coordinates to the nearest corner or middle of a pixel.
 pub fn snapped(target: DVec2, pixels: DVec2) -> DVec2 {
     let at = target * pixels;
     let corner = at.round();

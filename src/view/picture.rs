@@ -1,4 +1,4 @@
-//! A picture as a graphics card takes it: with its smaller sizes, each pixel the mean of a whole block.
+//! Picture with mipmaps for the graphics card; each pixel of a smaller size is the mean of a whole block.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -8,18 +8,18 @@ use rayon::prelude::*;
 use super::Revision;
 use freebound_core::geom;
 
-/// A picture behind the embedding and on the faces.
+/// Picture behind the embedding and on the faces.
 #[derive(Debug)]
 pub struct PictureQuad {
-    /// Which picture this is.
+    /// Revision of the picture.
     pub revision: Revision,
-    /// As it is, then in half the size and so on, down to one pixel.
+    /// Full size, then each time half the size, down to one pixel.
     sizes: Vec<Arc<geom::Picture>>,
 }
 
 impl PictureQuad {
-    /// A picture with all its smaller sizes, which takes a while where it is large. `None` where it has not as many pixels
-    /// as it should, or none.
+    /// Computes the smaller sizes, which takes a while for a large picture. Returns `None` if the picture has no
+    /// pixels or its buffer has the wrong length.
     pub fn new(picture: Arc<geom::Picture>) -> Option<Self> {
         let expected = 4 * picture.width as usize * picture.height as usize;
         if expected == 0 || picture.pixels.len() != expected {
@@ -30,8 +30,8 @@ impl PictureQuad {
         Some(Self { revision: Revision::fresh(), sizes })
     }
 
-    /// Those sizes that have no side longer than `limit`, the largest first: a picture that a card does not take is shown
-    /// with less detail rather than not at all. One pixel is always among them.
+    /// Sizes with no side longer than `limit`, largest first; at least the size of one pixel. A picture that is too
+    /// large for a card is thus shown with less detail.
     pub fn sizes_up_to(&self, limit: u32) -> &[Arc<geom::Picture>] {
         let is_too_long = |picture: &Arc<geom::Picture>| picture.width.max(picture.height) > limit;
         let first = self.sizes.partition_point(is_too_long);
@@ -39,7 +39,7 @@ impl PictureQuad {
     }
 }
 
-/// The picture in half the size, each pixel the mean of those that it stands for. Where a side is odd, blocks differ by a
+/// Returns the picture in half the size, each pixel the mean of its block. If a side is odd, blocks differ by a
 /// pixel.
 fn halved(picture: &geom::Picture) -> geom::Picture {
     let [width, height] = [picture.width, picture.height].map(|side| (side / 2).max(1));
@@ -49,13 +49,13 @@ fn halved(picture: &geom::Picture) -> geom::Picture {
     geom::Picture { width, height, pixels: rows.into_par_iter().flat_map_iter(row).collect() }
 }
 
-/// A side cut into blocks as equal as they can be.
+/// Splits a side into `count` blocks of nearly equal length.
 fn blocks(side: u32, count: u32) -> Vec<Range<usize>> {
     let (side, count) = (side as usize, count as usize);
     (0..count).map(|k| k * side / count..(k + 1) * side / count).collect()
 }
 
-/// The mean of a block of pixels. Each colour counts by its opacity: what cannot be seen lends no colour.
+/// Mean of a block of pixels. Each colour is weighted by its opacity, so transparent pixels contribute none.
 fn mean(pixels: &[u8], width: usize, [columns, rows]: [&Range<usize>; 2]) -> [u8; 4] {
     let (mut sums, mut opacities, mut count) = ([0_u64; 3], 0_u64, 0_u64);
     for y in rows.clone() {
@@ -73,7 +73,7 @@ fn mean(pixels: &[u8], width: usize, [columns, rows]: [&Range<usize>; 2]) -> [u8
     [red, green, blue, rounded(opacities, count)]
 }
 
-/// A quotient of a byte's size; 0 where there is nothing to divide by.
+/// Rounded quotient that fits a byte; 0 if the divisor is 0.
 fn rounded(sum: u64, count: u64) -> u8 {
     let quotient = (sum + count / 2).checked_div(count).unwrap_or(0);
     u8::try_from(quotient).unwrap_or(u8::MAX)

@@ -1,18 +1,19 @@
-//! The camera of the embedding's pane: shift and scale, never a turn. y points up in the plane, down in the pane.
+//! Camera of the embedding's pane: shift and scale, without rotation. y points up in the plane, down in the pane.
 
 use glam::DVec2;
 
 use super::{UnitPlane, nice_step_at_least};
 use freebound_core::geom::Bounds;
 
-/// The share of a pane that a framed box fills.
+/// Share of a pane that a framed box fills.
 const FRAME_SHARE: f64 = 0.9;
-/// Least and greatest scale, relative to that which shows the framed box whole. Zooming in ends where f64 does.
+/// Least and greatest scale, relative to the scale that frames the whole box. The precision of f64 limits zooming
+/// in.
 const ZOOM_LIMITS: [f64; 2] = [1e-3, 1e12];
-/// Least distance of two grid lines, points.
+/// Least distance between grid lines, points.
 const GRID_SPACING: f64 = 18.0;
 
-/// What part of the embedding plane a pane shows.
+/// Part of the embedding plane that a pane shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneCamera {
     center: DVec2,
@@ -20,35 +21,36 @@ pub struct PlaneCamera {
     scale_limits: [f64; 2],
 }
 
-/// Lines of the background, spaced by 1, 2 or 5 times a power of ten.
+/// Lines of the background grid, spaced by 1, 2 or 5 times a power of ten.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GridLines {
-    /// Distance of two faint lines, embedding units.
+    /// Distance of minor lines, embedding units.
     pub step: f64,
-    /// Every so many faint lines there is a stronger one, at a multiple of a power of ten.
+    /// Number of minor steps per major line; major lines are at multiples of a power of ten.
     pub steps_per_major: u32,
 }
 
 impl PlaneCamera {
-    /// A camera that shows a whole box in a pane of this size, in points.
+    /// Camera that shows a whole box in a pane of this size, in points.
     pub fn framing(bounds: Bounds, pane_size: DVec2) -> Self {
         let scale = frame_scale(bounds, pane_size);
         Self { center: bounds.middle(), points_per_unit: scale, scale_limits: ZOOM_LIMITS.map(|limit| limit * scale) }
     }
 
-    /// Shows a whole box. The limits of zooming stay those of the scene.
+    /// Shows a whole box. The zoom limits of the scene stay.
     pub fn frame(&mut self, bounds: Bounds, pane_size: DVec2) {
         self.center = bounds.middle();
         self.points_per_unit = frame_scale(bounds, pane_size).clamp(self.scale_limits[0], self.scale_limits[1]);
     }
 
-    /// The same over another part of the plane, so far from this one.
+    /// Camera translated by a vector of the plane.
     #[must_use]
     pub fn moved(&self, by: DVec2) -> Self {
         Self { center: self.center + by, ..*self }
     }
 
-    /// The same view of another plane that is like this one, so many times as large, its `origin` in the place of this one's.
+    /// Camera of a similar plane that shows the same view: `size` times as large, with `origin` as this plane's
+    /// origin.
     #[must_use]
     pub fn over_similar(&self, origin: DVec2, size: f64) -> Self {
         Self {
@@ -63,7 +65,7 @@ impl PlaneCamera {
         self.center -= drag_in_points * DVec2::new(1.0, -1.0) / self.points_per_unit;
     }
 
-    /// Enlarges (`factor` > 1) or shrinks such that what lies under the pointer stays there.
+    /// Zooms in (`factor` > 1) or out such that the point under the pointer stays there.
     pub fn zoom_at(&mut self, pointer: DVec2, factor: f64, pane_size: DVec2) {
         if !(factor.is_finite() && factor > 0.0) {
             return;
@@ -74,12 +76,13 @@ impl PlaneCamera {
         self.points_per_unit = wanted;
     }
 
-    /// Center x, y, and the height of what a pane of this size shows, embedding units.
+    /// Centre x and y, and the height that a pane of this size shows, embedding units.
     pub fn numbers(&self, pane_size: DVec2) -> [f64; 3] {
         [self.center.x, self.center.y, self.visible(pane_size).size().y]
     }
 
-    /// The camera that such numbers are of, with the same limits; `None` where they are no camera's.
+    /// Returns the camera with these [`numbers`](Self::numbers) and this camera's limits; `None` if they are not
+    /// valid.
     pub fn with_numbers(&self, numbers: &[f64], pane_size: DVec2) -> Option<Self> {
         let &[x, y, height]: &[f64; 3] = numbers.try_into().ok()?;
         if !(numbers.iter().all(|number| number.is_finite()) && height > 0.0) {
@@ -90,7 +93,7 @@ impl PlaneCamera {
         Some(Self { center: DVec2::new(x, y), ..camera })
     }
 
-    /// Part of the way to another camera: `share` 0 is this one, 1 the other.
+    /// Camera between this one (`share` 0) and another (`share` 1).
     #[must_use]
     pub fn toward(&self, goal: &Self, share: f64) -> Self {
         let ratio = (goal.points_per_unit / self.points_per_unit).powf(share);
@@ -101,7 +104,7 @@ impl PlaneCamera {
         }
     }
 
-    /// The point of the plane in the middle of the pane.
+    /// Point of the plane in the middle of the pane.
     pub fn center(&self) -> DVec2 {
         self.center
     }
@@ -111,29 +114,29 @@ impl PlaneCamera {
         self.points_per_unit
     }
 
-    /// Which point of the plane lies under a point of the pane.
+    /// Point of the plane at a point of the pane.
     pub fn embedding_from_pane(&self, point_in_pane: DVec2, pane_size: DVec2) -> DVec2 {
         self.center + (point_in_pane - pane_size / 2.0) * DVec2::new(1.0, -1.0) / self.points_per_unit
     }
 
-    /// Where a point of the plane shows in the pane. It may lie outside.
+    /// Point of the pane at a point of the plane. The result may lie outside the pane.
     pub fn pane_from_embedding(&self, point: DVec2, pane_size: DVec2) -> DVec2 {
         (point - self.center) * DVec2::new(1.0, -1.0) * self.points_per_unit + pane_size / 2.0
     }
 
-    /// The pane's middle in an embedding's unit space, and clip units per unit of that space.
+    /// Middle of the pane in an embedding's unit space, and clip units per unit of that space.
     pub fn unit_view(&self, frame: UnitPlane, pane_size: DVec2) -> (DVec2, DVec2) {
         let scale = 2.0 * self.points_per_unit * frame.embedding_per_unit / pane_size.max(DVec2::ONE);
         (frame.unit_from_embedding(self.center), scale)
     }
 
-    /// The part of the plane that the pane shows.
+    /// Part of the plane that the pane shows.
     pub fn visible(&self, pane_size: DVec2) -> Bounds {
         let half = pane_size / 2.0 / self.points_per_unit;
         Bounds { low: self.center - half, high: self.center + half }
     }
 
-    /// The background grid for the present scale.
+    /// Background grid for the current scale.
     pub fn grid(&self) -> GridLines {
         let step = nice_step_at_least(GRID_SPACING / self.points_per_unit);
         let leading = step / 10_f64.powf(step.log10().floor());

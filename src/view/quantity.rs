@@ -1,12 +1,12 @@
-//! Numbers that faces are coloured by, on one scale for several embeddings.
+//! Quantities that colour faces, on one scale for several embeddings.
 
 use super::{Range, Scale};
 use freebound_core::verify::{Distortion, FaceDistortion};
 
-/// What is measured of a face's map.
+/// Distortion measured per face.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quantity {
-    /// σ₁/σ₂: 1 where angles are kept.
+    /// σ₁/σ₂: 1 if angles are preserved.
     #[default]
     Angle,
     /// Logarithm to base 2 of area in the plane over area on the surface.
@@ -16,10 +16,10 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// All of them, in the order of menus.
+    /// All quantities, in the order of menus.
     pub const ALL: [Self; 3] = [Self::Angle, Self::Area, Self::Stretch];
 
-    /// Its name.
+    /// Title for menus and legends.
     pub const fn title(self) -> &'static str {
         match self {
             Self::Angle => "Angle distortion",
@@ -28,7 +28,7 @@ impl Quantity {
         }
     }
 
-    /// The scale of its colours.
+    /// Colour scale of the quantity.
     pub const fn scale(self) -> Scale {
         match self {
             Self::Angle => Scale::Angle,
@@ -37,7 +37,7 @@ impl Quantity {
         }
     }
 
-    /// Its value on a face.
+    /// Value on a face.
     pub fn of(self, face: &FaceDistortion) -> f64 {
         match self {
             Self::Angle => face.angle,
@@ -46,13 +46,14 @@ impl Quantity {
         }
     }
 
-    /// Its values on all faces.
+    /// Values on all faces.
     pub fn values(self, distortion: &Distortion) -> Vec<f64> {
         distortion.faces.iter().map(|face| self.of(face)).collect()
     }
 
-    /// One range for several embeddings: the upper median of the ranges that each of them would have, end by end. So at least
-    /// half of them lie within, and one that is wild does not take the colours from the others. None of none.
+    /// Common range of several embeddings: the median of the low ends and the median of the high ends of their own
+    /// ranges. Of an even number of ends the wider middle one is taken. At least half of the ranges fit at each end,
+    /// and an outlier does not flatten the colours of the others. `None` for no embeddings.
     pub fn common_range<'a>(self, distortions: impl Iterator<Item = &'a Distortion>) -> Option<Range> {
         let ranges: Vec<Range> = distortions.map(|of| self.scale().robust_range(&self.values(of))).collect();
         let median = |mut ends: Vec<f64>| {

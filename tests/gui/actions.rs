@@ -1,4 +1,4 @@
-//! What tests do with a window, and what they see of it: through its accessibility tree, and what was painted.
+//! Actions of tests on a window, and observations through its accessibility tree and its painted shapes.
 
 use eframe::egui;
 use egui::accesskit::{Action as Offer, Role};
@@ -11,10 +11,10 @@ use glam::DVec2;
 
 use crate::harness::Window;
 
-/// The name of the mesh's drawing surface.
+/// Name of the mesh's drawing surface.
 pub(crate) const MESH_VIEW: &str = "3D view of the mesh";
 
-/// The name of the embedding's drawing surface.
+/// Name of the embedding's drawing surface.
 pub(crate) const PLANE_VIEW: &str = "Embedding in the plane";
 
 impl Window {
@@ -24,18 +24,18 @@ impl Window {
         self.settle();
     }
 
-    /// Presses a key alone.
+    /// Presses a key without modifiers.
     pub(crate) fn key(&mut self, key: Key) {
         self.press(Modifiers::NONE, key);
     }
 
-    /// Presses a key alone and does not wait for what it leads to.
+    /// Presses a key without modifiers, and does not wait for the effects.
     pub(crate) fn key_now(&mut self, key: Key) {
         self.harness.key_press(key);
         self.step();
     }
 
-    /// Types text as a keyboard does: each letter is a key and a text.
+    /// Types text like a keyboard: each letter is a key and a text.
     pub(crate) fn type_text(&mut self, text: &str) {
         for letter in text.chars() {
             if let Some(key) = Key::from_name(&letter.to_ascii_uppercase().to_string()) {
@@ -49,7 +49,7 @@ impl Window {
         self.step();
     }
 
-    /// The button, menu, entry or tab of that name. Entries of menus have their keys after their name.
+    /// Returns the button, menu, entry or tab with this name. Menu entries have their keys after their name.
     fn button(&self, name: &str) -> Option<Node<'_>> {
         let with_keys = format!("{name} ");
         let named = |wanted: &dyn Fn(&str) -> bool| {
@@ -66,7 +66,7 @@ impl Window {
         self.settle();
     }
 
-    /// Clicks the last of several buttons of one name.
+    /// Clicks the last of several buttons with one name.
     pub(crate) fn click_last(&mut self, name: &str) {
         self.harness.get_all_by_role_and_label(Role::Button, name).last().expect("a button").click();
         self.settle();
@@ -107,7 +107,7 @@ impl Window {
         !self.button(name).expect("a button of that name").accesskit_node().is_disabled()
     }
 
-    /// Clicks a text field and replaces what is in it.
+    /// Clicks a text field and replaces its text.
     pub(crate) fn fill_in(&mut self, role: Role, name: &str, text: &str) {
         self.harness.get_by_role_and_label(role, name).click();
         self.step();
@@ -116,7 +116,7 @@ impl Window {
         self.type_text(text);
     }
 
-    /// Where a control lies.
+    /// Bounds of a control.
     pub(crate) fn rect(&self, role: Role, name: &str) -> Rect {
         self.harness.get_by_role_and_label(role, name).rect()
     }
@@ -129,19 +129,19 @@ impl Window {
         self.rect(Role::Image, PLANE_VIEW)
     }
 
-    /// What the verdict's pill says.
+    /// Text of the verdict's pill.
     pub(crate) fn verdict(&self) -> String {
         let pill = self.harness.query_by(|node| node.label().is_some_and(|label| label.starts_with("Verdict: ")));
         let label = pill.and_then(|pill| pill.accesskit_node().label()).expect("the verdict shows");
         label.trim_start_matches("Verdict: ").to_owned()
     }
 
-    /// Whether the pill says that the embedding is proved planar, with all constraints met.
+    /// True if the pill says that the embedding is proved planar, with all constraints met.
     pub(crate) fn is_proved(&self) -> bool {
         self.verdict().starts_with("Planar: proved · ")
     }
 
-    /// All words painted in the last frame.
+    /// All texts painted in the last frame.
     pub(crate) fn words(&self) -> Vec<String> {
         let mut words = Vec::new();
         for shape in &self.harness.output().shapes {
@@ -150,12 +150,12 @@ impl Window {
         words
     }
 
-    /// Whether some words painted in the last frame contain these.
+    /// True if a text painted in the last frame contains `words`.
     pub(crate) fn shows(&self, words: &str) -> bool {
         self.words().iter().any(|painted| painted.contains(words))
     }
 
-    /// Whether a ring around a place was painted in the last frame.
+    /// True if the last frame painted a ring around `place`.
     pub(crate) fn has_ring_at(&self, place: Pos2) -> bool {
         let is_ring = |shape: &egui::Shape| match shape {
             egui::Shape::Circle(circle) => circle.center.distance(place) < 1.0 && circle.stroke.width > 0.0,
@@ -164,7 +164,7 @@ impl Window {
         self.harness.output().shapes.iter().any(|shape| is_ring(&shape.shape))
     }
 
-    /// The ends of all straight lines painted in the last frame.
+    /// Ends of all straight lines painted in the last frame.
     pub(crate) fn lines(&self) -> Vec<[Pos2; 2]> {
         let line = |shape: &egui::Shape| match shape {
             egui::Shape::LineSegment { points, .. } => Some(*points),
@@ -173,7 +173,7 @@ impl Window {
         self.harness.output().shapes.iter().filter_map(|shape| line(&shape.shape)).collect()
     }
 
-    /// Whether a frame around a part of the window, and not much more, was painted in the last frame.
+    /// True if the last frame painted a frame tightly around a part of the window.
     pub(crate) fn has_frame_around(&self, part: Rect) -> bool {
         let is_frame = |shape: &egui::Shape| match shape {
             egui::Shape::Rect(shape) => {
@@ -187,7 +187,7 @@ impl Window {
         self.harness.output().shapes.iter().any(|shape| is_frame(&shape.shape))
     }
 
-    /// Where a vertex shows on the mesh.
+    /// Position of a vertex on the screen, in the mesh's pane.
     pub(crate) fn place_on_mesh(&self, vertex: VertexId) -> Pos2 {
         let editor = self.editor();
         let scene = editor.mesh_scene().expect("a mesh shows");
@@ -196,13 +196,13 @@ impl Window {
         on_screen(self.mesh_view(), camera.pane_from_world(position, editor.mesh.pane.size()).expect("before the eye"))
     }
 
-    /// Where a point of the embedding shows.
+    /// Position of a point of the embedding on the screen.
     pub(crate) fn place_in_plane(&self, point: DVec2) -> Pos2 {
         let camera = self.editor().plane.pane.camera().expect("an embedding shows");
         on_screen(self.plane_view(), camera.pane_from_embedding(point, self.editor().plane.pane.size()))
     }
 
-    /// A vertex near the middle of the mesh's pane that is well visible.
+    /// Clearly visible vertex near the middle of the mesh's pane.
     pub(crate) fn vertex_in_the_middle(&self) -> VertexId {
         let editor = self.editor();
         let scene = editor.mesh_scene().expect("a mesh shows");
@@ -220,19 +220,19 @@ impl Window {
         best.1
     }
 
-    /// Shades both panes.
+    /// Sets the shading of both panes.
     pub(crate) fn shade(&mut self, shading: ShadingMode) {
         for pane in [Pane::Mesh, Pane::Plane] {
             self.editor_mut().handle(Request::SetPaneShading(pane, shading));
         }
     }
 
-    /// The shadings of the mesh's pane and of the embedding's.
+    /// Shadings of the mesh's pane and of the embedding's pane.
     pub(crate) fn shadings(&self) -> [ShadingMode; 2] {
         [Pane::Mesh, Pane::Plane].map(|pane| self.editor().shading(pane))
     }
 
-    /// Clicks a place of the window.
+    /// Clicks a point of the window.
     pub(crate) fn click_at(&mut self, at: Pos2, modifiers: Modifiers) {
         self.harness.hover_at(at);
         self.harness.event(egui::Event::ModifiersChanged(modifiers));
@@ -243,7 +243,7 @@ impl Window {
         self.settle();
     }
 
-    /// Presses at `from` and moves to `to` in steps, without letting go.
+    /// Presses at `from` and moves to `to` in steps, without releasing.
     pub(crate) fn begin_drag(&mut self, from: Pos2, to: Pos2, modifiers: Modifiers) {
         self.harness.hover_at(from);
         self.harness.event(egui::Event::ModifiersChanged(modifiers));
@@ -254,7 +254,7 @@ impl Window {
         self.step();
     }
 
-    /// Lets go.
+    /// Releases the button.
     pub(crate) fn end_drag(&mut self, at: Pos2) {
         self.harness.event(left_button(at, false, Modifiers::NONE));
         self.harness.event(egui::Event::ModifiersChanged(Modifiers::NONE));
@@ -266,7 +266,7 @@ impl Window {
         self.end_drag(to);
     }
 
-    /// Every visible node that can be acted on, with its role and name.
+    /// Visible nodes that accept actions, with role, name and bounds.
     pub(crate) fn controls(&self) -> Vec<(Role, String, Rect)> {
         let nodes = self.harness.root().children_recursive();
         let acts = [Offer::Click, Offer::SetValue, Offer::Increment, Offer::Expand];

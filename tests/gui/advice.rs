@@ -1,4 +1,4 @@
-//! What to do next, beside the verdict: the one button in the accent's colour.
+//! Advice beside the verdict: a single button in the accent's colour.
 
 use eframe::egui;
 use egui::{Key, Modifiers};
@@ -14,7 +14,7 @@ use crate::defects::fold;
 use crate::harness::{Window, sheet};
 use freebound_testkit::tower;
 
-/// How many areas of the accent's colour were painted in the last frame.
+/// Number of areas in the accent's colour in the last frame.
 fn accents(window: &Window) -> usize {
     let accents = [theme::LIGHT.accent, theme::DARK.accent];
     let is_accented = |shape: &egui::Shape| matches!(shape, egui::Shape::Rect(rect) if accents.contains(&rect.fill));
@@ -50,7 +50,7 @@ fn repair_is_in_sight_in_the_least_window() {
 #[test]
 fn a_planar_embedding_with_areas_that_differ_badly_offers_to_relax() {
     let mut window = Window::with_mesh("tower.obj", &tower());
-    // The flattener would relax by itself.
+    // The automatic strategy would relax by itself.
     window.choose("Method", "Convex boundary");
     window.choose("Weights", "Uniform");
     assert!(window.is_proved(), "{}", window.verdict());
@@ -69,7 +69,7 @@ fn a_good_embedding_has_no_advice() {
     assert!(!window.shows("Areas differ") && !window.has_button("Repair"));
 }
 
-/// A square of one polygon, its corners pinned such that it is concave.
+/// Square of a single polygon, with its corners pinned so that it is concave.
 fn concave() -> Window {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("square.obj");
@@ -99,7 +99,7 @@ fn where_the_ladder_has_no_step_left_it_is_said_what_can_still_be_changed() {
 fn where_constraints_are_not_met_without_new_vertices_these_are_offered() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.0));
     window.editor_mut().session.handle(Action::SetSettings(Settings { new_vertices: false, ..Settings::default() }));
-    // Vertices, and those on whose places they are to lie: too many in each other's way.
+    // Vertices, and vertices whose positions are their targets: too many that block each other.
     for (vertex, place) in [(28, 12), (39, 28), (40, 40), (20, 67), (24, 39), (12, 24), (15, 15), (67, 20)] {
         let at = DVec2::new(f64::from(place % 9), f64::from(place / 9)) / 8.0;
         window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), target: Target::hard(at) });

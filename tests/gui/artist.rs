@@ -1,5 +1,5 @@
-//! What an artist does for hours: landmarks over a photo from opening to export, how pins are held, menus of what is under
-//! the pointer, where v runs.
+//! Typical work of an artist: landmarks over a photo from opening to export, kinds of pins, context menus, and the
+//! direction of v.
 
 use eframe::egui;
 use egui::accesskit::Role;
@@ -18,10 +18,10 @@ use crate::constraints::{corners, pins, place};
 use crate::harness::{Window, sheet};
 use crate::pictures::open_picture;
 
-/// The most clicks from a mesh and a photo to the file.
+/// Largest number of clicks from a mesh and a photo to the file.
 const MOST_CLICKS: usize = 20;
 
-/// A person with a mouse alone, whose clicks are counted.
+/// User with only a mouse, with a count of clicks.
 struct Artist {
     window: Window,
     clicks: usize,
@@ -47,7 +47,7 @@ fn six_landmarks_over_a_photo_take_no_key_and_no_change_of_shading() {
     freebound_io::raster::write_png(&Example::Face.picture().expect("it has one"), file).expect("written");
     artist.window.harness.input_mut().dropped_files.push(crate::dialogs::dropped(photo));
     artist.window.settle();
-    artist.click("Constrain: join a vertex with its place");
+    artist.click("Constrain: choose the position of a vertex");
     for (count, vertex) in (1..).zip([20, 24, 38, 42, 56, 60].map(VertexId::new)) {
         assert_eq!(artist.window.shadings(), [ShadingMode::Plain, ShadingMode::SeeThrough]);
         artist.click_at(artist.window.place_on_mesh(vertex));
@@ -87,7 +87,7 @@ fn the_cell_of_an_exact_pin_is_a_menu_of_weights() {
     corners(&mut window);
     window.editor_mut().handle(Request::ShowTab(Tab::Pins));
     window.settle();
-    window.click("Hold of pin v40: exact");
+    window.click("State of pin v40: hard");
     window.click("Weight 10");
     assert_eq!(pins(&window)[&VertexId::new(40)].kind, PinKind::Soft(10.0));
     assert_eq!(pins(&window)[&VertexId::new(0)].kind, PinKind::Hard, "the others stay");
@@ -109,10 +109,10 @@ fn a_vertex_has_a_menu_on_the_mesh() {
     let vertex = window.vertex_in_the_middle();
     let at = window.place_on_mesh(vertex);
     click_right(&mut window, at);
-    window.click("Fix where it lies");
+    window.click("Fix at its current position");
     assert_eq!(pins(&window)[&vertex].kind, PinKind::Fixed);
     click_right(&mut window, at);
-    window.click("Choose another place");
+    window.click("Choose another position");
     assert_eq!(window.editor().tools.tool(), Tool::Constrain);
     assert_eq!(window.editor().tools.pair(), Some(Half::Vertex(vertex)));
 }
@@ -168,11 +168,11 @@ fn the_share_of_faces_outside_the_picture_is_said() {
     open_picture(&mut window);
     window.editor_mut().handle(Request::ShowTab(Tab::Pins));
     window.settle();
-    assert!(!window.shows("reach out of the picture"), "it is made to lie on it");
-    // The left half of the sheet beside the picture: 36 of 72 faces.
+    assert!(!window.shows("reach outside the picture"), "it is made to lie on it");
+    // The left half of the sheet is outside the picture: 36 of 72 faces.
     let at = |u: f64, v: f64| Target::hard(DVec2::new(u, v));
     place(&mut window, &[(0, at(-0.25, 0.0)), (6, at(0.25, 0.0)), (42, at(-0.25, 1.0)), (48, at(0.25, 1.0))]);
-    assert!(window.shows("50.0 % of the faces reach out of the picture"), "{:?}", window.words());
+    assert!(window.shows("50.0 % of the faces reach outside the picture"), "{:?}", window.words());
 }
 
 #[test]

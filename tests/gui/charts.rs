@@ -1,4 +1,4 @@
-//! Meshes of several charts in the window: the list, the layout, the way from one chart to another.
+//! Meshes of several charts in the window: the list, the layout, and switching between charts.
 
 use std::time::{Duration, Instant};
 
@@ -11,7 +11,7 @@ use freebound_core::mesh::{TriMesh, VertexId};
 
 use crate::harness::{Window, sheet};
 
-/// Three sheets side by side, each larger than the one before.
+/// Three sheets side by side, in increasing size.
 fn sheets() -> TriMesh {
     let mut whole = TriMesh::default();
     for (number, rows) in [4, 6, 9].into_iter().enumerate() {
@@ -46,7 +46,7 @@ fn chart(window: &Window) -> Option<usize> {
     window.editor().session.chart_on_screen()
 }
 
-/// What the list calls a chart.
+/// Row of a chart in the list.
 fn row(window: &Window, chart: usize) -> String {
     let session = &window.editor().session;
     let ChartState::Solved(outcome) = session.chart_state(chart) else { panic!("chart {chart} is not solved") };

@@ -1,4 +1,5 @@
-//! Steps beside each other: the way from one to the next, the outline of one over the other, and how far faces moved.
+//! Comparison of steps: the animation between them, the outline of one over the other, and the distance that faces
+//! moved.
 
 use eframe::egui;
 use egui::Key;
@@ -11,7 +12,7 @@ use glam::DVec2;
 
 use crate::harness::{Window, sheet};
 
-/// The built-in face after its first iteration: two steps, the second on the screen.
+/// The built-in face after its first iteration: two steps, with the second shown.
 fn two_steps() -> Window {
     let mut window = Window::with_example(Example::Face);
     let settings = Settings { method: Method::Iterate, ..Settings::default() };
@@ -29,7 +30,7 @@ fn drawn(window: &Window) -> Embedding {
     window.editor().plane.drawn().expect("solved").positions().clone()
 }
 
-/// Steps until vertices are on their way, or for half a second.
+/// Runs frames until vertices are animated, or for half a second.
 fn step_until_easing(window: &mut Window) -> bool {
     for _ in 0..500 {
         window.step();
@@ -41,7 +42,7 @@ fn step_until_easing(window: &mut Window) -> bool {
     false
 }
 
-/// The largest distance between two embeddings.
+/// Largest distance between corresponding vertices of two embeddings.
 fn gap(a: &[DVec2], b: &[DVec2]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
 }
@@ -69,14 +70,14 @@ fn vertices_glide_from_step_to_step() {
 #[test]
 fn who_wants_no_motion_gets_none() {
     let mut window = two_steps();
-    window.menu(&["View", "Glide from step to step"]);
+    window.menu(&["View", "Animate changes of step"]);
     window.key_now(Key::ArrowLeft);
     assert!(!step_until_easing(&mut window));
     assert_eq!(window.editor().session.timeline().shown(), Some(0));
     assert_eq!(drawn(&window), window.embedding());
 }
 
-/// Whether the whole embedding lies within its pane.
+/// True if the whole embedding lies within its pane.
 fn all_shows(window: &Window) -> bool {
     let view = window.plane_view();
     window.embedding().iter().all(|&z| view.contains(window.place_in_plane(z)))
@@ -166,7 +167,7 @@ fn moves_are_measured_from_the_compared_step_or_else_from_the_one_before() {
 
     window.key(Key::ArrowLeft);
     assert!(window.editor().pane_shading.paint(Pane::Mesh).expect("painted").legend.is_none(), "nothing comes before");
-    assert!(window.shows("nothing has moved"));
+    assert!(window.shows("there is no movement to show"));
     window.editor_mut().session.handle(Action::Compare(Some(1)));
     window.settle();
     assert!(window.shows("Move from step 1"));

@@ -30,7 +30,7 @@ fn titles(window: &Window) -> Vec<String> {
     window.editor().session.contenders().iter().map(|contender| contender.variant().title()).collect()
 }
 
-/// What a method came to.
+/// Result of a method.
 fn found(window: &Window, title: &str) -> std::sync::Arc<Compared> {
     let contenders = window.editor().session.contenders();
     let contender = contenders
@@ -41,7 +41,7 @@ fn found(window: &Window, title: &str) -> std::sync::Arc<Compared> {
     contender.found().expect("it has run").clone()
 }
 
-/// The cells by their names, with their places.
+/// Names and bounds of the cells.
 fn cells(window: &Window) -> Vec<(String, Rect)> {
     let titles = titles(window);
     let is_cell = |name: &str| titles.iter().any(|title| name.starts_with(&format!("{title}: ")));
@@ -131,7 +131,7 @@ fn all_run_again_where_pins_change_and_what_was_found_stays_until_then() {
     window.settle();
     for (title, before) in titles(&window).iter().zip(&before) {
         let now = found(&window, title);
-        // A convex boundary takes no pins: what it came to is as it was.
+        // A convex boundary takes no pins, so its result is unchanged.
         let takes_pins = now.problem.settings.method.uses_pins();
         assert_eq!(std::sync::Arc::ptr_eq(&now, before), !takes_pins, "{title}");
         assert_eq!(now.problem.targets.len(), if takes_pins { 2 } else { 0 }, "{title}");
@@ -165,23 +165,23 @@ fn methods_are_checked_in_a_list_two_to_six() {
     toggle(&mut window, levy);
     assert_eq!(titles(&window)[2], levy);
     assert!(found(&window, levy).outcome.is_some());
-    // One that only meets constraints has nothing to do.
+    // A method that only meets constraints has nothing to do.
     assert_eq!(checked(&window, Method::Matchmaker.labels().title), (false, true));
     window.harness.get_by_label("Other weights and boundaries").click();
     window.settle();
-    // It opens little by little.
+    // The section opens with an animation.
     window.harness.run_steps(30);
-    let wachspress = "Auto (ladder), wachspress";
+    let wachspress = "Auto, wachspress";
     toggle(&mut window, wachspress);
     assert_eq!(found(&window, wachspress).problem.settings.family(), Family::Wachspress);
-    // What lies farther down the list is scrolled to.
+    // Scrolls to entries farther down the list.
     let tutte = Variant { method: Method::Convex(BoundaryShape::Square), family: Some(Family::Uniform) };
     window.editor_mut().handle(Request::ToggleContender(tutte.clone()));
     window.settle();
     let tutte = tutte.title();
     assert_eq!(tutte, "Convex boundary, uniform, square");
     assert!(found(&window, &tutte).report.result.as_ref().expect("an embedding").verdict.planar);
-    // What was chosen is there again.
+    // The choice is restored.
     let before = titles(&window);
     window.key(Key::Escape);
     window.key(Key::Escape);
@@ -196,9 +196,9 @@ fn the_table_is_sorted_by_any_column_up_and_down() {
     let rows = |window: &Window| -> Vec<String> {
         let names = window.harness.query_all(egui_kittest::kittest::By::new().role(Role::Button));
         let takes = names.filter_map(|node| Some((node.accesskit_node().label()?, node.rect().top())));
-        let mut takes: Vec<(String, f32)> = takes.filter(|(name, _)| name.starts_with("Take ")).collect();
+        let mut takes: Vec<(String, f32)> = takes.filter(|(name, _)| name.starts_with("Use ")).collect();
         takes.sort_by(|a, b| a.1.total_cmp(&b.1));
-        takes.into_iter().map(|(name, _)| name.trim_start_matches("Take ").to_owned()).collect()
+        takes.into_iter().map(|(name, _)| name.trim_start_matches("Use ").to_owned()).collect()
     };
     let as_chosen = titles(&window);
     assert_eq!(rows(&window), as_chosen);
@@ -218,7 +218,7 @@ fn the_table_is_sorted_by_any_column_up_and_down() {
         window.harness.get_by_role_and_label(Role::Label, &words);
     }
     let natural = &as_chosen[1];
-    window.click(&format!("Take {natural}"));
+    window.click(&format!("Use {natural}"));
     assert_eq!(window.editor().session.document().settings.method, Method::Natural);
 }
 
@@ -275,7 +275,7 @@ fn a_comparison_is_written_as_a_picture_and_as_tables() {
         let path = window.path(name);
         window.menu(&["Export the comparison", what]);
         window.fill_in(Role::TextInput, "Name", path.to_str().expect("a path of text"));
-        // What was written before does not lie over the dialog.
+        // The message about the earlier file does not cover the dialog.
         assert!(!window.shows("Show in folder"));
         window.key(Key::Enter);
         assert!(path.is_file(), "{what}");
@@ -304,7 +304,7 @@ fn the_comparison_follows_another_mesh_and_says_where_there_is_nothing_to_compar
         .unwrap();
     let bad = window.path("bad.obj");
     window.open(&bad);
-    assert!(window.shows("This mesh cannot be flattened as it is"), "{:?}", window.words());
+    assert!(window.shows("This mesh has faults that prevent flattening"), "{:?}", window.words());
     assert!(cells(&window).is_empty());
 }
 
@@ -314,7 +314,7 @@ fn a_method_that_fails_says_why_in_its_cell() {
     window.editor_mut().session.handle(Action::Fix(vec![VertexId::new(0), VertexId::new(3), VertexId::new(40)]));
     window.settle();
     let mut window = comparing(window);
-    // With constraints those that take none are not among those to begin with.
+    // With constraints, methods that take none are not selected by default.
     assert!(titles(&window).iter().all(|title| !title.starts_with("Virtual")), "{:?}", titles(&window));
     window.editor_mut().session.handle(Action::UnpinAll);
     window.settle();
@@ -327,7 +327,7 @@ fn a_method_that_fails_says_why_in_its_cell() {
     window.key(Key::Escape);
     window.press(Modifiers::COMMAND, Key::Z);
     let failed = found(&window, &add);
-    assert!(failed.outcome.is_none() && window.shows("at most 2 exact pins"), "{:?}", window.words());
+    assert!(failed.outcome.is_none() && window.shows("at most 2 hard pins"), "{:?}", window.words());
     let words = cells(&window).into_iter().find(|(name, _)| name.starts_with(&add)).expect("its cell").0;
     assert!(words.contains("too-many-pins"), "{words}");
 }
@@ -349,7 +349,7 @@ fn both_panes_show_beside_each_other_and_pins_are_set_on_the_mesh() {
     assert_eq!(found(&window, &natural).problem.targets.len(), 1);
 }
 
-/// The least window, with and without its panels.
+/// Uses the smallest window, with and without its panels.
 #[test]
 fn the_least_window_has_room_for_six_cells_or_the_table() {
     let mesh = Window::with_example(Example::Cube);

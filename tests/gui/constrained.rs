@@ -1,4 +1,4 @@
-//! The flattener's last stages in the window: what the pill and the steps say, the outside on H, relaxing, conflicts, the
+//! Last stages of the flattener in the window: pill and steps, the scaffold on H, relaxation, conflicts, the
 //! question about mirrored targets.
 
 use std::time::{Duration, Instant};
@@ -29,7 +29,8 @@ fn place(window: &mut Window, pins: &[(u32, [f64; 2])]) {
     window.settle();
 }
 
-/// The corners of the sheet on those of the unit square, four vertices around its middle turned by a quarter.
+/// Targets of the sheet's corners at those of the unit square, and four vertices around its middle rotated by a
+/// quarter turn.
 const TWIST: [(u32, [f64; 2]); 8] = [
     (0, [0.0, 0.0]),
     (8, [1.0, 0.0]),
@@ -41,7 +42,7 @@ const TWIST: [(u32, [f64; 2]); 8] = [
     (50, [0.375, 0.625]),
 ];
 
-/// A face's corners with targets that turn it over.
+/// Corners of a face, with targets that flip it.
 const TURNED: [(u32, [f64; 2]); 3] = [(30, [0.4, 0.4]), (31, [0.4, 0.6]), (40, [0.6, 0.4])];
 
 fn twisted() -> Window {
@@ -66,7 +67,7 @@ fn a_planar_step_with_constraints_not_met_says_so_and_marks_them() {
     let at_step = |index| Action::SetStop(StopConditions { at_step: Some(index), ..StopConditions::default() });
     window.editor_mut().session.handle(at_step(0));
     let settings = Settings::new(Method::Continuation, Family::Conformal);
-    // Turned twice, the mesh has no planar start from before.
+    // Turning the faces twice discards the earlier planar start.
     for action in [Action::SetSettings(settings), Action::TurnFaces, Action::TurnFaces] {
         window.editor_mut().session.handle(action);
         window.settle();
@@ -93,7 +94,7 @@ fn h_shows_the_outside_that_keeps_the_boundary_simple() {
     let mut window = twisted();
     let outside = window.outcome().step.candidate.outside.clone().expect("a continuation has one");
     window.key(Key::H);
-    let caption = format!("{} triangles around the mesh", outside.triangles.len());
+    let caption = format!("{} triangles between mesh and frame", outside.triangles.len());
     assert!(window.shows(&caption), "{:?}", window.words());
     let drawn = window.editor().plane.drawn().expect("solved").positions().to_vec();
     let embedding = window.embedding();

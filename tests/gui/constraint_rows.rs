@@ -1,4 +1,4 @@
-//! Constraints row by row: exact or by a weight, their errors, and the magnifier.
+//! Constraints row by row: hard or soft, their errors, and the magnifier.
 
 use eframe::egui;
 use egui::accesskit::Role;
@@ -19,12 +19,12 @@ fn a_row_s_mark_makes_a_hard_constraint_pull_and_back() {
     let mut window = window();
     corners(&mut window);
     window.click("Pins 5");
-    window.click("Hold of pin v40: hard");
+    window.click("Kind of pin v40: hard");
     assert_eq!(pins(&window)[&VertexId::new(40)].kind, PinKind::Soft(Pin::DEFAULT_WEIGHT));
     window.fill_in(Role::SpinButton, "Weight of pin v40", "25");
     window.key(Key::Enter);
     assert_eq!(pins(&window)[&VertexId::new(40)].kind, PinKind::Soft(25.0));
-    window.click("Hold of pin v40: weighted");
+    window.click("Kind of pin v40: soft");
     assert_eq!(pins(&window)[&VertexId::new(40)].kind, PinKind::Hard);
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(pins(&window)[&VertexId::new(40)].kind, PinKind::Soft(25.0), "each is an undo step");
@@ -67,9 +67,9 @@ fn a_weight_out_of_range_changes_nothing_and_the_field_says_so_until_another_is_
     let field = "Weight of pin v30";
     let mut shown = field.to_owned();
     for (typed, says) in [
-        ("1e12", "1e12 is not taken: a weight lies between 1e-9 and 1e9"),
-        ("-3", "-3 is not taken: a weight lies between 1e-9 and 1e9"),
-        ("much", "“much” is no number"),
+        ("1e12", "1e12 is not valid: a weight must lie between 1e-9 and 1e9"),
+        ("-3", "-3 is not valid: a weight must lie between 1e-9 and 1e9"),
+        ("much", "“much” is not a number"),
     ] {
         window.fill_in(Role::SpinButton, &shown, typed);
         window.key(Key::Enter);
@@ -105,9 +105,9 @@ fn where_the_treatment_weighs_exact_pins_marks_and_rows_say_so() {
     let shown = window.editor().pins_shown();
     assert!(shown.len() == 5 && shown.iter().all(|pin| pin.kind == kind), "{shown:?}");
     window.click("Pins 5");
-    assert!(window.has_button("Hold of pin v40: hard, weighed by the treatment"));
-    assert!(!window.words().iter().any(|words| words == "exact"), "{:?}", window.words());
-    assert!(window.shows("Largest error: weighted"), "{:?}", window.words());
+    assert!(window.has_button("Kind of pin v40: hard, made soft by the treatment"));
+    assert!(!window.words().iter().any(|words| words == "hard"), "{:?}", window.words());
+    assert!(window.shows("Largest error: soft"), "{:?}", window.words());
     assert!(pins(&window).values().all(|pin| pin.kind == PinKind::Hard), "what was asked for stays");
 }
 
@@ -119,7 +119,7 @@ fn selected_pins_are_held_alike_by_one_click() {
     window.editor_mut().selection.select([0, 8, 40].map(VertexId::new));
     window.settle();
     assert!(window.shows("3 selected"));
-    window.click("Weighted");
+    window.click("Soft");
     let weighted = pins(&window).into_iter().filter(|(_, pin)| !pin.kind.is_hard());
     assert_eq!(weighted.map(|(v, _)| v.number()).collect::<Vec<_>>(), [0, 8, 40]);
     window.click("Hard");
@@ -133,7 +133,7 @@ fn the_hold_chosen_last_is_that_of_the_next_constraint() {
     window.click("Pins 5");
     window.editor_mut().selection.select([0, 8].map(VertexId::new));
     window.settle();
-    window.click("Weighted");
+    window.click("Soft");
     window.key(Key::C);
     window.editor_mut().tools.set_pair(Some(Half::Vertex(VertexId::new(30))));
     window.click_at(free_place(&window), Modifiers::NONE);
@@ -148,7 +148,7 @@ fn the_largest_errors_of_exact_and_weighted_pins_show() {
     window.click("Pins 6");
     let error = window.outcome().pin_errors().map(|(.., error)| error).fold(0.0, f64::max);
     assert!(error > 1e-3, "it cannot be met: {error}");
-    assert!(window.shows(&format!("exact 0, weighted {error:.2e} at v30")), "{:?}", window.words());
+    assert!(window.shows(&format!("hard 0, soft {error:.2e} at v30")), "{:?}", window.words());
 }
 
 #[test]

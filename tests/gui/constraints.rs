@@ -1,4 +1,4 @@
-//! Constraints by mouse and keys: pairs in both orders, several at once, nudges.
+//! Constraints by mouse and keyboard: pairs in both orders, several at once, nudges.
 
 use eframe::egui;
 use egui::{Key, Modifiers, Pos2, Vec2};
@@ -25,7 +25,7 @@ pub(crate) fn place(window: &mut Window, pins: &[(u32, Target)]) {
     window.settle();
 }
 
-/// The corners of the sheet on those of the unit square, and one vertex in between.
+/// Places the sheet's corners on those of the unit square, and a vertex between them.
 pub(crate) fn corners(window: &mut Window) {
     let at = |x: f64, y: f64| Target::hard(DVec2::new(x, y));
     place(window, &[(0, at(0.0, 0.0)), (8, at(1.0, 0.0)), (72, at(0.0, 1.0)), (80, at(1.0, 1.0)), (40, at(0.5, 0.5))]);
@@ -38,7 +38,7 @@ fn in_embedding(window: &Window, at: Pos2) -> DVec2 {
     camera.embedding_from_pane(DVec2::new(relative.x.into(), relative.y.into()), window.editor().plane.pane.size())
 }
 
-/// A place of the plane's pane without a vertex near by.
+/// Point of the plane's pane without a vertex nearby.
 pub(crate) fn free_place(window: &Window) -> Pos2 {
     window.plane_view().left_top() + Vec2::splat(24.0)
 }
@@ -92,11 +92,11 @@ fn a_vertex_can_be_taken_in_the_embedding() {
 fn what_a_click_would_do_is_said_before_it() {
     let mut window = window();
     let vertex = window.vertex_in_the_middle();
-    window.click("Constrain: join a vertex with its place");
-    assert!(window.shows("Click a vertex on the mesh, then its place"));
+    window.click("Constrain: choose the position of a vertex");
+    assert!(window.shows("Click a vertex on the mesh, then its position"));
     window.harness.hover_at(window.place_on_mesh(vertex));
     window.settle();
-    assert!(window.shows(&format!("take {vertex}")), "{:?}", window.words());
+    assert!(window.shows(&format!("choose {vertex}")), "{:?}", window.words());
     assert!(window.has_ring_at(window.place_on_mesh(vertex)));
     window.click_at(window.place_on_mesh(vertex), Modifiers::NONE);
     let to = free_place(&window);
@@ -170,7 +170,7 @@ fn a_click_on_a_mark_far_from_its_vertex_selects_as_the_status_line_says() {
     corners(&mut window);
     let target = DVec2::new(0.9, 0.1);
     place(&mut window, &[(30, Target::weighted(target, 0.5))]);
-    // An inset over a defect would take the place of what lies under it.
+    // An inset over a defect would cover the embedding below it.
     window.editor_mut().pane_shading.magnifier = false;
     window.key(Key::C);
     let mark = window.place_in_plane(target);
@@ -223,7 +223,7 @@ fn a_pin_dragged_out_of_the_pane_stays_in_the_hand() {
     let from = window.place_in_plane(DVec2::new(0.5, 0.5));
     let outside = Pos2::new(window.plane_view().left() - 120.0, from.y);
     let back = from + Vec2::new(10.0, 0.0);
-    // Before the drag: its end may bring the camera along.
+    // Computed before the drag, whose end may move the camera.
     let expected = in_embedding(&window, back);
     window.begin_drag(from, outside, Modifiers::NONE);
     window.settle_while_held();

@@ -1,4 +1,4 @@
-//! The list of defects, and going to them and to other elements.
+//! List of defects, and jumping to them and to other elements.
 
 use eframe::egui;
 use egui::accesskit::Role;
@@ -14,21 +14,21 @@ use glam::DVec2;
 use crate::harness::{Window, sheet};
 use freebound_testkit::{corpus, corpus_test};
 
-/// A window with an embedding that folds.
+/// Window with a folded embedding.
 fn folded() -> Window {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     fold(&mut window);
     window
 }
 
-/// Exchanges two inner vertices of a sheet of 6 × 6 squares, its corners pinned, and repairs nothing.
+/// Swaps two inner vertices of a sheet of 6 × 6 squares with pinned corners. The method does not repair folds.
 pub(crate) fn fold(window: &mut Window) {
     exchange(window, [0, 6, 42, 48], [16, 32]);
 }
 
-/// Pins the corners where they lie and two inner vertices each where the other lies.
+/// Pins the corners in place, and two inner vertices at each other's position.
 fn exchange(window: &mut Window, corners: [u32; 4], inner: [u32; 2]) {
-    // The flattener would take the folds away again.
+    // The automatic strategy would remove the folds.
     let natural = Settings::new(Method::Natural, Family::Conformal);
     window.editor_mut().session.handle(Action::SetSettings(natural));
     window.settle();
@@ -43,7 +43,7 @@ fn exchange(window: &mut Window, corners: [u32; 4], inner: [u32; 2]) {
     assert!(!window.outcome().step.verdict.flipped_faces.is_empty(), "it folds");
 }
 
-/// Exchanges two inner vertices of a sheet of 4 × 4 squares.
+/// Swaps two inner vertices of a sheet of 4 × 4 squares.
 pub(crate) fn fold_any(window: &mut Window) {
     exchange(window, [0, 4, 20, 24], [6, 18]);
 }

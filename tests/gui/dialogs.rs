@@ -1,4 +1,4 @@
-//! Files in and out through the window.
+//! Importing and exporting files through the window.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -178,7 +178,7 @@ impl egui::DroppedFile for Dropped {
     }
 }
 
-/// A file as the system drops it on the window.
+/// File that the system drops on the window.
 pub(crate) fn dropped(path: PathBuf) -> Arc<dyn egui::DroppedFile + Send + Sync> {
     Arc::new(Dropped(path))
 }
@@ -212,8 +212,8 @@ fn files_dropped_together_are_sorted_by_their_kinds_and_a_second_mesh_is_named()
     assert!(window.editor().has_picture());
     assert_eq!(window.editor().session.document().targets.len(), 2);
     let said: Vec<&str> = window.editor().session.messages().iter().map(|message| &*message.text).collect();
-    assert_eq!(said, ["one mesh is open at a time, with one picture; not opened: b.obj"]);
-    // What was to follow a mesh that cannot be opened follows no other.
+    assert_eq!(said, ["only one mesh and one picture can be open at a time; not opened: b.obj"]);
+    // Files queued after a mesh that fails to open are not applied to another mesh.
     std::fs::write(window.path("broken.obj"), "f 1 2 3\n").expect("written");
     let files = ["broken.obj", "a.txt"].map(|name| dropped(window.path(name)));
     window.harness.input_mut().dropped_files.extend(files);
@@ -263,7 +263,7 @@ fn files_opened_last_are_kept_and_opened_again() {
     assert_eq!(name(&again), "Face");
     again.menu(&["File", "Recent", &file.display().to_string()]);
     assert_eq!(name(&again), "sheet.obj");
-    again.menu(&["File", "Recent", "Forget these"]);
+    again.menu(&["File", "Recent", "Clear this list"]);
     assert!(again.editor().session.recent().paths().is_empty());
     again.menu(&["File", "Recent"]);
     assert!(again.shows("No files yet"));

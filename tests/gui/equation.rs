@@ -1,4 +1,4 @@
-//! The equation of the selected vertex, in the panel and in the embedding's pane.
+//! Equation of the selected vertex, in the panel and in the embedding's pane.
 
 use eframe::egui;
 use egui::accesskit::Role;
@@ -13,11 +13,11 @@ use freebound_core::problem::{Method, Settings, Stage};
 
 use crate::harness::{Window, sheet};
 
-/// A vertex in the middle of the lower side of the sheet, and one inside.
+/// Vertex in the middle of the sheet's lower side, and an inner vertex.
 const ON_BOUNDARY: VertexId = VertexId::new(3);
 const INSIDE: VertexId = VertexId::new(24);
 
-/// A sheet by one linear solve, with the panel of a vertex open.
+/// Sheet flattened by one linear solve, with the panel of a vertex open.
 fn window(vertex: VertexId) -> Window {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     window.choose("Method", "Natural boundary");
@@ -31,13 +31,13 @@ fn select(window: &mut Window, vertex: VertexId) {
     window.settle();
 }
 
-/// The neighbours in the table.
+/// Neighbours in the table.
 fn links(window: &Window) -> Vec<String> {
     let links = window.harness.query_all_by_role(Role::Link);
     links.filter_map(|link| link.accesskit_node().label()).collect()
 }
 
-/// Where the lines of the drawing end, as far as they come near a place.
+/// Number of line ends near `place`.
 fn line_ends_at(window: &Window, place: Pos2) -> usize {
     window.lines().iter().flatten().filter(|end| end.distance(place) < 1.0).count()
 }
@@ -60,9 +60,9 @@ fn the_table_has_each_neighbour_with_shares_that_sum_to_one() {
 #[test]
 fn an_interior_vertex_has_no_offset() {
     let mut window = window(INSIDE);
-    assert!(window.shows("eq. 2") && window.shows("Barycentre") && !window.shows("Its length"));
+    assert!(window.shows("eq. 2") && window.shows("Barycentre") && !window.shows("Offset length"));
     select(&mut window, ON_BOUNDARY);
-    assert!(window.shows("Its length"));
+    assert!(window.shows("Offset length"));
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn the_offset_is_an_arrow_from_the_barycentre_to_the_vertex() {
     let barycentre = window.place_in_plane(equation.barycentre);
     let vertex = window.place_in_plane(window.embedding()[ON_BOUNDARY.index()]);
     assert!(barycentre.distance(vertex) > 5.0, "to be seen");
-    // Each drawn twice, the wider one under it for contrast.
+    // Each line is drawn twice, the wider one below for contrast.
     assert_eq!(line_ends_at(&window, barycentre), 2, "the arrow begins");
     assert!(line_ends_at(&window, vertex) >= equation.terms.len(), "spokes");
     let met = window.place_in_plane(equation.barycentre + equation.offset_vector.expect("on the boundary"));
@@ -109,7 +109,7 @@ fn a_pinned_vertex_need_not_meet_its_equation() {
 #[test]
 fn a_vertex_without_an_equation_says_why() {
     let mut window = window(ON_BOUNDARY);
-    for (method, words) in [("Convex boundary", "Its place is prescribed"), ("Lévy, summed", "belong to triangles")] {
+    for (method, words) in [("Convex boundary", "prescribed position"), ("Lévy, summed", "belong to triangles")] {
         window.click("Method");
         window.choose("Method", method);
         select(&mut window, ON_BOUNDARY);
@@ -127,7 +127,7 @@ fn an_iteration_s_weights_are_those_of_the_step_before() {
     window.key(Key::Space);
     assert_eq!(window.outcome().step.candidate.stage, Stage::Iterate);
     select(&mut window, INSIDE);
-    assert!(window.shows("of the step before (§4)"), "{:?}", window.words());
+    assert!(window.shows("of the previous step (§4)"), "{:?}", window.words());
     assert!(!window.shows("Not met"), "{:?}", window.words());
 }
 
@@ -144,5 +144,5 @@ fn a_vertex_in_a_pocket_has_virtual_or_boundary_neighbours_as_well() {
     assert!(links(&window).len() > disk.outgoing(vertex).count(), "the pocket's edges count");
     assert!(!window.shows("Not met"), "{:?}", window.words());
     select(&mut window, stages.hull[0]);
-    assert!(window.shows("Its place is prescribed"));
+    assert!(window.shows("prescribed position"));
 }

@@ -1,4 +1,4 @@
-//! The mouse on the two panes: picking, fixing, dragging, and taking it back.
+//! Mouse gestures in both panes: picking, fixing, dragging, cancelling.
 
 use eframe::egui;
 use egui::{Key, Modifiers, Pos2, Rect, Vec2};
@@ -24,7 +24,7 @@ fn pin(window: &mut Window, vertices: &[u32]) {
     window.settle();
 }
 
-/// A point of the screen as the embedding's camera sees it.
+/// Point of the embedding at a point of the screen.
 pub(crate) fn in_embedding(window: &Window, at: Pos2) -> DVec2 {
     let relative = at - window.plane_view().min;
     let camera = window.editor().plane.pane.camera().expect("an embedding shows");
@@ -56,7 +56,7 @@ fn fixing_more_vertices_of_a_flat_mesh_leaves_the_picture_as_it_is() {
     let mut window = Window::with_example(Example::Ell);
     let before = window.embedding();
     window.key(Key::P);
-    // Insets lie over the right half.
+    // Insets cover the right half.
     let is_left = |i: &usize| window.place_in_plane(before[*i]).x < window.plane_view().center().x;
     let third = (300..before.len()).find(is_left).expect("half of the sheet");
     for i in [10, 200, third] {
@@ -123,7 +123,7 @@ fn a_box_drawn_with_ctrl_selects_what_is_in_it() {
     let embedding = window.embedding();
     let view = window.plane_view();
     let orbit = window.editor().mesh.pane.camera();
-    // Begins just beside a vertex: the box counts from where the button went down.
+    // Starts just beside a vertex: the box starts at the point of the press.
     let corner = window.place_in_plane(embedding[30]) - Vec2::splat(4.0);
     window.drag(corner, view.max - Vec2::splat(2.0), Modifiers::COMMAND);
     let inside = |z: &DVec2| Rect::from_min_max(corner, view.max).contains(window.place_in_plane(*z));
@@ -146,7 +146,7 @@ fn a_dragged_pin_goes_where_it_is_dropped_and_no_other_moves() {
     let before = document(&window);
     let from = window.place_in_plane(before.targets[&VertexId::new(40)].uv);
     let to = from + Vec2::new(60.0, -35.0);
-    // Before the drag: its end may bring the camera along.
+    // Computed before the drag, whose end may move the camera.
     let target = in_embedding(&window, to);
     window.drag(from, to, Modifiers::NONE);
     let mut expected = before.targets.clone();
@@ -211,7 +211,7 @@ fn escape_before_a_pin_has_moved_takes_nothing_back() {
     window.harness.hover_at(at);
     window.harness.drag_at(at);
     window.step();
-    // Held still for more than a second: egui calls that a drag.
+    // After a press of more than a second without motion, egui reports a drag.
     window.harness.run_steps(90);
     window.key(Key::Escape);
     assert_eq!(document(&window), before);
@@ -258,7 +258,7 @@ fn a_pin_grabbed_beside_its_middle_does_not_jump() {
     pin(&mut window, &[0, 40, 80]);
     let at = window.place_in_plane(window.embedding()[40]);
     let grabbed = at + Vec2::new(5.0, 5.0);
-    // Before the drag: its end may bring the camera along.
+    // Computed before the drag, whose end may move the camera.
     let expected = in_embedding(&window, at + Vec2::new(40.0, 0.0));
     window.drag(grabbed, grabbed + Vec2::new(40.0, 0.0), Modifiers::NONE);
     let moved = document(&window).targets[&VertexId::new(40)].uv;
@@ -268,7 +268,7 @@ fn a_pin_grabbed_beside_its_middle_does_not_jump() {
 #[test]
 fn escape_ends_the_tool_and_then_the_selection() {
     let mut window = window();
-    window.click("Fix: pin a vertex where it lies");
+    window.click("Fix: pin a vertex at its current position");
     window.editor_mut().selection.add([VertexId::new(3)]);
     window.key(Key::Escape);
     assert_eq!(window.editor().tools.tool(), Tool::Select);
@@ -330,9 +330,9 @@ fn the_menu_of_a_vertex_closes_with_its_mesh() {
         window.harness.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
     }
     window.settle();
-    assert!(window.has_button("Fix where it lies") && window.shows(&vertex.to_string()));
+    assert!(window.has_button("Fix at its current position") && window.shows(&vertex.to_string()));
     let small = window.path("small.obj");
     crate::harness::write_obj(&small, &sheet(2, 0.3));
     window.open(&small);
-    assert!(!window.has_button("Fix where it lies"), "{:?}", window.words());
+    assert!(!window.has_button("Fix at its current position"), "{:?}", window.words());
 }

@@ -1,4 +1,4 @@
-//! The sheet on its way from step to step, and what the window says of it meanwhile.
+//! Animation of the embedding from step to step, and the window's texts meanwhile.
 
 use eframe::egui;
 use egui::{Event, Key, Modifiers, Vec2};
@@ -11,7 +11,7 @@ use glam::DVec2;
 use crate::harness::{Window, sheet};
 use crate::timeline::shown;
 
-/// A window after its first step and three more.
+/// Window after its first step and three more.
 fn with_four_steps() -> Window {
     let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
     for _ in 0..3 {
@@ -22,7 +22,7 @@ fn with_four_steps() -> Window {
     window
 }
 
-/// The step whose sheet is drawn at rest.
+/// Index of the step that the finished animation shows.
 fn drawn_step(window: &Window) -> usize {
     window.editor().plane.scene().expect("solved").outcome.step.index
 }
@@ -31,7 +31,7 @@ fn drawn(window: &Window) -> Vec<DVec2> {
     window.editor().plane.drawn().expect("solved").positions().to_vec()
 }
 
-/// Shows frames until the sheet is on its way.
+/// Runs frames until the animation starts.
 fn step_until_it_moves(window: &mut Window) {
     for _ in 0..2000 {
         if window.editor().plane.is_easing() {
@@ -43,7 +43,7 @@ fn step_until_it_moves(window: &mut Window) {
     panic!("the sheet does not move: {}", window.verdict());
 }
 
-/// Shows frames until all is at rest, and looks at each.
+/// Runs frames until the animation has ended, and calls `look` after each.
 fn each_frame(window: &mut Window, mut look: impl FnMut(&Window)) {
     let mut at_rest = 0;
     while at_rest < 3 {
@@ -144,7 +144,7 @@ fn slow_frames_have_no_glide_and_the_sheet_is_there_at_once() {
 #[test]
 fn a_sheet_that_followed_a_pin_goes_on_from_there_to_what_is_solved() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
-    // One step, so that there is one way.
+    // A single step gives a single animation.
     window.editor_mut().session.handle(Action::SetSettings(Settings::new(Method::Natural, Family::default())));
     window.settle();
     window.editor_mut().session.handle(Action::Fix([0, 40, 80].map(VertexId::new).to_vec()));
@@ -185,7 +185,7 @@ fn a_drag_that_is_given_up_goes_back_without_a_word_of_a_verdict_on_the_way() {
     assert_eq!(drawn(&window), before);
 }
 
-/// Shows frames until none asks for the next one at once.
+/// Runs frames until none requests another at once.
 fn rest(window: &mut Window) {
     let asks =
         |window: &Window| window.harness.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay.is_zero();
@@ -198,7 +198,7 @@ fn rest(window: &mut Window) {
 #[test]
 fn a_rest_between_frames_is_no_slow_frame() {
     let mut window = with_four_steps();
-    // Work that is not saved is copied every few seconds: each frame asks for one by then.
+    // Unsaved work is copied every few seconds, so each frame requests a later one.
     window.editor_mut().session.handle(Action::Fix([0, 40, 80].map(VertexId::new).to_vec()));
     for _ in 0..2 {
         window.editor_mut().session.handle(Action::Step);
@@ -208,7 +208,7 @@ fn a_rest_between_frames_is_no_slow_frame() {
     for woken in [false, true] {
         rest(&mut window);
         if woken {
-            // As the background does.
+            // Wakes the window as the background does.
             window.harness.ctx.request_repaint();
         }
         window.frame_after(3.0, []);
@@ -216,7 +216,7 @@ fn a_rest_between_frames_is_no_slow_frame() {
         while !window.editor().plane.is_easing() {
             assert!(window.editor().plane.is_moving(&window.editor().session), "no glide; news: {woken}");
             std::thread::sleep(std::time::Duration::from_millis(1));
-            // No time goes by that could count as that of a frame.
+            // A frame of zero length does not advance the animation.
             window.frame_after(0.0, []);
         }
         let mut frames = 0;

@@ -1,4 +1,4 @@
-//! Every character that the window may show has a glyph: a box in its place says nothing.
+//! Every character that the window may show has a glyph; a missing one appears as a box.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -33,7 +33,7 @@ fn every_character_on_the_screen_has_a_glyph() {
     }
     let context = egui::Context::default();
     let mut missing = Vec::new();
-    // Fonts are there from the first pass on.
+    // Fonts are available from the first pass on.
     let mut output = context.run_ui(egui::RawInput::default(), |ui| {
         let font = FontId::proportional(13.0);
         for file in &files {

@@ -1,5 +1,4 @@
-//! The window as tests drive it: hosted without a screen or a graphics card. What is done with it, and what it shows, is in
-//! `actions.rs`.
+//! Test harness of the window, without a screen or a graphics card. Actions and observations are in `actions.rs`.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -20,25 +19,25 @@ use tempfile::TempDir;
 pub(crate) use crate::actions::{MESH_VIEW, PLANE_VIEW};
 pub(crate) use freebound_testkit::{sheet, write_obj};
 
-/// What the background is given before a test fails; a test machine under load is slow.
+/// Time limit for the background before a test fails, long enough for a machine under load.
 const PATIENCE: Duration = Duration::from_secs(90);
 
 /// Size of the window in most tests, points.
 pub(crate) const SIZE: Vec2 = Vec2::new(1280.0, 800.0);
 
-/// The editor in a window of its own, with a folder for its files.
+/// Editor in a test window, with a folder for its files.
 pub(crate) struct Window {
     pub(crate) harness: Harness<'static, App>,
     folder: TempDir,
 }
 
 impl Window {
-    /// A window that opens what `start` says, settled.
+    /// Creates a window with `start`, and waits until it is settled.
     pub(crate) fn start(size: Vec2, start: LaunchFile) -> Self {
         Self::build(Harness::builder().with_size(size), start)
     }
 
-    /// A window that a graphics card draws, in one of the two themes.
+    /// Window drawn by a graphics card, in one of the two themes.
     pub(crate) fn drawn(theme: egui::Theme, file: &Path) -> Self {
         let builder = Harness::builder().with_size(SIZE).with_theme(theme).with_render_cursor(false).wgpu();
         Self::build(builder, LaunchFile { file: Some(file.to_owned()), ..LaunchFile::default() })
@@ -52,7 +51,7 @@ impl Window {
         window
     }
 
-    /// A window with a mesh, written to a file of that name first.
+    /// Writes a mesh to a file of this name, and opens it in a window.
     pub(crate) fn with_mesh(name: &str, mesh: &TriMesh) -> Self {
         let folder = tempfile::tempdir().expect("a folder for files");
         let path = folder.path().join(name);
@@ -60,17 +59,17 @@ impl Window {
         Self { folder, ..Self::with_file(&path) }
     }
 
-    /// A window with a built-in mesh, as a file of its name.
+    /// Window with a built-in mesh, opened from a file of its name.
     pub(crate) fn with_example(example: Example) -> Self {
         Self::with_mesh(&format!("{}.obj", example.name()), &example.mesh())
     }
 
-    /// A window with a file.
+    /// Window with a file.
     pub(crate) fn with_file(path: &Path) -> Self {
         Self::start(SIZE, LaunchFile { file: Some(path.to_owned()), dialogs_inside: true, ..LaunchFile::default() })
     }
 
-    /// A place in the window's own folder.
+    /// Path in the window's folder.
     pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
@@ -91,7 +90,7 @@ impl Window {
         self.outcome().step.candidate.solution.embedding.clone()
     }
 
-    /// Opens a file as the session is asked to.
+    /// Opens a file by an action of the session.
     pub(crate) fn open(&mut self, path: &Path) {
         self.editor_mut().session.handle(Action::Open(path.to_owned()));
         self.settle();
@@ -101,13 +100,13 @@ impl Window {
         self.harness.step();
     }
 
-    /// Shows one frame in which all these events come in.
+    /// Runs one frame with all these events.
     pub(crate) fn frame(&mut self, events: impl IntoIterator<Item = egui::Event>) {
         self.harness.input_mut().events.extend(events);
         self.step();
     }
 
-    /// As [`frame`](Self::frame), so many seconds after the frame before.
+    /// Runs a [`frame`](Self::frame) this many seconds after the previous one.
     pub(crate) fn frame_after(&mut self, seconds: f64, events: impl IntoIterator<Item = egui::Event>) {
         let now = self.harness.ctx.input(|input| input.time);
         self.harness.input_mut().time = Some(now + seconds);
@@ -115,13 +114,13 @@ impl Window {
         self.harness.input_mut().time = None;
     }
 
-    /// Steps until nothing goes on in the background and both panes show its results.
+    /// Runs frames until the background is idle and both panes show its results.
     pub(crate) fn settle(&mut self) {
         self.settle_by(Self::step);
     }
 
-    /// As [`settle`](Self::settle), while the window's clock stands still: a pointer that is held down does not rest,
-    /// however long the background takes.
+    /// Waits like [`settle`](Self::settle), with the window's clock stopped: a held pointer does not count as
+    /// resting, however long the background takes.
     pub(crate) fn settle_while_held(&mut self) {
         self.settle_by(|window| window.frame_after(0.0, []));
     }

@@ -1,4 +1,4 @@
-//! A closed head, from opening to its file: what is asked of a person.
+//! A closed head from opening to export: the required user actions.
 
 use std::fs::File;
 
@@ -16,7 +16,7 @@ fn a_closed_head_of_ten_thousand_quads_takes_three_clicks() {
     let mesh = MeshFile { polygons: head(41), ..MeshFile::default() };
     write_obj(&mut File::create(&path).expect("created"), &mesh, &Texture::default()).expect("written");
     let mut window = Window::with_file(&path);
-    for name in ["Mend all", "Export the mesh", "Save"] {
+    for name in ["Repair all", "Export the mesh", "Save"] {
         window.click(name);
     }
     assert!(window.is_proved(), "{}", window.verdict());

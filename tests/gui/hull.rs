@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use crate::harness::{Window, sheet};
 
-/// The built-in face, whose three folds the virtual boundary takes away within the hull.
+/// The built-in face. The virtual boundary removes its three folds within the hull.
 fn bent() -> Window {
     let mut window = Window::with_example(Example::Face);
     window.choose("Method", "Virtual boundary");
@@ -65,7 +65,7 @@ fn each_stage_shows_the_mesh_where_it_was_then() {
 
 #[test]
 fn the_folds_of_the_stage_before_are_drawn_with_it() {
-    // The result is planar, so red faces can only be those of the stage.
+    // The result is planar, so red faces can only belong to the stage.
     let mut window = bent();
     assert!(window.is_proved(), "{}", window.verdict());
     window.key(Key::H);
@@ -100,7 +100,7 @@ fn a_vertex_is_picked_where_the_stage_shows_it() {
 #[test]
 fn the_camera_comes_back_where_the_stages_needed_more_room() {
     let mut window = bent();
-    // Nearer than all of the hull.
+    // Zooms in beyond the whole hull.
     let camera = window.editor_mut().plane.pane.camera_mut().expect("framed");
     camera.zoom_at(DVec2::splat(100.0), 1.5, DVec2::splat(400.0));
     let before = *camera;
@@ -108,7 +108,7 @@ fn the_camera_comes_back_where_the_stages_needed_more_room() {
     assert_ne!(window.editor().plane.pane.camera(), Some(before), "all of the hull is framed");
     window.key(Key::H);
     assert_eq!(window.editor().plane.pane.camera(), Some(before));
-    // Where somebody has moved it in between it stays.
+    // If the user moved the camera in between, it stays.
     window.key(Key::H);
     window.editor_mut().plane.pane.camera_mut().expect("framed").pan(DVec2::splat(10.0));
     let moved = window.editor().plane.pane.camera();

@@ -1,4 +1,4 @@
-//! Files that may take more than half of the machine's memory: the question, its answers, and what follows.
+//! Files that may need more than half of the machine's memory: the question, its answers, and the consequences.
 
 use eframe::egui::{Key, Modifiers};
 use freebound::session::Action;
@@ -6,7 +6,7 @@ use freebound::session::Action;
 use crate::dialogs::dropped;
 use crate::harness::{Window, sheet, write_obj};
 
-/// A window on a machine that has room for a small sheet, and a larger sheet beside it.
+/// Window on a machine whose memory suffices for a small sheet, with a larger sheet in the folder.
 fn window() -> Window {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     write_obj(&window.path("large.obj"), &sheet(12, 0.3));

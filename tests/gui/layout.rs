@@ -1,4 +1,4 @@
-//! How the window fits its least size: bars of the panes, the timeline's row, curves, and the table of pins.
+//! Layout of the window at its least size: bars of the panes, row of the timeline, curves, and table of pins.
 
 use eframe::egui;
 use egui::accesskit::Role;
@@ -19,7 +19,7 @@ use crate::harness::{SIZE, Window, sheet};
 
 const LEAST: Vec2 = Vec2::new(640.0, 420.0);
 
-/// Everything with words of its own in a part of the window, with its place: controls, and labels beside them.
+/// Labelled elements in a part of the window, with their bounds: controls, and labels beside them.
 fn things_in(window: &Window, part: Rect) -> Vec<(String, Rect)> {
     let has_words = |node: &Node<'_>| {
         let role = node.accesskit_node().role();
@@ -34,7 +34,7 @@ fn things_in(window: &Window, part: Rect) -> Vec<(String, Rect)> {
     things.filter(|(words, rect)| !words.is_empty() && part.contains(rect.center())).collect()
 }
 
-/// That nothing in a part of the window lies over another thing in it, nor reaches out of it.
+/// Asserts that elements in a part of the window neither overlap nor extend beyond it.
 fn assert_apart(window: &Window, part: Rect, what: &str) {
     let things = things_in(window, part);
     assert!(!things.is_empty(), "{what}: nothing lies in {part:?}");
@@ -48,15 +48,15 @@ fn assert_apart(window: &Window, part: Rect, what: &str) {
     }
 }
 
-/// The bars over the two panes, and the timeline's row.
+/// Bars over both panes, and the row of the timeline.
 fn bars(window: &Window) -> [(Rect, &'static str); 3] {
     let over = |pane: Rect| Rect::from_min_max(egui::pos2(pane.left(), 31.0), egui::pos2(pane.right(), pane.top()));
-    let row = window.rect(Role::Button, "Where a run stops").y_range().expand(4.0);
+    let row = window.rect(Role::Button, "Stop conditions").y_range().expand(4.0);
     let row = Rect::from_x_y_ranges(0.0..=window.plane_view().right(), row);
     [(over(window.mesh_view()), "mesh's bar"), (over(window.plane_view()), "embedding's bar"), (row, "timeline")]
 }
 
-/// A window of the least size, with its steps taken.
+/// Window of the least size, after a number of steps.
 fn small(start: LaunchFile, steps: usize) -> Window {
     let mut window = Window::start(LEAST, start);
     window.editor_mut().pane_shading.glides = false;
@@ -115,7 +115,7 @@ fn a_pane_that_a_person_made_narrow_keeps_its_bar_in_order() {
     }
 }
 
-/// The words painted in a part of the window, with their places.
+/// Texts painted in a part of the window.
 fn words_in(window: &Window, part: Rect) -> Vec<String> {
     fn collect(shape: &egui::Shape, part: Rect, found: &mut Vec<String>) {
         match shape {
@@ -131,14 +131,14 @@ fn words_in(window: &Window, part: Rect) -> Vec<String> {
     found
 }
 
-/// The curves that show, by their names, each with the place of its plot.
+/// Visible curves: names, and bounds of the plots.
 fn curves(window: &Window) -> Vec<(String, Rect)> {
     let nodes = window.harness.root().children_recursive();
     let named = nodes.filter_map(|node| Some((node.accesskit_node().label()?, node.rect())));
     named.filter(|(name, _)| name.starts_with("Curve: ")).collect()
 }
 
-/// A folded sheet and three steps more, which do not unfold it: its pins hold the fold.
+/// Folded sheet after three more steps, which do not unfold it since its pins cause the fold.
 fn folded() -> Window {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     crate::defects::fold(&mut window);
@@ -174,7 +174,7 @@ fn a_curve_whose_numbers_are_all_zero_is_named_in_the_menu_and_not_drawn() {
     ];
     assert!(!counts[0].2 && counts[2].2, "a fold, but no polygons: {counts:?}");
     let names: Vec<String> = curves(&window).into_iter().map(|(name, _)| name).collect();
-    window.click("Which curves show");
+    window.click("Choice of curves");
     for (title, about, is_zero) in counts {
         assert!(!(is_zero && names.contains(&format!("Curve: {about}"))), "{title}: {names:?}");
         assert_eq!(window.shows(&format!("{title}: 0 in every step")), is_zero, "{:?}", window.words());
@@ -182,7 +182,7 @@ fn a_curve_whose_numbers_are_all_zero_is_named_in_the_menu_and_not_drawn() {
     assert!(names.contains(&"Curve: flipped faces".to_owned()), "{names:?}");
 }
 
-/// A strip of two rows of so many vertices.
+/// Strip of two rows with `count` vertices each.
 fn strip(count: u32) -> TriMesh {
     let positions = (0..2 * count).map(|i| DVec3::new(f64::from(i / 2), f64::from(i % 2), 0.0)).collect();
     let square = |i: u32| [[2 * i, 2 * i + 2, 2 * i + 3], [2 * i, 2 * i + 3, 2 * i + 1]];
@@ -197,7 +197,7 @@ fn the_columns_of_the_pins_never_touch() {
         let mut window = Window::start(size, start);
         let session = &mut window.editor_mut().session;
         session.handle(Action::SetSettings(Settings::new(Method::Lscm, Family::Conformal)));
-        // Long numbers, negative ones, and targets that contradict each other.
+        // Long numbers, negative ones, and contradicting targets.
         for (vertex, target) in [
             (3000, Target::hard(DVec2::new(-0.456_78, -12.345))),
             (3001, Target::hard(DVec2::new(-0.456_78 - 1e-11, -12.345))),

@@ -1,4 +1,4 @@
-//! The inset that shows a defect from near by.
+//! Inset that magnifies a defect.
 
 use eframe::egui;
 use egui::accesskit::Role;
@@ -19,7 +19,7 @@ fn folded() -> Window {
     window
 }
 
-/// The name of the inset, where it shows.
+/// Name of the inset, if it is visible.
 fn inset(window: &Window) -> Option<String> {
     let names = window.controls().into_iter().map(|(_, name, _)| name);
     names.into_iter().find(|name| name.starts_with("Magnifier: "))
@@ -29,7 +29,7 @@ fn inset_rect(window: &Window) -> Rect {
     window.rect(Role::Button, &inset(window).expect("it shows"))
 }
 
-/// How much larger the inset says that it shows.
+/// Magnification according to the inset's name.
 fn factor(window: &Window) -> f64 {
     let name = inset(window).expect("it shows");
     name.rsplit("× ").next().expect("a factor").parse().expect("a number")
@@ -53,7 +53,7 @@ fn it_shows_the_defect_gone_to() {
     window.key(Key::D);
     window.key(Key::D);
     let second = window.editor().defects()[1].words();
-    // The pane has come as near as the inset was; from afar it shows which defect it is.
+    // The pane has zoomed in as far as the inset. Zoomed out, the inset shows the current defect.
     window.key(Key::Escape);
     window.key(Key::F);
     assert!(inset(&window).expect("it shows").contains(&second), "{:?} is {second}", inset(&window));
@@ -89,7 +89,7 @@ fn the_frame_on_the_layout_lies_around_the_defect_and_not_under_the_inset() {
         Rect::from_points(&places)
     };
     assert!(window.has_frame_around(place(&window)));
-    // Pan until the defect lies where the inset was.
+    // Pans until the defect is where the inset was.
     let by = inset_rect(&window).center() - place(&window).center();
     let camera = window.editor_mut().plane.pane.camera_mut().expect("framed");
     camera.pan(glam::DVec2::new(by.x.into(), by.y.into()));
@@ -115,7 +115,7 @@ fn the_pointer_over_it_picks_nothing_behind_it() {
     let mut window = folded();
     let corner = VertexId::new(6);
     let at = |window: &Window| window.place_in_plane(window.embedding()[corner.index()]);
-    // The lower right corner of the sheet, which has nothing to do with the defect.
+    // The lower right corner of the sheet, which is unrelated to the defect.
     let up = glam::DVec2::new(0.0, -200.0);
     window.editor_mut().plane.pane.camera_mut().expect("framed").pan(up);
     window.settle();
@@ -165,7 +165,7 @@ corpus_test! {
         window.editor_mut().session.handle(Action::EndGesture);
         window.settle();
         assert!(inset(&window).expect("it shows").contains(&crossing.words()));
-        // What is looked at lies in the middle of the picture under the title.
+        // The magnified element is in the middle of the picture below the title.
         let rect = inset_rect(&window);
         assert!(window.has_ring_at(rect.center() + egui::vec2(0.0, 10.0)));
         assert!(window.harness.query_by_label(&inset(&window).expect("it shows")).is_some());

@@ -1,4 +1,4 @@
-//! Tests of what needs the feature `gui`. Those that draw need a Vulkan driver and are ignored without being asked for.
+//! Tests of the feature `gui`. Tests that draw need a Vulkan driver and are ignored by default.
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a helper that fails fails its test")]
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
@@ -45,6 +45,7 @@ mod start;
 mod timeline;
 mod timeline_run;
 mod toast;
+mod tour;
 mod unsaved;
 mod walk;
 mod window;

@@ -1,4 +1,4 @@
-//! A mesh that is no disk, mended in the window.
+//! Repair of a mesh that is not a disk, in the window.
 
 use eframe::egui;
 use egui::{Key, Modifiers, Role};
@@ -13,10 +13,10 @@ use freebound_testkit::tetrahedron;
 fn a_mesh_that_can_be_mended_says_how_and_is_mended_by_one_click() {
     let mut window = Window::with_mesh("closed.obj", &tetrahedron());
     assert!(window.verdict().ends_with("fault"), "{}", window.verdict());
-    assert!(window.shows("The mesh can be mended: 3 edges cut open"), "{:?}", window.words());
-    window.click("Mend all");
+    assert!(window.shows("The mesh can be repaired: 3 edges cut open"), "{:?}", window.words());
+    window.click("Repair all");
     assert!(window.is_proved(), "{}", window.verdict());
-    assert!(!window.has_button("Mend all") && !window.has_button("Dismiss"), "{:?}", window.words());
+    assert!(!window.has_button("Repair all") && !window.has_button("Dismiss"), "{:?}", window.words());
     window.press(Modifiers::COMMAND, Key::Z);
     assert!(window.verdict().ends_with("fault"), "{}", window.verdict());
     window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
@@ -45,7 +45,7 @@ fn the_panel_of_defects_leads_from_each_element_of_a_fault_to_the_next() {
     assert!(window.shows("1 of 3"), "{:?}", window.words());
     window.click("Previous of mixed orientation");
     assert_eq!(selected(&window), corners(30));
-    window.click("Mend all faults");
+    window.click("Repair all faults");
     assert!(window.is_proved(), "{}", window.verdict());
     assert!(window.shows("Mesh: 3 faces turned over"), "{:?}", window.words());
 }
@@ -58,8 +58,8 @@ fn what_is_harmless_is_told_beside_the_verdict() {
     let mut window = Window::with_mesh("odd.obj", &TriMesh { positions, ..mesh });
     assert!(window.is_proved(), "{}", window.verdict());
     window.click("Defects");
-    assert!(window.shows("Mesh: 1 vertex of no face"), "{:?}", window.words());
-    assert!(window.words().iter().any(|words| words.starts_with("Mesh: faces without area")), "{:?}", window.words());
+    assert!(window.shows("Mesh: 1 unreferenced vertex"), "{:?}", window.words());
+    assert!(window.words().iter().any(|words| words.starts_with("Mesh: zero-area faces")), "{:?}", window.words());
 }
 
 #[test]
@@ -98,11 +98,11 @@ fn vertices_within_a_distance_are_counted_before_they_are_welded() {
     let field = "Distance of vertices to weld, in the mesh's units";
     window.fill_in(Role::SpinButton, field, "0.0005");
     window.settle();
-    assert!(window.shows("No vertices lie so near each other"), "{:?}", window.words());
+    assert!(window.shows("No vertices lie within this distance"), "{:?}", window.words());
     assert!(!window.is_enabled("Weld vertices"));
     window.fill_in(Role::SpinButton, field, "0.4");
     window.settle();
-    assert!(window.words().iter().any(|words| words.ends_with("vertices join others")), "{:?}", window.words());
+    assert!(window.words().iter().any(|words| words.ends_with("vertices will be welded")), "{:?}", window.words());
     window.click("Weld vertices");
     assert!(window.editor().session.charts().is_none() && window.is_proved(), "{}", window.verdict());
     assert!(window.shows("Welded within 0.4"), "{:?}", window.words());

@@ -1,4 +1,4 @@
-//! What the window says of bad files, and while work takes long.
+//! Messages of the window on bad files, and during long work.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use crate::dialogs::{ask_where_to_save, name, window};
 use crate::harness::{Window, sheet, write_obj};
 use freebound_testkit::{corpus, corpus_test};
 
-/// A surface with many holes, which flattens as it is; unoptimised that takes minutes.
+/// Surface with many holes, which flattens without repair; without optimisation that takes minutes.
 const SOLVED_FOR_LONG: &str = "holes_plane.obj";
 
 /// Files of `bad` that can be read as meshes and flattened.
@@ -53,7 +53,7 @@ corpus_test! {
                 continue;
             }
             if messages.is_empty() {
-                assert!(window.has_button("Mend all") && window.has_button("What is wrong"), "{file_name}");
+                assert!(window.has_button("Repair all") && window.has_button("Show faults"), "{file_name}");
                 assert!(window.verdict().ends_with("faults"), "{}", window.verdict());
                 continue;
             }
@@ -78,7 +78,7 @@ corpus_test! {
     }
 }
 
-/// Does what a person may try, to see that nothing panics.
+/// Performs many user actions, to check that nothing panics.
 fn try_everything(window: &mut Window) {
     for key in [Key::F, Key::D, Key::W, Key::Num4, Key::Num2, Key::P, Key::Delete, Key::Escape] {
         window.key(key);
@@ -146,7 +146,7 @@ fn a_good_mesh_after_a_bad_one_takes_its_messages_away() {
     assert!(!window.has_button("Dismiss"));
 }
 
-/// A mesh whose solve takes a while, with the solve under way.
+/// Window during a long solve.
 fn at_work() -> Window {
     let mut window = Window::with_mesh("large.obj", &sheet(120, 0.3));
     window.editor_mut().session.handle(Action::SetSettings(slow(Family::MeanValue)));
@@ -208,7 +208,7 @@ fn the_window_answers_while_a_solve_runs() {
     assert!(slowest.max().expect("ten frames") < Duration::from_millis(500));
 }
 
-/// Clicks the offer of a message to go to its vertices.
+/// Clicks a message's link to its vertices.
 fn go_to(window: &mut Window, name: &str, vertices: &[u32]) {
     window.click(name);
     let selected: Vec<u32> = window.editor().selection.vertices().iter().map(|vertex| vertex.number()).collect();

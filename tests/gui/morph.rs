@@ -1,4 +1,4 @@
-//! The morph between two methods in the window: chosen, found, moved by its slider, played, and written.
+//! Morph between two methods in the window: choice, computation, slider, playback, and export.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -17,14 +17,14 @@ use glam::DVec2;
 
 use crate::harness::{Window, sheet};
 
-/// The methods that are compared.
+/// Compared methods.
 const METHODS: [&str; 4] = ["natural", "convex/uniform", "schnyder", "natural/mean-value"];
 
 fn variants(names: &[&str]) -> Vec<Variant> {
     names.iter().map(|name| name.parse().expect("a method")).collect()
 }
 
-/// These methods side by side on a small sheet.
+/// Compares these methods on a small sheet.
 fn comparing(names: &[&str]) -> Window {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.4));
     window.menu(&["Solve", "Compare methods…"]);
@@ -33,7 +33,7 @@ fn comparing(names: &[&str]) -> Window {
     window
 }
 
-/// The same with the morph that the window chooses by itself.
+/// Window with the morph that it chooses by default.
 fn morphing() -> Window {
     let mut window = comparing(&METHODS);
     window.click("Morph");
@@ -55,7 +55,7 @@ fn names(window: &Window) -> Vec<String> {
     tour(window).stops.stops.iter().map(|stop| stop.name.clone()).collect()
 }
 
-/// The map that a method has come to.
+/// Map of a method.
 fn map_of(window: &Window, name: &str) -> Embedding {
     let variant = variants(&[name])[0].clone();
     let contenders = window.editor().session.contenders();
@@ -67,7 +67,7 @@ fn map_of(window: &Window, name: &str) -> Embedding {
     found.outcome.as_ref().expect("a map").step.candidate.solution.embedding.clone()
 }
 
-/// What the large view says of itself.
+/// True if the large view's label contains `words`.
 fn says(window: &Window, words: &str) -> bool {
     window.harness.query_all_by_role(Role::Image).any(|node| {
         use egui_kittest::kittest::NodeT as _;
@@ -94,12 +94,12 @@ fn a_click_finds_the_morph_between_two_maps_and_the_slider_goes_through_its_prov
         assert!(says(&window, &format!("Frame {number} of 49")), "{share}: {:?}", window.words());
         assert_eq!(view(&window).bounds_drawn(), Some(frames[number - 1].bounds()));
     }
-    // By hand.
+    // By mouse.
     let slider = window.rect(Role::Slider, "Frame of the morph");
     let at = |share: f32| slider.left_center() + egui::vec2(8.0 + share * (slider.width() - 70.0), 0.0);
     window.drag(at(0.1), at(0.7), Modifiers::NONE);
     assert!((0.3..1.0).contains(&view(&window).share()), "{}", view(&window).share());
-    // By the keyboard.
+    // By keyboard.
     window.editor_mut().handle(Request::Morph(MorphRequest::Seek(0.0)));
     window.settle();
     window.harness.get_by_role_and_label(Role::Slider, "Frame of the morph").focus();
@@ -178,7 +178,7 @@ fn where_the_document_changes_the_morph_goes_and_comes_again_between_the_new_map
     let frames = &after.legs[0].frames;
     assert_ne!(frames[0], before.legs[0].frames[0]);
     assert_eq!([&frames[0], &frames[48]], [&map_of(&window, METHODS[0]), &map_of(&window, METHODS[1])]);
-    // A method that takes no part any more is none of its ends.
+    // A removed method is no longer an end of the morph.
     window.editor_mut().session.handle(Action::CompareMethods(variants(&METHODS[1..])));
     window.settle();
     assert_eq!(names(&window), METHODS[1..3]);
@@ -204,7 +204,7 @@ fn escape_and_the_switch_lead_back_to_the_cells() {
 #[test]
 fn without_two_planar_maps_it_says_what_there_is_to_do() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.4));
-    // One corner is drawn through the sheet.
+    // Drags one corner across the sheet.
     window.editor_mut().session.handle(Action::Fix([0, 4, 24].map(VertexId::new).to_vec()));
     window.settle();
     let far = window.embedding()[24];
@@ -218,7 +218,7 @@ fn without_two_planar_maps_it_says_what_there_is_to_do() {
     window.click("Morph");
     let words = "A morph needs two planar maps";
     assert!(window.shows(words), "{:?}", window.words());
-    let remedy = "Take part methods that give one, such as Convex boundary or Auto: under Methods";
+    let remedy = "Choose methods with planar maps under Methods, such as Convex boundary or Auto";
     window.harness.get_by_role_and_label(Role::Label, &format!("{words}. {remedy}"));
     window.click("Export the comparison");
     assert!(!window.is_enabled("Animated picture…"));
@@ -248,7 +248,7 @@ fn a_morph_that_would_take_more_than_half_of_the_memory_is_not_sought() {
     // 49 frames of 25 vertices of 16 bytes.
     window.editor_mut().session.heed_memory(2 * 49 * 25 * 16 - 1);
     window.click("Morph");
-    let words = "49 frames from map to map take 19.1 KiB in all, more than half of the machine's memory of 38.3 KiB";
+    let words = "49 frames between maps need 19.1 KiB, more than half of the machine's memory of 38.3 KiB";
     assert!(window.shows(words), "{:?}", window.words());
     window.click("Morph");
     window.editor_mut().session.heed_memory(2 * 49 * 25 * 16);

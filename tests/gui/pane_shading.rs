@@ -1,4 +1,4 @@
-//! How faces show in each pane: chosen apart, and by the constrain tool itself over a picture.
+//! Shading of faces in each pane: set separately, and by the constrain tool over a picture.
 
 use eframe::egui;
 use egui::Key;
@@ -12,7 +12,7 @@ use crate::pictures::open_picture;
 
 const PICTURED: [ShadingMode; 2] = [ShadingMode::Picture; 2];
 
-/// The face on its portrait.
+/// The face with its portrait.
 fn face() -> Window {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     window.menu(&["File", "Examples", Example::Face.title()]);
@@ -36,7 +36,7 @@ fn each_pane_has_a_shading_of_its_own_in_its_bar() {
         |pane| window.editor().pane_shading.paint(pane).expect("painted").legend.as_ref().expect("a legend").scale;
     assert_ne!(scale(Pane::Mesh), scale(Pane::Plane));
     let titles = |title: &str| window.words().iter().filter(|words| *words == title).count();
-    // In the menu of the pane's bar, and over the legend in the pane.
+    // Once in the menu of the pane's bar, and once over the legend in the pane.
     assert_eq!([titles("Angle distortion"), titles("Area distortion")], [2, 2]);
 }
 
@@ -116,7 +116,7 @@ fn a_project_keeps_both_shadings() {
     assert_eq!(other.shadings(), [ShadingMode::Plain, ShadingMode::Stretch]);
 }
 
-/// Mean of the squared differences between two pictures of a part of the window, per channel.
+/// Mean squared difference per channel between two pictures of a part of the window.
 fn difference(window: &mut Window, part: egui::Rect, other: &image::RgbaImage) -> f64 {
     let now = window.harness.render().expect("a driver");
     let mut sum = 0.0;

@@ -1,4 +1,4 @@
-//! The panels at the right: method and weights, pins, the selected vertex.
+//! Panels at the right: method and weights, pins, the selected vertex.
 
 use eframe::egui;
 use egui::accesskit::Role;
@@ -18,7 +18,7 @@ fn settings(window: &Window) -> Settings {
     window.editor().session.document().settings.clone()
 }
 
-/// The numbers of the distortion as the panel writes them.
+/// Asserts that the panel shows the numbers of the distortion.
 fn assert_numbers_show(window: &Window) {
     let summary = window.outcome().distortion.summary;
     for value in [summary.angle.mean, summary.area.max, summary.stretch_l2] {
@@ -235,7 +235,7 @@ fn a_coordinate_that_is_no_number_changes_nothing() {
         window.key(Key::Enter);
         assert_eq!(*window.editor().session.document(), before, "{text:?}");
         if !text.is_empty() {
-            field = format!("u of pin v48: “{text}” is no number");
+            field = format!("u of pin v48: “{text}” is not a number");
         }
     }
 }
@@ -339,7 +339,7 @@ fn a_pinned_vertex_lies_on_its_pin_under_every_method() {
     }
 }
 
-/// Whether something shows that says exactly this to those who do not see it.
+/// True if a node has exactly this accessibility label.
 fn has_label(window: &Window, words: &str) -> bool {
     window.harness.query_all_by_label(words).next().is_some()
 }
@@ -353,7 +353,7 @@ fn every_row_of_numbers_says_its_name() {
     }
     window.editor_mut().selection.add([VertexId::new(24)]);
     window.click("Vertex");
-    assert!(has_label(&window, "Valence: 6") && has_label(&window, "Lies: inside"));
+    assert!(has_label(&window, "Valence: 6") && has_label(&window, "Location: inside"));
     let spoken = |name: &str| {
         let named = |node: &egui_kittest::Node<'_>| {
             let node = node.accesskit_node();

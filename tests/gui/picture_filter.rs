@@ -1,4 +1,4 @@
-//! Pictures far smaller on the screen than they are, and faces beside them. All of it needs a driver.
+//! Minified pictures, alone and with faces. All tests need a driver.
 
 use std::sync::Arc;
 
@@ -11,15 +11,15 @@ use image::RgbaImage;
 
 use crate::render::{PANE, RECT, Window, plane_frame};
 
-/// Side of the picture, pixels: seven to a pixel of the screen.
+/// Side of the picture, pixels: seven per pixel of the screen.
 const SIDE: u32 = 1024;
 
-/// A picture as the graphics card takes it.
+/// Picture prepared for the graphics card.
 pub(crate) fn ready(width: u32, height: u32, pixels: Vec<u8>) -> Arc<PictureQuad> {
     Arc::new(PictureQuad::new(Arc::new(geom::Picture { width, height, pixels })).expect("as many pixels"))
 }
 
-/// Black and white pixels in turn.
+/// Alternating black and white pixels.
 fn finest_checker() -> Arc<PictureQuad> {
     let colour = |i: u32| if (i % SIDE + i / SIDE).is_multiple_of(2) { [255; 4] } else { [0, 0, 0, 255] };
     ready(SIDE, SIDE, (0..SIDE * SIDE).flat_map(colour).collect())

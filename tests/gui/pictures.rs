@@ -1,4 +1,4 @@
-//! The picture in the window: opened, removed, turned upside down, drawn right, and snapped to.
+//! Picture in the window: opening, removal, flipping, drawing, and snapping.
 
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ use crate::harness::{Window, sheet};
 /// Colours of the picture's quarters: upper left, upper right, lower left, lower right.
 const QUARTERS: [[u8; 3]; 4] = [[250, 20, 20], [20, 250, 20], [20, 20, 250], [250, 250, 20]];
 
-/// A picture twice as wide as it is high.
+/// Size of a picture twice as wide as high.
 const SIZE: [u32; 2] = [40, 20];
 
 fn write_picture(window: &Window) -> PathBuf {
@@ -185,7 +185,7 @@ fn over_a_picture_a_click_means_a_place_and_with_shift_the_vertex() {
     assert_eq!(window.editor().tools.pair(), Some(Half::Vertex(VertexId::new(24))));
 }
 
-/// The colours that the window shows in the picture's quarters: behind a flat mesh in the middle of it, and on it.
+/// Colours shown in the picture's quarters: behind a flat mesh in its middle, and on the mesh.
 fn quarters_shown(window: &mut Window) -> [[u8; 3]; 4] {
     let [low, high] = window.editor().session.document().frame().corners();
     let inside = [(0.2, 0.75), (0.7, 0.75), (0.2, 0.25), (0.7, 0.25)];
@@ -218,7 +218,7 @@ fn the_picture_stands_upright_behind_the_embedding_and_on_it_whichever_way_v_run
         window.editor_mut().session.handle(Action::SetVAxis(v_axis));
         window.settle();
         assert_upright(quarters_shown(&mut window), "behind and on the embedding as it comes");
-        // The sheet's corners on those of the picture: all of it is seen through the mesh.
+        // The sheet's corners are on those of the picture, so all of it is seen through the mesh.
         for (vertex, u, is_top) in [(0, 0.0, false), (6, 1.0, false), (42, 0.0, true), (48, 1.0, true)] {
             let pin = Target::hard(DVec2::new(u, if is_top { top } else { 1.0 - top }));
             window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), target: pin });
@@ -228,7 +228,7 @@ fn the_picture_stands_upright_behind_the_embedding_and_on_it_whichever_way_v_run
         window.editor_mut().appearance_mut().opacity = 0.0;
         assert_upright(quarters_shown(&mut window), "through the mesh in the plane");
         window.editor_mut().appearance_mut().opacity = 1.0;
-        // The sheet looks at the camera with its x to the right and its y up.
+        // The sheet faces the camera with its x to the right and its y up.
         let at = |window: &Window, vertex: u32| window.place_on_mesh(VertexId::new(vertex));
         let middle = at(&window, 24);
         let places = [36, 40, 8, 12].map(|vertex| middle + (at(&window, vertex) - middle) * 0.9);

@@ -1,4 +1,4 @@
-//! What of the window is kept between runs.
+//! State of the window kept between runs.
 
 use std::path::Path;
 

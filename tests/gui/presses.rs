@@ -1,4 +1,4 @@
-//! Presses of keys and buttons that come in within one frame: each counts, where it was and with what was held.
+//! Several presses of keys and buttons within one frame: each counts, at its position and with its modifiers.
 
 use eframe::egui;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2};
@@ -19,7 +19,7 @@ fn pin(window: &mut Window, vertices: &[u32]) {
     window.settle();
 }
 
-/// A key pressed and let go.
+/// Press and release of a key.
 pub(crate) fn key(key: Key, modifiers: Modifiers) -> [Event; 2] {
     [true, false].map(|pressed| Event::Key { key, physical_key: None, pressed, repeat: false, modifiers })
 }
@@ -28,7 +28,7 @@ pub(crate) fn button(pos: Pos2, pressed: bool, modifiers: Modifiers) -> Event {
     Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers }
 }
 
-/// A click with modifiers that are held for no longer than it takes.
+/// Click with modifiers held only for its duration.
 pub(crate) fn click(at: Pos2, modifiers: Modifiers) -> Vec<Event> {
     let [keys_down, keys_up] = [modifiers, Modifiers::NONE].map(Event::ModifiersChanged);
     let [down, up] = [true, false].map(|pressed| button(at, pressed, modifiers));
@@ -65,7 +65,7 @@ fn a_quick_click_keeps_its_shift() {
     window.click_at(place_of(&window, 30), Modifiers::NONE);
     window.frame(click(place_of(&window, 40), Modifiers::SHIFT));
     assert_eq!(selected(&window), [30, 40]);
-    // Shift may be let go before the button is.
+    // Shift may be released before the button is.
     let at = place_of(&window, 50);
     window.frame([
         Event::PointerMoved(at),
@@ -106,13 +106,14 @@ fn more_presses_than_a_frame_has_room_for_count_in_the_next() {
     assert_eq!(selected(&window), (0..81).step_by(2).collect::<Vec<u32>>());
 }
 
-/// Where a drag of pin 40 leads whose events come in the frames given.
+/// Drags pin 40 with events distributed over the given frames. Returns the window, and the distance from the
+/// expected target.
 fn dragged(frames: impl Fn(Pos2, Pos2) -> Vec<Vec<Event>>) -> (Window, f64) {
     let mut window = window();
     pin(&mut window, &[0, 40, 80]);
     let from = place_of(&window, 40);
     let to = from + Vec2::new(60.0, -35.0);
-    // Before the drag: its end may bring the camera along.
+    // Computed before the drag, whose end may move the camera.
     let expected = in_embedding(&window, to);
     for events in frames(from, to) {
         window.frame(events);
@@ -167,7 +168,7 @@ fn a_number_typed_in_the_frame_of_go_to_is_the_field_s() {
     assert_eq!(window.shadings(), shadings, "no letter was taken for a shortcut");
 }
 
-/// What is typed without keys of its own, as an input method or a paste does, and Enter.
+/// Text entered without key events, as by an input method or a paste, followed by Enter.
 fn entered(text: Event) -> Vec<Event> {
     [vec![text], key(Key::Enter, Modifiers::NONE).to_vec()].concat()
 }

@@ -1,6 +1,7 @@
-//! Pictures of the panes, a few pixels of each.
+//! Pictures of the panes, checked at a few pixels.
 //!
-//! Both panes show a sheet of two by two squares in the z = 0 plane, cut into triangles; a corner of its embedding folds.
+//! Both panes show a sheet of two by two squares in the z = 0 plane, split into triangles; a corner of its embedding
+//! folds.
 
 use std::sync::Arc;
 
@@ -24,12 +25,12 @@ use image::RgbaImage;
 use crate::picture_filter::ready;
 
 pub(crate) const PANE: PaneId = PaneId("test");
-/// Size of the window in points, and where the pane lies in it.
+/// Size of the window and bounds of the pane, points.
 pub(crate) const WINDOW: f32 = 200.0;
 pub(crate) const RECT: egui::Rect = egui::Rect { min: egui::pos2(20.0, 30.0), max: egui::pos2(180.0, 190.0) };
 const PANE_SIZE: DVec2 = DVec2::splat(160.0);
 
-/// Colours that are easily told apart.
+/// Easily distinguished colours.
 const PALETTE: Palette = Palette {
     background: Srgb([250, 250, 250, 255]),
     grid: Srgb([250, 250, 250, 255]),
@@ -56,7 +57,7 @@ fn sheet() -> (Vec<DVec3>, Vec<[VertexId; 3]>) {
     (positions, triangles)
 }
 
-/// The device, and a window with one pane whose callback `paint` makes anew every frame.
+/// Device, and a window with one pane whose callback `paint` creates every frame.
 pub(crate) struct Window {
     pub(crate) state: RenderState,
     harness: Harness<'static>,
@@ -85,7 +86,7 @@ impl Window {
 pub(crate) fn camera_in_front() -> OrbitCamera {
     let (positions, _) = sheet();
     let mut camera = OrbitCamera::framing(Sphere::around(&positions), UpAxis::Y);
-    // Undo the turn of the first view: 0.35 and 0.2 rad at 0.007 rad a point.
+    // Reverts the turn of the first view: 0.35 and 0.2 rad at 0.007 rad per point.
     camera.orbit(DVec2::new(50.0, -0.2 / 0.007));
     camera
 }
@@ -106,7 +107,7 @@ pub(crate) fn mesh_frame() -> MeshFrame {
     }
 }
 
-/// The sheet's own x and y as its embedding, with vertex 2, its lower right corner, moved to `corner`.
+/// Frame with the sheet's x and y as its embedding, and its lower right corner, vertex 2, moved to `corner`.
 pub(crate) fn plane_frame(corner: DVec2, flipped: &[FaceId]) -> PlaneFrame {
     let (positions, triangles) = sheet();
     let mut embedding: Embedding = positions.iter().map(|p| p.truncate()).collect();
@@ -135,13 +136,13 @@ fn plane_picture(frame: PlaneFrame) -> RgbaImage {
     Window::new(move || plane_pane(PANE, RECT, frame.clone())).picture()
 }
 
-/// The pixel that shows a point of the embedding.
+/// Pixel at a point of the embedding.
 fn plane_pixel(picture: &RgbaImage, frame: &PlaneFrame, point: DVec2) -> [u8; 3] {
     let in_pane = frame.camera.pane_from_embedding(point, PANE_SIZE);
     pixel(picture, in_pane.x, in_pane.y)
 }
 
-/// The pixel at a place of the pane, points from its upper left corner.
+/// Pixel at a point of the pane, from its upper left corner.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in a small picture")]
 fn pixel(picture: &RgbaImage, x: f64, y: f64) -> [u8; 3] {
     let in_window = [x + f64::from(RECT.min.x), y + f64::from(RECT.min.y)].map(|place| place as u32);
@@ -149,7 +150,7 @@ fn pixel(picture: &RgbaImage, x: f64, y: f64) -> [u8; 3] {
     rgb
 }
 
-/// The mean colour of a square of seven pixels: hatching averages out.
+/// Mean colour of a square of seven pixels, which averages out hatching.
 fn mean_about(picture: &RgbaImage, frame: &PlaneFrame, point: DVec2) -> [f64; 3] {
     let middle = frame.camera.pane_from_embedding(point, PANE_SIZE);
     let mut sum = [0.0; 3];
@@ -168,7 +169,7 @@ fn a_pane_fills_its_rectangle_and_nothing_else() {
     frame.palette.grid = frame.palette.background;
     frame.palette.unit_square = frame.palette.background;
     let picture = plane_picture(frame);
-    // sRGB goes to the window as it came, within the rounding of a byte.
+    // sRGB colours reach the window unchanged, within the rounding of a byte.
     for (x, y) in [(0.0, 0.0), (159.0, 0.0), (0.0, 159.0), (159.0, 159.0)] {
         let [r, g, b] = pixel(&picture, x, y);
         assert!(r.abs_diff(10) <= 1 && g.abs_diff(120) <= 1 && b.abs_diff(240) <= 1, "{x} {y}: {r} {g} {b}");
@@ -181,7 +182,7 @@ fn a_pane_fills_its_rectangle_and_nothing_else() {
 #[test]
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
 fn a_flipped_face_is_red_in_the_plane_and_lies_on_top() {
-    // Faces 2 and 3 are the square between 1, 2, 5 and 4; with 2 at (−0.5, 0.5) face 2, of 1, 2 and 5, is turned over.
+    // Faces 2 and 3 form the square between 1, 2, 5 and 4. With 2 at (−0.5, 0.5), face 2 (1, 2 and 5) is flipped.
     let frame = plane_frame(DVec2::new(-0.5, 0.5), &[FaceId::new(2)]);
     let picture = plane_picture(frame.clone());
     let [r, g, _] = mean_about(&picture, &frame, DVec2::new(0.1, -0.05));
@@ -193,7 +194,7 @@ fn a_flipped_face_is_red_in_the_plane_and_lies_on_top() {
 #[test]
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
 fn a_thin_flipped_face_shows_by_its_outline() {
-    // Turned over by a hundred thousandth of a pixel.
+    // Flipped by a hundred thousandth of a pixel.
     let mut frame = plane_frame(DVec2::new(0.5 - 1e-7, -0.5 + 1e-7), &[FaceId::new(2)]);
     frame.style.flipped_outline_in_points = 2.0;
     let picture = plane_picture(frame.clone());
@@ -206,7 +207,7 @@ fn a_thin_flipped_face_shows_by_its_outline() {
 fn overlapping_faces_are_darker_than_single_ones() {
     let frame = plane_frame(DVec2::new(-0.5, 0.5), &[FaceId::new(2)]);
     let picture = plane_picture(frame.clone());
-    // Face 3 is not flipped but reaches over its neighbours, up to vertex 2.
+    // Face 3 is not flipped but covers its neighbours, up to vertex 2.
     let [_, single, _] = mean_about(&picture, &frame, DVec2::new(-0.6, -0.7));
     let folded = plane_frame(DVec2::new(-0.5, 0.5), &[]);
     let picture = plane_picture(folded.clone());
@@ -219,7 +220,7 @@ fn overlapping_faces_are_darker_than_single_ones() {
 fn the_back_of_the_mesh_has_its_own_colour() {
     let front = mesh_frame();
     let mut back = front.clone();
-    // Half a turn at 0.007 rad a point.
+    // Half a turn at 0.007 rad per point.
     back.camera.orbit(DVec2::new(std::f64::consts::PI / 0.007, 0.0));
     let [r, _, b] = pixel(&mesh_picture(front), 80.0, 80.0);
     assert!(r > 120 && r.abs_diff(b) < 20, "clay in front: {r} {b}");
@@ -282,7 +283,7 @@ fn lines_lie_where_their_vertices_lie() {
 #[test]
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
 fn filled_faces_show_beside_the_mesh_and_under_it_mixed_with_what_is_behind() {
-    // The sheet, its lower right corner drawn in to the middle, and two faces: one over the gap, one over the mesh.
+    // The sheet with its lower right corner moved to the middle, and two faces: one over the gap, one over the mesh.
     let mut frame = plane_frame(DVec2::new(0.0, -1.0) + 1e-3, &[]);
     let mut positions: Vec<DVec2> = sheet().0.iter().map(|p| p.truncate()).collect();
     positions[2] = DVec2::new(0.0, -1.0) + 1e-3;
@@ -320,7 +321,7 @@ fn the_picture_lies_in_its_box_upper_row_up() {
 #[test]
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
 fn a_picture_larger_than_the_card_takes_shows_all_the_same() {
-    // Cards and drivers take 8192 to 32768 pixels a side.
+    // Cards and drivers accept 8192 to 32768 pixels per side.
     let rows = 40_000_usize;
     let pixels = [[255_u8, 0, 0, 255].repeat(rows / 2), [0, 0, 255, 255].repeat(rows / 2)].concat();
     let picture = ready(1, 40_000, pixels);
@@ -338,8 +339,8 @@ fn a_picture_larger_than_the_card_takes_shows_all_the_same() {
 #[test]
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
 fn a_detail_of_a_billionth_still_has_a_shape() {
-    // The lower right corner comes within 2e-9 of vertex 5 at (1, 0), then the camera goes there. One f32 would draw
-    // both at the same place, and the boundary as the straight line y = x − 1.
+    // The lower right corner moves within 2e-9 of vertex 5 at (1, 0), and the camera zooms there. A single f32 would
+    // merge both points and draw the boundary as the straight line y = x − 1.
     let near = 2e-9;
     let mut frame = plane_frame(DVec2::new(1.0, -near), &[]);
     let corner = Bounds { low: DVec2::new(1.0 - near, -2.0 * near), high: DVec2::new(1.0 + near, 0.0) };

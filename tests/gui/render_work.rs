@@ -1,4 +1,4 @@
-//! What a frame sends to the graphics card, and how often a pane is drawn.
+//! Uploads of a frame to the graphics card, and the number of redraws of a pane.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;

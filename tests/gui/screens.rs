@@ -1,4 +1,4 @@
-//! A few pixels of the whole window, drawn by a software driver: what no accessibility tree tells.
+//! A few pixels of the whole window, drawn by a software driver: properties that no accessibility tree contains.
 
 use eframe::egui;
 use egui::accesskit::Role;
@@ -13,7 +13,8 @@ use image::RgbaImage;
 use crate::defects::fold;
 use crate::harness::{Window, sheet};
 
-/// Largest difference of a channel between a theme's colour and a pixel of it: edges are smoothed, lines are hatched.
+/// Largest difference of a channel between a theme's colour and its pixels, since edges are smoothed and lines
+/// hatched.
 const NEAR: u8 = 24;
 
 const THEMES: [(Theme, &theme::Theme); 2] = [(Theme::Light, &theme::LIGHT), (Theme::Dark, &theme::DARK)];
@@ -29,7 +30,7 @@ fn picture(window: &mut Window) -> RgbaImage {
     window.harness.render().expect("a driver")
 }
 
-/// The pixels of a part of the window.
+/// Pixels of a part of the window.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "places in the picture")]
 fn pixels(picture: &RgbaImage, part: Rect) -> Vec<[u8; 3]> {
     let [left, top, right, bottom] = [part.left(), part.top(), part.right(), part.bottom()].map(|x| x as u32);
@@ -37,14 +38,14 @@ fn pixels(picture: &RgbaImage, part: Rect) -> Vec<[u8; 3]> {
     places.map(|(x, y)| picture.get_pixel(x, y).0).map(|[r, g, b, _]| [r, g, b]).collect()
 }
 
-/// How many pixels of a part show a colour.
+/// Number of pixels of a part with a colour.
 fn count_of(picture: &RgbaImage, part: Rect, colour: Color32) -> usize {
     let wanted = [colour.r(), colour.g(), colour.b()];
     let near = |pixel: &[u8; 3]| pixel.iter().zip(wanted).all(|(&a, b)| a.abs_diff(b) <= NEAR);
     pixels(picture, part).iter().filter(|pixel| near(pixel)).count()
 }
 
-/// The box around a face in the embedding's pane.
+/// Bounding box of a face in the embedding's pane.
 fn box_of(window: &Window, face: FaceId) -> Rect {
     let embedding = window.embedding();
     let corners = window.editor().session.model().expect("open").mesh().triangles[face.index()];
@@ -145,7 +146,7 @@ fn a_pin_is_drawn_where_it_lies_in_both_panes() {
     }
 }
 
-/// The built-in face as the virtual boundary bends it.
+/// The built-in face with a virtual boundary.
 fn bent(theme: Theme) -> Window {
     let file = Window::with_mesh("face.obj", &freebound::examples::Example::Face.mesh());
     let mut window = Window::drawn(theme, &file.path("face.obj"));
@@ -213,7 +214,7 @@ fn the_magnifier_shows_its_flipped_face_hatched() {
     for (name, theme) in THEMES {
         let mut window = drawn(name);
         fold(&mut window);
-        // From afar hardly a pixel of the layout is red.
+        // Zoomed out, hardly a pixel of the layout is red.
         let camera = window.editor_mut().plane.pane.camera_mut().expect("framed");
         camera.zoom_at(DVec2::splat(150.0), 0.02, DVec2::splat(400.0));
         let picture = picture(&mut window);

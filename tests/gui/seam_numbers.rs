@@ -1,4 +1,5 @@
-//! Vertices have other numbers on charts, and after cuts, than in the file: clicks, words and the selection go by the file's.
+//! Vertices have different numbers on charts, and after cuts, than in the file. Clicks, texts and the selection use
+//! the file's numbers.
 
 use eframe::egui;
 use egui::{Key, Modifiers};
@@ -10,7 +11,7 @@ use crate::charts::with_sheets;
 use crate::harness::{Window, sheet, write_obj};
 use crate::seams::{AROUND, at, column, front, last, seams, window};
 
-/// Cuts the barrel around its middle row: above and below are charts of their own.
+/// Cuts the barrel around its middle row into an upper and a lower chart.
 fn cut_around(window: &mut Window) {
     let around = |k: u32| [at(k, 3), at((k + 1) % AROUND, 3)];
     let seams = Seams::default().with((0..AROUND).map(around));
@@ -24,7 +25,7 @@ fn show_chart(window: &mut Window, chart: usize) {
     assert_eq!(window.editor().session.chart_on_screen(), Some(chart));
 }
 
-/// The vertices on the screen that lie where a vertex of the file does.
+/// Shown vertices that coincide with a vertex of the file.
 fn on_screen(window: &Window, of_file: VertexId) -> Vec<VertexId> {
     let scene = window.editor().mesh_scene().expect("a mesh shows");
     let source = &window.editor().session.model().expect("open").source.polygons;
@@ -64,7 +65,7 @@ fn a_vertex_on_the_seam_of_any_chart_says_that_it_is_and_others_do_not() {
             assert_eq!(here.len(), 1, "row {row} of chart {chart}");
             window.editor_mut().selection.select(here);
             window.settle();
-            let words = format!("{} of the file, on a seam: the side of face ", at(5, row));
+            let words = format!("{} of the file, on a seam, at the side of face ", at(5, row));
             assert_eq!(window.shows(&words), row == 3, "row {row} of chart {chart}: {:?}", window.words());
             assert_eq!(window.shows("on a seam"), row == 3, "row {row} of chart {chart}: {:?}", window.words());
         }
@@ -83,7 +84,7 @@ fn the_selection_stays_where_it_is_when_the_mesh_is_cut_otherwise() {
     window.settle();
     assert_eq!(window.editor().session.chart_on_screen(), None);
     assert_eq!(selected(&window), [at(5, 5)]);
-    // Cut through, it is there twice; sewn up, once again.
+    // If cut through, it appears twice; if sewn up, once again.
     let k = 5;
     let through = (0..6).map(|row| [at(k, row), at(k, row + 1)]);
     window.editor_mut().handle(Action::SetSeams(Seams::default().with(through)).into());
@@ -135,7 +136,7 @@ fn what_a_click_would_cut_follows_the_pointer_and_shift_and_undo() {
     window.harness.hover_at(crate::seams::place(&window, at(k, 2)));
     window.step();
     window.step();
-    assert!(window.shows("Click: close 2 edges of the seam."), "{:?}", window.words());
+    assert!(window.shows("Click: erase 2 edges of the seam."), "{:?}", window.words());
     window.frame([egui::Event::ModifiersChanged(Modifiers::NONE)]);
     window.press(Modifiers::COMMAND, Key::Z);
     window.settle();

@@ -1,4 +1,4 @@
-//! Seams by a rule: what the window says of them, and when they are cut.
+//! Seams by rules: messages, and the moment of cutting.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! The seam tool: seams drawn by clicks from vertex to vertex, taken away again, undone.
+//! Seam tool: seams drawn by clicks from vertex to vertex, erased, undone.
 
 use eframe::egui;
 use egui::accesskit::Role;
@@ -14,7 +14,7 @@ use freebound_testkit::{tetrahedron, tube};
 pub(crate) const AROUND: u32 = 12;
 pub(crate) const ALONG: u32 = 6;
 
-/// A barrel without lid and bottom, upright; vertex `row · AROUND + k`.
+/// Upright barrel without lid and bottom; vertex `row · AROUND + k`.
 fn barrel() -> TriMesh {
     let TriMesh { mut positions, mut triangles, .. } = tube(AROUND, ALONG);
     positions.pop();
@@ -27,12 +27,12 @@ pub(crate) fn at(k: u32, row: u32) -> VertexId {
     VertexId::new(row * AROUND + k)
 }
 
-/// A column of the barrel that shows from bottom to top.
+/// Column of the barrel that is visible from bottom to top.
 pub(crate) fn front(window: &Window) -> u32 {
     let scene = window.editor().mesh_scene().expect("a mesh shows");
     let eye = window.editor().mesh.pane.camera().expect("a mesh shows").eye();
     let shows = |k: &u32| (0..=ALONG).all(|row| scene.picker.is_visible(at(*k, row), eye));
-    // The middle one: it is seen from the front.
+    // The middle one is seen from the front.
     let all: Vec<u32> = (0..AROUND).filter(shows).collect();
     all[all.len() / 2]
 }
@@ -44,7 +44,7 @@ pub(crate) fn window() -> Window {
     window
 }
 
-/// Where a vertex of the file lies on the screen.
+/// Position of a vertex of the file on the screen.
 pub(crate) fn place(window: &Window, vertex: VertexId) -> Pos2 {
     let position = window.editor().session.model().expect("open").source.polygons.positions[vertex.index()];
     let camera = window.editor().mesh.pane.camera().expect("a mesh shows");
@@ -58,7 +58,7 @@ pub(crate) fn place(window: &Window, vertex: VertexId) -> Pos2 {
 pub(crate) fn click(window: &mut Window, vertex: VertexId, modifiers: Modifiers) {
     let place = place(window, vertex);
     window.click_at(place, modifiers);
-    // Two clicks are no double click.
+    // Prevents a double click.
     window.frame_after(1.0, []);
 }
 
@@ -66,7 +66,7 @@ pub(crate) fn seams(window: &Window) -> Vec<[u32; 2]> {
     window.editor().session.seams().edges().iter().map(|edge| edge.map(VertexId::number)).collect()
 }
 
-/// The edges of a column between two rows.
+/// Edges of a column between two rows.
 pub(crate) fn column(k: u32, rows: std::ops::Range<u32>) -> Vec<[u32; 2]> {
     rows.map(|row| [at(k, row), at(k, row + 1)].map(VertexId::number)).collect()
 }
@@ -81,7 +81,7 @@ fn two_clicks_cut_a_barrel_open_and_undo_closes_it() {
     let k = front(&window);
     let vertex_count = |window: &Window| window.editor().session.model().expect("open").vertex_count();
     let (whole, camera) = (vertex_count(&window), window.editor().mesh.pane.camera());
-    assert!(window.shows("Click where the seam begins"), "{:?}", window.words());
+    assert!(window.shows("Click the first vertex of the seam"), "{:?}", window.words());
     click(&mut window, at(k, 0), Modifiers::NONE);
     assert!(seams(&window).is_empty(), "it only begins");
     window.harness.hover_at(place(&window, at(k, ALONG)));
@@ -160,7 +160,7 @@ fn shift_takes_a_stretch_away_or_what_lies_between_two_clicks() {
     click(&mut window, at(k, 5), Modifiers::SHIFT);
     assert_eq!(seams(&window), column(k, 0..2), "without a beginning all of the stretch goes");
     window.click("Erase");
-    assert!(window.shows("Click a seam to close it"), "{:?}", window.words());
+    assert!(window.shows("Click a seam to erase it"), "{:?}", window.words());
     click(&mut window, at(k, 1), Modifiers::NONE);
     assert!(seams(&window).is_empty());
     assert!(!window.is_enabled("Clear seams"));
@@ -173,7 +173,7 @@ fn shift_takes_a_stretch_away_or_what_lies_between_two_clicks() {
 fn a_seam_leads_from_chart_to_chart() {
     let mut window = window();
     let k = front(&window);
-    // Around the barrel: above and below are charts of their own.
+    // Around the barrel, which splits it into an upper and a lower chart.
     for step in [0, 4, 8, 12] {
         let around = at((k + step) % AROUND, 3);
         window
@@ -209,11 +209,10 @@ fn a_closed_figure_flattens_once_a_seam_opens_it() {
 #[test]
 fn the_measure_of_paths_is_chosen_by_a_slider() {
     let mut window = window();
-    let slider =
-        |window: &Window| window.harness.query_by_role_and_label(Role::Slider, "Short ways to creases").is_some();
+    let slider = |window: &Window| window.harness.query_by_role_and_label(Role::Slider, "Course of paths").is_some();
     assert!(slider(&window));
     assert_eq!(window.editor().tools.seam.creases(), 0.5);
-    window.harness.get_by_role_and_label(Role::Slider, "Short ways to creases").focus();
+    window.harness.get_by_role_and_label(Role::Slider, "Course of paths").focus();
     window.step();
     window.key(Key::ArrowRight);
     assert!(window.editor().tools.seam.creases() > 0.5);
@@ -239,7 +238,7 @@ fn a_click_beside_a_seam_pins_the_side_under_the_pointer_and_its_pin_says_which_
         let fresh: Vec<VertexId> = targets.keys().copied().filter(|vertex| !pinned.contains(vertex)).collect();
         assert_eq!(fresh.len(), 1, "another vertex than that of the other side");
         pinned.extend(&fresh);
-        // A face at the pinned vertex reaches to the vertex beside it.
+        // A face at the pinned vertex contains the vertex beside it.
         let outcome_mesh = window.editor().mesh_scene().expect("a mesh shows").mesh();
         let position =
             window.editor().session.model().expect("open").source.polygons.positions[at(side % AROUND, 3).index()];
@@ -248,12 +247,12 @@ fn a_click_beside_a_seam_pins_the_side_under_the_pointer_and_its_pin_says_which_
         };
         assert!(outcome_mesh.triangles.iter().any(|triangle| reaches(&triangle)), "{} beside {side}", fresh[0]);
         window.click("Vertex");
-        let words = format!("{} of the file, on a seam: the side of face ", at(k, 3));
+        let words = format!("{} of the file, on a seam, at the side of face ", at(k, 3));
         assert!(window.shows(&words), "{:?}", window.words());
     }
 }
 
-/// A box of twelve triangles.
+/// Cube of twelve triangles.
 pub(crate) fn cube() -> TriMesh {
     let positions = (0..8).map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2))).collect();
     let squares = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
@@ -277,7 +276,7 @@ fn a_box_is_cut_along_its_sharp_edges_by_one_click_and_says_where_there_are_no_m
     window.key(Key::V);
     window.menu(&["Edit", "Seams", "Cut along sharp edges: 60° or more"]);
     assert_eq!((seams(&window).len(), charts(&window)), (12, Some(6)));
-    // The entry has taken up the tool, whose strip has a button of that name.
+    // The entry activates the tool, whose strip has a button with an equal name.
     window.key(Key::V);
     window.menu(&["Edit", "Seams", "Clear seams"]);
     assert!(seams(&window).is_empty());

@@ -1,4 +1,4 @@
-//! The shaders, read and checked without a GPU.
+//! Validation of the shaders without a GPU.
 
 use eframe::wgpu::naga;
 use freebound::render::{SHADERS, ShaderFile};

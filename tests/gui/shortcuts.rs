@@ -1,4 +1,4 @@
-//! The keyboard: shortcuts, Tab, Esc, and text fields that keep their letters.
+//! Keyboard: shortcuts, Tab, Esc, and text fields that keep their letters.
 
 use eframe::egui;
 use egui::accesskit::Role;
@@ -20,7 +20,7 @@ fn document(window: &Window) -> Document {
     window.editor().session.document().clone()
 }
 
-/// How many steps there are, and which of them shows.
+/// Number of steps, and index of the shown one.
 fn steps(window: &Window) -> (usize, Option<usize>) {
     let timeline = window.editor().session.timeline();
     (timeline.records().len(), timeline.shown())
@@ -40,7 +40,7 @@ fn no_key_is_bound_twice() {
     }
 }
 
-/// A window with three pins, one of them selected, Fix in hand, and the second of three steps on the screen.
+/// Window with three pins, one of them selected, the Fix tool, and the second of three steps shown.
 fn busy_window() -> Window {
     let mut window = window();
     pin(&mut window, &[0, 40, 80]);
@@ -67,10 +67,10 @@ fn shortcuts_do_what_the_table_says() {
         let mut window = busy_window();
         let (pins, orbit) = (document(&window).targets.len(), window.editor().mesh.pane.camera());
         assert_eq!(pins, 3);
-        // Away from where framing leads, and Select in hand where that is asked for.
+        // Moves the cameras away from framing, and selects another tool if the binding asks for Select.
         let request = (binding.request)();
         if matches!(request, Request::GoToStep(_)) {
-            // With a pin selected the arrows are the pin's.
+            // With a selected pin the arrows move the pin.
             window.editor_mut().selection.select([VertexId::new(41)]);
         }
         if request == Request::SetTool(Tool::Fix) {
@@ -89,18 +89,18 @@ fn shortcuts_do_what_the_table_says() {
             Request::Do(Action::Solve) => editor.session.is_current() && steps(&window) == (1, Some(0)),
             Request::Do(Action::Relax) => steps(&window).0 > 3 && window.verdict() == "Planar: proved · relaxed",
             Request::Do(Action::Step) => steps(&window) == (4, Some(3)),
-            // It is planar: there is nothing to run for.
+            // The map is planar, so there is nothing to run.
             Request::RunOrPause => steps(&window).0 == 3 && !editor.session.is_running(),
             Request::GoToStep(StepTarget::First | StepTarget::Previous) => steps(&window) == (3, Some(0)),
             Request::GoToStep(StepTarget::Next | StepTarget::Last) => steps(&window) == (3, Some(2)),
-            // Never saved before: it asks where.
+            // Never saved before, so it asks for a path.
             Request::Ask(_) | Request::SaveProject => editor.files.dialogs.is_open(),
             Request::ToggleExports => editor.layout.exports_shown,
-            // There is work that is not saved.
+            // There is unsaved work.
             Request::Quit => editor.files.unsaved.is_asked(),
-            // Nothing is wrong here to go to.
+            // There is no defect to jump to.
             Request::StepDefect(_) => editor.selection.defect().is_none(),
-            // The mesh is one chart.
+            // The mesh is a single chart.
             Request::StepChart(_) => editor.session.chart_on_screen().is_none(),
             Request::SetTool(tool) => editor.tools.tool() == tool,
             Request::EndSeam => editor.tools.seam.last().is_none() && editor.tools.tool() == Tool::Seam,
@@ -129,20 +129,20 @@ fn ctrl_and_enter_solve_afresh_what_went_on_from_the_map_before() {
     let mut window = window();
     pin(&mut window, &[0, 8, 72, 80]);
     window.click("Method");
-    assert!(!window.shows("Goes on from the map before the edit"));
+    assert!(!window.shows("Continued from the map before the edit"));
     let (vertex, before) = (VertexId::new(40), window.embedding());
     let target = Target::hard(before[vertex] + 0.1 * before.bounds().size());
     window.editor_mut().session.handle(Action::Place { vertex, target });
     window.settle();
     assert!(
-        window.shows("Goes on from the map before the edit")
+        window.shows("Continued from the map before the edit")
             && window.is_proved()
             && window.editor().session.is_continued()
     );
     let gone_on = window.embedding();
     window.press(Modifiers::COMMAND, Key::Enter);
     assert!(
-        !window.shows("Goes on from the map before the edit")
+        !window.shows("Continued from the map before the edit")
             && window.is_proved()
             && !window.editor().session.is_continued()
     );

@@ -1,4 +1,4 @@
-//! The layout of a file in the window: its charts, the map that starts from it, and what becomes of holes.
+//! Texture coordinates of a file in the window: its charts, the map that starts from it, and the treatment of holes.
 
 use std::fmt::Write as _;
 
@@ -13,7 +13,7 @@ use glam::DVec2;
 
 use crate::harness::{Window, sheet};
 
-/// A sheet whose file lays it out sheared; the half beyond `torn` lies apart.
+/// Sheet with sheared texture coordinates in its file; the half beyond `torn` is detached.
 fn laid_out(window: &Window, name: &str, torn: f64) -> Embedding {
     let mesh = sheet(6, 0.3);
     let place = |v: usize, is_apart: bool| {
@@ -87,7 +87,7 @@ fn a_layout_with_seams_cuts_the_mesh_along_them_in_the_same_edit() {
     assert!(window.outcome().step.candidate.stage == Stage::Given && window.is_proved());
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!((charts(&window), start(&window)), (None, Start::FromScratch));
-    window.choose("What the charts are", "File's texture seams");
+    window.choose("Definition of charts", "File's texture seams");
     assert_eq!((charts(&window), start(&window)), (Some(2), Start::FromScratch));
     assert_eq!(window.outcome().step.candidate.stage, Stage::Natural);
 }
@@ -111,10 +111,10 @@ fn a_file_without_texture_coordinates_has_no_layout_to_start_from() {
     let mut window = Window::with_mesh("plain.obj", &sheet(5, 0.3));
     window.click("Method");
     assert!(list_is_disabled(&window, "Start"));
-    assert!(window.harness.query_by_role_and_label(Role::ComboBox, "What the charts are").is_none());
+    assert!(window.harness.query_by_role_and_label(Role::ComboBox, "Definition of charts").is_none());
     let (mut window, _) = opened(0.5);
     assert!(!list_is_disabled(&window, "Start"));
-    // A linear method computes from the surface alone.
+    // A linear method depends on the surface alone.
     window.choose("Method", "Least-squares conformal");
     assert!(window.harness.query_by_role_and_label(Role::ComboBox, "Start").is_none());
 }
@@ -136,14 +136,14 @@ fn holes_are_filled_or_cut_as_a_person_chooses() {
             .collect::<Vec<Repair>>()
     };
     assert!(done(&window) == [Repair::FillHoles] && window.is_proved());
-    window.choose("What becomes of holes", "Cut to the outside");
+    window.choose("Treatment of holes", "Cut to the outside");
     assert_eq!(window.editor().session.document().form.holes, HoleTreatment::Cut);
     assert!(done(&window) == [Repair::Cut] && window.is_proved(), "{}", window.verdict());
     window.press(Modifiers::COMMAND, Key::Z);
     assert!(done(&window) == [Repair::FillHoles] && window.is_proved());
-    // What has no holes is asked nothing.
+    // Without holes there is no question.
     let path = window.path("plain.obj");
     crate::harness::write_obj(&path, &sheet(5, 0.3));
     window.open(&path);
-    assert!(window.harness.query_by_role_and_label(Role::ComboBox, "What becomes of holes").is_none());
+    assert!(window.harness.query_by_role_and_label(Role::ComboBox, "Treatment of holes").is_none());
 }

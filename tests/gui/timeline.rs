@@ -1,4 +1,4 @@
-//! The strip under the panes: buttons and keys, steps, curves, play.
+//! Strip below the panes: buttons and keys, steps, curves, playback.
 
 use eframe::egui;
 use egui::accesskit::Role;
@@ -12,7 +12,7 @@ use freebound_core::problem::{Family, Method, Settings};
 
 use crate::harness::{SIZE, Window, sheet};
 
-/// The window as it is at the very first start.
+/// Window at its very first start.
 pub(crate) fn at_first_start(size: Vec2) -> Window {
     Window::start(size, LaunchFile::default())
 }
@@ -35,7 +35,7 @@ pub(crate) fn shown(window: &Window) -> usize {
     window.editor().session.timeline().shown().expect("solved")
 }
 
-/// The whole name of a step in the row.
+/// Full name of a step in the row.
 fn name_of_step(window: &Window, index: usize) -> String {
     let start = format!("Step {index}: ");
     let mut controls = window.controls().into_iter();
@@ -71,7 +71,7 @@ fn buttons_and_menu_go_through_the_steps() {
     }
     for (entry, expected) in [("Previous step", 2), ("First step", 0), ("Next step", 1), ("Last step", 3)] {
         window.click("Solve");
-        // The entry has its keys after its name, the button in the strip has not.
+        // The entry has its keys after its name, the button in the strip does not.
         let with_keys = format!("{entry} ");
         let is_entry = |node: &egui_kittest::Node<'_>| {
             node.accesskit_node().label().is_some_and(|label| label.starts_with(&with_keys))
@@ -145,7 +145,7 @@ fn a_click_on_a_curve_goes_to_the_step_under_it() {
     let mut window = with_four_steps();
     for curve in ["Curve: flipped faces", OTHER] {
         let rect = window.rect(Role::Image, curve);
-        // The first and the last step lie near the ends, and the others at equal distances between.
+        // The first and the last step are near the ends, the others evenly spaced between them.
         for (share, expected) in [(0.05, 0), (0.36, 1), (0.64, 2), (0.95, 3)] {
             let at = egui::pos2(rect.left() + share * rect.width(), rect.center().y);
             window.click_at(at, Modifiers::NONE);
@@ -154,7 +154,7 @@ fn a_click_on_a_curve_goes_to_the_step_under_it() {
     }
 }
 
-/// A curve that shows whatever the steps are like.
+/// Curve that is always shown.
 const OTHER: &str = "Curve: |A z| of all equations relative to their terms; by powers of ten";
 
 #[test]
@@ -162,7 +162,7 @@ fn curves_can_be_put_away_one_by_one_and_all_together() {
     let mut window = with_four_steps();
     let has_curve = |window: &Window, name: &str| window.harness.query_by_role_and_label(Role::Image, name).is_some();
     assert!(has_curve(&window, "Curve: flipped faces"));
-    window.click("Which curves show");
+    window.click("Choice of curves");
     window.harness.get_by_role_and_label(Role::CheckBox, "Flipped").click();
     window.settle();
     window.key(Key::Escape);
@@ -245,7 +245,7 @@ fn many_steps_scroll_and_the_one_on_the_screen_is_in_sight() {
     for _ in 0..60 {
         window.step();
     }
-    let strip = window.rect(Role::Button, "Where a run stops");
+    let strip = window.rect(Role::Button, "Stop conditions");
     for (request, index) in [(None, 60), (Some(Action::ShowStep(0)), 0), (Some(Action::ShowStep(30)), 30)] {
         if let Some(action) = request {
             window.editor_mut().handle(Request::Do(action));
@@ -285,12 +285,12 @@ fn the_step_that_shows_is_always_in_sight_and_none_is_cut() {
     }
 }
 
-/// That a step is in the row, and that all in the row have their whole width.
+/// Asserts that a step is in the row, and that all steps in the row have their full width.
 fn assert_whole_steps(window: &Window, wanted: usize) {
     let row: Vec<_> = window.controls().into_iter().filter(|(_, name, _)| name.starts_with("Step ")).collect();
     let is_there = row.iter().any(|(_, name, _)| name.starts_with(&format!("Step {wanted}: ")));
     assert!(is_there, "step {wanted} is not among {row:?}");
-    let seen = window.rect(Role::Button, "Where a run stops").left();
+    let seen = window.rect(Role::Button, "Stop conditions").left();
     for (_, name, rect) in row {
         assert!(rect.width() > 20.0 && rect.right() <= seen + 0.5, "{name} at {rect:?}, before {seen}");
     }

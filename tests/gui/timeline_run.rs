@@ -1,4 +1,4 @@
-//! Runs in the window: a newcomer's way, run and pause, where a run comes to rest, previews, what the method panel sets.
+//! Runs in the window: first use, run and pause, end of a run, previews, settings of the method panel.
 
 use eframe::egui;
 use egui::accesskit::Role;
@@ -58,7 +58,7 @@ fn run_goes_on_until_it_is_planar() {
 #[test]
 fn an_embedding_that_leaves_the_pane_is_framed_anew_unless_a_detail_is_looked_at() {
     let mut window = at_first_start(SIZE);
-    // A picture would be what is framed.
+    // A picture would be framed instead.
     for action in [Action::RemovePicture, Action::UnpinAll] {
         window.editor_mut().session.handle(action);
         window.settle();
@@ -92,7 +92,7 @@ fn run_becomes_pause_while_it_goes_on() {
     assert_eq!(step_count(&window), paused_at + 1);
 }
 
-/// A run that goes on for a long time.
+/// Window with a long run.
 fn long_run() -> Window {
     let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
     let session = &mut window.editor_mut().session;
@@ -129,7 +129,7 @@ fn a_key_that_is_held_down_leaves_no_steps_behind() {
 fn the_stop_menu_says_where_a_run_comes_to_rest() {
     let mut window = at_first_start(SIZE);
     assert!(window.shows("Stop: planar, stalled"));
-    window.click("Where a run stops");
+    window.click("Stop conditions");
     for name in ["it is planar", "it stalls", "the boundary crosses", "it reaches step"] {
         window.harness.get_by_role_and_label(Role::CheckBox, name).click();
         window.settle();
@@ -142,7 +142,7 @@ fn the_stop_menu_says_where_a_run_comes_to_rest() {
     assert!(window.shows("Stop: crossing, step 5"), "{:?}", window.words());
     window.click("Run");
     assert_eq!(step_count(&window), 6);
-    assert!(window.shows("the step to stop at is reached"), "{:?}", window.words());
+    assert!(window.shows("the chosen step is reached"), "{:?}", window.words());
 }
 
 #[test]
@@ -172,7 +172,7 @@ fn treatment_step_limit_and_growth_are_chosen_in_the_method_panel() {
     window.settle();
     window.fill_in(Role::SpinButton, "Step limit", "7");
     window.key(Key::Enter);
-    window.choose("How the virtual boundary goes on", "One more");
+    window.choose("Growth of the virtual boundary", "One more");
     let expected = Settings { max_steps: Some(7), growth: Growth::One, ..Settings::default() };
     assert_eq!(window.editor().session.document().settings, expected);
     assert_eq!(window.outcome().problem.settings, expected, "and it is solved");

@@ -1,4 +1,4 @@
-//! Good news and bad ones: both lie over the panes, good ones for a few seconds.
+//! Messages over the panes: successes disappear after a few seconds, errors stay.
 
 use eframe::egui;
 use egui::Rect;
@@ -17,7 +17,7 @@ fn panes(window: &Window) -> [Rect; 2] {
     [window.mesh_view(), window.plane_view()]
 }
 
-/// Lets so many seconds of the window's clock pass.
+/// Advances the window's clock by this many seconds.
 fn pass(window: &mut Window, seconds: usize) {
     window.harness.remove_cursor();
     window.harness.run_steps(60 * seconds);

@@ -1,4 +1,4 @@
-//! Work that is not saved: the question, the window's title, projects saved and opened, bars at the start.
+//! Unsaved work: the question, the window's title, projects saved and opened, bars at the start.
 
 use eframe::egui;
 use egui::{Key, Modifiers};
@@ -131,7 +131,7 @@ fn a_project_opens_with_the_cameras_that_it_was_saved_with() {
         (window.editor().mesh.pane.camera().expect("a mesh"), window.editor().plane.pane.camera().expect("solved"));
     assert!(again.eye().distance(orbit.eye()) < 1e-9 && again.pivot().distance(orbit.pivot()) < 1e-9, "{again:?}");
     assert!(plane_again.center().distance(plane.center()) < 1e-9, "{plane_again:?}");
-    // What the pane shows is kept, and the pane has its size again.
+    // The view of the pane is kept, and the pane has its size again.
     let larger = plane_again.points_per_unit() / plane.points_per_unit();
     assert!((0.7..1.4).contains(&larger), "{larger}");
 }
@@ -160,7 +160,7 @@ fn what_a_session_left_is_offered_and_recovered() {
         std::thread::sleep(std::time::Duration::from_millis(10));
     }
     first.settle();
-    // Dropped without an end: as the system sees a session that died.
+    // Dropped without closing, as if the session had crashed.
     drop(first);
     let mut second = Window::start(SIZE, start());
     assert!(second.shows("was not saved when the program ended"), "{:?}", second.words());
@@ -170,7 +170,7 @@ fn what_a_session_left_is_offered_and_recovered() {
     assert!(!second.has_button("Recover"));
 }
 
-/// A dome whose faces look to its inside.
+/// Dome with inward-facing faces.
 fn hollow() -> TriMesh {
     let dome = Example::Dome.mesh();
     let turned = |triangle: &[VertexId; 3]| [triangle[0], triangle[2], triangle[1]].map(VertexId::number);
@@ -183,7 +183,7 @@ fn faces_that_point_inward_are_said_and_turned_by_a_click() {
     let mut window = Window::with_mesh("hollow.obj", &hollow());
     assert!(window.shows("The faces point inward"));
     let before = window.editor().session.model().expect("open").mesh().triangles[0];
-    window.click("Turn them");
+    window.click("Reverse them");
     assert!(!window.shows("The faces point inward"));
     assert_ne!(window.editor().session.model().expect("open").mesh().triangles[0], before);
     window.press(Modifiers::COMMAND, Key::Z);

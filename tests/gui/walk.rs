@@ -1,7 +1,7 @@
-//! A random walk through the window: keys, clicks, drags and turns of the wheel, several in a frame, in frames of one to five
-//! hundred milliseconds. What the window says is compared with what it draws after every frame, and with the session after
-//! every frame in which nothing was pressed. The seed is that of `FREEBOUND_WALK_SEED`, the length that of
-//! `FREEBOUND_WALK`, in actions.
+//! Random walk through the window: keys, clicks, drags and turns of the wheel, several per frame, in frames of one
+//! to five hundred milliseconds. After every frame the window's texts are compared with its drawing. After every
+//! frame without presses they are also compared with the session. `FREEBOUND_WALK_SEED` sets the seed, and
+//! `FREEBOUND_WALK` the number of actions.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -21,16 +21,16 @@ use crate::harness::{Window, sheet};
 use crate::presses::{button, click, key};
 use freebound_testkit::Random;
 
-/// Actions of the walk that is part of every test run.
+/// Number of actions in a regular test run.
 const ACTIONS: u32 = 300;
 
 /// Lengths of frames, seconds.
 const FRAMES: [f64; 8] = [0.001, 0.005, 0.016, 0.016, 0.016, 0.05, 0.2, 0.5];
 
-/// Keys that lead to files, or out of the window.
+/// Keys that open files or leave the window.
 const LEFT_OUT: [Key; 5] = [Key::O, Key::S, Key::E, Key::Q, Key::F10];
 
-/// Buttons that do, or that bring another mesh.
+/// Buttons that open files, leave the window, or open another mesh.
 const NOT_CLICKED: [&str; 12] = [
     "File",
     "Help",
@@ -49,18 +49,18 @@ const NOT_CLICKED: [&str; 12] = [
 struct Walk {
     window: Window,
     random: Random,
-    /// The end of a drag that has not come yet.
+    /// Pending end of a drag.
     held: Option<Event>,
-    /// What was done last, to be told where something is wrong.
+    /// Latest actions, for the failure message.
     done: Vec<String>,
-    /// The first words of all that the pill has said.
+    /// First words of all texts of the pill.
     said: BTreeSet<String>,
 }
 
 impl Walk {
     fn new(seed: u64) -> Self {
         let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
-        // With folds to go to.
+        // Starts with folds to jump to.
         crate::defects::fold(&mut window);
         Self { window, random: Random(seed), held: None, done: Vec::new(), said: BTreeSet::new() }
     }
@@ -82,7 +82,7 @@ impl Walk {
         }
     }
 
-    /// A key of the table, sometimes with another modifier or several times.
+    /// Key of a binding, sometimes with another modifier or repeated.
     fn keys(&mut self) -> Vec<Event> {
         let bound: Vec<_> =
             BINDINGS.iter().map(|b| b.shortcut).filter(|s| !LEFT_OUT.contains(&s.logical_key)).collect();
@@ -94,7 +94,7 @@ impl Walk {
         presses.iter().cycle().take(2 * times).cloned().collect()
     }
 
-    /// A click on a control that shows, or somewhere in a pane.
+    /// Click on a visible control, or somewhere in a pane.
     fn click(&mut self) -> Vec<Event> {
         let modifiers = self.one_of(&[Modifiers::NONE, Modifiers::NONE, Modifiers::SHIFT, Modifiers::COMMAND]);
         let roles = [Role::Button, Role::CheckBox, Role::ComboBox, Role::Link];
@@ -116,12 +116,12 @@ impl Walk {
         };
         let panes: Vec<_> =
             [crate::harness::MESH_VIEW, crate::harness::PLANE_VIEW].into_iter().filter_map(view).collect();
-        // A comparison can stand in the place of both.
+        // A comparison may replace both panes.
         let whole = ("the window".to_owned(), self.window.harness.ctx.content_rect());
         if panes.is_empty() { whole } else { self.one_of(&panes) }
     }
 
-    /// A drag in a pane, as a rule of a pin.
+    /// Drag in a pane, usually of a pin.
     fn drag(&mut self) -> Vec<Event> {
         let pins: Vec<Pos2> = (self.window.harness.query_all_by_role(Role::Button))
             .filter(|node| node.accesskit_node().label().is_some_and(|name| name.to_lowercase().contains("pin v")))
@@ -150,7 +150,7 @@ impl Walk {
     }
 
     fn action(&mut self) -> Vec<Event> {
-        // Keys and the wheel can come in the middle of a drag, other presses cannot.
+        // Keys and the wheel may occur during a drag, other presses not.
         let end = self.held.take_if(|_| self.random.below(3) > 0).into_iter();
         let more = match self.random.below(10) {
             7.. if self.held.is_none() => self.drag(),
@@ -161,7 +161,7 @@ impl Walk {
         end.chain(more).collect()
     }
 
-    /// Shows a frame with some of the events, and looks at it.
+    /// Runs a frame with the events, and checks it.
     fn show(&mut self, events: Vec<Event>) {
         let is_quiet = events.is_empty() && !self.window.editor().gpu.has_presses_waiting();
         let seconds = self.one_of(&FRAMES);
@@ -169,11 +169,11 @@ impl Walk {
         let found = disagreements(&self.window, is_quiet);
         assert!(found.is_empty(), "{found:#?}\nafter {:#?}", self.done);
         let kind = pill(&self.window).map(|pill| pill.split([':', ',', ' ']).next().unwrap_or_default().to_owned());
-        // A number is that of defects.
+        // A number counts defects.
         self.said.extend(kind.map(|kind| if kind.parse::<usize>().is_ok() { "defects".to_owned() } else { kind }));
     }
 
-    /// Some actions at once, cut into frames anywhere.
+    /// Performs some actions at once, split into frames at random.
     fn go_on(&mut self) {
         let count = self.one_of(&[1, 1, 2, 3]);
         let mut events: Vec<Event> = (0..count).flat_map(|_| self.action()).collect();
@@ -189,7 +189,7 @@ impl Walk {
     }
 }
 
-/// What the window says against what it draws, and against the session where that has not changed since.
+/// Compares the window's texts with its drawing, and with the session if nothing has changed since.
 fn disagreements(window: &Window, is_quiet: bool) -> Vec<String> {
     let mut found = Vec::new();
     let mut check = |agrees: bool, words: &dyn Fn() -> String| {
@@ -203,7 +203,7 @@ fn disagreements(window: &Window, is_quiet: bool) -> Vec<String> {
     let drawn = plane.scene().map(|scene| &scene.outcome);
     let is_live = |pill: &str| pill.starts_with("Planar: proved") && editor.shows_preview();
     if pill.as_deref().is_some_and(is_live) {
-        // The sheet under a dragged pin, as it is drawn: the whole verdict on it is the one that the pill has.
+        // The drawn embedding under a dragged pin: its whole verdict equals the pill's.
         let disk = editor.session.model().and_then(|model| model.disk().cloned());
         let sheet = plane.drawn().filter(|_| !plane.is_easing());
         let is_so = disk.zip(sheet).is_some_and(|(disk, sheet)| {
@@ -282,7 +282,8 @@ fn session_disagreements(window: &Window, pill: Option<&str>) -> Vec<String> {
             found.push(format!("chip {name:?} of a step with {} defects", record.defect_count()));
         }
     }
-    // A pointer that rests in the middle of a drag begins a run behind the frame. A comparison stands over the timeline.
+    // A resting pointer during a drag starts a run that the frame does not show yet. A comparison covers the
+    // timeline.
     let is_known = editor.has_disk() && editor.tools.dragged().is_none() && !editor.plane.comparison.is_shown();
     if is_known && window.has_button("Pause") != session.is_running() {
         found.push(format!("Pause shows, and a run goes on: {}", session.is_running()));
@@ -296,7 +297,7 @@ fn pill(window: &Window) -> Option<String> {
     Some(label.trim_start_matches("Verdict: ").to_owned())
 }
 
-/// A number of defects of a kind, as the pill names them.
+/// Number of defects of a kind, as named by the pill.
 struct Counts(usize, String);
 
 fn counts_of(words: &str) -> Option<Counts> {
@@ -321,12 +322,12 @@ fn from_environment<T: std::str::FromStr>(name: &str, otherwise: T) -> T {
     std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(otherwise)
 }
 
-/// Walks, and gives the first words of what the pill said.
+/// Walks, and returns the first words of the pill's texts.
 fn walk(seed: u64, actions: u32) -> BTreeSet<String> {
     let mut walk = Walk::new(seed);
     for i in 0..actions {
         if i == actions / 2 {
-            // From here on the flattener repairs what folds.
+            // From here on the automatic strategy repairs folds.
             walk.window.editor_mut().session.handle(Action::SetSettings(Settings::default()));
         }
         walk.go_on();

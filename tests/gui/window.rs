@@ -1,4 +1,4 @@
-//! The window as a whole: what opens, what it is called, and how it fits its size.
+//! Window as a whole: opening, names, and layout at all sizes.
 
 use eframe::egui;
 use egui::accesskit::Role;
@@ -30,10 +30,10 @@ fn the_name_and_the_size_of_what_is_open_show() {
     assert!(window.shows("49 v") && window.shows("72 f"), "{:?}", window.words());
 }
 
-/// Brings a window from its start into one of several states.
+/// State of the window, with the function that brings it there from the start.
 type State = (&'static str, fn(&mut Window));
 
-/// What a person can bring the window to.
+/// States that a user can reach.
 const STATES: [State; 30] = [
     ("at the start", |_| ()),
     ("the File menu", |window| window.click("File")),
@@ -63,7 +63,7 @@ const STATES: [State; 30] = [
     ("a list of weights", |window| window.open_list("Weights")),
     ("a list of shadings", |window| window.open_list("Shading of the mesh")),
     ("a run of steps", steps),
-    ("the stop conditions", |window| window.click("Where a run stops")),
+    ("the stop conditions", |window| window.click("Stop conditions")),
     ("the numbers of a step", |window| {
         steps(window);
         window.harness.get_by_label("Step 3: mean value, planar").hover();
@@ -121,7 +121,7 @@ fn every_control_has_a_name_in_every_state() {
         bring(&mut window);
         assert_eq!(window.harness.unnamed_widgets(), Vec::<String>::new(), "{state}");
         let controls = window.controls().into_iter();
-        // Labels are their own words; bars that scroll and bars with a title belong to what they are part of.
+        // Labels are their own names; scroll bars and title bars belong to their parents.
         let controls = controls.filter(|(role, ..)| !matches!(role, Role::Label | Role::ScrollBar | Role::Unknown));
         let nameless: Vec<_> = controls.filter(|(_, name, _)| name.trim().is_empty()).collect();
         assert!(nameless.is_empty(), "{state}: {nameless:?}");
@@ -136,7 +136,7 @@ fn no_two_controls_of_a_state_have_the_same_role_and_name() {
         let controls = window.controls();
         for (i, (role, name, _)) in controls.iter().enumerate() {
             let twice = controls[i + 1..].iter().any(|(other, same, _)| role == other && name == same);
-            // "Solve" is a menu and a button: both do what they say.
+            // "Solve" is both a menu and a button; both solve.
             let allowed = ["Solve", "Panels", ""].contains(&name.as_str());
             let allowed = allowed || *role == Role::Label;
             assert!(!twice || allowed, "{state}: {role:?} {name:?}");
@@ -165,7 +165,7 @@ fn each_menu_has_its_entries() {
                 "Free the selected pins",
                 "Mirror the targets",
                 "Fit the targets to the mesh",
-                "Turn the faces around",
+                "Reverse the faces",
             ],
         ),
         (
@@ -174,7 +174,7 @@ fn each_menu_has_its_entries() {
                 "Wireframe",
                 "Hull and pockets",
                 "Magnifier",
-                "Glide from step to step",
+                "Animate changes of step",
                 "Panels",
                 "Frame the selection, or all",
                 "Go to…",
@@ -190,8 +190,11 @@ fn each_menu_has_its_entries() {
             &["View", "Shading of the embedding"],
             &["Plain", "Checker", "Picture", "Angle distortion", "Area distortion", "Stretch", "Move", "See-through"],
         ),
-        (&["View", "Theme"], &["As the system", "Light", "Dark"]),
-        (&["Solve"], &["Take one step", "Run on", "Play all steps", "Solve afresh", "Cancel", "Method and weights"]),
+        (&["View", "Theme"], &["System", "Light", "Dark"]),
+        (
+            &["Solve"],
+            &["Take one step", "Start the run", "Play all steps", "Solve from scratch", "Cancel", "Method and weights"],
+        ),
         (&["Help"], &["All keys"]),
     ];
     for (path, entries) in menus {
@@ -235,7 +238,7 @@ fn each_shading_of_the_view_menu_is_put_on() {
         window.menu(&["View", "Shading of the embedding", shading.title()]);
         assert_eq!(window.shadings(), [shading; 2]);
         let legend = window.editor().pane_shading.paint(Pane::Mesh).expect("painted").legend.is_some();
-        // Nothing has moved at the first step.
+        // At the first step nothing has moved.
         let is_bare =
             matches!(shading, ShadingMode::Plain | ShadingMode::Checker | ShadingMode::Picture | ShadingMode::Move);
         assert_eq!(legend, !is_bare, "{shading:?}");
@@ -263,7 +266,7 @@ fn the_list_of_keys_has_them_all() {
     window.menu(&["Help", "All keys"]);
     for binding in BINDINGS {
         let keys = window.harness.ctx.format_shortcut(&binding.shortcut);
-        // What is scrolled out of sight is there all the same.
+        // Entries that are scrolled out of sight exist nevertheless.
         for words in [binding.about, &keys] {
             assert!(window.harness.query_all_by_label(words).next().is_some(), "{words}");
         }
@@ -309,7 +312,7 @@ fn both_panes_are_framed_when_a_mesh_opens() {
     inside(window.plane_view(), window.embedding().iter().map(|z| window.place_in_plane(*z)).collect());
 }
 
-/// Sizes from the least to one of a large screen.
+/// Window sizes from the least to a large screen's.
 const SIZES: [Vec2; 3] = [Vec2::new(640.0, 420.0), SIZE, Vec2::new(2000.0, 1200.0)];
 
 #[test]
@@ -334,7 +337,7 @@ fn the_window_fits_into_every_size() {
     }
 }
 
-/// Whether a control is part of a list that scrolls.
+/// True if a control belongs to a list that scrolls.
 fn is_scrolled(role: Role, name: &str) -> bool {
     let listed = name.ends_with('/')
         || name.contains(" pin v")

@@ -1,5 +1,5 @@
-//! Methods that come nearer and nearer to their answer within one step, chosen in the list: a step by each, and how it
-//! converged under the pointer.
+//! Methods that iterate within a single step, chosen in the list: a step of each, and its convergence in the
+//! tooltip.
 
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
@@ -8,7 +8,7 @@ use freebound_core::problem::{Method, NamedOption as _, Stop};
 
 use crate::harness::{Window, sheet};
 
-/// The only step in the timeline.
+/// Name of the only step in the timeline.
 fn name_of_step(window: &Window) -> String {
     let mut names = window.controls().into_iter().map(|(_, name, _)| name);
     names.find(|name| name.starts_with("Step 0: ")).expect("a step in the row")

@@ -1,17 +1,16 @@
 //! Flattens triangle meshes into the plane and proves every result.
 //!
-//! The mathematics is that of Karni, Gotsman and Gortler, "Free-Boundary Linear Parameterization of 3D Meshes in the
+//! The mathematics is due to Karni, Gotsman and Gortler, "Free-Boundary Linear Parameterization of 3D Meshes in the
 //! Presence of Constraints" (2005), called *the paper* in these pages.
-
 //!
 //! # Entry points
 //!
-//! | call | for |
+//! | call | purpose |
 //! |---|---|
-//! | [`flatten()`] | a disk to the plane, proved |
-//! | [`unwrap()`] | any mesh to texture coordinates, proved |
-//! | [`Flattener`] | a method step by step, to watch, pause or cancel |
-//! | [`verify()`] | the proof of a given layout |
+//! | [`flatten()`] | flattens a disk and proves the map |
+//! | [`unwrap()`] | computes proved texture coordinates of any mesh |
+//! | [`Flattener`] | runs a method step by step, to watch, pause or cancel it |
+//! | [`verify()`] | proves a given layout |
 //!
 //! ```
 //! use freebound_core::mesh::{DiskMesh, TriMesh};
@@ -40,3 +39,8 @@ pub mod weights;
 
 pub use flatten::{FlattenError, Flattener, Options, flatten};
 pub use pipeline::{PipelineOptions, UnwrapError, Unwrapped, unwrap, verify};
+
+/// Examples of the book, compiled as doc tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../book/src/rust.md")]
+struct Book;

@@ -1,6 +1,6 @@
-//! Work on all cores with the feature `rayon`, and on the caller's thread without it.
+//! Parallel work: on all cores with the feature `rayon`, on the caller's thread without it.
 //!
-//! Both ways give the same bytes: sums that reach a result are taken in a fixed order.
+//! Results are bitwise equal with and without `rayon`: sums that reach a result have a fixed order.
 
 #[cfg(feature = "rayon")]
 pub(crate) use rayon::{Scope, current_num_threads, join, prelude, scope};
@@ -11,7 +11,7 @@ pub(crate) use serial::{Scope, join, prelude, scope};
 #[cfg(all(test, not(feature = "rayon")))]
 pub(crate) use serial::current_num_threads;
 
-/// Threads of faer's dense products.
+/// Parallelism of faer's dense products.
 pub(crate) fn parallelism() -> faer::Par {
     #[cfg(feature = "rayon")]
     return faer::Par::rayon(0);
@@ -19,11 +19,11 @@ pub(crate) fn parallelism() -> faer::Par {
     faer::Par::Seq
 }
 
-/// Runs work on threads of its own. Returns the work if there are no threads to be had.
+/// Runs work on a separate thread pool. Returns the work if no threads can be created.
 ///
 /// # Errors
 ///
-/// The work, not done.
+/// The work, which did not run.
 #[cfg(feature = "rayon")]
 pub(crate) fn spawn_detached<F: FnOnce() + Send + 'static>(work: F) -> Result<(), F> {
     let threads = rayon::ThreadPoolBuilder::new().num_threads(current_num_threads());
@@ -36,11 +36,11 @@ pub(crate) fn spawn_detached<F: FnOnce() + Send + 'static>(work: F) -> Result<()
     }
 }
 
-/// Runs work on a thread of its own.
+/// Runs work on a separate thread. Returns the work if no thread can be created.
 ///
 /// # Errors
 ///
-/// The work, not done. With one thread it always runs.
+/// The work, which did not run.
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn spawn_detached<F: FnOnce() + Send + 'static>(work: F) -> Result<(), F> {
     let slot = std::sync::Arc::new(std::sync::Mutex::new(Some(work)));
@@ -57,7 +57,7 @@ pub(crate) fn spawn_detached<F: FnOnce() + Send + 'static>(work: F) -> Result<()
     }
 }
 
-/// Combines all items. `identity` is the start of each share of the work.
+/// Combines all items. `identity` starts each share of the work.
 #[cfg(feature = "rayon")]
 pub(crate) fn reduce<T: Send>(
     items: impl prelude::ParallelIterator<Item = T>,
@@ -67,42 +67,42 @@ pub(crate) fn reduce<T: Send>(
     items.reduce(identity, combine)
 }
 
-/// Combines all items, from `identity` on.
+/// Combines all items, starting from `identity`.
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn reduce<T>(items: impl Iterator<Item = T>, identity: impl Fn() -> T, combine: impl Fn(T, T) -> T) -> T {
     items.fold(identity(), combine)
 }
 
-/// Stand-ins of one thread for the parts of rayon that this crate uses.
+/// Serial stand-ins for the parts of rayon that this crate uses.
 #[cfg(not(feature = "rayon"))]
 mod serial {
     use std::marker::PhantomData;
 
-    /// Number of threads of the work.
+    /// Number of threads.
     #[cfg(test)]
     pub(crate) const fn current_num_threads() -> usize {
         1
     }
 
-    /// Does one work after the other.
+    /// Runs two closures, in order.
     pub(crate) fn join<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, B) {
         (first(), second())
     }
 
-    /// Work that may start further work.
+    /// Scope whose tasks may spawn further tasks.
     pub(crate) struct Scope<'scope> {
         lifetime: PhantomData<&'scope ()>,
     }
 
     impl<'scope> Scope<'scope> {
-        /// Does the work at once.
+        /// Runs a task at once.
         #[expect(clippy::unused_self, reason = "rayon's call has it")]
         pub(crate) fn spawn(&self, work: impl FnOnce(&Scope<'scope>) + 'scope) {
             work(&Scope { lifetime: PhantomData });
         }
     }
 
-    /// Does work and all that it starts.
+    /// Runs a closure and all tasks that it spawns.
     pub(crate) fn scope<'scope, T>(work: impl FnOnce(&Scope<'scope>) -> T) -> T {
         work(&Scope { lifetime: PhantomData })
     }
@@ -111,7 +111,7 @@ mod serial {
     pub(crate) mod prelude {
         use std::slice::{Chunks, ChunksExact, ChunksExactMut, ChunksMut, Iter, IterMut};
 
-        /// Anything that can be iterated.
+        /// Types that can be iterated.
         pub(crate) trait IntoParallelIterator: IntoIterator + Sized {
             /// Iterates in order.
             fn into_par_iter(self) -> Self::IntoIter {
@@ -204,7 +204,7 @@ mod serial {
                 self
             }
 
-            /// Maps to iterators and joins these.
+            /// Maps items to iterators and concatenates them.
             fn flat_map_iter<U: IntoIterator, F: FnMut(Self::Item) -> U>(
                 self,
                 map: F,
@@ -212,7 +212,7 @@ mod serial {
                 self.flat_map(map)
             }
 
-            /// Maps with a value that is made once.
+            /// Maps with a state that is made once.
             fn map_init<S, U>(
                 self,
                 init: impl FnOnce() -> S,
@@ -222,7 +222,7 @@ mod serial {
                 self.map(move |item| map(&mut state, item))
             }
 
-            /// Place of the first item that a test accepts.
+            /// Index of the first item that a test accepts.
             fn position_first(mut self, test: impl Fn(Self::Item) -> bool) -> Option<usize> {
                 self.position(test)
             }
@@ -236,7 +236,7 @@ mod serial {
 
         impl<I: Iterator> ParallelIterator for I {}
 
-        /// Iterators of known length, which any is here.
+        /// Iterators of known length. Any iterator is one here.
         pub(crate) trait IndexedParallelIterator: Iterator {}
 
         impl<I: Iterator> IndexedParallelIterator for I {}

@@ -1,8 +1,8 @@
 //! Animated pictures out: APNG, a PNG with further frames after its first.
 //!
-//! Programs that know nothing of animation show the first frame. Colours are rounded to every fourth one, and rows go unfiltered:
-//! so a drawing with thin lines takes 80 kB in the place of 140. Source: the third edition of the PNG specification (W3C),
-//! chunks `acTL`, `fcTL` and `fdAT`.
+//! Programs without animation support show the first frame. Colours are rounded to multiples of 4 and rows are not
+//! filtered. A drawing with thin lines thus takes 80 kB instead of 140. Source: PNG specification (W3C), third
+//! edition, chunks `acTL`, `fcTL` and `fdAT`.
 
 use std::io::{self, Write};
 
@@ -10,29 +10,30 @@ use png::{BitDepth, ColorType, Encoder, Filter};
 
 use freebound_core::geom::Picture;
 
-/// One frame.
+/// Frame of an animation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AnimationFrame {
-    /// What is seen; its opacity is not.
+    /// Picture of the frame. Its opacity is ignored.
     pub picture: Picture,
-    /// How long it is seen.
+    /// Display time.
     pub milliseconds: u16,
 }
 
-/// What is played, over and over.
+/// Size and length of an animation, which repeats endlessly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AnimationForm {
     /// Width and height of every frame, pixels.
     pub size: [u32; 2],
-    /// How many frames there are, at least one.
+    /// Number of frames, at least one.
     pub frame_count: u32,
 }
 
-/// Writes pictures one after the other as an animated PNG, without opacity, that is played without end.
+/// Writes pictures in sequence as an animated PNG without opacity that repeats endlessly.
 ///
 /// # Errors
 ///
-/// What the writer reports; pictures of another size or of another number than announced; none at all.
+/// If `out` cannot be written, a picture has another size than announced, the number of pictures differs, or there is
+/// none.
 pub fn write_animation(
     out: impl Write,
     form: AnimationForm,
@@ -58,7 +59,7 @@ pub fn write_animation(
     Ok(writer.finish()?)
 }
 
-/// The nearest multiple of 4, or white.
+/// Nearest multiple of 4, or white.
 fn rounded(channel: u8) -> u8 {
     u8::try_from((u16::from(channel) + 2) / 4 * 4).unwrap_or(u8::MAX)
 }

@@ -8,46 +8,46 @@ use tempfile::NamedTempFile;
 
 use super::unfinished::Unfinished;
 
-/// Bytes gathered before they are handed to the operating system.
+/// Size of the write buffer, bytes.
 const BUFFER: usize = 256 << 10;
 
-/// Why a file was not written. Nothing of it is left behind.
+/// Failure to write a file. Nothing of the file is left behind.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: cannot be {}: {source}", path.display(), if *is_of_input { "read" } else { "written" })]
 pub struct WriteError {
-    /// The file that was to be written, or the one to be copied that cannot be read.
+    /// File to be written, or the unreadable file to be copied.
     pub path: PathBuf,
-    /// What the operating system says.
+    /// Error of the operating system.
     pub source: io::Error,
     is_of_input: bool,
 }
 
 impl WriteError {
-    /// A file cannot be written.
+    /// Failure to write a file.
     pub fn writing(path: impl Into<PathBuf>, source: impl Into<io::Error>) -> Self {
         Self { path: path.into(), source: source.into(), is_of_input: false }
     }
 
-    /// A file that is to be copied cannot be read.
+    /// Failure to read a file that is to be copied.
     pub(crate) fn reading(path: impl Into<PathBuf>, source: impl Into<io::Error>) -> Self {
         Self { is_of_input: true, ..Self::writing(path, source) }
     }
 
-    /// Whether the fault is with a file that is read, not with one that is written.
+    /// True if a file could not be read; false if one could not be written.
     pub fn is_of_input(&self) -> bool {
         self.is_of_input
     }
 }
 
-/// Writes a file aside, in the same folder, and renames it when it is complete; on an error nothing is left behind and
-/// an older file of that name stays as it was.
+/// Writes a temporary file in the target's folder and renames it when it is complete. On an error nothing is left
+/// behind, and an older file of that name stays unchanged.
 ///
-/// A link is followed, so that the file it names is replaced. Something that is no regular file, such as a pipe, is
-/// written to directly, because renaming would replace it.
+/// A link is followed, so that the file it names is replaced. Anything that is not a regular file, such as a pipe, is
+/// written directly, because renaming would replace it.
 ///
 /// # Errors
 ///
-/// [`WriteError`] names the path and says what went wrong.
+/// [`WriteError`] with the path and the cause.
 pub fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
@@ -55,29 +55,29 @@ pub fn write_atomically(
     write_inner(path, write).map_err(|source| WriteError::writing(path, source))
 }
 
-/// Tries whether [`write_atomically`] could write a file, and leaves nothing behind: before long work whose result goes
-/// there.
+/// Tests if [`write_atomically`] could write a file, and leaves nothing behind. Call before long work whose result
+/// goes to that file.
 ///
 /// # Errors
 ///
-/// [`WriteError`] where its folder is missing or takes no new file, or where it is a folder itself.
+/// [`WriteError`] if the folder is missing or accepts no new file, or if the path is a folder itself.
 pub fn try_place(path: &Path) -> Result<(), WriteError> {
     let target = target_of(path);
     let tried = match fs::metadata(&target) {
         Ok(data) if data.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
-        // To open a pipe would wait for its reader.
+        // Opening a pipe would wait for its reader.
         Ok(data) if !data.is_file() => Ok(()),
         _ => aside_of(&target).map(|(_unfinished, aside)| drop(aside)),
     };
     tried.map_err(|source| WriteError::writing(path, source))
 }
 
-/// As [`write_atomically`], and when it returns the file is on the disk: a loss of power leaves the old file or the new
-/// one. For what a person has made by hand; files that can be made again are not worth the wait.
+/// Writes like [`write_atomically`] and returns once the file is on the disk: a loss of power leaves the old file or
+/// the new one. Meant for the user's own work. Files that can be generated again are not worth the wait.
 ///
 /// # Errors
 ///
-/// [`WriteError`] names the path and says what went wrong.
+/// [`WriteError`] with the path and the cause.
 pub fn write_durably(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
@@ -85,19 +85,19 @@ pub fn write_durably(
     write_atomically(path, |out| {
         write(out)?;
         out.flush()?;
-        // A pipe holds nothing that could last.
+        // A pipe stores nothing, so there is nothing to sync.
         if out.get_ref().metadata()?.is_file() { out.get_ref().sync_all() } else { Ok(()) }
     })?;
-    // The name is written too. Where a folder cannot be opened, as on some systems, the file itself is safe.
+    // The name is synced too. If a folder cannot be opened, as on some systems, the file itself is still safe.
     File::open(folder_of(&target_of(path))).and_then(|folder| folder.sync_all()).ok();
     Ok(())
 }
 
-/// Writes to standard output. A reader who has had enough and closed the pipe is no fault.
+/// Writes to standard output. A pipe that its reader has closed is no error.
 ///
 /// # Errors
 ///
-/// [`WriteError`] says what went wrong.
+/// [`WriteError`] with the cause.
 pub fn write_to_standard_output(write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), WriteError> {
     let written = standard_output().and_then(|file| {
         let mut out = BufWriter::with_capacity(BUFFER, file);
@@ -112,7 +112,7 @@ pub fn write_to_standard_output(write: impl FnOnce(&mut BufWriter<File>) -> io::
     }
 }
 
-/// Standard output as a file: what is written to it is not searched for line ends.
+/// Standard output as a file: avoids the line buffering of [`io::stdout`].
 fn standard_output() -> io::Result<File> {
     #[cfg(unix)]
     let own = std::os::fd::AsFd::as_fd(&io::stdout()).try_clone_to_owned();
@@ -121,7 +121,7 @@ fn standard_output() -> io::Result<File> {
     own.map(File::from)
 }
 
-/// The file that is written to: links are followed.
+/// File that is written: links are followed.
 fn target_of(path: &Path) -> PathBuf {
     fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }
@@ -146,9 +146,9 @@ fn write_inner(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Resu
     Ok(())
 }
 
-/// A new file beside the one that is to be written. It is removed where it is dropped.
+/// New temporary file in the target's folder. Dropping it removes it.
 fn aside_of(target: &Path) -> io::Result<(Unfinished, NamedTempFile<File>)> {
-    // Made as any new file is: what `tempfile` makes by itself shuts out all others.
+    // Created like any new file: the permissions that `tempfile` sets by itself exclude all other users.
     Unfinished::new(|names| names.make_in(folder_of(target), |path| File::create_new(path)))
 }
 

@@ -1,4 +1,4 @@
-//! The texture coordinates of charts, as those of the corners of one mesh file.
+//! Texture coordinates of charts, assigned to the corners of one mesh file.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -8,7 +8,7 @@ use freebound_core::mesh::{PolygonMesh, Repaired, VertexId};
 use freebound_core::pipeline::LaidChart;
 use freebound_core::problem::Embedding;
 
-/// A chart with its verdict, laid elsewhere.
+/// Chart with its verdict, at another embedding.
 pub(crate) fn proved_at<'b>(chart: &'b LaidChart<'_>, embedding: &'b Embedding) -> ProvedEmbedding<'b> {
     ProvedEmbedding { mesh: chart.mesh, embedding, verdict: &chart.verdict }
 }
@@ -17,7 +17,7 @@ fn refined<'b>(chart: &'b LaidChart<'_>) -> RefinedChart<'b> {
     RefinedChart { mesh: chart.mesh, refinement: chart.refinement, vertex_of: chart.vertex_of }
 }
 
-/// The file's mesh, with the new vertices where there are any, and the coordinates of charts as those of its corners.
+/// Mesh of the file, with the new vertices if there are any, and the coordinates of its charts, per corner.
 pub(crate) fn textured<'a>(
     charts: &[LaidChart<'_>],
     source: &'a MeshFile,
@@ -42,14 +42,14 @@ pub(crate) fn textured<'a>(
     (Cow::Owned(refined.mesh), texture)
 }
 
-/// A face of a part that was left out, as it is written and as the file has it.
+/// Face of a part that was left out: its number in the written mesh and in the file.
 struct LeftOut {
     face: usize,
     in_file: usize,
 }
 
-/// Texture coordinates beside those that faces of parts that were left out have in their file. These come first, so that they
-/// keep their numbers.
+/// Adds the new texture coordinates to the file's own ones, which the faces of left-out parts keep. The file's own
+/// coordinates come first, so that they keep their numbers.
 fn beside_own(
     new: Texture,
     source: &MeshFile,

@@ -1,4 +1,4 @@
-//! Constraint files: one pinned vertex a line, "vertex u v [weight]"; what follows a # is a comment.
+//! Constraint files: one pinned vertex per line, "vertex u v [weight]"; a # starts a comment.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -11,16 +11,16 @@ use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Target, Targets};
 use freebound_core::problem::{PinKind, TakenTargets};
 
-/// What a constraint file says, with the line of each vertex.
+/// Contents of a constraint file, with the line of each vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Constraints {
-    /// The targets: hard where no weight is given.
+    /// Targets. Targets without a weight are hard.
     pub targets: Targets,
-    /// The line of each target, counted from 1.
+    /// Line of each target, counted from 1.
     pub lines: BTreeMap<VertexId, u64>,
 }
 
-/// Why a constraint file is not used.
+/// Failure to read a constraint file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConstraintsError {
@@ -29,38 +29,38 @@ pub enum ConstraintsError {
     File {
         /// The file.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// A line that cannot be.
+    /// A line is invalid.
     #[error("{}: line {line}: {kind}", path.display())]
     Line {
         /// The file.
         path: PathBuf,
-        /// The line, counted from 1.
+        /// Line, counted from 1.
         line: u64,
-        /// What is wrong with it.
+        /// Fault of the line.
         kind: ConstraintFault,
     },
 }
 
-/// What is wrong with a line.
+/// Fault of a line in a constraint file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConstraintFault {
-    /// Not of the form that lines have.
+    /// The line has the wrong form.
     #[error("write \"vertex u v\" or \"vertex u v weight\", not \"{0}\"")]
     Form(String),
-    /// Something that ought to be a number is none.
+    /// A word that should be a number is none.
     #[error("\"{0}\" is not a number")]
     BadNumber(String),
-    /// A vertex number that is negative, broken, or beyond 32 bits.
-    #[error("\"{0}\" is not the number of a vertex; vertices count from 0")]
+    /// The vertex number is negative, malformed, or beyond 32 bits.
+    #[error("\"{0}\" is not a vertex number; vertices are numbered from 0")]
     BadVertex(String),
-    /// A vertex whose target is infinite or not a number.
+    /// The target of the vertex is infinite or not a number.
     #[error("the target of vertex {0} is not finite")]
     NotFinite(VertexId),
-    /// A weight that pulls nowhere.
+    /// The weight is not a positive number.
     #[error("the weight {weight} of vertex {vertex} is not a positive number")]
     WeightNotPositive {
         /// The vertex.
@@ -68,38 +68,36 @@ pub enum ConstraintFault {
         /// Its weight.
         weight: f64,
     },
-    /// A vertex that has a target already.
-    #[error("vertex {vertex} has a target already, on line {first}: leave one of them out")]
+    /// The vertex already has a target.
+    #[error("vertex {vertex} already has a target on line {first}: remove one of them")]
     Twice {
         /// The vertex.
         vertex: VertexId,
-        /// The line before.
+        /// Line of the first target.
         first: u64,
     },
-    /// A target that another hard constraint has already.
-    #[error(
-        "vertex {vertex} has the same target as vertex {other} on line {first}: move one of them, or give a weight"
-    )]
+    /// Another hard constraint already has this target.
+    #[error("vertices {vertex} and {other} (line {first}) have one target: move one, or add a weight")]
     OnePlace {
         /// The vertex.
         vertex: VertexId,
-        /// The vertex that has it already.
+        /// The vertex that already has this target.
         other: VertexId,
-        /// Its line.
+        /// Line of the other vertex.
         first: u64,
     },
-    /// A vertex that the mesh does not have.
+    /// The mesh has no such vertex.
     #[error("there is no vertex {vertex}: the mesh has {count}, numbered from 0")]
     NoSuchVertex {
         /// The vertex.
         vertex: VertexId,
-        /// How many there are.
+        /// Number of vertices of the mesh.
         count: usize,
     },
 }
 
 impl ConstraintsError {
-    /// The vertices that the line at fault is about.
+    /// Vertices that the faulty line is about.
     pub fn vertices(&self) -> Vec<VertexId> {
         let Self::Line { kind, .. } = self else { return Vec::new() };
         match *kind {
@@ -114,11 +112,11 @@ impl ConstraintsError {
 }
 
 impl Constraints {
-    /// Reads a file for a mesh with so many vertices.
+    /// Reads a file for a mesh with `vertex_count` vertices.
     ///
     /// # Errors
     ///
-    /// A file that cannot be read, or the first line at fault.
+    /// If the file cannot be read, or for the first faulty line.
     pub fn read(path: &Path, vertex_count: usize) -> Result<Self, ConstraintsError> {
         let text =
             std::fs::read_to_string(path).map_err(|source| ConstraintsError::File { path: path.to_owned(), source })?;
@@ -129,15 +127,15 @@ impl Constraints {
         })
     }
 
-    /// Understands the text of a constraint file.
+    /// Parses the text of a constraint file.
     ///
     /// # Errors
     ///
-    /// The first line at fault, counted from 1.
+    /// The first faulty line, counted from 1.
     pub fn parse(text: &str, vertex_count: usize) -> Result<Self, (u64, ConstraintFault)> {
         let mut found = Self::default();
         let mut taken = TakenTargets::default();
-        // Some editors begin a text with a byte-order mark.
+        // Some editors put a byte-order mark at the start of a text.
         for (line, text) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
             let text = text.split('#').next().unwrap_or_default().trim();
             if text.is_empty() {
@@ -195,14 +193,14 @@ fn parse_line(text: &str) -> Result<(VertexId, Target), ConstraintFault> {
     }
 }
 
-/// Writes targets as a constraint file; numbers read back bit for bit.
+/// Writes targets as a constraint file; the numbers read back bit for bit.
 ///
 /// # Errors
 ///
-/// What `out` says, and targets that are infinite or not numbers.
+/// If `out` cannot be written, or a target is infinite or not a number.
 pub fn write_constraints(out: &mut impl Write, targets: &Targets) -> io::Result<()> {
     check_finite(targets.values().map(|target| &target.uv))?;
-    writeln!(out, "# vertex u v [weight]; vertices count from 0, without a weight a target is met exactly")?;
+    writeln!(out, "# vertex u v [weight]; vertices are numbered from 0; without a weight a pin is hard")?;
     for (vertex, Target { uv, kind }) in targets {
         write!(out, "{} {:?} {:?}", vertex.number(), uv.x, uv.y)?;
         match kind {

@@ -1,4 +1,4 @@
-//! Edges files: an edge of a seam a line, "a b", the numbers of its two vertices; what follows a # is a comment.
+//! Edges files: one edge of a seam per line, "a b", the numbers of its two vertices; a # starts a comment.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 
 use freebound_core::mesh::{PolygonMesh, Seams, VertexId};
 
-/// Bytes that a file may take for each corner of its mesh, which has no more edges than corners: two numbers of ten digits, and a
-/// comment.
+/// Size limit of a file, in bytes per corner of its mesh. A mesh has at most as many edges as corners; an edge takes
+/// two numbers of ten digits, and a comment.
 const BYTES_PER_CORNER: u64 = 64;
 
-/// Bytes that any file may take.
+/// Bytes allowed for any file, whatever its mesh.
 const FEW_BYTES: u64 = 1 << 20;
 
-/// Why an edges file is not used.
+/// Failure to read an edges file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EdgesError {
@@ -23,57 +23,57 @@ pub enum EdgesError {
     File {
         /// The file.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// More than the edges of the mesh can be.
-    #[error("{}: the file is longer than {most} bytes, which the edges of this mesh do not take: choose an edges file", path.display())]
+    /// The file is longer than all edges of the mesh could need.
+    #[error("{}: longer than {most} bytes, more than all edges of the mesh need: choose an edges file", path.display())]
     TooLong {
         /// The file.
         path: PathBuf,
-        /// The most bytes that are read.
+        /// Size limit, bytes.
         most: u64,
     },
-    /// A line that cannot be.
+    /// A line is invalid.
     #[error("{}: line {line}: {kind}", path.display())]
     Line {
         /// The file.
         path: PathBuf,
-        /// The line, counted from 1.
+        /// Line, counted from 1.
         line: u64,
-        /// What is wrong with it.
+        /// Fault of the line.
         kind: EdgeFault,
     },
 }
 
-/// What is wrong with a line.
+/// Fault of a line in an edges file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EdgeFault {
-    /// Not of the form that lines have.
-    #[error("write \"a b\", the numbers of an edge's two vertices, not \"{0}\"")]
+    /// The line has the wrong form.
+    #[error("write \"a b\", the two vertex numbers of an edge, not \"{0}\"")]
     Form(String),
-    /// A vertex number that is negative, broken, or beyond 32 bits.
-    #[error("\"{0}\" is not the number of a vertex; vertices count from 0")]
+    /// The vertex number is negative, malformed, or beyond 32 bits.
+    #[error("\"{0}\" is not a vertex number; vertices are numbered from 0")]
     BadVertex(String),
     /// Both ends are one vertex.
-    #[error("vertex {0} stands at both ends: name the two vertices of an edge")]
+    #[error("vertex {0} is at both ends: write two different vertices")]
     OneVertex(VertexId),
-    /// A vertex that the mesh does not have.
+    /// The mesh has no such vertex.
     #[error("there is no vertex {vertex}: the mesh has {count}, numbered from 0")]
     NoSuchVertex {
         /// The vertex.
         vertex: VertexId,
-        /// How many there are.
+        /// Number of vertices of the mesh.
         count: usize,
     },
     /// No face has this edge.
-    #[error("no face has a side from vertex {} to vertex {}: name the sides of a way between them", .0[0], .0[1])]
+    #[error("no edge joins vertices {} and {}: write the edges of a path between them", .0[0], .0[1])]
     NoSuchEdge([VertexId; 2]),
 }
 
 impl EdgesError {
-    /// The vertices that the line at fault is about.
+    /// Vertices that the faulty line is about.
     pub fn vertices(&self) -> Vec<VertexId> {
         match self {
             Self::Line { kind: EdgeFault::NoSuchEdge(ends), .. } => ends.to_vec(),
@@ -87,7 +87,7 @@ impl EdgesError {
 ///
 /// # Errors
 ///
-/// A file that cannot be read, or the first line at fault.
+/// If the file cannot be read, or for the first faulty line.
 pub fn read_edges(path: &Path, mesh: &PolygonMesh) -> Result<Vec<[VertexId; 2]>, EdgesError> {
     let most = FEW_BYTES + BYTES_PER_CORNER * mesh.corners.len() as u64;
     let failed = |source| EdgesError::File { path: path.to_owned(), source };
@@ -100,16 +100,16 @@ pub fn read_edges(path: &Path, mesh: &PolygonMesh) -> Result<Vec<[VertexId; 2]>,
     parse_edges(&text, mesh).map_err(|(line, kind)| EdgesError::Line { path: path.to_owned(), line, kind })
 }
 
-/// Understands the text of an edges file. An edge may be listed more than once.
+/// Parses the text of an edges file. An edge may be listed more than once.
 ///
 /// # Errors
 ///
-/// The first line at fault, counted from 1.
+/// The first faulty line, counted from 1.
 pub fn parse_edges(text: &str, mesh: &PolygonMesh) -> Result<Vec<[VertexId; 2]>, (u64, EdgeFault)> {
     let mut edges = Vec::new();
     let mut lines: HashMap<[VertexId; 2], u64> = HashMap::new();
     let mut fault = None;
-    // Some editors begin a text with a byte-order mark.
+    // Some editors put a byte-order mark at the start of a text.
     for (line, text) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
         let text = text.split('#').next().unwrap_or_default().trim();
         if text.is_empty() {
@@ -126,7 +126,7 @@ pub fn parse_edges(text: &str, mesh: &PolygonMesh) -> Result<Vec<[VertexId; 2]>,
             }
         }
     }
-    // An edge without a side stands before any other fault.
+    // The missing edges are on lines before any other fault, so they are reported first.
     let missing = Seams::default().with(edges.iter().copied()).missing_in(mesh);
     let missing = missing.into_iter().map(|ends| (ends, lines[&ends])).min_by_key(|&(_, line)| line);
     match missing.map(|(ends, line)| (line, EdgeFault::NoSuchEdge(ends))).or(fault) {
@@ -151,8 +151,8 @@ fn parse_line(text: &str, vertex_count: usize) -> Result<[VertexId; 2], EdgeFaul
 ///
 /// # Errors
 ///
-/// What `out` says.
+/// If `out` cannot be written.
 pub fn write_edges(out: &mut impl Write, edges: impl IntoIterator<Item = [VertexId; 2]>) -> io::Result<()> {
-    writeln!(out, "# a b: an edge between two vertices, which count from 0")?;
+    writeln!(out, "# a b: an edge between two vertices, numbered from 0")?;
     edges.into_iter().try_for_each(|[a, b]| writeln!(out, "{} {}", a.number(), b.number()))
 }

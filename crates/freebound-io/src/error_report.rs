@@ -1,4 +1,4 @@
-//! The report of a run that came to nothing: one JSON object that names what is wrong.
+//! Report of a run without a result: one JSON object that names the error.
 
 use serde::Serialize;
 
@@ -6,58 +6,58 @@ use super::report::REPORT_SCHEMA;
 use super::{ConstraintsError, EdgesError, ParseFault, ReadError, TextureError};
 use freebound_core::mesh::{Diagnosis, Elements, Fault, VertexId};
 
-/// Everything that is reported of a run without a result. Field names are part of the interface.
+/// Report of a run without a result. Field names are part of the interface.
 #[derive(Debug, Serialize)]
 pub struct ErrorReport {
-    /// Version of the report's form.
+    /// Version of the report format.
     pub schema: u32,
     /// Version of the program.
     pub freebound: &'static str,
     /// The input.
     pub mesh: MeshName,
-    /// Why there is no result.
+    /// Error that prevented a result.
     pub error: ErrorWords,
 }
 
-/// The input, by its name.
+/// Input mesh, by name.
 #[derive(Debug, Serialize)]
 pub struct MeshName {
-    /// Where it came from.
+    /// Path of the mesh.
     pub path: String,
 }
 
-/// Why there is no result.
+/// Error that prevented a result.
 #[derive(Debug, Serialize)]
 pub struct ErrorWords {
     /// The exit status.
     pub exit_status: u8,
-    /// What could not be used or done.
+    /// Name of the kind of error.
     pub kind: &'static str,
     /// The message on standard error.
     pub message: String,
-    /// What to do about it, where it is not each fault's own.
+    /// Remedy for the whole error, unless each fault has its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remedy: Option<&'static str>,
-    /// The faults by themselves, where there are several kinds of them or they have elements.
+    /// Single faults, if there are several kinds or they have elements.
     pub faults: Vec<FaultReport>,
 }
 
-/// One fault.
+/// Fault of the input.
 #[derive(Debug, Serialize)]
 pub struct FaultReport {
-    /// Its name.
+    /// Name of the fault.
     pub kind: &'static str,
-    /// What is wrong.
+    /// Message of the fault.
     pub message: String,
-    /// What to do about it, where the whole error has no remedy.
+    /// Remedy for this fault, unless the whole error has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remedy: Option<&'static str>,
-    /// Where it is: a list by the name of its elements.
+    /// Position of the fault: a list under the name of its elements.
     #[serde(flatten)]
     pub elements: Option<FaultElements>,
 }
 
-/// Where a fault is.
+/// Position of a fault.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FaultElements {
@@ -76,14 +76,14 @@ pub enum FaultElements {
 }
 
 impl ErrorReport {
-    /// A report on the mesh at `path`.
+    /// Report on the mesh at `path`.
     pub fn new(path: String, error: ErrorWords) -> Self {
         Self { schema: REPORT_SCHEMA, freebound: env!("CARGO_PKG_VERSION"), mesh: MeshName { path }, error }
     }
 }
 
 impl FaultReport {
-    /// The faults of a mesh.
+    /// Faults of a mesh.
     pub fn of_diagnosis(diagnosis: &Diagnosis) -> Vec<Self> {
         diagnosis.faults.iter().map(Self::of_mesh).collect()
     }
@@ -99,7 +99,7 @@ impl FaultReport {
         Self { kind: fault.name(), message: fault.message(), remedy: Some(fault.remedy()), elements }
     }
 
-    /// The faults of a file that was not understood.
+    /// Faults of a file that could not be parsed.
     pub fn of_file(error: &ReadError) -> Vec<Self> {
         match error {
             ReadError::Parse { faults, .. } => {
@@ -113,7 +113,7 @@ impl FaultReport {
         }
     }
 
-    /// The fault of a constraint file.
+    /// Fault of a constraint file.
     pub fn of_constraints(error: &ConstraintsError) -> Vec<Self> {
         match error {
             ConstraintsError::Line { line, kind, .. } => vec![Self::of_line(*line, kind.to_string())],
@@ -121,7 +121,7 @@ impl FaultReport {
         }
     }
 
-    /// The fault of a file of edges.
+    /// Fault of an edges file.
     pub fn of_edges(error: &EdgesError) -> Vec<Self> {
         match error {
             EdgesError::Line { line, kind, .. } => vec![Self::of_line(*line, kind.to_string())],
@@ -129,7 +129,7 @@ impl FaultReport {
         }
     }
 
-    /// The faces whose texture coordinates are not all there.
+    /// Faces without complete texture coordinates.
     pub fn of_texture(error: &TextureError) -> Vec<Self> {
         let TextureError::Missing(faces) = error else { return Vec::new() };
         let elements = Some(FaultElements::Faces(faces.clone()));

@@ -25,7 +25,7 @@ pub struct ResultSource<'a> {
 }
 
 impl<'a> ResultSource<'a> {
-    /// Takes one outcome to its final size, and proves and measures it there.
+    /// Scales one outcome to its final size, then verifies and measures it there.
     ///
     /// # Panics
     ///
@@ -87,11 +87,11 @@ impl<'a> ResultSource<'a> {
         }
     }
 
-    /// Reports charts that were laid out together. `steps` are those of each chart.
+    /// Reports charts that were laid out together. `steps` holds the steps of each chart.
     ///
     /// # Panics
     ///
-    /// If there is no chart, or one is no chart of several.
+    /// If there is no chart, or the first is not one of several charts.
     pub fn finished_atlas(
         self,
         charts: &[SolvedChart<'a>],

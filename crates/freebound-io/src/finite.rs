@@ -1,4 +1,4 @@
-//! The door of every writer: numbers that are infinite, or none at all, do not pass.
+//! Check of every writer: coordinates must be finite.
 
 use std::io;
 
@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::WriteError;
 
-/// A coordinate that 64-bit numbers cannot hold.
+/// Coordinate that is infinite or not a number.
 #[derive(Debug, thiserror::Error)]
 #[error("coordinates {place} are ({}, {}): beyond the range of 64-bit numbers", at.x, at.y)]
 struct NotFinite {
@@ -14,11 +14,12 @@ struct NotFinite {
     at: DVec2,
 }
 
-/// Lets finite coordinates pass.
+/// Accepts finite coordinates only.
 ///
 /// # Errors
 ///
-/// The first that are not, by their place in the list; [`WriteError::is_not_finite`] knows it again.
+/// The first coordinate that is not finite, by its index in the list; [`WriteError::is_not_finite`] recognises this
+/// error.
 pub(super) fn check_finite<'a>(coordinates: impl IntoIterator<Item = &'a DVec2>) -> io::Result<()> {
     match coordinates.into_iter().enumerate().find(|(_, at)| !at.is_finite()) {
         Some((place, &at)) => Err(io::Error::new(io::ErrorKind::InvalidData, NotFinite { place, at })),
@@ -27,7 +28,7 @@ pub(super) fn check_finite<'a>(coordinates: impl IntoIterator<Item = &'a DVec2>)
 }
 
 impl WriteError {
-    /// Whether nothing was written because coordinates are infinite or not numbers.
+    /// True if nothing was written because coordinates are infinite or not numbers.
     pub fn is_not_finite(&self) -> bool {
         matches!(self.source.get_ref(), Some(inner) if inner.is::<NotFinite>())
     }

@@ -1,23 +1,24 @@
-//! Files in and out.
+//! Files in and out: mesh formats, constraints, projects, pictures, drawings and reports.
 //!
-//! | file          | what it holds                                                              |
+//! | file          | contents                                                                   |
 //! |---------------|----------------------------------------------------------------------------|
 //! | `animation`   | animated pictures (APNG)                                                   |
-//! | `mesh_file`   | meshes of any format: what is kept of a file, and the way in               |
+//! | `mesh_file`   | meshes of any format: reading, and the contents kept of a file             |
 //! | `obj`         | OBJ files with their materials, in and out                                 |
 //! | `ply`         | PLY files                                                                  |
 //! | `gltf`        | glTF files, as text and binary (GLB)                                       |
-//! | `constraints` | constraint files: a pinned vertex a line                                   |
-//! | `edges`       | edges files: an edge of a seam a line                                      |
-//! | `project`     | project files: what a person has made of a mesh (JSON)                     |
+//! | `constraints` | constraint files: one pinned vertex per line                               |
+//! | `edges`       | edges files: one edge of a seam per line                                   |
+//! | `project`     | project files: the user's edits of a mesh (JSON)                           |
 //! | `picture`     | pictures in (PNG, JPEG)                                                    |
-//! | `output`      | the table of formats; a finished flattening written in any of them         |
-//! | `charts`      | the charts of a result, each by itself and as one mesh                     |
-//! | `precision`   | the bits of the numbers that are written, and the proof of these              |
+//! | `output`      | the table of formats; a finished flattening, written in any of them        |
+//! | `finished`    | outcomes and atlases as [`Output`], with their report                      |
+//! | `charts`      | texture coordinates of charts at the corners of one mesh file              |
+//! | `precision`   | rounding of the written coordinates, and the verdict on the rounded map    |
 //! | `report`      | report of a run (JSON)                                                     |
 //! | `comparison`  | report of several methods on one mesh (JSON), and its table                |
 //! | `step_report` | a step in the report, and as a row of a table                              |
-//! | `error_report`| report of a run that came to nothing (JSON)                                |
+//! | `error_report`| report of a run without a result (JSON)                                    |
 //! | `svg`         | an embedding or a step as a drawing                                        |
 //! | `steps`       | the steps of a run as a folder of drawings and a table                     |
 //! | `study_table` | the runs of a study as a table, out and in                                 |
@@ -25,11 +26,11 @@
 //! | `raster`      | pictures of meshes without a screen                                        |
 //! | `figure`      | figures: panels on a page, as a drawing and as a picture                   |
 //! | `atomic`      | files that are written whole or not at all                                 |
-//! | `door`        | what every writer asks of its coordinates                                  |
-//! | `machine`     | what the system says of its memory                                         |
-//! | `unfinished`  | what is being written aside, to be removed at a sudden end                 |
-//! | `paths`       | which paths lead to one file, and the way from a folder to a file          |
-//! | `stamp`       | what tells one state of a file from another                                |
+//! | `finite`      | check for finite coordinates, used by every writer                         |
+//! | `machine`     | memory figures of the operating system                                     |
+//! | `unfinished`  | temporary files and folders, removed at a sudden end                       |
+//! | `paths`       | identity of files, and relative paths                                      |
+//! | `stamp`       | length and checksum of a file                                              |
 
 mod animation;
 mod atomic;

@@ -1,4 +1,4 @@
-//! The files that a finished flattening is written to, by their kind.
+//! Files that a finished flattening is written to, by their kind.
 
 use std::borrow::Cow;
 use std::fs::File;
@@ -25,20 +25,20 @@ use freebound_core::verify::{AtlasVerdict, Verdict};
 /// Width and height of each half of a picture, pixels.
 const PICTURE_SIZE: u32 = 900;
 
-/// Fields of the checker across the layout.
+/// Number of checker fields across the layout.
 const CHECKER_FIELDS: f64 = 40.0;
 
-/// Stands for a file without a name: it belongs to the current folder.
+/// Path of a file without a name, which counts as one in the current folder.
 const NAMELESS: &str = "-";
 
-/// Kinds of files that can be written; [`format`](Self::format) says what is known of each.
+/// Kind of a file that can be written. [`format`](Self::format) describes each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputKind {
     /// The mesh with its embedding as texture coordinates.
     Obj,
-    /// The same as a PLY file.
+    /// The mesh with texture coordinates as a PLY file.
     Ply,
-    /// The same as a binary glTF file.
+    /// The mesh with texture coordinates as a binary glTF file.
     Glb,
     /// A drawing of the layout.
     Svg,
@@ -48,16 +48,16 @@ pub enum OutputKind {
     Json,
 }
 
-/// What the command line and the window know of a kind of file.
+/// Description of a kind of file for the command line and the window.
 #[derive(Debug)]
 pub struct Format {
-    /// What files of this kind are called.
+    /// Name of the kind.
     pub name: &'static str,
     /// Extension of the file name.
     pub extension: &'static str,
-    /// End of a suggested file name.
+    /// End of a suggested file name, with the extension.
     pub ending: &'static str,
-    /// What a dialog asks for, its verb first.
+    /// Title of a save dialog, verb first.
     pub title: &'static str,
     write: fn(&Output<'_>, &Path, &mut BufWriter<File>) -> io::Result<()>,
 }
@@ -117,11 +117,11 @@ static FORMATS: [Format; 6] = [
     },
 ];
 
-/// The extensions of all formats, for a message.
+/// Extensions of all formats, for a message.
 pub const EXTENSIONS: &str = ".svg, .png, .json, .ply, .glb or .obj";
 
 impl OutputKind {
-    /// The kind of a mesh's file, by the ending of its name; OBJ where that says nothing.
+    /// Kind of a mesh file, by the extension of its name. Default: OBJ.
     pub fn of_mesh(path: &Path) -> Self {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         match extension.as_str() {
@@ -131,30 +131,30 @@ impl OutputKind {
         }
     }
 
-    /// Whether it holds a mesh with its texture coordinates.
+    /// True for a mesh with texture coordinates.
     pub const fn is_mesh(self) -> bool {
         matches!(self, Self::Obj | Self::Ply | Self::Glb)
     }
 
-    /// Its row in the table of formats.
+    /// Entry in the table of formats.
     pub fn format(self) -> &'static Format {
         &FORMATS[self as usize]
     }
 }
 
-/// An embedding of a mesh with the verdict on it.
+/// Embedding of a mesh with its verdict.
 #[derive(Clone, Copy, Debug)]
 pub struct ProvedEmbedding<'a> {
     /// The mesh.
     pub mesh: &'a DiskMesh,
-    /// The embedding, or texture coordinates.
+    /// Embedding or texture coordinates.
     pub embedding: &'a Embedding,
     /// The verdict.
     pub verdict: &'a Verdict,
 }
 
 impl ProvedEmbedding<'_> {
-    /// Its picture, with the faces red that the verdict calls flipped.
+    /// Picture of the embedding. Faces that the verdict lists as flipped are red.
     pub fn picture(&self, canvas: &Canvas) -> Picture {
         layout_picture(self.embedding, self.mesh.mesh().real_triangles(), &self.verdict.flipped_faces, canvas)
     }
@@ -168,33 +168,33 @@ fn layout_picture(embedding: &Embedding, triangles: &[[VertexId; 3]], flipped: &
     plane_picture(embedding, triangles, canvas, RasterPaint::Faces(&paint))
 }
 
-/// A finished flattening, proved as it is written, with everything that files say about it.
+/// Finished flattening, verified as it is written, with everything that the files contain.
 #[derive(Debug)]
 pub struct Output<'a> {
-    /// The file's contents as read.
+    /// Contents of the file as read.
     pub source: &'a MeshFile,
-    /// The file that the mesh came from; none where that was a stream, or it is built in.
+    /// File of the mesh; `None` for a stream or a built-in mesh.
     pub source_path: Option<&'a Path>,
-    /// What becomes of its material libraries.
+    /// Treatment of its material libraries.
     pub materials: Materials,
-    /// The repairs of the file's mesh, where there are any.
+    /// Repairs of the file's mesh, if there are any.
     pub repaired: Option<&'a Repaired>,
-    /// Its charts, one or more.
+    /// Charts of the mesh, one or more.
     pub charts: Vec<LaidChart<'a>>,
     /// Report of the run.
     pub report: Report,
-    /// The picture, where there is one: it goes beside an OBJ file, and on the mesh in a PNG file.
+    /// Picture, if there is one. It is written beside an OBJ file, and drawn on the mesh in a PNG file.
     pub picture: Option<&'a PictureFile>,
-    /// Width over height of the picture that the coordinates are for; 1 where there is none.
+    /// Width over height of the picture of the coordinates; 1 without a picture.
     pub aspect: f64,
-    /// Size of a drawing.
+    /// Size of the SVG drawing.
     pub svg_fit: Fit,
 }
 
 impl Output<'_> {
-    /// The mesh under its picture, or under a checker of its layout, seen from the side that most faces look to; beside
-    /// it the layout. The layout lies in the plane, where angles are measured: texture coordinates of a picture that is
-    /// not square are not square either.
+    /// Mesh and layout side by side. The mesh shows its picture, or a checker of its layout, seen from the side that
+    /// most of its area faces. The layout is drawn in the plane, in which angles are measured: texture coordinates
+    /// are scaled by the aspect of the picture.
     fn picture(&self) -> Picture {
         let JoinedCharts { mesh, coordinates, flipped } = joined(&self.charts);
         let eye = (0..mesh.face_count()).map(|face| mesh.double_area_vector(FaceId::from_index(face))).sum();
@@ -212,7 +212,7 @@ impl Output<'_> {
         before.beside(&layout_picture(&layout, &mesh.triangles, &flipped, &drawing))
     }
 
-    /// The verdict in lower-case words: that on all charts, where there are several.
+    /// Verdict in lower-case words, for all charts together if there are several.
     pub fn summary(&self) -> String {
         match (&self.report.atlas, &self.charts[..]) {
             (None, [chart]) => chart.verdict.summary(),
@@ -220,7 +220,7 @@ impl Output<'_> {
         }
     }
 
-    /// Whether what is written is proved one-to-one.
+    /// True if the written map is proved one-to-one.
     pub fn is_planar(&self) -> bool {
         self.report
             .atlas
@@ -228,13 +228,13 @@ impl Output<'_> {
             .map_or_else(|| self.charts.iter().all(|chart| chart.verdict.planar), |atlas| atlas.planar)
     }
 
-    /// Writes one file: aside first, then renamed, so that it is never half-written. An OBJ file with a picture comes
-    /// with two more, its material and the picture, which are there before it is. Returns the files written, this one
+    /// Writes one file atomically. An OBJ file with a picture comes with two more, its material and the picture,
+    /// which are written first. Copied material libraries are written first, too. Returns the files written, `path`
     /// first.
     ///
     /// # Errors
     ///
-    /// Where the file cannot be written, or coordinates are infinite or not numbers; the error names the file.
+    /// If the file cannot be written, or coordinates are infinite or not numbers; the error names the file.
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<Vec<PathBuf>, WriteError> {
         self.check().map_err(|source| WriteError::writing(path, source))?;
         match (kind, self.picture, self.materials) {
@@ -255,12 +255,12 @@ impl Output<'_> {
         }
     }
 
-    /// Writes to standard output. An OBJ file comes without its picture there, which has no place beside it, and names
-    /// material libraries as from the current folder.
+    /// Writes to standard output. An OBJ file is written without its picture, which needs a file beside it. Material
+    /// libraries are named relative to the current folder.
     ///
     /// # Errors
     ///
-    /// Where standard output takes no more.
+    /// If standard output cannot be written, or coordinates are infinite or not numbers.
     pub fn write_to_standard_output(&self, kind: OutputKind) -> Result<(), WriteError> {
         write_to_standard_output(|out| {
             self.check()?;
@@ -268,17 +268,17 @@ impl Output<'_> {
         })
     }
 
-    /// Lets finite coordinates pass.
+    /// Accepts finite coordinates only.
     fn check(&self) -> io::Result<()> {
         self.charts.iter().try_for_each(|chart| check_finite(&chart.coordinates))
     }
 
-    /// Where the mesh came from.
+    /// Path of the source, or [`NAMELESS`].
     fn source_place(&self) -> &Path {
         self.source_path.unwrap_or(Path::new(NAMELESS))
     }
 
-    /// The file's mesh, with the new vertices where there are any, and the coordinates as those of its corners.
+    /// Mesh of the file, with the new vertices if there are any, and its coordinates per corner.
     fn textured(&self) -> (Cow<'_, MeshFile>, Texture) {
         textured(&self.charts, self.source, self.repaired)
     }

@@ -1,4 +1,4 @@
-//! Paths of files: which of them are one file, and the way from a folder to a file.
+//! Paths of files: identity of files, and relative paths.
 
 use std::borrow::Cow;
 use std::fs;
@@ -8,8 +8,8 @@ use std::fs::File;
 use std::os::fd::AsFd as _;
 use std::path::{Path, PathBuf};
 
-/// Whether two paths lead to one file, by links of either kind too. Files that are not there are one where they would
-/// have one name in one folder.
+/// True if two paths lead to one file, also by symbolic or hard links. Two missing files are one if they would have
+/// one name in one folder.
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
     match (fs::metadata(a), fs::metadata(b)) {
         (Ok(of_a), Ok(of_b)) => is_same_entry(&of_a, &of_b) || is_same_whole_path(a, b),
@@ -18,33 +18,33 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
     }
 }
 
-/// Whether writing to `place` would replace the file `other`. A device such as `/dev/null` takes any number of files.
+/// True if writing to `place` would replace the file `other`. A device such as `/dev/null` is never replaced.
 pub fn would_replace(place: &Path, other: &Path) -> bool {
     let is_device = other.exists() && !other.is_file();
     !is_device && is_same_file(place, other)
 }
 
-/// Whether a path leads to the file that standard input comes from. Where the system does not tell it is another.
+/// True if a path leads to the file that standard input comes from. False if the system does not tell.
 #[cfg(unix)]
 pub fn is_standard_input(path: &Path) -> bool {
     let input = std::io::stdin().as_fd().try_clone_to_owned().and_then(|input| File::from(input).metadata());
     matches!((input, fs::metadata(path)), (Ok(input), Ok(file)) if input.is_file() && is_same_entry(&input, &file))
 }
 
-/// Whether a path leads to the file that standard input comes from. Where the system does not tell it is another.
+/// Always false: the system does not tell the file of standard input.
 #[cfg(not(unix))]
 pub fn is_standard_input(_: &Path) -> bool {
     false
 }
 
-/// Whether two files are one on the disk, under whatever names.
+/// True if both are one file on the disk, whatever their names.
 #[cfg(unix)]
 fn is_same_entry(a: &fs::Metadata, b: &fs::Metadata) -> bool {
     use std::os::unix::fs::MetadataExt as _;
     (a.dev(), a.ino()) == (b.dev(), b.ino())
 }
 
-/// The system does not tell.
+/// Always false: the system does not tell the identity of a file.
 #[cfg(not(unix))]
 fn is_same_entry(_: &fs::Metadata, _: &fs::Metadata) -> bool {
     false
@@ -54,7 +54,7 @@ fn is_same_whole_path(a: &Path, b: &Path) -> bool {
     matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// A path from the root, links followed as far as it is there: so that `..` in it means what it says.
+/// Absolute path with links followed as far as the path exists, so that `..` resolves to the true parent folder.
 pub(super) fn whole(path: &Path) -> PathBuf {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     if let Ok(found) = fs::canonicalize(&absolute) {
@@ -66,13 +66,13 @@ pub(super) fn whole(path: &Path) -> PathBuf {
     }
 }
 
-/// The folder that a file is in, from the root, links followed.
+/// Absolute path of the folder of a file, with links followed.
 pub(super) fn whole_folder_of(path: &Path) -> PathBuf {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     whole(absolute.parent().unwrap_or(&absolute))
 }
 
-/// The way from a folder to a file; `None` where they have no folder in common.
+/// Relative path from a folder to a file; `None` if they have no folder in common.
 pub(super) fn relative(path: &Path, folder: &Path) -> Option<PathBuf> {
     let shared = path.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
     let up = folder.components().count() - shared;
@@ -80,7 +80,7 @@ pub(super) fn relative(path: &Path, folder: &Path) -> Option<PathBuf> {
     (shared > 0).then(|| std::iter::repeat_n(Path::new("..").components(), up).flatten().chain(down).collect())
 }
 
-/// A path as files name it on every system, folders divided by slashes; none where it is not Unicode.
+/// Path as files name it on every system, with slashes between folders; `None` if it is not Unicode.
 pub(super) fn named_in_files(path: &Path) -> Option<String> {
     let text = path.to_str()?;
     Some(if cfg!(windows) { slashed(text) } else { text.to_owned() })
@@ -93,10 +93,10 @@ fn without_verbatim(path: PathBuf) -> PathBuf {
     }
 }
 
-/// What Windows puts before a path whose links were followed, and few programs read.
+/// Prefix that Windows puts before a path whose links were followed, and that few programs understand.
 const VERBATIM: &str = r"\\?\";
 
-/// A path of Windows without the sign that it is meant to the letter, where it can do without.
+/// Windows path without the [`VERBATIM`] prefix, if it is valid without.
 fn plain(path: &str) -> Cow<'_, str> {
     let Some(rest) = path.strip_prefix(VERBATIM) else { return path.into() };
     if let Some(share) = rest.strip_prefix(r"UNC\") {
@@ -106,7 +106,7 @@ fn plain(path: &str) -> Cow<'_, str> {
     if is_of_drive { rest.into() } else { path.into() }
 }
 
-/// A path of Windows with folders divided by slashes. One that is meant to the letter must keep its backslashes.
+/// Windows path with slashes between folders. A path that needs the [`VERBATIM`] prefix keeps its backslashes.
 fn slashed(path: &str) -> String {
     let path = plain(path);
     if path.starts_with(VERBATIM) { path.into_owned() } else { path.replace('\\', "/") }

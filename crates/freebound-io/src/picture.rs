@@ -9,35 +9,35 @@ use image::ImageReader;
 use super::FileStamp;
 use freebound_core::geom::Picture;
 
-/// Why a file did not become a picture.
+/// Failure to read a picture.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: the picture cannot be read: {reason}", path.display())]
 pub struct PictureError {
     /// The file.
     pub path: PathBuf,
-    /// What went wrong.
+    /// Cause of the failure.
     pub reason: String,
 }
 
-/// A picture with where it came from.
+/// Picture with its origin.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PictureFile {
-    /// What to call it: the file's name, or a word for the built-in one.
+    /// Display name: the file name, or a word for the built-in picture.
     pub name: String,
-    /// The file it came from; none where it belongs to the built-in mesh.
+    /// File of the picture; `None` for the picture of the built-in mesh.
     pub path: Option<PathBuf>,
-    /// The state of that file when it was read, where a project is to know it again.
+    /// State of the file when it was read, for comparison with a later state.
     pub stamp: Option<FileStamp>,
-    /// Its pixels.
+    /// Pixels of the picture.
     pub pixels: Arc<Picture>,
 }
 
 impl PictureFile {
-    /// Reads a PNG or JPEG file, whatever its name says.
+    /// Reads a PNG or JPEG file, whatever its extension.
     ///
     /// # Errors
     ///
-    /// A file that cannot be read, or that is no such picture.
+    /// If the file cannot be read, or is neither PNG nor JPEG.
     pub fn read(path: &Path) -> Result<Self, PictureError> {
         let reader = ImageReader::open(path).map_err(|error| error.to_string());
         let pixels = reader.and_then(decode).map_err(|reason| PictureError { path: path.to_owned(), reason })?;
@@ -55,7 +55,7 @@ impl PictureFile {
 ///
 /// # Errors
 ///
-/// Bytes that are no such picture; the reason in words.
+/// Bytes that are neither PNG nor JPEG; the reason as text.
 pub fn decode_picture(bytes: &[u8]) -> Result<Picture, String> {
     decode(ImageReader::new(Cursor::new(bytes)))
 }

@@ -1,4 +1,4 @@
-//! The bits of the numbers that are written, and the proof of these numbers.
+//! Precision of the written coordinates, and the verdict on the rounded map.
 
 use std::collections::BTreeSet;
 
@@ -10,14 +10,14 @@ use freebound_core::pipeline::prove_atlas;
 use freebound_core::problem::{Labels, NamedOption};
 use freebound_core::verify::{Rounded, RoundingGrid, Verdict, rounded, verdict};
 
-/// Bits of the numbers of texture coordinates.
+/// Number of bits of a texture coordinate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Precision {
     /// 64 bits.
     #[default]
     F64,
-    /// 32 bits, as most programs read them.
+    /// 32 bits, which most programs read.
     F32,
 }
 
@@ -32,18 +32,19 @@ impl NamedOption for Precision {
     }
 }
 
-/// What rounding did to coordinates.
+/// Effect of rounding on the coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct RoundingReport {
-    /// Vertices that are not at the nearest numbers, because these fold a face.
+    /// Vertices moved away from their nearest 32-bit coordinates, because these would fold a face.
     pub moved: usize,
-    /// What was planar before is so no more.
+    /// True if the map was planar before rounding and is not after.
     pub folded: bool,
 }
 
 impl Output<'_> {
-    /// Rounds the coordinates to what a file of this kind holds, and proves them again. Files that hold 32 bits get no more.
-    /// Where rounding folds a face, vertices that are not pinned are moved by a few units of the last place.
+    /// Rounds the coordinates to the numbers that a file of this kind holds, and verifies them again. Files of 32-bit
+    /// numbers ignore a request for 64 bits. If rounding folds a face, vertices that no pin holds exactly are moved
+    /// by a few units in the last place.
     pub fn round_to(&mut self, precision: Precision, kind: OutputKind) {
         let grid = match (kind, precision) {
             (OutputKind::Glb, _) => RoundingGrid::TurnedOver,
@@ -58,7 +59,7 @@ impl Output<'_> {
             let held: BTreeSet<_> = chart.held.iter().copied().collect();
             let Rounded { embedding, moved } = rounded(chart.mesh, &chart.coordinates, grid, &held);
             let of_file = verdict(chart.mesh, &embedding);
-            // They are numbers of 32 bits.
+            // The coordinates are 32-bit numbers already.
             chart.verdict = Verdict { planar_in_f32: of_file.planar, ..of_file };
             chart.coordinates = embedding;
             moved

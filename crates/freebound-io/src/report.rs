@@ -1,4 +1,4 @@
-//! The report: one JSON object per run.
+//! Report of a run: one JSON object.
 
 use std::io::{self, Write};
 
@@ -10,78 +10,78 @@ use freebound_core::pipeline::{PackingSummary, PinsSummary, Placement};
 use freebound_core::problem::{BoundaryShape, Family, Method, Settings, Spacing};
 use freebound_core::verify::{AtlasVerdict, DistortionSummary, Verdict};
 
-/// Version of the form of reports, which `docs/report.schema.json` describes. It counts up where a field goes or changes
-/// its meaning, not where one comes.
+/// Version of the report format, which `docs/report.schema.json` describes. Incremented if a field is removed or
+/// changes its meaning, not if a field is added.
 pub const REPORT_SCHEMA: u32 = 2;
 
-/// Everything that is reported of a run. Field names are part of the interface.
+/// Report of a run. Field names are part of the interface.
 #[derive(Debug, Default, Serialize)]
 pub struct Report {
-    /// Version of the report's form.
+    /// Version of the report format.
     pub schema: u32,
     /// Version of the program.
     pub freebound: &'static str,
-    /// The input.
+    /// Input mesh.
     pub mesh: MeshReport,
-    /// Method; absent where texture coordinates were only checked.
+    /// Method; absent if texture coordinates were only checked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<Method>,
-    /// Family, where the method has a choice.
+    /// Weight family, if the method has a choice.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub family: Option<Family>,
-    /// Where the layout comes from that the run started from: `uv`, the texture coordinates of its own file, or the path of another;
-    /// absent where it started from the surface alone.
+    /// Origin of the layout that the run started from: `uv` for the texture coordinates of the input file, or the
+    /// path of another file. Absent if the run started from the surface alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start: Option<String>,
     /// Pinned vertices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pins: Option<PinsSummary>,
-    /// Whether the boundary is free, or convex: laid on a convex shape, or bent to one to make it simple.
+    /// Kind of the boundary: `free`, or `convex` if it was laid on a convex shape or bent to one to make it simple.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub boundary: Option<&'static str>,
-    /// The convex shape that a boundary, or the padding around it, was laid on; absent where the method lays none.
+    /// Convex shape that the boundary, or the padding around it, was laid on; absent if the method uses none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<ShapeReport>,
-    /// Where the coordinates lie.
+    /// Position of the coordinates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub placement: Option<Placement>,
-    /// How many bits the coordinates have as written.
+    /// Bits of the written coordinates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub precision: Option<Precision>,
-    /// What rounding to 32 bits did; absent where there are 64.
+    /// Effect of rounding to 32 bits; absent for 64 bits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rounding: Option<RoundingReport>,
-    /// Each step of each stage.
+    /// Steps of all stages.
     pub steps: Vec<StepReport>,
-    /// The exact verdict on the coordinates as written; absent where there are none, as the distortion is.
+    /// Exact verdict on the written coordinates. Absent without coordinates, as is the distortion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
-    /// The exact verdict on a layout of several charts, or of one with holes, in place of the verdict.
+    /// Exact verdict on a layout of several charts, or of one chart with holes. Replaces `verdict`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub atlas: Option<AtlasVerdict>,
-    /// Each chart, in the order of the verdict on them all; absent where there is one.
+    /// Charts, in the order of the verdict on all of them; absent for a single chart.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub charts: Vec<ChartReport>,
-    /// How charts are packed; absent where none are.
+    /// Packing of the charts; absent if none are packed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub packing: Option<PackingSummary>,
-    /// Distortion summed up.
+    /// Summary of the distortion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distortion: Option<DistortionSummary>,
-    /// Vertices that the mesh did not have before.
+    /// Number of vertices added to the mesh.
     pub new_vertices: usize,
-    /// The edges that they lie on, by their ends.
+    /// Edges that the new vertices lie on, by their end vertices.
     pub split_edges: Vec<[VertexId; 2]>,
-    /// Polygons that the output has as triangles, by their numbers in the file.
+    /// Polygons that were split into triangles in the output, by their numbers in the file.
     pub cut_polygons: Vec<FaceId>,
-    /// Where the time went.
+    /// Time by phase.
     pub seconds: Seconds,
-    /// Most memory that the process held, where the system tells.
+    /// Peak memory of the process, if the system tells.
     pub peak_memory_bytes: Option<u64>,
 }
 
 impl Report {
-    /// A report on a mesh alone.
+    /// Report on a mesh alone.
     pub fn of_mesh(mesh: MeshReport) -> Self {
         Self {
             schema: REPORT_SCHEMA,
@@ -93,22 +93,22 @@ impl Report {
     }
 }
 
-/// Writes a report, as JSON that a person can read.
+/// Writes a report as indented JSON.
 ///
 /// # Errors
 ///
-/// What `out` says.
+/// If `out` cannot be written.
 pub fn write_report(out: &mut impl Write, report: &impl Serialize) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, report)?;
     writeln!(out)
 }
 
-/// A convex shape, and what lies on it.
+/// Convex shape of a boundary.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShapeReport {
-    /// The shape.
+    /// Outline of the shape.
     pub outline: BoundaryShape,
-    /// How far apart vertices lie on it.
+    /// Spacing of the vertices on the outline.
     pub spacing: Spacing,
     /// Layers of virtual triangles between the boundary and the shape.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -116,17 +116,17 @@ pub struct ShapeReport {
 }
 
 impl ShapeReport {
-    /// That of these settings, where their method lays a boundary on a shape.
+    /// Shape of a method that lays a boundary on one; `None` for other methods.
     pub fn of(settings: &Settings) -> Option<Self> {
         let layers = settings.method.is_padded().then_some(settings.layers);
         settings.method.boundary_shape().cloned().map(|outline| Self { outline, spacing: settings.spacing, layers })
     }
 }
 
-/// The input mesh.
+/// Input mesh of a run.
 #[derive(Debug, Default, Serialize)]
 pub struct MeshReport {
-    /// Where it came from.
+    /// Path or name of the mesh.
     pub path: String,
     /// Number of vertices.
     pub vertices: usize,
@@ -140,9 +140,9 @@ pub struct MeshReport {
     pub ears: usize,
     /// Vertices of no face.
     pub unused_vertices: usize,
-    /// By how much every length was taken longer, where faces have no area; 0 where all have one. In the mesh's units.
+    /// Length added to every edge if faces have no area, in the mesh's units; 0 if all faces have area.
     pub mollification: f64,
-    /// What was repaired, in order.
+    /// Repairs, in the order of their application.
     pub repairs: Vec<Done>,
 }
 
@@ -164,7 +164,7 @@ impl MeshReport {
 }
 
 impl MeshReport {
-    /// Describes a mesh of so many vertices that came from `path`, by its charts.
+    /// Describes a mesh of `vertices` vertices that came from `path`, by its charts.
     pub fn of_disks<'a>(path: String, vertices: usize, charts: impl Iterator<Item = &'a DiskMesh>) -> Self {
         let mut whole = Self { path, vertices, unused_vertices: vertices, ..Self::default() };
         for chart in charts.map(|mesh| Self::new(String::new(), mesh)) {
@@ -178,7 +178,7 @@ impl MeshReport {
         whole
     }
 
-    /// Describes a layout of charts that came from `path`, over so many vertices.
+    /// Describes a layout of charts over `vertices` vertices that came from `path`.
     pub fn of_charts(path: String, vertices: usize, charts: &[Part]) -> Self {
         let loops = || charts.iter().flat_map(Part::loops);
         Self {
@@ -191,30 +191,31 @@ impl MeshReport {
     }
 }
 
-/// One chart of several. Vertices are those of the mesh.
+/// Chart of a mesh with several. Vertices are numbered by the mesh.
 #[derive(Debug, Serialize)]
 pub struct ChartReport {
-    /// Its first face.
+    /// First face of the chart.
     pub first_face: FaceId,
     /// Number of triangles.
     pub faces: usize,
     /// Pinned vertices.
     pub pins: PinsSummary,
-    /// Whether the boundary is free, or convex.
+    /// Kind of the boundary: `free` or `convex`.
     pub boundary: &'static str,
-    /// Where the coordinates lie.
+    /// Position of the coordinates.
     pub placement: Placement,
-    /// Each step of each stage.
+    /// Steps of all stages.
     pub steps: Vec<StepReport>,
-    /// Distortion summed up.
+    /// Summary of the distortion.
     pub distortion: DistortionSummary,
-    /// Pixels of the picture that it is packed into, or held on, per unit of length on the surface, in the mean.
+    /// Pixels per unit of length on the surface, on average, of the picture that the chart is packed into or pinned
+    /// to.
     pub density: f64,
-    /// Vertices that it did not have before.
+    /// Number of vertices added to the chart.
     pub new_vertices: usize,
 }
 
-/// Seconds by phase of a run.
+/// Seconds of a run, by phase.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Seconds {
     /// Reading and diagnosing the mesh.
@@ -223,13 +224,13 @@ pub struct Seconds {
     pub solve: f64,
     /// Verdict and distortion.
     pub verify: f64,
-    /// Writing the results, the report excepted.
+    /// Writing the results, except for the report.
     pub write: f64,
-    /// From the start to the report.
+    /// Time from the start of the run to the report.
     pub total: f64,
 }
 
-/// The verdict with faces numbered as the file numbers them: a polygon is at fault where one of its triangles is.
+/// Verdict with faces numbered as in the file: a polygon is listed if one of its triangles is.
 pub fn verdict_as_in_file(verdict: &Verdict, mesh: &TriMesh) -> Verdict {
     let in_file = |faces: &[FaceId]| {
         let mut polygons: Vec<FaceId> = faces.iter().map(|&face| FaceId::new(mesh.polygon(face))).collect();

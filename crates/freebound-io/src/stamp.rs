@@ -1,4 +1,4 @@
-//! What tells one state of a file from another.
+//! Stamp of a file, to tell one state of it from another.
 
 use std::fs::File;
 use std::io::{self, BufReader};
@@ -6,24 +6,24 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-/// Bytes read at a time.
+/// Size of the read buffer, bytes.
 const BLOCK: usize = 256 << 10;
 
-/// A file's length and checksum.
+/// Length and checksum of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileStamp {
-    /// Its length.
+    /// Length of the file, bytes.
     pub bytes: u64,
-    /// Its SHA-256, in hexadecimal digits.
+    /// SHA-256 of the file, in hexadecimal digits.
     pub sha256: String,
 }
 
 impl FileStamp {
-    /// Takes the stamp of a file as it is now.
+    /// Computes the stamp of a file.
     ///
     /// # Errors
     ///
-    /// Where it cannot be read.
+    /// If the file cannot be read.
     pub fn read(path: &Path) -> io::Result<Self> {
         let mut digest = Sha256::new();
         let bytes = io::copy(&mut BufReader::with_capacity(BLOCK, File::open(path)?), &mut digest)?;

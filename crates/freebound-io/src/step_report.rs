@@ -1,59 +1,59 @@
-//! The numbers of a step: a part of the report, and a row of a table.
+//! Numbers of a step: a part of the report, and a row of a table.
 
 use serde::Serialize;
 
 use freebound_core::flatten::Step;
 use freebound_core::problem::{Convergence, Stage};
 
-/// One step of one stage.
+/// Step of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct StepReport {
-    /// The stage that made it.
+    /// Stage that made the step.
     pub stage: Stage,
-    /// Place in the run.
+    /// Position in the run.
     pub index: usize,
     /// Flipped faces.
     pub flipped_faces: usize,
     /// Concave polygons.
     pub concave_polygons: usize,
-    /// Holes that meet themselves or are turned inside out.
+    /// Holes that intersect themselves or are turned inside out.
     pub crossed_holes: usize,
     /// Boundary crossings.
     pub boundary_crossings: usize,
     /// Overwound vertices.
     pub overwound_vertices: usize,
-    /// Vertices outside the hull of their neighbours, or without one on the surface's side where the boundary goes straight on:
-    /// no fault of their own, but why it folds.
+    /// Vertices outside the hull of their neighbours; or, on a straight boundary, without a neighbour on the
+    /// surface's side. They are not defects themselves, but explain why the map folds.
     pub outside_hull_vertices: usize,
     /// Turning number of the boundary.
     pub turning_number: Option<i64>,
-    /// Largest move of a vertex since the step before.
+    /// Largest displacement of a vertex since the previous step.
     pub max_move: Option<f64>,
-    /// ‖Ax − b‖ / ‖b‖ of the linear solve; null where there is none, as in the next. Of an eigenvector what is left of its
+    /// ‖Ax − b‖ / ‖b‖ of the linear solve; null without a linear solve. For an eigenvector: the residual of its
     /// equations, relative to the sizes of their terms.
     pub residual: Option<f64>,
-    /// ‖A z‖ of all vertex equations, pinned ones included, relative to the sum of their terms' sizes.
+    /// ‖A z‖ of all vertex equations, pinned ones included, relative to the sum of their terms' sizes; null without a
+    /// linear solve.
     pub equation_residual: Option<f64>,
-    /// Pivots that were too small and replaced.
+    /// Number of pivots that were too small and were replaced.
     pub replaced_pivots: usize,
-    /// Degenerate corners whose weight was bounded.
+    /// Degenerate corners whose weight was clamped.
     pub bounded_corners: usize,
     /// Boundary vertices that were bent to a convex polygon to make the boundary simple.
     pub bent_vertices: usize,
-    /// Bytes of the matrix's factors.
+    /// Bytes of the factors of the matrix.
     pub factor_bytes: usize,
-    /// Seconds of the step.
+    /// Time of the step.
     pub seconds: f64,
-    /// Proved one-to-one.
+    /// True if the map is proved one-to-one.
     pub planar: bool,
-    /// Mean energy of the faces' maps, 4 where nothing is distorted; null where it was not asked for, as the
-    /// next two are.
+    /// Mean energy of the faces' maps, 4 without distortion; null if the stage does not measure it.
     pub energy: Option<f64>,
-    /// Smallest determinant of a face's map, at equal total areas.
+    /// Smallest determinant of a face's map, at equal total areas; null without `energy`.
     pub least_determinant: Option<f64>,
-    /// Largest distance of an exact pin from its target, in the plane.
+    /// Largest distance of a hard pin from its target, in the plane; null without `energy`.
     pub distance_left: Option<f64>,
-    /// How a method that approaches its answer within one step ended; absent where it does not.
+    /// End of the inner iteration of a method that converges within one step; absent for other methods.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub convergence: Option<Convergence>,
     /// Remark on the step.
@@ -61,13 +61,13 @@ pub struct StepReport {
     pub note: Option<String>,
 }
 
-/// A number as a cell of a table; empty where there is none.
+/// Number as a cell of a table; empty if absent or not finite.
 fn cell(number: impl Into<Option<f64>>) -> String {
     number.into().filter(|number| number.is_finite()).map(|number| format!("{number:?}")).unwrap_or_default()
 }
 
 impl StepReport {
-    /// The fields as a row of a table, each with the head of its column; empty where there is no value.
+    /// Fields as a row of a table, each with the head of its column; empty if there is no value.
     pub fn row(&self) -> [(&'static str, String); 25] {
         [
             ("stage", self.stage.name().to_owned()),
@@ -98,7 +98,7 @@ impl StepReport {
         ]
     }
 
-    /// The numbers of a step.
+    /// Numbers of a step.
     pub fn of(step: &Step) -> Self {
         let (solution, verdict) = (&step.candidate.solution, &step.verdict);
         let counts = solution.linear.unwrap_or_default();
@@ -129,7 +129,7 @@ impl StepReport {
         }
     }
 
-    /// Flipped faces, concave polygons, crossed holes, boundary crossings and overwound vertices together.
+    /// Sum of flipped faces, concave polygons, crossed holes, boundary crossings and overwound vertices.
     pub fn defect_count(&self) -> usize {
         let faces = self.flipped_faces + self.concave_polygons + self.crossed_holes;
         faces + self.boundary_crossings + self.overwound_vertices

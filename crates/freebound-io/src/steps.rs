@@ -1,4 +1,4 @@
-//! The steps of a run as files: a drawing of each, and a table of their numbers.
+//! Steps of a run as files: a drawing of each, and a table of their numbers.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write as _};
@@ -17,7 +17,7 @@ use freebound_core::mesh::DiskMesh;
 /// Name of the table.
 const TABLE: &str = "steps.csv";
 
-/// A folder of steps that is being filled aside; it is put in place when the run has ended, or not at all.
+/// Folder of steps, filled as a temporary folder. [`finish`](Self::finish) moves its files into place.
 #[derive(Debug)]
 pub struct StepsFolder {
     target: PathBuf,
@@ -28,11 +28,11 @@ pub struct StepsFolder {
 }
 
 impl StepsFolder {
-    /// Begins a folder aside, near to `target`, so that its files can be renamed.
+    /// Creates the temporary folder near `target`, so that its files can be renamed.
     ///
     /// # Errors
     ///
-    /// Where `target` is something else than a folder, or nothing can be written there.
+    /// If `target` is not a folder, or cannot be written.
     pub fn begin(target: &Path) -> Result<Self, WriteError> {
         let named = |source: io::Error| WriteError::writing(target, source);
         if fs::metadata(target).is_ok_and(|data| !data.is_dir()) {
@@ -40,14 +40,14 @@ impl StepsFolder {
         }
         let here = Path::new(".");
         let near = target.ancestors().find(|folder| folder.is_dir()).unwrap_or(here);
-        // Its error names the folder aside, which says nothing to anybody.
+        // The error names the temporary folder, which means nothing to the user.
         let plain = |error: io::Error| named(error.kind().into());
         let (unfinished, aside) = Unfinished::new(|names| names.tempdir_in(near)).map_err(plain)?;
         let table = csv::Writer::from_writer(Vec::new());
         Ok(Self { target: target.to_owned(), aside, _unfinished: unfinished, names: Vec::new(), table })
     }
 
-    /// Whether filling a folder would replace this file in it, whether or not it is there yet.
+    /// True if filling a folder would replace this file in it, even if the file does not exist yet.
     pub fn would_replace(folder: &Path, file: &Path) -> bool {
         let whole = whole(file);
         let (Some(parent), Some(name)) = (whole.parent(), whole.file_name()) else { return false };
@@ -55,11 +55,11 @@ impl StepsFolder {
         (name == TABLE || is_drawing_of_a_step(&name)) && is_same_file(parent, folder)
     }
 
-    /// Draws a step and notes its numbers.
+    /// Draws a step and records its numbers.
     ///
     /// # Errors
     ///
-    /// Where the drawing cannot be written.
+    /// If the drawing cannot be written.
     pub fn add(&mut self, mesh: &DiskMesh, step: &Step) -> Result<(), WriteError> {
         let name = format!("step-{:03}-{}.svg", step.index, step.candidate.stage.name());
         let write = || {
@@ -78,12 +78,12 @@ impl StepsFolder {
         Ok(())
     }
 
-    /// Puts the files in place: the steps of an earlier run go, and those of this one come, the table last. A sudden end
-    /// of the program comes before that or after it.
+    /// Moves the files into place: removes the steps of an earlier run, then renames those of this run, the table
+    /// last. The clean-up at a sudden end of the program runs before all of this or after it.
     ///
     /// # Errors
     ///
-    /// Where a file cannot be removed or renamed.
+    /// If a file cannot be removed or renamed.
     pub fn finish(self) -> Result<(), WriteError> {
         let put = || {
             let table = self.table.into_inner().map_err(csv::IntoInnerError::into_error)?;
@@ -104,7 +104,7 @@ impl StepsFolder {
     }
 }
 
-/// Whether a file's name is one that [`StepsFolder::add`] gives.
+/// True if [`StepsFolder::add`] could have given a file this name.
 fn is_drawing_of_a_step(name: &str) -> bool {
     let Some(rest) = name.strip_prefix("step-").and_then(|rest| rest.strip_suffix(".svg")) else { return false };
     let Some((number, stage)) = rest.split_once('-') else { return false };

@@ -1,23 +1,23 @@
-//! The plots of a study: how often and how fast the iteration came to a planar map, against what it may depend on.
+//! Plots of a study: how often and how fast the iteration reached a planar map, by its possible causes.
 
 use super::figure::{Bar, Marks, Page, Plot, Shares, plots};
 use freebound_core::pipeline::study::{Group, Record, Studied, TrialOutcome, summary};
 use freebound_core::problem::{NamedOption as _, Treatment};
 
-/// What bars show, and the groups of the summary that they stand for.
+/// Criteria of the summary's groups, each with the title of its bars.
 const BARS: [(&str, &str); 9] = [
     ("first map, equations of pins kept", "First map not planar; all equations kept"),
     ("first map, equations of pins dropped", "First map not planar; equations of pins dropped"),
-    ("treatment of a pair", "Two pins: what becomes of their equations"),
-    ("treatment of constraints", "Constraints: what becomes of their equations"),
-    ("distance of a pair", "Two pins: their distance in space, of the mesh's diagonal"),
-    ("displacement of constraints", "Constraints: how far off they may be, of the map's diagonal"),
+    ("treatment of a pair", "Two pins: treatment of their equations"),
+    ("treatment of constraints", "Constraints: treatment of their equations"),
+    ("distance of a pair", "Two pins: distance in space, relative to the mesh's diagonal"),
+    ("displacement of constraints", "Constraints: largest displacement, relative to the map's diagonal"),
     ("angle distortion of the first map", "Mean angle distortion of the first map"),
     ("turning number of the first map", "Turning number of the first map"),
-    ("place of a pair", "Two pins: where they are"),
+    ("place of a pair", "Two pins: position"),
 ];
 
-/// The page of plots.
+/// Page of plots.
 pub fn study_plots(studied: &[Studied]) -> Page {
     let groups = summary(studied);
     let records: Vec<&Record> = studied.iter().flat_map(|of| &of.records).collect();
@@ -46,7 +46,7 @@ fn bars(groups: &[Group], by: &str, title: &str) -> Plot {
     Plot { title: title.to_owned(), along: "per cent of runs that end planar".to_owned(), marks }
 }
 
-/// Shares of the runs whose first map was not planar that were planar after so many iterations.
+/// Share of runs that are planar after each number of iterations, among the runs whose first map was not planar.
 fn curves(records: &[&Record]) -> Plot {
     let is_to_mend = |record: &&Record| record.first.is_some() && !record.is_planar_at_once();
     let to_mend: Vec<&Record> = records.iter().copied().filter(is_to_mend).collect();
@@ -67,7 +67,7 @@ fn curves(records: &[&Record]) -> Plot {
     let kinds = [true, false].into_iter();
     let marks = kinds.flat_map(|is_pair| Treatment::ALL.iter().map(move |&of| (is_pair, of)));
     Plot {
-        title: "First map not planar: planar after so many iterations".to_owned(),
+        title: "First map not planar: iterations until planar".to_owned(),
         along: "iterations; per cent of runs".to_owned(),
         marks: Marks::Curves(marks.map(|(is_pair, treatment)| curve(is_pair, treatment)).collect()),
     }

@@ -1,4 +1,4 @@
-//! The runs of a study as a table (CSV), a row each, out and in again.
+//! Runs of a study as a table (CSV), one row each, out and in again.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -14,14 +14,14 @@ use freebound_core::pipeline::study::{
 };
 use freebound_core::problem::{Family, Pins, Treatment, hard_pins};
 
-/// A row: everything that is needed to run it again on its mesh, and what came of it.
+/// Row of the table: everything needed to repeat the run on its mesh, and its result.
 #[derive(Debug, Serialize, Deserialize)]
 struct Row {
     mesh: String,
     run: u64,
     family: Family,
     treatment: Treatment,
-    /// As typed for `--pin`, `V:U,V` of each, spaces between.
+    /// Pins in the form of `--pin`, `V:U,V` each, separated by spaces.
     pins: String,
     pin_count: usize,
     pins_inside: usize,
@@ -109,7 +109,7 @@ impl Row {
         Limits { max_steps: self.max_steps, patience }
     }
 
-    /// The record that it is of; none where its words are not such a table's.
+    /// Record of the row; `None` if its outcome or its pins cannot be parsed.
     fn record(&self) -> Option<Record> {
         let defects = |flips: Option<usize>, counts: [Option<usize>; 2], turning_number| {
             let [crossings, overwound] = counts;
@@ -143,7 +143,7 @@ impl Row {
     }
 }
 
-/// Pins as they are typed for `--pin`, to the last bit.
+/// Pins in the form of `--pin`, exact to the last bit.
 fn in_words(pins: &Pins) -> String {
     let words = pins.iter().map(|(vertex, pin)| format!("{}:{:?},{:?}", vertex.number(), pin.target.x, pin.target.y));
     words.collect::<Vec<_>>().join(" ")
@@ -158,7 +158,7 @@ fn from_words(text: &str) -> Option<Pins> {
     Some(hard_pins(text.split_whitespace().map(pin).collect::<Option<Vec<_>>>()?))
 }
 
-/// Writes a head and a row for each run, mesh after mesh.
+/// Writes a header and a row for each run, mesh by mesh.
 ///
 /// # Errors
 ///
@@ -173,11 +173,11 @@ pub fn write_study(out: &mut impl Write, studied: &[Studied]) -> io::Result<()> 
     table.flush()
 }
 
-/// Reads what [`write_study`] wrote.
+/// Reads a table of [`write_study`].
 ///
 /// # Errors
 ///
-/// A file that cannot be read, or is no such table: with the line.
+/// If the file cannot be read or is no such table; the error names the faulty line or run.
 pub fn read_study(path: &Path) -> Result<Vec<Studied>, WriteError> {
     let failed = |error: io::Error| WriteError::reading(path, error);
     let mut table = csv::Reader::from_reader(File::open(path).map_err(failed)?);

@@ -1,4 +1,4 @@
-//! An embedding as a drawing (SVG): faces, edges, boundary, and what is wrong with it.
+//! Drawing of an embedding (SVG): faces, edges, boundary and defects.
 
 use std::io::{self, Write};
 
@@ -14,15 +14,17 @@ use freebound_core::mesh::{DiskMesh, EdgeId, VertexId};
 use freebound_core::pipeline::{Fit, LaidChart};
 use freebound_core::problem::Embedding;
 
-/// Longer side of a drawing without its margin, in units of its lines' widths.
+/// Longer side of a drawing without its margin, in units of its line widths.
 const SIZE: f64 = 1000.0;
 
-/// Free space around it.
+/// Margin around the drawing.
 const MARGIN: f64 = 20.0;
 
-/// Draws texture coordinates, v upwards, for a picture of this aspect (width over height). Flipped faces are red, crossing
-/// boundary edges orange, concave polygons outlined in olive, overwound vertices magenta. The page is the unit square where the picture lies, larger where
-/// the embedding leaves it; or a unit of the drawing is a unit of the mesh.
+/// Draws texture coordinates, v upwards, for a picture of this aspect (width over height).
+///
+/// Flipped faces are red, crossing boundary edges orange, concave polygons outlined in olive, overwound vertices
+/// magenta. With [`Fit::Unit`] the page is the unit square of the picture, enlarged if the embedding leaves it. With
+/// [`Fit::True`] a unit of the drawing is a unit of the mesh.
 pub(super) fn write_svg(out: &mut impl Write, charts: &[LaidChart<'_>], aspect: f64, fit: Fit) -> io::Result<()> {
     let scale = DVec2::new(aspect, 1.0);
     let laid = |chart: &LaidChart<'_>| -> Embedding {
@@ -42,12 +44,12 @@ pub(super) fn write_svg(out: &mut impl Write, charts: &[LaidChart<'_>], aspect: 
     Drawing::new(&shown, frame, None).write(out)
 }
 
-/// Draws a step as [`write_svg`] does; one of the virtual boundary with the outline it was solved with (the hull, as a
-/// red line) and the pockets (green). `mesh` is the mesh as given; new vertices are the step's own.
+/// Draws a step in the style of [`write_svg`]. A step of the virtual boundary also shows the outline of its solve:
+/// the hull as a red line, and the pockets in green. `mesh` is the input mesh; new vertices belong to the step.
 pub(super) fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step) -> io::Result<()> {
     let embedding = &step.candidate.solution.embedding;
     let outside = step.candidate.virtual_boundary.as_deref().map(|stages| {
-        // The step's embedding may have been turned and scaled since it was solved; the outside goes with it.
+        // The step's embedding may have been rotated and scaled since the solve; move the outside along with it.
         let pairs: Vec<[DVec2; 2]> = stages.solved.iter().zip(embedding).map(|(&from, &to)| [from, to]).collect();
         let fit = Similarity::fitting(&pairs);
         let moved = |&z: &DVec2| fit.map_or(z, |fit| fit.apply(z));
@@ -58,9 +60,9 @@ pub(super) fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step)
     Drawing::new(&[shown], frame, outside).write(out)
 }
 
-/// What lies outside the boundary in a step of the virtual boundary.
+/// Outside of the boundary in a step of the virtual boundary.
 struct Outside<'a> {
-    /// Of all vertices, the virtual ones last.
+    /// Embedding of all vertices, the virtual ones last.
     embedding: Embedding,
     stages: &'a VirtualBoundary,
 }
@@ -101,12 +103,12 @@ impl<'a> Drawing<'a> {
         writeln!(out, "</svg>")
     }
 
-    /// Where a vertex lies in the drawing.
+    /// Position of a vertex in the drawing.
     fn at(&self, chart: ProvedEmbedding<'_>, vertex: VertexId) -> DVec2 {
         self.frame.place(chart.embedding[vertex.index()])
     }
 
-    /// Faces, inner edges, flipped faces, boundary.
+    /// Draws faces, inner edges, flipped faces and the boundary.
     fn write_faces(&self, out: &mut impl Write, chart: ProvedEmbedding<'_>) -> io::Result<()> {
         let (mesh, width) = (chart.mesh, self.width);
         let holes = mesh.mesh().holes();
@@ -138,7 +140,7 @@ impl<'a> Drawing<'a> {
         self.write_closed(out, &style, [hull.collect::<Vec<_>>()])
     }
 
-    /// Crossings, concave polygons and overwound vertices.
+    /// Draws crossings, concave polygons, crossed holes and overwound vertices.
     fn write_defects(&self, out: &mut impl Write, chart: ProvedEmbedding<'_>) -> io::Result<()> {
         let ProvedEmbedding { verdict, mesh, .. } = chart;
         let crossings = verdict.boundary_crossings.iter().flatten().copied();
@@ -206,20 +208,20 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// From the plane to the drawing.
+/// Map from the plane to the drawing.
 struct Frame {
     bounds: Bounds,
     scale: f64,
-    /// Free space around it, in the drawing's units.
+    /// Margin, in units of the drawing.
     margin: f64,
-    /// Digits behind the point that are a millionth of the drawing.
+    /// Decimals of a coordinate, down to a millionth of the drawing.
     decimals: usize,
-    /// Whether the drawing's units mean something.
+    /// True if a unit of the drawing is a unit of the mesh.
     is_to_scale: bool,
 }
 
 impl Frame {
-    /// Around some points, at a size of its own.
+    /// Frame around points, scaled to the default size.
     fn around<'a>(points: impl IntoIterator<Item = &'a DVec2>) -> Self {
         let bounds = finite_bounds(points.into_iter().copied());
         let extent = bounds.size().max_element();
@@ -227,14 +229,14 @@ impl Frame {
         Self { bounds, scale, margin: MARGIN, decimals: 3, is_to_scale: false }
     }
 
-    /// The unit square, as wide as a picture of this aspect, and whatever lies outside.
+    /// Frame of the unit square, as wide as a picture of this aspect, extended to the points outside.
     fn of_picture<'a>(aspect: f64, points: impl Iterator<Item = &'a DVec2>) -> Self {
         let page = [DVec2::ZERO, DVec2::new(aspect, 1.0)];
         let bounds = finite_bounds(points.copied().chain(page));
         Self { bounds, scale: SIZE / aspect.max(1.0), margin: 0.0, decimals: 3, is_to_scale: false }
     }
 
-    /// Around some points, lengths as they are.
+    /// Frame around points, at true scale.
     fn at_scale<'a>(points: impl Iterator<Item = &'a DVec2>) -> Self {
         let bounds = finite_bounds(points.copied());
         let extent = bounds.size().max_element();
@@ -242,13 +244,13 @@ impl Frame {
         Self { bounds, scale: 1.0, margin: extent * MARGIN / SIZE, decimals, is_to_scale: true }
     }
 
-    /// A length that is measured in parts of the drawing's size.
+    /// Length given in parts of the drawing's size ([`SIZE`]), in units of the drawing.
     fn length(&self, parts: f64) -> f64 {
         let unit = if self.is_to_scale { self.bounds.size().max_element() / SIZE } else { 1.0 };
         parts * unit
     }
 
-    /// Width and height.
+    /// Width and height of the page.
     fn page(&self) -> DVec2 {
         self.bounds.size() * self.scale + 2.0 * self.margin
     }

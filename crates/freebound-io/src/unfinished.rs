@@ -1,7 +1,7 @@
-//! What is being written aside, so that a sudden end of the program leaves none of it behind.
+//! Temporary files and folders of writers, removed even at a sudden end of the program.
 //!
-//! One lock covers the making of a file aside, its note, and the clean-up at the end. The clean-up never gives it back:
-//! what would make another file from then on waits for the end of the process.
+//! A single lock covers the creation of a temporary file, its registration, and the clean-up at the end. The clean-up
+//! never releases the lock: any later attempt to create a file blocks until the process ends.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -10,26 +10,27 @@ use std::{fs, io};
 
 use tempfile::Builder;
 
-/// How the names of files and folders aside begin.
+/// Prefix of the names of temporary files and folders.
 const PREFIX: &str = ".freebound-";
 
-/// Files and folders under way.
+/// Temporary files and folders in existence.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Notes a file or folder as unfinished for as long as it lives. It is to outlive the file's own guard.
+/// Registration of a temporary file or folder. Must outlive the guard that removes it.
 #[derive(Debug)]
 pub(super) struct Unfinished(PathBuf);
 
 impl Unfinished {
-    /// Makes a file or folder aside, under a name from the builder, and notes it before the clean-up can begin.
+    /// Creates a temporary file or folder under a name from the builder, and registers it before the clean-up can
+    /// begin.
     ///
     /// # Errors
     ///
-    /// Where it cannot be made.
+    /// If it cannot be created.
     pub(super) fn new<T: AsRef<Path>>(
         make: impl FnOnce(&Builder<'_, 'static>) -> io::Result<T>,
     ) -> io::Result<(Self, T)> {
@@ -46,18 +47,19 @@ impl Drop for Unfinished {
     }
 }
 
-/// Does short work on files, such as those in a folder aside, that the clean-up neither meets half-done nor is followed by.
+/// Runs short work on files, such as those in a temporary folder, under the lock. The clean-up runs before the work
+/// or after it, and the work never starts after the clean-up.
 pub(super) fn before_clean_up<T>(work: impl FnOnce() -> T) -> T {
     let _noted = unfinished();
     work()
 }
 
-/// Removes all files and folders that are being written aside. For the last moment of the process: what would write
-/// another one waits for ever from then on.
+/// Removes all temporary files and folders. Only for the last moment of the process: any later attempt to create one
+/// blocks for ever.
 pub fn discard_unfinished() {
     let noted = unfinished();
     for path in &*noted {
-        // What cannot be removed stays: there is nobody left to tell.
+        // A file that cannot be removed stays: nobody is left to receive the error.
         if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) }.ok();
     }
     std::mem::forget(noted);

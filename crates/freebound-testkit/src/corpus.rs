@@ -1,4 +1,4 @@
-//! The corpus: meshes of others, which are no part of the project.
+//! Corpus of third-party meshes, which are not part of the project.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Panics
 ///
-/// If there is no corpus. Tests over it belong into [`corpus_test!`](crate::corpus_test).
+/// If there is no corpus. Tests over the corpus belong in [`corpus_test!`](crate::corpus_test).
 pub fn corpus() -> PathBuf {
     let folder = Path::new(env!("FREEBOUND_CORPUS_FOLDER")).to_path_buf();
     assert!(folder.join("manifest.csv").is_file(), "there is no corpus at {}", folder.display());

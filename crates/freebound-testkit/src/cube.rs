@@ -8,13 +8,13 @@ use super::Random;
 use super::fill::{Sheet, fill};
 use freebound_core::mesh::TriMesh;
 
-/// Edge length; the cube's is 1.
+/// Spacing of the vertices. The cube has unit edges.
 const SPACING: f64 = 0.085;
 
 /// Rounds of settling: enough for good triangles, too few for a regular pattern.
 const ROUNDS: usize = 4;
 
-/// Origin and the two directions of each side, whose cross product points outwards.
+/// Origin and the two directions of each side.
 const SIDES: [[DVec3; 3]; 5] = [
     [DVec3::Y, DVec3::Z, DVec3::X],
     [DVec3::ZERO, DVec3::X, DVec3::Y],
@@ -23,7 +23,7 @@ const SIDES: [[DVec3; 3]; 5] = [
     [DVec3::X, DVec3::Y, DVec3::Z],
 ];
 
-/// Inner points of the cube's edge between two corners, the same from both sides that share it.
+/// Inner points of the cube's edge between two corners, identical from both sides that share it.
 fn edge_points(a: DVec3, b: DVec3) -> Vec<DVec3> {
     let (low, high) = if (a.x, a.y, a.z) < (b.x, b.y, b.z) { (a, b) } else { (b, a) };
     let seed = [low, high].iter().fold(0xc0be, |s, p| 31 * s + (4.0 * p.x + 2.0 * p.y + p.z) as u64);
@@ -44,7 +44,7 @@ pub(crate) fn cube() -> TriMesh {
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
     for [origin, u, v] in SIDES {
-        // The direction of v may run against u × v = outwards; then the side is drawn from its other end.
+        // The cross product u × v may point inwards; then the two directions are swapped.
         let outwards = (origin + (u + v) / 2.0 - DVec3::splat(0.5)).dot(u.cross(v)) > 0.0;
         let [u, v] = if outwards { [u, v] } else { [v, u] };
         let lift = |p: DVec2| origin + p.x * u + p.y * v;
@@ -60,7 +60,7 @@ pub(crate) fn cube() -> TriMesh {
         plane.settle(&Sheet { surface: &lift, chart: &drop, spacing: &|_| 1.0 }, ROUNDS);
         let mut weld = |p: DVec2| {
             let x = lift(p);
-            // Adding zero makes −0 the same as 0.
+            // Adding zero turns −0 into 0.
             let key = (x + 0.0).to_array().map(f64::to_bits);
             *number.entry(key).or_insert_with(|| {
                 positions.push(x);

@@ -3,7 +3,7 @@
 use freebound_core::mesh::{PolygonMesh, VertexId};
 use glam::DVec3;
 
-/// The edges that are cut to lay the cube out as a cross: four upright ones, and three of its lid.
+/// Edges to cut so that the cube unfolds to a cross: four upright ones, and three of its lid.
 pub fn cross() -> [[VertexId; 2]; 7] {
     [edge(0, 4), edge(1, 5), edge(6, 2), edge(3, 7), edge(5, 7), edge(7, 6), edge(6, 4)]
 }
@@ -20,7 +20,7 @@ pub fn edge(a: u32, b: u32) -> [VertexId; 2] {
     [a, b].map(VertexId::new)
 }
 
-/// Polygons at these places.
+/// Polygons at these positions.
 pub fn polygons(positions: Vec<DVec3>, faces: &[&[u32]]) -> PolygonMesh {
     let corners = faces.iter().flat_map(|face| face.iter().map(|&v| VertexId::new(v))).collect();
     let ends = faces.iter().scan(0, |end, face| {

@@ -1,4 +1,4 @@
-//! Meshes and constraints of our own making in `tests/data`, for tests that need files, and real disks, anywhere.
+//! Meshes and constraints of `tests/data`, generated for tests that need files or realistic disks without the corpus.
 //!
 //! `cargo run -p freebound-testkit --example data` writes the files.
 
@@ -16,7 +16,7 @@ use crate::{Random, Relief, bumpy_cap_of, honeycomb, many_parts, quad_sheet, sea
 /// Names of the meshes that are disks.
 const DISKS: [&str; 7] = ["honeycomb", "open-cube", "quads", "seamed-ball", "small-cap", "spring", "tube"];
 
-/// Constraint files: the mesh, the number of its constraints, and how many vertices of the mesh lie before the first.
+/// Constraint files: mesh, number of constraints, and number of the first constrained vertex.
 const CONSTRAINTS: [(&str, u32, u32); 3] = [("small-cap", 4, 11), ("open-cube", 6, 5), ("quads", 8, 0)];
 
 /// Folder of the files.
@@ -29,17 +29,17 @@ pub fn data_disks() -> Vec<Entry> {
     DISKS.iter().map(|name| data_entry(name)).collect()
 }
 
-/// Disks of triangles among them: theorems about triangulations say nothing of polygons.
+/// Meshes of `tests/data` that are disks of triangles: theorems about triangulations do not cover polygons.
 pub fn data_triangle_disks() -> Vec<Entry> {
     data_disks().into_iter().filter(|entry| entry.mesh().polygon_of.is_none()).collect()
 }
 
-/// One mesh of `tests/data`, such as `small-cap`.
+/// Mesh of `tests/data` by its name, such as `small-cap`.
 pub fn data_entry(name: &str) -> Entry {
     Entry::in_folder(&data_folder(), &format!("{name}.obj"))
 }
 
-/// Names and contents of all files, as their makers make them.
+/// Names and contents of all files.
 pub fn data_files() -> Vec<(String, Vec<u8>)> {
     let meshes = DISKS.into_iter().chain(["parts"]).map(|name| (format!("{name}.obj"), obj(mesh(name))));
     let constraints = CONSTRAINTS.map(|(name, count, first)| {
@@ -69,7 +69,7 @@ fn mesh(name: &str) -> PolygonMesh {
     }
 }
 
-/// A strip that is rolled up as the spring of a clock, three turns.
+/// Strip that is rolled up like a clock spring, three turns.
 fn spring() -> TriMesh {
     let columns = 80;
     shaped(columns, 4, |x, y| {
@@ -79,7 +79,7 @@ fn spring() -> TriMesh {
     })
 }
 
-/// Constraints for vertices at even distances in the file, at random places of the unit square.
+/// Constraints for vertices at even distances in the file, at random positions of the unit square.
 fn constraints(vertices: usize, count: u32, first: u32) -> String {
     let mut random = Random(u64::from(count));
     let mut text = "# vertex u v; vertices count from 0\n".to_owned();

@@ -1,4 +1,5 @@
-//! Disks whose inside lies many rings away from a small boundary: linear embeddings shrink it beyond all digits.
+//! Disks whose inside is many rings away from a small boundary. Linear embeddings shrink the inside beyond all
+//! digits.
 
 use freebound_core::mesh::{TriMesh, VertexId};
 use glam::DVec3;
@@ -6,8 +7,8 @@ use glam::DVec3;
 use super::Random;
 use super::plain::fan;
 
-/// A triangle into which vertices were put one by one, each into a face of those there, until there are `count`.
-/// Of the faces only the `newest` come into question: the fewer, the deeper.
+/// Triangle with vertices inserted one by one, each into an existing face, until there are `count` vertices. Only the
+/// `newest` faces are candidates: the fewer, the deeper.
 pub fn stacked(count: usize, newest: usize, random: &mut Random) -> TriMesh {
     let mut positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
     let mut triangles = vec![[0_u32, 1, 2]];
@@ -16,7 +17,7 @@ pub fn stacked(count: usize, newest: usize, random: &mut Random) -> TriMesh {
         let face = first + random.index(triangles.len() - first);
         let [a, b, c] = triangles[face];
         let top = u32::try_from(positions.len()).expect("a vertex fits");
-        // Around an axis, so that no three vertices lie on a line however deep they are.
+        // Around an axis, so that no three vertices are collinear, however deep they are.
         positions.push(DVec3::new((2.4 * f64::from(top)).cos(), (2.4 * f64::from(top)).sin(), 0.1 * f64::from(top)));
         triangles[face] = [a, b, top];
         triangles.extend([[b, c, top], [c, a, top]]);
@@ -24,7 +25,8 @@ pub fn stacked(count: usize, newest: usize, random: &mut Random) -> TriMesh {
     TriMesh::new(positions, &triangles)
 }
 
-/// A tube of `around` × `along` squares, open below, closed above by a point; as high as its squares are wide.
+/// Tube of `around` × `along` squares, open below, closed above by a point. Each row is as high as its squares are
+/// wide.
 pub fn tube(around: u32, along: u32) -> TriMesh {
     let step = std::f64::consts::TAU / f64::from(around);
     let mut positions = Vec::new();
@@ -48,7 +50,7 @@ pub fn tube(around: u32, along: u32) -> TriMesh {
     TriMesh::new(positions, &triangles)
 }
 
-/// A palm of ten faces around a vertex, every other one drawn out to a finger of `joints` triangular rings.
+/// Palm of ten faces around a vertex. Every other face is drawn out to a finger of `joints` triangular rings.
 pub fn hand(joints: u32) -> TriMesh {
     let mut mesh = fan(10);
     let mut triangles: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| t.map(VertexId::number)).collect();

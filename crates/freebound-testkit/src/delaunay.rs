@@ -3,10 +3,10 @@
 use glam::DVec2;
 use robust::{Coord, incircle, orient2d};
 
-/// No triangle on the other side.
+/// Mark of a side without a triangle on its other side.
 const NONE: u32 = u32::MAX;
 
-/// The outer triangle is this much larger than the points, so that it hides no edge of theirs that matters.
+/// Size of the outer triangle relative to the points: so large that it hides no relevant edge between points.
 const OUTER_SCALE: f64 = 1e4;
 
 pub fn coord(p: DVec2) -> Coord<f64> {
@@ -27,7 +27,7 @@ pub fn triangulate(points: &[DVec2]) -> Vec<[u32; 3]> {
 struct Work {
     points: Vec<DVec2>,
     corners: Vec<[u32; 3]>,
-    /// The triangle across the side from corner `k` to corner `k + 1`.
+    /// Triangle across the side from corner `k` to corner `k + 1`.
     across: Vec<[u32; 3]>,
     dead: Vec<bool>,
     free: Vec<u32>,
@@ -56,7 +56,7 @@ impl Work {
         coord(self.points[v as usize])
     }
 
-    /// Walks to the triangle that holds a point.
+    /// Walks to the triangle that contains a point.
     fn locate(&self, v: u32) -> u32 {
         let mut t = self.last;
         'walk: loop {
@@ -71,7 +71,7 @@ impl Work {
         }
     }
 
-    /// All triangles whose circumcircle holds the point, and the sides around them with what lies beyond.
+    /// Triangles whose circumcircle contains the point, and the sides around them with the triangles beyond.
     fn cavity(&self, v: u32) -> (Vec<u32>, Vec<[u32; 3]>) {
         let mut inside = vec![self.locate(v)];
         let mut rim = Vec::new();

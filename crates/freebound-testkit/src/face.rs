@@ -1,4 +1,4 @@
-//! The face mesh: rays from inside the sculpture meet its surface; the mask is what they reach within a wavy rim.
+//! The face mesh: rays from inside the sculpture meet its surface, and the mask is the part within a wavy rim.
 
 use std::f64::consts::TAU;
 
@@ -11,18 +11,18 @@ use super::fill::{Sheet, fill, walk_along};
 use super::sculpt::distance;
 use freebound_core::mesh::TriMesh;
 
-/// Where the rays begin.
+/// Origin of the rays.
 const CENTRE: DVec3 = DVec3::new(0.0, -0.02, -0.12);
 
 /// Edge length away from the features.
 const COARSE: f64 = 0.056;
-/// How fast the edges may become longer away from a feature.
+/// Growth of the edge length with the distance from a feature.
 const GROWTH: f64 = 0.20;
 
-/// Rounds of settling. The first move points to where the sculpture needs them.
+/// Rounds of settling. The first rounds move points to the regions in which the sculpture needs them.
 const ROUNDS: usize = 14;
 
-/// A region, mirrored at x = 0, that needs short edges.
+/// Region, mirrored at x = 0, that needs short edges.
 struct Feature {
     centre: DVec3,
     half_axes: DVec3,
@@ -59,7 +59,7 @@ fn surface(p: DVec2) -> DVec3 {
     let at = |t: f64| distance(CENTRE + t * direction);
     let mut t = 1.35;
     let mut d = at(t);
-    // The sculpture's distance may overshoot near thin parts; at the surface a ray that grazes it may go faster.
+    // The sculpture's distance may overshoot near thin parts. Near the surface, a grazing ray may take longer steps.
     let mut pace = 0.8;
     for _ in 0..60 {
         if d.abs() < 1e-7 {
@@ -82,19 +82,19 @@ fn rim_angle(turn: f64) -> f64 {
     (base + 2.2 * (7.0 * a + 0.6).sin() + 1.3 * (11.0 * a + 2.0).cos()).to_radians()
 }
 
-/// The chart is tabulated up to here in each direction.
+/// Half width of the tabulated part of the chart.
 const REACH: f64 = 1.6;
-/// Cells of the table in a row.
+/// Number of cells in a row of the table.
 const CELLS: usize = 110;
 
-/// Wanted edge lengths in cells of the chart: the sculpture is too slow to ask for every point tried.
+/// Wanted edge lengths in cells of the chart. Evaluating the sculpture at every tried point would be too slow.
 fn spacing_table() -> Vec<f64> {
     let centre = |i: usize| REACH * (2.0 * (i as f64 + 0.5) / CELLS as f64 - 1.0);
     let place = |k: usize| DVec2::new(centre(k % CELLS), centre(k / CELLS));
     (0..CELLS * CELLS).into_par_iter().map(|k| spacing(surface(place(k)))).collect()
 }
 
-/// The mask, y up, looking to +z.
+/// Mask, y up, that looks to +z.
 pub(crate) fn face() -> TriMesh {
     let mut random = Random(0xface);
     let table = spacing_table();

@@ -1,9 +1,9 @@
-//! Irregular triangulations: points thrown into an outline at a wanted spacing, triangulated, then settled on a
-//! surface so that the triangles are good in space and not only in the plane.
+//! Irregular triangulations: random points in an outline at a wanted spacing, triangulated, then settled on a
+//! surface. After settling, the triangles are good in space and not only in the plane.
 //!
-//! Settling alternates two things: edges flip where the two opposite angles, measured in space, sum to more than π
-//! (the intrinsic Delaunay condition); and inner points move towards the centroid of their triangles, weighted by
-//! area over spacing⁴, which is one round of Lloyd's method for a density that gives that spacing.
+//! Settling alternates two steps. Edges flip if the two opposite angles, measured in space, sum to more than π (the
+//! intrinsic Delaunay condition). Inner points move towards the centroid of their triangles, weighted by area over
+//! spacing⁴. This is one round of Lloyd's method for a density that gives the wanted spacing.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -13,11 +13,11 @@ use super::Random;
 use super::delaunay::{coord, triangulate};
 use freebound_core::mesh::{EdgeTable, TriMesh, VertexId};
 
-/// Points nearer than this share of the wanted spacing are not thrown in.
+/// Least distance of random points, as a share of the wanted spacing.
 const NEAREST: f64 = 0.82;
-/// So many points are tried for each that fits.
+/// Number of tries for each point that fits.
 const TRIES: f64 = 15.0;
-/// How far a point moves towards its centroid in a round.
+/// Share of the way to its centroid that a point moves in a round.
 const PULL: f64 = 0.7;
 
 /// Triangles over points in the plane; the first `boundary` points are the outline, counter-clockwise.
@@ -27,17 +27,17 @@ pub(super) struct Plane {
     pub(super) boundary: usize,
 }
 
-/// A surface over the plane, and how long its edges should be.
+/// Surface over the plane, with the wanted edge lengths.
 pub(super) struct Sheet<'a> {
-    /// From the plane into space.
+    /// Map from the plane into space.
     pub(super) surface: &'a (dyn Fn(DVec2) -> DVec3 + Sync + 'a),
-    /// Back from space, also from places beside the surface.
+    /// Map from space back to the plane, also from positions beside the surface.
     pub(super) chart: &'a (dyn Fn(DVec3) -> DVec2 + 'a),
     /// Wanted edge length at a point in space.
     pub(super) spacing: &'a (dyn Fn(DVec3) -> f64 + 'a),
 }
 
-/// Whether a point lies inside a polygon, by the even-odd rule.
+/// True if a point lies inside a polygon, by the even-odd rule.
 pub(super) fn is_inside(outline: &[DVec2], p: DVec2) -> bool {
     let mut inside = false;
     for (i, &a) in outline.iter().enumerate() {
@@ -49,7 +49,7 @@ pub(super) fn is_inside(outline: &[DVec2], p: DVec2) -> bool {
     inside
 }
 
-/// Places points along a fine closed polyline, a spacing apart, with a little irregularity.
+/// Points along a fine closed polyline, a spacing apart, with a little irregularity.
 pub(super) fn walk_along(fine: &[DVec2], spacing: &dyn Fn(DVec2) -> f64, random: &mut Random) -> Vec<DVec2> {
     let mut reached = vec![0.0];
     for (i, &a) in fine.iter().enumerate() {
@@ -80,7 +80,7 @@ pub(super) fn fill(outline: &[DVec2], spacing: &dyn Fn(DVec2) -> f64, random: &m
     for _ in 0..tries as usize {
         let p = low + size * DVec2::new(random.unit(), random.unit());
         let h = spacing(p);
-        // A coarse place needs fewer tries than a fine one.
+        // A coarse region needs fewer tries than a fine one.
         if random.unit() * h * h <= finest * finest && grid.is_clear(p, NEAREST * h) && is_inside(outline, p) {
             grid.add(p);
         }
@@ -94,7 +94,7 @@ pub(super) fn fill(outline: &[DVec2], spacing: &dyn Fn(DVec2) -> f64, random: &m
     Plane { points, triangles, boundary: outline.len() }
 }
 
-/// Points in square cells, to find the near ones.
+/// Points in square cells, to find near ones.
 struct Grid {
     low: DVec2,
     high: DVec2,
@@ -119,7 +119,7 @@ impl Grid {
         grid
     }
 
-    /// The spacing at places all over the grid.
+    /// Spacing at positions all over the grid.
     fn probe(&self, spacing: &dyn Fn(DVec2) -> f64) -> Vec<f64> {
         let at = |i: usize| i as f64 / 60.0;
         let size = self.high - self.low;
@@ -156,7 +156,7 @@ impl Grid {
 }
 
 impl Plane {
-    /// Makes the triangles good on a surface.
+    /// Settles the triangulation on a surface, so that its triangles are good in space.
     pub(super) fn settle(&mut self, sheet: &Sheet, rounds: usize) {
         let mut raised: Vec<DVec3> = self.points.par_iter().map(|&p| (sheet.surface)(p)).collect();
         for _ in 0..rounds {
@@ -167,7 +167,7 @@ impl Plane {
         self.flip(&raised);
     }
 
-    /// The mesh in space.
+    /// Mesh in space.
     pub(super) fn raise(&self, surface: &(dyn Fn(DVec2) -> DVec3 + Sync)) -> TriMesh {
         TriMesh::new(self.points.par_iter().map(|&p| surface(p)).collect(), &self.triangles)
     }
@@ -179,7 +179,7 @@ impl Plane {
 
     /// Flips edges until their opposite angles in space sum to at most π, as far as the plane allows.
     fn flip(&mut self, raised: &[DVec3]) {
-        // Each sweep repairs most of what the one before it left; a few suffice.
+        // Each sweep repairs most of what the sweep before left; a few are enough.
         for _ in 0..12 {
             let ids: Vec<[VertexId; 3]> = self.triangles.iter().map(|t| t.map(VertexId::new)).collect();
             let mut touched = vec![false; self.triangles.len()];
@@ -206,7 +206,7 @@ impl Plane {
         }
     }
 
-    /// Moves the inner points towards the weighted centroids of their triangles, none over the edge of its ring.
+    /// Moves inner points towards the weighted centroids of their triangles. No point leaves its ring of triangles.
     fn centre(&mut self, sheet: &Sheet, raised: &[DVec3]) {
         let mut around: Vec<Vec<[u32; 2]>> = vec![Vec::new(); self.points.len()];
         for &[a, b, c] in &self.triangles {
@@ -238,7 +238,7 @@ impl Plane {
     }
 }
 
-/// The cotangent of the angle at the first corner.
+/// Cotangent of the angle at the first corner.
 fn cotangent(raised: &[DVec3], [at, a, b]: [u32; 3]) -> f64 {
     let (u, w) = (raised[a as usize] - raised[at as usize], raised[b as usize] - raised[at as usize]);
     u.dot(w) / u.cross(w).length().max(f64::MIN_POSITIVE)

@@ -15,14 +15,14 @@ fn flat(p: DVec2) -> DVec3 {
     p.extend(0.0)
 }
 
-/// Fills a polygon whose corners stay corners.
+/// Fills a polygon and keeps its corners.
 fn fill_polygon(outline: &[DVec2], spacing: f64, random: &mut Random) -> TriMesh {
     let mut plane = fill(outline, &|_| spacing, random);
     plane.settle(&Sheet { surface: &flat, chart: &DVec3::truncate, spacing: &|_| 1.0 }, ROUNDS);
     plane.raise(&flat)
 }
 
-/// Splits a side into pieces of about a spacing; the first end is kept, the last left out.
+/// Splits a side into pieces of about a spacing, with the first end and without the last.
 pub(super) fn split_side(a: DVec2, b: DVec2, spacing: f64, random: &mut Random) -> Vec<DVec2> {
     let count = (a.distance(b) / spacing).round().max(1.0);
     let jitter = |k: usize, random: &mut Random| if k == 0 { 0.0 } else { random.between(-0.2, 0.2) };
@@ -53,7 +53,7 @@ pub(crate) fn spiral() -> TriMesh {
     let turn = |k: usize| TURNS * k as f64 / steps as f64;
     let outer: Vec<DVec2> = (0..=steps).map(|k| at(turn(k), HALF_WIDTH)).collect();
     let inner: Vec<DVec2> = (0..=steps).rev().map(|k| at(turn(k), -HALF_WIDTH)).collect();
-    // Each of the four sides on its own, so that the corners stay.
+    // Each of the four sides is split separately, so that the corners stay.
     let ends = [[outer[steps], inner[0]], [inner[steps], outer[0]]];
     let mut outline = Vec::new();
     for (line, [a, b]) in [outer, inner].iter().zip(ends) {
@@ -63,7 +63,7 @@ pub(crate) fn spiral() -> TriMesh {
     fill_polygon(&outline, SPACING, &mut random)
 }
 
-/// Points along an open polyline, its first end kept, its last left out.
+/// Points along an open polyline, with the first end and without the last.
 fn walk_open(line: &[DVec2], spacing: f64, random: &mut Random) -> Vec<DVec2> {
     let mut reached = vec![0.0];
     for (i, pair) in line.windows(2).enumerate() {

@@ -1,4 +1,4 @@
-//! Makes glTF files, and reads them again with another reader, the crate `gltf`.
+//! Makes glTF files, and reads them with an independent reader, the crate `gltf`.
 
 use base64::Engine as _;
 use glam::{DMat4, DVec2, DVec3, Mat4};
@@ -6,13 +6,13 @@ use serde_json::{Value, json};
 
 use freebound_io::{MeshFile, Texture, read_stream, write_glb};
 
-/// Types of components.
+/// Component types of accessors.
 pub const U8: u32 = 5121;
 pub const U16: u32 = 5123;
 pub const U32: u32 = 5125;
 pub const F32: u32 = 5126;
 
-/// A glTF file that grows.
+/// Builder of a glTF file.
 pub struct GlbMaker {
     pub json: Value,
     pub binary: Vec<u8>,
@@ -76,7 +76,7 @@ impl GlbMaker {
         self.push("accessors", json!({"bufferView": view, "componentType": kind, "count": count, "type": shape}))
     }
 
-    /// The JSON, with its buffer.
+    /// JSON with its buffer.
     pub fn finished(&self, uri: Option<String>) -> Value {
         let mut json = self.json.clone();
         if !self.binary.is_empty() {
@@ -92,7 +92,7 @@ impl GlbMaker {
         glb_of(&self.finished(None), &self.binary)
     }
 
-    /// As text that holds its buffer.
+    /// Text file that embeds its buffer.
     pub fn text(&self) -> String {
         let data = base64::engine::general_purpose::STANDARD.encode(&self.binary);
         self.finished(Some(format!("data:application/octet-stream;base64,{data}"))).to_string()
@@ -103,7 +103,7 @@ pub fn bytes_of(numbers: &[f32]) -> Vec<u8> {
     numbers.iter().flat_map(|x| x.to_le_bytes()).collect()
 }
 
-/// A binary file of JSON and bytes.
+/// Binary file of JSON and bytes.
 pub fn glb_of(json: &Value, binary: &[u8]) -> Vec<u8> {
     let mut text = json.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
@@ -118,14 +118,14 @@ pub fn glb_of(json: &Value, binary: &[u8]) -> Vec<u8> {
     [&b"glTF\x02\0\0\0"[..], &whole, &body].concat()
 }
 
-/// A triangle with its texture coordinates, v down as in the file.
+/// Triangle with its texture coordinates, v down as in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
     pub corners: [DVec3; 3],
     pub texture: Option<[DVec2; 3]>,
 }
 
-/// The triangles of a file's scene, as another reader reads them.
+/// Triangles of a file's scene, as the independent reader reads them.
 pub fn seen(glb: &[u8]) -> Vec<Seen> {
     let file = gltf::Gltf::from_slice(glb).expect("another reader takes it");
     let blob = file.blob.as_deref().expect("a binary chunk");
@@ -179,7 +179,7 @@ fn of_primitive(primitive: &gltf::Primitive<'_>, blob: &[u8], transform: DMat4, 
     }
 }
 
-/// A sheet of `n` by `n` squares: positions, texture coordinates, triangles. Its numbers need all bits of 32.
+/// Sheet of `n` by `n` squares: positions, texture coordinates, triangles. Its numbers need all 32 bits.
 pub fn sheet(n: u32) -> (Vec<f32>, Vec<f32>, Vec<u32>) {
     let (mut positions, mut texture, mut indices) = (Vec::new(), Vec::new(), Vec::new());
     for y in 0..=n {
@@ -199,7 +199,7 @@ pub fn sheet(n: u32) -> (Vec<f32>, Vec<f32>, Vec<u32>) {
     (positions, texture, indices)
 }
 
-/// A file with a sheet in one node.
+/// File with a sheet in one node.
 pub fn plain(n: u32, kind: u32) -> GlbMaker {
     let mut maker = GlbMaker::new();
     let (positions, texture, indices) = sheet(n);
@@ -224,7 +224,7 @@ pub fn written(mesh: &MeshFile, texture: &Texture) -> Vec<u8> {
     bytes
 }
 
-/// The JSON of a file.
+/// JSON of a file.
 pub fn json_of(glb: &[u8]) -> Value {
     let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
     serde_json::from_slice(&glb[20..20 + length]).expect("JSON")

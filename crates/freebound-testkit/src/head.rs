@@ -1,4 +1,4 @@
-//! A closed head of quads, which looks to the front, along +z.
+//! Closed head of quads that looks to the front, along +z.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use freebound_core::mesh::{PolygonMesh, VertexId};
 
-/// A head of 6 `cells`² quads: a cube's sides blown up, with a nose and eye sockets.
+/// Head of 6 `cells`² quads: a blown-up cube, with a nose and eye sockets.
 pub fn head(cells: u32) -> PolygonMesh {
     let mut numbers = BTreeMap::new();
     let mut mesh = PolygonMesh { starts: Some(vec![0]), ..PolygonMesh::default() };
@@ -34,7 +34,7 @@ pub fn head(cells: u32) -> PolygonMesh {
     mesh
 }
 
-/// Where a point of the unit sphere lies on the head.
+/// Position on the head of a point of the unit sphere.
 fn featured(out: DVec3) -> DVec3 {
     let skull = out * DVec3::new(0.75, 1.0, 0.9);
     if out.z <= 0.0 {

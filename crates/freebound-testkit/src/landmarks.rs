@@ -1,4 +1,4 @@
-//! Which vertices of the face mesh belong to which places of the portrait.
+//! Landmarks: vertices of the face mesh with their positions in the portrait.
 
 use glam::{DVec2, DVec3};
 
@@ -7,10 +7,10 @@ use super::portrait::picture_from_sculpture;
 use super::sculpt::{EYE, EYE_HALF_WIDTH, EYE_TILT, MOUTH_HALF_WIDTH, distance};
 use freebound_core::mesh::VertexId;
 
-/// Names and places on the sculpture, seen from the front. The person looks along +z, so their left is at +x.
+/// Names and positions on the sculpture, seen from the front. The person looks along +z, so that their left is at +x.
 ///
-/// All lie in the middle of the face: pins at its sides would crowd the rim, which reaches behind the ears, and it would
-/// cross itself.
+/// All landmarks are in the middle of the face. Pins at its sides would crowd the rim, which reaches behind the ears,
+/// until it crosses itself.
 const PLACES: [(&str, f64, f64); 12] = [
     ("left eye, outer corner", EYE.x + EYE_HALF_WIDTH, EYE.y + EYE_TILT),
     ("left eye, inner corner", EYE.x - EYE_HALF_WIDTH, EYE.y - EYE_TILT),
@@ -26,18 +26,18 @@ const PLACES: [(&str, f64, f64); 12] = [
     ("lower lip", 0.0, -0.62),
 ];
 
-/// A vertex of the face mesh and its place in the portrait.
+/// Vertex of the face mesh and its position in the portrait.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedLandmark {
-    /// Its name; left and right are the person's.
+    /// Name; left and right are the person's.
     pub name: &'static str,
-    /// The vertex of [`BuiltIn::Face`](super::BuiltIn::Face) nearest to it.
+    /// Vertex of [`BuiltIn::Face`](super::BuiltIn::Face) that is nearest to the landmark.
     pub vertex: VertexId,
-    /// u and v of the portrait, v up.
+    /// Target: u and v of the portrait, v up.
     pub target: [f64; 2],
 }
 
-/// The sculpture's foremost point at an x and y.
+/// Foremost point of the sculpture at an x and y.
 fn lift(p: DVec2) -> DVec3 {
     let mut z = 1.2;
     for _ in 0..100 {
@@ -46,7 +46,7 @@ fn lift(p: DVec2) -> DVec3 {
     p.extend(z)
 }
 
-/// Landmarks that tie the face mesh to the portrait. No similarity carries the ones to the others.
+/// Landmarks that tie the face mesh to the portrait. No similarity maps the vertices to their targets.
 pub fn landmarks() -> Vec<PlacedLandmark> {
     let mesh = face();
     let nearest = |p: DVec3| {

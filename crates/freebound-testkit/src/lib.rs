@@ -1,9 +1,9 @@
-//! Makers of meshes and the portrait, for the assets, the tests and the benchmarks.
+//! Generators of meshes and of the portrait, for the assets, the tests and the benchmarks.
 //!
-//! | file | what it makes |
+//! | file | contents |
 //! |---|---|
 //! | `plain.rs` | small meshes with known numbers: grid, tower, fan, tetrahedron, band |
-//! | `corpus.rs`, `manifest.rs` | the corpus: meshes of others, beside the project; tests over it |
+//! | `corpus.rs`, `manifest.rs` | the corpus of third-party meshes, beside the project; tests over it |
 //! | `data.rs` | the files of `tests/data`: eight meshes and three sets of constraints |
 //! | `deep.rs` | disks whose inside is far from a small boundary: stacked, tube, hand |
 //! | `sheet.rs` | an irregular sheet of any size |
@@ -11,11 +11,11 @@
 //! | `quads.rs` | sheets of quads and of hexagons, gentle to rough |
 //! | `seamed.rs` | a closed ball with bumps or folds, cut open along long random seams |
 //! | `flat.rs`, `caps.rs`, `cube.rs`, `face.rs` | the built-in meshes |
-//! | `fill.rs`, `delaunay.rs` | good triangles on a surface, for these |
+//! | `fill.rs`, `delaunay.rs` | good triangles on a surface, for the built-in meshes |
 //! | `sculpt.rs`, `landmarks.rs` | the sculpture of the face, and its landmarks |
 //! | `portrait.rs`, `relief.rs`, `paint.rs` | the portrait |
 //!
-//! No foreign mesh is part of the project. Every mesh is the same at every call.
+//! No third-party mesh is part of the project. Every mesh is identical at every call.
 
 #![allow(missing_docs, reason = "helpers of tests: a name says enough if there is no comment")]
 #![allow(
@@ -52,6 +52,7 @@ mod paint;
 mod plain;
 pub mod ply;
 mod portrait;
+mod practice;
 mod quads;
 mod relief;
 mod sculpt;
@@ -72,11 +73,12 @@ pub use landmarks::{PlacedLandmark, landmarks};
 pub use manifest::{Entry, corpus_disks, corpus_entry, csv_rows, manifest, steps};
 pub use plain::{band, disk, fan, grid, shaped, sheet, tetrahedron, tower, write_obj};
 pub use portrait::{PORTRAIT_SIZE, picture_from_sculpture, plane, portrait, sculpture_from_plane};
+pub use practice::{bumpy_ball, scan, table};
 pub use quads::{honeycomb, quad_sheet};
 pub use seamed::{Relief, seamed_ball};
 pub use sheet::{jittered_sheet, sheet_of_faces};
 
-/// A built-in mesh of the program, made from its recipe.
+/// Built-in mesh of the program, generated from its recipe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BuiltIn {
     /// A mask of a human face.
@@ -85,7 +87,7 @@ pub enum BuiltIn {
     Cube,
     /// A flat L.
     Ell,
-    /// A cap below its equator.
+    /// A cap that ends before the equator.
     Dome,
     /// A bumpy ball that is open at the bottom.
     BumpyCap,
@@ -94,10 +96,10 @@ pub enum BuiltIn {
 }
 
 impl BuiltIn {
-    /// All of them, in the order of the program's menu.
+    /// All built-in meshes, in the order of the program's menu.
     pub const ALL: [Self; 6] = [Self::Face, Self::Cube, Self::Ell, Self::Dome, Self::BumpyCap, Self::Spiral];
 
-    /// Its name in the program.
+    /// Name in the program.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Face => "face",
@@ -109,12 +111,12 @@ impl BuiltIn {
         }
     }
 
-    /// The vertices that belong to places of the portrait. Only the face has some.
+    /// Landmarks of the mesh. Empty except for the face.
     pub fn landmarks(self) -> Vec<PlacedLandmark> {
         if self == Self::Face { landmarks() } else { Vec::new() }
     }
 
-    /// Makes the mesh, anew at every call.
+    /// Generates the mesh, at every call.
     pub fn mesh(self) -> TriMesh {
         match self {
             Self::Face => face::face(),

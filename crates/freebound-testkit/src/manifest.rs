@@ -1,4 +1,4 @@
-//! The corpus by its manifest; the steps of a method.
+//! Entries of the corpus's manifest, and the steps of a method.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,28 +10,28 @@ use freebound_io::{MeshFile, read_mesh};
 
 use super::corpus;
 
-/// One line of the corpus's manifest.
+/// Line of the corpus's manifest.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Path under the corpus.
+    /// Path within the corpus.
     pub file: String,
-    /// Where it lies.
+    /// Path of the file.
     pub path: PathBuf,
     columns: Vec<(String, String)>,
 }
 
 impl Entry {
-    /// A file of a folder that has no manifest.
+    /// Entry of a file in a folder that has no manifest.
     pub(crate) fn in_folder(folder: &Path, file: &str) -> Self {
         Self { file: file.to_owned(), path: folder.join(file), columns: Vec::new() }
     }
 
-    /// A column as text.
+    /// Text of a column.
     pub fn text(&self, column: &str) -> &str {
         &self.columns.iter().find(|(name, _)| name == column).expect("the manifest has the column").1
     }
 
-    /// A column as a number, if it has one.
+    /// Number in a column, if the column holds one.
     pub fn number(&self, column: &str) -> Option<i64> {
         self.text(column).parse().ok()
     }
@@ -76,18 +76,18 @@ pub fn corpus_entry(file: &str) -> Entry {
     manifest().into_iter().find(|entry| entry.file == file).unwrap_or_else(|| panic!("the corpus has no {file}"))
 }
 
-/// The disks of the corpus.
+/// Disks of the corpus.
 pub fn corpus_disks() -> Vec<Entry> {
     manifest().into_iter().filter(|entry| !entry.file.starts_with("bad/")).collect()
 }
 
-/// Rows of comma-separated values, the head among them.
+/// Rows of comma-separated values, with the head.
 pub fn csv_rows(text: &str) -> Vec<Vec<String>> {
     let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.as_bytes());
     reader.records().map(|row| row.expect("a row of text").iter().map(str::to_owned).collect()).collect()
 }
 
-/// The steps that a method takes.
+/// Steps that a method takes.
 pub fn steps(mesh: &DiskMesh, method: Method, pins: Pins) -> Result<Vec<Step>, SolveError> {
     let mut steps = Vec::new();
     let mut ladder = Flattener::new(Settings::new(method, Family::default()), pins);

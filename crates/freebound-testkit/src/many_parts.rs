@@ -1,11 +1,11 @@
-//! Meshes of several parts, as the tests of charts need them.
+//! Meshes of several parts, for the tests of charts.
 
 use freebound_core::mesh::{PolygonMesh, TriMesh, VertexId};
 use glam::DVec3;
 
 use crate::{Random, grid, honeycomb, quad_sheet};
 
-/// A surface of squares that closes around both ways, at its place in space.
+/// Surface of squares that closes around both ways, at the positions that `place` returns.
 fn wrapped(around: u32, along: u32, place: impl Fn(f64, f64) -> DVec3) -> TriMesh {
     let at = |x: u32, y: u32| (y % along) * around + x % around;
     let turn = |k: u32, of: u32| std::f64::consts::TAU * f64::from(k) / f64::from(of);
@@ -22,7 +22,7 @@ pub fn torus(around: u32, along: u32) -> TriMesh {
     wrapped(around, along, |a, b| DVec3::new((3.0 + a.cos()) * b.cos(), (3.0 + a.cos()) * b.sin(), a.sin()))
 }
 
-/// A ball of triangles between two poles.
+/// Ball of triangles between two poles.
 pub fn ball(around: u32, rows: u32) -> TriMesh {
     let ring = |row: u32, x: u32| (row - 1) * around + x % around;
     let (south, north) = ((rows - 1) * around, (rows - 1) * around + 1);
@@ -45,7 +45,7 @@ pub fn ball(around: u32, rows: u32) -> TriMesh {
     TriMesh::new(positions, &triangles)
 }
 
-/// Meshes in one file, far from each other, the faces in a random order and so are the vertices.
+/// Meshes in one file, far from each other, with faces and vertices in random order.
 pub fn interleaved(meshes: &[PolygonMesh], random: &mut Random) -> PolygonMesh {
     let mut positions = Vec::new();
     let mut faces: Vec<Vec<usize>> = Vec::new();
@@ -86,7 +86,7 @@ pub fn disks(random: &mut Random) -> Vec<PolygonMesh> {
     ]
 }
 
-/// The same with closed surfaces, and some with handles.
+/// Disks, and closed surfaces with and without handles.
 pub fn surfaces(random: &mut Random) -> Vec<PolygonMesh> {
     let mut all = disks(random);
     all.extend([(&ball(8, 6)).into(), (&torus(7, 11)).into(), (&ball(5, 3)).into()]);

@@ -1,7 +1,7 @@
-//! A naive oracle for the verdict: rational numbers, all pairs, textbook definitions. Shares no code with the verdict.
+//! Naive oracle for the verdict: rational numbers, all pairs, textbook definitions. Shares no code with the verdict.
 //!
-//! Coordinates are taken as rational numbers; multiplied by their common denominator once, they stay whole, because
-//! every definition below is a matter of signs.
+//! Coordinates are rational numbers. Multiplied by their common denominator once, they are integers from then on:
+//! every definition below depends on signs only.
 
 use freebound_core::problem::Embedding;
 use std::collections::BTreeMap;
@@ -12,7 +12,7 @@ use num_rational::BigRational;
 /// A point, in units of the common denominator.
 type Point = [BigInt; 2];
 
-/// What the oracle says of a map; elements are named by vertices.
+/// Verdict of the oracle on a map. Elements are named by vertices.
 #[derive(Debug, PartialEq)]
 pub struct OracleVerdict {
     pub flipped_faces: Vec<usize>,
@@ -22,7 +22,7 @@ pub struct OracleVerdict {
     pub turning_number: Option<i64>,
     pub zero_area_faces: usize,
     pub mirrored: bool,
-    /// Whether the map is one-to-one, by looking at all pairs of faces; knows nothing of the boundary.
+    /// True if the map is one-to-one, by a test of all pairs of faces, without knowledge of the boundary.
     pub injective: bool,
 }
 
@@ -47,7 +47,7 @@ pub fn examine(triangles: &[[u32; 3]], embedding: &Embedding) -> OracleVerdict {
     }
 }
 
-/// The exact points, all multiplied by the one number that makes them whole and small.
+/// Exact points, all multiplied by the factor that makes them whole and small.
 fn points(embedding: &Embedding) -> Vec<Point> {
     let exact = |value: f64| BigRational::from_float(value).expect("the oracle takes finite numbers only");
     let points: Vec<[BigRational; 2]> = embedding.iter().map(|p| [exact(p.x), exact(p.y)]).collect();
@@ -90,7 +90,7 @@ fn boundary_loop(triangles: &[[u32; 3]]) -> Vec<u32> {
     boundary
 }
 
-/// What two closed segments have in common.
+/// Intersection of two closed segments.
 #[derive(PartialEq)]
 enum Common {
     Nothing,
@@ -105,7 +105,7 @@ fn common([a, b]: [&Point; 2], [c, d]: [&Point; 2]) -> Common {
         if !on_one_line {
             return Common::Nothing;
         }
-        // In lexicographic order along the line.
+        // Lexicographic order along the line.
         return match a.min(b).max(c.min(d)).cmp(a.max(b).min(c.max(d))) {
             std::cmp::Ordering::Less => Common::Segment,
             std::cmp::Ordering::Equal => Common::OnePoint,
@@ -125,7 +125,7 @@ fn boundary_crossings(boundary: &[u32], points: &[Point]) -> Vec<[[u32; 2]; 2]> 
     for i in 0..boundary.len() {
         for j in 0..i {
             let common = common(edge(i).map(|v| &points[v as usize]), edge(j).map(|v| &points[v as usize]));
-            // One point that neighbours have in common is their shared end.
+            // Neighbours share one point: their common end.
             let are_neighbours = edge(i).iter().any(|v| edge(j).contains(v));
             let crosses = common == Common::Segment || (common == Common::OnePoint && !are_neighbours);
             if crosses {
@@ -137,14 +137,14 @@ fn boundary_crossings(boundary: &[u32], points: &[Point]) -> Vec<[[u32; 2]; 2]> 
     crossings
 }
 
-/// A pair of edges in the one order that makes pairs comparable.
+/// Pair of edges in a fixed order, so that pairs are comparable.
 pub fn sorted_pair(mut first: [u32; 2], mut second: [u32; 2]) -> [[u32; 2]; 2] {
     first.sort_unstable();
     second.sort_unstable();
     [first.min(second), first.max(second)]
 }
 
-/// The angle between two directions given by their cross and dot products, in (−π, π]; its sign is exact.
+/// Angle between two directions, given by their cross and dot products, in (−π, π]. Its sign is exact.
 fn angle(cross: &BigInt, dot: &BigInt) -> f64 {
     const BITS: u32 = 60;
     let size = |x: &BigInt| BigInt::from(x.magnitude().clone());
@@ -154,7 +154,7 @@ fn angle(cross: &BigInt, dot: &BigInt) -> f64 {
         + if sign(cross) == 0 && sign(dot) < 0 { std::f64::consts::PI } else { 0.0 }
 }
 
-/// A sum of angles as a number of full turns, which it must be.
+/// Number of full turns in a sum of angles, which must be whole.
 fn full_turns(sum: f64) -> i64 {
     let turns = sum / std::f64::consts::TAU;
     assert!((turns - turns.round()).abs() < 1e-9, "{turns} turns");
@@ -168,7 +168,7 @@ fn turning_number(boundary: &[u32], points: &[Point]) -> Option<i64> {
     let mut sum = 0.0;
     for i in 0..count {
         let [a, b, c] = [0, 1, 2].map(|k| &points[boundary[(i + k) % count] as usize]);
-        // The exterior angle at b: both directions taken from b, the first one turned around.
+        // Exterior angle at b: both directions start at b, the first one reversed.
         let (cross, dot) = (cross(a, b, c), -dot(b, a, c));
         if b == c || a == b || (sign(&cross) == 0 && sign(&dot) < 0) {
             return None;
@@ -191,14 +191,16 @@ fn is_overwound(vertex: u32, triangles: &[[u32; 3]], signs: &[i32], upright: i32
     full_turns(sum).abs() > 1
 }
 
-/// Whether any two faces, none of area zero, have in the plane just what they share in the mesh.
+/// True if any two faces, none of area zero, have in common in the plane exactly what they share in the mesh.
 fn is_injective(triangles: &[[u32; 3]], points: &[Point]) -> bool {
     (0..triangles.len()).all(|i| (0..i).all(|j| meet_as_in_the_mesh(triangles[i], triangles[j], points)))
 }
 
-/// The intersection of two triangles is convex. Its extreme points are corners of one inside the other and points where
-/// two sides cross between their ends. Corners that are shared are allowed; all else is not in the shared simplex,
-/// because a corner in the place of another corner, or on the opposite side, would make a face of area zero.
+/// True if two triangles have in common in the plane exactly what they share in the mesh.
+///
+/// The intersection of two triangles is convex. Its extreme points are corners of one triangle inside the other, and
+/// points at which two sides cross between their ends. Shared corners are allowed. All other extreme points are
+/// outside the shared simplex: a corner at another corner, or on the opposite side, would make a face of area zero.
 fn meet_as_in_the_mesh(first: [u32; 3], second: [u32; 3], points: &[Point]) -> bool {
     let at = |v: u32| &points[v as usize];
     let sides = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];

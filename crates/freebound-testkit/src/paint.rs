@@ -1,4 +1,4 @@
-//! Colours of the portrait: what skin, hair, eyes, lips, brows and cloth look like at a place in a light.
+//! Colours of the portrait: skin, hair, eyes, lips, brows and cloth, at a position in a light.
 
 use std::f64::consts::TAU;
 
@@ -9,15 +9,15 @@ use super::sculpt::{EYE, EYE_HALF_WIDTH, Lids, Lips, PUPIL_RISE, bump, lids, lip
 
 /// A sample of the portrait.
 pub(super) struct Spot {
-    /// Place in the picture's plane, y up.
+    /// Position in the picture's plane, y up.
     pub(super) place: DVec2,
-    /// Place on the sculpture.
+    /// Position on the sculpture.
     pub(super) on_face: DVec3,
     /// Normal, y up, z towards the eye.
     pub(super) normal: DVec3,
-    /// How far the surface lies behind its surroundings.
+    /// Depth of the surface behind its surroundings.
     pub(super) hollow: f64,
-    /// What is there.
+    /// Matter of the surface.
     pub(super) matter: Matter,
 }
 
@@ -25,7 +25,7 @@ const fn rgb(r: f64, g: f64, b: f64) -> DVec3 {
     DVec3::new(r, g, b)
 }
 
-// Linear light from here on; the last step brings it to sRGB.
+// Linear light from here on; the last step converts it to sRGB.
 const SKIN: DVec3 = rgb(0.66, 0.36, 0.235);
 const BLUSH: DVec3 = rgb(0.66, 0.21, 0.155);
 const LIP: DVec3 = rgb(0.48, 0.105, 0.095);
@@ -36,12 +36,12 @@ const IRIS: DVec3 = rgb(0.075, 0.19, 0.21);
 const IRIS_LIGHT: DVec3 = rgb(0.30, 0.42, 0.33);
 const DARK: DVec3 = rgb(0.018, 0.010, 0.008);
 
-/// Towards the main light.
+/// Direction of the main light.
 const KEY: DVec3 = rgb(-0.46, 0.55, 0.70);
-/// Towards the weaker one.
+/// Direction of the weaker light.
 const FILL: DVec3 = rgb(0.80, 0.10, 0.59);
 
-/// The sRGB colour of a sample, each part in `[0, 1]` or a little beyond.
+/// Colour of a sample in sRGB, each part in `[0, 1]` or a little beyond.
 pub(super) fn colour(spot: &Spot) -> DVec3 {
     let light = match spot.matter {
         Matter::Air => background(spot.place),
@@ -83,7 +83,7 @@ fn background(place: DVec2) -> DVec3 {
     rgb(0.055, 0.085, 0.095).lerp(rgb(0.36, 0.41, 0.38), 0.85 * glow) * (0.86 + 0.28 * strokes)
 }
 
-/// Light on a surface that lets some of it wander below, red the farthest.
+/// Light on a surface that scatters some of it below, red the farthest.
 fn soft_light(spot: &Spot) -> DVec3 {
     let (key, fill) = (spot.normal.dot(KEY), spot.normal.dot(FILL).max(0.0));
     let wrap = |by: f64| ((key + by) / (1.0 + by)).max(0.0).powf(1.25);
@@ -152,7 +152,8 @@ fn paint_eye(spot: &Spot, under: DVec3) -> DVec3 {
     light.lerp(DARK, 0.35 * bump(lower - 0.010, 0.005) * ramp(arch, 0.0, 0.3) * ramp(outwards, -0.3, 0.8))
 }
 
-/// The ball between the lids: white with a shadow from the upper lid, iris with rays, pupil, and the lamp in it.
+/// Eyeball between the lids: white with a shadow from the upper lid, iris with rays, pupil, and the lamp's
+/// reflection.
 fn eyeball(p: DVec3, upper: f64) -> DVec3 {
     let x = p.x.abs() - EYE.x;
     let from_pupil = DVec2::new(p.x - EYE.x * p.x.signum(), p.y - EYE.y - PUPIL_RISE + 0.004);

@@ -1,4 +1,4 @@
-//! Small meshes whose numbers are known.
+//! Small meshes with known numbers.
 
 use std::path::Path;
 
@@ -24,7 +24,7 @@ pub fn grid(columns: u32, rows: u32) -> TriMesh {
     TriMesh::new(positions, &triangles)
 }
 
-/// The grid with its vertices moved, each from its x and y.
+/// Grid with its vertices moved, each from its x and y.
 pub fn shaped(columns: u32, rows: u32, place: impl Fn(f64, f64) -> DVec3) -> TriMesh {
     let mut mesh = grid(columns, rows);
     for p in &mut mesh.positions {
@@ -41,7 +41,7 @@ pub fn sheet(side: u32, height: f64) -> TriMesh {
     })
 }
 
-/// The flat sheet of 8 × 8 squares with a thin tower on it, which no map without cuts lays flat without shrinking it.
+/// Flat sheet of 8 × 8 squares with a thin tower, which no map without cuts flattens without shrinking it.
 pub fn tower() -> TriMesh {
     shaped(8, 8, |x, y| {
         let is_on_top = [x, y].iter().all(|k| (3.0..=5.0).contains(k));
@@ -66,7 +66,7 @@ pub fn tetrahedron() -> TriMesh {
     TriMesh::new(positions, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 }
 
-/// A band of squares around a ring of `length`, joined with its beginning straight or twisted.
+/// Band of squares around a ring of `length`, closed straight or twisted.
 pub fn band(length: u32, twisted: u32) -> TriMesh {
     let at = |k: u32, side: u32| {
         let angle = std::f64::consts::TAU * f64::from(k) / f64::from(length);
@@ -86,12 +86,12 @@ pub fn band(length: u32, twisted: u32) -> TriMesh {
     TriMesh::new(positions, &squares.collect::<Vec<_>>())
 }
 
-/// A mesh as the disk that it is known to be.
+/// Disk of a mesh that is known to be one.
 pub fn disk(mesh: TriMesh) -> DiskMesh {
     DiskMesh::try_from(mesh).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-/// Writes a mesh to a file, all its digits with it.
+/// Writes a mesh to a file, with all digits.
 pub fn write_obj(path: &Path, mesh: &TriMesh) {
     let mut text = Vec::new();
     freebound_io::write_obj(&mut text, &MeshFile::from(mesh), &freebound_io::Texture::default())

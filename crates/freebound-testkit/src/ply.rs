@@ -1,10 +1,10 @@
-//! Makes PLY files, number by number, and takes them apart again: knows nothing of the library's reader and writer.
+//! Makes and parses PLY files, number by number. Independent of the library's reader and writer.
 
 use std::fmt::Write as _;
 
 use freebound_core::mesh::PolygonMesh;
 
-/// How numbers are written.
+/// Encoding of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Encoding {
     Text,
@@ -31,14 +31,14 @@ pub struct PlyMaker<'a> {
     pub encoding: Encoding,
     /// Type of positions.
     pub number: &'static str,
-    /// Type of the corners of faces, and their name.
+    /// Type of the corners of faces, and name of their list.
     pub index: &'static str,
     pub corners: &'static str,
-    /// Names of texture coordinates of vertices, which are their x and y.
+    /// Names of the texture coordinates of vertices. Their values are the x and y of the vertices.
     pub at_vertices: Option<[&'static str; 2]>,
-    /// How many faces have texture coordinates of corners, of those there are: the x and y of the corners.
+    /// Number of faces with texture coordinates of corners. Their values are the x and y of the corners.
     pub at_corners: Option<usize>,
-    /// Whether there are properties and elements beside those of the mesh.
+    /// True if the file has properties and elements beside those of the mesh.
     pub is_rich: bool,
 }
 
@@ -135,7 +135,7 @@ impl<'a> PlyMaker<'a> {
     }
 }
 
-/// Puts numbers one behind the other.
+/// Writer of consecutive numbers.
 struct Put<'a> {
     out: &'a mut Vec<u8>,
     encoding: Encoding,
@@ -176,24 +176,24 @@ impl Put<'_> {
     }
 }
 
-/// A list of things of a PLY file.
+/// Element of a PLY file: a list of rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlyElement {
     pub name: String,
-    /// Type and name of each property; of a list the types of its count and its items, and the name.
+    /// Type and name of each property. A list has the types of its count and of its items, and its name.
     pub properties: Vec<Vec<String>>,
-    /// The numbers of each property of each thing.
+    /// Numbers of each property, row by row.
     pub rows: Vec<Vec<Vec<f64>>>,
 }
 
 impl PlyElement {
-    /// The numbers of a property, thing by thing.
+    /// Numbers of a property, row by row.
     pub fn column(&self, name: &str) -> Option<Vec<Vec<f64>>> {
         let at = self.properties.iter().position(|words| words.last().is_some_and(|last| last == name))?;
         Some(self.rows.iter().map(|row| row[at].clone()).collect())
     }
 
-    /// The same without properties of these names.
+    /// Element without the properties of these names.
     #[must_use]
     pub fn without(&self, names: &[&str]) -> Self {
         let is_kept = |words: &Vec<String>| !words.last().is_some_and(|last| names.contains(&last.as_str()));
@@ -205,7 +205,7 @@ impl PlyElement {
     }
 }
 
-/// All that a PLY file holds: the lines of its header that are no elements, and its elements.
+/// Contents of a PLY file: the lines of its header that are no elements, and its elements.
 pub fn taken_apart(bytes: &[u8]) -> (Vec<String>, Vec<PlyElement>) {
     let end = bytes.windows(11).position(|eleven| eleven == b"end_header\n").expect("a header") + 11;
     let (mut others, mut elements, mut counts) = (Vec::new(), Vec::<PlyElement>::new(), Vec::new());

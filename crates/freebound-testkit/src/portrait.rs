@@ -1,8 +1,8 @@
 //! A painted portrait: the sculpture of the face, stretched to other proportions, with hair, ears, neck and clothes,
 //! seen from the front and coloured pixel by pixel.
 //!
-//! The stretching is a map from the picture to the sculpture's x and y, so that every feature of the sculpture has
-//! its known place in the picture; the landmarks use that.
+//! The stretching maps the picture to the sculpture's x and y, so that every feature of the sculpture has a known
+//! position in the picture. The landmarks use this.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -21,8 +21,8 @@ pub(super) const MIDDLE: f64 = 0.01;
 
 /// Heights in the picture and in the sculpture: crown, hairline, brow, eye, nose, mouth, chin and neck.
 ///
-/// The nose is long and ends close above the mouth: that is what no conformal map of the mesh can follow, and where the
-/// first solve folds.
+/// The nose is long and ends close above the mouth: no conformal map of the mesh can follow this, and the first solve
+/// folds there.
 const HEIGHTS: [[f64; 2]; 9] = [
     [1.60, 1.50],
     [1.20, 1.13],
@@ -52,9 +52,9 @@ fn sculpture_height(y: f64) -> f64 {
     s0 * (2.0 * t3 - 3.0 * t2 + 1.0) + m0 * (t3 - 2.0 * t2 + t) + s1 * (3.0 * t2 - 2.0 * t3) + m1 * (t3 - t2)
 }
 
-/// From the picture's plane (x right, y up, in the sculpture's units) to x and y of the sculpture.
+/// Maps the picture's plane (x right, y up, in the sculpture's units) to x and y of the sculpture.
 ///
-/// Across, eyes, nose and mouth are narrower; cheeks, ears and hair stay.
+/// Eyes, nose and mouth are narrower in the picture; cheeks, ears and hair keep their width.
 pub fn sculpture_from_plane(p: DVec2) -> DVec2 {
     let x = p.x.abs();
     let eyes = 0.10 * bump(p.y - 0.24, 0.22) * (1.0 - ramp(x, 0.40, 0.90));
@@ -62,7 +62,7 @@ pub fn sculpture_from_plane(p: DVec2) -> DVec2 {
     DVec2::new(p.x * (1.0 + eyes + nose_and_mouth), sculpture_height(p.y))
 }
 
-/// Where a rising function takes a value, between −1.6 and 1.6.
+/// Argument between −1.6 and 1.6 at which a rising function takes a value.
 fn invert(rising: impl Fn(f64) -> f64, value: f64) -> f64 {
     let (mut low, mut high) = (-1.6, 1.6);
     for _ in 0..60 {
@@ -72,14 +72,14 @@ fn invert(rising: impl Fn(f64) -> f64, value: f64) -> f64 {
     f64::midpoint(low, high)
 }
 
-/// Where a point of the sculpture, given by its x and y, lies in the picture: u and v in `[0, 1]`, v up.
+/// Position in the picture of a point of the sculpture, given by its x and y: u and v in `[0, 1]`, v up.
 pub fn picture_from_sculpture(p: DVec2) -> DVec2 {
     let y = invert(sculpture_height, p.y);
     let x = invert(|x| sculpture_from_plane(DVec2::new(x, y)).x, p.x);
     (DVec2::new(x, y - MIDDLE) / REACH + 1.0) / 2.0
 }
 
-/// The plane's point at a place in a picture, in pixels from its upper left corner.
+/// Point of the plane at a position in a picture, in pixels from its upper left corner.
 pub fn plane(size: usize, pixel: DVec2) -> DVec2 {
     let p = (2.0 * pixel / size as f64 - 1.0) * REACH;
     DVec2::new(p.x, MIDDLE - p.y)
@@ -90,7 +90,7 @@ pub fn portrait(size: u32) -> Picture {
     let pixels_across = size;
     let size = size as usize;
     let relief = Relief::new(size.div_ceil(2).max(1));
-    // The finest strokes are two pixels wide at this size; in smaller pictures they need several samples.
+    // The finest strokes are two pixels wide at 1024 pixels. Smaller pictures need several samples per pixel.
     let samples = (1024 / size.max(1)).clamp(1, 4);
     let rows: Vec<Vec<u8>> = (0..size)
         .into_par_iter()

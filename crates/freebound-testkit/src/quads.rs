@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::Random;
 
-/// A sheet of quads over the unit square, bent up in its middle, its vertices jittered by `roughness` sides.
+/// Sheet of `columns` × `rows` unit quads, bent up in its middle, its vertices jittered by at most `roughness`.
 pub fn quad_sheet(columns: u32, rows: u32, roughness: f64, random: &mut Random) -> PolygonMesh {
     let stride = columns + 1;
     let at = |x: u32, y: u32| [f64::from(x), f64::from(y)];
@@ -17,9 +17,9 @@ pub fn quad_sheet(columns: u32, rows: u32, roughness: f64, random: &mut Random) 
     polygon_mesh(places, faces, [f64::from(columns), f64::from(rows)], roughness, random)
 }
 
-/// A sheet of hexagons, as bees build it, with the same bend and jitter.
+/// Sheet of hexagons in a honeycomb, with a bend and a jitter like [`quad_sheet`].
 pub fn honeycomb(columns: u32, rows: u32, roughness: f64, random: &mut Random) -> PolygonMesh {
-    // Rows of zigzags; a cell has three vertices of the zigzag below it and three of the one above.
+    // Rows of zigzags: a cell has three vertices of the zigzag below it and three of the zigzag above it.
     let stride = 2 * columns + 2;
     let place = |x: u32, y: u32| {
         let up = if (x + y).is_multiple_of(2) { 0.0 } else { 1.0 / 3.0 };
@@ -56,7 +56,7 @@ fn polygon_mesh(
     keep_used(&positions, &corners, starts)
 }
 
-/// Without the vertices that no polygon has.
+/// Mesh without the vertices that no polygon has.
 fn keep_used(positions: &[DVec3], corners: &[u32], starts: Vec<u32>) -> PolygonMesh {
     let mut used = corners.to_vec();
     used.sort_unstable();

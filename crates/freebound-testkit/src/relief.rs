@@ -1,7 +1,7 @@
-//! What stands before the painter: skin, hair and clothes as distances, and their relief seen from the front.
+//! Scene of the portrait: skin, hair and clothes as distances, and their relief seen from the front.
 //!
-//! Depth, normals and hollows are sampled on a grid half as fine as the picture; they are smooth. Outlines would be
-//! jagged: so each grid point also knows how much of its surroundings each matter covers, and the outline runs where
+//! Depth, normals and hollows are smooth, and sampled on a grid half as fine as the picture. Outlines would be jagged
+//! on this grid. So each grid point also knows how much of its surroundings each matter covers. An outline runs where
 //! the interpolated cover is one half.
 
 use glam::{DVec2, DVec3};
@@ -11,16 +11,16 @@ use super::paint::{Spot, colour};
 use super::portrait::{MIDDLE, REACH, plane, sculpture_from_plane};
 use super::sculpt::{bar, cut, distance, ellipsoid, join, ramp};
 
-/// Rays that come this far back meet nothing.
+/// Depth at which rays end without having met anything.
 const BACK: f64 = -0.75;
-/// Rays begin here.
+/// Depth at which rays begin.
 const FRONT: f64 = 1.0;
-/// The grid that finds where rays should begin is so much coarser.
+/// Size of the cells of the grid that finds where rays should begin, in cells of the relief.
 const COARSER: usize = 8;
-/// Rays begin so far before what is near them.
+/// Distance before nearby surfaces at which rays begin.
 const AHEAD: f64 = 0.10;
 
-/// What a ray meets first.
+/// Matter that a ray meets first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Matter {
     Air,
@@ -63,9 +63,9 @@ pub(super) struct Relief {
     depth: Vec<f64>,
     matter: Vec<Matter>,
     normals: Vec<DVec3>,
-    /// How far each place lies behind its surroundings.
+    /// Depth of each position behind its surroundings.
     hollow: Vec<f64>,
-    /// For each matter how much of a place's surroundings it covers: smooth outlines at any fineness.
+    /// Share of a position's surroundings that each matter covers, for smooth outlines at any resolution.
     cover: Vec<[f64; 4]>,
 }
 
@@ -89,7 +89,7 @@ impl Relief {
     fn normal(&self, i: usize, j: usize) -> DVec3 {
         let here = self.at(i, j);
         let step = 2.0 * REACH / self.size as f64;
-        // Differences over an outline say nothing about the surface: of two sides, the flatter one is believed then.
+        // Differences across an outline do not describe the surface: the flatter of the two sides counts there.
         let slope = |before: usize, after: usize| {
             let side =
                 |k: usize| (self.matter[k] == self.matter[here]).then(|| (self.depth[k] - self.depth[here]) / step);
@@ -112,7 +112,7 @@ impl Relief {
         DVec3::new(-x, -y, 1.0).try_normalize().unwrap_or(DVec3::Z)
     }
 
-    /// The places up to two rows and columns away, with shares that sum to 1, the nearer the more.
+    /// Positions up to two rows and columns away, with weights that sum to 1 and decrease with the distance.
     fn around(&self, i: usize, j: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         const SHARES: [f64; 5] = [1.0, 4.0, 6.0, 4.0, 1.0];
         (0..25).map(move |k| {
@@ -121,7 +121,7 @@ impl Relief {
         })
     }
 
-    /// Shares of the matters around a place.
+    /// Shares of the matters around a position.
     fn covered(&self, i: usize, j: usize) -> [f64; 4] {
         let mut shares = [0.0; 4];
         for (k, share) in self.around(i, j) {
@@ -130,7 +130,7 @@ impl Relief {
         shares
     }
 
-    /// Mean depth around each place.
+    /// Mean depth around each position.
     fn blurred(&self, radius: usize) -> Vec<f64> {
         let once = |source: &[f64], stride: usize, other: usize| {
             let mut out = vec![0.0; source.len()];
@@ -154,7 +154,7 @@ impl Relief {
         once(&once(&self.depth, 1, self.size), self.size, 1)
     }
 
-    /// The colour at a place of the picture's plane.
+    /// Colour at a position of the picture's plane.
     pub(super) fn colour(&self, place: DVec2) -> DVec3 {
         let grid = (DVec2::new(place.x, MIDDLE - place.y) / REACH + 1.0) * (self.size as f64 / 2.0) - 0.5;
         let grid = grid.clamp(DVec2::ZERO, DVec2::splat(self.size as f64 - 1.0));
@@ -177,7 +177,7 @@ impl Relief {
                 total += weight;
             }
         }
-        // Three matters may meet where none covers a third.
+        // Three matters may meet at a position, none with enough cover.
         if total > 0.0 {
             sum / total
         } else {
@@ -185,7 +185,7 @@ impl Relief {
         }
     }
 
-    /// What is known of a matter from places that show it.
+    /// Sample of a matter from the nearby positions that show it.
     fn spot(&self, place: DVec2, matter: Matter, near: impl Iterator<Item = (usize, f64)>) -> Spot {
         let (mut normal, mut hollow, mut depth, mut total) = (DVec3::ZERO, 0.0, 0.0, 0.0);
         for (k, share) in near.filter(|&(k, _)| self.matter[k] == matter) {
@@ -199,7 +199,7 @@ impl Relief {
     }
 }
 
-/// Depth and matter of all places of a grid.
+/// Depth and matter at all positions of a grid.
 fn trace_all(size: usize) -> Vec<(f64, Matter)> {
     // Rays of a coarse grid, traced all the way, tell the others where to begin: a little before anything near them.
     let place = |size: usize, k: usize| {
@@ -218,7 +218,7 @@ fn trace_all(size: usize) -> Vec<(f64, Matter)> {
     (0..size * size).into_par_iter().map(|k| trace(place(size, k), start(k))).collect()
 }
 
-/// The depth at which a ray from the front meets something, and what.
+/// Depth at which a ray from the front meets a surface, and its matter.
 fn trace(p: DVec2, start: f64) -> (f64, Matter) {
     const NEAR: f64 = 3e-4;
     let mut z = start;
@@ -226,7 +226,7 @@ fn trace(p: DVec2, start: f64) -> (f64, Matter) {
         let [skin, hair, cloth] = matter(p.extend(z));
         let nearest = skin.min(hair).min(cloth);
         if step == 0 && nearest < 0.01 && z < FRONT {
-            // Begun inside or hard at the surface: begin again from the front.
+            // Begun inside or too near to the surface: restart from the front.
             z = FRONT;
             continue;
         }

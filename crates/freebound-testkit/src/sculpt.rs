@@ -1,7 +1,7 @@
 //! The face as a signed distance: ellipsoids and tapered bars, blended into each other or cut out.
 //!
-//! y is up and z is forward; the figures are lengths in mesh units, of which the face is about two high. Everything
-//! is mirrored at x = 0. Formulas of the primitives and of the quadratic blend after I. Quilez' published notes.
+//! y is up and z is forward. Numbers are lengths in mesh units; the face is about two units high. Everything is
+//! mirrored at x = 0. Formulas of the primitives and of the quadratic blend follow I. Quilez' published notes.
 
 use glam::DVec3;
 
@@ -16,14 +16,14 @@ pub(super) fn ellipsoid(p: DVec3, centre: DVec3, radii: DVec3) -> f64 {
     if g > 0.0 { k * (k - 1.0) / g } else { -radii.min_element() }
 }
 
-/// Distance to a bar from `a` to `b` whose radius goes from the first to the second.
+/// Distance to a bar from `a` to `b`, whose radius changes linearly from the first to the second.
 pub(super) fn bar(p: DVec3, [a, b]: [DVec3; 2], [from, to]: [f64; 2]) -> f64 {
     let (pa, ba) = (p - a, b - a);
     let share = (pa.dot(ba) / ba.length_squared()).clamp(0.0, 1.0);
     (pa - ba * share).length() - (from + (to - from) * share)
 }
 
-/// Union, blended where the two are nearer than `blend` to each other.
+/// Union, blended if the two are nearer than `blend` to each other.
 pub(super) fn join(a: f64, b: f64, blend: f64) -> f64 {
     let h = (blend - (a - b).abs()).max(0.0) / blend;
     a.min(b) - h * h * blend / 4.0
@@ -37,7 +37,7 @@ pub(super) fn cut(a: f64, b: f64, blend: f64) -> f64 {
 /// Width of the strip around the mirror that is made smooth.
 const MIRROR: f64 = 0.02;
 
-/// The signed distance, roughly: below zero inside.
+/// Approximate signed distance, negative inside.
 pub(super) fn distance(p: DVec3) -> f64 {
     // Rounded at the mirror, where there would be a crease.
     let p = at(p.x.hypot(MIRROR), p.y, p.z);
@@ -86,19 +86,19 @@ pub(super) fn bump(x: f64, width: f64) -> f64 {
 /// Half the width of the mouth.
 pub(super) const MOUTH_HALF_WIDTH: f64 = 0.262;
 
-/// Where a point lies on the lips, seen from the front.
+/// Position of a point relative to the lips, seen from the front.
 pub(super) struct Lips {
     /// Height above the line between the lips.
     pub(super) line: f64,
     /// 1 in the middle, 0 at the corners, less beyond.
     pub(super) arch: f64,
-    /// Height above the line as a share of the upper lip's.
+    /// Height above the line, as a share of the height of the upper lip.
     pub(super) upper: f64,
-    /// Depth below the line as a share of the lower lip's.
+    /// Depth below the line, as a share of the height of the lower lip.
     pub(super) lower: f64,
 }
 
-/// Where a point lies on the lips.
+/// Position of a point relative to the lips.
 pub(super) fn lips(p: DVec3) -> Lips {
     let x = p.x / MOUTH_HALF_WIDTH;
     let arch = 1.0 - x * x;
@@ -137,12 +137,12 @@ const EYE_RADIUS: f64 = 0.190;
 const LID: f64 = 0.021;
 /// Half the width of the opening.
 pub(super) const EYE_HALF_WIDTH: f64 = 0.142;
-/// How much higher the outer corner lies than the middle; the inner one lies lower by as much.
+/// Height of the outer corner above the middle. The inner corner lies lower by this amount.
 pub(super) const EYE_TILT: f64 = 0.012;
-/// The pupil looks this much above the middle of the eye.
+/// Height of the pupil above the middle of the eye.
 pub(super) const PUPIL_RISE: f64 = 0.010;
 
-/// Where a point lies between the lids of the eye on its side, seen from the front.
+/// Position of a point relative to the lids of the eye on its side, seen from the front.
 pub(super) struct Lids {
     /// Height above the edge of the upper lid.
     pub(super) upper: f64,
@@ -154,7 +154,7 @@ pub(super) struct Lids {
     pub(super) arch: f64,
 }
 
-/// Where a point lies between the lids.
+/// Position of a point relative to the lids.
 pub(super) fn lids(p: DVec3) -> Lids {
     let x = (p.x.abs() - EYE.x) / EYE_HALF_WIDTH;
     let y = p.y - EYE.y - EYE_TILT * x;

@@ -1,4 +1,4 @@
-//! A closed ball with bumps and folds, cut open along long random seams.
+//! Closed ball with bumps or folds, cut open along long random seams.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -9,7 +9,7 @@ use glam::{DVec3, IVec3};
 use super::Random;
 use freebound_core::mesh::{TriMesh, VertexId};
 
-/// How rough a ball is.
+/// Roughness of a ball.
 #[derive(Clone, Copy, Debug)]
 pub enum Relief {
     /// Gentle bumps.
@@ -18,11 +18,11 @@ pub enum Relief {
     Folds,
 }
 
-/// How far a vertex is moved at most along the ball, as a share of the mean edge.
+/// Largest move of a vertex along the ball, as a share of the mean edge.
 const JITTER: f64 = 0.25;
 
-/// A ball of 8 `cells`² faces, cut open along a tree of `seam_edges` edges that reaches everywhere: a disk whose
-/// boundary has twice as many.
+/// Ball of 8 `cells`² faces, cut open along a tree of `seam_edges` edges that reaches everywhere. The result is a
+/// disk with 2 · `seam_edges` boundary edges.
 pub fn seamed_ball(cells: i32, seam_edges: usize, relief: Relief, seed: u64) -> TriMesh {
     let mut random = Random(seed);
     let closed = ball(cells, relief, &mut random);
@@ -30,7 +30,7 @@ pub fn seamed_ball(cells: i32, seam_edges: usize, relief: Relief, seed: u64) -> 
     cut_open(&closed, &seams)
 }
 
-/// An octahedron's faces, each of `cells`² triangles, blown up.
+/// Octahedron with `cells`² triangles in each face, blown up to a ball.
 fn ball(cells: i32, relief: Relief, random: &mut Random) -> TriMesh {
     let mut numbers = BTreeMap::new();
     let mut positions = Vec::new();
@@ -62,7 +62,7 @@ fn ball(cells: i32, relief: Relief, random: &mut Random) -> TriMesh {
     TriMesh::new(positions, &triangles)
 }
 
-/// Distance of the surface from the middle, in a direction.
+/// Distance of the surface from the centre, in a direction.
 fn radius(out: DVec3, relief: Relief) -> f64 {
     let wave = |by: f64| (by * out.x + 0.7).sin() * (by * out.y - 0.4).sin() + (by * out.z + 1.1).sin();
     match relief {
@@ -71,8 +71,8 @@ fn radius(out: DVec3, relief: Relief) -> f64 {
     }
 }
 
-/// Edges of a tree: from a random vertex ways to others, each the shortest where edges have random lengths, until there
-/// are about so many edges.
+/// Edges of a tree: paths from a random vertex to others, each the shortest for random edge lengths, until the tree
+/// has `edges` edges.
 fn random_tree(mesh: &TriMesh, edges: usize, random: &mut Random) -> BTreeSet<[u32; 2]> {
     let mut neighbours = vec![Vec::new(); mesh.vertex_count()];
     for [a, b] in sides(mesh).filter(|[a, b]| a < b) {
@@ -104,7 +104,7 @@ fn random_tree(mesh: &TriMesh, edges: usize, random: &mut Random) -> BTreeSet<[u
         let from = random.index(mesh.vertex_count());
         let way = successors(Some(from), |&v| (!is_in_tree[v]).then(|| before[v] as usize));
         let way: Vec<usize> = way.collect();
-        // From the tree outwards: where there is no more to be taken, the seam ends before it comes there.
+        // From the tree outwards: if the last edges do not suffice, the seam ends before its vertex.
         for pair in way.windows(2).rev().take(edges - tree.len()) {
             let [a, b] = [pair[0], pair[1]].map(|v| u32::try_from(v).expect("a vertex fits"));
             tree.insert([a.min(b), a.max(b)]);
@@ -118,7 +118,7 @@ fn sides(mesh: &TriMesh) -> impl Iterator<Item = [u32; 2]> + '_ {
     mesh.triangles.iter().flat_map(|t| (0..3).map(|k| [t[k].number(), t[(k + 1) % 3].number()]))
 }
 
-/// The lowest corner of a part of the corners, each of which points to a lower one of its part. Shortens the way there.
+/// Lowest corner of a corner's part, found by links to lower corners. Shortens the links on the path.
 fn root(part: &mut [usize], mut corner: usize) -> usize {
     while part[corner] != corner {
         part[corner] = part[part[corner]];
@@ -127,9 +127,9 @@ fn root(part: &mut [usize], mut corner: usize) -> usize {
     corner
 }
 
-/// The mesh with a vertex for each part of the faces around it that seams leave.
+/// Mesh with a vertex for each part of the faces around a vertex that the seams separate.
 fn cut_open(mesh: &TriMesh, seams: &BTreeSet<[u32; 2]>) -> TriMesh {
-    // The corner behind each side, by the side's ends.
+    // Corner at the tail of each side, by the side's ends.
     let corner_at: BTreeMap<[u32; 2], usize> = sides(mesh).zip(0..).collect();
     let mut part: Vec<usize> = (0..3 * mesh.face_count()).collect();
     let next = |corner: usize| corner - corner % 3 + (corner + 1) % 3;

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::Random;
 
-/// Farthest that a vertex is moved, in cells. From a quarter on cells could turn over.
+/// Largest move of a vertex, in cells. From a quarter on, cells could turn over.
 const JITTER: f64 = 0.2;
 
 /// A bulging, bumpy sheet with a bowed outline and about `faces` faces.

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::Random;
 use freebound_core::mesh::{DiskMesh, PolygonMesh, TriMesh};
 
-/// The polygons that are kept.
+/// Mesh without the polygons that are left out.
 pub fn without_faces(mesh: &PolygonMesh, is_left_out: impl Fn(usize) -> bool) -> PolygonMesh {
     let (mut corners, mut starts) = (Vec::new(), vec![0]);
     for face in (0..mesh.face_count()).filter(|&face| !is_left_out(face)) {
@@ -15,8 +15,8 @@ pub fn without_faces(mesh: &PolygonMesh, is_left_out: impl Fn(usize) -> bool) ->
     PolygonMesh { positions: mesh.positions.clone(), corners, starts: Some(starts) }
 }
 
-/// A cube of unit sides, every side cut into `cells` × `cells` jittered squares with random diagonals, opened by taking
-/// away a random square of its bottom, a third of a side wide or more.
+/// Cube of unit sides, every side cut into `cells` × `cells` jittered squares with random diagonals. A random square
+/// of its bottom is removed, at least a third of a side wide.
 pub fn irregular_cube(cells: u32, random: &mut Random) -> DiskMesh {
     let mut positions: Vec<DVec3> = Vec::new();
     let mut number = std::collections::BTreeMap::new();
@@ -39,7 +39,7 @@ pub fn irregular_cube(cells: u32, random: &mut Random) -> DiskMesh {
                     };
                     let mut weld = |at: [u32; 3]| {
                         *number.entry(at).or_insert_with(|| {
-                            // Jitter along the surface only: no coordinate that lies on a side moves off it.
+                            // Jitter along the surface only: a coordinate on a side of the cube stays.
                             let moved = at.map(|c| {
                                 let inside = c > 0 && c < cells;
                                 let jitter = if inside { 0.7 * (random.unit() - 0.5) } else { 0.0 };
@@ -51,7 +51,7 @@ pub fn irregular_cube(cells: u32, random: &mut Random) -> DiskMesh {
                     };
                     let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)].map(&mut weld);
                     let halves = if random.below(2) == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
-                    // Seen from outside, counter-clockwise.
+                    // Counter-clockwise, seen from outside.
                     triangles.extend(halves.map(|[a, b, c]| if high { [a, b, c] } else { [a, c, b] }));
                 }
             }
@@ -71,7 +71,7 @@ pub fn bump(columns: u32) -> TriMesh {
     mesh
 }
 
-/// A disk made of the faces of a closed surface but for some.
+/// Disk of these faces, without unreferenced vertices.
 pub fn disk(positions: &[DVec3], triangles: &[[u32; 3]]) -> DiskMesh {
     let mut number = vec![u32::MAX; positions.len()];
     let mut used = Vec::new();

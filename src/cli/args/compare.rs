@@ -17,66 +17,72 @@ pub struct CompareArguments {
     /// The mesh.
     #[command(flatten)]
     pub input: MeshArguments,
-    /// The chart whose maps are compared, where the mesh has several, numbered from 0; the one with the most faces without it.
+    /// Chart to compare, numbered from 0. Default: the chart with the most faces.
     #[arg(long, value_name = "N")]
     pub chart: Option<usize>,
-    /// The methods, with commas between: each by its name, perhaps with weights and the shape of the boundary, for example
-    /// `natural,natural/mean-value,convex/uniform@square`. All that go with the pins without it.
+    /// Methods to compare, separated by commas. Default: all methods that suit the pins.
+    ///
+    /// Each method is a name, optionally with weights and a boundary shape. Example:
+    /// natural,natural/mean-value,convex/uniform@square.
     #[arg(long, value_name = "METHOD[/FAMILY][@BOUNDARY],…", value_delimiter = ',', value_parser = Variant::from_str)]
     pub methods: Vec<Variant>,
     /// Pins and settings.
     #[command(flatten)]
     pub solve: SolveArguments,
-    /// The picture that u and v are for (PNG or JPEG): its aspect counts.
+    /// Picture that u and v refer to (PNG or JPEG). Only its aspect ratio is used.
     #[arg(long, value_name = "FILE")]
     pub picture: Option<PathBuf>,
-    /// The column that the table is sorted by, less first; in the order of the methods without it.
+    /// Column to sort the table by, ascending. Default: the order of the methods.
     #[arg(long, value_name = "COLUMN", value_parser = choice::<Column>())]
     pub sort: Option<Column>,
-    /// Write a report here (JSON), or to standard output with `-`.
+    /// Write a report to this file (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,
-    /// Write the table here (CSV), or to standard output with `-`.
+    /// Write the table to this file (CSV), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub csv: Option<PathBuf>,
-    /// Write every step of every method here (CSV), with seconds, energy and stretch by then, or to standard output with `-`.
+    /// Write all steps of all methods to this file (CSV), or to standard output with `-`.
+    ///
+    /// Each row has the seconds, the energy and the stretch up to that step.
     #[arg(long, value_name = "FILE|-")]
     pub steps_csv: Option<PathBuf>,
-    /// Draw the embeddings side by side here (PNG), or to standard output with `-`.
+    /// Draw the maps side by side into this file (PNG), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub png: Option<PathBuf>,
-    /// The same as a drawing (SVG).
+    /// Draw the maps side by side into this file (SVG), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub svg: Option<PathBuf>,
-    /// Glide from each planar map to the next here, between two there and back, every frame proved one-to-one (animated PNG), or to standard output with
-    /// `-`. Methods without a planar map are left out.
+    /// Animate a morph through the planar maps (animated PNG); `-` for standard output.
+    ///
+    /// Every frame is proved one-to-one. Two maps give a loop there and back. Methods without a planar map are left
+    /// out.
     #[arg(long, value_name = "FILE|-")]
     pub morph: Option<PathBuf>,
-    /// Frames from one map to the next, both included; 49 without it.
+    /// Number of frames from one map to the next, both included. Default: 49.
     #[arg(long, value_name = "N", requires = "morph", value_parser = clap::value_parser!(u16).range(3..=1000))]
     pub frames: Option<u16>,
-    /// What the faces are coloured by in pictures.
+    /// Colouring of the faces in pictures.
     #[arg(long, value_parser = choice::<CellShading>())]
     pub shading: Option<CellShading>,
 }
 
-/// What `compare` writes, apart from its report.
+/// Output file of `compare`, apart from the report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ComparisonFile {
-    /// The table.
+    /// Table of results (CSV).
     Table,
-    /// Every step.
+    /// Table of all steps (CSV).
     Steps,
-    /// The picture.
+    /// Embeddings side by side (PNG).
     Png,
-    /// The same as a drawing.
+    /// Embeddings side by side (SVG).
     Svg,
-    /// The animated picture of the morph.
+    /// Morph (animated PNG).
     Morph,
 }
 
 impl CompareArguments {
-    /// The files to write, apart from the report, each with its option.
+    /// Files to write, apart from the report, each with its option.
     pub fn outputs(&self) -> Vec<(ComparisonFile, &'static str, &Path)> {
         let asked = [
             (ComparisonFile::Table, "--csv", &self.csv),
@@ -88,7 +94,7 @@ impl CompareArguments {
         asked.into_iter().filter_map(|(file, option, path)| Some((file, option, path.as_deref()?))).collect()
     }
 
-    /// The solver's settings, whatever the method: it takes of them what means something to it.
+    /// Settings for all methods. Each method uses the settings that apply to it.
     pub fn settings(&self) -> Settings {
         self.solve.settings(Method::default())
     }

@@ -20,66 +20,81 @@ pub struct FlattenArguments {
     /// The mesh.
     #[command(flatten)]
     pub input: MeshArguments,
-    /// Write the mesh with texture coordinates here (PLY or GLB where the name ends so, or else OBJ), or to standard output with `-`. The mesh that is read, or
-    /// anything else that is, is never written over.
+    /// Write the mesh with texture coordinates to this file, or to standard output with `-`.
+    ///
+    /// Names that end in .ply or .glb give PLY or GLB; all others give OBJ. Input files are never overwritten.
     #[arg(short, long, value_name = "MESH|-")]
     pub output: Option<PathBuf>,
-    /// How to flatten.
+    /// Method to flatten with.
     #[arg(long, value_parser = choice::<Method>(), default_value = Method::Auto.name())]
     pub method: Method,
-    /// The shape of the boundary, for `--method convex` and `stretch`, or of the outermost layer, for `lee`; a circle without
-    /// it. `hull` is the hull of the boundary's projection to its best plane. A polygon is a file of lines `x y`, or its
-    /// corners themselves, for example `polygon:0 0; 3 0; 3 2; 0 2`: convex, counter-clockwise.
-    #[arg(long, value_name = "circle|square|hull|polygon:FILE", value_parser = TypedShape::from_str)]
+    /// Boundary shape for `convex`, `stretch` and `lee`. Default: circle.
+    ///
+    /// For `lee` the shape applies to the outermost layer. `hull` is the convex hull of the boundary, projected to its
+    /// best plane. A polygon is a file of lines `x y`, or the corners themselves, for example `polygon:0 0; 3 0; 3 2;
+    /// 0 2`. Its corners must be convex and counter-clockwise.
+    #[arg(long, value_name = "circle|square|hull|polygon:FILE", value_parser = TypedShape::from_str, hide_short_help = true)]
     pub boundary: Option<TypedShape>,
     /// Pins and settings.
     #[command(flatten)]
     pub solve: SolveArguments,
-    /// Map this picture (PNG or JPEG) on the mesh: its aspect counts, and it goes beside the OBJ file, with a material.
+    /// Map this picture (PNG or JPEG) onto the mesh.
+    ///
+    /// The map uses the picture's aspect ratio. The picture is copied beside the OBJ file, with a material.
     #[arg(long, value_name = "FILE")]
     pub picture: Option<PathBuf>,
-    /// Copy the mesh's material libraries and the pictures that they name beside the OBJ file. Without it they stay, and
-    /// the OBJ file names them where they are.
-    #[arg(long, requires = "output", conflicts_with = "picture")]
+    /// Copy the mesh's material libraries and their pictures beside the OBJ file.
+    ///
+    /// Default: the OBJ file refers to them in their present place.
+    #[arg(long, requires = "output", conflicts_with = "picture", hide_short_help = true)]
     pub copy_materials: bool,
-    /// Size of an embedding without pins: fit into the unit square, or keep the area of the surface; into the unit square
-    /// without it. With `--start` the embedding stays as large as it was, and where it was, without it.
-    #[arg(long, value_parser = choice::<Fit>())]
+    /// Size of a map without pins: the unit square, or the area of the surface.
+    ///
+    /// Default: the unit square. With `--start` the default is the size and position of the layout.
+    #[arg(long, value_parser = choice::<Fit>(), hide_short_help = true)]
     pub fit: Option<Fit>,
-    /// Size of the picture that several charts are packed into, in pixels; without it that of `--picture`, or 1024x1024.
-    #[arg(long, value_name = "WxH", value_parser = parse_pixels, conflicts_with_all = ["aspect", "picture"])]
+    /// Size of the picture that several charts are packed into, in pixels.
+    ///
+    /// Default: the size of `--picture`, or 1024x1024.
+    #[arg(long, value_name = "WxH", value_parser = parse_pixels, conflicts_with_all = ["aspect", "picture"], hide_short_help = true)]
     pub pack: Option<UVec2>,
-    /// The least distance between packed charts, in pixels of that picture; 4 without it.
-    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(0..=1024))]
+    /// Smallest distance between packed charts, in pixels of the packed picture. Default: 4.
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(0..=1024), hide_short_help = true)]
     pub gap: Option<u32>,
-    /// How many times as large as the others charts are packed: numbers of charts, as the report counts them from 0, each with
-    /// its size, for example `0=2,3=0.5`.
-    #[arg(long, value_name = "CHART=SIZE,…", value_delimiter = ',', value_parser = parse_chart_size)]
+    /// Relative sizes of packed charts, for example `0=2,3=0.5`.
+    ///
+    /// Charts are numbered from 0, as in the report. A chart without an entry has size 1.
+    #[arg(long, value_name = "CHART=SIZE,…", value_delimiter = ',', value_parser = parse_chart_size, hide_short_help = true)]
     pub chart_size: Vec<ChartSize>,
-    /// How many bits the numbers of texture coordinates have, as they are proved and written. GLB files always hold 32.
-    #[arg(long, value_parser = choice::<Precision>(), default_value = Precision::F64.name())]
+    /// Precision in which texture coordinates are proved and written.
+    ///
+    /// GLB files always hold 32 bits.
+    #[arg(long, value_parser = choice::<Precision>(), default_value = Precision::F64.name(), hide_short_help = true)]
     pub precision: Precision,
-    /// Write a report here (JSON), or to standard output with `-`.
+    /// Write a report to this file (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,
-    /// Draw the layout here (SVG), or to standard output with `-`.
+    /// Draw the layout into this file (SVG), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub svg: Option<PathBuf>,
-    /// Size of the drawing: the unit square (the picture, where there is one) is the page, or lengths are as on the
-    /// surface, a unit of the drawing for a unit of the mesh. As `--fit` without it.
-    #[arg(long, value_parser = choice::<Fit>(), requires = "svg")]
+    /// Size of the drawing: the unit square, or the lengths of the surface. Default: as `--fit`.
+    ///
+    /// With `unit` the page is the unit square, or the picture if there is one. With `true` one unit of the drawing is
+    /// one unit of the mesh.
+    #[arg(long, value_parser = choice::<Fit>(), requires = "svg", hide_short_help = true)]
     pub svg_scale: Option<Fit>,
-    /// Draw the mesh and the layout side by side here (PNG), or to standard output with `-`.
+    /// Draw the mesh and the layout side by side into this file (PNG); `-` for standard output.
     #[arg(long, value_name = "FILE|-")]
     pub png: Option<PathBuf>,
-    /// Draw every step into this folder (SVG), with a table of their numbers (steps.csv). The steps of an earlier run in
-    /// it are replaced.
-    #[arg(long, value_name = "DIR")]
+    /// Draw every step into this folder (SVG), with a table of numbers (steps.csv).
+    ///
+    /// Steps of an earlier run in the folder are replaced.
+    #[arg(long, value_name = "DIR", hide_short_help = true)]
     pub steps: Option<PathBuf>,
 }
 
 impl FlattenArguments {
-    /// How several charts are packed, into this picture where there is one.
+    /// Packing options of several charts, for the size of this picture if there is one.
     pub fn packing(&self, picture: Option<&PictureFile>) -> PackingOptions {
         let options = PackingOptions::default();
         let options = PackingOptions { gap: self.gap.unwrap_or(options.gap), ..options };
@@ -93,27 +108,27 @@ impl FlattenArguments {
         PackingOptions { picture, ..options }
     }
 
-    /// Where charts go: they stay where the file has them, where nothing else is asked for.
+    /// Arrangement of the charts. Charts of a layout to start from stay in place unless packing is requested.
     pub fn arrangement(&self) -> Arrangement {
         let is_packed = self.pack.is_some() || self.gap.is_some();
         if self.solve.start.is_some() && !is_packed { Arrangement::AsGiven } else { Arrangement::Packed }
     }
 
-    /// The files to write, apart from the report.
+    /// Files to write, apart from the report.
     pub fn outputs(&self) -> Vec<(OutputKind, &Path)> {
-        // The mesh comes last, so that what it names is there.
+        // The mesh is written last, after the files that it names.
         let mesh = self.output.as_deref().map_or(OutputKind::Obj, OutputKind::of_mesh);
         let paths = [(OutputKind::Svg, &self.svg), (OutputKind::Png, &self.png), (mesh, &self.output)].into_iter();
         paths.filter_map(|(kind, path)| Some((kind, path.as_deref()?))).collect()
     }
 
-    /// The solver's settings.
+    /// Settings of the solver.
     pub fn settings(&self) -> Settings {
         let shape = self.boundary.as_ref().map(|typed| typed.shape.clone());
         self.solve.settings(shape.map_or_else(|| self.method.clone(), |shape| self.method.clone().on_shape(shape)))
     }
 
-    /// An option that was given but means nothing to the method, and why.
+    /// First given option that does not apply to the method, with the reason.
     pub fn idle_option(&self) -> Option<(&'static str, &'static str)> {
         if self.boundary.is_some() && self.method.boundary_shape().is_none() {
             return Some(("--boundary", ONLY_ON_SHAPES));

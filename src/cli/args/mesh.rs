@@ -1,4 +1,4 @@
-//! Which mesh, and in which form.
+//! Arguments for the mesh and its preparation.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -12,42 +12,50 @@ use freebound_core::mesh::{HoleTreatment, Preparation, Repairs, WeldDistance};
 /// The mesh, and what is made of its faces.
 #[derive(Debug, Args)]
 pub struct MeshArguments {
-    /// The mesh, an OBJ, PLY, STL, OFF, GLB or glTF file; standard input with `-`.
+    /// Mesh to read: an OBJ, PLY, STL, OFF, GLB or glTF file, or standard input with `-`.
     pub mesh: PathBuf,
-    /// What may be repaired before the mesh is flattened: nothing, what changes no visible surface, or all that can be.
-    /// Any of them by its name does, too, with commas between: drop-repeated-corners, drop-duplicate-faces, weld-vertices,
-    /// split-edges, turn-faces, split-vertices, fill-holes.
+    /// Repairs that are allowed: none, safe (no visible change), all, or a list.
+    ///
+    /// A list has names separated by commas: drop-repeated-corners, drop-duplicate-faces, weld-vertices, split-edges,
+    /// turn-faces, split-vertices, fill-holes.
     #[arg(long, value_name = "none|safe|all|LIST", default_value_t)]
     pub repair: Repairs,
-    /// Join vertices of faces that lie within this distance of each other, in the mesh's units; 0 joins those in one place.
-    #[arg(long, value_name = "DISTANCE", value_parser = parse_weld_distance, allow_negative_numbers = true)]
+    /// Join vertices of faces within this distance of each other, in units of the mesh.
+    ///
+    /// With 0 only vertices at equal positions are joined.
+    #[arg(long, value_name = "DISTANCE", value_parser = parse_weld_distance, allow_negative_numbers = true, hide_short_help = true)]
     pub weld: Option<WeldDistance>,
-    /// What becomes of holes: filled while the surface is flattened, or cut open where a surface is cut.
-    #[arg(long, value_enum, default_value_t)]
+    /// Treatment of holes.
+    #[arg(long, value_enum, default_value_t, hide_short_help = true)]
     pub holes: Holes,
-    /// Whether a surface that is no disk (closed, with handles, with one side only) is cut open until it is one: `none` leaves
-    /// it, `auto` cuts along short ways, creases first; a file of edges, lines `a b` of two vertices numbered from 0, is cut along
-    /// first, and then as `auto` does what is no disk yet.
+    /// Cut surfaces that are not disks: never, automatically, or along the edges of a file.
+    ///
+    /// `auto` cuts closed surfaces, surfaces with handles and one-sided surfaces along short paths, creases first. A
+    /// file has lines `a b`, two vertices numbered from 0. Its edges are cut first; then `auto` cuts the rest if
+    /// needed.
     #[arg(long, value_name = "none|auto|FILE", default_value = "none", value_parser = OsStringValueParser::new().map(Cut::from))]
     pub cut: Cut,
-    /// Cut along these edges, too: `sharp`, or `sharp=DEGREES`, where faces meet at that angle or more, 60 without a number;
-    /// `materials` and `groups`, where faces of two of them meet. Several with commas between them.
+    /// Cut along these edges too: sharp edges, borders of materials, borders of groups.
+    ///
+    /// `sharp` takes edges with an angle of 60 degrees or more between the faces; `sharp=DEGREES` sets the angle.
+    /// Separate several kinds by commas.
     #[arg(long, value_name = "sharp[=DEGREES],materials,groups", value_delimiter = ',', value_parser = parse_seam_kind)]
     pub seams: Vec<SeamKind>,
-    /// The parts of the mesh that are flattened, numbered from 0 in the order of their first faces, with commas between; or the
-    /// largest alone. The others stay as they are.
-    #[arg(long, value_name = "LIST|largest", value_parser = parse_parts)]
+    /// Parts of the mesh to flatten: numbers separated by commas, or `largest`. Default: all.
+    ///
+    /// Parts are numbered from 0 in the order of their first faces. Other parts stay unchanged.
+    #[arg(long, value_name = "LIST|largest", value_parser = parse_parts, hide_short_help = true)]
     pub parts: Option<Parts>,
-    /// What the charts of the mesh are, which are flattened each by itself.
-    #[arg(long, value_enum, default_value_t)]
+    /// Charts of the mesh. Each chart is flattened separately.
+    #[arg(long, value_enum, default_value_t, hide_short_help = true)]
     pub charts: ChartsOf,
-    /// Read the mesh even if that may take more than half of the machine's memory.
-    #[arg(long)]
+    /// Read the mesh even if that may need more than half of the machine's memory.
+    #[arg(long, hide_short_help = true)]
     pub large: bool,
 }
 
 impl MeshArguments {
-    /// What is to be made of the mesh's faces, seams along edges of the mesh aside.
+    /// Preparation of the mesh, without seams along edges of the mesh.
     pub fn form(&self) -> Preparation {
         let repair = self.repair.welding(self.weld);
         let holes = match self.holes {
@@ -60,24 +68,24 @@ impl MeshArguments {
     }
 }
 
-/// What becomes of holes, as it is typed.
+/// Value of `--holes`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Holes {
-    /// Filled with faces that no file gets, unless --repair is none
+    /// Fill holes during flattening, unless --repair is none; no file gets the extra faces
     #[default]
     Fill,
-    /// Cut to the outside, with --cut auto
+    /// Cut holes open to the outer boundary, with --cut auto
     Cut,
 }
 
-/// Whether a surface is cut open, as it is typed.
+/// Value of `--cut`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cut {
-    /// No.
+    /// The surface is not cut.
     None,
-    /// Where it is no disk.
+    /// The surface is cut if it is not a disk.
     Auto,
-    /// Along the edges of a file, and then where it is no disk.
+    /// The surface is cut along the edges of a file, then if it is not a disk.
     Along(PathBuf),
 }
 
@@ -91,23 +99,23 @@ impl From<OsString> for Cut {
     }
 }
 
-/// Edges to cut along, as they are typed.
+/// Value of `--seams`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SeamKind {
-    /// Where faces meet at an angle of so many degrees or more.
+    /// Edges whose face normals differ by at least this angle, degrees.
     Sharp(f64),
-    /// Where faces of two materials meet.
+    /// Edges between faces of different materials.
     Materials,
-    /// Where faces of two groups or objects meet.
+    /// Edges between faces of different groups or objects.
     Groups,
 }
 
-/// What the charts of a mesh are, as it is typed.
+/// Value of `--charts`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum ChartsOf {
-    /// Its parts
+    /// Parts of the mesh
     #[default]
     Parts,
-    /// The charts of the file's texture coordinates: it is cut along their seams
+    /// Charts of the file's texture coordinates; the mesh is cut along their seams
     Uv,
 }

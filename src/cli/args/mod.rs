@@ -1,15 +1,15 @@
-//! What can be typed. `freebound --help` is made from this.
+//! Arguments of the program. clap generates `freebound --help` from them.
 //!
-//! | file      | what it holds                                          |
-//! |-----------|--------------------------------------------------------|
-//! | `mod`     | commands; arguments of `check` and `figures`           |
-//! | `mesh`    | which mesh, and in which form                          |
-//! | `solve`   | what is solved: pins, and settings of the solver       |
-//! | `flatten` | arguments of `flatten`                                 |
-//! | `compare` | arguments of `compare`                                 |
-//! | `shape`   | the shape of a boundary                                |
-//! | `study`   | arguments of `study`                                   |
-//! | `threads` | how many threads do the work                           |
+//! | file      | content                                       |
+//! |-----------|-----------------------------------------------|
+//! | `mod`     | commands; arguments of `check` and `figures`  |
+//! | `mesh`    | arguments for the mesh and its preparation    |
+//! | `solve`   | arguments for pins and settings of the solver |
+//! | `flatten` | arguments of `flatten`                        |
+//! | `compare` | arguments of `compare`                        |
+//! | `shape`   | value for the shape of a boundary             |
+//! | `study`   | arguments of `study`                          |
+//! | `threads` | argument for the number of threads            |
 
 mod compare;
 mod flatten;
@@ -23,6 +23,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::examples::ExampleFiles;
+
 pub use compare::{CompareArguments, ComparisonFile};
 pub use flatten::FlattenArguments;
 pub use mesh::{Cut, MeshArguments, SeamKind};
@@ -31,64 +33,92 @@ pub use solve::{SolveArguments, StartOf};
 pub use study::StudyArguments;
 pub use threads::ThreadArguments;
 
-/// Flattens 3D triangle meshes into the plane and proves what it made.
+/// Flattens 3D triangle meshes into the plane and proves the result.
 #[derive(Debug, Parser)]
 #[command(name = "freebound", version, args_conflicts_with_subcommands = true, after_help = EXIT_HELP)]
 pub struct Arguments {
-    /// A mesh to open in the editor. Without one the built-in example opens.
+    /// Mesh to open in the editor. Default: the built-in example.
     pub file: Option<PathBuf>,
-    /// What to do without a screen.
+    /// Command to run without a window.
     #[command(subcommand)]
     pub command: Option<Subcommands>,
 }
 
 const EXIT_HELP: &str = "Exit status: 0 planar and proved, 1 internal error, 2 wrong use, 3 unusable input, \
-                         4 not planar, a constraint not met, or no result by this method, 130 interrupted.";
+                         4 not planar, a constraint not met, or the method failed, 130 interrupted.";
 
-const STUDY_HELP: &str = "Exit status: 0 all runs were made, whatever came of them, 1 internal error, 2 wrong use, \
+const FLATTEN_HELP: &str = "Example:
+  freebound flatten mesh.obj -o flat.obj --png flat.png
+
+Further options and examples: freebound flatten --help";
+
+const FLATTEN_LONG_HELP: &str = "Examples:
+  freebound flatten mesh.obj -o flat.obj --png flat.png
+  freebound flatten head.obj --constraints landmarks.txt --picture face.png -o textured.obj
+  freebound flatten box.obj --repair all --seams sharp=60 -o unfolded.obj
+  freebound flatten closed.obj --repair all --cut auto --relax 20 -o unwrapped.glb
+  freebound flatten - -o - <mesh.obj >flat.obj
+
+Exit status: 0 planar and proved, 1 internal error, 2 wrong use, 3 unusable input,
+4 not planar, a constraint not met, or the method failed, 130 interrupted.";
+
+const STUDY_HELP: &str = "Exit status: 0 all runs completed, with any results, 1 internal error, 2 wrong use, \
                           3 unusable input, 130 interrupted.";
 
-const COMPARE_HELP: &str = "Exit status: 0 all methods have run, whatever came of them, 1 internal error, 2 wrong use, \
+const COMPARE_HELP: &str = "Exit status: 0 all methods completed, with any results, 1 internal error, 2 wrong use, \
                             3 unusable input, 130 interrupted.";
 
-/// The commands that need no screen.
+/// Commands that need no window.
 #[derive(Debug, Subcommand)]
 pub enum Subcommands {
-    /// Flatten a mesh; prove the result; write it as texture coordinates.
-    #[command(after_help = EXIT_HELP)]
+    /// Flatten a mesh, prove the result, and write it as texture coordinates.
+    #[command(after_help = FLATTEN_HELP, after_long_help = FLATTEN_LONG_HELP)]
     Flatten(Box<FlattenArguments>),
-    /// Run several methods on a mesh, one after the other, and set their results side by side.
+    /// Run several methods on a mesh and compare their results.
     #[command(after_help = COMPARE_HELP)]
     Compare(Box<CompareArguments>),
-    /// Diagnose a mesh, and prove its texture coordinates where it has some.
+    /// Diagnose a mesh, and verify its texture coordinates if it has any.
     #[command(after_help = EXIT_HELP)]
     Check(CheckArguments),
-    /// List methods and families with their sources.
+    /// Write the files of a built-in example, or list the examples.
+    Example(ExampleArguments),
+    /// List methods and families of weights with their sources.
     Methods,
-    /// Compute the paper's figures again, as drawings (SVG), pictures (PNG) and a table (CSV).
+    /// Recompute the figures of the paper: drawings (SVG), pictures (PNG) and a table (CSV).
     #[command(after_help = EXIT_HELP)]
     Figures(FiguresArguments),
-    /// Run the mean-value iteration on many random pins and constraints: how often and how fast it ends planar.
+    /// Run the mean-value iteration on random pins; count planar results and iterations.
     #[command(after_help = STUDY_HELP)]
     Study(StudyArguments),
+}
+
+/// Arguments of `example`.
+#[derive(Debug, Args)]
+pub struct ExampleArguments {
+    /// Name of the example. Default: list all examples.
+    #[arg(value_parser = clap::builder::PossibleValuesParser::new(ExampleFiles::ALL.map(|example| example.name)))]
+    pub name: Option<String>,
+    /// Folder to write into, created if it is missing.
+    #[arg(default_value = ".")]
+    pub folder: PathBuf,
 }
 
 /// Arguments of `figures`.
 #[derive(Debug, Args)]
 pub struct FiguresArguments {
-    /// The folder to write into; made where it is missing.
+    /// Folder to write into, created if it is missing.
     pub folder: PathBuf,
 }
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// The mesh, an OBJ, PLY, STL, OFF, GLB or glTF file; standard input with `-`.
+    /// Mesh to read: an OBJ, PLY, STL, OFF, GLB or glTF file, or standard input with `-`.
     pub mesh: PathBuf,
-    /// Write a report here (JSON), or to standard output with `-`.
+    /// Write a report to this file (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,
-    /// Read the mesh even if that may take more than half of the machine's memory.
+    /// Read the mesh even if that may need more than half of the machine's memory.
     #[arg(long)]
     pub large: bool,
 }

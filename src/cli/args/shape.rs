@@ -1,4 +1,4 @@
-//! The shape of a boundary, as it is typed: by its name, by its corners, or by a file of corners.
+//! Value for the shape of a boundary: a name, the corners of a polygon, or a file of corners.
 
 use std::fs;
 use std::path::PathBuf;
@@ -7,12 +7,12 @@ use std::str::FromStr;
 use freebound_core::geom::ConvexPolygon;
 use freebound_core::problem::{BoundaryShape, NamedOption as _};
 
-/// A shape, and the file that it comes from.
+/// Shape, and the file that it was read from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TypedShape {
-    /// The shape.
+    /// Shape of the boundary.
     pub shape: BoundaryShape,
-    /// The file of its corners.
+    /// File of the polygon's corners.
     pub file: Option<PathBuf>,
 }
 

@@ -1,4 +1,4 @@
-//! What is solved: pins, and settings of the solver.
+//! Arguments for pins and settings of the solver.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -13,66 +13,83 @@ use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
 use freebound_core::problem::{Family, Growth, Method, Settings, Spacing, Start, Treatment};
 
-/// Why a shape's options mean nothing to other methods.
-pub(super) const ONLY_ON_SHAPES: &str = "only convex, stretch and lee lay a boundary on a shape";
+/// Reason for rejecting a shape's options for other methods.
+pub(super) const ONLY_ON_SHAPES: &str = "only convex, stretch and lee have a boundary shape";
 
 /// Pins, and settings of the solver but for the method.
 #[derive(Debug, Args)]
 pub struct SolveArguments {
-    /// What the first step is, where it is not a map of the surface alone: the texture coordinates of the mesh file with `uv`, or
-    /// those of another file of the same mesh. Proved as it is, and the method goes on from it.
+    /// Start from texture coordinates of the mesh file (`uv`) or of another file of the mesh.
+    ///
+    /// The layout becomes the first step. The method proves it unchanged and continues from it. Default: the method
+    /// computes its first map from the surface alone.
     #[arg(long, value_name = "uv|FILE", value_parser = OsStringValueParser::new().map(StartOf::from))]
     pub start: Option<StartOf>,
-    /// The weights: conformal, mean-value, wachspress, power:P, and for `convex` and `lee` uniform, shape-preserving;
-    /// without it mean-value for `lee`, conformal for others.
-    #[arg(long, value_parser = Family::from_str)]
+    /// Weights: conformal, mean-value, wachspress or power:P.
+    ///
+    /// The methods `convex` and `lee` also support uniform and shape-preserving weights. Default: mean-value for
+    /// `lee`, conformal for all others.
+    #[arg(long, value_parser = Family::from_str, hide_short_help = true)]
     pub family: Option<Family>,
-    /// How far apart boundary vertices lie on a convex shape, for `convex`, `stretch` and `lee`: by their lengths, or evenly;
-    /// by their lengths without it.
-    #[arg(long, value_parser = choice::<Spacing>())]
+    /// Spacing of boundary vertices on the shape of `convex`, `stretch` and `lee`.
+    ///
+    /// Default: chord.
+    #[arg(long, value_parser = choice::<Spacing>(), hide_short_help = true)]
     pub spacing: Option<Spacing>,
-    /// Layers of virtual triangles around the mesh, for `lee`; 2 without it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(Settings::MOST_LAYERS)))]
+    /// Layers of virtual triangles around the mesh, for `lee`. Default: 2.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(Settings::MOST_LAYERS)), hide_short_help = true)]
     pub layers: Option<u16>,
-    /// Pin a vertex, numbered from 0, at u,v: exactly, or pulled there by a weight. Repeatable.
+    /// Pin a vertex, numbered from 0, to u,v. A weight makes the pin soft. Repeatable.
     #[arg(long = "pin", value_name = "V:U,V[:WEIGHT]", value_parser = parse_pin, allow_hyphen_values = true)]
     pub pins: Vec<(VertexId, Target)>,
-    /// Pin vertices as a file says: lines `vertex u v [weight]`, vertices numbered from 0, comments behind a #.
+    /// Pin the vertices in a file with lines `vertex u v [weight]`.
+    ///
+    /// Vertices are numbered from 0. A # starts a comment. A weight makes the pin soft.
     #[arg(long, value_name = "FILE")]
     pub constraints: Option<PathBuf>,
-    /// The picture that u and v are for, width to height: angles are kept on it. 1:1 without it.
-    #[arg(long, value_name = "W:H", value_parser = parse_aspect, conflicts_with = "picture")]
+    /// Aspect ratio of the picture that u and v refer to, width to height. Default: 1:1.
+    ///
+    /// Angles are preserved on the picture.
+    #[arg(long, value_name = "W:H", value_parser = parse_aspect, conflicts_with = "picture", hide_short_help = true)]
     pub aspect: Option<f64>,
-    /// What becomes of the pinned vertices' equations. Without it: of two pins eliminated, of more kept, and kept in
-    /// the iteration.
-    #[arg(long, value_parser = choice::<Treatment>())]
+    /// Treatment of the equations of pinned vertices.
+    ///
+    /// Default: eliminate them for two pins; keep them (least squares) for more pins and in the iteration.
+    #[arg(long, value_parser = choice::<Treatment>(), hide_short_help = true)]
     pub treatment: Option<Treatment>,
-    /// The most mean-value iterations, for `auto` and `iterate`, or solves after the first, for `stretch`; 60 without it. For
-    /// `slim` its iterations; 20 without it.
-    #[arg(long, value_name = "N")]
+    /// Maximum number of iterations, for `auto`, `iterate`, `stretch` and `slim`.
+    ///
+    /// The limit counts mean-value iterations for `auto` and `iterate`, and solves after the first for `stretch`.
+    /// Default: 60, or 20 for `slim`.
+    #[arg(long, value_name = "N", hide_short_help = true)]
     pub max_steps: Option<usize>,
-    /// After a planar end, lower the distortion in at most this many rounds, one-to-one throughout, constraints kept.
-    /// Without it `auto` does so until the map serves; a planar layout that `--start` goes on from stays as it is.
+    /// Maximum number of rounds that lower the distortion of a planar map.
+    ///
+    /// Each round keeps the map one-to-one and the constraints met. Default: `auto` relaxes until the map is planar in
+    /// 32 bits and its energy is moderate; a planar layout of `--start` is not relaxed.
     #[arg(long, value_name = "N")]
     pub relax: Option<usize>,
-    /// Do not split edges where the constraints cannot be met otherwise, for `auto` and `continuation`: keep the best
-    /// planar embedding instead, and name the constraints that are not met.
-    #[arg(long)]
+    /// Never split edges to satisfy constraints, for `auto`.
+    ///
+    /// The result is the best planar map. The summary lists the constraints that are not met.
+    #[arg(long, hide_short_help = true)]
     pub no_new_vertices: bool,
-    /// How the virtual boundary pins more of the boundary while it crosses itself, for `auto` and `virtual-boundary`.
-    #[arg(long, value_parser = choice::<Growth>())]
+    /// Growth of the pinned boundary, for `auto` and `virtual-boundary`.
+    ///
+    /// The virtual boundary pins more boundary vertices while the boundary crosses itself. Default: double.
+    #[arg(long, value_parser = choice::<Growth>(), hide_short_help = true)]
     pub growth: Option<Growth>,
-    /// How many threads do the work.
+    /// Number of threads.
     #[command(flatten)]
     pub threads: ThreadArguments,
 }
 
-/// Where the first step comes from, as it is typed.
+/// Value of `--start`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum StartOf {
-    /// The texture coordinates of the mesh file.
+    /// Texture coordinates of the mesh file.
     Uv,
-    /// Those of another file.
+    /// Texture coordinates of another file.
     File(PathBuf),
 }
 
@@ -83,7 +100,7 @@ impl From<OsString> for StartOf {
 }
 
 impl SolveArguments {
-    /// The solver's settings for a method.
+    /// Settings of the solver for a method.
     pub fn settings(&self, method: Method) -> Settings {
         Settings {
             treatment: self.treatment,
@@ -100,7 +117,7 @@ impl SolveArguments {
         }
     }
 
-    /// An option that was given but means nothing to any of the methods, and why not to the first.
+    /// First given option that applies to none of the methods, with the reason for the first method.
     pub fn idle_option(&self, methods: &[Method]) -> Option<(&'static str, &'static str)> {
         let [first, others @ ..] = methods else { return None };
         let is_idle = |option: &str, method: &Method| self.idle_options(method).iter().any(|(idle, _)| *idle == option);
@@ -108,27 +125,27 @@ impl SolveArguments {
         idle.find(|(option, _)| others.iter().all(|method| is_idle(option, method)))
     }
 
-    /// All options that were given but mean nothing to a method, and why.
+    /// All given options that do not apply to a method, with the reasons.
     fn idle_options(&self, method: &Method) -> Vec<(&'static str, &'static str)> {
         let splits = *method == Method::Auto;
         let of_family =
-            if method.is_one_to_one() { "it solves no weighted equations" } else { "its weights are its own" };
+            if method.is_one_to_one() { "it solves no weighted equations" } else { "its weights are fixed" };
         let treats_pins = method.uses_pins() && !method.only_places_pins();
         let of_treatment = if method.uses_pins() {
-            "no equation of its depends on a pin"
+            "its equations do not depend on pins"
         } else {
-            "it places the whole boundary by itself"
+            "it places the whole boundary itself"
         };
         let of_splits = match method {
-            Method::Matchmaker => "it meets constraints by nothing else",
-            _ => "only auto goes on to them",
+            Method::Matchmaker => "it always adds vertices",
+            _ => "only auto has this choice",
         };
         let cases = [
             (self.spacing.is_some(), method.boundary_shape().is_some(), "--spacing", ONLY_ON_SHAPES),
             (self.layers.is_some(), method.is_padded(), "--layers", "only lee puts layers around the mesh"),
             (self.family.is_some(), method.uses_family(), "--family", of_family),
-            (!self.pins.is_empty(), method.uses_pins(), "--pin", "it places the whole boundary by itself"),
-            (self.constraints.is_some(), method.uses_pins(), "--constraints", "it places the whole boundary by itself"),
+            (!self.pins.is_empty(), method.uses_pins(), "--pin", "it places the whole boundary itself"),
+            (self.constraints.is_some(), method.uses_pins(), "--constraints", "it places the whole boundary itself"),
             (self.treatment.is_some(), treats_pins, "--treatment", of_treatment),
             (self.max_steps.is_some(), method.iterates(), "--max-steps", "it does not iterate"),
             (self.no_new_vertices, splits, "--no-new-vertices", of_splits),
@@ -138,7 +155,7 @@ impl SolveArguments {
                 "--start",
                 "it computes its map from the surface alone",
             ),
-            (self.growth.is_some(), method.bends_boundary(), "--growth", "only auto and virtual-boundary pin more"),
+            (self.growth.is_some(), method.bends_boundary(), "--growth", "only auto and virtual-boundary use it"),
         ];
         cases
             .into_iter()

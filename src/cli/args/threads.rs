@@ -1,11 +1,11 @@
-//! How many threads do the work, of every command that solves.
+//! Argument for the number of threads, used by every command that solves.
 
 use clap::Args;
 
-/// How many threads do the work.
+/// Number of threads to use.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct ThreadArguments {
-    /// Threads to use; all cores without it.
-    #[arg(long = "threads", value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    /// Number of threads. Default: all cores.
+    #[arg(long = "threads", value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), hide_short_help = true)]
     pub count: Option<u16>,
 }

@@ -1,5 +1,5 @@
-//! Figure 1: what a convex boundary makes of a flat mesh. Figures 3 and 4: the cube with one boundary, and its
-//! free-boundary embeddings.
+//! Figure 1: a flat mesh with a convex boundary. Figures 3 and 4: a cube with one boundary loop, and its free-boundary
+//! embeddings.
 
 use std::sync::Arc;
 
@@ -16,21 +16,20 @@ use freebound_core::verify::verdict;
 use freebound_io::figure::{Drawing, OutsideShade, PlaneDrawing, Pockets, SpaceDrawing};
 use freebound_io::raster::View;
 
-/// Insets that a panel has room for.
+/// Maximum number of insets in a panel.
 const INSETS: usize = 2;
 
-/// Where the cube is seen from: from above, and from below into its opening.
+/// Views of the cube: from above, and from below into its opening.
 const VIEWS: [(&str, View); 2] = [
     ("from above", View { eye: DVec3::new(0.75, 0.65, 1.3), up: DVec3::Y }),
     ("from below, into the opening", View { eye: DVec3::new(0.75, -0.75, 1.3), up: DVec3::Y }),
 ];
 
-/// A flat mesh, its embedding by Tutte's method, and that with Lee's padding.
+/// Draws a flat mesh, its embedding by Tutte's method, and its embedding with Lee's padding.
 pub(super) fn figure_1(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Figure, SolveError> {
-    let caption = "Figure 1. Embedding of a flat mesh. A convex boundary, (b), distorts what needed no distortion at all: \
-                   the mesh itself, (a), is a planar embedding. Layers of virtual triangles, (c), green, whose outermost \
-                   ring lies on a circle, leave the boundary some freedom; they are peeled off afterwards. The mesh does \
-                   not come back.";
+    let caption = "Figure 1. Embedding of a flat mesh. The mesh (a) is already a planar embedding, but a convex \
+                   boundary (b) distorts it. Layers of virtual triangles (c, green) with the outermost ring on a \
+                   circle leave the boundary some freedom and are removed afterwards. The mesh is still distorted.";
     let mut figure = Figure::new(1, 3, caption);
     let input: Embedding = mesh.mesh().positions.iter().copied().map(DVec3::truncate).collect();
     let of_input = verdict(mesh, &input);
@@ -48,7 +47,7 @@ pub(super) fn figure_1(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Fig
     Ok(figure)
 }
 
-/// A step of Lee's with the layers that were peeled off.
+/// Drawing of a step of Lee's method, with the virtual layers that were removed.
 fn with_padding(mesh: &Arc<DiskMesh>, step: &Step) -> PlaneDrawing {
     let drawing = PlaneDrawing { pins: Vec::new(), ..PlaneDrawing::of_step(mesh, step) };
     let Some(padding) = step.candidate.outside.as_deref() else { return drawing };
@@ -62,7 +61,7 @@ fn with_padding(mesh: &Arc<DiskMesh>, step: &Step) -> PlaneDrawing {
     PlaneDrawing { embedding, outside: Some(outside), ..drawing }
 }
 
-/// The cube from two sides.
+/// Draws the cube from two sides.
 pub(super) fn figure_3(mesh: &Arc<DiskMesh>) -> Figure {
     let caption = format!(
         "Figure 3. A cube with one boundary, drawn thick: {} vertices, {} faces, {} vertices on the boundary.",
@@ -78,7 +77,7 @@ pub(super) fn figure_3(mesh: &Arc<DiskMesh>) -> Figure {
     figure
 }
 
-/// An embedding of figure 4: a pair of vertices pinned at their distance, and the weights by their place in [`WEIGHTS`].
+/// Embedding of figure 4: a pair of vertices pinned at their distance, and the index of the weights in [`WEIGHTS`].
 #[derive(Clone, Copy)]
 pub(super) struct FreeEmbedding {
     pub(super) pair: PinPair,
@@ -86,7 +85,7 @@ pub(super) struct FreeEmbedding {
 }
 
 impl FreeEmbedding {
-    /// The pair on the x-axis, as far apart as in space.
+    /// Pins the pair on the x-axis, at its distance in space.
     pub(super) fn pins(self, mesh: &DiskMesh) -> Pins {
         let [a, b] = self.pair.vertices;
         let distance = mesh.position(a).distance(mesh.position(b));
@@ -98,7 +97,7 @@ impl FreeEmbedding {
     }
 }
 
-/// Three weights, two pairs of pinned vertices.
+/// Draws embeddings with three kinds of weights and two pairs of pinned vertices.
 pub(super) fn figure_4(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Figure, SolveError> {
     let caption = "Figure 4. Free-boundary embeddings of the cube of figure 3 with mean-value weights (left), Lévy's \
                    weights (middle) and conformal weights (right). Red faces are flipped, so that the embedding is not \

@@ -1,12 +1,12 @@
-//! `freebound figures`: the paper's figures 1, 3, 4, 5, 6, 8 and 9, computed again on the built-in meshes.
+//! `freebound figures`: the paper's figures 1, 3, 4, 5, 6, 8 and 9, reproduced on the built-in meshes.
 //!
-//! Each is written as a drawing and as a picture with all its panels; their numbers stand in one table, on standard
-//! output and in `figures.csv`. The same bytes come out every time.
+//! Each figure is written as a drawing and as a picture with all its panels. Their numbers are in one table, on
+//! standard output and in `figures.csv`. The output is deterministic, byte for byte.
 //!
-//! | file       | what it holds                                                              |
+//! | file       | content                                                                    |
 //! |------------|----------------------------------------------------------------------------|
 //! | `mod`      | a figure and its rows of the table; all figures computed and written       |
-//! | `free`     | figures 1, 3 and 4: a flat mesh; the cube, its free-boundary embeddings    |
+//! | `free`     | figures 1, 3 and 4: a flat mesh; the cube and its free-boundary embeddings |
 //! | `repaired` | figures 5 and 6: the iteration and the virtual boundary                    |
 //! | `textured` | figures 8 and 9: the face and its portrait                                 |
 //! | `pairs`    | the pinned pairs of vertices                                               |
@@ -41,7 +41,7 @@ const PIXELS: f64 = 2.0;
 /// Name of the table.
 const TABLE: &str = "figures.csv";
 
-/// A figure, laid out and measured.
+/// Figure with its panels and measurements.
 struct Figure {
     number: u32,
     sheet: PrintedSheet,
@@ -49,12 +49,12 @@ struct Figure {
 }
 
 impl Figure {
-    /// A figure without panels, so many of which will stand in a row.
+    /// Creates a figure without panels. `columns` panels will be in a row.
     fn new(number: u32, columns: usize, caption: impl Into<String>) -> Self {
         Self { number, sheet: PrintedSheet { columns, panels: Vec::new(), caption: caption.into() }, rows: Vec::new() }
     }
 
-    /// Adds a panel with the next letter, and its row of the table, which says the same.
+    /// Adds a panel with the next letter, and its row of the table with the same text.
     fn panel(&mut self, words: &str, drawing: Drawing) -> &mut Row {
         let letter = ('a'..='z').nth(self.rows.len()).expect("a figure has few panels");
         self.sheet.panels.push(Panel { words: format!("({letter}) {words}"), drawing });
@@ -64,7 +64,7 @@ impl Figure {
     }
 }
 
-/// A row of the table. What is measured of an embedding is there where the panel shows one.
+/// Row of the table. Measurements are present if the panel shows an embedding.
 #[derive(Default, Serialize)]
 struct Row {
     figure: u32,
@@ -73,12 +73,12 @@ struct Row {
     flips: Option<usize>,
     crossings: Option<usize>,
     turning_number: Option<i64>,
-    /// Linear solves that led to it.
+    /// Number of linear solves up to the embedding.
     steps: Option<usize>,
 }
 
 impl Row {
-    /// Says it in other words than the panel.
+    /// Replaces the text of the panel.
     fn showing(&mut self, words: &str) -> &mut Self {
         words.clone_into(&mut self.shows);
         self
@@ -96,7 +96,7 @@ impl Row {
     }
 }
 
-/// How many faces are flipped, in words.
+/// Text for the number of flipped faces.
 fn flips_in_words(step: &Step) -> String {
     match step.verdict.flipped_faces.len() {
         0 => "no flipped face".to_owned(),
@@ -156,7 +156,7 @@ fn compute(progress: &ProgressLine) -> Result<Vec<Figure>, SolveError> {
     made.collect()
 }
 
-/// Drawing and picture of a figure, by their names.
+/// Drawing and picture of a figure, with their file names.
 fn drawn(figure: &Figure) -> Result<[(String, Vec<u8>); 2], WriteError> {
     let page = figure.sheet.page();
     let [svg, png] = ["svg", "png"].map(|kind| format!("figure-{}.{kind}", figure.number));
@@ -167,7 +167,7 @@ fn drawn(figure: &Figure) -> Result<[(String, Vec<u8>); 2], WriteError> {
     Ok([(svg, drawing), (png, picture)])
 }
 
-/// The table of all figures (CSV).
+/// Table of all figures (CSV).
 fn table_of(figures: &[Figure]) -> csv::Result<Vec<u8>> {
     let mut table = csv::Writer::from_writer(Vec::new());
     for row in figures.iter().flat_map(|figure| &figure.rows) {
@@ -176,7 +176,7 @@ fn table_of(figures: &[Figure]) -> csv::Result<Vec<u8>> {
     Ok(table.into_inner().map_err(csv::IntoInnerError::into_error)?)
 }
 
-/// The table in columns, for a person.
+/// Table in aligned columns, for the terminal.
 fn in_columns(table: &[u8]) -> csv::Result<String> {
     let records = csv::ReaderBuilder::new().has_headers(false).from_reader(table).into_records();
     let records = records.collect::<csv::Result<Vec<_>>>()?;
@@ -185,7 +185,7 @@ fn in_columns(table: &[u8]) -> csv::Result<String> {
     for row in &records {
         let cells = row.iter().enumerate().map(|(column, cell)| {
             let width = width(column);
-            // Words on the left, numbers on the right.
+            // Text is aligned left, numbers right.
             if column < 3 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
         });
         lines.push_str(cells.collect::<Vec<_>>().join("  ").trim_end());

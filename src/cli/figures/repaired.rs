@@ -12,13 +12,13 @@ use freebound_core::mesh::{DiskMesh, FaceId, VertexId};
 use freebound_core::problem::{Control, Method, Settings, SolveError};
 use freebound_io::figure::{Drawing, OutsideShade, PlaneDrawing, Pockets, Window, zones_of};
 
-/// What figures 5 and 6 begin with, by its letter in figure 4.
+/// Inputs of figures 5 and 6, with their letters in figure 4.
 const INPUTS: [(char, FreeEmbedding); 2] = [
     ('a', FreeEmbedding { pair: TOP_AND_BOUNDARY, weights: 0 }),
     ('b', FreeEmbedding { pair: TOP_AND_BOUNDARY, weights: 1 }),
 ];
 
-/// An embedding, its repair, and the flipped faces that zooms show.
+/// Embedding, its repair, and the flipped faces that the zooms show.
 struct Repair<'a> {
     mesh: &'a Arc<DiskMesh>,
     input: Step,
@@ -27,7 +27,7 @@ struct Repair<'a> {
 }
 
 impl<'a> Repair<'a> {
-    /// Repairs an embedding of the cube by a method that goes on from it.
+    /// Repairs an embedding of the cube by a method that continues from it.
     fn of(
         free: FreeEmbedding,
         method: Method,
@@ -44,26 +44,26 @@ impl<'a> Repair<'a> {
         Ok(Self { mesh, input, output, zone })
     }
 
-    /// The input, with a frame around what the zooms show.
+    /// Input, with a frame around the zoomed region.
     fn whole(&self) -> PlaneDrawing {
         let framed = Window::on_faces(self.mesh, &self.input.candidate.solution.embedding, &self.zone);
         PlaneDrawing { framed: Some(framed), ..PlaneDrawing::of_step(self.mesh, &self.input) }
     }
 
-    /// Shows the input as it is.
+    /// Adds a panel with the input.
     fn show_input(&self, figure: &mut Figure, letter: char) {
         let words = format!("input, figure 4 ({letter}): {}", flips_in_words(&self.input));
         figure.panel(&words, Drawing::Plane(self.whole())).measure(&self.input);
     }
 
-    /// Shows the faces that were flipped, in the input.
+    /// Adds a panel with the flipped faces in the input.
     fn show_flips(&self, figure: &mut Figure) {
         let all = self.input.verdict.flipped_faces.len();
         let count = if self.zone.len() == all { String::new() } else { format!(" ({} of the {all})", self.zone.len()) };
         self.show_zoom(figure, &format!("the flipped faces of the input{count}"), &self.input);
     }
 
-    /// Shows the faces that were flipped, in the input or in the output.
+    /// Adds a panel with the zoomed region in the input or the output.
     fn show_zoom(&self, figure: &mut Figure, words: &str, step: &Step) {
         let with_all_repairs = if step.verdict.planar { self.input.verdict.flipped_faces.clone() } else { Vec::new() };
         let window = Window::on_faces(self.mesh, &step.candidate.solution.embedding, &self.zone);
@@ -72,7 +72,7 @@ impl<'a> Repair<'a> {
     }
 }
 
-/// The iteration.
+/// Draws the steps of the iteration.
 pub(super) fn figure_5(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Figure, SolveError> {
     let caption = "Figure 5. The iterative method: (a), (d) the input, taken from figure 4 (a) and (b); (b), (e) the \
                    repaired region; (c), (f) the same region before, not planar. Faces that were flipped are red before \
@@ -88,7 +88,7 @@ pub(super) fn figure_5(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Fig
     Ok(figure)
 }
 
-/// The virtual boundary.
+/// Draws the steps of the virtual boundary method.
 pub(super) fn figure_6(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Figure, SolveError> {
     let caption = "Figure 6. The virtual boundary method: (a) the input, taken from figure 4 (b); (b) its convex hull \
                    (red) and the pockets between (green); (c) the largest pocket, triangulated; (d) the result; (e) the flipped \
@@ -114,7 +114,7 @@ pub(super) fn figure_6(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Fig
     Ok(figure)
 }
 
-/// The pocket of the largest area: triangles that hang together by their corners.
+/// Pocket with the largest area. Triangles belong to one pocket if they are connected by corners.
 fn largest_pocket(stages: &VirtualBoundary) -> Vec<[VertexId; 3]> {
     let mut groups: Vec<Vec<[VertexId; 3]>> = Vec::new();
     for &triangle in &stages.pockets {
@@ -131,7 +131,7 @@ fn largest_pocket(stages: &VirtualBoundary) -> Vec<[VertexId; 3]> {
     groups.into_iter().max_by(|a, b| area(a).total_cmp(&area(b))).unwrap_or_default()
 }
 
-/// An embedding with its hull and pockets.
+/// Adds the hull and the pockets to a drawing.
 fn with_outside(drawing: PlaneDrawing, stages: &VirtualBoundary, style: Pockets) -> PlaneDrawing {
     let outside = OutsideShade { hull: stages.hull.clone(), pockets: stages.pockets.clone(), style };
     PlaneDrawing { embedding: stages.before.clone(), outside: Some(outside), ..drawing }

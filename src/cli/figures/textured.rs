@@ -13,13 +13,13 @@ use freebound_core::problem::{Control, Method, Pin, Pins, Settings, SolveError};
 use freebound_io::figure::{Drawing, PhotoDrawing, PlaneDrawing};
 use freebound_io::raster::{Canvas, RasterPaint, View, mesh_picture, mesh_places};
 
-/// Pixels across the pictures of the mesh.
+/// Width of the pictures of the mesh, pixels.
 const PIXELS: u32 = 580;
 
-/// Weights of figure 9's rows, with their names: with the larger ones the constraints are met nearly exactly.
+/// Weights of the rows of figure 9, with their names. Large weights meet the constraints nearly exactly.
 const WEIGHTS: [(&str, f64); 2] = [("large", 30.0), ("medium", 1.0)];
 
-/// The face with what belongs to it.
+/// Face mesh with its portrait and landmarks.
 pub(super) struct FigureSubject {
     mesh: Arc<DiskMesh>,
     portrait: Picture,
@@ -33,12 +33,12 @@ impl FigureSubject {
         Self { mesh: Arc::new(mesh), portrait, landmarks: Example::Face.landmarks() }
     }
 
-    /// The landmarks as constraints, each made of its target.
+    /// Landmarks as pins. `pin` makes a pin of a target.
     fn pins(&self, pin: impl Fn(DVec2) -> Pin) -> Pins {
         self.landmarks.iter().map(|landmark| (landmark.vertex, pin(landmark.target.into()))).collect()
     }
 
-    /// The first solve, and where the iteration ends.
+    /// First and last step of the iteration.
     fn solved(&self, pins: Pins, control: Control<'_>) -> Result<[Step; 2], SolveError> {
         let settings = Settings { method: Method::Iterate, ..Settings::default() };
         let mut steps: Vec<Step> = Vec::new();
@@ -47,33 +47,33 @@ impl FigureSubject {
         Ok([steps.swap_remove(0), last])
     }
 
-    /// The mesh from the front, under a paint.
+    /// Front view of the mesh with a paint.
     fn seen(&self, paint: RasterPaint) -> Picture {
         let mesh = self.mesh.mesh();
         mesh_picture(&mesh.positions, &mesh.triangles, &View::FRONT, &Canvas::clay(PIXELS, PIXELS), paint)
     }
 
-    /// The mesh from the front, under the portrait.
+    /// Front view of the mesh with the portrait.
     fn textured(&self, step: &Step) -> Picture {
         self.seen(RasterPaint::Picture { coordinates: &step.candidate.solution.embedding, picture: &self.portrait })
     }
 
-    /// An embedding with flipped faces magnified.
+    /// Drawing of an embedding, with flipped faces magnified.
     fn layout(&self, step: &Step) -> Drawing {
         Drawing::Plane(PlaneDrawing::of_step(&self.mesh, step).with_insets(1))
     }
 }
 
-/// A picture with numbered marks.
+/// Picture with numbered marks.
 fn photo(picture: Picture, marks: Vec<DVec2>) -> Drawing {
     Drawing::Photo(PhotoDrawing { picture, marks })
 }
 
-/// The correspondences, and the texture on the mesh where they are met exactly.
+/// Draws the correspondences, and the textured mesh with hard constraints.
 pub(super) fn figure_8(face: &FigureSubject, control: Control<'_>) -> Result<Figure, SolveError> {
-    let caption = "Figure 8. Texture mapping with constraints: (a) landmarks of the mesh and (b) their places in the \
-                   picture, of the same number; (c) the mesh with the picture. Each landmark lies on its place exactly, and \
-                   no face is flipped.";
+    let caption = "Figure 8. Texture mapping with constraints: (a) landmarks of the mesh and (b) their targets in the \
+                   picture, with equal numbers; (c) the mesh with the picture. Each landmark lies exactly on its \
+                   target, and no face is flipped.";
     let mut figure = Figure::new(8, 3, caption);
     let [first, last] = face.solved(face.pins(Pin::hard), control)?;
     let mesh = face.mesh.mesh();
@@ -90,13 +90,12 @@ pub(super) fn figure_8(face: &FigureSubject, control: Control<'_>) -> Result<Fig
     Ok(figure)
 }
 
-/// Weighted constraints, before and after the iteration.
+/// Draws soft constraints before and after the iteration.
 pub(super) fn figure_9(face: &FigureSubject, control: Control<'_>) -> Result<Figure, SolveError> {
     let caption = format!(
-        "Figure 9. Constraints by weights: large ones, {}, above, and medium ones, {}, below. The first solve (left) \
-         flips faces, red; the iteration (middle) repairs them; the picture on the mesh (right). \
-         The larger the weights, the nearer do the landmarks come to their places; the farthest is off by so much of the \
-         picture's width.",
+        "Figure 9. Soft constraints: large weights, {}, above, and medium weights, {}, below. The first solve (left) \
+         flips faces, red; the iteration (middle) repairs them; the picture on the mesh (right). Larger weights bring \
+         the landmarks nearer to their targets; the largest distance is given in picture widths.",
         WEIGHTS[0].1, WEIGHTS[1].1
     );
     let mut figure = Figure::new(9, 3, caption);
@@ -108,7 +107,7 @@ pub(super) fn figure_9(face: &FigureSubject, control: Control<'_>) -> Result<Fig
         figure.panel(&words, face.layout(&last)).measure(&last);
         let off = |mark: &Landmark| last.candidate.solution.embedding[mark.vertex.index()].distance(mark.target.into());
         let miss = face.landmarks.iter().map(off).fold(0.0, f64::max);
-        let words = format!("the picture on the mesh; the farthest off by {miss:.1e}");
+        let words = format!("the picture on the mesh; largest distance {miss:.1e}");
         figure.panel(&words, photo(face.textured(&last), Vec::new())).measure(&last);
     }
     Ok(figure)

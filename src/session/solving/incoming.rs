@@ -1,4 +1,4 @@
-//! What the background has finished: steps, and runs that have come to rest.
+//! Results of the background: steps, and runs that have stopped.
 
 use std::sync::Arc;
 
@@ -10,11 +10,11 @@ use freebound_core::flatten::{Ending, Flattener};
 use freebound_core::problem::SolveError;
 
 impl Solving {
-    /// Takes in what the background has finished.
+    /// Processes the results of the background.
     pub(in crate::session) fn poll(&mut self, messages: &mut Messages) -> News {
         let mut news = News::default();
         let Some(running) = &mut self.running else { return news };
-        // Looked at before the deliveries: those of a job that has ended are then all there.
+        // Poll the job before the deliveries: if the job has ended, all its deliveries are there.
         let end = running.job.poll();
         let deliveries: Vec<Delivery> = running.deliveries.try_iter().collect();
         let has_news = !deliveries.is_empty();
@@ -47,12 +47,12 @@ impl Solving {
         news
     }
 
-    /// Takes in a step. The first one begins a timeline: returns whether it is that.
+    /// Adds a step to the timeline. The first step starts a new timeline. Returns true for the first step.
     fn take_step(&mut self, Delivery { outcome, ending }: Delivery, messages: &mut Messages) -> bool {
         self.forget_message(messages);
         let is_first = outcome.step.index == 0;
         if is_first {
-            // What was written no longer shows what is on the screen.
+            // Reports of written files no longer match the screen.
             messages.forget_notes();
             self.kept.prepared.clone_from(&outcome.step.candidate.prepared);
             self.timeline = self.timeline.begun_anew();
@@ -67,7 +67,7 @@ impl Solving {
         is_first
     }
 
-    /// Takes back a run that has come to rest. Returns how solving goes on, where the goal has changed meanwhile.
+    /// Stores a run that has stopped. Returns the continuation, if the goal changed meanwhile.
     fn take_back(&mut self, run: Flattener, result: Result<(), SolveError>, messages: &mut Messages) -> Option<Next> {
         let Running { problem, paused, shared, .. } = self.running.take()?;
         let has_new_vertices = problem.settings.new_vertices;
@@ -88,7 +88,7 @@ impl Solving {
         if std::mem::take(&mut self.is_outdated) { Some(Next::Anew) } else { goal.map(Next::On) }
     }
 
-    /// Says what went wrong; where constraints cannot be met, which.
+    /// Reports an error. If constraints cannot be met, their vertices are highlighted.
     pub(super) fn tell(&mut self, error: &SolveError, has_new_vertices: bool, messages: &mut Messages) {
         self.forget_message(messages);
         let mut message = Message::error(MessagePlace::Embedding, error.to_string()).with_vertices(error.vertices());
@@ -104,7 +104,7 @@ impl Solving {
         self.message = Some(messages.say(message));
     }
 
-    /// Takes away what a solve before said.
+    /// Dismisses the message of the last solve.
     pub(in crate::session) fn forget_message(&mut self, messages: &mut Messages) {
         if let Some(stale) = self.message.take() {
             messages.dismiss(stale);

@@ -1,4 +1,4 @@
-//! The solving of one mesh: its run takes steps in the background, and they come in one by one.
+//! Solving of one mesh: a run takes steps in the background, and its steps arrive one by one.
 //!
 //! ```text
 //!           begin            step, run_on, end of a gesture
@@ -8,16 +8,16 @@
 //!                   timeline
 //! ```
 //!
-//! Another problem begins another run. Its first step begins another timeline; until it is there the old one stays on
-//! the screen. [`Solving`] knows no session: one could have several of these, each with a mesh of its own.
+//! A changed problem starts a new run. The first step of the run starts a new timeline; until then the old one stays on
+//! the screen. [`Solving`] does not depend on the session, which could own several of them, each with its own mesh.
 //!
-//! | file       | what it holds                                                             |
-//! |------------|---------------------------------------------------------------------------|
-//! | `mod`      | the part: what is asked of it and done with it                            |
-//! | `running`  | what is to be solved; a run at rest and in the background, where it works |
-//! | `incoming` | takes in steps, and a run that has come to rest                           |
-//! | `rounds`   | rounds of relaxing that a person has asked for                            |
-//! | `solved`   | what a run at rest has solved, to be shown again                          |
+//! | file       | content                                                        |
+//! |------------|----------------------------------------------------------------|
+//! | `mod`      | the part: its queries and operations                           |
+//! | `running`  | task of a run; stopped run, and run with its background thread |
+//! | `incoming` | arrival of steps and of stopped runs                           |
+//! | `rounds`   | relaxation rounds that the user requested                      |
+//! | `solved`   | solution of a stopped run, to be shown again                   |
 
 mod incoming;
 mod rounds;
@@ -38,35 +38,35 @@ use freebound_core::flatten::{Ending, Flattener, Options, Prepared, SolverCache}
 use freebound_core::pipeline::{Outcome, Problem};
 use freebound_core::problem::{Method, Phase};
 
-/// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.
+/// Maximum number of steps in the channel. The background waits if it is full; no step is dropped.
 const STEPS_WAITING: usize = 8;
 
-/// A run, its steps, and where it comes to rest.
+/// Run with its steps and stop conditions.
 pub(super) struct Solving {
     wake: Wake,
     timeline: Timeline,
-    /// Changes with the step on the screen.
+    /// Number of changes of the shown step.
     outcome_revision: u64,
-    /// What the run says after the newest step.
+    /// Ending of the run after the newest step.
     ending: Option<Ending>,
     stop: StopConditions,
-    /// What runs on the mesh have computed, for further ones.
+    /// Solver data of runs on the mesh, reused by further runs.
     kept: SolverCache,
-    /// The run that takes steps in the background.
+    /// Run in progress in the background.
     running: Option<Running>,
-    /// The run that waits to be taken on.
+    /// Stopped run that can be continued.
     resting: Option<Resting>,
-    /// Rounds of relaxing that it was asked for after its end.
+    /// Relaxation rounds requested after the end of the run.
     rounds: Rounds,
-    /// Whether the targets changed since the first step under way began.
+    /// True if the targets changed since the first step in progress began.
     is_outdated: bool,
-    /// The message of the last solve, where it failed: the next one that succeeds takes it away.
+    /// Message of the last solve, if it failed. The next success dismisses it.
     message: Option<u64>,
-    /// What nothing was found for.
+    /// Problem whose solve failed.
     failed: Option<Problem>,
 }
 
-/// What is asked.
+/// Queries of the run.
 impl Solving {
     pub(super) fn new(wake: Wake, budget: usize) -> Self {
         Self {
@@ -85,27 +85,27 @@ impl Solving {
         }
     }
 
-    /// The steps.
+    /// Steps of the run.
     pub(super) fn timeline(&self) -> &Timeline {
         &self.timeline
     }
 
-    /// Whether a run takes steps in the background.
+    /// True if a run takes steps in the background.
     pub(super) fn is_running(&self) -> bool {
         self.running.is_some()
     }
 
-    /// What the run solves that takes steps in the background.
+    /// Problem of the run in progress.
     pub(super) fn running_problem(&self) -> Option<&Problem> {
         self.running.as_ref().map(|running| &running.problem)
     }
 
-    /// Whether nothing was found for a problem.
+    /// True if the solve of this problem failed.
     pub(super) fn has_failed(&self, problem: &Problem) -> bool {
         self.failed.as_ref().is_some_and(|failed| failed.has_steps_of(problem))
     }
 
-    /// When a run that goes on by itself comes to rest.
+    /// Stop conditions of runs.
     pub(super) fn stop_conditions(&self) -> StopConditions {
         self.stop
     }
@@ -119,68 +119,68 @@ impl Solving {
         self.timeline.newest().unwrap_or(0)
     }
 
-    /// Kept from solves that succeeded, for problems where only targets differ.
+    /// Factors of former solves, for problems that differ only in their targets.
     pub(super) fn prepared(&self) -> Option<&Arc<Prepared>> {
         self.kept.prepared.as_ref()
     }
 
-    /// What a run that takes steps is doing.
+    /// Phase of the run in progress.
     pub(super) fn phase(&self) -> Option<Phase> {
         self.running.as_ref()?.shared.phase()
     }
 
-    /// Rounds of relaxing that the run was asked for after its end.
+    /// Number of relaxation rounds requested after the end of the run.
     pub(super) fn rounds_asked(&self) -> usize {
         self.rounds.asked()
     }
 
-    /// Whether the run has come to its own end.
+    /// True if the run has ended by itself.
     pub(super) fn has_ended(&self) -> bool {
         self.ending.is_some()
     }
 
-    /// Whether another run is to begin where targets changed while a first step was under way.
+    /// True if targets changed during the first step, so that another run has to follow.
     pub(super) fn is_outdated(&self) -> bool {
         self.is_outdated
     }
 
-    /// Whether a run has taken its first step alone, and has more.
+    /// True if the run has taken only its first step and has further ones.
     pub(super) fn is_at_first_step(&self) -> bool {
         self.timeline.records().len() == 1 && self.ending.is_none()
     }
 
-    /// Why the run is at rest, however often it is asked to go on.
+    /// Reason for the stop of the run, if continuing it would not take further steps.
     pub(super) fn stopped_for_good(&self) -> Option<RunStop> {
         self.stop.reason_for_good(self.newest()?, self.ending)
     }
 
-    /// Whether the newest step folds or crosses itself, and its run has not come to its own end.
+    /// True if the newest step is not planar and further steps are possible.
     pub(super) fn can_go_on_from_fault(&self, problem: &Problem) -> bool {
         let is_open = self.ending.is_none() || problem.settings.method != Method::Auto;
         self.newest().is_some_and(|newest| is_open && !newest.step.verdict.planar)
     }
 
-    /// Whether the newest step is one-to-one, its constraints met, and its run waits to be taken on.
+    /// True if the newest step meets its constraints and its run can relax.
     pub(super) fn can_relax(&self, problem: &Problem) -> bool {
         let is_met = self.newest().is_some_and(|newest| newest.step.unmet().is_empty());
         let waits = |resting: &Resting| resting.problem.has_steps_of(problem) && resting.run.can_relax();
         is_met && self.resting.as_ref().is_some_and(waits)
     }
 
-    /// The count of changes of the step on the screen.
+    /// Number of changes of the shown step.
     pub(super) fn outcome_revision(&self) -> u64 {
         self.outcome_revision
     }
 
-    /// The reason why the run is at rest, if a stop condition or its end holds.
+    /// Reason for the stop of the run: a stop condition or its ending.
     pub(super) fn stopped(&self) -> Option<RunStop> {
         self.stop.reason(self.newest()?, self.ending).filter(|_| !self.is_running())
     }
 }
 
-/// What is done.
+/// Operations on the run.
 impl Solving {
-    /// Begins a run, or lets the first step that is under way finish where only targets differ.
+    /// Starts a run. If only targets differ from the run in progress, its first step is finished before.
     pub(super) fn begin(&mut self, task: Task, goal: Goal) {
         (self.resting, self.failed) = (None, None);
         if let Some(running) = &mut self.running
@@ -199,13 +199,13 @@ impl Solving {
         self.spawn(task, run, goal);
     }
 
-    /// A run that has not begun.
+    /// Flattener of a task, without steps.
     fn run_of(&self, Task { model, problem, .. }: &Task) -> Flattener {
         let options = model.flattener_options(problem).unwrap_or_else(|_| problem.options());
         Flattener::with_options(Options { cache: Some(self.kept.clone()), ..options })
     }
 
-    /// Goes on with the run at rest, or begins one where the problem has changed since.
+    /// Continues the stopped run, or starts a run if the problem has changed.
     pub(super) fn go_on(&mut self, task: Task, goal: Goal) {
         match self.resting.take() {
             Some(resting) if resting.problem.has_steps_of(&task.problem) => self.spawn(task, resting.run, goal),
@@ -213,7 +213,7 @@ impl Solving {
         }
     }
 
-    /// Takes steps of a run in the background. A run that is under way is given up.
+    /// Takes the steps of a run in the background. A run in progress is dropped.
     fn spawn(&mut self, task: Task, mut run: Flattener, goal: Goal) {
         self.give_up();
         let has_delivered = run.step_count() > 0;
@@ -228,18 +228,19 @@ impl Solving {
         self.running = Some(Running { job, deliveries, shared, problem, has_delivered, paused: None });
     }
 
-    /// The step on the screen is the newest one from now on.
+    /// Shows the newest step from now on.
     pub(super) fn follow_newest(&mut self) {
         self.timeline.follow_newest();
     }
 
-    /// Asks the run under way for another goal. Returns whether there is one; otherwise somebody has to
+    /// Changes the goal of the run in progress. Returns false if there is none; then the caller has to
     /// [`go_on`](Self::go_on).
     pub(super) fn change_goal(&mut self, change: impl FnOnce(Goal) -> Goal) -> bool {
         self.running.as_mut().map(|running| running.set_goal(change)).is_some()
     }
 
-    /// Lowers the distortion of the newest step, until all rounds are used up or nothing is gained. Returns whether it can.
+    /// Lowers the distortion of the newest step until all rounds are used or nothing is gained. Returns true if this is
+    /// possible.
     pub(super) fn relax(&mut self, task: Task, rounds: usize, messages: &mut Messages) -> bool {
         let Some(mut resting) = self.resting.take() else { return false };
         match resting.run.relax(rounds) {
@@ -257,7 +258,7 @@ impl Solving {
         }
     }
 
-    /// The run is at rest: rounds of relaxing that it was asked for and has not come to are cut short. Returns how many.
+    /// Cuts short the relaxation rounds that the stopped run has not taken. Returns their number.
     fn cut_rounds(&mut self) -> usize {
         if self.has_ended() {
             self.rounds.end();
@@ -265,23 +266,23 @@ impl Solving {
         self.rounds.cut_short(self.newest_index())
     }
 
-    /// Whether a run has come to rest that can be taken on.
+    /// True if a stopped run can be continued.
     pub(super) fn is_resting(&self) -> bool {
         self.resting.is_some()
     }
 
-    /// Takes up rounds of relaxing that were cut short, so many at most. Returns how many.
+    /// Resumes at most `most` relaxation rounds that were cut short. Returns their number.
     pub(super) fn resume_rounds(&mut self, most: usize) -> usize {
         if self.running.is_none() { self.rounds.resume(most, self.newest_index()) } else { 0 }
     }
 
-    /// Chooses where a run that goes on by itself comes to rest.
+    /// Sets the stop conditions of runs.
     pub(super) fn set_stop(&mut self, stop: StopConditions) {
         self.stop = stop;
         self.change_goal(|goal| if matches!(goal, Goal::Until(_)) { Goal::Until(stop) } else { goal });
     }
 
-    /// Pauses the run: it comes to rest with the steps that it has.
+    /// Pauses the run. Its finished steps are kept.
     pub(super) fn pause(&mut self) {
         self.is_outdated = false;
         if let Some(running) = &mut self.running {
@@ -290,18 +291,18 @@ impl Solving {
         }
     }
 
-    /// Gives up the run under way.
+    /// Drops the run in progress.
     pub(super) fn give_up(&mut self) {
         (self.running, self.is_outdated) = (None, false);
     }
 
-    /// Gives up the run, under way or at rest.
+    /// Drops the run, in progress or stopped.
     pub(super) fn give_up_all(&mut self) {
         self.give_up();
         self.resting = None;
     }
 
-    /// Drops all that was solved: it belongs to another mesh, or to other faces.
+    /// Drops all solutions, because they belong to another mesh or preparation.
     pub(super) fn forget(&mut self, messages: &mut Messages) {
         self.give_up_all();
         self.forget_message(messages);
@@ -309,7 +310,7 @@ impl Solving {
         self.outcome_revision += 1;
     }
 
-    /// Comes on the screen where `before` was, which keeps so many bytes of steps whole from now on.
+    /// Becomes the shown run in place of `before`, whose memory budget becomes `bytes`.
     pub(super) fn come_on_screen_after(&mut self, before: &mut Self, bytes: usize) {
         before.timeline.set_budget(bytes);
         self.timeline.set_budget(TIMELINE_BUDGET);
@@ -318,19 +319,19 @@ impl Solving {
         self.message = None;
     }
 
-    /// Keeps what a solve can begin with where only targets differ.
+    /// Stores factors for problems that differ only in their targets.
     pub(super) fn keep_prepared(&mut self, prepared: Arc<Prepared>) {
         self.kept.prepared = Some(prepared);
     }
 
-    /// Puts a step on the screen.
+    /// Shows a step.
     pub(super) fn show(&mut self, index: usize) {
         if self.timeline.show(index) {
             self.outcome_revision += 1;
         }
     }
 
-    /// Compares the step on the screen with another one, or with none.
+    /// Compares the shown step with another step, or ends the comparison.
     pub(super) fn compare(&mut self, index: Option<usize>) {
         self.timeline.compare(index);
     }

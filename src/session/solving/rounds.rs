@@ -1,19 +1,19 @@
-//! Rounds of relaxing that a person has asked for, and how far the run has come with them.
+//! Relaxation rounds that the user requested, and their progress.
 
-/// Rounds beyond the run's own end.
+/// Relaxation rounds after the end of the run.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Rounds {
-    /// How many the run was asked for, but for those that were cut short.
+    /// Number of requested rounds, without those that were cut short.
     asked: usize,
     latest: Option<Latest>,
-    /// How many were cut short: the run at rest would still take them.
+    /// Number of rounds that were cut short. The stopped run can still take them.
     cut: usize,
 }
 
-/// Rounds that were asked for last.
+/// Last request of rounds.
 #[derive(Clone, Copy, Debug)]
 struct Latest {
-    /// The step that they follow.
+    /// Index of the step before the rounds.
     after: usize,
     rounds: usize,
 }
@@ -23,7 +23,7 @@ impl Rounds {
         self.asked
     }
 
-    /// So many are asked for after a step, in the place of those that were cut short.
+    /// Starts rounds after the step `newest`. They replace rounds that were cut short.
     pub(super) fn begin(&mut self, rounds: usize, newest: usize) {
         self.cut = 0;
         self.go_on(rounds, newest);
@@ -34,12 +34,12 @@ impl Rounds {
         self.latest = Some(Latest { after: newest, rounds });
     }
 
-    /// The run has come to its own end: it takes no further one of them.
+    /// Ends the rounds, because the run has ended by itself.
     pub(super) fn end(&mut self) {
         self.latest = None;
     }
 
-    /// The run has come to rest before: rounds that were not taken are cut short. Returns how many.
+    /// Cuts short the rounds that were not taken when the run stopped. Returns their number.
     pub(super) fn cut_short(&mut self, newest: usize) -> usize {
         let Some(Latest { after, rounds }) = self.latest.take() else { return 0 };
         let left = rounds.saturating_sub(newest.saturating_sub(after));
@@ -48,7 +48,7 @@ impl Rounds {
         left
     }
 
-    /// Takes up rounds that were cut short, so many at most. Returns how many.
+    /// Resumes at most `most` rounds that were cut short. Returns their number.
     pub(super) fn resume(&mut self, most: usize, newest: usize) -> usize {
         let rounds = self.cut.min(most);
         if rounds > 0 {

@@ -1,4 +1,4 @@
-//! A run in the background with what works there, a run at rest, and how solving goes on.
+//! Run in the background with its thread, stopped run, and continuation of the solving.
 
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{Receiver, SyncSender};
@@ -11,83 +11,83 @@ use freebound_core::mesh::DiskMesh;
 use freebound_core::pipeline::{Outcome, Problem};
 use freebound_core::problem::{Control, Embedding, Phase, SolveError};
 
-/// What is to be solved, and on which mesh.
+/// Problem to be solved, and its mesh.
 #[derive(Clone, Debug)]
 pub(in crate::session) struct Task {
     pub(in crate::session) model: Arc<Model>,
     pub(in crate::session) mesh: Arc<DiskMesh>,
     pub(in crate::session) problem: Problem,
-    /// What to go on from; none where it is solved from scratch.
+    /// Embedding to continue from. `None` solves from scratch.
     pub(in crate::session) from: Option<Beginning>,
 }
 
-/// A planar embedding to go on from.
+/// Planar embedding to continue from.
 #[derive(Clone, Debug)]
 pub(in crate::session) struct Beginning {
     pub(in crate::session) embedding: Arc<Embedding>,
-    /// Whether it stays as it is where it meets all constraints.
+    /// True if the embedding is returned unchanged when it meets all constraints.
     pub(in crate::session) stays: bool,
 }
 
 impl Beginning {
-    /// A run that goes on from it.
+    /// Prepares a flattener that continues from the embedding.
     pub(super) fn begin(&self, run: Flattener) -> Flattener {
         if self.stays { run.warm_start(&self.embedding) } else { run.continue_from(&self.embedding) }
     }
 }
 
-/// What a poll found that concerns others.
+/// Events of a poll that concern the session.
 #[derive(Debug, Default)]
 pub(in crate::session) struct News {
-    /// Whether a run's first step has come in.
+    /// True if the first step of a run has arrived.
     pub(in crate::session) has_begun: bool,
-    /// How the run has come to rest, where it has and is to stay there.
+    /// Kind of the stop, if the run has stopped and is not continued.
     pub(in crate::session) rest: Option<StopReason>,
-    /// Rounds of relaxing that it was asked for and has not come to.
+    /// Number of requested relaxation rounds that were not taken.
     pub(in crate::session) rounds_cut: usize,
-    /// What is to be done now, with the problem as it is by then.
+    /// Continuation of the solving, with the problem of the document at that time.
     pub(in crate::session) next: Option<Next>,
 }
 
-/// How a run has come to rest.
+/// Kind of a run's stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::session) enum StopReason {
-    /// It went on by itself until something held that stops it.
+    /// A stop condition or the end of the method stopped the run.
     ByItself,
-    /// Where a person wanted it, or because of a fault.
+    /// The user or an error stopped the run.
     Elsewhere,
 }
 
-/// How solving goes on by itself.
+/// Continuation of the solving.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::session) enum Next {
-    /// The problem is to be solved anew.
+    /// Solve the problem again.
     Anew,
-    /// The run is to be taken on.
+    /// Continue the run to this goal.
     On(Goal),
 }
 
-/// A run with the steps that it takes in the background.
+/// Run in progress, with its channel.
 pub(super) struct Running {
-    /// Gives the run back when it comes to rest.
+    /// Job that returns the run when it stops.
     pub(super) job: Background<(), (Flattener, Result<(), SolveError>)>,
     pub(super) deliveries: Receiver<Delivery>,
     pub(super) shared: Arc<Shared>,
     pub(super) problem: Problem,
-    /// Whether a step has come in.
+    /// True if a step has arrived.
     pub(super) has_delivered: bool,
-    /// Once it was asked to pause: how far to go on after that; no step further, unless it was asked for.
+    /// Goal after a requested pause: no step, unless steps are requested meanwhile. `None` without a pause.
     pub(super) paused: Option<Goal>,
 }
 
-/// A run at rest.
+/// Stopped run.
 pub(super) struct Resting {
     pub(super) problem: Problem,
     pub(super) run: Flattener,
 }
 
 impl Running {
-    /// Asks for another goal, after a pause where one was asked for.
+    /// Changes the goal. During a pause the goal after the pause changes.
     pub(super) fn set_goal(&mut self, change: impl FnOnce(Goal) -> Goal) {
         if let Some(after) = &mut self.paused {
             *after = change(*after);
@@ -97,28 +97,28 @@ impl Running {
         }
     }
 
-    /// Whether it was asked to come to its end, or to a stop condition, and not to pause.
+    /// True if the run continues to its end or to a stop condition, and is not paused.
     pub(super) fn goes_on_by_itself(&self) -> bool {
         self.paused.is_none() && !matches!(self.shared.goal(), Goal::Steps(_))
     }
 
-    /// Whether another problem only needs the first step again, with other targets of the same pins.
+    /// True if another problem only needs the first step again, with other targets of the same pins.
     pub(super) fn is_followed_by(&self, problem: &Problem) -> bool {
         self.paused.is_none() && !self.has_delivered && self.problem.differs_in_targets_alone(problem)
     }
 }
 
-/// A step on its way to the timeline.
+/// Step that the background delivers.
 pub(super) struct Delivery {
     pub(super) outcome: Arc<Outcome>,
-    /// What the run says after this step.
+    /// Ending of the run after this step.
     pub(super) ending: Option<Ending>,
 }
 
-/// What both ends know of a run under way.
+/// State shared with the background.
 pub(super) struct Shared {
     goal: Mutex<Goal>,
-    /// What the background does.
+    /// Phase of the background.
     phase: Mutex<Option<Phase>>,
     wake: Wake,
 }
@@ -128,24 +128,24 @@ impl Shared {
         Self { goal: Mutex::new(goal), phase: Mutex::new(None), wake: Arc::clone(wake) }
     }
 
-    /// How far the run is to go on.
+    /// Goal of the run.
     pub(super) fn goal(&self) -> Goal {
         *locked(&self.goal)
     }
 
-    /// What the background does, once that is known.
+    /// Phase of the background, once it is known.
     pub(super) fn phase(&self) -> Option<Phase> {
         *locked(&self.phase)
     }
 }
 
-/// Both are plain values: they are whole even where a thread died beside them.
+/// Locks a value. Poisoning is ignored, because plain values are valid even after a panic.
 fn locked<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
     value.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The background's end of a run: takes steps until the goal is reached, and hands each over. What nobody waits for any
-/// more is given up.
+/// Takes steps until the goal is reached, and delivers each of them. Runs in the background. The run is cancelled if
+/// the receiver is gone.
 pub(super) fn take_steps(
     run: &mut Flattener,
     Task { mesh, problem, .. }: &Task,

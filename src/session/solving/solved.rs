@@ -1,4 +1,4 @@
-//! What a run at rest has solved: kept for undo, and shown again as it was.
+//! Solution of a stopped run, kept for undo and restored unchanged.
 
 use std::sync::Arc;
 
@@ -11,10 +11,11 @@ use freebound_core::flatten::Ending;
 use freebound_core::pipeline::{Outcome, Problem};
 use freebound_core::problem::{SolveError, Stage};
 
-/// Bytes of a mesh with new vertices, about, for each face: corners, halfedges with their twins and vertices, edges, lengths.
+/// Approximate memory per face of a mesh with new vertices, bytes: corners, halfedges with twins and vertices, edges,
+/// lengths.
 const BYTES_A_FACE: usize = 200;
 
-/// The steps of a run at rest, and how it has ended.
+/// Steps of a stopped run, with its ending.
 #[derive(Clone, Debug)]
 pub(in crate::session) struct Solved {
     timeline: Timeline,
@@ -23,7 +24,7 @@ pub(in crate::session) struct Solved {
 }
 
 impl Solved {
-    /// Bytes of memory that it takes.
+    /// Memory of the solution, bytes.
     pub(in crate::session) fn bytes(&self) -> usize {
         let of_new_mesh = |outcome: &Outcome| {
             outcome
@@ -40,23 +41,23 @@ impl Solved {
         self.timeline.outcome(self.timeline.newest()?)
     }
 
-    /// Whether it is the solution of a problem, or on its way there.
+    /// True if the steps belong to this problem.
     pub(in crate::session) fn is_of(&self, problem: &Problem) -> bool {
         self.newest().is_some_and(|newest| newest.problem.has_steps_of(problem))
     }
 }
 
 impl Solving {
-    /// What was solved of a problem, where its run has come to rest, with so many bytes of steps whole.
+    /// Solution of a problem, if its run has stopped. The steps are condensed to `bytes` bytes.
     pub(in crate::session) fn solved(&self, problem: &Problem, bytes: usize) -> Option<Solved> {
         let newest = self.newest().filter(|newest| newest.problem.has_steps_of(problem))?;
-        // On its way to a planar start it is nothing to show again.
+        // Steps towards a planar start are not worth restoring.
         let is_at_rest = self.running.is_none() && !newest.step.is_of_planar_start();
         let solved = || Solved { timeline: self.timeline.condensed(bytes), ending: self.ending, rounds: self.rounds };
         is_at_rest.then(solved)
     }
 
-    /// Shows what was solved before; further steps go on from it.
+    /// Restores a solution. Further steps continue from it.
     pub(in crate::session) fn show_again(&mut self, solved: Solved, task: Task, messages: &mut Messages) {
         self.give_up_all();
         self.forget_message(messages);

@@ -1,4 +1,4 @@
-//! How faces show in both panes: shading, wireframe, the picture, colours by numbers.
+//! Appearance of faces in both panes: shading, wireframe, picture, colours by numbers.
 
 use std::sync::Arc;
 
@@ -13,31 +13,32 @@ use freebound_core::geom;
 use freebound_core::geom::Bounds;
 use freebound_core::pipeline::Outcome;
 
-/// How strongly the picture shows behind the embedding at the start.
+/// Initial opacity of the picture behind the embedding.
 const OPACITY: f32 = 0.55;
 
-/// Fields of the checker across the embedding.
+/// Number of checks across the embedding.
 const CHECKER_FIELDS: f64 = 40.0;
 
-/// How faces show in the two panes, and how strongly the picture behind the embedding.
+/// Shading of the faces in the two panes, and opacity of the picture behind the embedding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Appearance {
     mesh: ShadingMode,
     plane: ShadingMode,
-    /// From 0 to 1.
+    /// Opacity of the picture, 0 to 1.
     pub opacity: f32,
-    /// Whether it is as the window was left: then the first picture that comes in changes nothing.
+    /// True if the shadings were restored from the last run. The first picture then leaves them unchanged.
     pub(super) is_kept: bool,
-    /// What a person has chosen for the two panes, now or in a run before; a project's shadings are not theirs.
+    /// Shadings that the user chose for the two panes, now or in an earlier run. Shadings of a project do not count.
     pub(super) own: [Option<ShadingMode>; 2],
 }
 
 impl Appearance {
-    /// While places on a picture are sought: clay to find vertices on, and all of the picture.
+    /// Appearance while targets are placed on a picture: clay on the mesh, so that vertices are easy to find, and an
+    /// opaque picture.
     const OVER_PICTURE: Self =
         Self { mesh: ShadingMode::Plain, plane: ShadingMode::SeeThrough, opacity: 1.0, is_kept: false, own: [None; 2] };
 
-    /// The shading of a pane.
+    /// Shading of a pane.
     pub fn shading(self, pane: Pane) -> ShadingMode {
         match pane {
             Pane::Mesh => self.mesh,
@@ -45,7 +46,7 @@ impl Appearance {
         }
     }
 
-    /// Shades a pane, if it can be shaded so.
+    /// Sets the shading of a pane. Ignores a shading that the pane does not have.
     pub(super) fn shade(&mut self, pane: Pane, shading: ShadingMode) {
         match pane {
             _ if !shading.is_for(pane) => {}
@@ -57,26 +58,26 @@ impl Appearance {
 
 #[derive(Debug)]
 pub struct PaneShading {
-    /// As chosen.
+    /// Appearance for all tools except the constrain tool over a picture.
     pub(super) usual: Appearance,
-    /// As chosen for the constrain tool over a picture.
+    /// Appearance for the constrain tool over a picture.
     pub(super) over_picture: Appearance,
     pub wireframe: bool,
-    /// Whether insets magnify a defect and a pair.
+    /// True if insets magnify a defect and a pair.
     pub magnifier: bool,
-    /// Whether vertices glide from step to step; off for those whom motion bothers.
+    /// True if vertices glide from step to step. Users sensitive to motion turn it off.
     pub glides: bool,
     pub sampling: Sampling,
-    /// The document's picture.
+    /// Picture of the document.
     pixels: Option<Arc<geom::Picture>>,
-    /// The same as the graphics card takes it, once that is made.
+    /// Picture of the document prepared for the graphics card, once it is ready.
     picture: Option<Arc<view::PictureQuad>>,
-    /// By the count of pictures.
+    /// Background job that prepares the picture. Key: `picture_count` at its start.
     job: AsyncScene<u64, Option<view::PictureQuad>>,
     picture_count: u64,
-    /// Of the mesh's pane and of the embedding's; one and the same where both are coloured alike.
+    /// Face colours of the mesh pane and of the embedding pane, shared if both are equal.
     paints: [Option<Arc<BrushPaint>>; 2],
-    /// Side of a check in the plane, and the mesh by its revision that it was chosen for.
+    /// Revision of the mesh that the checker was sized for, and side length of a check in the plane.
     check: Option<(u64, f64)>,
 }
 
@@ -108,17 +109,17 @@ impl PaneShading {
         self.paints[pane as usize].as_deref()
     }
 
-    /// The scale of a shading by numbers.
+    /// Colour scale of a shading by numbers.
     pub(in crate::ui) fn legend(&self, pane: Pane) -> Option<&Legend> {
         self.paint(pane)?.legend.as_ref()
     }
 
-    /// What a person has chosen for a pane.
+    /// Shading that the user chose for a pane.
     pub(super) fn own_shading(&self, pane: Pane) -> Option<ShadingMode> {
         self.usual.own[pane as usize]
     }
 
-    /// Takes over what a person has chosen in a run before, by its name.
+    /// Restores the shading that the user chose in an earlier run, by its name.
     pub(super) fn keep_own_shading(&mut self, pane: Pane, name: Option<&str>) {
         let Some(shading) = ShadingMode::called(name).filter(|shading| shading.is_for(pane)) else { return };
         self.usual.own[pane as usize] = Some(shading);
@@ -126,7 +127,7 @@ impl PaneShading {
         self.usual.is_kept = true;
     }
 
-    /// Whether pixels show as squares.
+    /// True if pixels are drawn as squares.
     pub(in crate::ui) fn is_sharp(&self) -> bool {
         self.sampling == Sampling::Sharp
     }
@@ -135,13 +136,13 @@ impl PaneShading {
         self.sampling = if self.is_sharp() { Sampling::Smooth } else { Sampling::Sharp };
     }
 
-    /// Side of a check of the checker in the plane.
+    /// Side length of a check in the plane.
     pub fn check_size(&self) -> f64 {
         self.check.map_or(1.0, |(_, side)| side)
     }
 
-    /// Chooses the checks' size for an embedding. It stays as long as it is about right, so that steps that are looked
-    /// at one after the other have the same; while they are played, it stays whatever they are. Call once per frame.
+    /// Chooses the size of the checks for an embedding. Keeps the size while it is within a factor of 2 of the wanted
+    /// one, so that steps are comparable. Keeps it in any case while steps are played. Call once per frame.
     pub(super) fn refresh_checks(&mut self, plane: &PlaneScene, is_playing: bool) {
         let model = plane.mesh.model_revision;
         let wanted = plane.arrays.bounds.extent() / CHECKER_FIELDS;
@@ -151,24 +152,25 @@ impl PaneShading {
         }
     }
 
-    /// The picture as panes draw it, in its box in the plane, so strong behind the embedding.
+    /// Layer that draws the picture in its box in the plane, with an opacity.
     pub(in crate::ui) fn picture_layer(&self, bounds: Bounds, opacity: f32) -> Option<PictureLayer> {
         let picture = Arc::clone(self.picture.as_ref()?);
         Some(PictureLayer { picture, bounds, opacity, sampling: self.sampling })
     }
 
-    /// Whether the document's picture is not ready to be drawn yet.
+    /// True while the picture of the document is being prepared for drawing.
     pub fn is_making_picture(&self) -> bool {
         self.job.is_busy()
     }
 
-    /// Why the picture could not be made ready; each failure once.
+    /// Failure to prepare the picture, returned once.
     pub(super) fn take_failure(&mut self) -> Option<JobFailure> {
         self.job.take_failure()
     }
 
-    /// Takes in another picture of the document's. A picture that comes in is put on the mesh, as soon as its smaller sizes
-    /// are made in the background. Call once per frame.
+    /// Follows a change of the document's picture. Prepares a new picture for drawing in the background (mip levels).
+    /// Plain and checkered faces switch to a new picture, unless their shading was restored from an earlier run.
+    /// Without a picture, shadings by the picture fall back to the checker. Call once per frame.
     pub(super) fn refresh_picture(&mut self, document: &Document) {
         if let Some((_, made)) = self.job.poll() {
             self.picture = made.map(Arc::new);
@@ -193,14 +195,14 @@ impl PaneShading {
         }
     }
 
-    /// Colours the faces of a pane anew where mesh, embedding or shading have changed; moves are measured from `base`.
+    /// Recolours the faces of a pane if mesh, embedding or shading have changed. Moves are measured from `base`.
     pub(super) fn refresh_paint(&mut self, pane: Pane, shading: ShadingMode, sources: PaintSources<'_>) {
         let PaintSources { given, plane, base } = sources;
         let base = base.filter(|_| shading == ShadingMode::Move);
         let key = PaintKey {
             model: given.model_revision,
             outcome: plane.map_or(0, |scene| scene.outcome_revision),
-            // Where faces are not coloured by a number, one paint serves all shadings.
+            // Shadings without a number per face share one paint.
             shading: if shading.is_by_number() { shading } else { ShadingMode::Plain },
             moved_from: base.map(|base| base.step.index),
         };
@@ -218,13 +220,13 @@ impl PaneShading {
     }
 }
 
-/// What faces are coloured from.
+/// Inputs of the face colours.
 #[derive(Clone, Copy)]
 pub(super) struct PaintSources<'a> {
-    /// The mesh as given.
+    /// Mesh as given.
     pub(super) given: &'a MeshScene,
-    /// The embedding.
+    /// Embedding on the screen.
     pub(super) plane: Option<&'a PlaneScene>,
-    /// The step that moves are measured from.
+    /// Step that moves are measured from.
     pub(super) base: Option<&'a Outcome>,
 }

@@ -1,4 +1,4 @@
-//! The charts that are not on the screen, as they stand around the one that is: drawn, and picked.
+//! Charts around the chart on the screen: drawn and picked.
 
 use std::sync::Arc;
 
@@ -9,15 +9,15 @@ use crate::session::Model;
 use crate::view::{EdgeList, FacePaint, MeshArrays, Ray, Sphere, SurfacePicker};
 use freebound_core::mesh::FaceId;
 
-/// The charts that are not on the screen, around the one that is.
+/// The other charts, around the chart on the screen.
 #[derive(Debug)]
 pub struct Around {
-    /// How they are drawn.
+    /// Mesh and colours of the other charts, for drawing.
     pub surroundings: Surroundings,
-    /// The seams of all charts, by the vertices of the whole.
+    /// Seams of all charts, by vertices of the whole mesh.
     pub seams: Arc<EdgeList>,
     picker: SurfacePicker,
-    /// The chart of each of their faces.
+    /// Chart of each face of the other charts.
     chart_of: Vec<u32>,
 }
 
@@ -41,7 +41,7 @@ impl Around {
         Some(Self { surroundings, seams, picker: SurfacePicker::new(positions, &triangles), chart_of })
     }
 
-    /// The chart that a ray meets first, and how far from its origin.
+    /// First other chart that a ray meets, and its distance from the ray's origin.
     pub(super) fn chart_at(&self, ray: Ray) -> Option<(usize, f64)> {
         let hit = self.picker.hit(ray)?;
         Some((self.chart_of[hit.face.index()] as usize, hit.distance))

@@ -1,4 +1,4 @@
-//! What is drawn is made in the background, one at a time. What could not be made is said once, and not tried again.
+//! Background construction of drawn data, one job at a time. A failure is reported once, and its job is not retried.
 
 use std::sync::atomic::AtomicBool;
 
@@ -7,14 +7,14 @@ use crate::session::{Background, JobFailure, Wake};
 #[derive(Debug)]
 pub(super) struct AsyncScene<K, T> {
     job: Background<K, T>,
-    /// What could not be made last.
+    /// Key of the last job, if it failed.
     failed: Option<K>,
-    /// Why, until somebody has said so.
+    /// Reason of the last failure, until it is reported.
     failure: Option<JobFailure>,
 }
 
 impl<K: Clone + PartialEq, T: Send + 'static> AsyncScene<K, T> {
-    /// A slot without work. `name` is that of its threads; `wake` is called at the end of each piece of work.
+    /// Slot without a job. `name` is the name of its threads; `wake` is called at the end of each job.
     pub(super) fn new(name: &'static str, wake: &Wake) -> Self {
         Self { job: Background::new(name, wake), failed: None, failure: None }
     }
@@ -23,29 +23,29 @@ impl<K: Clone + PartialEq, T: Send + 'static> AsyncScene<K, T> {
         self.job.is_busy()
     }
 
-    /// Whether this could not be made.
+    /// True if the last failed job has this key.
     pub(super) fn has_failed(&self, key: &K) -> bool {
         self.failed.as_ref() == Some(key)
     }
 
-    /// Why something could not be made; each failure once.
+    /// Last failure, returned once.
     pub(super) fn take_failure(&mut self) -> Option<JobFailure> {
         self.failure.take()
     }
 
-    /// Drops the work under way.
+    /// Cancels the running job.
     pub(super) fn cancel(&mut self) {
         self.job.cancel();
     }
 
-    /// Makes something, unless something is being made or this could not be made before.
+    /// Starts a job, unless a job is running or the last one with this key failed.
     pub(super) fn make(&mut self, key: K, work: impl FnOnce(&AtomicBool) -> T + Send + 'static) {
         if !self.is_busy() && !self.has_failed(&key) {
             self.job.start(key, work);
         }
     }
 
-    /// What was made, once. Call once per frame.
+    /// Result of a finished job, returned once. Call once per frame.
     pub(super) fn poll(&mut self) -> Option<(K, T)> {
         match self.job.poll()? {
             (key, Ok(made)) => {

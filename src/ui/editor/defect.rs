@@ -1,27 +1,27 @@
-//! Defects of an embedding: what a verdict lists.
+//! Defects of an embedding, listed by a verdict.
 
 use super::element::Element;
 use super::scene::MeshScene;
 use freebound_core::mesh::{EdgeId, FaceId, VertexId};
 use freebound_core::verify::Verdict;
 
-/// Defects of an embedding.
+/// Defect of an embedding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Defect {
-    /// A face that is turned over or has no area.
+    /// Face that is flipped or has no area.
     Flipped(FaceId),
-    /// A polygon that another cut into triangles would fold, by its first face.
+    /// Polygon with a triangulation that would fold, by its first face.
     Concave(FaceId),
-    /// A hole that meets itself or is turned inside out, by its lowest vertex.
+    /// Hole whose rim crosses itself or is turned inside out, by its lowest vertex.
     CrossedHole(VertexId),
     /// Two boundary edges that meet.
     Crossing([EdgeId; 2]),
-    /// An interior vertex that its faces wind around twice.
+    /// Interior vertex around which the faces wind twice.
     Overwound(VertexId),
 }
 
 impl Defect {
-    /// The defects that a verdict lists: flipped faces, concave polygons, crossed holes, crossings, overwound vertices.
+    /// Defects that a verdict lists: flipped faces, concave polygons, crossed holes, crossings, overwound vertices.
     pub(in crate::ui) fn all(verdict: &Verdict) -> impl Iterator<Item = Self> {
         let flipped = verdict.flipped_faces.iter().map(|&face| Self::Flipped(face));
         let crossings = verdict.boundary_crossings.iter().map(|&edges| Self::Crossing(edges));
@@ -44,7 +44,7 @@ impl Defect {
         }
     }
 
-    /// Its words in lists.
+    /// Description in lists.
     pub fn words(self) -> String {
         match self {
             Self::Flipped(face) => format!("flipped face {face}"),

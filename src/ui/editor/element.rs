@@ -1,8 +1,8 @@
-//! Parts of the mesh by their names.
+//! Elements of the mesh by name.
 
 use freebound_core::mesh::{EdgeId, FaceId, VertexId};
 
-/// A part of the mesh that a defect or a person names.
+/// Element of the mesh, named by a defect or by the user.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::ui) enum Element {
     Vertex(VertexId),
@@ -11,7 +11,7 @@ pub(in crate::ui) enum Element {
 }
 
 impl Element {
-    /// Understands what a person types: `12` or `v12` a vertex, `e3` an edge, `f7` a face.
+    /// Parses user input: `12` or `v12` is a vertex, `e3` an edge, `f7` a face.
     pub(in crate::ui) fn parse(text: &str) -> Option<Self> {
         let text = text.trim().to_ascii_lowercase();
         let number = text.strip_prefix(['v', 'e', 'f']).unwrap_or(&text).trim().parse().ok()?;

@@ -1,4 +1,4 @@
-//! Files that are asked for, or about to be written.
+//! File dialogs and files about to be written.
 
 use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
@@ -8,28 +8,28 @@ use crate::ui::state::PendingClose;
 use freebound_core::geom::Picture;
 use freebound_core::pipeline::Fit;
 
-/// Files that are asked for, or about to be written.
+/// File dialogs and files about to be written.
 #[derive(Debug, Default)]
 pub struct Files {
     pub dialogs: Dialogs,
     pub unsaved: Unsaved,
     /// Size of coordinates in files.
     pub fit: Fit,
-    /// A picture of a pane that was asked for, and where to write it.
+    /// Requested picture of a pane, and its path.
     pub(in crate::ui) shot: Option<(PathBuf, Receiver<Picture>)>,
 }
 
-/// The question as the window has it.
+/// State of the question about unsaved work.
 #[derive(Debug, Default)]
 pub struct Unsaved {
-    /// Action that is asked about.
+    /// Action that waits for the user's answer.
     pub(super) asked: Option<PendingClose>,
     /// Action that follows once the project is saved.
     pub(super) after_saving: Option<PendingClose>,
 }
 
 impl Unsaved {
-    /// The action that waits for the answer.
+    /// Action that waits for the user's answer.
     pub(in crate::ui) fn asked(&self) -> Option<&PendingClose> {
         self.asked.as_ref()
     }

@@ -1,28 +1,28 @@
-//! How long a frame takes: until the next one begins, where that was asked for at once. A frame that comes later, with a
-//! press, with news from the background or when it is time, says nothing about the one before it, which had ended long ago.
+//! Duration of a frame: the time until the next frame, if that was requested at once. A later frame follows a key
+//! press, news from the background or a timer. Its start says nothing about the duration of the frame before.
 //!
-//! eframe's own number, `cpu_usage`, leaves out the wait for the graphics card: where that is slow, all would seem quick.
+//! `cpu_usage` of eframe excludes the wait for the graphics card, so that a slow card would seem fast.
 
 use eframe::egui;
 use egui::{FullOutput, ViewportId};
 
 #[derive(Debug, Default)]
 pub(super) struct Frames {
-    /// When the latest frame began, seconds of the window's clock.
+    /// Start of the latest frame, seconds of the window's clock.
     began: f64,
-    /// Whether it asked for another one at once.
+    /// True if the latest frame requested another frame at once.
     asks_at_once: bool,
-    /// How long the latest frame took that was measured.
+    /// Duration of the last measured frame, seconds.
     seconds: f64,
 }
 
 impl Frames {
-    /// Measures all frames of a window from now on.
+    /// Starts to measure the frames of a window.
     pub(super) fn install(context: &egui::Context) {
         context.add_plugin(Self::default());
     }
 
-    /// How long frames take, seconds, as far as was measured.
+    /// Duration of the last measured frame, seconds; 0 before the first measurement.
     pub(super) fn seconds(context: &egui::Context) -> f64 {
         context.plugin_opt::<Self>().map_or(0.0, |frames| frames.lock().seconds)
     }
@@ -35,7 +35,7 @@ impl egui::Plugin for Frames {
 
     fn on_begin_pass(&mut self, ui: &mut egui::Ui) {
         let now = ui.input(|input| input.time);
-        // The passes of a frame lie at one time.
+        // All passes of a frame have one time.
         if now > self.began {
             if self.asks_at_once {
                 self.seconds = now - self.began;

@@ -1,4 +1,4 @@
-//! What the window is shown by: egui's context and a graphics card, with what they are to be told.
+//! Connection to egui's context and the graphics card.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -9,7 +9,7 @@ use super::frames::Frames;
 use crate::session::Wake;
 use crate::ui::presses::Presses;
 
-/// Work shorter than this shows no progress: it would only flicker.
+/// Work shorter than this shows no progress, which would only flicker.
 const PATIENCE: Duration = Duration::from_millis(250);
 
 /// The window and its graphics card.
@@ -17,9 +17,9 @@ const PATIENCE: Duration = Duration::from_millis(250);
 pub struct Gpu {
     context: egui::Context,
     is_there: bool,
-    /// The title that was sent last.
+    /// Last title sent to the window.
     title: String,
-    /// Since when there is work in the background.
+    /// Start of the current background work.
     busy_since: Option<Instant>,
     is_quitting: bool,
 }
@@ -35,22 +35,22 @@ impl Gpu {
         &self.context
     }
 
-    /// Whether presses have come in that wait for the next pass.
+    /// True if key or button presses wait for the next pass.
     pub fn has_presses_waiting(&self) -> bool {
         Presses::are_waiting(&self.context)
     }
 
-    /// Seconds of the window's clock.
+    /// Time of the window's clock, seconds.
     pub(in crate::ui) fn now(&self) -> f64 {
         self.context.input(|input| input.time)
     }
 
-    /// How long frames take, seconds, as far as was measured.
+    /// Duration of the last measured frame, seconds.
     pub(super) fn frame_seconds(&self) -> f64 {
         Frames::seconds(&self.context)
     }
 
-    /// What background work calls when it has news.
+    /// Callback for background work that has news: requests a repaint.
     pub(in crate::ui) fn wake(&self) -> Wake {
         let context = self.context.clone();
         Arc::new(move || context.request_repaint())
@@ -79,12 +79,12 @@ impl Gpu {
         self.is_quitting = true;
     }
 
-    /// Takes in whether there is work in the background. Call once per frame.
+    /// Records whether background work is running. Call once per frame.
     pub(in crate::ui) fn note_work(&mut self, is_busy: bool, now: Instant) {
         self.busy_since = if is_busy { self.busy_since.or(Some(now)) } else { None };
     }
 
-    /// Whether the work has taken long enough to be worth a word.
+    /// True if background work has run long enough for its progress to show.
     pub(super) fn is_busy_for_long(&self) -> bool {
         self.busy_since.is_some_and(|since| since.elapsed() >= PATIENCE)
     }

@@ -1,15 +1,16 @@
-//! Vertices of what is on the screen, which may be cut, mended, or one chart of several, as those of the file.
+//! Map from vertices on the screen to vertices of the file. The mesh on the screen may be cut, repaired, or one chart
+//! of several.
 
 use crate::session::Model;
 use freebound_core::mesh::{PolygonMesh, Repaired, VertexId};
 
-/// Vertices of a mesh on the screen and of its file. New vertices of a step are of no file.
+/// Vertices of a mesh on the screen and in its file. New vertices of a step have no vertex in the file.
 #[derive(Debug)]
 pub(in crate::ui) struct InFile {
     vertex_count: usize,
-    /// The file's vertex that each vertex is, and the vertices in the order of these; none where all are the same.
+    /// Map to the vertices of the file and back; `None` if it is the identity.
     other: Option<Others>,
-    /// For each vertex of the file whether it is several, on whatever charts; empty where none is.
+    /// For each vertex of the file: true if it has several copies, on any charts. Empty if no vertex has.
     is_several: Vec<bool>,
 }
 
@@ -27,7 +28,7 @@ impl InFile {
             Others { of, by_file }
         };
         let source = &model.source.polygons;
-        // A chart has numbers of its own: all of them together tell those that the file has.
+        // A chart has its own numbering, so the copies of a vertex are found in the whole mesh.
         let whole = model.whole_repaired();
         let of_whole = whole.map(|whole| whole.vertices_of(source));
         let all = || (0..model.vertex_count()).map(VertexId::from_index);
@@ -39,12 +40,12 @@ impl InFile {
         }
     }
 
-    /// Whether a vertex of the file is several, on this chart or others: because the mesh is cut there.
+    /// True if a vertex of the file has several copies, on this chart or others, because the mesh is cut there.
     pub(in crate::ui) fn is_several(&self, of_file: VertexId) -> bool {
         self.is_several.get(of_file.index()).copied().unwrap_or_default()
     }
 
-    /// The file's vertex that a vertex is.
+    /// Vertex of the file for a vertex on the screen.
     pub(in crate::ui) fn vertex(&self, vertex: VertexId) -> Option<VertexId> {
         match &self.other {
             None => Some(vertex).filter(|vertex| vertex.index() < self.vertex_count),
@@ -52,7 +53,7 @@ impl InFile {
         }
     }
 
-    /// The vertices that one of the file is here: several where it is cut there, none where it is on another chart.
+    /// Copies on the screen of a vertex of the file: several at a cut, none if the vertex is on another chart.
     pub(in crate::ui) fn copies(&self, of_file: VertexId) -> impl Iterator<Item = VertexId> + '_ {
         let same = (self.other.is_none() && of_file.index() < self.vertex_count).then_some(of_file);
         let several = self.other.as_ref().map_or(&[][..], |others| others.copies(of_file));
@@ -60,7 +61,7 @@ impl InFile {
     }
 }
 
-/// For each vertex of a file whether faces at it have several vertices there.
+/// For each vertex of a file: true if its corners have several vertices in `whole`.
 fn several(whole: &Repaired, source: &PolygonMesh) -> Vec<bool> {
     let mut first = vec![None; source.positions.len()];
     let mut is_several = vec![false; source.positions.len()];

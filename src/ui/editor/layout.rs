@@ -1,62 +1,82 @@
-//! What of the window is open: tab and panels, the panes' widths, floating windows.
+//! Layout of the window: tab and panels, widths of the panes, floating windows.
 
-use crate::ui::state::{InsetView, Pane, Tab, Toast};
+use crate::ui::state::{InsetView, Pane, Tab, Toast, Tour, TourState};
 use crate::ui::theme::{PANEL_WIDTH, PANEL_WIDTHS};
 
-/// A window narrower than this shows no panels until they are asked for, points.
+/// Least width of a window that shows the panels by default, points.
 const PANELS_FROM: f32 = 820.0;
 
-/// Least share of the width that a pane has.
+/// Least share of the width for a pane.
 const LEAST_SHARE: f32 = 0.15;
 
-/// The window that asks for an element to go to.
+/// Window "Go to", which asks for an element.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GoTo {
-    /// What is typed into it.
+    /// Text in its field.
     pub(in crate::ui) text: String,
-    /// Whether its field is to take the keyboard in the next frame.
+    /// True if its field takes the keyboard focus in the next frame.
     pub(in crate::ui) takes_keyboard: bool,
 }
 
 #[derive(Clone, Debug, Default)]
 pub struct Layout {
     tab: Tab,
-    /// Whether the panels at the right show, where a person said so.
+    /// The user's choice to show or hide the panels at the right, if made.
     panels_wanted: Option<bool>,
     is_narrow: bool,
     full: Option<Pane>,
-    /// Share of the width that the mesh's pane has; half of it where nobody said.
+    /// Share of the width for the mesh pane. Default: half.
     split: Option<f32>,
-    /// Width of the panels at the right, where a person has changed it, points.
+    /// Width of the panels at the right, if the user has changed it, points.
     panel_width: Option<f32>,
     pub keys_shown: bool,
     pub exports_shown: bool,
-    /// "Go to", where it shows.
+    /// Window "Go to", if open.
     pub go_to: Option<GoTo>,
-    /// The good news that show.
+    /// Success message that shows.
     pub(in crate::ui) toast: Option<Toast>,
-    /// What the insets over the panes show, and how near.
+    /// Guided tour.
+    pub(in crate::ui) tour: TourState,
+    /// Zoom and pan of the insets over the panes.
     pub(in crate::ui) insets: InsetView,
-    /// The menu that is to open, by its place in the bar.
+    /// Menu to open, by its place in the bar.
     pub(in crate::ui) menu_asked: Option<usize>,
 }
 
 impl Layout {
+    /// Starts the guided tour from its first card.
+    pub(crate) fn start_tour(&mut self) {
+        self.tour = TourState::UnderWay(Tour::default());
+    }
+
+    /// Guided tour, if under way.
+    pub fn tour(&self) -> Option<&Tour> {
+        match &self.tour {
+            TourState::UnderWay(tour) => Some(tour),
+            TourState::New | TourState::Over => None,
+        }
+    }
+
+    /// True if the tour was started in this run or before.
+    pub(crate) fn has_seen_tour(&self) -> bool {
+        self.tour != TourState::New
+    }
+
     pub fn tab(&self) -> Tab {
         self.tab
     }
 
-    /// Opens a tab, and the panels with it.
+    /// Opens a tab, and the panels if hidden.
     pub fn show_tab(&mut self, tab: Tab) {
         (self.tab, self.panels_wanted) = (tab, Some(true));
     }
 
-    /// Has a tab come first where the panels show, or once they do.
+    /// Selects a tab without opening the panels.
     pub(in crate::ui) fn offer_tab(&mut self, tab: Tab) {
         self.tab = tab;
     }
 
-    /// Whether the panels at the right show. Where nobody said, a narrow window does without.
+    /// True if the panels at the right show. Default: yes, unless the window is narrow.
     pub fn panels_shown(&self) -> bool {
         self.panels_wanted.unwrap_or(!self.is_narrow)
     }
@@ -69,17 +89,17 @@ impl Layout {
         self.panels_wanted = Some(!self.panels_shown());
     }
 
-    /// Whether the window is too narrow for panels beside the panes.
+    /// True if the window is too narrow for panels beside the panes.
     pub(in crate::ui) fn is_narrow(&self) -> bool {
         self.is_narrow
     }
 
-    /// Takes the width that panels and panes have together, points.
+    /// Sets the width of panels and panes together, points.
     pub(in crate::ui) fn set_width(&mut self, width: f32) {
         self.is_narrow = width < PANELS_FROM;
     }
 
-    /// The pane in full size, if one is.
+    /// Pane in full size, if any.
     pub fn full(&self) -> Option<Pane> {
         self.full
     }
@@ -103,7 +123,7 @@ impl Layout {
         self.panel_width.unwrap_or(PANEL_WIDTH)
     }
 
-    /// Takes in how wide the panels at the right are.
+    /// Sets the width of the panels at the right, clamped to [`PANEL_WIDTHS`].
     pub fn set_panel_width(&mut self, width: f32) {
         if width.is_finite() {
             self.panel_width = Some(width.clamp(PANEL_WIDTHS.min, PANEL_WIDTHS.max));
@@ -118,13 +138,13 @@ impl Layout {
         self.split = Some(share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE));
     }
 
-    /// Opens "go to", or gives its field the keyboard where it is open.
+    /// Opens the window "Go to", or focuses its field if it is open.
     pub(super) fn ask_go_to(&mut self) {
         let text = self.go_to.take().map(|open| open.text).unwrap_or_default();
         self.go_to = Some(GoTo { text, takes_keyboard: true });
     }
 
-    /// Closes one of the floating windows. Returns whether one was open.
+    /// Closes one of the floating windows. Returns true if one was open.
     pub(super) fn close_window(&mut self) -> bool {
         std::mem::take(&mut self.exports_shown) || std::mem::take(&mut self.keys_shown) || self.go_to.take().is_some()
     }

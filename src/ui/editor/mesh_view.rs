@@ -1,4 +1,4 @@
-//! The mesh's pane as the window has it: where it lies, its camera, and the scene of the mesh as given.
+//! State of the mesh pane: its place, its camera, and the scene of the mesh as given.
 
 use std::sync::Arc;
 
@@ -10,10 +10,10 @@ use crate::view::{OrbitCamera, Sphere, UpAxis};
 
 #[derive(Debug)]
 pub struct MeshView {
-    /// Its place and its camera.
+    /// Place and camera of the pane.
     pub pane: PaneView<OrbitCamera>,
     scene: Option<Arc<MeshScene>>,
-    /// The scene that is being made, by the mesh's revision.
+    /// Background job that makes the scene. Key: revision of the mesh.
     job: AsyncScene<u64, MeshScene>,
 }
 
@@ -22,7 +22,7 @@ impl MeshView {
         Self { pane: PaneView::default(), scene: None, job: AsyncScene::new("mesh scene", wake) }
     }
 
-    /// The mesh as given.
+    /// Scene of the mesh as given.
     pub(in crate::ui) fn scene(&self) -> Option<&Arc<MeshScene>> {
         self.scene.as_ref()
     }
@@ -31,12 +31,12 @@ impl MeshView {
         self.job.is_busy()
     }
 
-    /// Why the scene could not be made; each failure once.
+    /// Failure to make the scene, returned once.
     pub(super) fn take_failure(&mut self) -> Option<JobFailure> {
         self.job.take_failure()
     }
 
-    /// Shows a ball in full size.
+    /// Frames a ball.
     pub(super) fn frame(&mut self, ball: Sphere) {
         let size = self.pane.size();
         if let Some(camera) = self.pane.camera_mut() {
@@ -44,15 +44,15 @@ impl MeshView {
         }
     }
 
-    /// Takes in a scene that was made, and has another one made where the session has another mesh. Returns whether
-    /// there is a new scene.
+    /// Shows a finished scene, and starts a job if the session has another mesh. Returns true if there is a new
+    /// scene.
     pub(super) fn poll(&mut self, session: &Session) -> bool {
-        // One of a mesh that was open before comes too late.
+        // Discard the scene of a mesh that is no longer open.
         let made = self.job.poll().filter(|(key, _)| *key == session.model_revision()).map(|(_, scene)| scene);
         let is_new = made.is_some();
         if let Some(scene) = made {
             if !self.scene.as_ref().is_some_and(|before| scene.is_of_same_mesh(before)) {
-                // Another mesh, or the same one turned around, is seen from its outside.
+                // Show another mesh, or a mesh turned inside out, from its outside.
                 self.pane.set_camera(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal));
                 self.frame(scene.sphere);
             }

@@ -1,35 +1,35 @@
-//! The editor's state: the session, and everything about the window that is not part of the document.
+//! State of the editor: the session, and all state of the window outside the document.
 //!
 //! | file | what |
 //! |---|---|
-//! | `mod.rs` | the editor: its parts, and what it does in each frame |
-//! | `requests.rs` | requests, carried out; moves along the timeline |
-//! | `files.rs`, `unsaved.rs` | files that are asked for; the question about unsaved work |
-//! | `comparison/` | methods side by side in the embedding's pane |
-//! | `mesh_view.rs` | the mesh's pane: place, camera, scene |
-//! | `plane/` | the embedding's pane: place, camera, what it draws |
-//! | `scene.rs` | what the panes draw and pick in |
+//! | `mod.rs` | the editor: its parts, and its work in each frame |
+//! | `requests.rs` | handling of requests; moves along the timeline |
+//! | `files.rs`, `unsaved.rs` | file dialogs; the question about unsaved work |
+//! | `comparison/` | methods side by side in the embedding pane |
+//! | `mesh_view.rs` | the mesh pane: place, camera, scene |
+//! | `plane/` | the embedding pane: place, camera, drawn data |
+//! | `scene.rs` | data for drawing and picking in both panes |
 //! | `paint.rs` | faces coloured by a shading |
-//! | `in_file.rs` | vertices of what is on the screen as those of the file |
-//! | `seam_rules.rs` | seams at sharp edges, or where materials or groups meet |
-//! | `sides.rs` | which side of a seam a vertex is on |
-//! | `seam_chain.rs` | the clicks that a seam is drawn by, and the way back along them |
-//! | `seam_intent.rs` | what a click of the seam tool would do |
-//! | `seam_actions.rs` | requests to the seam tool, carried out |
-//! | `seam_tool.rs` | the seam that is being drawn, and the shortest paths from where it has got to |
-//! | `element.rs` | parts of the mesh by their names |
-//! | `around.rs` | the charts around the one that is worked on |
-//! | `async_scene.rs` | scenes are made in the background |
-//! | `selection.rs` | what is selected, what is under the pointer, the tool in hand |
-//! | `appearance.rs`, `shade.rs` | how faces show: shading of each pane, wireframe, picture, colours |
-//! | `layout.rs` | what of the window is open |
-//! | `preferences.rs` | what of the window is kept between runs |
-//! | `opened.rs` | what the window keeps of the open document |
+//! | `in_file.rs` | map from vertices on the screen to vertices of the file |
+//! | `seam_rules.rs` | seams at sharp edges, or at borders of materials or groups |
+//! | `sides.rs` | side of a seam that a vertex is on |
+//! | `seam_chain.rs` | the clicks that draw a seam, and their undo |
+//! | `seam_intent.rs` | effect of a click of the seam tool |
+//! | `seam_actions.rs` | handling of requests to the seam tool |
+//! | `seam_tool.rs` | the seam being drawn, and shortest paths from its last vertex |
+//! | `element.rs` | elements of the mesh by name |
+//! | `around.rs` | the charts around the chart on the screen |
+//! | `async_scene.rs` | background construction of scenes |
+//! | `selection.rs` | selection, element under the pointer, active tool |
+//! | `appearance.rs`, `shade.rs` | appearance of faces: shading of each pane, wireframe, picture, colours |
+//! | `layout.rs` | layout of the window |
+//! | `preferences.rs` | settings of the window kept between runs |
+//! | `opened.rs` | state of the window for the open document |
 //! | `project_view.rs` | cameras, shadings, tool and selection in the project file |
 //! | `gpu.rs` | egui's context and the graphics card |
-//! | `frames.rs` | how long frames take |
-//! | `views.rs` | what the cameras look at |
-//! | `defect.rs` | what is wrong with an embedding |
+//! | `frames.rs` | duration of frames |
+//! | `views.rs` | framing of the selection, elements and defects |
+//! | `defect.rs` | defects of an embedding |
 //! | `picture_box.rs` | the place of the picture in the plane |
 
 pub(super) mod appearance;
@@ -85,34 +85,34 @@ use plane::{PlaneView, SECONDS, Surroundings};
 use scene::MeshScene;
 use selection::{Pointer, Selection, ToolState};
 
-/// How often the session is asked whether a copy for recovery is due.
+/// Interval at which the session checks if a recovery copy is due.
 const COPY_INTERVAL: Duration = Duration::from_secs(5);
 
-/// Everything the window knows.
+/// Complete state of the window.
 pub struct Editor {
     /// The document and the work on it.
     pub session: Session,
-    /// The mesh's pane.
+    /// Mesh pane.
     pub mesh: MeshView,
-    /// The embedding's pane.
+    /// Embedding pane.
     pub plane: PlaneView,
-    /// What is selected.
+    /// Selected vertices and defect.
     pub selection: Selection,
-    /// What is under the pointer.
+    /// Element under the pointer.
     pub pointer: Pointer,
-    /// The tool in hand.
+    /// Active tool and its state.
     pub tools: ToolState,
-    /// How faces show.
+    /// Appearance of faces.
     pub pane_shading: PaneShading,
-    /// What of the window is open.
+    /// Layout of the window.
     pub layout: Layout,
-    /// What the window keeps of the open document.
+    /// State of the window for the open document.
     pub opened: Opened,
-    /// What shows the window.
+    /// egui's context and the graphics card.
     pub gpu: Gpu,
-    /// Files that are asked for, or about to be written.
+    /// File dialogs and files about to be written.
     pub files: Files,
-    /// The timeline under the panes.
+    /// Timeline under the panes.
     pub timeline: TimelineView,
 }
 
@@ -123,7 +123,7 @@ impl std::fmt::Debug for Editor {
 }
 
 impl Editor {
-    /// An empty window. `context` is woken when the background has news.
+    /// Creates an empty window. Background work with news wakes `context`.
     pub fn new(context: &egui::Context, recent: RecentFiles) -> Self {
         let gpu = Gpu::new(context);
         let wake = gpu.wake();
@@ -143,19 +143,19 @@ impl Editor {
         }
     }
 
-    /// The mesh as drawn: that of the embedding on the screen, where there is one.
+    /// Mesh on the screen: the mesh of the drawn embedding, or the mesh as given.
     pub fn mesh_scene(&self) -> Option<&Arc<MeshScene>> {
         self.plane.drawn().map(|plane| &plane.mesh).or(self.mesh.scene())
     }
 
-    /// Whether a scene has the vertices that the session has: for a moment after another chart, or another form, has come
-    /// there, it has not.
+    /// True if a scene has the vertices of the session's mesh. Just after a change of chart or preparation it has
+    /// not.
     pub(super) fn is_of_session(&self, scene: &MeshScene) -> bool {
         scene.model_revision == self.session.model_revision()
     }
 
-    /// Lets go of all vertices where the mesh on the screen has other ones than before. Those selected come back with the mesh's
-    /// scene, where it is the same mesh in another form; another chart has others.
+    /// Clears all vertices of the window's state if the mesh on the screen has changed. If the new mesh is another
+    /// preparation of the same file, the selection returns with its scene; another chart has other vertices.
     fn let_go_of_vertices(&mut self) {
         let Some(before) = self.opened.note_model(&self.session) else { return };
         let has_other_form = |scene: &MeshScene| {
@@ -171,15 +171,15 @@ impl Editor {
         self.tools.set_pair(None);
     }
 
-    /// What goes on in the background, once it has taken long enough to be worth a word.
+    /// Background work, if it has run long enough to show.
     pub fn busy_for_long(&self) -> Option<Busy> {
         self.session.busy().filter(|_| self.gpu.is_busy_for_long())
     }
 
-    /// Takes in what the background has finished. Call at the start of each frame.
+    /// Adopts finished background work. Call at the start of each frame.
     pub fn poll(&mut self) {
         if self.opened.view_is_due(&self.session) {
-            // For copies for recovery.
+            // Recovery copies contain the view.
             self.keep_view();
         }
         self.session.poll();
@@ -217,7 +217,7 @@ impl Editor {
             self.gpu.context().request_repaint_after(Duration::from_millis(100));
         }
         if self.session.has_unsaved_work() {
-            // Copies for recovery are made while nobody moves the mouse as well.
+            // Make recovery copies even if the mouse does not move.
             self.gpu.context().request_repaint_after(COPY_INTERVAL);
         }
         if let Some(choice) = self.files.dialogs.poll() {
@@ -225,7 +225,7 @@ impl Editor {
         }
     }
 
-    /// Says what could not be drawn.
+    /// Reports failed background jobs.
     fn tell_failures(&mut self) {
         let [mesh, plane, picture] =
             [self.mesh.take_failure(), self.plane.take_failure(), self.pane_shading.take_failure()];
@@ -243,7 +243,7 @@ impl Editor {
         }
     }
 
-    /// The embedding's pane, with what it is told of the rest of the window.
+    /// Embedding pane, with the inputs that it needs from the rest of the window.
     fn plane_in_surroundings(&mut self) -> (&mut PlaneView, Surroundings<'_>) {
         let glide = self.timeline.playing_since.map_or(SECONDS, |_| self.pace().min(SECONDS));
         let around = Surroundings {
@@ -256,13 +256,13 @@ impl Editor {
         (&mut self.plane, around)
     }
 
-    /// Takes in where the embedding's pane lies.
+    /// Sets the place of the embedding pane.
     pub(super) fn lay_out_plane(&mut self, rect: egui::Rect) {
         let (plane, around) = self.plane_in_surroundings();
         plane.set_rect(rect, around);
     }
 
-    /// Begins anew with a mesh that has just come on the screen.
+    /// Resets the window for a mesh that has just appeared on the screen.
     fn begin_with_mesh(&mut self) {
         self.plane.forget();
         self.pane_shading.forget_paint();

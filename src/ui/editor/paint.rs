@@ -1,4 +1,4 @@
-//! Faces coloured by a shading: by the numbers of an embedding, or plain.
+//! Face colours of a shading: by a number of each face, or plain.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use freebound_core::mesh::{FaceId, TriMesh, VertexId};
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::Embedding;
 
-/// Faces coloured by a shading, with what a legend needs.
+/// Face colours of a shading, with the data of a legend.
 #[derive(Clone, Debug)]
 pub struct BrushPaint {
     pub key: PaintKey,
@@ -17,24 +17,24 @@ pub struct BrushPaint {
     pub legend: Option<Legend>,
 }
 
-/// What a paint is made for.
+/// Inputs that a paint depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PaintKey {
-    /// The mesh, by its revision.
+    /// Revision of the mesh.
     pub model: u64,
-    /// The outcome, by its revision.
+    /// Revision of the outcome.
     pub outcome: u64,
     pub shading: ShadingMode,
-    /// The step that moves are measured from, where they are asked for.
+    /// Step that moves are measured from, for the shading by moves.
     pub moved_from: Option<usize>,
 }
 
-/// A scale with its range and how many faces lie where.
+/// Colour scale with its range and a histogram of the faces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
     pub scale: Scale,
     pub range: Range,
-    /// Faces in each of equal parts of the range; those beyond count at the ends.
+    /// Number of faces in each equal part of the range. Faces beyond the range count at the ends.
     pub histogram: Vec<u32>,
 }
 
@@ -48,7 +48,7 @@ impl Legend {
 }
 
 impl BrushPaint {
-    /// Colours the faces of an embedding; moves are measured from `base`.
+    /// Colours the faces of an embedding. Moves are measured from `base`.
     pub fn new(key: PaintKey, mesh: &TriMesh, outcome: Option<&Outcome>, base: Option<&Outcome>) -> Self {
         let plain = |flipped: &[FaceId]| Self {
             key,
@@ -87,7 +87,7 @@ fn histogram<'a>(values: impl IntoIterator<Item = &'a f64>, range: Range) -> Vec
     bars
 }
 
-/// Where the vertices of one step lie in another one: new vertices that the other one lacks on its straight edges.
+/// Positions of a step on the mesh of another step. New vertices that `base` lacks lie on its straight edges.
 fn embedding_on(base: &Step, step: &Step) -> Embedding {
     let embedding = &base.candidate.solution.embedding;
     let Some(refinement) = &step.candidate.refinement else { return embedding.clone() };
@@ -102,7 +102,7 @@ fn embedding_on(base: &Step, step: &Step) -> Embedding {
     moved.into()
 }
 
-/// How far each face has moved between two embeddings: the mean of its corners.
+/// Distance that each face has moved between two embeddings: the mean over its corners.
 fn face_moves(mesh: &TriMesh, before: &Embedding, after: &Embedding) -> Vec<f64> {
     let moves: Vec<f64> = before.iter().zip(after).map(|(a, b)| a.distance(*b)).collect();
     let of_vertex = |v: VertexId| moves.get(v.index()).copied().unwrap_or(f64::NAN);

@@ -1,13 +1,13 @@
-//! What of the window is kept between runs: theme, wireframe, shading, width of the panels, size of the window.
+//! Settings of the window kept between runs: theme, wireframe, shading, width of the panels, size of the window.
 
 use eframe::egui::{Theme, ThemePreference};
 
 use super::Editor;
 use crate::session::Preferences;
-use crate::ui::state::Pane;
+use crate::ui::state::{Pane, TourState};
 
 impl Editor {
-    /// How the window is left.
+    /// Current settings of the window, to be kept.
     pub(crate) fn preferences(&self) -> Preferences {
         let context = self.gpu.context();
         let dark = match context.options(|options| options.theme_preference) {
@@ -24,13 +24,17 @@ impl Editor {
             plane_shading: shading(Pane::Plane),
             panel_width: Some(self.layout.panel_width()),
             window_size: Some([size.x, size.y]),
+            tour_seen: self.layout.has_seen_tour(),
         }
     }
 
-    /// Puts on how the window was left. Its size is put on when it opens.
+    /// Restores the settings of the window from an earlier run. The window's size is restored when it opens.
     pub(crate) fn put_on(&mut self, left: &Preferences) {
         if let Some(dark) = left.dark {
             self.gpu.context().set_theme(if dark { Theme::Dark } else { Theme::Light });
+        }
+        if left.tour_seen {
+            self.layout.tour = TourState::Over;
         }
         self.pane_shading.wireframe = left.wireframe;
         for (pane, name) in Pane::BOTH.into_iter().zip([&left.mesh_shading, &left.plane_shading]) {

@@ -1,11 +1,11 @@
-//! The view that a project file keeps: cameras, shadings, tool and selection, kept and put on again.
+//! View that a project file keeps: cameras, shadings, tool and selection.
 //!
 //! ```text
 //! mesh_camera    pivot x, y, z; distance; yaw, pitch         world units, radians
 //! plane_camera   center x, y; height of what the pane shows   embedding units
 //! ```
 //!
-//! Numbers that are none of these are ignored, as names are that mean nothing here.
+//! Malformed camera numbers and unknown names are ignored.
 
 use super::Editor;
 use crate::ui::state::{Pane, ShadingMode, Tool};
@@ -25,8 +25,8 @@ impl Editor {
         }
     }
 
-    /// Tells the session how the person looks at it, to be saved with it. While what was opened is not on the screen
-    /// yet, the session knows better.
+    /// Stores the view in the session, to be saved with the document. Does nothing while the document is not on the
+    /// screen yet, because the session then has the better view.
     pub(in crate::ui) fn keep_view(&mut self) {
         if self.opened.is_on_screen(&self.session) {
             let view = self.view();
@@ -34,7 +34,7 @@ impl Editor {
         }
     }
 
-    /// Puts on how the person looked at what was opened. Call once its mesh is drawn.
+    /// Restores the view of the opened document. Call once its mesh is drawn.
     pub(super) fn put_on_view(&mut self) {
         let view = self.session.view().clone();
         for (pane, name) in Pane::BOTH.into_iter().zip([&view.mesh_shading, &view.plane_shading]) {
@@ -57,7 +57,7 @@ impl Editor {
     }
 }
 
-/// JSON has no words for numbers that are not finite, and a project with one could not be read again.
+/// Returns the numbers if all are finite. JSON has no other numbers, and a project with them could not be read again.
 fn finite(numbers: Vec<f64>) -> Option<Vec<f64>> {
     numbers.iter().all(|number| number.is_finite()).then_some(numbers)
 }

@@ -1,4 +1,4 @@
-//! The editor carries out what was asked for.
+//! Handling of requests by the editor.
 
 use std::path::{Path, PathBuf};
 
@@ -10,13 +10,13 @@ use freebound_core::mesh::VertexId;
 use freebound_core::problem::PinKind;
 use freebound_io::PROJECT_EXTENSION;
 
-/// Playing all steps takes about so long, seconds.
+/// Approximate time to play all steps, seconds.
 const PLAY_SECONDS: f64 = 6.0;
 
-/// How long one step shows while they are played, at least and at most, seconds.
+/// Least and greatest time that a played step shows, seconds.
 const STEP_SECONDS: (f64, f64) = (0.1, 0.8);
 
-/// Endings of files that a mesh file names by itself.
+/// Extensions of files that a mesh file refers to.
 const BESIDE: &[&str] = &["mtl", "bin"];
 
 impl Editor {
@@ -86,6 +86,7 @@ impl Editor {
             Request::AskGoTo => self.layout.ask_go_to(),
             Request::OpenMenu(place) => self.layout.menu_asked = Some(place),
             Request::ToggleKeys => self.layout.keys_shown = !self.layout.keys_shown,
+            Request::StartTour => self.layout.start_tour(),
             Request::SetTheme(theme) => self.gpu.context().set_theme(theme),
             Request::SetFit(fit) => self.files.fit = fit,
             Request::Quit => self.close_or_ask(PendingClose::Quit),
@@ -99,7 +100,7 @@ impl Editor {
         self.files.dialogs.ask(&self.gpu.wake(), kind, suggestion);
     }
 
-    /// Opens, saves or exports as a dialog was answered.
+    /// Opens, saves or exports the file that the user chose in a dialog.
     pub fn take_choice(&mut self, choice: DialogChoice) {
         let DialogChoice { kind, path } = choice;
         if !kind.takes(&path) {
@@ -125,8 +126,8 @@ impl Editor {
         }
     }
 
-    /// What files that were dropped on the window ask for, by their names: one mesh or project opens, and pictures and
-    /// constraints are for it, or for what is open already. Edges are for what is open already.
+    /// Requests for files dropped on the window, by their extensions. One mesh or project is opened. Pictures and
+    /// constraints belong to it, or to the open document if no mesh is dropped. Edges belong to the open document.
     pub(in crate::ui) fn dropped(paths: Vec<PathBuf>) -> Vec<Request> {
         let is_for = |kind: FileDialogKind| move |path: &PathBuf| kind.form().fits(path);
         let (pictures, others): (Vec<PathBuf>, Vec<PathBuf>) =
@@ -134,7 +135,7 @@ impl Editor {
         let (constraints, others): (Vec<_>, Vec<_>) =
             others.into_iter().partition(is_for(FileDialogKind::ImportConstraints));
         let (edges, mut meshes): (Vec<_>, Vec<_>) = others.into_iter().partition(is_for(FileDialogKind::ImportSeams));
-        // A project knows its mesh.
+        // A project names its mesh, so projects come first.
         meshes.sort_by_key(|path| !has_extension(path, &[PROJECT_EXTENSION]));
         if meshes.iter().any(|path| !has_extension(path, BESIDE)) {
             meshes.retain(|path| !has_extension(path, BESIDE));
@@ -157,7 +158,7 @@ impl Editor {
         actions.into_iter().map(Request::Do).collect()
     }
 
-    /// Puts the chart on the screen that is so many places after the one that is, around and around.
+    /// Shows the chart `by` places after the current one, cyclically.
     fn step_chart(&mut self, by: isize) {
         let count = self.session.charts().map(|charts| charts.count());
         if let Some((count, now)) = count.zip(self.session.chart_on_screen()) {
@@ -186,12 +187,13 @@ impl Editor {
         self.let_go_of_vertices();
         let after = self.session.document().frame();
         if before.aspect.to_bits() == after.aspect.to_bits() {
-            // Where v runs the other way the picture lies elsewhere in the plane. On the screen it stays.
+            // If the direction of v changes, the picture moves in the plane. Move the cameras so that it stays on the
+            // screen.
             self.plane.go_along(after.corners()[0] - before.corners()[0]);
         }
     }
 
-    /// A name for a file made from the mesh on the screen.
+    /// File name suggested from the mesh on the screen.
     fn suggested_name(&self, kind: FileDialogKind) -> PathBuf {
         let ending = kind.form().ending;
         let Some(model) = self.session.model() else { return PathBuf::from(format!("layout{ending}")) };
@@ -222,15 +224,15 @@ impl Editor {
     }
 }
 
-/// The way through the steps of a run.
+/// Moves along the steps of a run.
 impl Editor {
-    /// Whether the open mesh can be solved. If so, the strip under the panes shows, so that the panes have their final
-    /// size before the first step is there.
+    /// True if the open mesh is a disk and can be solved. The timeline then shows, so that the panes have their final
+    /// size before the first step.
     pub fn has_disk(&self) -> bool {
         self.session.model().is_some_and(|model| model.disk().is_some())
     }
 
-    /// Whether steps are kept before and after the one on the screen.
+    /// True for each direction with a kept step: before and after the step on the screen.
     pub(in crate::ui) fn steps_around(&self) -> [bool; 2] {
         let timeline = self.session.timeline();
         let Some(shown) = timeline.shown() else { return [false; 2] };
@@ -257,7 +259,7 @@ impl Editor {
         self.session.handle(if self.session.is_running() { Action::Cancel } else { Action::Run });
     }
 
-    /// Plays the steps from the one on the screen, or from the first where it is the last; or stops playing.
+    /// Plays the steps from the step on the screen, or from the first if no step follows; or stops playing.
     pub(super) fn toggle_play(&mut self) {
         let timeline = self.session.timeline();
         let Some(shown) = timeline.shown() else { return };
@@ -270,7 +272,7 @@ impl Editor {
         self.timeline.playing_since = Some(self.gpu.now());
     }
 
-    /// Shows the next step when it is time, and the one before has arrived. Call once per frame.
+    /// Shows the next step when it is due and the step before has arrived. Call once per frame.
     pub(super) fn go_on_playing(&mut self) {
         let Some(since) = self.timeline.playing_since else { return };
         self.gpu.context().request_repaint();
@@ -286,7 +288,7 @@ impl Editor {
         }
     }
 
-    /// How long one step shows while they are played, seconds.
+    /// Time that a played step shows, seconds.
     pub(super) fn pace(&self) -> f64 {
         let gaps = self.session.timeline().kept().count().max(2) - 1;
         (PLAY_SECONDS / gaps as f64).clamp(STEP_SECONDS.0, STEP_SECONDS.1)

@@ -1,4 +1,4 @@
-//! What both panes draw and pick in: made off the UI thread, once per mesh and once per embedding.
+//! Data for drawing and picking in both panes, made off the UI thread once per mesh and once per embedding.
 
 use std::sync::Arc;
 
@@ -14,28 +14,28 @@ use freebound_core::mesh::{DiskMesh, NewVertex, Refinement, TriMesh, VertexId};
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::{Embedding, GaugeSize};
 
-/// A mesh, ready to be drawn and picked in: as given, or with the new vertices of a step.
+/// Mesh prepared for drawing and picking: as given, or with the new vertices of a step.
 #[derive(Debug)]
 pub struct MeshScene {
-    /// What was opened.
+    /// Opened mesh with its preparation.
     pub model: Arc<Model>,
-    /// Which mesh that was.
+    /// Revision of the model.
     pub model_revision: u64,
-    /// The mesh with new vertices that it is of; none where it is of the mesh as given.
+    /// Refinement of the mesh with new vertices; `None` for the mesh as given.
     pub refinement: Option<Arc<Refinement>>,
     pub arrays: Arc<MeshArrays>,
-    /// The boundary, where it is a disk: of holes, too.
+    /// Boundary of a disk, and the rims of holes.
     pub boundary: Arc<EdgeList>,
-    /// Where it is cut along seams that are listed: both sides.
+    /// Both sides of the seams, if the mesh is cut.
     pub seams: Arc<EdgeList>,
-    /// Its vertices as those of the file.
+    /// Map to the vertices of the file.
     pub(in crate::ui) in_file: InFile,
-    /// Vertices that only fill holes: they are not shown.
+    /// Vertices that only fill holes, which are not shown. Sorted.
     hidden: Vec<VertexId>,
     pub picker: SurfacePicker,
-    /// A ball around it, and around what stands around it.
+    /// Bounding sphere of the mesh and of the charts around it.
     pub sphere: Sphere,
-    /// The other charts, where the mesh has several.
+    /// Other charts, if the mesh has several.
     pub around: Option<Around>,
 }
 
@@ -44,13 +44,14 @@ impl MeshScene {
         Self::of(model, model_revision, None)
     }
 
-    /// Whether both are of the same mesh, in whatever way it is cut, with the same side out, and of one size.
+    /// True if both scenes are of one source mesh, cut in any way, with radii within a factor of 2. A mesh turned
+    /// inside out has another source.
     pub(super) fn is_of_same_mesh(&self, other: &Self) -> bool {
         let grows = self.sphere.radius / other.sphere.radius;
         Arc::ptr_eq(&self.model.source, &other.model.source) && (0.5..2.0).contains(&grows)
     }
 
-    /// The vertices of an element; none where the mesh does not have it.
+    /// Vertices of an element; empty if the mesh does not have it.
     pub(in crate::ui) fn vertices_of(&self, element: Element) -> Vec<VertexId> {
         let mesh = self.mesh();
         match element {
@@ -64,8 +65,7 @@ impl MeshScene {
         }
     }
 
-    /// The scene of the mesh that a step's embedding is of: that of the mesh as given, that of the step shown before,
-    /// or one of its own.
+    /// Scene for the mesh of a step: the mesh as given, the mesh of the step shown before, or a new scene.
     pub(in crate::ui) fn of_step(given: &Arc<Self>, before: Option<Arc<Self>>, step: &Step) -> Arc<Self> {
         let Some(refinement) = &step.candidate.refinement else { return Arc::clone(given) };
         let has_it = |scene: &Arc<Self>| scene.refinement.as_ref().is_some_and(|other| Arc::ptr_eq(other, refinement));
@@ -81,7 +81,7 @@ impl MeshScene {
         let holes = mesh.holes();
         let boundary = EdgeList::closed_loops(outer.into_iter().chain(holes.iter().map(|hole| &hole.rim[..])));
         let (positions, triangles) = (&mesh.positions, mesh.real_triangles());
-        // In the unit of the chart's positions.
+        // Divide by the unit of the chart's positions.
         let unit = disk.map_or(1.0, DiskMesh::unit);
         let whole = model.prepared.chart.as_ref().map(|of| &of.charts.whole().polygons().positions);
         let whole: Option<Vec<DVec3>> = whole.map(|positions| positions.iter().map(|&at| at / unit).collect());
@@ -105,22 +105,22 @@ impl MeshScene {
         self.refinement.as_ref().map_or(self.model.mesh(), |refinement| refinement.disk().mesh())
     }
 
-    /// The vertices around the hole whose lowest one this is.
+    /// Rim of the hole with this lowest vertex; empty if there is none.
     pub(in crate::ui) fn hole_rim(&self, lowest: VertexId) -> Vec<VertexId> {
         let hole = self.mesh().holes().into_iter().find(|hole| hole.rim[0] == lowest);
         hole.map(|hole| hole.rim).unwrap_or_default()
     }
 
-    /// The vertices that are shown.
+    /// Shown vertices.
     pub(in crate::ui) fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
         let all = (0..self.mesh().vertex_count()).map(VertexId::from_index);
         all.filter(|vertex| self.hidden.binary_search(vertex).is_err())
     }
 
-    /// Picks among the shown vertices in the plane, where they have these places.
+    /// Picker for the shown vertices at these positions in the plane.
     fn plane_picker(&self, places: &[DVec2]) -> PlanePicker {
         let mut places = places[..self.mesh().vertex_count()].to_vec();
-        // What is nowhere is not picked.
+        // NaN is never picked.
         self.hidden.iter().for_each(|vertex| places[vertex.index()] = DVec2::NAN);
         PlanePicker::new(&places)
     }
@@ -130,44 +130,44 @@ impl MeshScene {
         self.refinement.as_ref().map(|refinement| refinement.disk()).or(given)
     }
 
-    /// The chart that is not on the screen and that a ray meets first, if no face of the chart on the screen is nearer.
+    /// Other chart that a ray meets first, unless a face of the chart on the screen is nearer.
     pub(in crate::ui) fn other_chart_at(&self, ray: Ray) -> Option<usize> {
         let (chart, distance) = self.around.as_ref()?.chart_at(ray)?;
         let is_hidden = self.picker.hit(ray).is_some_and(|own| own.distance <= distance);
         (!is_hidden).then_some(chart)
     }
 
-    /// What there is to say about a vertex that the mesh as given does not have.
+    /// Data of a new vertex; `None` if the mesh as given has the vertex.
     pub fn new_vertex(&self, vertex: VertexId) -> Option<&NewVertex> {
         let refinement = self.refinement.as_ref()?;
         refinement.new_vertices().get(vertex.index().checked_sub(refinement.old_vertex_count())?)
     }
 }
 
-/// An embedding, ready to be drawn and picked in.
+/// Embedding prepared for drawing and picking.
 #[derive(Clone, Debug)]
 pub struct PlaneScene {
     pub mesh: Arc<MeshScene>,
-    /// The solve that it was made from.
+    /// Outcome of the solve.
     pub outcome: Arc<Outcome>,
     pub outcome_revision: u64,
     pub arrays: Arc<PlaneArrays>,
     pub picker: Arc<PlanePicker>,
-    /// Faces of the outcome that reach out of the picture; 0 without one.
+    /// Number of faces of the outcome that extend beyond the picture; 0 in true size.
     pub(in crate::ui) faces_outside: usize,
-    /// Where vertices lie where that is not the outcome's embedding; at a stage with those beyond the mesh's.
+    /// Positions that differ from the outcome's embedding. Stages may append vertices of the outside.
     positions: Option<Arc<Embedding>>,
     part: Part,
 }
 
-/// What of the way to an outcome a scene shows.
+/// Relation of a scene to its outcome.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::ui) enum Part {
-    /// The outcome itself.
+    /// Embedding of the outcome.
     Result,
-    /// The outcome with what lies around it.
+    /// Embedding of the outcome with its outside.
     WithOutside,
-    /// A stage before it.
+    /// Stage before the outcome.
     Stage,
 }
 
@@ -186,16 +186,16 @@ impl PlaneScene {
         }
     }
 
-    /// The same mesh with other points than the outcome's embedding: at a stage on the way to it, or with its outside.
-    /// Points beyond the mesh's are drawn with, and not picked.
+    /// Scene of this mesh at the positions of a stage, or with its outside. Vertices beyond those of the mesh are
+    /// drawn but not picked.
     pub(in crate::ui) fn of_part(&self, part: Part, positions: Embedding) -> Self {
         let arrays = PlaneArrays::new(&positions, self.mesh.mesh().real_triangles());
         let picker = self.mesh.plane_picker(&positions);
         Self { part, ..self.moved(&self.mesh, Arc::new(positions), arrays, Arc::new(picker)) }
     }
 
-    /// The vertices of `mesh`, this one's or the one as given, on their way to where they will lie. Picks them where they
-    /// are in this scene.
+    /// Scene of `mesh` at intermediate positions. `mesh` is the mesh of this scene or the mesh as given. Picking uses
+    /// the positions of this scene.
     pub(super) fn with_positions(&self, mesh: &Arc<MeshScene>, positions: Arc<Embedding>) -> Self {
         let picker = if Arc::ptr_eq(mesh, &self.mesh) {
             Arc::clone(&self.picker)
@@ -206,7 +206,7 @@ impl PlaneScene {
         self.moved(mesh, positions, arrays, picker)
     }
 
-    /// Moves vertices to where they lie in an embedding; all others lie there already.
+    /// Moves vertices to their positions in an embedding. All other vertices must have their positions already.
     pub(super) fn move_vertices(&mut self, vertices: &[VertexId], embedding: &Embedding) {
         let own = || Arc::new(self.outcome.step.candidate.solution.embedding.clone());
         let mut shared = self.positions.take().unwrap_or_else(own);
@@ -244,13 +244,13 @@ impl PlaneScene {
         self.part == Part::Stage
     }
 
-    /// Whether this is the result alone, without stages and outside.
+    /// True if the scene shows the outcome's embedding, not a stage, and no outside.
     pub(in crate::ui) fn is_plain_result(&self) -> bool {
         self.part == Part::Result
     }
 }
 
-/// How many faces reach out of the picture. What lies on its edge up to rounding does not.
+/// Number of faces that extend beyond the picture by more than the rounding margin [`EDGE`].
 fn faces_outside(outcome: &Outcome, triangles: &[[VertexId; 3]]) -> usize {
     if outcome.problem.settings.size == GaugeSize::TrueArea {
         return 0;
@@ -265,5 +265,5 @@ fn faces_outside(outcome: &Outcome, triangles: &[[VertexId; 3]]) -> usize {
     triangles.iter().filter(|corners| corners.iter().any(is_outside)).count()
 }
 
-/// Distance from the picture up to which a vertex counts as on its edge, in parts of the picture's longer side.
+/// Distance from the picture within which a vertex counts as on its edge, as a share of the picture's longer side.
 const EDGE: f64 = 1e-9;

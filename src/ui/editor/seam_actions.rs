@@ -1,4 +1,4 @@
-//! Requests to the seam tool, carried out: clicks, rules, and the click under the pointer.
+//! Handling of requests to the seam tool: clicks, rules, and the click under the pointer.
 
 use std::sync::Arc;
 
@@ -10,9 +10,9 @@ use crate::ui::controls::{counted, sentence};
 use crate::ui::state::{SeamClick, SeamRule, Tool};
 use freebound_core::mesh::{Seams, VertexId};
 
-/// Clicks.
+/// Clicks of the seam tool.
 impl Editor {
-    /// The seams without those that are listed: those of texture coordinates stay.
+    /// Seams after all listed edges are removed. Seams along texture coordinates stay.
     pub(in crate::ui) fn without_seams(&self) -> Seams {
         let seams = self.session.seams();
         seams.without(seams.edges().iter().copied())
@@ -24,7 +24,7 @@ impl Editor {
         self.go_on_with_seam();
     }
 
-    /// Finds what paths are wanted, and carries out the clicks that waited for them. Call once per frame.
+    /// Starts searches for missing paths, and carries out the clicks that waited for them. Call once per frame.
     pub(super) fn go_on_with_seam(&mut self) {
         if self.tools.tool() != Tool::Seam {
             return;
@@ -44,7 +44,7 @@ impl Editor {
         }
     }
 
-    /// Cuts along other seams, and has the chain go on from a vertex, where there is one.
+    /// Sets other seams, and extends the chain to a vertex, if there is a chain.
     fn cut_along(&mut self, seams: Seams, to: VertexId) {
         self.tools.seam.chain.go_on(to, self.session.seams(), &seams);
         self.session.handle(Action::SetSeams(seams));
@@ -53,7 +53,7 @@ impl Editor {
 
 /// Seams by a rule.
 impl Editor {
-    /// Has the edges of a rule found, with the tool in hand that says what comes of it.
+    /// Starts the search for the edges of a rule, and activates the seam tool, which reports the result.
     pub(super) fn cut_by_rule(&mut self, rule: SeamRule) {
         let Some(model) = self.session.model().map(Arc::clone) else { return };
         self.tools.take_up(Tool::Seam);
@@ -61,7 +61,8 @@ impl Editor {
         self.tools.seam.rules.job.make(key, move |_| edges_of(rule, &model));
     }
 
-    /// Cuts along the edges of a rule once they are found, and no drag goes on, of which they would be a part. Call once per frame.
+    /// Adds the edges of a rule to the seams once they are found. Waits for the end of a gesture, because the cut
+    /// would become part of it. Call once per frame.
     pub(super) fn take_seams_by_rule(&mut self) {
         self.tools.seam.rules.forget_said_of_other(self.session.seams());
         if self.session.is_in_gesture() {
@@ -86,15 +87,16 @@ impl Editor {
     }
 }
 
-/// The click under the pointer.
+/// Click under the pointer.
 impl Editor {
-    /// The click that a press of the button would be, where the pointer is over a vertex.
+    /// Click that a press of the button would make, if the pointer is over a vertex.
     pub(in crate::ui) fn seam_click(&self, has_shift: bool) -> Option<SeamClick> {
         let seam = &self.tools.seam;
         seam.under().map(|vertex| SeamClick { vertex, erases: seam.erases() != has_shift })
     }
 
-    /// Finds what that click would do, unless that is known. Call once the vertex under the pointer is.
+    /// Computes the effect of the click under the pointer, unless it is known. Call after the vertex under the
+    /// pointer is set.
     pub(in crate::ui) fn foresee_seam(&mut self) {
         let has_shift = self.gpu.context().input(|input| input.modifiers.shift);
         let click = self.seam_click(has_shift).filter(|_| self.tools.tool() == Tool::Seam);

@@ -1,14 +1,14 @@
-//! The chain of clicks that a seam is drawn by: where it has got to, and the way back when clicks are undone.
+//! Chain of clicks that draw a seam: its last vertex, and its undo.
 
 use freebound_core::mesh::{Seams, VertexId};
 
 #[derive(Debug, Default)]
 pub(super) struct Chain {
-    /// Where the seam has got to.
+    /// Last vertex of the seam.
     last: Option<VertexId>,
-    /// The seams before each click, and where the chain had got to.
+    /// Seams before each click, and the last vertex of the chain at that time.
     trail: Vec<(Seams, VertexId)>,
-    /// The seams that it was looked at with last.
+    /// Seams at the last update of the chain.
     seams: Seams,
 }
 
@@ -21,13 +21,14 @@ impl Chain {
         *self = Self { last: Some(at), trail: Vec::new(), seams: seams.clone() };
     }
 
-    /// Ends the chain. Returns whether there was one.
+    /// Ends the chain. Returns true if there was one.
     pub(super) fn end(&mut self) -> bool {
         self.trail.clear();
         self.last.take().is_some()
     }
 
-    /// Goes on to a vertex by a click that makes other seams of those that there are, where there is a chain.
+    /// Extends the chain to a vertex after a click. Records the click if it changed the seams. Does nothing without a
+    /// chain.
     pub(super) fn go_on(&mut self, to: VertexId, before: &Seams, now: &Seams) {
         let Some(from) = self.last else { return };
         if now != before {
@@ -36,8 +37,8 @@ impl Chain {
         (self.last, self.seams) = (Some(to), now.clone());
     }
 
-    /// Goes back to where the chain was when the seams were these, if they are others than before: one undo may take
-    /// several clicks back, which were cut at once.
+    /// Shortens the chain after an undo: returns to its last vertex at the time of these seams. One undo may revert
+    /// several clicks that were cut at once.
     pub(super) fn follow_undo(&mut self, seams: &Seams) {
         if self.seams == *seams {
             return;
@@ -58,7 +59,7 @@ mod tests {
         VertexId::new(number)
     }
 
-    /// A chain from vertex 0 by vertex 1 to vertex 2, with the seams before, between and after the two clicks.
+    /// Chain from vertex 0 over vertex 1 to vertex 2, with the seams before, between and after the two clicks.
     fn two_clicks() -> (Chain, [Seams; 3]) {
         let before = Seams::default();
         let between = before.with([[v(0), v(1)]]);

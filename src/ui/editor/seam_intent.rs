@@ -1,34 +1,34 @@
-//! What a click of the seam tool would do. It is found once for a click and what it depends on; the preview and the words in
-//! the status bar ask for it in each frame.
+//! Effect of a click of the seam tool. It is computed once for a click and its inputs; preview and status bar read it
+//! in each frame.
 
 use super::seam_tool::{SeamGround, SeamTool, TreeKey};
 use crate::ui::state::{Edge, SeamClick};
 use crate::view::OrbitCamera;
 use freebound_core::mesh::{Seams, VertexId};
 
-/// Edges of a path of which it is looked whether the mesh hides them; the others show.
+/// Greatest number of edges of a path whose visibility is tested. The others count as visible.
 const LOOKED_AT: usize = 2000;
 
-/// What a click would do.
+/// Effect of a click.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::ui) enum SeamIntent {
     /// Begin a seam.
     Begin,
-    /// Cut along these edges, from where the seam has got to.
+    /// Cut along these edges, from the last vertex of the seam.
     Add(Vec<Edge>),
     /// Close these edges.
     TakeAway(Vec<Edge>),
     /// End the seam.
     End,
-    /// Nothing: no seam is there, or no edges lead there.
+    /// Nothing: no seam is there, or no path leads there.
     #[default]
     Nothing,
-    /// What the paths are is still being found.
+    /// Unknown until the paths are found.
     Wait,
 }
 
 impl SeamIntent {
-    /// The edges that it cuts or closes.
+    /// Edges that the click cuts or closes.
     pub(in crate::ui) fn edges(&self) -> &[Edge] {
         match self {
             Self::Add(edges) | Self::TakeAway(edges) => edges,
@@ -37,7 +37,7 @@ impl SeamIntent {
     }
 }
 
-/// What a click would do depends on this.
+/// Inputs that the effect of a click depends on.
 #[derive(Clone, Debug, PartialEq)]
 struct IntentKey {
     click: SeamClick,
@@ -47,17 +47,17 @@ struct IntentKey {
     seams: Seams,
 }
 
-/// What the click under the pointer would do.
+/// Effect of the click under the pointer, precomputed.
 #[derive(Debug)]
 pub(super) struct Foreseen {
     key: IntentKey,
     intent: SeamIntent,
-    /// Which of its edges the mesh does not hide from a camera.
+    /// Camera, and true for each edge that the mesh does not hide from it.
     seen: Option<(OrbitCamera, Vec<bool>)>,
 }
 
 impl SeamTool {
-    /// What a click would do now.
+    /// Effect of a click with the current seams.
     pub(super) fn intent(&self, click: SeamClick, seams: &Seams) -> SeamIntent {
         let vertex = click.vertex;
         let taken = |edges: Vec<Edge>| if edges.is_empty() { SeamIntent::Nothing } else { SeamIntent::TakeAway(edges) };
@@ -73,7 +73,7 @@ impl SeamTool {
         }
     }
 
-    /// Finds what a click would do, unless that is known.
+    /// Computes the effect of a click, unless it is known.
     pub(super) fn foresee(&mut self, click: Option<SeamClick>, seams: &Seams) {
         let key = click.map(|click| IntentKey {
             click,
@@ -87,12 +87,12 @@ impl SeamTool {
         }
     }
 
-    /// What the click under the pointer would do.
+    /// Effect of the click under the pointer.
     pub(in crate::ui) fn foreseen(&self) -> Option<&SeamIntent> {
         self.foreseen.as_ref().map(|foreseen| &foreseen.intent)
     }
 
-    /// Looks which edges that a click would change the mesh does not hide, unless that is known.
+    /// Tests the visibility of the edges that a click would change, unless it is known for this camera.
     pub(in crate::ui) fn update_visibility(&mut self, camera: &OrbitCamera) {
         let Some((ground, foreseen)) = self.ground().cloned().zip(self.foreseen.as_mut()) else { return };
         if foreseen.seen.as_ref().is_none_or(|(from, _)| from != camera) {
@@ -100,14 +100,14 @@ impl SeamTool {
         }
     }
 
-    /// Whether an edge that a click would change shows, by its place among them.
+    /// True if the mesh does not hide an edge that a click would change, by its place among these edges.
     pub(in crate::ui) fn is_seen(&self, place: usize) -> bool {
         let seen = self.foreseen.as_ref().and_then(|foreseen| foreseen.seen.as_ref());
         seen.and_then(|(_, seen)| seen.get(place)).copied().unwrap_or(true)
     }
 }
 
-/// Whether an end of each edge shows.
+/// For each edge: true if at least one end is visible.
 fn seen(ground: &SeamGround, edges: &[Edge], camera: &OrbitCamera) -> Vec<bool> {
     let shows = |edge: &Edge| edge.iter().any(|&end| ground.shows(end, camera));
     edges.iter().take(LOOKED_AT).map(shows).collect()

@@ -1,4 +1,5 @@
-//! Seams by a rule: at sharp edges, or where materials or groups meet. They are found in the background and cut at once.
+//! Seams by a rule: at sharp edges, or at borders of materials or groups. The edges are found in the background and
+//! cut at once.
 
 use super::async_scene::AsyncScene;
 use crate::session::{JobFailure, Model, Wake};
@@ -6,7 +7,7 @@ use crate::ui::state::{Edge, SeamRule};
 use freebound_core::mesh::Seams;
 use freebound_io::LabelError;
 
-/// The edges that a rule chooses.
+/// Edges that a rule chooses.
 pub(super) fn edges_of(rule: SeamRule, model: &Model) -> Result<Vec<Edge>, LabelError> {
     match rule {
         SeamRule::Sharp(degrees) => Ok(model.crease_edges(degrees)),
@@ -15,14 +16,14 @@ pub(super) fn edges_of(rule: SeamRule, model: &Model) -> Result<Vec<Edge>, Label
     }
 }
 
-/// Seams by a rule, as they are asked for and found.
+/// State of the search for edges by a rule.
 #[derive(Debug)]
 pub(in crate::ui) struct SeamRules {
-    /// The least angle of a sharp edge, degrees.
+    /// Least angle of a sharp edge, degrees.
     pub(in crate::ui) degrees: f64,
-    /// By the rule, and what is open, by the session's count.
+    /// Background job that finds the edges. Key: the rule, and the session's count of openings.
     pub(super) job: AsyncScene<(SeamRule, u64), Result<Vec<Edge>, LabelError>>,
-    /// What came of the last one, and the seams that there were then.
+    /// Result message of the last rule, and the seams at that time.
     pub(super) said: Option<(String, Seams)>,
 }
 
@@ -39,7 +40,7 @@ impl SeamRules {
         self.job.take_failure()
     }
 
-    /// What came of the last rule, until something else is done.
+    /// Result message of the last rule, until something else is done.
     pub(in crate::ui) fn said(&self) -> Option<&str> {
         self.said.as_ref().map(|(words, _)| &**words)
     }
@@ -48,7 +49,7 @@ impl SeamRules {
         self.said = None;
     }
 
-    /// Forgets it where the seams are others by now.
+    /// Drops the message if the seams have changed.
     pub(super) fn forget_said_of_other(&mut self, seams: &Seams) {
         self.said.take_if(|(_, of)| of != seams);
     }

@@ -1,12 +1,12 @@
-//! The seam that is being drawn. It stands on the file's own vertices, which stay what they are while each click cuts the mesh
-//! anew; so does the chain of clicks.
+//! Seam being drawn. It refers to vertices of the file, which keep their numbers while each click cuts the mesh
+//! again; so does the chain of clicks.
 //!
 //! ```text
-//! mesh of the file ── background, once ──▶ SeamGround ── background, once per click ──▶ PathTree ── each frame ──▶ path
+//! file's mesh ── background, once ──▶ SeamGround ── background, once per click ──▶ PathTree ── each frame ──▶ path
 //! ```
 //!
-//! One function, of `seam_intent.rs`, says what a click would do; the preview, the words in the status bar and the click itself
-//! all ask it.
+//! A single function in `seam_intent.rs` computes the effect of a click for the preview, the status bar and the
+//! click.
 
 use std::collections::VecDeque;
 use std::fmt;
@@ -24,29 +24,29 @@ use crate::view::{OrbitCamera, SurfacePicker, Visibility};
 use freebound_core::mesh::{EdgePaths, PathTree, Repairs, VertexId};
 use freebound_io::MeshFile;
 
-/// Share of creases in the measure of paths at the start.
+/// Default weight of creases in the length of paths.
 pub(in crate::ui) const CREASES: f64 = 0.5;
 
-/// The mesh of the file as one: whole, whatever it is cut into.
+/// Mesh of the file before any cuts.
 #[derive(Debug)]
 pub(in crate::ui) struct SeamGround {
     source: Arc<MeshFile>,
-    /// World units in one of the file's.
+    /// World units per unit of the file.
     scale: f64,
     picker: SurfacePicker,
     paths: Arc<EdgePaths>,
 }
 
-/// What a ground is of.
+/// Inputs that a ground depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct GroundKey {
-    /// What is open, by the session's count.
+    /// Opening of the session, by its count.
     opening: u64,
     repair: Repairs,
     scale: f64,
 }
 
-/// What a tree of paths is of.
+/// Inputs that a tree of paths depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TreeKey {
     ground: GroundKey,
@@ -57,19 +57,19 @@ pub(super) struct TreeKey {
 pub struct SeamTool {
     /// Seams by a rule.
     pub(in crate::ui) rules: SeamRules,
-    /// Share of creases in the measure of paths, 0 to 1.
+    /// Weight of creases in the length of paths, 0 to 1.
     creases: f64,
-    /// Whether clicks take seams away.
+    /// True if clicks close seams.
     erases: bool,
-    /// The seam as far as it has got.
+    /// Chain of clicks of the seam being drawn.
     pub(super) chain: Chain,
-    /// Clicks that wait for the paths to be found.
+    /// Clicks that wait for the paths.
     pub(super) clicks: VecDeque<SeamClick>,
-    /// The vertex of the file under the pointer.
+    /// Vertex of the file under the pointer.
     under: Option<VertexId>,
-    /// What a click there would do.
+    /// Effect of the click under the pointer.
     pub(super) foreseen: Option<Foreseen>,
-    /// What was open last, by the session's count.
+    /// Last opening of the session, by its count.
     opening: Option<u64>,
     ground: Option<(GroundKey, Arc<SeamGround>)>,
     ground_job: AsyncScene<GroundKey, SeamGround>,
@@ -77,7 +77,7 @@ pub struct SeamTool {
     tree_job: AsyncScene<TreeKey, PathTree>,
 }
 
-/// Without what was found: that is as large as the mesh.
+/// Omits ground and tree, which are as large as the mesh.
 impl fmt::Debug for SeamTool {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut state = f.debug_struct("SeamTool");
@@ -98,17 +98,17 @@ impl SeamGround {
         }
     }
 
-    /// Where a vertex of the file lies in the world.
+    /// Position of a vertex of the file in the world.
     pub(in crate::ui) fn place(&self, vertex: VertexId) -> Option<DVec3> {
         Some(*self.source.polygons.positions.get(vertex.index())? * self.scale)
     }
 
-    /// Whether the mesh does not hide a vertex.
+    /// True if the mesh does not hide a vertex.
     pub(in crate::ui) fn shows(&self, vertex: VertexId, camera: &OrbitCamera) -> bool {
         self.picker.is_visible(vertex, camera.eye())
     }
 
-    /// The vertex of the file nearest to the pointer, among those that show.
+    /// Vertex of the file nearest to the pointer, among visible vertices.
     pub(in crate::ui) fn vertex_at(&self, camera: &OrbitCamera, size: DVec2, pointer: DVec2) -> Option<VertexId> {
         self.picker.nearest_vertex(camera, size, pointer, Visibility::Visible).map(|pick| pick.vertex)
     }
@@ -148,7 +148,7 @@ impl SeamTool {
         self.erases = !self.erases;
     }
 
-    /// The vertex of the file that the seam has got to.
+    /// Last vertex of the seam, a vertex of the file.
     pub fn last(&self) -> Option<VertexId> {
         self.chain.last()
     }
@@ -165,19 +165,19 @@ impl SeamTool {
         self.ground.as_ref().map(|(_, ground)| ground)
     }
 
-    /// Whether paths are being found, or clicks wait for them.
+    /// True if paths are being found, or clicks wait for them.
     pub fn is_busy(&self) -> bool {
         self.rules.is_busy() || self.ground_job.is_busy() || self.tree_job.is_busy() || !self.clicks.is_empty()
     }
 
-    /// Ends the seam that is being drawn. Returns whether there was one.
+    /// Ends the seam being drawn. Returns true if there was one.
     pub(super) fn end(&mut self) -> bool {
         self.clicks.clear();
         self.tree_job.cancel();
         self.chain.end()
     }
 
-    /// Ends the seam, and lets go of what was found for it.
+    /// Ends the seam, and drops the data found for it.
     pub(super) fn put_away(&mut self) {
         self.end();
         self.rules.forget_said();
@@ -193,7 +193,7 @@ impl SeamTool {
         failure
     }
 
-    /// The paths from a vertex, where they are found.
+    /// Paths from a vertex, if found.
     pub(super) fn tree_from(&self, from: VertexId) -> Option<&PathTree> {
         let is_of = |key: &TreeKey| key.from == from && key.creases.to_bits() == self.creases.to_bits();
         self.tree.as_ref().filter(|(key, _)| is_of(key)).map(|(_, tree)| tree)
@@ -203,7 +203,7 @@ impl SeamTool {
         self.tree.as_ref().map(|(key, _)| *key)
     }
 
-    /// Takes in what was found, and has found what is missing.
+    /// Adopts finished background jobs, and starts jobs for missing data.
     pub(super) fn refresh(&mut self, session: &Session) {
         let Some(model) = session.model() else { return self.put_away() };
         let key = GroundKey::of(session, model);

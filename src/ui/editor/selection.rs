@@ -1,4 +1,4 @@
-//! What is selected, what is under the pointer, and the tool in hand with what it has begun: half a pair, a drag, a nudge.
+//! Selection, element under the pointer, and active tool with its state: half a pair, a drag, a nudge.
 
 use std::collections::BTreeSet;
 
@@ -14,10 +14,11 @@ use freebound_core::problem::PinKind;
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
     vertices: BTreeSet<VertexId>,
-    /// Vertices of the file that were selected before the mesh had others, until these are known.
+    /// Selected vertices of the file, kept while the scene of another preparation is made.
     of_file: BTreeSet<VertexId>,
     defect: Option<usize>,
-    /// Whether vertices outside the hull of their neighbours are marked: no defects of their own, but why it folds.
+    /// True if vertices outside the hull of their neighbours are marked. They are not defects, but the cause of
+    /// folds.
     pub marks_outside_hull: bool,
 }
 
@@ -32,39 +33,39 @@ impl Selection {
         self.of_file.clear();
     }
 
-    /// Lets go of all vertices: the mesh has others now. Keeps those of the file that they are, where it has them.
+    /// Clears the vertices because the mesh has changed. Keeps their vertices of the file, if `in_file` returns any.
     pub(super) fn let_go(&mut self, in_file: impl Fn(VertexId) -> Option<VertexId>) {
         self.of_file.extend(std::mem::take(&mut self.vertices).into_iter().filter_map(in_file));
     }
 
-    /// Selects again what was let go of, now that the vertices are known that one of the file is.
+    /// Restores the selection from the kept vertices of the file. `copies` returns the vertices of the new mesh.
     pub(super) fn come_back(&mut self, copies: impl Fn(VertexId) -> Vec<VertexId>) {
         self.vertices.extend(std::mem::take(&mut self.of_file).into_iter().flat_map(copies));
     }
 
-    /// Selects vertices beside the others.
+    /// Adds vertices to the selection.
     pub fn add(&mut self, vertices: impl IntoIterator<Item = VertexId>) {
         self.vertices.extend(vertices);
     }
 
-    /// Selects a vertex beside the others, or no more.
+    /// Adds a vertex to the selection, or removes it.
     pub(super) fn toggle(&mut self, vertex: VertexId) {
         if !self.vertices.remove(&vertex) {
             self.vertices.insert(vertex);
         }
     }
 
-    /// Keeps the vertices of a mesh with so many.
+    /// Keeps the vertices below a vertex count.
     pub(super) fn keep_below(&mut self, vertex_count: usize) {
         self.vertices.retain(|vertex| vertex.index() < vertex_count);
     }
 
-    /// The defect shown last, by its place in the list.
+    /// Last shown defect, by its place in the list.
     pub fn defect(&self) -> Option<usize> {
         self.defect
     }
 
-    /// Keeps the defect where the list has so many.
+    /// Keeps the defect if its place is below a count.
     pub(super) fn keep_defect_below(&mut self, count: usize) {
         self.defect = self.defect.filter(|place| *place < count);
     }
@@ -74,15 +75,15 @@ impl Selection {
     }
 }
 
-/// What is under the pointer, and the box that it draws.
+/// Element under the pointer, and the selection box being drawn.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pointer {
     pane: Option<Pane>,
     vertex: Option<VertexId>,
     in_embedding: Option<DVec2>,
-    /// The vertex whose menu is open, or was.
+    /// Vertex whose menu is or was open.
     menu_vertex: Option<VertexId>,
-    /// The box being drawn with Ctrl, from its first corner, in window points.
+    /// Pane and first corner of the box being drawn with Ctrl, in window points.
     box_from: Option<(Pane, egui::Pos2)>,
 }
 
@@ -103,23 +104,23 @@ impl Pointer {
         self.menu_vertex = vertex;
     }
 
-    /// Closes the menu of a vertex that a mesh with so many does not have.
+    /// Closes the menu of a vertex at or above a vertex count.
     pub(super) fn keep_menu_below(&mut self, vertex_count: usize) {
         self.menu_vertex = self.menu_vertex.filter(|vertex| vertex.index() < vertex_count);
     }
 
-    /// Forgets the vertices of a mesh that is gone.
+    /// Clears the vertices of a mesh that no longer exists.
     pub(super) fn forget_vertices(&mut self) {
         (self.vertex, self.menu_vertex) = (None, None);
     }
 
-    /// The pointer in the plane of the embedding.
+    /// Position of the pointer in the plane of the embedding.
     pub(in crate::ui) fn in_embedding(&self) -> Option<DVec2> {
         self.in_embedding
     }
 
-    /// Takes in that a frame begins. The vertex stays until both panes were shown: the one drawn first shows what the
-    /// pointer found in the other.
+    /// Starts a frame. Keeps the vertex until both panes have been drawn: the pane drawn first shows the vertex found
+    /// in the other pane.
     pub(in crate::ui) fn begin_frame(&mut self) {
         (self.pane, self.in_embedding) = (None, None);
     }
@@ -132,12 +133,12 @@ impl Pointer {
         (self.pane, self.vertex) = (Some(Pane::Mesh), vertex);
     }
 
-    /// Takes in where the pointer is in the plane, and what is under it.
+    /// Sets the position of the pointer in the plane, and the vertex under it.
     pub(in crate::ui) fn over_plane(&mut self, place: Option<DVec2>, vertex: Option<VertexId>) {
         (self.pane, self.in_embedding, self.vertex) = (Some(Pane::Plane), place, vertex);
     }
 
-    /// The first corner of the box that is drawn in a pane.
+    /// First corner of the box being drawn in a pane.
     pub(in crate::ui) fn box_in(&self, pane: Pane) -> Option<egui::Pos2> {
         self.box_from.filter(|(of, _)| *of == pane).map(|(_, from)| from)
     }
@@ -154,11 +155,11 @@ impl Pointer {
 #[derive(Debug)]
 pub struct ToolState {
     tool: Tool,
-    /// The seam that is being drawn.
+    /// Seam being drawn.
     pub seam: SeamTool,
     pair: Option<Half>,
     intent: Intent,
-    /// How the next constraint is held, where a person chose.
+    /// Pin kind that the user chose for the next constraint.
     kind: Option<PinKind>,
     drag: Option<PinDrag>,
     is_nudging: bool,
@@ -181,7 +182,7 @@ impl ToolState {
         self.tool
     }
 
-    /// Takes up a tool. Half a pair is given up, and the seam that was drawn last is done.
+    /// Activates a tool. Cancels half a pair, and ends the seam being drawn.
     pub fn take_up(&mut self, tool: Tool) {
         (self.tool, self.pair) = (tool, None);
         if tool != Tool::Seam {
@@ -189,7 +190,7 @@ impl ToolState {
         }
     }
 
-    /// The half of a pair that the constrain tool has placed.
+    /// First half of a pair, placed by the constrain tool.
     pub fn pair(&self) -> Option<Half> {
         self.pair
     }
@@ -198,12 +199,12 @@ impl ToolState {
         self.pair = pair;
     }
 
-    /// Whether the constrain tool has placed half a pair.
+    /// True if the constrain tool has placed half a pair.
     pub(in crate::ui) fn is_placing_pair(&self) -> bool {
         self.tool == Tool::Constrain && self.pair.is_some()
     }
 
-    /// What a click of the constrain tool would do.
+    /// Effect of a click of the constrain tool.
     pub fn intent(&self) -> Intent {
         self.intent
     }
@@ -216,7 +217,7 @@ impl ToolState {
         self.intent = intent;
     }
 
-    /// How the next constraint is held.
+    /// Pin kind of the next constraint. Default: hard.
     pub(in crate::ui) fn kind(&self) -> PinKind {
         self.kind.unwrap_or(PinKind::Hard)
     }
@@ -229,7 +230,7 @@ impl ToolState {
         self.drag.as_ref().map(PinDrag::vertex)
     }
 
-    /// The drag of a pin, if it is the one being dragged.
+    /// Drag of a pin, if that pin is being dragged.
     pub(in crate::ui) fn drag_of(&mut self, vertex: VertexId) -> Option<&mut PinDrag> {
         self.drag.as_mut().filter(|drag| drag.vertex() == vertex)
     }
@@ -238,12 +239,12 @@ impl ToolState {
         self.drag = Some(drag);
     }
 
-    /// Ends the drag. Returns whether there was one.
+    /// Ends the drag. Returns true if there was one.
     pub(in crate::ui) fn end_drag(&mut self) -> bool {
         self.drag.take().is_some()
     }
 
-    /// Whether arrow keys are moving pins.
+    /// True if arrow keys are moving pins.
     pub fn is_nudging(&self) -> bool {
         self.is_nudging
     }

@@ -1,16 +1,16 @@
-//! Shadings of the panes, changed and drawn.
+//! Shadings of the panes: changes, and colouring of the faces.
 
 use super::Editor;
 use super::appearance::{Appearance, PaintSources};
 use crate::ui::state::{Pane, ShadingMode, Tool};
 
 impl Editor {
-    /// Appearance of faces now. The constrain tool over a picture has an appearance of its own, and leaves the other as it is.
+    /// Current appearance of faces. The constrain tool over a picture has its own, separate appearance.
     pub fn appearance(&self) -> &Appearance {
         if self.is_placing_on_picture() { &self.pane_shading.over_picture } else { &self.pane_shading.usual }
     }
 
-    /// Appearance of faces now, to be changed.
+    /// Current appearance of faces, mutable.
     pub fn appearance_mut(&mut self) -> &mut Appearance {
         if self.is_placing_on_picture() { &mut self.pane_shading.over_picture } else { &mut self.pane_shading.usual }
     }
@@ -19,12 +19,12 @@ impl Editor {
         self.tools.tool() == Tool::Constrain && self.has_picture()
     }
 
-    /// The shading of a pane.
+    /// Shading of a pane.
     pub fn shading(&self, pane: Pane) -> ShadingMode {
         self.appearance().shading(pane)
     }
 
-    /// Shades the pane under the pointer, or both where it is over neither.
+    /// Shades the pane under the pointer, or both panes if it is over neither.
     pub(super) fn shade(&mut self, shading: ShadingMode) {
         if self.pointer.pane() != Some(Pane::Mesh) && self.shade_comparison(shading) {
             return;
@@ -35,7 +35,7 @@ impl Editor {
         }
     }
 
-    /// Shades a pane as a person chose.
+    /// Sets the shading of a pane that the user chose.
     pub(super) fn shade_pane(&mut self, pane: Pane, shading: ShadingMode) {
         let appearance = self.appearance_mut();
         appearance.shade(pane, shading);
@@ -44,7 +44,7 @@ impl Editor {
         }
     }
 
-    /// Colours the faces anew where that is due. Call once per frame.
+    /// Recolours the faces if needed. Call once per frame.
     pub(super) fn refresh_paints(&mut self) {
         let Some(given) = self.mesh.scene() else { return };
         let base = self.plane.moved_from(&self.session).map(AsRef::as_ref);

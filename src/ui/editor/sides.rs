@@ -1,4 +1,4 @@
-//! Sides of a seam: where the mesh is cut, one vertex of the file is several, one on each side, and each may be pinned.
+//! Sides of a seam. At a cut a vertex of the file has several copies, one on each side, and each copy can be pinned.
 
 use std::fmt;
 
@@ -8,34 +8,34 @@ use super::scene::MeshScene;
 use crate::view::Ray;
 use freebound_core::mesh::{DiskMesh, FaceId, VertexId};
 
-/// One of the vertices that a vertex of the file has become.
+/// Side of a seam, named by a vertex of the file and a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::ui) struct Side {
     of_file: VertexId,
-    /// The first face of the file at it.
+    /// First face of the file at the copy of the vertex.
     face: u32,
 }
 
 impl fmt::Display for Side {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} of the file, on a seam: the side of face {}", self.of_file, self.face)
+        write!(f, "{} of the file, on a seam, at the side of face {}", self.of_file, self.face)
     }
 }
 
 impl MeshScene {
-    /// Which side a vertex is on, where the mesh is cut there.
+    /// Side of a vertex, if the mesh is cut there.
     pub(in crate::ui) fn side_of(&self, vertex: VertexId) -> Option<Side> {
         let of_file = self.in_file.vertex(vertex).filter(|of| self.in_file.is_several(*of))?;
         Some(Side { of_file, face: faces_at(self.disk()?, vertex).map(|face| self.mesh().polygon(face)).min()? })
     }
 
-    /// Of the vertices in the place of one, where the mesh is cut there, the one on the side that a ray meets.
+    /// Copy of a vertex on the side of the seam that a ray meets. Returns the vertex itself if there is no cut.
     pub(in crate::ui) fn on_side_at(&self, vertex: VertexId, ray: Ray) -> VertexId {
         let of_file = self.in_file.vertex(vertex);
         let copies: Vec<VertexId> = of_file.into_iter().flat_map(|of| self.in_file.copies(of)).collect();
         let Some(disk) = self.disk().filter(|_| copies.len() > 1) else { return vertex };
         let positions = &self.mesh().positions;
-        // Beside the mesh, where the ray comes nearest to the vertex.
+        // If the ray misses the mesh: the point of the ray nearest to the vertex.
         let along = (positions[vertex.index()] - ray.origin).dot(ray.direction);
         let met = self.picker.hit(ray).map_or_else(|| ray.at(along), |hit| hit.point);
         let distance = |copy: &VertexId| {
@@ -46,13 +46,13 @@ impl MeshScene {
     }
 }
 
-/// The faces at a vertex, but for those that fill holes.
+/// Faces at a vertex, except those that fill holes.
 fn faces_at(disk: &DiskMesh, vertex: VertexId) -> impl Iterator<Item = FaceId> + '_ {
     let faces = disk.outgoing(vertex).filter_map(|halfedge| disk.face_of(halfedge));
     faces.filter(|&face| !disk.is_virtual(face))
 }
 
-/// The distance of a point from a triangle.
+/// Distance of a point from a triangle.
 fn distance_to(corners: [DVec3; 3], point: DVec3) -> f64 {
     let [a, b, c] = corners;
     let normal = (b - a).cross(c - a);

@@ -1,4 +1,4 @@
-//! Work that is not saved: the question before it is lost, and what goes on once it is answered.
+//! Unsaved work: the question before it is lost, and the action after the answer.
 
 use super::Editor;
 use crate::session::Action;
@@ -10,12 +10,12 @@ impl Editor {
         self.session.project_name().unwrap_or_else(|| "Freebound".to_owned())
     }
 
-    /// Name of the open document, with a mark if work is not saved.
+    /// Name of the open document, with a mark if there is unsaved work.
     pub(in crate::ui) fn marked_name(&self) -> String {
         format!("{}{}", if self.session.has_unsaved_work() { "• " } else { "" }, self.document_name())
     }
 
-    /// Does what would lose the open document: at once where nothing is lost, else once the person has answered.
+    /// Carries out an action that closes the open document: at once if nothing is lost, else after the user's answer.
     pub(in crate::ui) fn close_or_ask(&mut self, pending: PendingClose) {
         if self.session.has_unsaved_work() {
             self.files.unsaved.asked = Some(pending);
@@ -43,7 +43,7 @@ impl Editor {
         }
     }
 
-    /// Saves where the project was saved before, or asks where.
+    /// Saves the project to its file, or asks for one.
     pub(in crate::ui) fn save_project(&mut self) {
         match self.session.project_path().cloned() {
             Some(path) => {
@@ -54,8 +54,8 @@ impl Editor {
         }
     }
 
-    /// Goes on with what waited for the project to be saved. Where it was not saved, that is given up. Call once per
-    /// frame.
+    /// Carries out the action that waits for the project to be saved. Drops the action if the project was not saved.
+    /// Call once per frame.
     pub(in crate::ui) fn go_on_after_saving(&mut self) {
         if self.files.unsaved.after_saving.is_none() || self.files.dialogs.is_open() || self.session.is_saving_project()
         {
@@ -67,7 +67,7 @@ impl Editor {
         }
     }
 
-    /// Takes the question away. Returns whether it was asked.
+    /// Withdraws the question. Returns true if it was asked.
     pub(in crate::ui) fn close_question(&mut self) -> bool {
         self.files.unsaved.asked.take().is_some()
     }

@@ -1,4 +1,4 @@
-//! The editor puts things before the person's eyes: the selection, elements, defects.
+//! Framing of the selection, of elements and of defects.
 
 use std::sync::Arc;
 
@@ -30,12 +30,12 @@ impl Editor {
         }
     }
 
-    /// Whether the document has a picture.
+    /// True if the document has a picture.
     pub fn has_picture(&self) -> bool {
         self.session.document().picture.is_some()
     }
 
-    /// All that there is in the plane: the embedding, and the picture where there is one.
+    /// Bounds of the embedding, and of the picture if there is one.
     pub(in crate::ui) fn with_picture(&self, embedding: Bounds) -> Bounds {
         if self.has_picture() { embedding.union(picture_box(self.session.document())) } else { embedding }
     }
@@ -66,29 +66,28 @@ impl Editor {
         }
     }
 
-    /// The step on the screen: that of the sheet which is drawn. While the sheet is on its way to another one, or behind the
-    /// session, it is the one that it comes from.
+    /// Outcome on the screen. During a transition, or while the pane is behind the session, the outcome before.
     pub fn step_on_screen(&self) -> Option<&Arc<Outcome>> {
         self.plane.scene().map(|scene| &scene.outcome)
     }
 
-    /// Whether the sheet on the screen followed a pin, and no step at rest has taken its place.
+    /// True if the drawn embedding is a drag preview, or glides from one to its step.
     pub fn shows_preview(&self) -> bool {
         self.plane.shows_preview()
     }
 
-    /// Everything that is wrong with the embedding on the screen: flipped faces, concave polygons, crossed holes,
-    /// crossings, overwound vertices.
+    /// Defects of the embedding on the screen: flipped faces, concave polygons, crossed holes, crossings, overwound
+    /// vertices.
     pub fn defects(&self) -> Vec<Defect> {
         self.step_on_screen().map(|outcome| Defect::all(&outcome.step.verdict).collect()).unwrap_or_default()
     }
 
-    /// The vertices outside the hull of their neighbours in the embedding on the screen: why it folds.
+    /// Vertices outside the hull of their neighbours in the embedding on the screen, which cause its folds.
     pub fn outside_hull(&self) -> &[VertexId] {
         self.step_on_screen().map_or(&[], |outcome| &outcome.step.outside_hull)
     }
 
-    /// How many defects are listed.
+    /// Number of listed defects.
     pub fn defect_count(&self) -> usize {
         self.step_on_screen().map_or(0, |outcome| Defect::all(&outcome.step.verdict).count())
     }

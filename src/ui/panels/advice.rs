@@ -1,5 +1,5 @@
-//! What to do next, beside the verdict: repair an embedding that is at fault, or change what it was asked for where the
-//! flattener has ended with a fault, or with constraints that are not met; relax one that is planar but distorted.
+//! Next action, offered beside the verdict. Repair a faulty embedding. Change the settings if the flattener has ended
+//! with a fault or with unmet constraints. Relax a planar but distorted embedding.
 
 use eframe::egui::{self, Button, RichText};
 
@@ -8,16 +8,17 @@ use crate::session::{Action, RunStop, Session, Status};
 use crate::ui::{Control, Editor, Request, Tab, Theme, theme_of, tip_with_keys};
 use freebound_core::problem::{Method, Settings};
 
-/// Width of the bar below which the advice is one word, points.
+/// Width of the window below which the advice is short, points.
 const ROOMY: f32 = 1000.0;
 
-/// What is to be done next.
+/// Next action.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Advice {
     Repair,
-    /// The flattener has ended with a fault, or without all constraints met: what can still be done.
+    /// Change of settings or pins after the flattener has ended with a fault or with unmet constraints.
     Change(Change),
-    /// With the greatest ratio of a face's area in the plane to that on the mesh, or the other way round.
+    /// Relaxation, with the greatest ratio between the areas of a face in the plane and on the mesh, in either
+    /// direction.
     Relax(f64),
 }
 
@@ -47,7 +48,7 @@ impl Advice {
     }
 }
 
-/// What a person can change where the flattener has no step left.
+/// Change that can help after the flattener has run out of steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Change {
     NewVertices,
@@ -56,7 +57,7 @@ enum Change {
 }
 
 impl Change {
-    /// The change nearest at hand, once a flattener has come to its end.
+    /// Change to offer. `None` unless a run of the automatic method has ended and its newest step is on the screen.
     fn of(session: &Session) -> Option<Self> {
         let document = session.document();
         let is_newest = session.timeline().shown() == session.timeline().newest();
@@ -71,19 +72,19 @@ impl Change {
         })
     }
 
-    /// The button, and what there is to say about it.
+    /// Label of the button, and its tooltip.
     const fn words(self) -> [&'static str; 2] {
         match self {
             Self::NewVertices => [
                 "Allow new vertices",
-                "The ladder has no step left, and may not cut edges. With new vertices on them it meets nearly all \
+                "No further method applies without adding vertices. Allow edge splits to satisfy nearly all \
                  constraints",
             ],
             Self::Pins => [
                 "Free a pin",
-                "The ladder has no step left with these pins: free one of them, or move its target. The Pins tab has them",
+                "No further method applies with these pins. Free a pin or move its target, in the Pins tab",
             ],
-            Self::Method => ["Other weights", "The ladder has no step left: choose other weights, or another method"],
+            Self::Method => ["Other weights", "No further method applies. Choose other weights or another method"],
         }
     }
 
@@ -96,7 +97,7 @@ impl Change {
     }
 }
 
-/// Shows the one button in the accent's colour, where there is something to do.
+/// Shows the button of the next action, if there is one.
 pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(advice) = Advice::of(editor) else { return };
     let words = advice.words(ui.ctx().content_rect().width() >= ROOMY);
@@ -104,7 +105,7 @@ pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Requ
     let (button, tip, request) = match advice {
         Advice::Repair => {
             let tip =
-                "Take all steps of the ladder, until the embedding is proved planar. Another method gives way to it";
+                "Run Auto until the embedding is proved planar. If another method is set, this changes it to Auto";
             (accented(words, theme), tip.to_owned(), Request::Do(Action::Repair))
         }
         Advice::Change(change) => {
@@ -113,8 +114,8 @@ pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Requ
         }
         Advice::Relax(ratio) => {
             let tip = format!(
-                "Areas differ {} : 1 between mesh and embedding, at equal total areas. Relaxing lowers the distortion: \
-                 one-to-one throughout, constraints exact",
+                "Areas differ {} : 1 between mesh and embedding, at equal total areas. Relaxing lowers the \
+                 distortion. The map stays planar, and hard pins stay on their targets",
                 ratio_words(ratio)
             );
             (Button::new(words), tip, Request::Do(Action::Relax))
@@ -124,12 +125,12 @@ pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Requ
     ui.add(button).on_hover_text(tip).asks(request, requests);
 }
 
-/// A button in the accent's colour. There is one at most.
+/// Button in the accent colour. At most one button is accented.
 fn accented(words: String, theme: &Theme) -> Button<'static> {
     Button::new(RichText::new(words).color(theme.panel).strong()).fill(theme.accent)
 }
 
-/// A large ratio, to two digits, its thousands set apart.
+/// Formats a large ratio with two digits and grouped thousands.
 fn ratio_words(ratio: f64) -> String {
     if ratio.is_nan() || ratio >= 1e9 {
         return format!("{ratio:.0e}");

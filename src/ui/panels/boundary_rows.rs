@@ -1,4 +1,4 @@
-//! What a boundary is laid on: rows of the method's tab.
+//! Rows of the method tab for the shape of the boundary.
 
 use eframe::egui::{self, Id, Role, Stroke, StrokeKind};
 
@@ -9,7 +9,7 @@ use freebound_core::problem::{BoundaryShape, NamedOption, Settings, Spacing};
 /// Name of the field for a polygon's corners.
 const CORNERS: &str = "Corners of the polygon";
 
-/// The shape, with the corners of a polygon, and how far apart vertices lie on it; for methods that lay a boundary on one.
+/// Rows for shape, polygon corners and spacing, if the method maps the boundary to a shape.
 pub(super) fn boundary_rows(ui: &mut egui::Ui, settings: &mut Settings) {
     let Some(shape) = settings.method.boundary_shape_mut() else { return };
     ui.label("Boundary");
@@ -38,11 +38,11 @@ pub(super) fn boundary_rows(ui: &mut egui::Ui, settings: &mut Settings) {
     ui.end_row();
 }
 
-/// A field with the corners: taken when it is left, and marked where they are no convex polygon.
+/// Field for the corners. Applies the text when the field loses focus, and marks it if it is no convex polygon.
 fn corners_field(ui: &mut egui::Ui, polygon: &mut ConvexPolygon) {
     let key = Id::unique(CORNERS);
     let own = polygon.to_string();
-    // What is being typed, and for which polygon: another one shows its own corners.
+    // Text being typed, and the polygon it was typed for. Another polygon shows its own corners.
     let typed = ui.data(|data| data.get_temp::<[String; 2]>(key)).filter(|[of, _]| *of == own);
     let mut text = typed.map_or_else(|| own.clone(), |[_, text]| text);
     let field = ui.add(egui::TextEdit::singleline(&mut text).desired_width(200.0));
@@ -60,5 +60,5 @@ fn corners_field(ui: &mut egui::Ui, polygon: &mut ConvexPolygon) {
     } else {
         ui.data_mut(|data| data.insert_temp(key, [own, text]));
     }
-    field.on_hover_text("x y; x y; … counter-clockwise, every corner convex");
+    field.on_hover_text("Corners as x y; x y; …, counter-clockwise, every corner convex");
 }

@@ -1,4 +1,4 @@
-//! The charts of a mesh that has several: how they lie together, a list with the worst first, and how they are packed.
+//! Tab of the charts, for a mesh with several: their layout, a list with the worst first, and packing options.
 
 use eframe::egui::{self, Color32, DragValue, Pos2, Rect, RichText, Role, Sense, Stroke, Vec2, WidgetInfo};
 use glam::DVec2;
@@ -12,7 +12,7 @@ use freebound_core::geom::{Bounds, PackingOptions};
 /// Height of a row of the list, points.
 const ROW: f32 = 22.0;
 
-/// A chart as the list tells of it.
+/// Row of a chart in the list.
 struct Row {
     chart: usize,
     faces: usize,
@@ -20,7 +20,8 @@ struct Row {
 }
 
 impl Row {
-    /// Charts that need a person come first, then the most distorted.
+    /// Sort key: failed charts first, then charts that are not planar, then by decreasing distortion. Charts being
+    /// solved come last.
     fn weight(&self) -> f64 {
         match &self.state {
             ChartState::Failed => f64::INFINITY,
@@ -30,10 +31,10 @@ impl Row {
         }
     }
 
-    /// What there is to say about it.
+    /// Description of the chart's state.
     fn words(&self) -> String {
         match &self.state {
-            ChartState::Failed => "nothing found".to_owned(),
+            ChartState::Failed => "no embedding found".to_owned(),
             ChartState::Solving => "solving…".to_owned(),
             ChartState::Solved(outcome) if !outcome.step.verdict.planar => outcome.step.verdict.summary(),
             ChartState::Solved(outcome) => {
@@ -60,14 +61,14 @@ pub(super) fn charts_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     list(ui, session, &rows, requests);
 }
 
-/// All charts as they lie in the picture; a click puts one on the screen.
+/// Draws all charts at their places in the picture. A click on a chart shows it.
 fn layout(ui: &mut egui::Ui, session: &Session, side: f32, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), side), Sense::click());
-    let response = response.named(Role::Image, "All charts as they lie in the picture");
+    let response = response.named(Role::Image, "Layout of all charts in the picture");
     let painter = ui.painter_at(rect);
     let Some(AtlasView { outlines, .. }) = session.atlas() else {
-        let words = "The layout shows here once all charts are solved";
+        let words = "The layout appears here when all charts are solved";
         painter.text(
             rect.center(),
             egui::Align2::CENTER_CENTER,
@@ -94,7 +95,7 @@ fn layout(ui: &mut egui::Ui, session: &Session, side: f32, requests: &mut Vec<Re
     }
 }
 
-/// Where texture coordinates lie in the panel.
+/// Map from texture coordinates to the panel.
 struct Place {
     rect: Rect,
     low: DVec2,
@@ -120,7 +121,7 @@ impl Place {
         Rect::from_two_pos(self.of(bounds.low), self.of(bounds.high))
     }
 
-    /// The chart that a point lies in.
+    /// Chart that contains a point.
     fn chart_at(&self, outlines: &[Vec<DVec2>], at: Pos2) -> Option<usize> {
         let offset = [at.x - self.rect.left() - 1.0, self.rect.bottom() - 1.0 - at.y].map(f64::from);
         let uv = self.low + DVec2::from_array(offset) / self.points_per_unit;
@@ -130,13 +131,13 @@ impl Place {
     }
 }
 
-/// The verdict on all charts together.
+/// Verdict on the whole atlas.
 fn verdict(ui: &mut egui::Ui, session: &Session, rows: &[Row]) {
     let theme = theme_of(ui);
     let waiting = rows.iter().filter(|row| matches!(row.state, ChartState::Solving)).count();
     match session.atlas() {
         Some(AtlasView { verdict, .. }) if verdict.planar => {
-            let holds = if verdict.planar_in_f32 { "Holds in 32 bits" } else { "Does not hold in 32 bits" };
+            let holds = if verdict.planar_in_f32 { "Planar in 32 bits" } else { "Not planar in 32 bits" };
             ui.colored_label(theme.planar, sentence(&verdict.summary())).on_hover_text(holds);
         }
         Some(AtlasView { verdict, .. }) => {
@@ -155,7 +156,8 @@ fn verdict(ui: &mut egui::Ui, session: &Session, rows: &[Row]) {
     }
 }
 
-/// The picture that charts are packed into, and the gap between them. What is dragged or typed counts at its end.
+/// Fields for the size of the picture that charts are packed into, and the gap between charts. An edit applies when
+/// the drag or the typing ends.
 fn packing(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     let kept = ui.scope_id().with("packing");
     let before = session.packing();
@@ -164,7 +166,8 @@ fn packing(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     let mut has_ended = false;
     ui.horizontal_wrapped(|ui| {
         ui.label("Picture");
-        let tip = if has_picture { "The size of the open picture" } else { "Pixels that the charts are packed into" };
+        let tip =
+            if has_picture { "The size of the open picture" } else { "Size in pixels that the charts are packed into" };
         let mut side = |ui: &mut egui::Ui, pixels: &mut u32, name: &str| {
             let value = DragValue::new(pixels).range(1..=PackingOptions::LONGEST_SIDE);
             let field = ui.add_enabled(!has_picture, value).named(Role::SpinButton, name);
@@ -182,13 +185,13 @@ fn packing(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
         let value = DragValue::new(&mut options.gap).range(0..=PackingOptions::WIDEST_GAP);
         let field = ui.add(value).named(Role::SpinButton, "Gap between charts in pixels");
         has_ended |= field.has_ended();
-        field.on_hover_text("Least distance between charts, in pixels of the picture");
+        field.on_hover_text("Minimum distance between charts, in pixels of the picture");
         ui.label("px");
     });
     if has_ended {
         ui.data_mut(|data| data.remove::<PackingOptions>(kept));
         if options != before {
-            // The size of the open picture is not the person's choice.
+            // The size of the open picture is no setting of the user.
             let picture = if has_picture { session.document().packing.picture } else { options.picture };
             requests.push(Action::SetPacking(PackingOptions { picture, ..options }).into());
         }
@@ -199,7 +202,8 @@ fn packing(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     }
 }
 
-/// How large the chart on the screen is packed, and how many pixels it gets. What is dragged or typed counts at its end.
+/// Field for the relative size of the chart on the screen, and its pixel density. An edit applies when the drag or
+/// the typing ends.
 fn size(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     let Some(chart) = session.chart_on_screen() else { return };
     let kept = ui.scope_id().with(("size", chart));
@@ -207,9 +211,9 @@ fn size(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     let mut size: f64 = ui.data(|data| data.get_temp(kept)).unwrap_or(before);
     let is_held = !session.document().targets.is_empty();
     let tip = if is_held {
-        "Pins hold this chart: it is not packed"
+        "This chart has pins, so it is not packed"
     } else {
-        "How many times as large as the others it is packed"
+        "Size of this chart in the layout, relative to the others"
     };
     ui.horizontal_wrapped(|ui| {
         ui.label(format!("Chart {chart}"));
@@ -232,7 +236,7 @@ fn size(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     });
 }
 
-/// The list, the worst first.
+/// List of the charts, the worst first.
 fn list(ui: &mut egui::Ui, session: &Session, rows: &[Row], requests: &mut Vec<Request>) {
     let keys = [-1, 1].map(|by| keys_of(ui.ctx(), &Request::StepChart(by)));
     remark(ui, format!("Click a chart to work on it ({} and {})", keys[0], keys[1]));

@@ -1,4 +1,4 @@
-//! Two steps that are compared: the numbers of both, and how they differ.
+//! Comparison of two steps: the numbers of both, and their differences.
 
 use eframe::egui;
 
@@ -6,10 +6,10 @@ use crate::session::{StepDistortion, Timeline};
 use crate::ui::{Editor, figures, heads, short};
 use freebound_core::pipeline::Outcome;
 
-/// Letters of a number.
+/// Width of a number, characters.
 const FIGURE: usize = 8;
 
-/// A number that both steps have.
+/// Number of both steps.
 struct Row {
     name: &'static str,
     values: [f64; 2],
@@ -26,7 +26,7 @@ impl Row {
     }
 }
 
-/// Shows the numbers of the compared step, of the one on the screen, and their differences.
+/// Shows the numbers of the compared step and of the step on the screen, and their differences.
 pub(super) fn comparison(ui: &mut egui::Ui, editor: &Editor) {
     let timeline = editor.session.timeline();
     let on_screen = editor.step_on_screen().and_then(|outcome| timeline.index_of(outcome));

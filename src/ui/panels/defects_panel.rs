@@ -1,4 +1,4 @@
-//! What is wrong with the embedding, as a list to jump from; or with the mesh.
+//! Tab of the defects: faults of the mesh, or defects of the embedding with links to them.
 
 use eframe::egui::{self, Color32, RichText, Role};
 
@@ -13,7 +13,7 @@ use freebound_core::verify::Verdict;
 /// Height of a row, points.
 const ROW: f32 = 22.0;
 
-/// Kinds of defects, in the order of the list.
+/// Kinds of defects, in list order.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Flipped,
@@ -45,7 +45,7 @@ impl Kind {
         }
     }
 
-    /// How many there are, in words.
+    /// Number of defects of the kind, with its noun.
     fn counted(self, verdict: &Verdict) -> String {
         match self {
             Self::Flipped => counted(verdict.flipped_faces.len(), "flipped face", "flipped faces"),
@@ -75,21 +75,19 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
     let verdict = &outcome.step.verdict;
     if verdict.planar {
         ui.colored_label(theme.planar, "Planar: proved one-to-one");
-        ui.label(
-            "Every face lies the right way up and the boundary does not meet itself, decided in exact arithmetic.",
-        );
+        ui.label("Exact arithmetic shows that no face is flipped and that the boundary does not meet itself.");
         unmet_list(ui, &outcome.step.unmet(), requests);
         let new = outcome.new_vertex_count();
         if new > 0 {
             let words = counted(new, "new vertex", "new vertices");
-            ui.label(format!("{words} on old edges: the surface is the same, cut into more triangles."));
+            ui.label(format!("{words} on split edges. The surface is unchanged, with more triangles."));
         }
         return;
     }
     counts(ui, editor, verdict, requests);
     let turns = verdict.turning_number.map_or_else(|| "undefined".to_owned(), |turns| turns.to_string());
     ui.label(RichText::new(format!("Turning number of the boundary: {turns}")).color(theme.weak_text))
-        .on_hover_text("1 for a boundary that goes around once; undefined where an edge has no length or turns back");
+        .on_hover_text("1 if the boundary goes around once. Undefined if an edge has no length or turns back");
     ui.horizontal(|ui| {
         for (words, by) in [("Previous", -1), ("Next", 1)] {
             let request = Request::StepDefect(by);
@@ -104,7 +102,7 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
     list(ui, editor, requests);
 }
 
-/// How many defects of each kind there are; a click goes to the next of its kind.
+/// Number of defects of each kind. A click shows the next of its kind.
 fn counts(ui: &mut egui::Ui, editor: &Editor, verdict: &Verdict, requests: &mut Vec<Request>) {
     let defects = editor.defects();
     for kind in Kind::ALL {
@@ -119,13 +117,14 @@ fn counts(ui: &mut egui::Ui, editor: &Editor, verdict: &Verdict, requests: &mut 
                 ui.label(words);
                 return;
             };
-            let button = ui.add(egui::Button::new(&words).frame_when_inactive(false)).on_hover_text("Go to the next");
+            let button =
+                ui.add(egui::Button::new(&words).frame_when_inactive(false)).on_hover_text("Go to the next one");
             button.named(Role::Button, &format!("{words}, go to the next")).asks(Request::GoToDefect(next), requests);
         });
     }
 }
 
-/// The exact pins that are not on their targets, to jump from.
+/// List of the hard pins that miss their targets, each a link to its vertex.
 fn unmet_list(ui: &mut egui::Ui, unmet: &[VertexId], requests: &mut Vec<Request>) {
     if unmet.is_empty() {
         return;

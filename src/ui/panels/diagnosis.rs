@@ -1,5 +1,5 @@
-//! What is wrong with the mesh: every fault with a way to each of its elements, and what mends it; and what was done with a
-//! mesh that flattens all the same.
+//! Diagnosis of the mesh: each fault with links to its elements and its repairs. Also the repairs already done to a
+//! mesh that can be flattened.
 
 use eframe::egui::{self, Button, RichText};
 
@@ -12,17 +12,17 @@ use crate::ui::{Control, Request, counted, sentence, theme_of};
 use freebound_core::mesh::{Fault, Preparation, Repair, TriMesh};
 use freebound_core::pipeline::Surface;
 
-/// The faults of a mesh that cannot be flattened as it is. Returns whether it is one.
+/// Shows the faults of a mesh that cannot be flattened. Returns true if the mesh has such faults.
 pub(super) fn faults(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) -> bool {
     let Some(model) = session.model() else { return false };
     let Surface::Faulty(mesh, diagnosis) = &model.prepared.surface else { return false };
-    ui.label("The mesh cannot be flattened as it is:");
+    ui.label("The mesh has faults that prevent flattening:");
     surface_rows(ui, session, requests);
     egui::ScrollArea::vertical().show(ui, |ui| {
         if let Some(remedy) = &model.prepared.remedy {
             let done: Vec<String> = remedy.done().iter().map(ToString::to_string).collect();
-            let tip = "Make a disk of it. The file's positions and faces stay; undo takes it back";
-            ui.button("Mend all faults").on_hover_text(tip).asks(Action::Mend, requests);
+            let tip = "Repair the mesh so that it is a disk. The file is not changed; undo reverts the repair";
+            ui.button("Repair all faults").on_hover_text(tip).asks(Action::Mend, requests);
             ui.weak(sentence(&done.join(", ")));
         }
         for fault in &diagnosis.faults {
@@ -38,12 +38,12 @@ pub(super) fn faults(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Re
     true
 }
 
-/// One fault: what is wrong, what to do, and buttons that show its elements in turn.
+/// Card of a fault: message, remedy, and buttons that show its elements in turn.
 fn fault_card(ui: &mut egui::Ui, fault: &Fault, mesh: &TriMesh, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     let colour = if fault.is_harmless() { theme.weak_text } else { theme.flipped };
     ui.colored_label(colour, sentence(&fault.message()));
-    let remedy = if fault.is_harmless() { "it does no harm" } else { fault.remedy() };
+    let remedy = if fault.is_harmless() { "this fault is harmless" } else { fault.remedy() };
     ui.label(RichText::new(sentence(remedy)).color(theme.weak_text));
     let count = fault.elements().count();
     if count == 0 {
@@ -68,37 +68,37 @@ fn fault_card(ui: &mut egui::Ui, fault: &Fault, mesh: &TriMesh, requests: &mut V
     });
 }
 
-/// Buttons for the repairs that mend a fault, and are not done yet.
+/// Buttons for the repairs of a fault that are not done yet.
 fn remedies(ui: &mut egui::Ui, fault: &Fault, form: &Preparation, requests: &mut Vec<Request>) {
     let is_open = |repair: &&Repair| !form.allows(**repair);
     ui.horizontal_wrapped(|ui| {
         for &repair in fault.repairs().iter().filter(is_open) {
             let [words, tip] = repair.offer();
-            let button = ui.button(words).on_hover_text(format!("{tip}. The file stays; undo takes it back"));
+            let button = ui.button(words).on_hover_text(format!("{tip}. The file is not changed; undo reverts this"));
             button.asks(Action::AllowRepair(repair), requests);
         }
     });
 }
 
-/// What was done with a mesh already.
+/// Repairs already done to the mesh.
 fn done(ui: &mut egui::Ui, model: &Model) {
     for done in model.prepared.repaired.iter().flat_map(|repaired| repaired.done()) {
         ui.weak(format!("Mesh: {done}"));
     }
 }
 
-/// What was done with a mesh before it was flattened; nothing where it is as it should be.
+/// Notes on the preparation of a mesh that can be flattened; empty if it needed none.
 pub(super) fn notes(ui: &mut egui::Ui, model: &Model) {
     let Some(disk) = model.disk() else { return };
     done(ui, model);
     let mut notes: Vec<String> = Vec::new();
     let unused = disk.vertex_count() - disk.used_vertex_count();
     if unused > 0 {
-        notes.push(counted(unused, "vertex of no face", "vertices of no face"));
+        notes.push(counted(unused, "unreferenced vertex", "unreferenced vertices"));
     }
     if disk.mollification() > 0.0 {
         let longer = disk.mollification() * disk.unit();
-        notes.push(format!("faces without area, measured by lengths longer by {longer:.1e}"));
+        notes.push(format!("zero-area faces, edge lengths increased by {longer:.1e}"));
     }
     for note in notes {
         ui.weak(format!("Mesh: {note}"));

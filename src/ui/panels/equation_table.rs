@@ -1,5 +1,5 @@
-//! The equation of the selected vertex in the step on the screen: a table in the panel, a drawing in the embedding's
-//! pane. The drawing is the paper's picture of eq. (3): a vertex lies at the barycentre of its neighbours, plus an offset
+//! Equation of the selected vertex in the step on the screen: a table in the panel, and a drawing in the embedding
+//! pane. The drawing shows eq. (3) of the paper: a vertex lies at the barycentre of its neighbours, plus an offset
 //! that points outwards on the boundary.
 
 use std::sync::Arc;
@@ -17,21 +17,21 @@ use freebound_core::pipeline::Outcome;
 use freebound_core::problem::{NoEquation, WeightSource};
 use freebound_core::weights::VertexEquation;
 
-/// An equation counts as met below this residual: a solve leaves some rounding.
+/// Residual below which an equation counts as met; a solve leaves rounding errors.
 const MET: f64 = 1e-7;
-/// Width of the spoke to a neighbour with all of the weight, points.
+/// Width of the spoke to a neighbour with share 1, points.
 const SPOKE: f32 = 5.0;
-/// Length of an arrow's head, points.
+/// Length of an arrow head, points.
 const HEAD: f32 = 7.0;
 
-/// The equation of a vertex, put together for the outcome on the screen.
+/// Equation of a vertex, for the outcome on the screen.
 fn equation_of(
     editor: &Editor,
     outcome: &Arc<Outcome>,
     vertex: VertexId,
 ) -> Option<Result<(VertexEquation, WeightSource), NoEquation>> {
     let step = &outcome.step;
-    // Of the sheet that is drawn: the session may have gone on to another chart.
+    // Mesh of the drawn embedding: the session may already have another chart.
     let disk = step.candidate.mesh(editor.mesh_scene()?.model.disk()?);
     let timeline = editor.session.timeline();
     let index_before = timeline.index_of(outcome).and_then(|index| index.checked_sub(1));
@@ -61,13 +61,11 @@ pub(super) fn equation_ui(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, 
     let is_pinned = outcome.step.candidate.solution.pins.contains_key(&vertex);
     let words = match (equation.residual < MET, is_pinned) {
         (true, _) => return,
-        (false, true) => "The vertex is pinned, and so need not meet it.",
+        (false, true) => "The vertex is pinned, so it need not meet its equation.",
         (false, false) if source == WeightSource::Extended => {
-            "Not met: where the first solve fails, others with other weights follow."
+            "Not met: if the first solve fails, further solves use other weights."
         }
-        (false, false) => {
-            "Not met exactly: the step meets all equations together as well as it can, or held more vertices."
-        }
+        (false, false) => "Not met exactly: the step solves all equations by least squares, or pins more vertices.",
     };
     remark(ui, words);
 }
@@ -76,27 +74,27 @@ fn source_words(source: WeightSource, equation: &VertexEquation) -> &'static str
     match (source, equation.offset_vector.is_some()) {
         (WeightSource::Surface, false) => "Weights of the surface; eq. 2: at its neighbours' barycentre.",
         (WeightSource::Surface, true) => "Weights of the surface; eq. 3: at its neighbours' barycentre plus an offset.",
-        (WeightSource::StepBefore, false) => "Mean-value weights of the step before (§4); eq. 2: at the barycentre.",
+        (WeightSource::StepBefore, false) => "Mean-value weights of the previous step (§4); eq. 2: at the barycentre.",
         (WeightSource::StepBefore, true) => {
-            "Mean-value weights of the step before (§4); eq. 3: at the barycentre plus an offset."
+            "Mean-value weights of the previous step (§4); eq. 3: at the barycentre plus an offset."
         }
         (WeightSource::Extended, _) => "Mean-value weights of the mesh with its outside (§5), before the solve.",
     }
 }
 
-/// Neighbour, k, d and share; a click on a neighbour goes on to it.
+/// Table of neighbour, k, d and share. A click on a neighbour selects it.
 fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests: &mut Vec<Request>) {
     let count = editor.mesh_scene().map_or(0, |scene| scene.mesh().vertex_count());
     let theme = theme_of(ui);
     egui::Grid::new("equation").num_columns(4).spacing([8.0, 2.0]).striped(true).show(ui, |ui| {
         let heads = [
-            ("Neighbour", "Counter-clockwise; a click selects it"),
+            ("Neighbour", "In counter-clockwise order. Click to select"),
             ("k", "Weight, not normalised (the paper's λ); unit: length to the power p − 1"),
             ("d", "Offset along the edge: its length to the power p, 1 for mean-value weights"),
-            ("Share", "The weight over the sum of all: w"),
+            ("Share", "The weight divided by the sum of all weights: w"),
         ];
         for (words, tip) in heads {
-            // Numbers are aligned at the right, and so are the words over them.
+            // Numbers and their headings are right-aligned.
             let words = if words == "Neighbour" { words.to_owned() } else { format!("{words:>8}") };
             ui.label(RichText::new(words).monospace().color(theme.weak_text)).on_hover_text(tip);
         }
@@ -106,7 +104,7 @@ fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests
                 let link = ui.link(term.neighbour.to_string()).on_hover_text("Select this neighbour");
                 link.asks(Request::Select(vec![term.neighbour]), requests);
             } else {
-                ui.label("virtual").on_hover_text("A vertex of the frame around the mesh");
+                ui.label("virtual").on_hover_text("Vertex of the frame around the mesh");
             }
             for value in [term.weight, term.offset, term.share] {
                 let colour = if value < 0.0 { theme.flipped } else { theme.text };
@@ -120,14 +118,15 @@ fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests
 
 fn numbers(ui: &mut egui::Ui, equation: &VertexEquation) {
     pairs(ui, "equation in sum", [16.0, 4.0], |ui| {
-        number(ui, "Sum of k", compact(equation.weight_sum)).on_hover_text("What the offset is divided by");
-        let of_terms = "What the equation leaves in this step, relative to the sizes of its terms";
+        number(ui, "Sum of k", compact(equation.weight_sum)).on_hover_text("Divisor of the offset");
+        let of_terms = "Residual of the equation in this step, relative to the sizes of its terms";
         number(ui, "Residual", format!("{:.1e}", equation.residual)).on_hover_text(of_terms);
-        number(ui, "Barycentre", pair(equation.barycentre)).on_hover_text("Of the neighbours, with their shares: u, v");
+        number(ui, "Barycentre", pair(equation.barycentre))
+            .on_hover_text("Barycentre of the neighbours, weighted by their shares: u, v");
         if let Some(offset) = equation.offset_vector {
-            let tip = "From the barycentre to where eq. 3 wants the vertex: u, v";
+            let tip = "From the barycentre to the position that eq. 3 requires: u, v";
             number(ui, "Offset", pair(offset)).on_hover_text(tip);
-            number(ui, "Its length", short(offset.length())).on_hover_text("In units of the plane");
+            number(ui, "Offset length", short(offset.length())).on_hover_text("In units of the plane");
         }
     });
 }
@@ -136,7 +135,7 @@ fn pair(point: DVec2) -> String {
     format!("{}, {}", short(point.x), short(point.y))
 }
 
-/// A number in at most eight characters.
+/// Formats a number in at most eight characters.
 fn compact(value: f64) -> String {
     let size = value.abs();
     if size != 0.0 && !(1e-3..1e4).contains(&size) {
@@ -148,8 +147,8 @@ fn compact(value: f64) -> String {
     }
 }
 
-/// Draws the equation of the first selected vertex while its panel is open: spokes as wide as their shares, negative ones
-/// red, the barycentre as a cross, the offset as an arrow.
+/// Draws the equation of the first selected vertex while the vertex tab is open. Spokes are as wide as their shares,
+/// negative ones red. A cross marks the barycentre, an arrow the offset.
 pub(in crate::ui) fn draw(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &PlaneScene) {
     if !editor.layout.shows(Tab::Vertex) || plane.is_stage() {
         return;
@@ -157,7 +156,7 @@ pub(in crate::ui) fn draw(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &E
     let Some(&vertex) = editor.selection.vertices().first() else { return };
     let Some(Ok((equation, source))) = equation_of(editor, &plane.outcome, vertex) else { return };
     if source == WeightSource::Extended {
-        // Its barycentre belongs to the stage that was solved.
+        // The barycentre belongs to the stage that was solved.
         return;
     }
     let (theme, painter) = (theme_of(ui), ui.painter_at(view.rect));
@@ -181,7 +180,7 @@ pub(in crate::ui) fn draw(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &E
     }
 }
 
-/// An arrow that reads on any ground.
+/// Arrow that is legible on any background.
 fn arrow(painter: &egui::Painter, [from, to]: [Pos2; 2], ink: egui::Color32, ground: egui::Color32) {
     let along = to - from;
     let length = along.length();

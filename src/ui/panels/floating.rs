@@ -1,5 +1,5 @@
-//! What floats over the panes: the list of keys, "go to", the file dialog inside the window, what can be exported; and
-//! pictures of the panes, cut out of the window as it shows.
+//! Windows over the panes: list of keys, "Go to", file dialog, exports, messages and questions. Also pictures of the
+//! panes, cropped from a screenshot.
 
 use std::path::PathBuf;
 use std::sync::mpsc::sync_channel;
@@ -24,6 +24,7 @@ pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Edit
     if editor.layout.exports_shown {
         exports_window(context, editor, requests);
     }
+    super::tour::tour(context, editor);
     super::toast::toast(context, editor, requests);
     super::unsaved::question(context, editor, requests);
     super::large::question(context, editor, requests);
@@ -32,7 +33,7 @@ pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Edit
     }
 }
 
-/// What keys are for, in the list of keys.
+/// Groups of the list of keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Group {
     Look,
@@ -72,7 +73,7 @@ impl Group {
 }
 
 fn keys_window(context: &egui::Context, editor: &mut Editor) {
-    // Plain keys first, then those with modifiers: the table itself has them the other way round.
+    // Keys without modifiers first; the table itself has the opposite order.
     let mut bindings: Vec<&Binding> = BINDINGS.iter().collect();
     bindings.sort_by_key(|binding| (binding.shortcut.modifiers.any(), binding.about));
     let height = (context.content_rect().height() - 120.0).max(160.0);
@@ -103,7 +104,7 @@ fn keys_window(context: &egui::Context, editor: &mut Editor) {
         });
 }
 
-/// Shows "go to". Returns it as it is left, none where it closes.
+/// Shows the window "Go to". Returns its state, or `None` once it closes.
 fn go_to_window(
     context: &egui::Context,
     editor: &Editor,
@@ -124,7 +125,7 @@ fn go_to_window(
         }
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let clicked = ui.add_enabled(found.is_some(), egui::Button::new("Go")).clicked();
-        // Enter takes the keyboard from a field: this one keeps it for a better number.
+        // Enter takes the focus from a field. Restore it, so that the user can correct the number.
         if std::mem::take(&mut go_to.takes_keyboard) || (entered && found.is_none()) {
             field.request_focus();
         }
@@ -136,7 +137,7 @@ fn go_to_window(
     (open && !gone).then_some(go_to)
 }
 
-/// Everything that can be exported: what it is, and what it is good for.
+/// All exports: dialog, menu entry and description.
 pub(super) const EXPORTS: [(FileDialogKind, &str, &str); 9] = {
     use FileDialogKind::{Export, PanePicture};
     use OutputKind::{Glb, Json, Obj, Ply, Png, Svg};
@@ -145,15 +146,15 @@ pub(super) const EXPORTS: [(FileDialogKind, &str, &str); 9] = {
         (
             Export(Obj, None),
             "Mesh with texture coordinates…",
-            "OBJ, with its material and the picture where there is one",
+            "OBJ, with its material, and with the picture if there is one",
         ),
-        (Export(Ply, None), "Mesh as PLY…", "PLY, with all that a PLY file had"),
-        (Export(Glb, None), "Mesh as GLB…", "Binary glTF, with all that a glTF file had, in 32 bits"),
-        (Export(Svg, unit), "Layout in the unit square…", "SVG, as texture coordinates lie"),
-        (Export(Svg, true_scale), "Layout at true scale…", "SVG in the mesh's own units, to cut out"),
-        (PanePicture(Pane::Mesh), "Picture of the mesh's pane…", "PNG, as the pane shows"),
-        (PanePicture(Pane::Plane), "Picture of the embedding's pane…", "PNG, as the pane shows"),
-        (Export(Png, None), "Mesh and layout side by side…", "PNG, drawn anew"),
+        (Export(Ply, None), "Mesh as PLY…", "PLY, with all data of an opened PLY file"),
+        (Export(Glb, None), "Mesh as GLB…", "Binary glTF in 32 bits, with all data of an opened glTF file"),
+        (Export(Svg, unit), "Layout in the unit square…", "SVG, positioned like texture coordinates"),
+        (Export(Svg, true_scale), "Layout at true scale…", "SVG in the units of the mesh, for cutting out"),
+        (PanePicture(Pane::Mesh), "Picture of the mesh's pane…", "PNG, as shown in the pane"),
+        (PanePicture(Pane::Plane), "Picture of the embedding's pane…", "PNG, as shown in the pane"),
+        (Export(Png, None), "Mesh and layout side by side…", "PNG, redrawn for the file"),
         (Export(Json, None), "Report…", "JSON: method, steps, verdict, distortion"),
     ]
 };
@@ -173,7 +174,7 @@ fn exports_window(context: &egui::Context, editor: &mut Editor, requests: &mut V
 }
 
 impl Editor {
-    /// Asks for a picture of the window, to cut a pane out of.
+    /// Requests a screenshot of the window, from which a pane is cropped.
     pub(in crate::ui) fn shoot_pane(&mut self, pane: Pane, path: PathBuf) {
         let part = if pane == Pane::Plane { self.plane.pane.rect() } else { self.mesh.pane.rect() };
         let Some(part) = part else { return };
@@ -187,7 +188,7 @@ impl Editor {
         self.files.shot = Some((path, picture));
     }
 
-    /// Takes in the picture of the window, and has the pane's part of it written. Call once per frame.
+    /// Writes the pane's part of a finished screenshot. Call once per frame.
     pub(in crate::ui) fn poll_shot(&mut self) {
         let Some((path, shot)) = &self.files.shot else { return };
         if let Ok(picture) = shot.try_recv() {
@@ -197,7 +198,7 @@ impl Editor {
     }
 }
 
-/// A part of a picture of the window, in pixels.
+/// Crops a screenshot to a rectangle, in pixels.
 fn cut(image: &egui::ColorImage, part: Rect) -> Picture {
     let whole = Rect::from_min_size(Pos2::ZERO, egui::vec2(image.width() as f32, image.height() as f32));
     let within = |corner: Pos2| corner.round().clamp(whole.min, whole.max);

@@ -1,5 +1,5 @@
-//! Vertices outside the convex hull of their neighbours: no defects of their own, but why an embedding folds (Gortler,
-//! Gotsman, Thurston 2006). What is said of all of them, and of one.
+//! Vertices outside the convex hull of their neighbours. They are not defects, but the cause of folds (Gortler,
+//! Gotsman, Thurston 2006). This file shows the list of these vertices, and the rows for a single vertex.
 
 use eframe::egui::{self, CollapsingHeader, Role};
 
@@ -8,13 +8,13 @@ use freebound_core::mesh::{DiskMesh, VertexId};
 use freebound_core::pipeline::Outcome;
 use freebound_core::verify::{CornerKind, HullStanding, Verdict, holes_turn_once, hull_standing, index_range};
 
-/// What the theorem says, for who wonders what to do with the list.
-const ABOUT: &str = "Where the boundary and the loop around each hole turn once and faces fold, a vertex inside the surface, or one \
-                     where its boundary turns away from it or goes straight on, lies outside the hull of its neighbours. A \
-                     planar embedding has none. Weights that are positive pull vertices inside back, so what is left along an \
-                     iteration says where it hangs.";
+/// Explanation of the list: the theorem and its use.
+const ABOUT: &str = "Interior vertices, and reflex or straight boundary vertices, outside the hull of their \
+                     neighbours. A planar embedding has none. If faces fold although the boundary and each hole loop \
+                     turn once, there is at least one. Positive weights pull interior vertices back. Vertices left \
+                     during an iteration show where it stalls.";
 
-/// Beside the list of defects: how many there are, marks, and a way from one to the next.
+/// Section below the defects: number of vertices, marks, and navigation between them.
 pub(super) fn hull_section(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(scene) = editor.plane.scene().filter(|scene| !is_faultless(&scene.outcome.step.verdict)) else { return };
     let outside = editor.outside_hull();
@@ -53,28 +53,28 @@ pub(super) fn hull_section(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     });
 }
 
-/// Whether the surface is one-to-one, its polygons aside: what fills its holes may fold.
+/// True if the surface is one-to-one, apart from its polygons. Faces that fill holes may fold.
 fn is_faultless(verdict: &Verdict) -> bool {
     verdict.flipped_faces.is_empty() && verdict.crossed_holes.is_empty() && verdict.boundary_crossings.is_empty()
 }
 
-/// Why an embedding is not one-to-one that has none.
+/// Reason why an embedding without vertices outside their hulls is not one-to-one.
 fn why_without(disk: &DiskMesh, outcome: &Outcome) -> &'static str {
     let (embedding, verdict) = (&outcome.step.candidate.solution.embedding, &outcome.step.verdict);
     let holes_turn_once = embedding.len() == disk.vertex_count() && holes_turn_once(disk, embedding, verdict.upright());
     let once = if verdict.mirrored { -1 } else { 1 };
     if verdict.turning_number != Some(once) {
-        "Every vertex lies in the hull of its neighbours: it folds because the boundary does not turn once."
+        "Every vertex lies in the hull of its neighbours. Faces fold because the boundary does not turn once."
     } else if !holes_turn_once {
-        "Every vertex lies in the hull of its neighbours: it folds because the loop around a hole does not turn once."
+        "Every vertex lies in the hull of its neighbours. Faces fold because the loop around a hole does not turn once."
     } else if disk.mesh().holes().is_empty() {
-        "Every vertex lies in the hull of its neighbours: only the boundary meets itself."
+        "Every vertex lies in the hull of its neighbours. Only the boundary meets itself."
     } else {
-        "Every vertex lies in the hull of its neighbours: no face folds, but the boundary or loops around holes meet."
+        "Every vertex lies in the hull of its neighbours. No face folds, but the boundary or loops around holes meet."
     }
 }
 
-/// What the tab of a vertex says of it, as rows of a table.
+/// Rows of the vertex tab: standing to the hull of the neighbours, and index.
 pub(super) fn hull_rows(ui: &mut egui::Ui, disk: &DiskMesh, outcome: &Outcome, vertex: VertexId) {
     let (embedding, upright) = (&outcome.step.candidate.solution.embedding, outcome.step.verdict.upright());
     if embedding.len() != disk.vertex_count() {
@@ -86,38 +86,37 @@ pub(super) fn hull_rows(ui: &mut egui::Ui, disk: &DiskMesh, outcome: &Outcome, v
     }
     if let Some(range) = index_range(disk, embedding, vertex) {
         number(ui, "Index", index_words(range)).on_hover_text(
-            "Of the one-form dz along any direction: 0 where neighbours go once around, 1 where the vertex is an extreme, \
-             negative at folds",
+            "Index of the one-form dz along any direction. 0 if the neighbours go around once, 1 if the vertex is an \
+             extremum, negative at folds",
         );
     }
 }
 
-/// In short, and at length.
+/// Short and long description of a standing.
 fn standing_words(HullStanding { corner, is_inside }: HullStanding) -> [&'static str; 2] {
     match (corner, is_inside) {
-        (CornerKind::Interior, true) => ["inside", "It lies strictly inside the convex hull of its neighbours"],
-        (CornerKind::Interior, false) => {
-            ["outside", "It lies outside the convex hull of its neighbours, or on its rim: faces around it fold"]
-        }
+        (CornerKind::Interior, true) => ["inside", "The vertex lies strictly inside the convex hull of its neighbours"],
+        (CornerKind::Interior, false) => [
+            "outside",
+            "The vertex lies outside the convex hull of its neighbours, or on its rim. Faces around it fold",
+        ],
         (CornerKind::Reflex, true) => [
             "inside, reflex",
-            "The boundary turns away from the surface here, and it lies in the hull of its neighbours",
+            "The boundary turns away from the surface here. The vertex lies in the hull of its neighbours",
         ],
         (CornerKind::Reflex, false) => [
             "outside, reflex",
-            "The boundary turns away from the surface here, and it lies outside the hull of its neighbours: faces around \
-             it fold",
+            "The boundary turns away from the surface here. The vertex lies outside the hull of its neighbours. \
+             Faces around it fold",
         ],
-        (CornerKind::Straight, true) => [
-            "on its rim, straight",
-            "The boundary goes straight on here, and a neighbour lies on the surface's side of it",
-        ],
-        (CornerKind::Straight, false) => [
-            "outside, straight",
-            "The boundary goes straight on here, and no neighbour lies on the surface's side of it",
-        ],
+        (CornerKind::Straight, true) => {
+            ["on its rim, straight", "The boundary is straight here. A neighbour lies on the surface's side of it"]
+        }
+        (CornerKind::Straight, false) => {
+            ["outside, straight", "The boundary is straight here. No neighbour lies on the surface's side of it"]
+        }
         (CornerKind::Convex, _) => {
-            ["free, convex", "The boundary turns toward the surface here: it need not lie in the hull"]
+            ["free, convex", "The boundary turns toward the surface here. The vertex need not lie in the hull"]
         }
     }
 }

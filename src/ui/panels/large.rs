@@ -1,4 +1,4 @@
-//! The question before a file is opened that may take more than half of the machine's memory.
+//! Question before opening a file that may need more than half of the machine's memory.
 
 use eframe::egui;
 
@@ -6,12 +6,12 @@ use crate::session::Action;
 use crate::ui::{Control, Editor, Request};
 
 impl Editor {
-    /// Whether a question waits that stops everything else.
+    /// True if a modal question is open.
     pub(in crate::ui) fn is_asking(&self) -> bool {
         self.files.unsaved.is_asked() || self.session.large_file().is_some()
     }
 
-    /// Leaves the file that is asked about. Returns whether there was one.
+    /// Cancels the opening of the large file. Returns true if the question was open.
     pub(in crate::ui) fn leave_large(&mut self) -> bool {
         let was_asked = self.session.large_file().is_some();
         self.session.handle(Action::LeaveLarge);
@@ -26,7 +26,10 @@ pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests
         ui.set_width(380.0);
         ui.strong(format!("Open the large file {name}?"));
         ui.add_space(4.0);
-        ui.label(format!("By its size, {}. Where memory runs out, the system may end Freebound.", file.shortage));
+        ui.label(format!(
+            "Estimated from its size: {}. If memory runs out, the system may end Freebound.",
+            file.shortage
+        ));
         ui.add_space(12.0);
         ui.horizontal(|ui| {
             for (action, words) in [(Action::OpenLarge, "Open"), (Action::LeaveLarge, "Cancel")] {

@@ -1,4 +1,4 @@
-//! The bar at the top: menus, what is open, and the verdict.
+//! Bar at the top: menus, name of the document, and the verdict.
 
 use eframe::egui::{self, Button, RichText, Role, ThemePreference, WidgetInfo};
 
@@ -14,7 +14,7 @@ use crate::ui::{
 use freebound_core::pipeline::Fit;
 use freebound_io::OutputKind;
 
-/// Blanks before the words of an entry that may have a check mark.
+/// Indentation of a menu entry that may have a check mark.
 const ROOM_FOR_MARK: &str = "      ";
 
 pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
@@ -24,7 +24,10 @@ pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &mut Editor, requests: &
     ui.horizontal_centered(|ui| {
         let menus = egui::MenuBar::new().ui(ui, |ui| {
             let mut menu = Menu { ui, editor, requests };
-            let help_menu = |menu: &mut Menu<'_>| menu.item(true, "All keys", Request::ToggleKeys);
+            let help_menu = |menu: &mut Menu<'_>| {
+                menu.item(true, "All keys", Request::ToggleKeys);
+                menu.item(true, "Guided tour", Request::StartTour);
+            };
             let responses = [
                 menu.part("File", file_menu),
                 menu.part("Edit", edit_menu),
@@ -33,7 +36,7 @@ pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &mut Editor, requests: &
                 menu.part("Help", help_menu),
             ];
             if let Some(response) = asked.and_then(|place| responses.get(place)) {
-                // With the keyboard's focus on its title, the arrows lead into it.
+                // Focus the title of the menu, so that the arrow keys lead into the menu.
                 response.request_focus();
                 response.ctx.request_repaint();
                 egui::Popup::open_id(&response.ctx, egui::Popup::default_response_id(response));
@@ -52,7 +55,7 @@ pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &mut Editor, requests: &
     });
 }
 
-/// Writes the mesh with its texture coordinates, in the kind of file that it came from. A narrow window has the menu alone.
+/// Button that writes the mesh with its texture coordinates, in the format of its file. Hidden in a narrow window.
 fn export_button(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     if editor.layout.is_narrow() {
         return;
@@ -61,12 +64,12 @@ fn export_button(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>
     let kind = path.map_or(OutputKind::Obj, OutputKind::of_mesh);
     let button = ui.add_enabled(editor.session.outcome().is_some(), Button::new("Export"));
     let keys = keys_of(ui.ctx(), &Request::ToggleExports);
-    let tip = format!("Write the mesh with its texture coordinates ({keys} lists all that can be written)");
+    let tip = format!("Write the mesh with its texture coordinates ({keys} lists all exports)");
     let button = button.named(egui::Role::Button, "Export the mesh").on_hover_text(tip);
     button.asks(Request::Ask(FileDialogKind::Export(kind, None)), requests);
 }
 
-/// What is open, in the middle of the bar as far as menus and verdict leave room.
+/// Name of the document, in the middle of the bar if menus and verdict leave room.
 fn title_between(ui: &egui::Ui, bar: egui::Rect, room: std::ops::RangeInclusive<f32>, words: &str) {
     let text = egui::WidgetText::from(RichText::new(words).color(theme_of(ui).weak_text));
     let width = room.end() - room.start() - 24.0;
@@ -83,7 +86,7 @@ fn title_between(ui: &egui::Ui, bar: egui::Rect, room: std::ops::RangeInclusive<
     ui.painter().galley(egui::pos2(middle - half.x, bar.center().y - half.y), galley, theme_of(ui).weak_text);
 }
 
-/// A menu, or the bar of menus, as it is put together.
+/// Builder of a menu, or of the menu bar.
 struct Menu<'a> {
     ui: &'a mut egui::Ui,
     editor: &'a Editor,
@@ -91,23 +94,23 @@ struct Menu<'a> {
 }
 
 impl Menu<'_> {
-    /// A menu in this one.
+    /// Submenu.
     fn part(&mut self, words: &str, add: impl FnOnce(&mut Menu<'_>)) -> egui::Response {
         let (editor, requests) = (self.editor, &mut *self.requests);
         self.ui.menu_button(words, |ui| add(&mut Menu { ui, editor, requests })).response
     }
 
-    /// An entry with its shortcut.
+    /// Entry with its shortcut.
     fn item(&mut self, enabled: bool, words: &str, request: impl Into<Request>) {
         self.entry(enabled, Button::new(words), request);
     }
 
-    /// An entry that is on or off.
+    /// Entry of a choice, highlighted if chosen.
     fn choice(&mut self, on: bool, words: &str, request: Request) {
         self.entry(true, Button::selectable(on, words), request);
     }
 
-    /// An entry that switches something on and off, with a check mark where it is on.
+    /// Entry that toggles an option, with a check mark if on.
     fn switch(&mut self, on: bool, words: &str, request: Request) {
         let button = Button::new(format!("{ROOM_FOR_MARK}{words}")).shortcut_text(keys_of(self.ui.ctx(), &request));
         let response = self.ui.add(button);
@@ -134,7 +137,7 @@ impl Menu<'_> {
         }
     }
 
-    /// An entry without a shortcut that says more in a tip.
+    /// Entry with a tooltip and without a shortcut.
     fn explained(&mut self, enabled: bool, [words, tip]: [&str; 2], request: impl Into<Request>) {
         let button = self.ui.add_enabled(enabled, Button::new(words)).on_hover_text(tip);
         if button.asks(request, self.requests) {
@@ -155,7 +158,7 @@ fn file_menu(menu: &mut Menu<'_>) {
             menu.ui.weak("No files yet");
         } else {
             menu.ui.separator();
-            menu.item(true, "Forget these", Action::ClearRecent);
+            menu.item(true, "Clear this list", Action::ClearRecent);
         }
     });
     menu.part("Examples", |menu| {
@@ -168,7 +171,7 @@ fn file_menu(menu: &mut Menu<'_>) {
     menu.item(has_model, "Save project", Request::SaveProject);
     menu.item(has_model, "Save project as…", Request::Ask(FileDialogKind::SaveProject));
     menu.ui.separator();
-    // Picture and constraints come from files and go to files.
+    // Picture and constraints are read from and written to files.
     let has_disk = editor.has_disk();
     menu.item(has_disk, "Open picture…", Request::Ask(FileDialogKind::OpenPicture));
     menu.item(editor.has_picture(), "Remove picture", Action::RemovePicture);
@@ -186,7 +189,7 @@ fn file_menu(menu: &mut Menu<'_>) {
         menu.choice(editor.files.fit == unit, "Fit into the unit square", Request::SetFit(unit));
         menu.choice(editor.files.fit == true_size, "True scale: the mesh's own area", Request::SetFit(true_size));
         menu.ui.separator();
-        menu.ui.weak("With pins, coordinates stay as they are.");
+        menu.ui.weak("With pins, coordinates are not scaled.");
     });
     menu.ui.separator();
     menu.item(true, "Quit", Request::Quit);
@@ -223,7 +226,7 @@ fn edit_menu(menu: &mut Menu<'_>) {
     menu.ui.separator();
     menu.item(pin_count > 0, "Mirror the targets", Action::MirrorTargets);
     menu.item(pin_count > 1, "Fit the targets to the mesh", Action::FitTargets);
-    menu.item(session.model().is_some(), "Turn the faces around", Action::TurnFaces);
+    menu.item(session.model().is_some(), "Reverse the faces", Action::TurnFaces);
 }
 
 fn view_menu(menu: &mut Menu<'_>) {
@@ -232,7 +235,7 @@ fn view_menu(menu: &mut Menu<'_>) {
         menu.part(&format!("Shading of the {}", pane.title().to_lowercase()), |menu| {
             for shading in ShadingMode::ALL.into_iter().filter(|shading| shading.is_for(pane)) {
                 let button = Button::selectable(editor.shading(pane) == shading, shading.title());
-                // The keys shade the pane under the pointer, which a menu is not in.
+                // Shortcuts shade the pane under the pointer; a menu entry names the pane.
                 let keys = keys_of(menu.ui.ctx(), &Request::SetShading(shading));
                 menu.add(true, button.shortcut_text(keys), Request::SetPaneShading(pane, shading));
             }
@@ -242,7 +245,7 @@ fn view_menu(menu: &mut Menu<'_>) {
     menu.switch(editor.pane_shading.is_sharp(), "Sharp pixels", Request::ToggleSharp);
     menu.switch(editor.plane.hull_shown(), "Hull and pockets", Request::ToggleHull);
     menu.switch(editor.pane_shading.magnifier, "Magnifier", Request::ToggleMagnifier);
-    menu.switch(editor.pane_shading.glides, "Glide from step to step", Request::ToggleEase);
+    menu.switch(editor.pane_shading.glides, "Animate changes of step", Request::ToggleEase);
     menu.switch(editor.layout.panels_shown(), "Panels", Request::TogglePanels);
     menu.switch(editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves);
     menu.ui.separator();
@@ -259,7 +262,7 @@ fn view_menu(menu: &mut Menu<'_>) {
     menu.part("Theme", |menu| {
         use ThemePreference::{Dark, Light, System};
         let now = menu.ui.ctx().options(|options| options.theme_preference);
-        for (theme, words) in [(System, "As the system"), (Light, "Light"), (Dark, "Dark")] {
+        for (theme, words) in [(System, "System"), (Light, "Light"), (Dark, "Dark")] {
             menu.choice(now == theme, words, Request::SetTheme(theme));
         }
     });
@@ -268,7 +271,8 @@ fn view_menu(menu: &mut Menu<'_>) {
 fn solve_menu(menu: &mut Menu<'_>) {
     let (editor, session) = (menu.editor, &menu.editor.session);
     menu.item(editor.has_disk(), "Take one step", Action::Step);
-    let (run, can_run) = if session.is_running() { ("Pause the run", true) } else { ("Run on", session.can_run()) };
+    let (run, can_run) =
+        if session.is_running() { ("Pause the run", true) } else { ("Start the run", session.can_run()) };
     menu.item(can_run, run, Request::RunOrPause);
     menu.item(session.can_repair(), "Repair", Action::Repair);
     menu.item(session.can_relax(), "Relax", Action::Relax);
@@ -278,10 +282,10 @@ fn solve_menu(menu: &mut Menu<'_>) {
     menu.item(has_previous, "Previous step", Request::GoToStep(StepTarget::Previous));
     menu.item(has_next, "Next step", Request::GoToStep(StepTarget::Next));
     menu.item(has_next, "Last step", Request::GoToStep(StepTarget::Last));
-    let play = if editor.timeline.playing_since.is_some() { "Stop the play" } else { "Play all steps" };
+    let play = if editor.timeline.playing_since.is_some() { "Stop playing" } else { "Play all steps" };
     menu.item(has_previous || has_next, play, Request::TogglePlay);
     menu.ui.separator();
-    menu.item(editor.has_disk(), "Solve afresh", Action::Solve);
+    menu.item(editor.has_disk(), "Solve from scratch", Action::Solve);
     menu.item(session.busy().is_some(), "Cancel", Action::Cancel);
     menu.ui.separator();
     menu.item(true, "Method and weights", Request::ShowTab(Tab::Method));
@@ -290,7 +294,7 @@ fn solve_menu(menu: &mut Menu<'_>) {
     menu.item(is_comparing || editor.has_disk(), words, Request::ToggleComparison);
 }
 
-/// What is open: name, vertices, faces.
+/// Name of the document, and numbers of vertices and faces.
 fn title(editor: &Editor) -> String {
     let Some(model) = editor.session.model() else { return "Freebound".to_owned() };
     let counts = [model.vertex_count(), model.mesh().real_face_count()].map(grouped);
@@ -298,7 +302,7 @@ fn title(editor: &Editor) -> String {
     format!("{}{chart} · {} v · {} f", editor.marked_name(), counts[0], counts[1])
 }
 
-/// A count with its thousands set apart by spaces.
+/// Formats a count with its thousands separated by spaces.
 pub(super) fn grouped(count: usize) -> String {
     let digits = count.to_string();
     let groups = digits.as_bytes().rchunks(3).rev();

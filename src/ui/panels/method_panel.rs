@@ -1,4 +1,4 @@
-//! Method and weights, and the numbers of the last solve.
+//! Tab of the method: method, weights, and the numbers of the last solve.
 
 use eframe::egui::{self, WidgetInfo};
 
@@ -13,10 +13,10 @@ use crate::ui::{
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::{Family, Growth, Method, NamedOption, Settings, Treatment};
 
-/// Letters of a number of the distortion.
+/// Width of a number of the distortion, characters.
 const FIGURE: usize = 8;
 
-/// The slider's ends: beyond them weights grow wild.
+/// Range of the slider. Powers outside it give extreme weights.
 const POWERS: std::ops::RangeInclusive<f64> = -1.0..=1.0;
 
 pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
@@ -49,7 +49,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     new_vertices_box(ui, &mut edit.settings);
     ui.add_space(6.0);
     let words = settings.method.labels();
-    remark(ui, format!("{}. {}.", sentence(words.about), words.source));
+    remark(ui, format!("{}. {}.", sentence(words.about), sentence(words.source)));
     more(ui, &mut edit);
     edit.ask_for(settings, requests);
     ui.add_space(8.0);
@@ -63,12 +63,12 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     }
 }
 
-/// What a frame changes of the settings.
+/// Changes of the settings in one frame.
 struct Edit {
     settings: Settings,
-    /// Whether it is part of a gesture.
+    /// True if the change is part of a gesture.
     slides: bool,
-    /// Whether a gesture ends.
+    /// True if a gesture ends.
     ends: bool,
 }
 
@@ -89,11 +89,11 @@ fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
     let busy = editor.session.busy().is_some();
     ui.horizontal(|ui| {
         let solve = ui.add_enabled(disk && !busy, egui::Button::new("Solve"));
-        let tip = "Solve afresh (Ctrl+Enter): go on from nothing that was there. A change of method, weights or pins solves by \
-                   itself.";
+        let tip = "Solve from scratch (Ctrl+Enter), ignoring the current map. Changes of method, weights or pins are \
+                   solved automatically.";
         solve.on_hover_text(tip).asks(Action::Solve, requests);
         let relax = Action::Relax.into();
-        let tip = "Lower the distortion of a planar embedding: one-to-one throughout, constraints exact";
+        let tip = "Lower the distortion of a planar embedding. It stays planar, and hard pins stay on their targets";
         let tip = tip_with_keys(ui, tip, &relax);
         let button = ui.add_enabled(editor.session.can_relax(), egui::Button::new("Relax"));
         button.on_hover_text(&tip).on_disabled_hover_text(tip).asks(relax, requests);
@@ -104,7 +104,8 @@ fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
     if editor.session.is_continued() {
         remark(
             ui,
-            "Goes on from the map before the edit. Solved afresh, as when the project opens, it may be another.",
+            "Continued from the map before the edit. Solving from scratch, as on opening the project, may give \
+             another map.",
         );
     }
 }
@@ -130,7 +131,7 @@ fn family_list(ui: &mut egui::Ui, settings: &mut Settings) {
             let label = ui.selectable_label(is_chosen, family.labels().title).on_hover_text(family.labels().tip());
             if label.clicked() && !is_chosen {
                 settings.family = Some(match family {
-                    // A power begins as the family before it.
+                    // A power starts at the power of the family before.
                     Family::Power(usual) => Family::Power(settings.family().power().unwrap_or(usual)),
                     named => named,
                 });
@@ -143,37 +144,38 @@ fn treatment_list(ui: &mut egui::Ui, chosen: &mut Option<Treatment>) {
     let automatic = "Automatic";
     let shown = chosen.map_or(automatic, |treatment| treatment.labels().title);
     let list = list(ui, "Equations of pinned vertices", 150.0, shown, |ui| {
-        let tip = "Two pins only fix size and place: eliminated. More are constraints: least squares";
+        let tip = "Eliminate for up to two pins, which only fix size and position. Least squares for more pins";
         ui.selectable_value(chosen, None, automatic).on_hover_text(tip);
         for &treatment in Treatment::ALL {
             let label = ui.selectable_value(chosen, Some(treatment), treatment.labels().title);
             label.on_hover_text(sentence(&treatment.labels().tip()));
         }
     });
-    list.on_hover_text("What becomes of the equations of pinned vertices");
+    list.on_hover_text("How to treat the equations of pinned vertices");
 }
 
 fn growth_list(ui: &mut egui::Ui, chosen: &mut Growth) {
-    let list = list(ui, "How the virtual boundary goes on", 130.0, chosen.labels().title, |ui| {
+    let list = list(ui, "Growth of the virtual boundary", 130.0, chosen.labels().title, |ui| {
         for &growth in Growth::ALL {
             let label = ui.selectable_value(chosen, growth, growth.labels().title);
             label.on_hover_text(sentence(&growth.labels().tip()));
         }
     });
-    let tip = "Where the boundary crosses itself, vertices of it are bent to a convex polygon: how many the next time";
+    let tip = "While the boundary crosses itself, more of its vertices are pinned on a convex polygon. Sets how many \
+               in the next solve";
     list.on_hover_text(tip);
 }
 
-/// Whether edges may be split, where the method can.
+/// Checkbox that allows edge splits, for a method that can split edges.
 fn new_vertices_box(ui: &mut egui::Ui, settings: &mut Settings) {
     if settings.method == Method::Auto {
-        let tip = "Where the constraints cannot be met otherwise, split edges: the surface stays the same. Off: the best \
-                   planar embedding, and which constraints it does not meet";
+        let tip = "Split edges if the constraints cannot be met otherwise. The surface does not change. Off: show \
+                   the best planar embedding and its unmet constraints";
         ui.checkbox(&mut settings.new_vertices, "Allow new vertices").on_hover_text(tip);
     }
 }
 
-/// What few people need: how long the iteration may go on, and how the virtual boundary does.
+/// Options for experts: step limit, layers, and growth of the virtual boundary.
 fn more(ui: &mut egui::Ui, edit: &mut Edit) {
     let method = edit.settings.method.clone();
     let is_padded = method.is_padded();
@@ -194,7 +196,7 @@ fn more(ui: &mut egui::Ui, edit: &mut Edit) {
                 ui.end_row();
             }
             if method.bends_boundary() {
-                ui.label("Bent vertices");
+                ui.label("Boundary pins");
                 growth_list(ui, &mut edit.settings.growth);
                 ui.end_row();
             }
@@ -214,7 +216,7 @@ fn step_limit(ui: &mut egui::Ui, edit: &mut Edit) {
     }
     edit.slides |= field.changed();
     edit.ends |= field.has_ended();
-    field.on_hover_text("The most iterations of a run. Drag, or click to type.");
+    field.on_hover_text("Maximum number of iterations of a run. Drag, or click to type.");
 }
 
 fn layers(ui: &mut egui::Ui, edit: &mut Edit) {
@@ -228,7 +230,7 @@ fn layers(ui: &mut egui::Ui, edit: &mut Edit) {
     field.on_hover_text("Layers of virtual triangles around the mesh. Drag, or click to type.");
 }
 
-/// From Wachspress over mean value to conformal.
+/// Slider of the power, from Wachspress over mean value to conformal.
 fn power_slider(ui: &mut egui::Ui, power: f64, edit: &mut Edit) {
     let mut wanted = power;
     ui.horizontal(|ui| {
@@ -236,18 +238,19 @@ fn power_slider(ui: &mut egui::Ui, power: f64, edit: &mut Edit) {
         let slider = egui::Slider::new(&mut wanted, POWERS).clamping(egui::SliderClamping::Never).fixed_decimals(2);
         let slider = slider.custom_parser(|text| text.trim().parse().ok().filter(|power: &f64| power.is_finite()));
         let response = ui.add(slider).on_hover_text(
-            "Power p of the offset d = r^p: −1 Wachspress, 0 mean value, 1 conformal. Type any number; double-click resets.",
+            "Power p of the offset d = r^p: −1 Wachspress, 0 mean value, 1 conformal. Type any number; double-click \
+             resets.",
         );
         response.widget_info(|| WidgetInfo::slider(true, wanted, "Power of the weights"));
         if response.double_clicked() {
             wanted = Family::CONFORMAL_POWER;
         }
         if (response.changed() || response.double_clicked()) && wanted.is_finite() {
-            // Rounded to what the slider shows.
+            // Round to the two digits of the slider.
             edit.settings.family = Some(Family::Power((wanted * 100.0).round() / 100.0));
             edit.slides = true;
         }
-        // Neither a key nor a double click is the beginning of a drag: nothing else ends its gesture.
+        // A key or a double click is a complete gesture, because no drag follows that would end it.
         let is_whole = response.changed() && !response.dragged() && !ui.ctx().text_edit_focused();
         edit.ends |= is_whole || response.double_clicked() || response.has_ended();
     });
@@ -265,7 +268,7 @@ fn distortion(ui: &mut egui::Ui, outcome: &Outcome) {
             figures(ui, name, FIGURE, &[spread.mean, spread.p99, spread.max].map(figure));
             ui.end_row();
         }
-        ui.label("Stretch").on_hover_text("L² stretch (Sander et al. 2001), and at the right L∞ stretch");
+        ui.label("Stretch").on_hover_text("L² stretch (Sander et al. 2001); at the right, L∞ stretch");
         figures(ui, "Stretch", FIGURE, &[figure(summary.stretch_l2), String::new(), figure(summary.stretch_linf)]);
         ui.end_row();
     });

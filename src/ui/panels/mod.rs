@@ -5,20 +5,21 @@
 //! | `mod.rs` | the tool bar at the left, the panel at the right with its tabs |
 //! | `method_panel.rs`, `pins_panel.rs`, `defects_panel.rs`, `vertex_panel.rs` | one tab each |
 //! | `hull_section.rs` | vertices outside the hull of their neighbours: in the tabs of defects and of the vertex |
-//! | `boundary_rows.rs` | the shape that a boundary is laid on: in the tab of the method |
-//! | `charts_panel.rs` | the charts of a mesh that has several, and how they are packed |
-//! | `diagnosis.rs` | what is wrong with the mesh, and what mends it: in the tab of defects |
-//! | `parts.rs` | the parts of a mesh, each to be kept or left out: in the same tab |
-//! | `welding.rs` | vertices joined within a distance: in the same tab |
-//! | `surface.rs` | rows of tabs: the charts and holes of the mesh, and what the map starts from |
-//! | `compare_panel.rs` | numbers of two steps that are compared |
-//! | `picture_panel.rs` | the picture's part of the pins' tab |
-//! | `equation_table.rs` | terms of a vertex's equation, as a table and in the embedding's pane |
+//! | `boundary_rows.rs` | shape of the boundary: in the method tab |
+//! | `charts_panel.rs` | tab of the charts of a mesh with several, and packing options |
+//! | `diagnosis.rs` | faults of the mesh and their repairs: in the defects tab |
+//! | `parts.rs` | parts of a mesh, each kept or left out: in the defects tab |
+//! | `welding.rs` | welding of vertices within a distance: in the defects tab |
+//! | `surface.rs` | rows of tabs: charts and holes of the mesh, and the start of the map |
+//! | `compare_panel.rs` | numbers of two compared steps |
+//! | `picture_panel.rs` | picture section of the pins tab |
+//! | `equation_table.rs` | terms of a vertex's equation, as a table and in the embedding pane |
 //! | `menu.rs`, `verdict_pill.rs` | the menu bar and the verdict in it |
-//! | `advice.rs` | what to do next, beside the verdict |
+//! | `advice.rs` | next action, beside the verdict |
 //! | `status.rs` | the status bar |
-//! | `floating.rs` | list of keys, "go to", the file dialog inside the window, exports, pictures of panes |
-//! | `toast.rs` | good news, for a few seconds |
+//! | `floating.rs` | list of keys, "Go to", file dialog inside the window, exports, pictures of panes |
+//! | `toast.rs` | success message, for a few seconds |
+//! | `tour.rs` | card of the guided tour |
 //! | `large.rs` | the question before a large file is opened |
 //! | `unsaved.rs` | the question about unsaved work, the window's title |
 
@@ -40,6 +41,7 @@ mod pins_panel;
 pub(super) mod status;
 mod surface;
 pub(super) mod toast;
+mod tour;
 pub(super) mod unsaved;
 mod verdict_pill;
 mod vertex_panel;
@@ -49,7 +51,7 @@ use eframe::egui::{self, Role, Sense, Vec2, WidgetInfo};
 
 use super::{Control, Editor, Request, Tab, Tool, icons, theme_of, tip_with_keys};
 
-/// Side of a tool's button, points.
+/// Side of a tool button, points.
 const BUTTON: f32 = 32.0;
 
 pub(super) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
@@ -75,7 +77,7 @@ pub(super) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Re
     });
 }
 
-/// The panels at the right: a row of tabs and what the open one shows.
+/// Panel at the right: a row of tabs and the contents of the open tab.
 pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let charts = editor.session.charts().map(|charts| charts.count());
     if charts.is_none() && editor.layout.tab() == Tab::Charts {
@@ -84,7 +86,7 @@ pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut 
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
         if charts.is_some() {
-            // One tab more has to stand in the same row.
+            // Narrower buttons, so that the fifth tab fits into the row.
             ui.spacing_mut().button_padding.x = 4.0;
         }
         for tab in Tab::ALL.into_iter().filter(|tab| *tab != Tab::Charts || charts.is_some()) {
@@ -108,7 +110,7 @@ pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut 
     }
 }
 
-/// A panel that may be higher than the window.
+/// Scroll area for a tab that may be higher than the window.
 fn scrolled(ui: &mut egui::Ui, add: impl FnOnce(&mut egui::Ui)) {
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, add);
 }

@@ -1,4 +1,4 @@
-//! The parts of a mesh, each to be kept or left out.
+//! List of the parts of a mesh, each kept or left out.
 
 use std::collections::BTreeSet;
 
@@ -10,11 +10,11 @@ use crate::ui::{Control, Request};
 use freebound_core::mesh::{Fault, PartFaces};
 use freebound_core::pipeline::Surface;
 
-/// Height of a row, and of all rows at most, points.
+/// Height of a row, and greatest height of the list, points.
 const ROW: f32 = 22.0;
 const LIST: f32 = 154.0;
 
-/// The parts where there are several, or some are left out.
+/// Shows the parts if there are several, or some are left out.
 pub(super) fn parts(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     let Some(model) = session.model() else { return };
     let left_out = &*session.document().form.left_out;
@@ -35,7 +35,7 @@ pub(super) fn parts(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Req
             }
         });
         if !left_out.is_empty() {
-            let tip = "No part is left out";
+            let tip = "Flatten all parts";
             ui.button("Keep all").on_hover_text(tip).asks(Action::LeaveOut(BTreeSet::new()), requests);
         }
     });
@@ -54,11 +54,11 @@ fn kept_row(
         let words = format!("Face {first_face}, {} f", grouped(count));
         let field = ui.add_enabled(kept.len() > 1, egui::Checkbox::new(&mut true, words));
         let field = field.named(Role::CheckBox, &format!("Keep the part of face {first_face}"));
-        let tip = "Left out, a part stays in the file as it is, and is not flattened";
+        let tip = "Ticked parts are flattened. Other parts stay unchanged in the file";
         let without = left_out.iter().copied().chain([first_face]).collect();
         field.on_hover_text(tip).asks(Action::LeaveOut(without), requests);
         if kept.len() > 1 {
-            let button = ui.small_button("Only this").on_hover_text("All other parts are left out");
+            let button = ui.small_button("Only this").on_hover_text("Leave out all other parts");
             let button = button.named(Role::Button, &format!("Only the part of face {first_face}"));
             button.asks(Action::LeaveOut(left_out.iter().copied().chain(others()).collect()), requests);
         }
@@ -69,10 +69,10 @@ fn left_out_row(ui: &mut egui::Ui, first_face: u32, left_out: &BTreeSet<u32>, re
     let field = ui.add(egui::Checkbox::new(&mut false, format!("Face {first_face}, left out")));
     let field = field.named(Role::CheckBox, &format!("Keep the part of face {first_face}"));
     let with = left_out.iter().copied().filter(|&other| other != first_face).collect();
-    field.on_hover_text("It is flattened with the others again").asks(Action::LeaveOut(with), requests);
+    field.on_hover_text("Flatten this part, too").asks(Action::LeaveOut(with), requests);
 }
 
-/// The parts that are kept, where there are several.
+/// Kept parts, if there are several.
 fn kept_parts(model: &Model) -> Vec<PartFaces> {
     if let Some(charts) = model.prepared.chart.as_ref().map(|of| &of.charts) {
         let part =

@@ -1,4 +1,4 @@
-//! The picture's part of the pins panel: which it is, where v = 0 is on it, and how it shows.
+//! Picture section of the pins tab: file, direction of v, and display options.
 
 use eframe::egui::{self, RichText};
 
@@ -25,14 +25,18 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
         let open = Request::Ask(FileDialogKind::OpenPicture);
         let open = Offer::new("Open picture…", "A PNG or JPEG file to map on the mesh", open);
         open.when(editor.has_disk()).show(ui, requests);
-        let remove = Offer::new("Remove", "Go without a picture", Action::RemovePicture);
+        let remove = Offer::new("Remove", "Remove the picture", Action::RemovePicture);
         remove.when(document.picture.is_some()).show(ui, requests);
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         for (v_axis, words, tip) in [
-            (VAxis::Up, "v up", "v = 0 at the lower edge, as in OBJ files; pins keep their places on the picture"),
-            (VAxis::Down, "v down", "v = 0 at the upper edge, as in pictures; pins keep their places on the picture"),
+            (VAxis::Up, "v up", "v = 0 at the lower edge, as in OBJ files. Pins keep their positions on the picture"),
+            (
+                VAxis::Down,
+                "v down",
+                "v = 0 at the upper edge, as in pictures. Pins keep their positions on the picture",
+            ),
         ] {
             let on = document.v_axis == v_axis;
             if ui.selectable_label(on, words).on_hover_text(tip).clicked() && !on {
@@ -47,7 +51,7 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
     if let Some(plane) = editor.plane.scene().filter(|plane| document.picture.is_some() && plane.faces_outside > 0) {
         let share = 100.0 * plane.faces_outside as f64 / plane.mesh.mesh().real_face_count().max(1) as f64;
         let share = if share < 0.1 { "less than 0.1".to_owned() } else { format!("{share:.1}") };
-        remark(ui, format!("{share} % of the faces reach out of the picture: hatched in the embedding"));
+        remark(ui, format!("{share} % of the faces reach outside the picture (hatched in the embedding)"));
     }
     if document.picture.is_some() {
         let mut percent = editor.appearance().opacity * 100.0;

@@ -1,4 +1,4 @@
-//! The pins as a table: select, move by typing, choose how each is held, free. Below it what concerns all of them.
+//! Tab of the pins: a table to select, move, set the kind and remove. Actions for all pins follow below.
 
 use std::ops::RangeInclusive;
 
@@ -17,23 +17,24 @@ use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
 use freebound_core::problem::{Pin, PinKind};
 
-/// Height that is kept free below the table, points.
+/// Height reserved below the table, points.
 const BELOW: f32 = 250.0;
 
-/// Widths of a coordinate's and a weight's field, points.
+/// Widths of the fields for a coordinate and for a weight, points.
 const FIELDS: [f32; 2] = [50.0, 44.0];
 
-/// Between two columns of the table and two of its rows, points.
+/// Gaps between columns and between rows of the table, points.
 const GAPS: [f32; 2] = [7.0, 4.0];
 
-/// Weights that can be typed or dragged to.
+/// Range of weights.
 const WEIGHTS: RangeInclusive<f64> = 1e-9..=1e9;
 
 pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let document = editor.session.document();
     if !document.settings.method.uses_pins() {
         ui.label(
-            "A convex boundary needs no pins: every boundary vertex has its place. Pins come back with another method.",
+            "A convex boundary takes no pins: the method places every boundary vertex. Your pins return with another \
+             method.",
         );
         return;
     }
@@ -56,20 +57,20 @@ pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &m
 fn no_pins(ui: &mut egui::Ui) {
     let [fix, constrain] = [Tool::Fix, Tool::Constrain].map(|tool| keys_of(ui.ctx(), &Request::SetTool(tool)));
     ui.label(format!(
-        "No pins of yours. The hollow squares are gauge pins: they only fix position, turn and size.\n\nConstrain \
-         ({constrain}): click a vertex and its place on the picture. Fix ({fix}): pin vertices where they lie, then drag \
-         them. Dragging a hollow square makes it yours."
+        "No pins yet. The hollow squares are gauge pins: they only fix position, rotation and size.\n\nConstrain \
+         ({constrain}): click a vertex, then its position on the picture. Fix ({fix}): pin vertices at their current \
+         positions, then drag them. Drag a gauge pin to make it your own."
     ));
 }
 
-/// A pin in the table.
+/// Row of a pin in the table.
 #[derive(Clone, Copy)]
 struct Row {
     vertex: VertexId,
     target: Target,
-    /// How the solver holds it: a treatment may weigh what was asked for exactly.
+    /// Kind that the solver uses: a treatment may make a hard pin soft.
     held: PinKind,
-    /// How far a coordinate goes with a point of a drag.
+    /// Change of a coordinate per point of a drag.
     speed: f64,
 }
 
@@ -105,7 +106,7 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
     let selected = editor.selection.vertices().contains(&vertex);
     let label = ui.selectable_label(selected, vertex.to_string());
     label.context_menu(|ui| vertex_menu(ui, editor, vertex, requests));
-    let tip = "Select; Shift selects all up to it, Ctrl adds it, a double click shows it";
+    let tip = "Click: select. Shift: select a range. Ctrl: add. Double click: show";
     let side = editor.mesh_scene().and_then(|scene| scene.side_of(vertex));
     let label = label.on_hover_text(side.map_or_else(|| tip.to_owned(), |side| format!("{side}\n{tip}")));
     if label.double_clicked() {
@@ -119,7 +120,7 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
             weight_field(ui, &format!("Weight of pin {vertex}"), weight, &[vertex], requests);
         }
         (PinKind::Fixed | PinKind::Hard, PinKind::Soft(weight)) => {
-            ui.weak(five_digits(weight)).on_hover_text("This treatment of pinned vertices weighs exact pins as well");
+            ui.weak(five_digits(weight)).on_hover_text("This treatment of pinned vertices makes hard pins soft");
         }
         (PinKind::Fixed | PinKind::Hard, PinKind::Fixed | PinKind::Hard) => exact(ui, editor, row, requests),
     }
@@ -127,7 +128,7 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
     free.asks(Action::Unpin(vec![vertex]), requests);
 }
 
-/// What there is to say about a pin that is to be met exactly, and other ways to hold it.
+/// Cell of a hard pin: its state, and a menu of other kinds.
 fn exact(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>) {
     let (theme, vertex) = (theme_of(ui), row.vertex);
     let (words, colour, tip) = if editor.unmet_shown().contains(&vertex) {
@@ -136,38 +137,37 @@ fn exact(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Reques
     } else if let Some(conflict) = editor.session.conflict_of(vertex) {
         ("conflict", theme.stale, sentence(&conflict.words()))
     } else {
-        ("exact", theme.weak_text, "Met exactly. Click: other ways to hold it".to_owned())
+        ("hard", theme.weak_text, "Hard pin: its target is met exactly. Click: choose another kind".to_owned())
     };
     let button = egui::Button::new(RichText::new(words).color(colour)).frame(false);
     let (menu, _) = MenuButton::from_button(button).ui(ui, |ui| hold_entries(ui, vertex, row.target.kind, requests));
-    menu.on_hover_text(tip).named(Role::Button, &format!("Hold of pin {vertex}: {words}"));
+    menu.on_hover_text(tip).named(Role::Button, &format!("State of pin {vertex}: {words}"));
 }
 
-/// The pin's mark; a click makes a hard one weighted and a weighted one hard.
+/// Mark of the pin. A click makes a hard pin soft and a soft pin hard.
 fn hold_button(ui: &mut egui::Ui, Row { vertex, target, held, .. }: Row, requests: &mut Vec<Request>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(14.0, 20.0), Sense::click());
     let emphasis = if response.hovered() || response.has_focus() { Emphasis::Strong } else { Emphasis::Plain };
     PinMark::User(held).mark(ui.painter(), rect.center(), theme_of(ui), emphasis);
     let words = match target.kind {
-        PinKind::Soft(_) => "weighted",
+        PinKind::Soft(_) => "soft",
         PinKind::Fixed => "fixed",
         PinKind::Hard => "hard",
     };
     let (note, tip) = if target.kind != held {
-        let tip =
-            "To be met exactly, but this treatment of pinned vertices weighs it. Click: give it a weight of its own";
-        (", weighed by the treatment", tip)
+        let tip = "Hard pin, made soft by this treatment of pinned vertices. Click: give it a weight of its own";
+        (", made soft by the treatment", tip)
     } else if target.kind.is_hard() {
-        ("", "Met exactly. Click: let it pull with a weight instead")
+        ("", "Target met exactly. Click: make the pin soft")
     } else {
-        ("", "Pulls with a weight. Click: meet it exactly")
+        ("", "Soft pin, pulls with a weight. Click: make it hard")
     };
     let kind = if target.kind.is_hard() { PinKind::Soft(Pin::DEFAULT_WEIGHT) } else { PinKind::Hard };
-    let response = response.named(Role::Button, &format!("Hold of pin {vertex}: {words}{note}")).on_hover_text(tip);
+    let response = response.named(Role::Button, &format!("Kind of pin {vertex}: {words}{note}")).on_hover_text(tip);
     response.asks(Action::SetPinKind { vertices: vec![vertex], kind }, requests);
 }
 
-/// What a click on a row selects.
+/// Selection after a click on a row.
 fn chosen(ui: &egui::Ui, editor: &Editor, vertex: VertexId) -> Request {
     let modifiers = ui.input(|input| input.modifiers);
     let from = editor.pins_selected().next().filter(|_| modifiers.shift);
@@ -201,17 +201,18 @@ fn coordinates(ui: &mut egui::Ui, Row { vertex, target, speed, .. }: Row, reques
     }
 }
 
-/// A field for the weight of some pins: what is typed is one edit, made when the field is left; a drag is one gesture.
+/// Field for the weight of pins. A typed weight is one edit, applied when the field loses focus; a drag is one
+/// gesture.
 fn weight_field(ui: &mut egui::Ui, name: &str, weight: f64, vertices: &[VertexId], requests: &mut Vec<Request>) {
     let mut typed = weight;
     let shown = five_digits(weight);
     let taken = Typed::new("a weight", WEIGHTS);
     let drag = DragValue::new(&mut typed).range(WEIGHTS).clamp_existing_to_range(false).speed(weight * 0.02);
-    // A weight that is only looked at keeps all of its digits.
+    // A weight that is shown but not edited keeps all its digits.
     let drag = drag.update_while_editing(false).custom_formatter(|weight, _| five_digits(weight));
     let drag =
         drag.custom_parser(|text| if text.trim() == shown { Some(taken.again(weight)) } else { taken.number(text) });
-    let field = ui.add_sized([FIELDS[1], 20.0], drag).on_hover_text("How strongly it pulls: drag, or type");
+    let field = ui.add_sized([FIELDS[1], 20.0], drag).on_hover_text("Strength of the pull. Drag, or click to type");
     let field = taken.name(ui, field, name);
     let (vertices, kind) = (vertices.to_vec(), PinKind::Soft(typed));
     if field.drag_stopped() {
@@ -224,7 +225,7 @@ fn weight_field(ui: &mut egui::Ui, name: &str, weight: f64, vertices: &[VertexId
     }
 }
 
-/// What is done to several selected pins at once.
+/// Actions for several selected pins.
 fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let selected: Vec<VertexId> = editor.pins_selected().collect();
     if selected.len() < 2 {
@@ -234,7 +235,12 @@ fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.label(format!("{} selected:", selected.len()));
-        Offer::new("Hard", "Meet them exactly", Request::SetPinKind(PinKind::Hard)).show(ui, requests);
+        Offer::new(
+            "Hard",
+            "Make the selected pins hard: their targets are met exactly",
+            Request::SetPinKind(PinKind::Hard),
+        )
+        .show(ui, requests);
         let pins = &editor.session.document().targets;
         let weights = selected.iter().filter_map(|vertex| match pins.get(vertex)?.kind {
             PinKind::Soft(weight) => Some(weight),
@@ -242,7 +248,8 @@ fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         });
         let weight = weights.max_by(f64::total_cmp);
         let kind = PinKind::Soft(weight.unwrap_or(Pin::DEFAULT_WEIGHT));
-        Offer::new("Weighted", "Let them pull with a weight", Request::SetPinKind(kind)).show(ui, requests);
+        Offer::new("Soft", "Make the selected pins soft: they pull with a weight", Request::SetPinKind(kind))
+            .show(ui, requests);
         if let Some(weight) = weight {
             weight_field(ui, "Weight of the selected pins", weight, &selected, requests);
         }
@@ -250,13 +257,13 @@ fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     });
 }
 
-/// Constraints that contradict each other on the mesh as it is, before anything is solved.
+/// Constraints that conflict on the given mesh, known before any solve.
 fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let found = editor.session.conflicts();
     let Some(first) = found.first() else { return };
     ui.add_space(4.0);
     let words = match found.iter().filter(|conflict| conflict.needs_new_vertices()).count() {
-        0 => "Targets too near to each other".to_owned(),
+        0 => "Targets too close together".to_owned(),
         count => counted(count, "conflict needs new vertices", "conflicts need new vertices"),
     };
     let words = format!("{words}: {}", named(&first.vertices()));
@@ -264,7 +271,7 @@ fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     link.on_hover_text(sentence(&first.words())).asks(Request::GoTo(first.vertices()), requests);
 }
 
-/// How far the worst of the exact and of the weighted pins is from its target, in texture coordinates.
+/// Largest distance of a hard pin and of a soft pin from its target, in texture coordinates.
 fn errors(ui: &mut egui::Ui, editor: &Editor) {
     let Some(outcome) =
         editor.step_on_screen().filter(|_| editor.session.is_current() && !editor.plane.is_moving(&editor.session))
@@ -276,7 +283,7 @@ fn errors(ui: &mut egui::Ui, editor: &Editor) {
             outcome.pin_errors().filter(|(_, target, _)| outcome.problem.settings.is_hard(target.kind) == is_hard);
         errors.map(|(vertex, _, error)| (error, vertex)).max_by(|a, b| a.0.total_cmp(&b.0))
     };
-    let words: Vec<String> = [(worst(true), "exact"), (worst(false), "weighted")]
+    let words: Vec<String> = [(worst(true), "hard"), (worst(false), "soft")]
         .into_iter()
         .filter_map(|(worst, kind)| {
             let (error, vertex) = worst?;
@@ -287,32 +294,28 @@ fn errors(ui: &mut egui::Ui, editor: &Editor) {
         remark(ui, format!("Largest error: {}", words.join(", ")));
     }
     if editor.session.document().targets.len() == 1 {
-        remark(ui, "One pin only moves the embedding. A second one turns and scales it, more bend it.");
+        remark(ui, "One pin only moves the embedding. Two also rotate and scale it. More deform it.");
     }
 }
 
-/// What concerns all pins.
+/// Actions for all pins.
 fn all_of_them(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let count = editor.session.document().targets.len();
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let offers = [
             Offer::new("Mirror", "Mirror all targets left to right", Action::MirrorTargets).when(count > 0),
-            Offer::new("Fit", "Turn, scale and move all targets together, to fit the mesh", Action::FitTargets)
+            Offer::new("Fit", "Rotate, scale and move all targets together to fit the mesh", Action::FitTargets)
                 .when(count > 1),
-            Offer::new(
-                "Import…",
-                "Take over the constraints of a file",
-                Request::Ask(FileDialogKind::ImportConstraints),
-            )
-            .when(editor.has_disk()),
+            Offer::new("Import…", "Read constraints from a file", Request::Ask(FileDialogKind::ImportConstraints))
+                .when(editor.has_disk()),
             Offer::new(
                 "Export…",
                 "Write the pins as a constraint file",
                 Request::Ask(FileDialogKind::ExportConstraints),
             )
             .when(count > 0),
-            Offer::new("Free all", "Free all pins; undo brings them back", Action::UnpinAll).when(count > 0),
+            Offer::new("Free all", "Free all pins; undo restores them", Action::UnpinAll).when(count > 0),
         ];
         for offer in offers {
             offer.show(ui, requests);
@@ -320,7 +323,7 @@ fn all_of_them(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) 
     });
 }
 
-/// A field for a coordinate. It shows a few digits; a value that is not typed over keeps all of its own.
+/// Field for a coordinate. It shows few digits; an unedited value keeps all its digits.
 fn coordinate<'a>(value: &'a mut f64, speed: f64, typed: &'a Typed) -> DragValue<'a> {
     let exact = *value;
     let shown = digits(exact);
@@ -330,7 +333,7 @@ fn coordinate<'a>(value: &'a mut f64, speed: f64, typed: &'a Typed) -> DragValue
     })
 }
 
-/// Four digits behind the point, of which a pixel of a large picture is one; fewer where more stand before it.
+/// Four decimals, which resolve a pixel of a large picture; fewer for large values.
 fn digits(value: f64) -> String {
     match value.abs() {
         0.0 => "0.0000".to_owned(),

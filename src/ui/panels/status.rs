@@ -1,4 +1,4 @@
-//! The bar at the bottom: what the tool does, and what is under the pointer.
+//! Bar at the bottom: hint for the active tool, and data of the element under the pointer.
 
 use std::borrow::Cow;
 
@@ -28,26 +28,26 @@ fn hint(editor: &Editor, has_shift: bool) -> Cow<'static, str> {
     let is_over_new = editor.pointer.vertex().is_some_and(|vertex| editor.is_new_vertex(vertex));
     let is_held = matches!(editor.session.status(), Status::Held);
     let words = match editor.tools.tool() {
-        _ if editor.tools.dragged().is_some() => "Move the pin; the embedding follows. Esc gives up.",
+        _ if editor.tools.dragged().is_some() => "Move the pin; the embedding follows. Esc cancels.",
         _ if editor.session.model().is_none() => "Open a mesh: drop its file on the window, or press Ctrl+O.",
         _ if editor.shows_comparison_alone() && editor.plane.comparison.morph.is_shown() => {
-            "Drag the slider, or press Play: every frame is proved planar. A drag pans, the wheel zooms. Esc leads back."
+            "Drag the slider, or press Play: every frame is proved planar. Drag pans, the wheel zooms. Esc goes back."
         }
         _ if editor.shows_comparison_alone() => {
-            "Click a method to take it for the document. A drag pans all of them, the wheel zooms. Esc leads back."
+            "Click a method to use it for the document. Drag pans all of them, the wheel zooms. Esc goes back."
         }
         Tool::Constrain if !is_over_new => return editor.constrain_words().into(),
         Tool::Seam => return editor.seam_words(has_shift).into(),
         _ if is_held && !editor.timeline.curves_shown() => PRESS_SPACE,
         Tool::Fix | Tool::Constrain if is_over_new => {
-            "A new vertex belongs to this embedding alone, and cannot be pinned."
+            "A new vertex exists in this embedding only. It cannot be pinned."
         }
         Tool::Select if editor.pins_selected().next().is_some() => {
-            "Drag a selected pin to move them all, arrows nudge by a pixel (Shift: ten), Delete frees them."
+            "Drag a selected pin to move them all. Arrows move by a pixel (Shift: ten). Delete frees them."
         }
-        Tool::Fix => "Click a vertex to fix it where it lies. Drag a square to move it. Esc ends.",
+        Tool::Fix => "Click a vertex to pin it. Drag a square to move it. Esc ends.",
         Tool::Select | Tool::Constrain => {
-            "Click a vertex to select it, Shift adds, Ctrl and a drag draw a box. Drag a square to move a pin."
+            "Click a vertex to select it. Shift adds; Ctrl + drag selects a box. Drag a square to move a pin."
         }
     };
     words.into()

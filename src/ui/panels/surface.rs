@@ -1,4 +1,4 @@
-//! What is made of the mesh before it is flattened, as far as a person chooses: its charts, its holes, and what the map starts from.
+//! Preparation options of the mesh: its charts, its holes, and the start of the map.
 
 use eframe::egui::{self, Response};
 
@@ -11,7 +11,7 @@ use freebound_core::problem::{NamedOption, Settings, Start};
 /// Width of the lists, points.
 const WIDTH: f32 = 150.0;
 
-/// Row of a grid: what the first step is. Grey where the file has no layout.
+/// Grid row for the first step. Disabled if the file has no layout.
 pub(super) fn start_row(ui: &mut egui::Ui, editor: &Editor, settings: &mut Settings, requests: &mut Vec<Request>) {
     if !settings.method.continues_from_layout() {
         return;
@@ -31,14 +31,14 @@ pub(super) fn start_row(ui: &mut egui::Ui, editor: &Editor, settings: &mut Setti
             }
         })
     };
-    let tip = "What the first step is. The file's layout is proved as it is; Relax lowers its distortion from there";
+    let tip = "First step of the run. The file's layout is verified unchanged; Relax then lowers its distortion";
     greyed_unless(ui, has_layout, row)
         .on_hover_text(tip)
         .on_disabled_hover_text("The file has no texture coordinates to start from");
     ui.end_row();
 }
 
-/// The rows of charts and holes by themselves.
+/// Rows of charts and holes in a grid of their own.
 pub(super) fn surface_rows(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     pairs(ui, "surface", [12.0, 4.0], |ui| {
         charts_row(ui, session, requests);
@@ -50,15 +50,15 @@ fn greyed_unless(ui: &mut egui::Ui, enabled: bool, row: impl FnOnce(&mut egui::U
     ui.add_enabled_ui(enabled, row).inner
 }
 
-/// Below the rows: that the file's layout is wanted, and the map on the screen does not start from it.
+/// Remark below the rows if the file's layout was requested but the map on the screen does not start from it.
 pub(super) fn start_remark(ui: &mut egui::Ui, editor: &Editor) {
     let Some(outcome) = editor.step_on_screen() else { return };
     if outcome.problem.settings.start == Start::File && !outcome.step.lies_as_given {
-        remark(ui, "Solved afresh: the file's layout is cut where the mesh is not.");
+        remark(ui, "Solved from scratch: the file's layout has cuts that the mesh does not have.");
     }
 }
 
-/// Row of a grid: what the charts of the mesh are, where the file has texture coordinates.
+/// Grid row for the definition of charts, if the file has texture coordinates.
 pub(super) fn charts_row(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     if session.model().is_none_or(|model| model.source.texture.is_none()) {
         return;
@@ -66,7 +66,7 @@ pub(super) fn charts_row(ui: &mut egui::Ui, session: &Session, requests: &mut Ve
     ui.label("Charts");
     let before = session.seams().of_texture;
     let words = |of_texture: bool| if of_texture { "File's texture seams" } else { "Parts" };
-    let list = list(ui, "What the charts are", WIDTH, words(before), |ui| {
+    let list = list(ui, "Definition of charts", WIDTH, words(before), |ui| {
         for of_texture in [false, true] {
             let label = ui.selectable_label(before == of_texture, words(of_texture));
             if label.clicked() && before != of_texture {
@@ -76,13 +76,11 @@ pub(super) fn charts_row(ui: &mut egui::Ui, session: &Session, requests: &mut Ve
             }
         }
     });
-    list.on_hover_text(
-        "The mesh's parts, or the charts of the file's texture coordinates: it is cut along their seams",
-    );
+    list.on_hover_text("Parts of the mesh, or charts of the file's texture coordinates, with cuts along their seams");
     ui.end_row();
 }
 
-/// Row of a grid: what becomes of holes, where the mesh has some.
+/// Grid row for the treatment of holes, if the mesh has holes.
 pub(super) fn holes_row(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     let Some(model) = session.model() else { return };
     let before = session.document().form.holes;
@@ -90,7 +88,7 @@ pub(super) fn holes_row(ui: &mut egui::Ui, session: &Session, requests: &mut Vec
         return;
     }
     ui.label("Holes");
-    let list = list(ui, "What becomes of holes", WIDTH, words_of(before), |ui| {
+    let list = list(ui, "Treatment of holes", WIDTH, words_of(before), |ui| {
         for holes in [HoleTreatment::Fill, HoleTreatment::Cut] {
             let label = ui.selectable_label(before == holes, words_of(holes));
             if label.clicked() && before != holes {
@@ -98,7 +96,9 @@ pub(super) fn holes_row(ui: &mut egui::Ui, session: &Session, requests: &mut Vec
             }
         }
     });
-    list.on_hover_text("Filled while the mesh is flattened, with faces that no file gets; or cut open to the outside");
+    list.on_hover_text(
+        "Fill holes while flattening, with faces that are never written. Or cut the mesh from holes to the outside",
+    );
     ui.end_row();
 }
 

@@ -1,4 +1,4 @@
-//! Good news: the files that were written, over the lower edge of the panes, for a few seconds.
+//! Success message about written files, over the lower edge of the panes for a few seconds.
 
 use std::time::Duration;
 
@@ -10,17 +10,17 @@ use crate::ui::state::Toast;
 use crate::ui::theme::BOTTOM_HEIGHT;
 use crate::ui::{Control, Editor, Request, sentence, theme_of};
 
-/// How long it shows, seconds.
+/// Duration of the message, seconds.
 const SECONDS: f64 = 4.0;
 
-/// Between it and what lies below it, points.
+/// Gap between the message and the strip below it, points.
 const GAP: f32 = 12.0;
 
-/// The most of it in a row, points.
+/// Greatest width of the message, points.
 const WIDTH: f32 = 440.0;
 
-/// Shows the newest good news, and takes it away when its time is over. It stays under the pointer, and while one of its
-/// buttons has the keyboard.
+/// Shows the newest success message, and dismisses it when its time is over. It stays while it is under the pointer
+/// or one of its buttons has the focus.
 pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
     let newest = editor.session.messages().iter().rfind(|message| message.severity == Severity::Note).cloned();
     let Some(message) = newest else {
@@ -30,7 +30,7 @@ pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, request
     let now = editor.gpu.now();
     let begun = Toast { id: message.id, since: now };
     if editor.files.dialogs.is_open() {
-        // It would lie over the dialog; its time begins when that is closed.
+        // The message would cover the dialog. Its time starts when the dialog closes.
         editor.layout.toast = Some(begun);
         return;
     }
@@ -50,7 +50,7 @@ pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, request
     }
 }
 
-/// What was written, and what can be done about it. Returns whether one of the buttons has the keyboard.
+/// Text and buttons of the message. Returns true if a button has the focus.
 fn contents(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) -> bool {
     let theme = theme_of(ui);
     let frame = egui::Frame::popup(ui.style()).fill(theme.panel.lerp_to_gamma(theme.planar, 0.14)).inner_margin(10);

@@ -1,12 +1,11 @@
-//! The one question that stops everything: what to do with work that is not saved when something else is to open, or
-//! the window to close.
+//! Modal question about unsaved work before another document opens or the window closes.
 
 use eframe::egui;
 
 use crate::ui::state::{PendingClose, UnsavedAnswer};
 use crate::ui::{Control, Editor, Request};
 
-/// Keeps a window open that somebody closes while work is not saved.
+/// Keeps the window open if the user closes it with unsaved work, and asks.
 pub(in crate::ui) fn hold_window(context: &egui::Context, editor: &mut Editor) {
     let is_closing = context.input(|input| input.viewport().close_requested());
     if is_closing && !editor.gpu.is_quitting() && editor.session.has_unsaved_work() {
@@ -39,7 +38,7 @@ pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests
     });
 }
 
-/// Gives the window its title: the document's name, with a mark where work is not saved.
+/// Sets the title of the window: the document's name, with a mark if there is unsaved work.
 pub(in crate::ui) fn title_of_window(editor: &mut Editor) {
     let title = match editor.session.model() {
         Some(_) => format!("{} – Freebound", editor.marked_name()),

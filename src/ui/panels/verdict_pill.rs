@@ -1,4 +1,4 @@
-//! The verdict at one glance, in the bar at the top; beside it, or in its place, what goes on in the background.
+//! Verdict in the bar at the top; beside it, or in its place, the work in the background.
 
 use eframe::egui::{self, RichText, Role};
 
@@ -26,7 +26,7 @@ impl Pill {
     }
 }
 
-/// The truth at one glance: proved, wrong and how, being solved, or not up to date.
+/// Shows the verdict at a glance: proved, defective, being solved, or not up to date.
 pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let (pill, busy) = shown(editor);
     if let Some(pill) = &pill
@@ -48,8 +48,8 @@ pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: 
     ui.add(egui::Spinner::new().size(12.0));
 }
 
-/// The pill, and the work that goes on. Work takes the pill's place, but never where it says that the screen shows a
-/// preview: that stays true, whatever is being solved, until a first step is there.
+/// Pill, and work in the background. Work replaces the pill, unless the pill labels a drag preview. That label stays
+/// true during the solve until a first step exists.
 fn shown(editor: &Editor) -> (Option<Pill>, Option<Busy>) {
     let busy = editor.busy_for_long();
     let is_replaced = busy.is_some() && editor.session.preview().is_none();
@@ -71,18 +71,18 @@ fn pill(editor: &Editor) -> Option<Pill> {
     let model = session.model()?;
     if let Surface::Faulty(_, diagnosis) = &model.prepared.surface {
         let words = counted(diagnosis.faults.len(), "fault", "faults");
-        return Some(Pill::new(Sign::Bad, words, "The bars over the mesh and the tab Defects say what is wrong"));
+        return Some(Pill::new(Sign::Bad, words, "The bars above the mesh and the Defects tab list the faults"));
     }
     Some(match session.status() {
         Status::Preview(Some(Preview { live: Some(live), .. })) => of_live(*live),
         Status::Preview(preview) => {
-            let tip = "The first, linear step. What repairs it follows when the pointer rests or lets go";
+            let tip = "Preview of the first, linear step. Repair starts when you pause or release the pin";
             Pill::new(Sign::Warning, preview_words(preview), tip)
         }
-        Status::Solving => Pill::new(Sign::Working, "solving…", "The solve is on its way"),
-        Status::Following => Pill::new(Sign::Working, "following…", "The solve is on its way"),
+        Status::Solving => Pill::new(Sign::Working, "solving…", "The solve is running"),
+        Status::Following => Pill::new(Sign::Working, "following…", "The solve is running"),
         Status::Stale => {
-            let tip = "The embedding does not belong to these settings and pins: press Solve";
+            let tip = "The embedding does not match the settings and pins. Press Solve";
             Pill::new(Sign::Warning, "not solved", tip)
         }
         Status::Held | Status::Current if editor.plane.is_moving(session) => moving(editor)?,
@@ -90,25 +90,25 @@ fn pill(editor: &Editor) -> Option<Pill> {
     })
 }
 
-/// From which step to which the sheet goes; the first of them only where it is one of the same run.
+/// Pill of a transition: its first and last step. Omits the first if it is not a step of the current run.
 fn moving(editor: &Editor) -> Option<Pill> {
     let timeline = editor.session.timeline();
     let to = timeline.shown()?;
-    let tip = "The sheet is on its way. The verdict on the step shows when it is there";
+    let tip = "The embedding is moving. The verdict on the step appears at the end of the movement";
     let Some(left) = editor.step_on_screen() else { return Some(Pill::new(Sign::Working, "drawing…", tip)) };
     let from = timeline.index_of(left).filter(|_| !editor.plane.shows_preview());
     let words = from.map_or_else(|| format!("moving to step {to}"), |from| format!("moving {from} to {to}"));
     Some(Pill::new(Sign::Moving, words, tip))
 }
 
-/// The verdict on a step that is up to date, and the stage that a planar one comes from.
+/// Verdict on an up-to-date step. A planar step also names its stage.
 fn of_step(step: &Step) -> Pill {
     let (unmet, stage) = (step.unmet().len(), step.candidate.stage.short_words());
     if !step.verdict.planar {
         return Pill::new(Sign::Bad, short_verdict(&step.verdict), "Not planar. Click for the next defect (D)");
     }
     if unmet > 0 {
-        let tip = "No two faces overlap, but exact pins are not on their targets. Click shows them";
+        let tip = "No two faces overlap, but some hard pins are not on their targets. Click to show them";
         return Pill::new(Sign::Unmet, format!("Planar, constraints not met: {unmet} · {stage}"), tip);
     }
     let new = step.candidate.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices_of_surface().count());
@@ -117,33 +117,33 @@ fn of_step(step: &Step) -> Pill {
         _ => format!(". The mesh has {}", counted(new, "new vertex", "new vertices")),
     };
     let in_f32 = if step.verdict.planar_in_f32 {
-        "It holds in 32 bits, too, into which most programs read texture coordinates"
+        "It is also planar in 32 bits, the precision of texture coordinates in most programs"
     } else {
-        "It does not hold in 32 bits, into which most programs read texture coordinates: relax it"
+        "It is not planar in 32 bits, the precision of texture coordinates in most programs: relax it"
     };
     let tip = format!("Exact arithmetic shows that no two faces overlap. {in_f32}{note}");
     Pill::new(Sign::Good, format!("Planar: proved · {stage}"), tip)
 }
 
-/// A planar embedding that follows a pin: proved at every frame.
+/// Planar embedding of a live drag, proved at every frame.
 fn of_live(LivePreview { obstacle }: LivePreview) -> Pill {
-    let tip = "Exact arithmetic shows of every frame that no two faces overlap. What is beside the pins settles when the \
-               pointer rests or lets go";
+    let tip = "Exact arithmetic shows for every frame that no two faces overlap. The rest of the map follows when \
+               you pause or release";
     let words =
         obstacle.map_or_else(|| "Planar: proved".to_owned(), |by| format!("Planar: proved · {}", in_the_way(by)));
     Pill::new(Sign::Good, words, tip)
 }
 
-/// What keeps a pin from following, in a few words.
+/// Obstacle of a dragged pin, in few words.
 fn in_the_way(obstacle: Blocker) -> String {
     match obstacle {
         Blocker::Pin(vertex) => format!("{vertex} is in the way"),
         Blocker::Boundary(vertex) => format!("the boundary at {vertex} is in the way"),
-        Blocker::Surroundings => "the rest follows when it rests".to_owned(),
+        Blocker::Surroundings => "the rest of the map follows when you pause".to_owned(),
     }
 }
 
-/// What follows a drag, and what is known of it.
+/// State of a drag preview.
 fn preview_words(preview: Option<&Preview>) -> String {
     let known = match preview.map(Preview::verdict) {
         None => return "preview, not repaired".to_owned(),
@@ -154,7 +154,7 @@ fn preview_words(preview: Option<&Preview>) -> String {
     format!("preview, not repaired · {known}")
 }
 
-/// The verdict in the fewest words.
+/// Verdict in few words.
 fn short_verdict(verdict: &Verdict) -> String {
     let crossings = match verdict.boundary_crossings.len() {
         1 => "1 crossing".to_owned(),
@@ -201,7 +201,7 @@ mod tests {
     use freebound_core::mesh::VertexId;
     use freebound_core::problem::{Family, Method, Settings};
 
-    /// Takes in what the background has done until a condition holds.
+    /// Adopts finished background work until a condition is true.
     fn wait(editor: &mut Editor, is_there: impl Fn(&Editor) -> bool) {
         let begun = Instant::now();
         while !is_there(editor) {
@@ -215,7 +215,7 @@ mod tests {
         editor.session.busy().is_none() && editor.session.is_current()
     }
 
-    /// A window in the middle of a drag, with a preview.
+    /// Editor in the middle of a drag, with a preview.
     fn dragging(method: Method) -> Editor {
         let mut editor = Editor::new(&egui::Context::default(), RecentFiles::default());
         editor.session.handle(Action::OpenExample(Example::Dome));
@@ -239,7 +239,7 @@ mod tests {
     fn a_preview_says_so_while_its_run_is_solved_for_long() {
         let mut editor = dragging(Method::Natural);
         editor.session.handle(Action::Rest);
-        // As if it had begun a while ago. Nothing is taken in meanwhile, so that no step has replaced the preview.
+        // Backdate the start of the work. No poll follows, so no step has replaced the preview.
         editor.gpu.note_work(true, a_while_ago());
         let (pill, busy) = shown(&editor);
         assert!(matches!(busy, Some(Busy::Solving(_))), "{busy:?}");

@@ -1,4 +1,4 @@
-//! The selected vertex: where it lies and what surrounds it.
+//! Tab of the selected vertex: its position and its surroundings.
 
 use std::f64::consts::TAU;
 
@@ -29,7 +29,7 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
         ui.small_button("Frame").asks(Request::GoTo(vec![vertex]), requests);
     });
     if let Some(chart) = editor.session.chart_on_screen().filter(|_| scene.new_vertex(vertex).is_none()) {
-        ui.label(format!("of chart {chart}; in files {}", scene.model.vertex_in_file(vertex)));
+        ui.label(format!("chart {chart}; {} in files", scene.model.vertex_in_file(vertex)));
     }
     if let Some(side) = scene.side_of(vertex) {
         ui.label(side.to_string()).on_hover_text("Each side of a seam has a vertex of its own, with its own pin");
@@ -54,7 +54,7 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
             let place = disk.boundary_place(vertex);
             let is_at_hole = disk.outgoing(vertex).filter_map(|h| disk.face_of(h)).any(|face| disk.is_virtual(face));
             let elsewhere = if is_at_hole { "around a hole" } else { "inside" };
-            number(ui, "Lies", place.map_or_else(|| elsewhere.to_owned(), |at| format!("on the boundary ({at})")));
+            number(ui, "Location", place.map_or_else(|| elsewhere.to_owned(), |at| format!("on the boundary ({at})")));
             number(ui, "Angles on the mesh", turns(angle_sum_on_mesh(disk, vertex)));
             if let Some(embedding) = embedding {
                 number(ui, "Angles in the plane", turns(angle_sum_in_plane(disk, embedding, vertex)));
@@ -67,21 +67,22 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     equation_table::equation_ui(ui, editor, vertex, requests);
     ui.add_space(8.0);
     if editor.session.document().targets.contains_key(&vertex) {
-        ui.button("Free").on_hover_text("Take its pin away").asks(Action::Unpin(vec![vertex]), requests);
+        ui.button("Free").on_hover_text("Free the vertex").asks(Action::Unpin(vec![vertex]), requests);
     } else if embedding.is_some() && scene.new_vertex(vertex).is_none() {
-        ui.button("Fix").on_hover_text("Pin it where it lies").asks(Action::Fix(vec![vertex]), requests);
+        let fix = ui.button("Fix").on_hover_text("Pin the vertex at its current position");
+        fix.asks(Action::Fix(vec![vertex]), requests);
     }
 }
 
-/// Where a new vertex lies.
+/// Location of a new vertex.
 pub(super) fn new_vertex_words(new: &NewVertex) -> String {
     let [a, b] = new.edge;
     format!("new vertex on edge {a}–{b}")
 }
 
-pub(super) const NOT_TO_PIN: &str = "It belongs to this embedding alone, and cannot be pinned";
+pub(super) const NOT_TO_PIN: &str = "It exists in this embedding only and cannot be pinned";
 
-/// An angle sum as a multiple of a full turn.
+/// Formats an angle sum as a multiple of a full turn.
 fn turns(angle: f64) -> String {
     format!("{:.4} × 2π", angle / TAU)
 }
@@ -96,7 +97,7 @@ fn angle_sum_in_plane(disk: &DiskMesh, embedding: &Embedding, vertex: VertexId) 
     corners(disk, vertex).map(|[a, b]| at(a).angle_to(at(b)).abs()).sum()
 }
 
-/// The other two corners of each face around a vertex.
+/// Other two corners of each face around a vertex.
 fn corners(disk: &DiskMesh, vertex: VertexId) -> impl Iterator<Item = [VertexId; 2]> + '_ {
     let is_shown = |h: &HalfedgeId| disk.face_of(*h).is_some_and(|face| !disk.is_virtual(face));
     disk.outgoing(vertex).filter(is_shown).map(|h| [disk.head(h), disk.tail(disk.previous(h))])

@@ -1,4 +1,4 @@
-//! Vertices joined within a distance: how many that would be, before it is done.
+//! Welding of vertices within a distance, with a preview of their number.
 
 use eframe::egui::{self, DragValue};
 
@@ -7,10 +7,10 @@ use crate::session::{Action, Model, Session};
 use crate::ui::{Control, Request, Typed, counted, five_digits, remark};
 use freebound_core::mesh::WeldDistance;
 
-/// The distance that is offered first, as a part of the box around the mesh; then the power of ten below it.
+/// Default distance as a share of the diagonal of the bounding box, then rounded down to a power of ten.
 const OFFERED: f64 = 1e-4;
 
-/// What is typed of the mesh that was opened so manyth.
+/// Typed distance, for one opening of the session.
 #[derive(Clone, Copy)]
 struct Kept {
     opening: u64,
@@ -35,14 +35,14 @@ pub(super) fn welding(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<R
         if let Some(now) = now {
             ui.horizontal_wrapped(|ui| {
                 ui.label(format!("Welded within {}", five_digits(now.get())));
-                let tip = "Vertices are as in the file again";
+                let tip = "Restore the vertices of the file";
                 ui.button("Do not weld").on_hover_text(tip).asks(Action::Weld(None), requests);
             });
         }
     });
 }
 
-/// The distance, to be dragged or typed.
+/// Field for the distance, dragged or typed.
 fn field(ui: &mut egui::Ui, distance: &mut f64) {
     ui.horizontal_wrapped(|ui| {
         let typed = Typed::new("a distance", 0.0..=f64::MAX);
@@ -51,12 +51,12 @@ fn field(ui: &mut egui::Ui, distance: &mut f64) {
         let value = value.custom_formatter(|value, _| five_digits(value)).custom_parser(|text| typed.number(text));
         let field = ui.add(value);
         let field = typed.name(ui, field, "Distance of vertices to weld, in the mesh's units");
-        field.on_hover_text("Vertices of faces that lie no farther apart become one. 0 joins those in one place");
+        field.on_hover_text("Vertices of faces within this distance become one. 0 welds vertices at equal positions");
         ui.label("of the mesh's units");
     });
 }
 
-/// How many vertices a distance joins, and the button that does it.
+/// Number of vertices that a distance would weld, and the button to weld them.
 fn offer(ui: &mut egui::Ui, session: &Session, distance: WeldDistance, requests: &mut Vec<Request>) {
     let Some(count) = session.near_count(distance) else {
         requests.push(Action::CountNear(distance).into());
@@ -66,17 +66,17 @@ fn offer(ui: &mut egui::Ui, session: &Session, distance: WeldDistance, requests:
     ui.horizontal_wrapped(|ui| {
         let is_new = session.document().form.repair.weld_distance() != Some(distance);
         let button = ui.add_enabled(count > 0 && is_new, egui::Button::new("Weld vertices"));
-        let tip = "They become one in the place of the first. The file's positions stay; undo takes it back";
+        let tip = "They become one, at the position of the first. The file is not changed; undo reverts this";
         button.on_hover_text(tip).asks(Action::Weld(Some(distance)), requests);
         match count {
-            0 => ui.weak("No vertices lie so near each other"),
-            1 => ui.weak(counted(count, "vertex joins another", "")),
-            _ => ui.weak(format!("{} vertices join others", grouped(count))),
+            0 => ui.weak("No vertices lie within this distance"),
+            1 => ui.weak(counted(count, "vertex will be welded", "")),
+            _ => ui.weak(format!("{} vertices will be welded", grouped(count))),
         };
     });
 }
 
-/// A distance to begin with.
+/// Default distance.
 fn offered(model: &Model) -> f64 {
     let positions = &model.source.polygons.positions;
     let finite = || positions.iter().filter(|place| place.is_finite());

@@ -1,5 +1,5 @@
-//! Bars over a pane: what did not work, and what the window asks by itself: about work that a session before left, faces
-//! that point inward, targets that look mirrored. They lie over the pane, which stays where it is.
+//! Bars over a pane: errors, and questions of the window about recovered work, faces that point inward, and targets
+//! that look mirrored. Bars cover part of the pane, which keeps its size.
 
 use std::time::{Duration, SystemTime};
 
@@ -28,24 +28,25 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
         Pane::Plane => MessagePlace::Embedding,
     };
     if pane == Pane::Mesh && editor.tools.tool() == Tool::Seam && session.model().is_some() {
-        // Before the others, which come and go.
+        // First, because the other bars appear and disappear.
         seam::strip(ui, editor, requests);
     }
     for left in session.recoverable().iter().filter(|_| pane == Pane::Mesh) {
         let since = SystemTime::now().duration_since(left.time).unwrap_or_default();
-        let words = format!("Work on {} was not saved when the program ended. Its copy: {}", left.name, ago(since));
+        let words =
+            format!("Work on {} was not saved when the program ended. Recovery copy: {}", left.name, ago(since));
         let offers = [
-            Offer::new("Recover", "Open it as it was", Action::Recover(left.path.clone())),
-            Offer::new("Discard", "Forget it for good", Action::DiscardRecovery(left.path.clone())),
+            Offer::new("Recover", "Open the recovery copy", Action::Recover(left.path.clone())),
+            Offer::new("Discard", "Delete the recovery copy", Action::DiscardRecovery(left.path.clone())),
         ];
         warning(ui, &words, offers, requests);
     }
     if pane == Pane::Mesh && editor.opened.faces_point_inward(session) {
         let offers = [
-            Offer::new("Turn them", "Make the other side the outside", Action::TurnFaces),
-            Offer::new("Leave them", "It is meant so", Request::LeaveFaces),
+            Offer::new("Reverse them", "Make the other side of the faces the outside", Action::TurnFaces),
+            Offer::new("Leave them", "Keep the faces; their orientation is intended", Request::LeaveFaces),
         ];
-        let words = "The faces point inward: the mesh shows from behind, and its picture mirrored";
+        let words = "The faces point inward: the mesh shows from behind, with its picture mirrored";
         warning(ui, words, offers, requests);
     }
     if let Some(remedy) =
@@ -53,17 +54,13 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
     {
         let done: Vec<String> = remedy.done().iter().map(ToString::to_string).collect();
         let words = match &done[..] {
-            [] => "The mesh can be flattened as it is: none of its faults does harm".to_owned(),
-            _ => format!("The mesh can be mended: {}", done.join(", ")),
+            [] => "All faults of the mesh are harmless: it can be flattened without repair".to_owned(),
+            _ => format!("The mesh can be repaired: {}", done.join(", ")),
         };
-        let tip = "Make a disk of it. The file's positions and faces stay; undo takes it back";
+        let tip = "Repair the mesh so that it is a disk. The file is not changed; undo reverts the repair";
         let offers = [
-            Offer::new("Mend all", tip, Action::Mend),
-            Offer::new(
-                "What is wrong",
-                "Every fault, with a way to each of its elements",
-                Request::ShowTab(Tab::Defects),
-            ),
+            Offer::new("Repair all", tip, Action::Mend),
+            Offer::new("Show faults", "List every fault, with links to its elements", Request::ShowTab(Tab::Defects)),
         ];
         warning(ui, &words, offers, requests);
     }
@@ -71,7 +68,7 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
     if pane == Pane::Plane && !is_dragging && editor.opened.targets_look_mirrored(session) {
         let offers = [
             Offer::new("Mirror them", "Mirror all targets left to right", Action::MirrorTargets),
-            Offer::new("Leave the targets", "They are meant so", Request::LeaveTargets),
+            Offer::new("Leave the targets", "Keep the targets; their orientation is intended", Request::LeaveTargets),
         ];
         let words = "Are the targets mirrored? A reflection fits them much better than a rotation";
         warning(ui, words, offers, requests);
@@ -79,7 +76,7 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
     message_bars(ui, editor, place, requests);
 }
 
-/// How long ago something was, in words.
+/// Formats an age.
 fn ago(since: Duration) -> String {
     const MINUTE: u64 = 60;
     const HOUR: u64 = 60 * MINUTE;
@@ -101,7 +98,7 @@ fn warning(ui: &mut egui::Ui, words: &str, offers: impl IntoIterator<Item = Offe
     });
 }
 
-/// What did not work in a pane: what happened, where, what to do. It stays until dismissed or mended.
+/// Error messages of a pane: the problem, its place, the remedy. A message stays until dismissed or resolved.
 fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: MessagePlace, requests: &mut Vec<Request>) {
     let is_here = |message: &&Message| message.place == place && message.severity == Severity::Error;
     let messages: Vec<&Message> = editor.session.messages().iter().filter(is_here).collect();
@@ -127,7 +124,7 @@ fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>
     });
 }
 
-/// A bar over a pane, with its sign at the left.
+/// Bar over a pane, with its sign at the left.
 fn bar(ui: &mut egui::Ui, sign: Sign, add: impl FnOnce(&mut egui::Ui)) {
     let theme = theme_of(ui);
     let frame = egui::Frame::new()

@@ -1,5 +1,5 @@
-//! The tool that joins a vertex with its place on the picture: vertex first, or place first. One function says what a
-//! click would do; the preview, the words in the status bar and the click itself all ask it.
+//! Constrain tool: joins a vertex with a target on the picture, in either order. A single function computes the
+//! effect of a click for the preview, the status bar and the click.
 
 use eframe::egui::{self, Stroke};
 use glam::DVec2;
@@ -13,12 +13,12 @@ use crate::view::{PlaneCamera, snapped};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
 
-/// Targets snap to pixels that are larger than this, points.
+/// Least size of a pixel on the screen for targets to snap to pixels, points.
 const SNAP_FROM: f64 = 8.0;
 
 impl Editor {
-    /// Takes in where the pointer is, and what a click there would do. Call in each pane, once it knows the vertex under
-    /// the pointer; `grip` is the vertex of the pin whose mark would take the click.
+    /// Sets the effect of a click at the pointer. Call in each pane after the vertex under the pointer is set. `grip`
+    /// is the vertex of the pin whose mark would take the click.
     pub(super) fn aim(&mut self, ui: &egui::Ui, pane: Pane, grip: Option<VertexId>) {
         if self.tools.tool() != Tool::Constrain {
             return;
@@ -45,7 +45,7 @@ impl Editor {
             (Some(Half::Vertex(vertex)), _) => Intent::Join(vertex, target),
             (Some(Half::Target(first)), Some(vertex)) => Intent::Join(vertex, first),
             (None, Some(vertex)) if grip == Some(vertex) => Intent::Select(vertex),
-            // Over a picture a click means a place of the picture.
+            // Over a picture a click chooses a target on the picture.
             (None, Some(vertex)) if modifiers.shift || !(modifiers.alt || self.has_picture()) => {
                 self.first_half(vertex)
             }
@@ -53,12 +53,12 @@ impl Editor {
         }
     }
 
-    /// The vertex under the pointer, where it can be pinned: new vertices belong to one embedding alone.
+    /// Vertex under the pointer that can be pinned. New vertices belong to a single embedding and cannot.
     pub(super) fn vertex_to_pin(&self) -> Option<VertexId> {
         self.pointer.vertex().filter(|&vertex| !self.is_new_vertex(vertex))
     }
 
-    /// Whether the mesh on the screen has a vertex that the mesh as given does not have.
+    /// True if a vertex is in the mesh on the screen, but not in the mesh as given.
     pub(in crate::ui) fn is_new_vertex(&self, vertex: VertexId) -> bool {
         self.mesh_scene().is_some_and(|scene| scene.new_vertex(vertex).is_some())
     }
@@ -68,8 +68,8 @@ impl Editor {
         if is_pinned && self.tools.pair().is_none() { Intent::Select(vertex) } else { Intent::TakeVertex(vertex) }
     }
 
-    /// The texture coordinates of a place in the plane: those of a pixel's corner or middle, where pixels are large on
-    /// the screen, unless Alt is held.
+    /// Texture coordinates of a point of the plane. If pixels are large on the screen, they snap to a corner or
+    /// centre of a pixel, unless Alt is held.
     fn target_at(&self, place: DVec2, modifiers: egui::Modifiers) -> DVec2 {
         let document = self.session.document();
         let target = document.frame().uv_from_plane(place);
@@ -79,7 +79,7 @@ impl Editor {
         if is_large && !modifiers.alt { snapped(target, pixels) } else { target }
     }
 
-    /// Carries out what a click would do.
+    /// Carries out the effect of a click.
     pub(in crate::ui) fn constrain(&mut self) -> Vec<Request> {
         match self.tools.take_intent() {
             Intent::Nothing if self.tools.pair().is_some() => Vec::new(),
@@ -101,29 +101,30 @@ impl Editor {
         }
     }
 
-    /// What the tool does, in words.
+    /// Hint for the status bar.
     pub(in crate::ui) fn constrain_words(&self) -> String {
         let numbers = |target: DVec2| format!("u {:.4} v {:.4}", target.x, target.y);
         match (self.tools.intent(), self.tools.pair()) {
             (Intent::Join(vertex, target), _) => format!("Click: {vertex} goes to {}.", numbers(target)),
             (Intent::Select(vertex), _) => format!("Click: select the pin of {vertex}."),
-            (Intent::TakeVertex(vertex), _) => format!("Click: take {vertex}; its place comes next."),
+            (Intent::TakeVertex(vertex), _) => format!("Click: choose {vertex}, then its position."),
             (Intent::TakeTarget(target), _) => {
-                format!("Click: take the place {}; the vertex comes next.", numbers(target))
+                format!("Click: choose the position {}, then the vertex.", numbers(target))
             }
             (Intent::Nothing, Some(Half::Vertex(vertex))) => {
-                format!("Click the place of {vertex} in the embedding. Esc gives it up.")
+                format!("Click the position of {vertex} in the embedding. Esc cancels.")
             }
             (Intent::Nothing, Some(Half::Target(_))) => {
-                "Click the vertex that goes there, in either pane. Esc gives it up.".to_owned()
+                "Click the vertex that goes there, in either pane. Esc cancels.".to_owned()
             }
             (Intent::Nothing, None) => {
-                "Click a vertex on the mesh, then its place in the embedding; or the place first. Esc ends.".to_owned()
+                "Click a vertex on the mesh, then its position in the embedding; or the position first. Esc ends."
+                    .to_owned()
             }
         }
     }
 
-    /// The target of the pair that is being placed, in the plane: taken already, or under the pointer.
+    /// Target, in the plane, of the pair being placed: already placed, or under the pointer.
     pub(super) fn target_of_pair(&self) -> Option<DVec2> {
         match (self.tools.pair(), self.tools.intent()) {
             (Some(Half::Target(target)), _) | (_, Intent::Join(_, target) | Intent::TakeTarget(target)) => {
@@ -133,7 +134,7 @@ impl Editor {
         }
     }
 
-    /// The vertex of the pair that is being placed.
+    /// Vertex of the pair being placed.
     pub(super) fn vertex_of_pair(&self) -> Option<VertexId> {
         match (self.tools.pair(), self.tools.intent()) {
             (Some(Half::Vertex(vertex)), _) | (_, Intent::Join(vertex, _)) => Some(vertex),
@@ -142,7 +143,7 @@ impl Editor {
     }
 }
 
-/// What a click would place, over the embedding, and the line from the vertex that goes there.
+/// Preview of the target that a click would place, and the line from its vertex, over the embedding.
 pub(super) fn preview(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &PlaneScene) {
     let is_constraining = editor.tools.tool() == Tool::Constrain;
     let Some(target) = editor.target_of_pair().filter(|_| is_constraining).map(|z| view.spot(z)) else { return };
@@ -153,7 +154,7 @@ pub(super) fn preview(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Edito
     pins::ghost(&painter, target, theme);
 }
 
-/// The line across both panes, from the vertex on the mesh to its place.
+/// Line across both panes, from the vertex on the mesh to its target.
 pub(in crate::ui) fn line_across(ui: &egui::Ui, editor: &Editor) {
     let (Some(mesh), Some(plane)) = (editor.mesh.pane.viewport(), editor.plane.pane.viewport()) else { return };
     if editor.tools.tool() != Tool::Constrain || editor.tools.pair().is_none() {

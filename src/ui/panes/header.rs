@@ -1,19 +1,19 @@
-//! The bar over a pane: title, shading, switches, full size; in a narrow pane what there is room for.
+//! Header of a pane: title, shading, switches, full size. A narrow pane omits some.
 
 use eframe::egui::{self, Role};
 
 use crate::ui::{Control, Editor, Pane, Request, ShadingMode, list, tip_with_keys};
 
-/// A pane narrower than this has no title in its bar, points.
+/// Least width of a pane with a title in its header, points.
 const ROOM_FOR_TITLE: f32 = 270.0;
 
-/// A pane narrower than this has no switches in its bar either, points: keys and the View menu have them.
+/// Least width of a pane with switches in its header, points. Keys and the View menu have them, too.
 const ROOM_FOR_SWITCHES: f32 = 190.0;
 
-/// The menu of shadings is at least so wide, or is left to the View menu, points.
+/// Least width of the shading menu in the header, points. The View menu has the shadings, too.
 const LEAST_MENU: f32 = 60.0;
 
-/// Title, shading and the button for full size, as far as there is room.
+/// Title, shading menu, switches and full-size button, if there is room.
 pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
     let title = pane.title();
     let room = ui.available_width();
@@ -42,7 +42,7 @@ pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &
     });
 }
 
-/// What can be on or off in a pane.
+/// Switches of a pane.
 fn switches(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
     if pane == Pane::Plane {
         let tip = tip_with_keys(ui, "Hull and pockets of the virtual boundary", &Request::ToggleHull);
@@ -58,7 +58,7 @@ fn switches(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<R
 
 fn shading_menu(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
     let width = ui.spacing().combo_width.min(ui.available_width() - 4.0);
-    // A name that is too long for the room ends in dots.
+    // Truncate a long name.
     ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
     let now = editor.shading(pane);
     let name = format!("Shading of the {}", pane.title().to_lowercase());
@@ -71,7 +71,7 @@ fn shading_menu(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut V
         }
     });
     menu.on_hover_text(
-        "How faces show in this pane. Number keys shade the pane under the pointer, or both where it is over neither. \
-         The Constrain tool over a picture has shadings of its own",
+        "Shading of this pane. Number keys set it for the pane under the pointer, or for both panes if it is over \
+         neither. The Constrain tool over a picture has its own shadings",
     );
 }

@@ -1,4 +1,4 @@
-//! What insets over the panes share: the wheel and drags over them are theirs, and a cross closes them.
+//! Common parts of insets over the panes: an inset handles the wheel and drags over it, and has a close button.
 
 use eframe::egui::{self, Rect, Response, Role, Sense, Vec2};
 use glam::DVec2;
@@ -7,7 +7,7 @@ use super::pane;
 use crate::ui::state::{InsetKind, InsetPan, InsetSubject};
 use crate::ui::{Control, Request, close_button};
 
-/// How much nearer a point of a trackpad's two fingers brings it.
+/// Zoom factor per point of a two-finger scroll on a trackpad.
 const PER_POINT: f64 = 1.004;
 
 impl InsetKind {
@@ -16,14 +16,14 @@ impl InsetKind {
     }
 }
 
-/// Whether the wheel belongs to an inset over the plane: the pointer was over it in the frame before.
+/// True if the wheel belongs to an inset over the plane, because the pointer was over it in the frame before.
 pub(super) fn has_wheel(ui: &egui::Ui) -> bool {
     let has_pointer =
         |kind: InsetKind| ui.ctx().read_response(kind.id(ui)).is_some_and(|inset| inset.contains_pointer());
     [InsetKind::Defect, InsetKind::PairInPlane].into_iter().any(has_pointer)
 }
 
-/// An inset of one frame, for the pointer and for those who do not see it.
+/// Inset of a frame, for the pointer and for screen readers.
 pub(super) struct Inset<'a> {
     pub(super) kind: InsetKind,
     pub(super) rect: Rect,
@@ -33,8 +33,8 @@ pub(super) struct Inset<'a> {
 }
 
 impl Inset<'_> {
-    /// Takes clicks, drags and the wheel, which what lies under it must not get, and shows the cross. The wheel brings what
-    /// it shows nearer, a drag pans it.
+    /// Handles clicks, drags and the wheel, which the pane below must not receive, and shows the close button. The
+    /// wheel zooms, a drag pans.
     pub(super) fn interact(&self, ui: &egui::Ui, requests: &mut Vec<Request>) -> Response {
         let response = ui.interact(self.rect, self.kind.id(ui), Sense::click_and_drag()).named(self.role, self.name);
         if response.contains_pointer() {

@@ -1,4 +1,4 @@
-//! The legend of a shading, and words in the panes about two steps that are compared.
+//! Legend of a shading, and notes in the panes about two compared steps.
 
 use eframe::egui::{self, Align2, FontId, Pos2, Rect, RichText, Role, Sense, Stroke, Vec2};
 
@@ -7,12 +7,12 @@ use crate::ui::editor::paint::Legend;
 use crate::ui::theme::{on_screen, rgb, theme_of};
 use crate::ui::{Control, Editor, Pane, Request, ShadingMode, Theme, close_button};
 
-/// Whether the embedding's pane has a legend of its own: where that of the mesh's pane does not speak for both.
+/// True if the embedding pane has its own legend: the mesh pane is hidden or has another shading.
 pub(super) fn plane_has_own(editor: &Editor) -> bool {
     editor.layout.mesh_hidden() || editor.shading(Pane::Plane) != editor.shading(Pane::Mesh)
 }
 
-/// The scale of a shading by numbers: bar, histogram, numbers.
+/// Legend of a shading by numbers: bar, histogram and labels.
 pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane) {
     let Some(legend) = editor.pane_shading.legend(pane) else { return };
     let title = match (editor.shading(pane), editor.plane.moved_from(&editor.session)) {
@@ -33,7 +33,7 @@ pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane) {
     scale(&painter, bar, legend, theme);
 }
 
-/// The same in one low line: title, bar, numbers.
+/// Legend in a low line: title, bar and labels.
 pub(super) fn strip(ui: &egui::Ui, rect: Rect, title: &str, legend: &Legend) {
     let theme = theme_of(ui);
     let painter = ui.painter_at(rect);
@@ -46,7 +46,7 @@ pub(super) fn strip(ui: &egui::Ui, rect: Rect, title: &str, legend: &Legend) {
     }
 }
 
-/// How many faces lie where, above a bar.
+/// Histogram of the faces, above a bar.
 fn columns(painter: &egui::Painter, bar: Rect, legend: &Legend, theme: &Theme) {
     let most = legend.histogram.iter().copied().max().unwrap_or(0).max(1);
     let width = bar.width() / legend.histogram.len() as f32;
@@ -60,7 +60,7 @@ fn columns(painter: &egui::Painter, bar: Rect, legend: &Legend, theme: &Theme) {
     }
 }
 
-/// The bar with its colours, and the numbers below it.
+/// Colour bar, and the labels below it.
 fn scale(painter: &egui::Painter, bar: Rect, legend: &Legend, theme: &Theme) {
     let count = legend.histogram.len();
     let width = bar.width() / count as f32;
@@ -78,13 +78,13 @@ fn scale(painter: &egui::Painter, bar: Rect, legend: &Legend, theme: &Theme) {
     }
 }
 
-/// Says in the pane's lower left corner which step the outline is of; a cross ends the comparison.
+/// Note at the lower left of the pane that names the step of the outline. Its close button ends the comparison.
 pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(step) = editor.plane.ghost_step().filter(|_| rect.width() >= 180.0) else { return };
     let theme = theme_of(ui);
     let height = if plane_has_own(editor) && editor.pane_shading.legend(Pane::Plane).is_some() { 124.0 } else { 32.0 };
     let place = Rect::from_min_size(rect.left_bottom() + Vec2::new(12.0, -height), Vec2::new(172.0, 20.0));
-    // What lies under the note must not get clicks on it.
+    // Clicks on the note must not reach the pane.
     ui.interact(place, ui.scope_id().with("outline"), Sense::click_and_drag())
         .named(Role::Group, "Legend of the outline");
     ui.painter_at(rect).rect_filled(place, 4.0, theme.panel.gamma_multiply(0.92));
@@ -97,18 +97,18 @@ pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor, request
     part.horizontal_centered(|ui| ui.add(egui::Label::new(words).selectable(false)));
     let id = ui.scope_id().with("close the outline");
     let cross = Rect::from_center_size(place.right_center() - Vec2::new(11.0, 0.0), Vec2::splat(16.0));
-    let close = close_button(ui, id, cross, ["Stop comparing", "Compare no more: the outline goes"]);
+    let close = close_button(ui, id, cross, ["Stop comparing", "Stop comparing and hide the outline"]);
     close.asks(Action::Compare(None), requests);
 }
 
-/// Says why nothing is coloured where moves are asked for and there are none.
+/// Note for the shading by moves if no earlier step is kept, so that nothing is coloured.
 pub(super) fn no_move_note(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane) {
     if editor.shading(pane) == ShadingMode::Move
         && editor.pane_shading.legend(pane).is_none()
         && editor.plane.scene().is_some()
     {
         let at = rect.left_bottom() + Vec2::new(12.0, -12.0);
-        let words = "No step before this one is kept: nothing has moved";
+        let words = "No previous step is kept: there is no movement to show";
         let ink = theme_of(ui).weak_text;
         ui.painter_at(rect).text(at, Align2::LEFT_BOTTOM, words, FontId::proportional(11.0), ink);
     }

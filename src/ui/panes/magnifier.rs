@@ -1,6 +1,6 @@
-//! Magnifiers: insets over the panes. One shows the first defect, or the one gone to, from near by, as in the paper's
-//! figures 4 and 6; the others show both halves of the pair in hand: the vertex on the mesh, its target on the picture.
-//! They draw from the buffers of the panes around them and so send nothing of their own.
+//! Magnifiers: insets over the panes. An inset in the embedding pane magnifies the selected defect, or the first, as
+//! in figures 4 and 6 of the paper. Two others show the halves of the current pair: the vertex on the mesh, and its
+//! target on the picture. Insets draw from the buffers of the panes around them, and upload nothing.
 
 use std::sync::Arc;
 
@@ -21,26 +21,26 @@ use freebound_core::mesh::VertexId;
 
 /// Distance of insets from the pane's edges, points.
 const GAP: f32 = 12.0;
-/// Height of the words above the picture of a defect, points.
+/// Height of the title above the picture of a defect, points.
 const TITLE: f32 = 20.0;
-/// An inset narrower than this only says how much larger it shows, points.
+/// Least width of an inset with a description, points. A narrower one shows only the magnification.
 const ROOM_FOR_WORDS: f32 = 180.0;
-/// Half of what the inset shows, in lengths of the defect.
+/// Half of the shown side, in lengths of the defect.
 const REACH: f64 = 0.7;
-/// Least side of the frame on the layout, points: a mark to be found by.
+/// Least side of the frame on the layout, points, so that it can be seen.
 const LEAST_FRAME: f32 = 7.0;
-/// The inset of half a pair shows this part of the whole.
+/// Share of the mesh or layout that an inset of a pair shows.
 const PART: f64 = 1.0 / 14.0;
-/// An inset of half a pair that enlarges less than this shows nothing new.
+/// Least magnification of an inset of a pair. A smaller one shows nothing new.
 const LEAST_MAGNIFICATION: f64 = 1.5;
 
-/// How large an inset's picture is in its pane.
+/// Size of an inset's picture in its pane.
 struct Size {
-    /// Share of the pane's lesser side.
+    /// Share of the pane's shorter side.
     share: f32,
     /// Least and greatest side, points.
     side: [f32; 2],
-    /// A pane narrower than so many insets has none, nor has one less than two insets high.
+    /// Least width of the pane, in sides of the inset. The least height is two sides.
     least_width: f32,
 }
 
@@ -54,29 +54,29 @@ impl Size {
     }
 }
 
-/// The lower right corner of the pane, or the upper one where the inset would come nearer than `margin` to what it
-/// looks at.
+/// Rectangle of an inset: the lower right corner of the pane, or the upper right if the lower comes within `margin`
+/// of `looks_at`.
 fn place_for(pane: Rect, size: Vec2, looks_at: Pos2, margin: f32) -> Rect {
     let lower = Rect::from_min_size(pane.max - size - Vec2::splat(GAP), size);
     let upper = Rect::from_min_size(Pos2::new(lower.left(), pane.top() + GAP), size);
     if lower.expand(margin).contains(looks_at) { upper } else { lower }
 }
 
-/// The inset of one frame that shows a defect: where, and how much larger.
+/// Inset of a frame that magnifies a defect.
 pub(super) struct Magnifier {
     place: usize,
     defect: Defect,
     camera: PlaneCamera,
     pane: Rect,
-    /// What is shown, on the screen.
+    /// Magnified part of the plane, on the screen.
     looks_at: Rect,
-    /// Where it is shown, words included.
+    /// Rectangle of the inset, title included.
     pub(super) rect: Rect,
     magnification: f64,
 }
 
 impl Magnifier {
-    /// The inset over a pane, where it is wanted and there is a defect that it shows larger than the pane does.
+    /// Inset over a pane, if enabled and if there is a defect that it shows larger than the pane does.
     pub(super) fn over(editor: &Editor, view: Viewport<PlaneCamera>, scene: &PlaneScene) -> Option<Self> {
         if !editor.pane_shading.magnifier
             || scene.is_stage()
@@ -99,12 +99,12 @@ impl Magnifier {
         let looks_at = Rect::from_two_pos(view.spot(shown.low), view.spot(shown.high));
         let magnification = camera.points_per_unit() / view.camera.points_per_unit();
         let rect = place_for(pane, Vec2::new(side, side + TITLE), looks_at.center(), GAP);
-        // What a person has brought farther away stays: the wheel brings it back.
+        // Keep an inset that the user has zoomed out, so that the wheel can zoom in again.
         let is_wanted = magnification > 1.0 || insets.is_set(InsetKind::Defect, about);
         is_wanted.then_some(Self { place, defect, camera, pane, looks_at, rect, magnification })
     }
 
-    /// Draws the inset and the frame on the layout; a click goes there.
+    /// Draws the inset, and a frame around its part of the layout. A click shows the defect in the panes.
     pub(super) fn show(&self, ui: &egui::Ui, editor: &Editor, plane: &PlaneScene, requests: &mut Vec<Request>) {
         let theme = theme_of(ui);
         self.mark_on_layout(&ui.painter_at(self.pane), theme);
@@ -129,9 +129,7 @@ impl Magnifier {
     fn click(&self, ui: &egui::Ui, requests: &mut Vec<Request>) {
         let name = format!("Magnifier: {}, × {}", self.defect.words(), self.factor());
         let keys = keys_of(ui.ctx(), &Request::StepDefect(1));
-        let tip = format!(
-            "A defect from near by: the wheel brings it nearer, a drag pans. Click to go there; {keys}: the next"
-        );
+        let tip = format!("Close-up of a defect. The wheel zooms, drag pans. Click to go there; {keys}: next defect");
         let about = InsetSubject::Defect(self.place);
         let inset = Inset { kind: InsetKind::Defect, rect: self.rect, role: Role::Button, name: &name, about };
         let response = inset.interact(ui, requests);
@@ -139,7 +137,7 @@ impl Magnifier {
         response.asks(Request::GoToDefect(self.place), requests);
     }
 
-    /// A thin frame where the inset looks, and a line from there to the inset.
+    /// Thin frame around the magnified part of the layout, and a line from it to the inset.
     fn mark_on_layout(&self, painter: &egui::Painter, theme: &Theme) {
         let least = Vec2::splat(LEAST_FRAME);
         let frame = Rect::from_center_size(self.looks_at.center(), self.looks_at.size().max(least));
@@ -154,7 +152,7 @@ impl Magnifier {
         painter.rect_stroke(frame.expand(1.0), 1.0, Stroke::new(1.25, theme.text), StrokeKind::Middle);
     }
 
-    /// The bare embedding, its faces' outlines and defects.
+    /// Plain embedding with outlines of faces and with defects.
     fn frame(&self, editor: &Editor, plane: &PlaneScene, theme: &Theme) -> PlaneFrame {
         PlaneFrame {
             paint: editor.pane_shading.paint(Pane::Plane).map(|paint| Arc::clone(&paint.faces)),
@@ -172,7 +170,7 @@ impl Magnifier {
         }
     }
 
-    /// How much larger, in as many digits as mean something.
+    /// Magnification, in meaningful digits.
     fn factor(&self) -> String {
         match self.magnification {
             factor if factor < 9.95 => format!("{factor:.1}"),
@@ -182,13 +180,13 @@ impl Magnifier {
     }
 }
 
-/// A part of the plane about the same middle, seen nearer.
+/// Box with the middle of `shown`, smaller by a factor.
 fn nearer(shown: Bounds, factor: f64) -> Bounds {
     let half = shown.size() / (2.0 * factor);
     Bounds { low: shown.middle() - half, high: shown.middle() + half }
 }
 
-/// The part of the plane around a defect.
+/// Part of the plane around a defect.
 fn neighbourhood(plane: &PlaneScene, defect: Defect) -> Option<Bounds> {
     let disk = plane.mesh.disk()?;
     let around = |vertices: Vec<VertexId>| {
@@ -210,13 +208,13 @@ fn neighbourhood(plane: &PlaneScene, defect: Defect) -> Option<Bounds> {
             (bounds.middle(), bounds.size().max_element())
         }
     };
-    // A defect without any extent is shown as near as the camera goes.
+    // A defect without extent is shown at the strongest zoom.
     let half = (REACH * reach).max(plane.arrays.bounds.extent() * 1e-9);
     (center.is_finite() && half.is_finite()).then(|| Bounds { low: center - half, high: center + half })
 }
 
 impl Editor {
-    /// The vertex that is magnified: that of the pair being placed, or the one selected pin.
+    /// Magnified vertex: of the pair being placed, or of the only selected pin.
     fn vertex_in_hand(&self) -> Option<VertexId> {
         if self.tools.is_placing_pair() {
             return self.vertex_of_pair();
@@ -224,7 +222,7 @@ impl Editor {
         self.pins_selected().next().filter(|_| self.selection.vertices().len() == 1)
     }
 
-    /// The target that is magnified, in the plane.
+    /// Magnified target, in the plane.
     fn target_in_hand(&self) -> Option<DVec2> {
         if self.tools.is_placing_pair() {
             return self.target_of_pair();
@@ -234,18 +232,18 @@ impl Editor {
         Some(document.frame().plane_from_uv(target.uv))
     }
 
-    /// Whether a pair is magnified in the embedding's pane.
+    /// True if the embedding pane magnifies a pair.
     pub(super) fn magnifies_pair(&self) -> bool {
         self.pane_shading.magnifier && (self.tools.is_placing_pair() || self.target_in_hand().is_some())
     }
 }
 
-/// The place in a pane of the inset of half a pair that lies at a place of the screen.
+/// Rectangle of the inset for half a pair at a position on the screen.
 fn pair_inset(pane: Rect, looks_at: Pos2) -> Option<Rect> {
     Some(place_for(pane, Vec2::splat(PAIR.side_in(pane)?), looks_at, 3.0 * GAP))
 }
 
-/// The pair's inset over the mesh's pane.
+/// Inset of the pair over the mesh pane.
 pub(super) fn over_mesh(
     ui: &egui::Ui,
     view: Viewport<OrbitCamera>,
@@ -280,7 +278,7 @@ pub(super) fn over_mesh(
     close(ui, &shown, enlarges, requests);
 }
 
-/// The pair's inset over the embedding's pane.
+/// Inset of the pair over the embedding pane.
 pub(super) fn over_plane(
     ui: &egui::Ui,
     view: Viewport<PlaneCamera>,
@@ -325,7 +323,7 @@ pub(super) fn over_plane(
     close(ui, &shown, enlarges, requests);
 }
 
-/// Edge, name and how much larger: what both insets of a pair end with.
+/// Outline, name and magnification of an inset of a pair.
 fn close(ui: &egui::Ui, shown: &Inset<'_>, enlarges: f64, requests: &mut Vec<Request>) {
     let inset = shown.rect;
     let theme = theme_of(ui);

@@ -1,4 +1,4 @@
-//! The mesh in space: orbit, pan, zoom; hover and pick vertices.
+//! Mesh pane: orbit, pan, zoom; hover and pick vertices.
 
 use std::sync::Arc;
 
@@ -20,10 +20,10 @@ use freebound_core::mesh::VertexId;
 /// Opacity of the mark of a selected vertex that the mesh hides.
 const HIDDEN: f32 = 0.4;
 
-/// Opacity of faces that a picture shows through.
+/// Opacity of faces over a picture.
 const THIN_FILL: f32 = 0.3;
 
-/// Marks drawn at most for a large selection.
+/// Greatest number of marks for a large selection.
 const MARKS_SHOWN: usize = 2000;
 
 pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
@@ -37,11 +37,11 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         let lines: &[&str] = if editor.session.busy().is_some() {
             &["Opening…"]
         } else {
-            &["No mesh open", "Drop a mesh file or a project here, or take one of the examples in the File menu"]
+            &["No mesh open", "Drop a mesh file or a project here, or open an example from the File menu"]
         };
         return pane::empty_state(ui, rect, lines);
     };
-    // A double click ends a seam.
+    // A double click ends a seam, and must not move the pivot.
     let sets_pivot = editor.tools.tool() != Tool::Seam;
     navigate(ui, &response, &scene, &mut camera, sets_pivot);
     if editor.mesh.pane.camera() != Some(camera) {
@@ -83,7 +83,7 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     magnifier::over_mesh(ui, view, editor, &scene, requests);
 }
 
-/// The pointer is over a chart that is not on the screen: a click puts it there.
+/// Pointer over a chart that is not on the screen: a click shows that chart.
 fn other_chart(ui: &egui::Ui, response: &Response, chart: usize, requests: &mut Vec<Request>) {
     ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
     let tip = format!("Chart {chart}: click to work on it");
@@ -138,7 +138,7 @@ pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, the
     }
 }
 
-/// The boundary, in both panes.
+/// Boundary line, in both panes.
 pub(super) fn boundary_line(scene: &MeshScene, theme: &Theme) -> LineLayer {
     LineLayer { edges: Arc::clone(&scene.boundary), colour: theme.boundary, width_in_points: 1.5 }
 }
@@ -148,19 +148,19 @@ pub(super) fn seam_line(seams: &Arc<EdgeList>, theme: &Theme) -> LineLayer {
     LineLayer { edges: Arc::clone(seams), colour: theme.seam, width_in_points: 3.0 }
 }
 
-/// The picture as the panes draw it.
+/// Picture layer of the panes.
 pub(super) fn picture_layer(editor: &Editor) -> Option<PictureLayer> {
     editor.pane_shading.picture_layer(picture_box(editor.session.document()), editor.appearance().opacity)
 }
 
-/// How faces look in a pane.
+/// Style of the faces in a pane.
 pub(super) fn style(editor: &Editor, pane: Pane) -> Style {
     let chosen = editor.shading(pane);
     let shading = match chosen {
         ShadingMode::Plain | ShadingMode::SeeThrough => render::FaceShading::Plain,
         ShadingMode::Picture if editor.has_picture() => render::FaceShading::Picture,
         ShadingMode::Checker | ShadingMode::Picture => render::FaceShading::Checker,
-        // What was measured belongs to another embedding than the one that follows a drag.
+        // Distortion was measured on another embedding than the drag preview.
         _ if editor.plane.shows_preview() => render::FaceShading::Plain,
         ShadingMode::Move if editor.plane.moved_from(&editor.session).is_none() => render::FaceShading::Plain,
         ShadingMode::Angle | ShadingMode::Area | ShadingMode::Stretch | ShadingMode::Move => render::FaceShading::Paint,
@@ -174,19 +174,19 @@ pub(super) fn style(editor: &Editor, pane: Pane) -> Style {
     }
 }
 
-/// The vertices that are marked as new.
+/// New vertices that are marked.
 pub(super) fn new_vertices(scene: &MeshScene) -> impl Iterator<Item = VertexId> {
     let of_surface = scene.refinement.iter().flat_map(|refinement| refinement.new_vertices_of_surface());
     of_surface.map(|(vertex, _)| vertex).take(MARKS_SHOWN)
 }
 
-/// A small dot.
+/// Mark of a new vertex: a small dot.
 pub(super) fn new_vertex_mark(painter: &egui::Painter, at: Pos2, theme: &Theme) {
     painter.circle_filled(at, 2.5, theme.background);
     painter.circle_filled(at, 1.75, theme.accent);
 }
 
-/// Pins, selection, hover and defects over the picture.
+/// Marks over the mesh: pins, selection, hover and defects.
 fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &MeshScene) {
     let theme = theme_of(ui);
     let painter = ui.painter_at(view.rect);
@@ -235,7 +235,7 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
         }
     }
     for (at, is_seen) in editor.selection.vertices().iter().take(MARKS_SHOWN).filter_map(|&vertex| place(vertex)) {
-        // What is hidden shows through the mesh, dimmed: "go to" may lead there.
+        // Show hidden vertices dimmed through the mesh, because "Go to" may select them.
         let colour = if is_seen { theme.selection } else { theme.selection.gamma_multiply(HIDDEN) };
         pane::halo(&painter, at, colour, 6.0);
     }

@@ -1,22 +1,22 @@
-//! The two panes: mesh and embedding, with their marks, insets and gestures.
+//! Mesh pane and embedding pane, with their marks, insets and gestures.
 //!
 //! | file | what |
 //! |---|---|
-//! | `header.rs` | the bar over a pane: title, shading, switches |
-//! | `pane.rs` | what both panes share: places on the screen, clicks and boxes, the wheel, marks of defects |
+//! | `header.rs` | the header of a pane: title, shading, switches |
+//! | `pane.rs` | common parts of both panes: positions on the screen, clicks and boxes, the wheel, marks of defects |
 //! | `outside_hull.rs` | marks of vertices outside the hull of their neighbours |
 //! | `mesh_pane.rs` | the mesh in space |
 //! | `plane_pane.rs` | the embedding |
-//! | `comparison/` | methods side by side, in the place of the embedding |
+//! | `comparison/` | methods side by side, in place of the embedding |
 //! | `bars.rs` | bars over a pane: messages and questions |
-//! | `legend.rs` | the legend of a shading, words about steps that are compared |
+//! | `legend.rs` | the legend of a shading, notes about compared steps |
 //! | `constrain.rs` | the constrain tool: vertex and place on the picture |
-//! | `seam.rs` | the seam tool: paths before they are cut, and its options |
+//! | `seam.rs` | the seam tool: preview of paths, and its options |
 //! | `magnifier.rs` | the insets that magnify a defect, and the halves of a pair |
-//! | `inset.rs` | what both kinds of insets share: the wheel and drags over them, the cross that closes them |
+//! | `inset.rs` | common parts of insets: wheel and drags over them, the close button |
 //! | `pin_drag.rs` | a pin dragged with the pointer |
 //! | `pins.rs` | kinds of pins and their marks |
-//! | `vertex_menu.rs` | what a secondary click on a vertex or a pin offers |
+//! | `vertex_menu.rs` | the context menu of a vertex or a pin |
 
 mod bars;
 pub(super) mod comparison;

@@ -1,5 +1,5 @@
-//! What both panes share: places on the screen, clicks and boxes, the wheel, marks of defects: crossings orange,
-//! overwound vertices magenta, concave polygons olive. Flipped faces are drawn with the faces.
+//! Common parts of both panes: positions on the screen, clicks and boxes, the wheel, and marks of defects. Crossings
+//! are orange, overwound vertices magenta, concave polygons olive. Flipped faces are drawn with the faces.
 
 use eframe::egui::{self, Color32, CursorIcon, FontId, Pos2, Rect, Response, Role, Sense, Stroke, Vec2};
 use glam::DVec2;
@@ -13,7 +13,7 @@ use crate::ui::{Control, Editor, Pane, Request, Theme, Tool, theme_of};
 use crate::view::PlaneCamera;
 use freebound_core::mesh::VertexId;
 
-/// Words in the middle of a pane that has nothing to show.
+/// Text in the middle of an empty pane.
 pub(super) fn empty_state(ui: &egui::Ui, rect: Rect, lines: &[&str]) {
     let theme = theme_of(ui);
     let width = (rect.width() - 32.0).max(40.0);
@@ -33,7 +33,7 @@ pub(super) fn empty_state(ui: &egui::Ui, rect: Rect, lines: &[&str]) {
     }
 }
 
-/// A few words in the middle of a part of a pane.
+/// Short text in the middle of a part of a pane.
 pub(super) fn small_state(ui: &egui::Ui, rect: Rect, words: &str) {
     let theme = theme_of(ui);
     let width = (rect.width() - 16.0).max(40.0);
@@ -44,16 +44,16 @@ pub(super) fn small_state(ui: &egui::Ui, rect: Rect, words: &str) {
     ui.painter_at(rect).galley(at, galley, theme.weak_text);
 }
 
-/// A ring around a vertex.
+/// Ring around a vertex.
 pub(super) fn halo(painter: &egui::Painter, at: Pos2, colour: Color32, radius: f32) {
     painter.circle_stroke(at, radius + 1.5, Stroke::new(1.5, Color32::from_black_alpha(90)));
     painter.circle_stroke(at, radius, Stroke::new(2.0, colour));
 }
 
-/// Follows a box being drawn: Ctrl and a drag. Gives it, in window points, when the drag ends.
+/// Follows a selection box, drawn by Ctrl and a drag. Returns the box, in window points, at the end of the drag.
 pub(super) fn drag_box(ui: &egui::Ui, response: &Response, editor: &mut Editor, pane: Pane) -> Option<Rect> {
     if response.drag_started_by(egui::PointerButton::Primary) && ui.input(|input| input.modifiers.command) {
-        // From where the button went down, not from where egui was sure of a drag.
+        // Start at the position of the press, not at the later position of egui's drag detection.
         let origin = ui.input(|input| input.pointer.press_origin()).or(response.interact_pointer_pos());
         editor.pointer.begin_box(pane, origin);
     }
@@ -71,7 +71,7 @@ pub(super) fn drag_box(ui: &egui::Ui, response: &Response, editor: &mut Editor, 
     None
 }
 
-/// Takes a click of the tool in hand, and shows by the cursor what it would do.
+/// Handles a click with the active tool, and sets the cursor for it.
 pub(super) fn click(ui: &egui::Ui, response: &Response, editor: &mut Editor, requests: &mut Vec<Request>) {
     if response.clicked() {
         requests.extend(clicked(ui, editor));
@@ -101,23 +101,23 @@ fn clicked(ui: &egui::Ui, editor: &mut Editor) -> Vec<Request> {
     }
 }
 
-/// A pane's drawing surface, with its name for those who do not see it.
+/// Drawing surface of a pane, with its name for screen readers.
 pub(super) fn surface(ui: &mut egui::Ui, name: &str) -> (Rect, Response) {
     let size = ui.available_size().max(Vec2::splat(16.0));
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     (rect, response.named(Role::Image, name))
 }
 
-/// What the wheel and the trackpad did over a pane.
+/// Input of wheel and trackpad over a pane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WheelMove {
-    /// How much nearer to come: above 1 enlarges.
+    /// Zoom factor; above 1 enlarges.
     pub(super) zoom: f64,
-    /// How far to pan, points.
+    /// Displacement of the pan, points.
     pub(super) pan: DVec2,
 }
 
-/// Enlargement per notch of the wheel.
+/// Zoom factor per notch of the wheel.
 const ZOOM_PER_NOTCH: f64 = 1.15;
 
 /// Reads the wheel: notches zoom, two fingers on a trackpad pan, a pinch zooms.
@@ -138,21 +138,21 @@ pub(super) fn wheel(ui: &egui::Ui) -> WheelMove {
     })
 }
 
-/// Ends of the two boundary edges of each crossing that is marked.
+/// Ends of the two boundary edges of each marked crossing.
 pub(super) fn crossings(editor: &Editor, scene: &MeshScene) -> Vec<[[VertexId; 2]; 2]> {
     let (Some(verdict), Some(disk)) = (editor.plane.verdict(), scene.disk()) else { return Vec::new() };
     let pairs = verdict.boundary_crossings.iter().take(MARKS_SHOWN);
     pairs.map(|edges| edges.map(|edge| disk.ends(edge))).collect()
 }
 
-/// Where two segments cross; the middle of the first where they are parallel.
+/// Crossing point of two segments; the middle of the first if they are parallel.
 pub(super) fn crossing_point([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> DVec2 {
     let (along, across) = (b - a, d - c);
     let share = (c - a).perp_dot(across) / along.perp_dot(across);
     a + along * if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.5 }
 }
 
-/// Crossings, concave polygons and overwound vertices of the embedding.
+/// Marks of all defects of the embedding, and of vertices outside the hull of their neighbours.
 pub(super) fn plane_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &PlaneScene) {
     let (painter, theme) = (&ui.painter_at(view.rect), theme_of(ui));
     let at = |vertex: VertexId| plane.position_of(vertex).unwrap_or(DVec2::NAN);
@@ -177,36 +177,36 @@ pub(super) fn plane_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &E
     }
 }
 
-/// The outlines of the concave polygons that are marked.
+/// Outlines of the marked concave polygons.
 pub(super) fn concave(editor: &Editor, scene: &MeshScene) -> Vec<Vec<VertexId>> {
     let (Some(verdict), Some(disk)) = (editor.plane.verdict(), scene.disk()) else { return Vec::new() };
     let polygons = verdict.concave_polygons.iter().take(MARKS_SHOWN).filter_map(|&face| disk.polygon_of(face));
     polygons.map(|polygon| polygon.corners.to_vec()).collect()
 }
 
-/// The loops around the crossed holes that are marked.
+/// Rims of the marked crossed holes.
 pub(super) fn crossed_holes(editor: &Editor, scene: &MeshScene) -> Vec<Vec<VertexId>> {
     let Some(crossed) = editor.plane.verdict().map(|verdict| &verdict.crossed_holes) else { return Vec::new() };
     crossed.iter().take(MARKS_SHOWN).map(|&lowest| scene.hole_rim(lowest)).collect()
 }
 
-/// A heavy outline.
+/// Mark of a crossed hole: a heavy outline.
 pub(super) fn crossed_hole_mark(painter: &egui::Painter, rim: Vec<Pos2>, theme: &Theme) {
     painter.add(egui::Shape::closed_line(rim, Stroke::new(3.0, theme.crossing)));
 }
 
-/// A heavy outline.
+/// Mark of a concave polygon: a heavy outline.
 pub(super) fn concave_mark(painter: &egui::Painter, outline: Vec<Pos2>, theme: &Theme) {
     painter.add(egui::Shape::closed_line(outline, Stroke::new(3.0, theme.concave)));
 }
 
-/// The overwound vertices that are marked.
+/// Marked overwound vertices.
 pub(super) fn overwound(editor: &Editor) -> Vec<VertexId> {
     let all = editor.plane.verdict().into_iter().flat_map(|verdict| &verdict.overwound_vertices);
     all.copied().take(MARKS_SHOWN).collect()
 }
 
-/// A ring with a dot.
+/// Mark of an overwound vertex: a ring with a dot.
 pub(super) fn overwound_mark(painter: &egui::Painter, at: Pos2, theme: &Theme) {
     painter.circle_stroke(at, 7.0, Stroke::new(2.0, theme.overwound));
     painter.circle_filled(at, 2.5, theme.overwound);

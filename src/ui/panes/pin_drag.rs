@@ -1,5 +1,4 @@
-//! Pins in the embedding's pane: each is a widget of its own, with a name, that can be grabbed. Where several are
-//! selected, they go together.
+//! Pins in the embedding pane. Each pin is a named widget that can be dragged. Selected pins move together.
 
 use eframe::egui::{self, CursorIcon, Rect, Response, Role, Sense, Vec2};
 use glam::DVec2;
@@ -15,17 +14,17 @@ use freebound_core::mesh::VertexId;
 /// Side of the square around a pin that can be grabbed, points.
 const GRAB_SIZE: f32 = 18.0;
 
-/// A pointer that has not moved for so long in the middle of a drag rests, seconds.
+/// Time without motion after which the pointer counts as resting in a drag, seconds.
 const REST: f64 = 0.2;
 
-/// Where a pin is, and what it is about.
+/// Pin, its position on the screen, and the view.
 struct Grip {
     pin: PinShown,
     at: egui::Pos2,
     view: Viewport<PlaneCamera>,
 }
 
-/// Shows the pins and takes their gestures.
+/// Shows the pins and handles their gestures.
 pub(super) fn pins_ui(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut Editor, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     let painter = ui.painter_at(view.rect);
@@ -33,14 +32,14 @@ pub(super) fn pins_ui(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut E
     if let Some(dragged) = editor.tools.dragged()
         && !pins.iter().any(|pin| pin.vertex == dragged)
     {
-        // It was taken away in the middle of the drag, by undo for one.
+        // The pin was removed during the drag, for example by undo.
         editor.tools.end_drag();
         requests.push(Request::Do(Action::EndGesture));
     }
     for pin in pins {
         let at = view.spot(pin.target);
         let is_dragged = editor.tools.dragged() == Some(pin.vertex);
-        // A pin that is dragged out of the pane stays in the hand.
+        // A pin dragged out of the pane stays dragged.
         if !is_dragged && !view.rect.expand(GRAB_SIZE).contains(at) {
             continue;
         }
@@ -52,7 +51,7 @@ pub(super) fn pins_ui(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut E
             response = response.on_hover_text(sentence(&conflict.words()));
         }
         pin.kind.mark(&painter, at, theme, Emphasis::strong_if(is_strong));
-        // A mark that leaves the click to the pane leaves it what is said of it, too.
+        // A mark that leaves the click to the pane also leaves hover and cursor to it.
         if editor.tools.pair().is_none() && (response.hovered() || response.dragged()) {
             ui.ctx().set_cursor_icon(if response.dragged() { CursorIcon::Grabbing } else { CursorIcon::Grab });
             editor.pointer.set_vertex(Some(pin.vertex));
@@ -67,7 +66,7 @@ pub(super) fn pins_ui(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut E
     }
 }
 
-/// The vertex of the pin whose mark is under a place of the screen: of several the one on top, which takes the click.
+/// Vertex of the pin under a position on the screen. Among several, the topmost, which takes the click.
 pub(super) fn pin_at(editor: &Editor, view: Viewport<PlaneCamera>, at: egui::Pos2) -> Option<VertexId> {
     let is_under = |pin: &PinShown| Rect::from_center_size(view.spot(pin.target), Vec2::splat(GRAB_SIZE)).contains(at);
     editor.pins_shown().into_iter().rfind(is_under).map(|pin| pin.vertex)
@@ -79,7 +78,7 @@ impl Grip {
         let grab = Rect::from_center_size(self.at, Vec2::splat(GRAB_SIZE));
         let seen = grab.intersect(self.view.rect);
         let grab = if seen.is_positive() { seen } else { grab };
-        // The pane itself takes the click that completes a pair, even over a pin.
+        // The pane takes the click that completes a pair, even over a pin.
         let sense = if editor.tools.pair().is_some() { Sense::hover() } else { Sense::click_and_drag() };
         ui.interact(grab, ui.scope_id().with(("pin", vertex)), sense).named(Role::Button, &kind.name(vertex))
     }
@@ -105,7 +104,7 @@ impl Grip {
                 ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(REST - still));
             }
         }
-        // Also where the end came unseen, such as in another window.
+        // Also if the end of the drag was missed, for example over another window.
         if response.drag_stopped() || !response.dragged() {
             editor.tools.end_drag();
             requests.push(Request::Do(Action::EndGesture));
@@ -125,7 +124,7 @@ impl Grip {
             Vec::new()
         };
         let offset = pressed.map_or(Vec2::ZERO, |pressed| self.at - pressed);
-        // Nothing has moved yet that rest would bring any further.
+        // Nothing has moved yet, so a resting pointer must not trigger further steps.
         editor.tools.begin_drag(PinDrag { vertex, offset, others, moved_at: 0.0, has_rested: true });
         requests.push(Request::Do(Action::EndGesture));
     }

@@ -1,4 +1,4 @@
-//! Pins as both panes show them: what kind each is, and its mark.
+//! Pins in both panes: their kinds and marks.
 
 use std::collections::BTreeMap;
 
@@ -9,35 +9,35 @@ use crate::ui::{Editor, Theme};
 use freebound_core::mesh::VertexId;
 use freebound_core::problem::PinKind;
 
-/// Side of a pin's square, points.
+/// Side of the square of a fixed pin or gauge pin, points.
 const SQUARE: f32 = 9.0;
 
-/// Half the height of a hard constraint's diamond, points.
+/// Half the height of the diamond of a hard pin, points.
 const DIAMOND: f32 = 6.5;
 
-/// Half the heights of the diamonds of the least and the largest weight that differ in size, points.
+/// Half the heights of the smallest and the largest diamond of a soft pin, points.
 const DIAMONDS: [f32; 2] = [4.0, 9.0];
 
-/// Those weights.
+/// Weights of the smallest and the largest diamond.
 const WEIGHTS: [f64; 2] = [1e-2, 1e2];
 
-/// What a strong mark is larger by, points.
+/// Increase in size of a strong mark, points.
 const STRONG: f32 = 2.0;
 
-/// An arrow or line shorter than this would only hide its ends, points.
+/// Least length of an arrow or line, points. A shorter one would only hide its ends.
 const LEAST_LINE: f32 = 3.0;
 
-/// What kind a pin is.
+/// Kind of a pin, for its mark.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PinMark {
-    /// A gauge pin that the solver chose.
+    /// Gauge pin, chosen by the solver.
     Gauge,
-    /// A pin of the user's, held in this way.
+    /// Pin of the user, with its kind.
     User(PinKind),
 }
 
 impl PinMark {
-    /// The pin's name, for those who do not see it.
+    /// Name of the pin, for screen readers.
     pub fn name(self, vertex: VertexId) -> String {
         match self {
             Self::Gauge => format!("Gauge pin {vertex}"),
@@ -46,8 +46,8 @@ impl PinMark {
         }
     }
 
-    /// Draws the mark: a square for one that was fixed, hollow for the solver's own; a diamond for a constraint, hollow and
-    /// as large as its weight for one that pulls.
+    /// Draws the mark. Fixed pins are squares, hollow for gauge pins. Constraints are diamonds, hollow for soft pins,
+    /// whose size grows with the weight.
     pub(in crate::ui) fn mark(self, painter: &Painter, at: Pos2, theme: &Theme, emphasis: Emphasis) {
         let more = if emphasis == Emphasis::Strong { STRONG } else { 0.0 };
         match self {
@@ -77,21 +77,21 @@ impl PinMark {
     }
 }
 
-/// A pin with its target in the plane.
+/// Pin with its target in the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PinShown {
     pub vertex: VertexId,
-    /// Where it is to be, in the plane.
+    /// Target, in the plane.
     pub target: DVec2,
     pub kind: PinMark,
 }
 
 impl Editor {
-    /// The pins as drawn: the user's, then the gauge pins that the solver chose.
+    /// Drawn pins: first those of the user, then the gauge pins that the solver chose.
     pub fn pins_shown(&self) -> Vec<PinShown> {
         let document = self.session.document();
         let uses_pins = document.settings.method.uses_pins();
-        // Marks show what the solver does: a treatment may weigh what was asked for exactly.
+        // Marks show the kinds that the solver uses: a treatment may make hard pins soft.
         let users = if uses_pins { document.settings.held(&document.pins()) } else { BTreeMap::new() };
         let outcome = self.plane.scene().map(|scene| &scene.outcome).filter(|outcome| {
             outcome.step.candidate.solution.gauge_completed
@@ -99,7 +99,7 @@ impl Editor {
                 && users.len() < 2
         });
         let gauge = outcome.into_iter().flat_map(|outcome| &outcome.step.candidate.solution.pins);
-        // They go along with a sheet that is on its way.
+        // Gauge pins follow a transition.
         let way = self.plane.result().filter(|_| self.plane.is_easing());
         let place = |vertex, at| way.and_then(|way| way.position_of(vertex)).unwrap_or(at);
         let gauge = gauge.filter(|(vertex, _)| !users.contains_key(vertex)).map(|(&vertex, pin)| PinShown {
@@ -112,7 +112,7 @@ impl Editor {
         own.chain(gauge).collect()
     }
 
-    /// The exact pins that are not on their targets in the planar embedding on the screen, ascending.
+    /// Hard pins that miss their targets in the planar embedding on the screen, ascending.
     pub fn unmet_shown(&self) -> Vec<VertexId> {
         let outcome = self.plane.scene().map(|scene| &scene.outcome);
         let planar = outcome
@@ -120,14 +120,14 @@ impl Editor {
         planar.map(|outcome| outcome.step.unmet()).unwrap_or_default()
     }
 
-    /// The selected vertices that are pins of the user's.
+    /// Selected vertices that the user has pinned.
     pub fn pins_selected(&self) -> impl Iterator<Item = VertexId> + '_ {
         let targets = &self.session.document().targets;
         self.selection.vertices().iter().copied().filter(|vertex| targets.contains_key(vertex))
     }
 }
 
-/// How a mark is drawn.
+/// Emphasis of a mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::ui) enum Emphasis {
     Plain,
@@ -141,17 +141,17 @@ impl Emphasis {
     }
 }
 
-/// A ring around a pin's vertex that is not on its target.
+/// Ring around the vertex of a pin that misses its target.
 pub(super) fn unmet_mark(painter: &Painter, at: Pos2, theme: &Theme) {
     painter.circle_stroke(at, DIAMOND + 4.0, Stroke::new(2.0, theme.unmet));
 }
 
-/// A thin ring around a pin that contradicts others on the mesh as it is.
+/// Thin ring around a pin that conflicts with others on the given mesh.
 pub(super) fn conflict_mark(painter: &Painter, at: Pos2, theme: &Theme) {
     painter.circle_stroke(at, DIAMOND + 3.0, Stroke::new(1.25, theme.stale));
 }
 
-/// What a click would place: a diamond that is not there yet.
+/// Preview of a constraint that a click would place: a translucent diamond.
 pub(in crate::ui) fn ghost(painter: &Painter, at: Pos2, theme: &Theme) {
     let colour = theme.constraint.gamma_multiply(0.7);
     let edge = Stroke::new(1.5, colour);
@@ -171,7 +171,7 @@ fn diamond(at: Pos2, half: f32) -> Vec<Pos2> {
     [(0.0, -half), (half, 0.0), (0.0, half), (-half, 0.0)].map(|(x, y)| at + Vec2::new(x, y)).to_vec()
 }
 
-/// What joins a vertex and its target where they differ: a line, and for a constraint that pulls an arrow.
+/// Line from a vertex to its target if they differ; an arrow for a soft pin.
 pub(in crate::ui) fn residual(painter: &Painter, [vertex, target]: [Pos2; 2], theme: &Theme, kind: PinMark) {
     let way = target - vertex;
     if !(LEAST_LINE..1e5).contains(&way.length()) {

@@ -1,4 +1,4 @@
-//! The embedding: pan, zoom to the pointer; hover, pick and drag.
+//! Embedding pane: pan, zoom to the pointer; hover, pick and drag.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::view::PlaneCamera;
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Surface;
 
-/// Marks drawn at most for a large selection.
+/// Greatest number of marks for a large selection.
 const MARKS_SHOWN: usize = 2000;
 
 pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
@@ -72,7 +72,7 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     }
 }
 
-/// Takes in what is under the pointer: a pin by its mark, which lies over the vertices, else the nearest vertex.
+/// Sets the element under the pointer: a pin by its mark, which lies over the vertices, else the nearest vertex.
 fn pick(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut Editor, plane: &PlaneScene, pointer: Option<Pos2>) {
     let Viewport { rect, camera } = view;
     let pointer = pointer.filter(|_| editor.is_of_session(&plane.mesh));
@@ -88,11 +88,11 @@ fn pick(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut Editor, plane: 
 
 fn waiting_words(editor: &Editor) -> Vec<&'static str> {
     match editor.session.model().map(|model| &model.prepared.surface) {
-        None => vec!["Its embedding will show here"],
+        None => vec!["The embedding appears here"],
         Some(Surface::Faulty(..)) => {
             vec![
-                "This mesh cannot be flattened as it is",
-                "The bars over the mesh and the tab Defects say what is wrong",
+                "This mesh has faults that prevent flattening",
+                "The bars above the mesh and the Defects tab list the faults",
             ]
         }
         Some(Surface::Disk(_)) if editor.session.busy().is_some() => vec!["Solving…"],
@@ -117,7 +117,7 @@ pub(super) fn navigate(ui: &egui::Ui, response: &Response, camera: &mut PlaneCam
     }
 }
 
-/// The vertices that lie in a box of the screen, and those whose targets do.
+/// Vertices inside a box of the screen, and vertices with targets inside it.
 fn within(view: Viewport<PlaneCamera>, chosen: Rect, editor: &Editor, plane: &PlaneScene) -> Vec<VertexId> {
     let [a, b] = [chosen.left_bottom(), chosen.right_top()].map(|corner| view.point_at(corner));
     let is_inside = |z: DVec2| z.cmpge(a).all() && z.cmple(b).all();
@@ -177,14 +177,14 @@ fn marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &Pl
         pane::halo(&over, spot(vertex), theme.selection, 6.0);
     }
     if let Some(vertex) = editor.pointer.vertex() {
-        // Where the mesh is cut, on both sides.
+        // At a cut, mark the copies on both sides.
         let copies = plane.mesh.in_file.vertex(vertex).into_iter().flat_map(|of| plane.mesh.in_file.copies(of));
         copies.filter(|copy| *copy != vertex).for_each(|copy| pane::halo(&over, spot(copy), theme.selection, 4.0));
         pane::halo(&over, spot(vertex), theme.selection, 5.0);
     }
 }
 
-/// The stages to choose from, in the upper left corner of the pane, and what the chosen one shows.
+/// Selector of the stages in the upper left corner of the pane, and the caption of the chosen stage.
 fn stage_selector(ui: &mut egui::Ui, rect: Rect, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(scene) = editor.plane.hull_scene() else { return };
     let theme = theme_of(ui);

@@ -1,4 +1,4 @@
-//! The seam tool in the panes: the vertex under the pointer, what a click would cut, and the strip of its options.
+//! Seam tool in the panes: the vertex under the pointer, the preview of a cut, and the strip of options.
 
 use eframe::egui::{self, Pos2, Shape, Stroke, WidgetInfo};
 
@@ -16,17 +16,17 @@ use crate::ui::{
 use crate::view::{OrbitCamera, PlaneCamera};
 use freebound_core::mesh::VertexId;
 
-/// Opacity of what the mesh hides.
+/// Opacity of edges that the mesh hides.
 const HIDDEN: f32 = 0.4;
 
-/// Width of a path that a click would cut, points: less than that of a seam.
+/// Width of a path that a click would cut, points: less than the width of a seam.
 const CUT_WIDTH: f32 = 2.0;
 
-/// Width of dashes over a seam that a click would close, points.
+/// Width of the dashes over a seam that a click would close, points.
 const CLOSE_WIDTH: f32 = 3.0;
 
 impl Editor {
-    /// Takes in the vertex of the file that is under the pointer in the mesh's pane: of all charts.
+    /// Sets the vertex of the file under the pointer in the mesh pane, on any chart.
     pub(super) fn pick_seam_vertex(&mut self, scene: &MeshScene, camera: &OrbitCamera, pointer: glam::DVec2) {
         let size = self.mesh.pane.size();
         let of_chart = self.pointer.vertex().and_then(|vertex| scene.in_file.vertex(vertex));
@@ -40,37 +40,37 @@ impl Editor {
         self.foresee_seam();
     }
 
-    /// The same in the embedding's pane, where the vertex on the screen is known.
+    /// Sets the vertex of the file under the pointer in the embedding pane, from the vertex on the screen.
     pub(super) fn pick_seam_vertex_in_plane(&mut self, scene: &MeshScene) {
         let vertex = self.pointer.vertex().and_then(|vertex| scene.in_file.vertex(vertex));
         self.tools.seam.set_under(vertex);
         self.foresee_seam();
     }
 
-    /// What the seam tool does, in words.
+    /// Hint for the status bar.
     pub(in crate::ui) fn seam_words(&self, has_shift: bool) -> String {
         let seam = &self.tools.seam;
         let edges = |edges: &[Edge]| counted(edges.len(), "edge", "edges");
         match (seam.foreseen(), seam.under(), seam.last()) {
-            (Some(SeamIntent::Begin), Some(vertex), _) => format!("Click: the seam begins at {vertex}."),
+            (Some(SeamIntent::Begin), Some(vertex), _) => format!("Click: start the seam at {vertex}."),
             (Some(SeamIntent::Add(path)), Some(vertex), _) => {
-                format!("Click: cut {} to {vertex}. Enter ends the seam, Shift takes away.", edges(path))
+                format!("Click: cut {} to {vertex}. Enter ends the seam, Shift erases.", edges(path))
             }
-            (Some(SeamIntent::TakeAway(path)), ..) => format!("Click: close {} of the seam.", edges(path)),
-            (Some(SeamIntent::End), ..) => "Click: the seam ends here.".to_owned(),
+            (Some(SeamIntent::TakeAway(path)), ..) => format!("Click: erase {} of the seam.", edges(path)),
+            (Some(SeamIntent::End), ..) => "Click: end the seam here.".to_owned(),
             (Some(SeamIntent::Wait), ..) => "Finding the paths from here…".to_owned(),
             (Some(SeamIntent::Nothing), Some(vertex), None) => format!("No seam is at {vertex}."),
             (Some(SeamIntent::Nothing), Some(vertex), Some(last)) if seam.erases() != has_shift => {
                 format!("No seam leads from {last} to {vertex}.")
             }
             (Some(SeamIntent::Nothing), Some(vertex), Some(last)) => {
-                format!("No edges lead from {last} to {vertex}: they are of different parts.")
+                format!("No edges lead from {last} to {vertex}: they belong to different parts.")
             }
             (_, _, None) if seam.erases() => {
-                "Click a seam to close it. Clicks with Shift cut, and Esc ends the tool.".to_owned()
+                "Click a seam to erase it. Shift + click cuts, Esc ends the tool.".to_owned()
             }
-            (_, _, None) => "Click where the seam begins. Shift takes a seam away, Esc ends the tool.".to_owned(),
-            (_, _, Some(_)) => "Click where it goes on. Enter ends it, Shift takes away.".to_owned(),
+            (_, _, None) => "Click the first vertex of the seam. Shift erases a seam, Esc ends the tool.".to_owned(),
+            (_, _, Some(_)) => "Click the next vertex of the seam. Enter ends it, Shift erases.".to_owned(),
         }
     }
 }
@@ -79,18 +79,18 @@ fn has_shift(ui: &egui::Ui) -> bool {
     ui.input(|input| input.modifiers.shift)
 }
 
-/// Asks for what a click does.
+/// Request of a click.
 pub(super) fn clicked(ui: &egui::Ui, editor: &Editor) -> Vec<Request> {
     editor.seam_click(has_shift(ui)).map(Request::ClickSeam).into_iter().collect()
 }
 
-/// The edges that a click would cut or close, and whether it closes them.
+/// Edges that a click would cut or close, and true if it closes them.
 fn change(editor: &Editor) -> (&[Edge], bool) {
     let intent = editor.tools.seam.foreseen();
     (intent.map_or(&[], SeamIntent::edges), matches!(intent, Some(SeamIntent::TakeAway(_))))
 }
 
-/// A side of a path, as it is seen.
+/// Edge of a path, cut or closed, hidden or not.
 fn line(painter: &egui::Painter, ends: [Pos2; 2], theme: &Theme, style: PathStyle) {
     let seam = on_screen(theme.seam);
     let strong = if style.closes { theme.text } else { seam };
@@ -108,7 +108,7 @@ struct PathStyle {
     closes: bool,
 }
 
-/// What a click would do, over the mesh, and where the seam has got to.
+/// Preview of a click over the mesh, and the last vertex of the seam.
 pub(super) fn over_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &mut Editor) {
     if editor.tools.tool() != Tool::Seam {
         return;
@@ -131,7 +131,7 @@ pub(super) fn over_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &mut
     }
 }
 
-/// The same over the embedding, at all copies of the edges that are there.
+/// Preview of a click over the embedding, at all copies of its edges, and the last vertex of the seam.
 pub(super) fn over_plane(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &PlaneScene) {
     let (painter, theme, scene) = (ui.painter_at(view.rect), theme_of(ui), &plane.mesh);
     let spot = |vertex: VertexId| plane.position_of(vertex).map(|at| view.spot(at));
@@ -154,13 +154,13 @@ pub(super) fn over_plane(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Ed
     last.filter_map(spot).for_each(|at| end_mark(&painter, at, theme));
 }
 
-/// Where a seam has got to.
+/// Mark of the last vertex of a seam.
 fn end_mark(painter: &egui::Painter, at: Pos2, theme: &Theme) {
     painter.circle_filled(at, 5.5, theme.background);
     painter.circle_filled(at, 4.0, on_screen(theme.seam));
 }
 
-/// Over the mesh's pane: what paths follow, whether clicks cut or close, and what is done with all seams.
+/// Strip over the mesh pane: preference of paths, cut or erase, rules, and actions for all seams.
 pub(super) fn strip(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     let frame = egui::Frame::new().fill(theme.panel.gamma_multiply(0.92)).inner_margin(egui::Margin::symmetric(8, 4));
@@ -169,30 +169,30 @@ pub(super) fn strip(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 6.0;
             measure(ui, editor.tools.seam.creases(), requests);
-            let tip = "Clicks close seams instead of cutting them: the whole stretch under the pointer, or from the click \
-                       before. Shift does the same for one click";
+            let tip = "Clicks erase seams instead of cutting: the whole stretch under the pointer, or from the \
+                       previous click. Shift does so for one click";
             let erase = ui.selectable_label(editor.tools.seam.erases(), "Erase").on_hover_text(tip);
             erase.asks(Request::ToggleErasing, requests);
             rules(ui, editor, requests);
-            let tip = "Close all seams that were drawn or chosen; undo takes it back";
+            let tip = "Erase all seams that were drawn or chosen; undo restores them";
             let clear = Offer::new("Clear seams", tip, Request::ClearSeams);
             clear.when(!editor.session.seams().edges().is_empty()).show(ui, requests);
             if editor.tools.seam.last().is_some() {
-                let tip = tip_with_keys(ui, "The seam is as it should be: the next click begins another", &Request::EndSeam);
+                let tip = tip_with_keys(ui, "End this seam. The next click starts another one", &Request::EndSeam);
                 ui.button("End seam").on_hover_text(tip).asks(Request::EndSeam, requests);
             }
         });
     });
 }
 
-/// Seams by a rule, in a menu that stays open while an angle is typed; and what came of the last one.
+/// Menu of the rules for seams, which stays open while an angle is typed, and the result of the last rule.
 fn rules(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let rules = &editor.tools.seam.rules;
     let menu = lasting_menu(ui, "Cut along", |ui| {
         ui.horizontal(|ui| {
             let sharp = Offer::new(
                 "Sharp edges",
-                "Cut where faces meet at this angle or more",
+                "Cut edges with this angle or more between their faces",
                 by(SeamRule::Sharp(rules.degrees)),
             );
             sharp.show(ui, requests);
@@ -204,7 +204,9 @@ fn rules(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
             if field.changed() {
                 requests.push(Request::SetSharp(degrees));
             }
-            field.on_hover_text("Between the normals of the two faces, degrees: 0 in one plane, 90 at a box's edge");
+            field.on_hover_text(
+                "Angle between the normals of the two faces, in degrees. 0: in one plane; 90: at a box's edge",
+            );
         });
         let materials =
             Offer::new("Borders of materials", "Cut where faces of two materials meet", by(SeamRule::Materials));
@@ -213,7 +215,7 @@ fn rules(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
             Offer::new("Borders of groups", "Cut where faces of two groups or objects meet", by(SeamRule::Groups));
         groups.show(ui, requests);
         ui.separator();
-        let tip = "Cut along the edges of a file, too: the numbers of two vertices a line, from 0";
+        let tip = "Also cut along the edges of a file. Each line has the numbers of two vertices, from 0";
         Offer::new("Import seams…", tip, Request::Ask(FileDialogKind::ImportSeams)).show(ui, requests);
         let has_seams = !editor.session.seams().edges().is_empty();
         let export = Offer::new(
@@ -223,7 +225,7 @@ fn rules(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         );
         export.when(has_seams).show(ui, requests);
     });
-    menu.on_hover_text("Cut along edges that follow a rule, all at once");
+    menu.on_hover_text("Cut along all edges that match a rule");
     if let Some(said) = rules.said() {
         ui.weak(said);
     }
@@ -233,17 +235,17 @@ fn by(rule: SeamRule) -> Request {
     Request::CutByRule(rule)
 }
 
-/// What paths follow: from the shortest to creases.
+/// Slider for the preference of paths, from shortest to along creases.
 fn measure(ui: &mut egui::Ui, creases: f64, requests: &mut Vec<Request>) {
     let mut percent = 100.0 * creases;
     ui.weak("Short");
     ui.spacing_mut().slider_width = 72.0;
     let slider = egui::Slider::new(&mut percent, 0.0..=100.0).suffix(" %").fixed_decimals(0);
     let response = ui.add(slider).on_hover_text(
-        "What paths follow: 0 % the shortest way, 100 % sharp creases, even by a long way around. Type a number; \
+        "Course of paths. 0 %: shortest way; 100 %: along sharp creases, even on a long detour. Type a number; \
          double-click resets",
     );
-    response.widget_info(|| WidgetInfo::slider(true, percent, "Short ways to creases"));
+    response.widget_info(|| WidgetInfo::slider(true, percent, "Course of paths"));
     ui.weak("Creases");
     if response.double_clicked() {
         requests.push(Request::SetCreases(CREASES));

@@ -1,31 +1,31 @@
-//! Requests to the comparison of methods: files to write, and moves of the morph.
+//! Requests to the method comparison: file exports, and control of the morph.
 
 use freebound_core::problem::Variant;
 
-/// Files that can be written of a comparison.
+/// Exports of the method comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ComparisonExport {
-    /// The embeddings side by side.
+    /// Embeddings side by side.
     Picture,
-    /// The table.
+    /// Table of the methods.
     Table,
     /// Every step of every method.
     Steps,
-    /// The morph that shows.
+    /// Morph on the screen.
     Morph,
 }
 
 impl ComparisonExport {
-    /// All of them, in the order of menus.
+    /// All exports, in menu order.
     pub const ALL: [Self; 4] = [Self::Picture, Self::Table, Self::Steps, Self::Morph];
 
-    /// Its entry in menus, and what it is.
+    /// Menu entry and description.
     pub(in crate::ui) const fn words(self) -> [&'static str; 2] {
         match self {
-            Self::Picture => ["Picture…", "PNG, drawn anew: the embeddings at one scale, with their numbers"],
+            Self::Picture => ["Picture…", "PNG: the embeddings at one scale, with their numbers"],
             Self::Table => ["Table…", "CSV, a line for each method"],
             Self::Steps => ["Steps…", "CSV, every step of every method with its seconds, energy and stretch"],
-            Self::Morph => ["Animated picture…", "APNG, drawn anew: the morph that shows, there and back"],
+            Self::Morph => ["Animated picture…", "APNG: the morph on the screen, forwards and back"],
         }
     }
 }
@@ -33,14 +33,14 @@ impl ComparisonExport {
 /// Requests to the morph.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MorphRequest {
-    /// Shows it in the place of the cells, or the cells again.
+    /// Shows the morph in place of the cells, or the cells again.
     Toggle,
-    /// Begins it with the map of a method.
+    /// Sets the method at the start.
     From(Variant),
-    /// Ends it with the map of a method.
+    /// Sets the method at the end.
     To(Variant),
-    /// Shows it at a share of its time, 0 to 1.
+    /// Shows the frame at a time, 0 to 1.
     Seek(f64),
-    /// Plays it from where it stands, or from the beginning where it stands at its end; or stops playing.
+    /// Plays from the current time, or from the start if the morph is at its end; or stops playing.
     Play,
 }

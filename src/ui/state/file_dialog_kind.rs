@@ -1,4 +1,4 @@
-//! Kinds of file dialogs: title, names and extensions of the files that each asks for.
+//! Kinds of file dialogs: title, names and extensions.
 
 use std::path::Path;
 use std::slice;
@@ -11,7 +11,7 @@ use freebound_io::OutputKind;
 /// Kinds of file dialogs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileDialogKind {
-    /// A mesh or a project to open.
+    /// Mesh or project to open.
     Open,
     OpenPicture,
     ImportConstraints,
@@ -19,28 +19,28 @@ pub enum FileDialogKind {
     ImportSeams,
     ExportSeams,
     SaveProject,
-    /// Export of the flattening in a format. Default size: that of the editor.
+    /// Export of the flattening in a format. Default size: the size chosen in the editor.
     Export(OutputKind, Option<Fit>),
     /// Picture of a pane.
     PanePicture(Pane),
-    /// Export of the comparison of methods.
+    /// Export of the method comparison.
     Comparison(ComparisonExport),
 }
 
-/// The dialog of a purpose.
+/// Texts and extensions of a dialog.
 pub(in crate::ui) struct DialogForm {
-    /// Its first word is that of the button.
+    /// Title. Its first word labels the button.
     pub(in crate::ui) title: &'static str,
-    /// Name of such files.
+    /// Name of the kind of files.
     pub(in crate::ui) files: &'static str,
-    /// Extensions; the first one is added to a name without any.
+    /// Extensions. A name without extension gets the first.
     pub(in crate::ui) extensions: &'static [&'static str],
-    /// The end of a suggested name.
+    /// Ending of a suggested name.
     pub(in crate::ui) ending: &'static str,
 }
 
 impl DialogForm {
-    /// True if a name ends as those of such files do.
+    /// True if a path has an extension of the dialog.
     pub(in crate::ui) fn fits(&self, path: &Path) -> bool {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         self.extensions.contains(&extension.as_str())
@@ -84,12 +84,13 @@ impl FileDialogKind {
         DialogForm { title, files, extensions, ending }
     }
 
-    /// True if a file is asked for that is there already.
+    /// True if the dialog asks for an existing file.
     pub(in crate::ui) const fn is_reading(self) -> bool {
         matches!(self, Self::Open | Self::OpenPicture | Self::ImportConstraints | Self::ImportSeams)
     }
 
-    /// True if a name will do: what is written has the extension that says so.
+    /// True if the dialog accepts a path: its extension fits. Input files, OBJ files, constraints and seams accept
+    /// any extension.
     pub(in crate::ui) fn takes(self, path: &Path) -> bool {
         let takes_any = matches!(self, Self::Export(OutputKind::Obj, _) | Self::ExportConstraints | Self::ExportSeams);
         let is_free = self.is_reading() || takes_any;

@@ -1,16 +1,16 @@
 //! Stages of the virtual boundary.
 
-/// A stage of the virtual boundary.
+/// Stage of the virtual boundary.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum HullStage {
-    /// The embedding before, in its hull.
+    /// Embedding before, in its hull.
     Before,
-    /// The outside triangulated.
+    /// Outside triangulated.
     #[default]
     Pockets,
-    /// Mesh and outside as solved together.
+    /// Mesh and outside, solved together.
     Solved,
-    /// The result.
+    /// Result.
     Peeled,
 }
 
@@ -18,13 +18,13 @@ impl HullStage {
     /// All stages in their order.
     pub const ALL: [Self; 4] = [Self::Before, Self::Pockets, Self::Solved, Self::Peeled];
 
-    /// Its name, and what it shows.
+    /// Name and description.
     pub const fn words(self) -> [&'static str; 2] {
         match self {
-            Self::Before => ["Before", "The embedding before, in its hull"],
-            Self::Pockets => ["Pockets", "The outside triangulated up to the hull"],
-            Self::Solved => ["Solved", "Mesh and outside embedded together, the hull where it was"],
-            Self::Peeled => ["Peeled", "The outside taken away: the result"],
+            Self::Before => ["Before", "The previous embedding, in its hull"],
+            Self::Pockets => ["Pockets", "The outside, triangulated up to the hull"],
+            Self::Solved => ["Solved", "Mesh and outside embedded together, with the hull fixed"],
+            Self::Peeled => ["Peeled", "The result, without the outside"],
         }
     }
 }

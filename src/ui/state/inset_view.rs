@@ -7,13 +7,13 @@ use freebound_core::mesh::VertexId;
 /// Limits of the zoom of an inset.
 const REACH: std::ops::RangeInclusive<f64> = 0.1..=1e4;
 
-/// Zoom and pan of the insets: zoomed by the wheel, panned by a drag.
+/// Zoom and pan of the insets. The wheel zooms, a drag pans.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::ui) struct InsetView {
-    /// The defect that it was brought nearer for, by its place in the list; none for pairs.
+    /// Defect that the zoom belongs to, by its place in the list; `None` for pairs.
     of: Option<usize>,
     factor: f64,
-    /// The last drag of each kind of inset.
+    /// Pan of each kind of inset, with its subject; points.
     panned: [Option<(InsetSubject, DVec2)>; 3],
 }
 
@@ -24,7 +24,7 @@ impl Default for InsetView {
 }
 
 impl InsetView {
-    /// True if a person has moved what an inset shows.
+    /// True if the user has zoomed or panned an inset.
     pub(in crate::ui) fn is_set(&self, kind: InsetKind, about: InsetSubject) -> bool {
         (self.factor(about.defect()) - 1.0).abs() > f64::EPSILON || self.panned(kind, about) != DVec2::ZERO
     }
@@ -43,7 +43,7 @@ impl InsetView {
         let before = self.factor(of);
         let factor = (before * by).clamp(*REACH.start(), *REACH.end());
         (self.of, self.factor) = (of, factor);
-        // What lies in the middle stays there.
+        // Keep the point in the middle fixed.
         for (_, panned) in self.panned.iter_mut().flatten().filter(|(about, _)| about.defect() == of) {
             *panned *= factor / before;
         }
@@ -57,9 +57,9 @@ impl InsetView {
 /// Subject of an inset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::ui) enum InsetSubject {
-    /// A defect, by its place in the list.
+    /// Defect, by its place in the list.
     Defect(usize),
-    /// A pair, by its vertex where it has one yet.
+    /// Pair, by its vertex if already chosen.
     Pair(Option<VertexId>),
 }
 
@@ -72,22 +72,22 @@ impl InsetSubject {
     }
 }
 
-/// A drag over an inset.
+/// Drag over an inset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InsetPan {
     pub(in crate::ui) kind: InsetKind,
     pub(in crate::ui) about: InsetSubject,
-    /// Points of the screen.
+    /// Displacement, points of the screen.
     pub(in crate::ui) by: DVec2,
 }
 
-/// The insets that there are.
+/// Kinds of insets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(in crate::ui) enum InsetKind {
-    /// A defect in the plane.
+    /// Defect in the plane.
     Defect,
-    /// The vertex of a pair, on the mesh.
+    /// Vertex of a pair, on the mesh.
     PairOnMesh,
-    /// The target of a pair, in the plane.
+    /// Target of a pair, in the plane.
     PairInPlane,
 }

@@ -13,8 +13,9 @@
 //! | `unsaved.rs` | the question about unsaved work |
 //! | `inset_view.rs` | zoom and pan of the insets |
 //! | `pin_drag.rs` | a drag of a pin |
-//! | `timeline_view.rs` | the timeline as the window has it |
-//! | `toast.rs` | the good news that shows |
+//! | `timeline_view.rs` | state of the timeline in the window |
+//! | `toast.rs` | the success message that shows |
+//! | `tour.rs` | the guided tour |
 
 mod comparison;
 mod file_dialog_kind;
@@ -29,6 +30,7 @@ mod shading_mode;
 mod timeline_view;
 mod toast;
 mod tool;
+mod tour;
 mod unsaved;
 
 pub use comparison::{ComparisonExport, MorphRequest};
@@ -45,4 +47,6 @@ pub use shading_mode::ShadingMode;
 pub(in crate::ui) use timeline_view::{CURVE_COUNT, ROW_HEIGHT, TimelineView};
 pub(in crate::ui) use toast::Toast;
 pub use tool::{Half, Intent, Tool};
+pub use tour::{Tour, TourCard};
+pub(in crate::ui) use tour::{TourStart, TourState};
 pub(in crate::ui) use unsaved::{PendingClose, UnsavedAnswer};

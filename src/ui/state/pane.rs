@@ -1,16 +1,16 @@
-//! The two panes, and the tabs of the panel at the right.
+//! Panes of the window, and tabs of the panel at the right.
 
 /// Panes of the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pane {
-    /// The mesh in space.
+    /// Mesh in space.
     Mesh,
-    /// Its embedding.
+    /// Embedding of the mesh.
     Plane,
 }
 
 impl Pane {
-    /// From left to right.
+    /// Both panes, from left to right.
     pub(in crate::ui) const BOTH: [Self; 2] = [Self::Mesh, Self::Plane];
 
     /// Title of the pane.
@@ -22,19 +22,19 @@ impl Pane {
     }
 }
 
-/// A panel at the right.
+/// Tab of the panel at the right.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tab {
     /// Method and weights.
     #[default]
     Method,
-    /// The pins.
+    /// Pins.
     Pins,
     /// Defects of the embedding.
     Defects,
-    /// The selected vertex.
+    /// Selected vertex.
     Vertex,
-    /// The charts of a mesh that has several.
+    /// Charts, for a mesh that has several.
     Charts,
 }
 
@@ -42,7 +42,7 @@ impl Tab {
     /// All tabs, from left to right.
     pub const ALL: [Self; 5] = [Self::Method, Self::Pins, Self::Defects, Self::Vertex, Self::Charts];
 
-    /// Its name.
+    /// Name of the tab.
     pub const fn title(self) -> &'static str {
         ["Method", "Pins", "Defects", "Vertex", "Charts"][self as usize]
     }

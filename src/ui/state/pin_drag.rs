@@ -1,4 +1,4 @@
-//! A drag of a pin, with the pins that go with it.
+//! Drag of a pin, and of the pins that move with it.
 
 use eframe::egui::Vec2;
 use glam::DVec2;
@@ -10,13 +10,13 @@ use freebound_core::mesh::VertexId;
 #[derive(Clone, Debug)]
 pub(in crate::ui) struct PinDrag {
     pub(in crate::ui) vertex: VertexId,
-    /// From where the pointer grabbed it to its middle, points.
+    /// Vector from the grabbed point to the middle of the pin, points.
     pub(in crate::ui) offset: Vec2,
-    /// The other pins that go with it, and how far from it they lie in the plane.
+    /// Other pins that move with the dragged pin, and their offsets from it in the plane.
     pub(in crate::ui) others: Vec<(VertexId, DVec2)>,
-    /// When the pointer moved last, seconds of the window's clock.
+    /// Time of the last move of the pointer, seconds of the window's clock.
     pub(in crate::ui) moved_at: f64,
-    /// True if it was said since then that the pointer rests.
+    /// True if the pointer has been reported as resting since the last move.
     pub(in crate::ui) has_rested: bool,
 }
 
@@ -25,7 +25,7 @@ impl PinDrag {
         self.vertex
     }
 
-    /// Action that moves the pin to a place in the plane, and all pins that go with it.
+    /// Action that moves the pin to a point of the plane, together with the other pins.
     pub(in crate::ui) fn moves_to(&self, place: DVec2, frame: PictureFrame) -> Action {
         let (vertex, target) = (self.vertex, frame.uv_from_plane(place));
         if self.others.is_empty() {

@@ -1,4 +1,4 @@
-//! Requests of a person to the window. Panels collect requests; the editor carries them out after the frame.
+//! Requests of the user to the window. Panels collect requests; the editor carries them out after the frame.
 
 use eframe::egui;
 use glam::DVec2;
@@ -19,25 +19,25 @@ use freebound_core::pipeline::Fit;
 use freebound_core::problem::{PinKind, Variant};
 use freebound_io::Column;
 
-/// A step among those that there are.
+/// Target among the existing steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepTarget {
-    /// The first.
+    /// First step.
     First,
-    /// The one before that on the screen.
+    /// Step before the one on the screen.
     Previous,
-    /// The one after that on the screen.
+    /// Step after the one on the screen.
     Next,
-    /// The newest.
+    /// Newest step.
     Last,
 }
 
-/// Something a person asked for.
+/// Request of the user.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Request {
-    /// An edit of the document, or work on it.
+    /// Edit of the document, or work on it.
     Do(Action),
-    /// Lets the run go on, or pauses it.
+    /// Starts or continues the run, or pauses it.
     RunOrPause,
     /// Shows another step.
     GoToStep(StepTarget),
@@ -45,117 +45,119 @@ pub enum Request {
     TogglePlay,
     /// Shows or hides the curves under the panes.
     ToggleCurves,
-    /// Takes up a tool.
+    /// Activates a tool.
     SetTool(Tool),
-    /// Takes up the constrain tool with a vertex, whose place is to come.
+    /// Activates the constrain tool with a vertex that waits for its target.
     TakeVertex(VertexId),
-    /// The seam tool clicks a vertex.
+    /// Click of the seam tool on a vertex.
     ClickSeam(SeamClick),
-    /// Cuts along the edges of a rule.
+    /// Adds the edges that a rule chooses to the seams.
     CutByRule(SeamRule),
-    /// Closes all seams that are listed.
+    /// Closes all listed seams.
     ClearSeams,
-    /// Chooses from which angle on edges are sharp, degrees.
+    /// Sets the least angle of sharp edges, degrees.
     SetSharp(f64),
-    /// The next click of the seam tool begins another seam.
+    /// Ends the seam being drawn. The next click of the seam tool begins another.
     EndSeam,
-    /// Chooses what the paths of seams follow: from 0, the shortest, to 1, creases.
+    /// Sets the preference of seam paths: from 0, shortest, to 1, along creases.
     SetCreases(f64),
-    /// Lets clicks of the seam tool take seams away, or cut again.
+    /// Switches clicks of the seam tool between cutting and closing seams.
     ToggleErasing,
-    /// Colours faces in the pane under the pointer, or in both where it is over neither.
+    /// Sets the shading of the pane under the pointer, or of both panes if it is over neither.
     SetShading(ShadingMode),
-    /// Colours faces in one pane.
+    /// Sets the shading of one pane.
     SetPaneShading(Pane, ShadingMode),
     /// Shows or hides the wireframe.
     ToggleWireframe,
-    /// Shows or hides the inset that magnifies a defect.
+    /// Shows or hides the insets that magnify a defect and a pair.
     ToggleMagnifier,
-    /// Brings what an inset shows nearer by a factor: that of a defect by its place in the list, or that of a pair.
+    /// Zooms an inset by a factor: the inset of a defect by its place in the list, or the insets of a pair.
     ZoomInset(Option<usize>, f64),
-    /// Pans what an inset shows.
+    /// Pans an inset.
     PanInset(InsetPan),
-    /// Marks vertices outside the hull of their neighbours, or not.
+    /// Marks vertices outside the hull of their neighbours, or stops marking.
     ToggleOutsideHull,
-    /// Lets vertices glide from step to step, or not.
+    /// Turns transitions between steps on or off.
     ToggleEase,
     /// Shows or hides hull and pockets of the virtual boundary.
     ToggleHull,
-    /// Chooses the stage of the virtual boundary that shows.
+    /// Sets the displayed stage of the virtual boundary.
     SetStage(HullStage),
     /// Opens a tab.
     ShowTab(Tab),
     /// Shows or hides the panels.
     TogglePanels,
-    /// Frames the selection, or all where nothing is selected.
+    /// Frames the selection, or everything if nothing is selected.
     Frame,
     /// Shows vertices in both panes and selects them.
     GoTo(Vec<VertexId>),
     /// Shows a defect in both panes, by its place in the list.
     GoToDefect(usize),
-    /// Goes to another defect: 1 the next, −1 the one before.
+    /// Shows another defect: 1 is the next, −1 the previous.
     StepDefect(isize),
-    /// Puts another chart on the screen: 1 the next, −1 the one before.
+    /// Shows another chart: 1 is the next, −1 the previous.
     StepChart(isize),
     /// Selects exactly these vertices.
     Select(Vec<VertexId>),
     /// Adds vertices to the selection.
     AddToSelection(Vec<VertexId>),
-    /// Selects a vertex beside the others, or no more.
+    /// Adds a vertex to the selection, or removes it.
     ToggleSelected(VertexId),
-    /// Frees the selected pins.
+    /// Removes the selected pins.
     UnpinSelected,
-    /// Moves the selected pins by pixels of the picture; y runs up.
+    /// Moves the selected pins by pixels of the picture; y points up.
     Nudge(DVec2),
-    /// The keys that nudge are let go.
+    /// Ends a nudge: its keys are released.
     EndNudge,
-    /// Holds the selected pins in another way, and pins that are placed from now on.
+    /// Sets the kind of the selected pins. A kind other than fixed also applies to pins placed later.
     SetPinKind(PinKind),
-    /// Chooses how strongly the picture shows behind the embedding, 0 to 1.
+    /// Sets the opacity of the picture behind the embedding, 0 to 1.
     SetOpacity(f32),
-    /// Shows pixels of the picture as squares, or fading into each other.
+    /// Draws pixels of the picture as squares, or interpolated.
     ToggleSharp,
-    /// Gives up the gesture, then the tool, then the selection.
+    /// Closes the topmost dialog, else cancels the gesture, else the tool, else the selection.
     Escape,
     /// Shows one pane in full size, or both again.
     ToggleFull(Pane),
-    /// Shows the pane without the pointer in full size, or both again.
+    /// Shows the pane under the pointer in full size, or both panes again. Default: the embedding pane.
     TogglePane,
-    /// Shows methods side by side in the place of the embedding, or the embedding again.
+    /// Shows the method comparison in place of the embedding, or the embedding again.
     ToggleComparison,
-    /// Has a method take part in the comparison, or no more.
+    /// Adds a method to the comparison, or removes it.
     ToggleContender(Variant),
-    /// Takes a method of the comparison as that of the document.
+    /// Sets the document's settings to those of a compared method.
     TakeContender(Variant),
-    /// Colours the faces of all methods by a quantity, or not at all.
+    /// Colours the faces of all methods by a quantity, or plain.
     ColourComparison(Option<Quantity>),
     /// Sorts the table of the comparison by a column.
     SortComparison(Column),
     /// Shows or hides the table of the comparison.
     ToggleComparisonTable,
-    /// Does something with the morph between two methods of the comparison.
+    /// Request to the morph between two compared methods.
     Morph(MorphRequest),
-    /// Asks for a file.
+    /// Opens a file dialog.
     Ask(FileDialogKind),
-    /// Saves the project where it was saved before, or asks where.
+    /// Saves the project to its file, or asks for one.
     SaveProject,
-    /// Shows or hides what can be exported.
+    /// Shows or hides the list of exports.
     ToggleExports,
     /// Answers the question about unsaved work.
     Answer(UnsavedAnswer),
-    /// Leaves faces that point inward as they are.
+    /// Accepts faces that point inward.
     LeaveFaces,
-    /// Leaves targets that look mirrored as they are.
+    /// Accepts targets that look mirrored.
     LeaveTargets,
-    /// Asks for an element to go to.
+    /// Opens the window "Go to".
     AskGoTo,
-    /// Opens a menu of the bar by its place, for whoever has no mouse.
+    /// Opens a menu of the bar by its place, for use without a mouse.
     OpenMenu(usize),
     /// Shows or hides the list of keys.
     ToggleKeys,
-    /// Follows the system's theme, or a fixed one.
+    /// Starts the guided tour.
+    StartTour,
+    /// Follows the system's theme, or sets a fixed one.
     SetTheme(egui::ThemePreference),
-    /// Chooses the size of coordinates in files.
+    /// Sets the size of coordinates in files.
     SetFit(Fit),
     /// Ends the program.
     Quit,

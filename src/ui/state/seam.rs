@@ -2,22 +2,22 @@
 
 use freebound_core::mesh::VertexId;
 
-/// An edge by its ends, vertices of the file.
+/// Edge by its two end vertices, vertices of the file.
 pub(in crate::ui) type Edge = [VertexId; 2];
 
-/// A click on a vertex of the file.
+/// Click on a vertex of the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SeamClick {
-    /// The vertex.
+    /// Clicked vertex.
     pub vertex: VertexId,
-    /// True if seams go.
+    /// True if the click closes seams.
     pub erases: bool,
 }
 
-/// Which edges become seams.
+/// Rule that chooses edges for seams.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SeamRule {
-    /// Edges whose faces meet at this angle or more between their normals, degrees.
+    /// Edges with at least this angle between the normals of their faces, degrees.
     Sharp(f64),
     /// Edges between faces of two materials.
     Materials,

@@ -1,4 +1,4 @@
-//! Colours of faces that a person can choose.
+//! Colours of faces, chosen by the user.
 
 use super::pane::Pane;
 
@@ -7,10 +7,10 @@ use super::pane::Pane;
 pub enum ShadingMode {
     /// Clay.
     Plain,
-    /// A checker over the plane, carried to the mesh.
+    /// Checkerboard in the plane, mapped to the mesh.
     #[default]
     Checker,
-    /// The picture, carried to the mesh; the checker where there is none.
+    /// Picture, mapped to the mesh; the checkerboard if there is no picture.
     Picture,
     /// Angle distortion.
     Angle,
@@ -20,7 +20,7 @@ pub enum ShadingMode {
     Stretch,
     /// Distance moved since another step.
     Move,
-    /// Of the embedding alone: a thin fill that the picture behind it shows through.
+    /// Translucent faces over the picture, for the embedding only.
     SeeThrough,
 }
 
@@ -37,42 +37,40 @@ impl ShadingMode {
         Self::SeeThrough,
     ];
 
-    /// True if a pane can be shaded so.
+    /// True if a pane offers this shading.
     pub fn is_for(self, pane: Pane) -> bool {
         self != Self::SeeThrough || pane == Pane::Plane
     }
 
-    /// The shading of that name, where there is one.
+    /// Shading with a name, if there is one.
     pub(in crate::ui) fn called(name: Option<&str>) -> Option<Self> {
         Self::ALL.into_iter().find(|shading| Some(shading.title()) == name)
     }
 
-    /// True if faces are coloured by a number each.
+    /// True if each face is coloured by a number.
     pub(in crate::ui) const fn is_by_number(self) -> bool {
         matches!(self, Self::Angle | Self::Area | Self::Stretch | Self::Move)
     }
 
-    /// Its name in menus.
+    /// Name in menus.
     pub const fn title(self) -> &'static str {
         self.words()[0]
     }
 
-    /// Its name in menus, and what it shows.
+    /// Name in menus, and description.
     pub(in crate::ui) const fn words(self) -> [&'static str; 2] {
         match self {
-            Self::Plain => ["Plain", "no colours but those of defects"],
-            Self::Checker => {
-                ["Checker", "squares of the plane, carried to the mesh: they show angles and sizes at a glance"]
-            }
-            Self::Picture => ["Picture", "the picture, carried to the mesh; a checker where there is none"],
+            Self::Plain => ["Plain", "only defects are coloured"],
+            Self::Checker => ["Checker", "squares of the plane, mapped to the mesh: they show angles and sizes"],
+            Self::Picture => ["Picture", "the picture, mapped to the mesh; a checker if there is no picture"],
             Self::Angle => ["Angle distortion", "ratio of the singular values σ₁/σ₂ per face: 1 keeps angles"],
             Self::Area => [
                 "Area distortion",
                 "area in the plane over area on the mesh per face, at equal total areas: 1 keeps areas",
             ],
             Self::Stretch => ["Stretch", "root mean square stretch from the plane to the mesh per face (L²)"],
-            Self::Move => ["Move", "how far faces have moved since the compared step, or else since the one before"],
-            Self::SeeThrough => ["See-through", "a fill of 30 %: the picture behind the embedding shows through"],
+            Self::Move => ["Move", "movement of faces since the compared step, or since the previous step"],
+            Self::SeeThrough => ["See-through", "faces filled at 30 %, so that the picture behind them is visible"],
         }
     }
 }

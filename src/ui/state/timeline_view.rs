@@ -1,25 +1,25 @@
-//! The timeline as the window has it, beyond the steps themselves.
+//! State of the timeline in the window, except for the steps.
 
-/// Height of the strip's buttons and steps, points.
+/// Height of the row of buttons and steps, points.
 pub(in crate::ui) const ROW_HEIGHT: f32 = 34.0;
 
-/// Height of the whole strip, points.
+/// Height of the strip with curves, points.
 const STRIP_HEIGHT: f32 = 150.0;
 
 /// Number of curves.
 pub(in crate::ui) const CURVE_COUNT: usize = 11;
 
-/// State of the timeline in the window, beyond the steps themselves.
+/// State of the timeline in the window, except for the steps.
 #[derive(Clone, Debug, Default)]
 pub struct TimelineView {
-    /// True if the curves show; where nobody said, a low window does without.
+    /// The user's choice to show or hide the curves, if made. Default: shown, unless the window is low.
     pub curves_wanted: Option<bool>,
     pub window_is_high: bool,
-    /// The curves that a person has put away, by place.
+    /// True for each curve that the user has hidden.
     pub curves_hidden: [bool; CURVE_COUNT],
-    /// When the step on the screen was put there, while the steps are played; seconds of the window's clock.
+    /// Time at which the step on the screen appeared, while steps are played; seconds of the window's clock.
     pub playing_since: Option<f64>,
-    /// The step that was scrolled to last, and in how wide a row, points.
+    /// Step that was last scrolled to, and the width of the row at that time, points.
     pub(in crate::ui) scrolled_to: Option<(usize, f32)>,
 }
 

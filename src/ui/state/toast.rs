@@ -1,10 +1,10 @@
-//! The good news that shows.
+//! Success message that shows.
 
-/// The news that shows.
+/// Success message that shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::ui) struct Toast {
-    /// The message's number.
+    /// Number of the message.
     pub(in crate::ui) id: u64,
-    /// When it came, or when pointer and keyboard left it; seconds of the window's clock.
+    /// Start of its display, or the last time it had pointer or focus; seconds of the window's clock.
     pub(in crate::ui) since: f64,
 }

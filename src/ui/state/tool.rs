@@ -7,14 +7,14 @@ use freebound_core::mesh::VertexId;
 /// Tools of the left mouse button.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tool {
-    /// Selects vertices.
+    /// Select vertices.
     #[default]
     Select,
-    /// Pins vertices where they lie.
+    /// Pin vertices at their current positions.
     Fix,
-    /// Joins vertices with their places on the picture.
+    /// Join vertices with targets on the picture.
     Constrain,
-    /// Cuts the mesh along paths from vertex to vertex.
+    /// Cut the mesh along paths from vertex to vertex.
     Seam,
 }
 
@@ -22,23 +22,23 @@ impl Tool {
     /// All tools, from top to bottom.
     pub const ALL: [Self; 4] = [Self::Select, Self::Fix, Self::Constrain, Self::Seam];
 
-    /// Its name in files, its entry in menus, and what it does.
+    /// Name in files, menu entry, and description.
     pub(in crate::ui) const fn words(self) -> [&'static str; 3] {
         match self {
             Self::Select => ["select", "Select vertices", "Select vertices"],
-            Self::Fix => ["fix", "Fix vertices", "Fix: pin a vertex where it lies"],
-            Self::Constrain => ["constrain", "Constrain vertices", "Constrain: join a vertex with its place"],
+            Self::Fix => ["fix", "Fix vertices", "Fix: pin a vertex at its current position"],
+            Self::Constrain => ["constrain", "Constrain vertices", "Constrain: choose the position of a vertex"],
             Self::Seam => ["seam", "Draw seams", "Seam: cut the mesh along paths from vertex to vertex"],
         }
     }
 }
 
-/// The half of a pair that was placed first.
+/// First placed half of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Half {
-    /// The vertex; its place is to come.
+    /// Vertex, which waits for its target.
     Vertex(VertexId),
-    /// The place, in texture coordinates; the vertex is to come.
+    /// Target, in texture coordinates, which waits for its vertex.
     Target(DVec2),
 }
 
@@ -50,10 +50,10 @@ pub enum Intent {
     Nothing,
     /// Take a vertex as the first half of a pair.
     TakeVertex(VertexId),
-    /// Take a place, in texture coordinates, as the first half.
+    /// Take a target, in texture coordinates, as the first half of a pair.
     TakeTarget(DVec2),
     /// Complete the pair.
     Join(VertexId, DVec2),
-    /// Select a pin that is there.
+    /// Select an existing pin.
     Select(VertexId),
 }

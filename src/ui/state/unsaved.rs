@@ -1,15 +1,15 @@
-//! The question about unsaved work: what waits for its answer, and the answers.
+//! Question about unsaved work: the pending action, and the answers.
 
 use crate::session::Action;
 
-/// Actions that wait for the answer.
+/// Action that waits for the answer.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::ui) enum PendingClose {
     Quit,
     Do(Action),
 }
 
-/// The answers.
+/// Answer of the user.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnsavedAnswer {
     Save,

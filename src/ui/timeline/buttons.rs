@@ -1,4 +1,4 @@
-//! The timeline's buttons: through the steps that there are, on to new ones, and where a run comes to rest.
+//! Buttons of the timeline: navigation between steps, running, and stop conditions.
 
 use eframe::egui;
 use egui::containers::menu::{MenuButton, MenuConfig};
@@ -8,7 +8,7 @@ use super::room::Room;
 use crate::session::{Action, RunStop, Status, StopConditions};
 use crate::ui::{Control, Editor, Request, StepTarget, theme_of, tip_with_keys};
 
-/// Side of a button with a drawing, points.
+/// Side of a drawn button, points.
 const BUTTON: f32 = 24.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ enum Drawing {
     FoldUp,
 }
 
-/// Through the steps that there are; one by one alone where there is little room.
+/// Buttons for navigation between steps. A tight row has only previous and next.
 pub(super) fn playback_buttons(ui: &mut egui::Ui, editor: &Editor, room: Room, requests: &mut Vec<Request>) {
     ui.spacing_mut().item_spacing.x = 2.0;
     let [has_previous, has_next] = editor.steps_around();
@@ -44,7 +44,7 @@ pub(super) fn playback_buttons(ui: &mut egui::Ui, editor: &Editor, room: Room, r
     }
 }
 
-/// Shows or hides the curves.
+/// Button that shows or hides the curves.
 pub(super) fn fold_button(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let shown = editor.timeline.curves_shown();
     let (drawing, name) = if shown { (Drawing::FoldDown, "Hide the curves") } else { (Drawing::FoldUp, "Curves") };
@@ -60,7 +60,7 @@ fn drawn_button(ui: &mut egui::Ui, drawing: Drawing, name: &str, request: Reques
     if response.has_focus() {
         ui.painter().rect_stroke(rect, 4.0, Stroke::new(1.0, theme.accent), egui::StrokeKind::Inside);
     }
-    // Where it does nothing, egui draws it faintly.
+    // egui draws a disabled button faintly.
     draw(ui.painter(), rect, drawing, theme.text);
     let tip = tip_with_keys(ui, name, &request);
     let response = response.named(Role::Button, name).on_hover_text(&tip).on_disabled_hover_text(&tip);
@@ -96,13 +96,13 @@ fn draw(painter: &egui::Painter, rect: Rect, drawing: Drawing, colour: Color32) 
     }
 }
 
-/// On to new steps.
+/// Buttons that take new steps.
 pub(super) fn run_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.spacing_mut().item_spacing.x = 4.0;
     let session = &editor.session;
     let theme = theme_of(ui);
     let button = match session.status() {
-        // The one thing to do for whoever has just begun; where there is something to repair, that is.
+        // Highlight the obvious next action of a new document, unless there is something to repair.
         Status::Held if !session.can_repair() => {
             Button::new(RichText::new("Step").color(theme.panel)).fill(theme.accent)
         }
@@ -112,27 +112,27 @@ pub(super) fn run_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec
     let tip = tip_with_keys(ui, "Take one further step", &step);
     ui.add_enabled(editor.has_disk(), button).on_hover_text(tip).asks(step, requests);
     let (words, enabled, tip) = if session.is_running() {
-        ("Pause", true, "Rest after the steps that there are")
+        ("Pause", true, "Pause after the current step")
     } else {
-        ("Run", session.can_run(), "Go on until something stops it")
+        ("Run", session.can_run(), "Take steps until a stop condition holds")
     };
     let tip = tip_with_keys(ui, tip, &Request::RunOrPause);
     let at_rest = session.stopped().map_or("", RunStop::words);
     let response = ui.add_enabled(enabled, Button::new(words).min_size(Vec2::new(50.0, 0.0)));
-    let response = response.on_disabled_hover_text(format!("At rest: {at_rest}. A single step goes on all the same."));
+    let response = response.on_disabled_hover_text(format!("Stopped: {at_rest}. Step still takes another step."));
     response.on_hover_text(tip).asks(Request::RunOrPause, requests);
     ui.add_space(4.0);
 }
 
-/// Where a run comes to rest.
+/// Menu of the stop conditions of a run.
 pub(super) fn stop_menu(ui: &mut egui::Ui, editor: &Editor, room: Room, requests: &mut Vec<Request>) {
     let before = editor.session.stop_conditions();
     let mut stop = before;
     let words = if room == Room::Ample { format!("Stop: {}", conditions_in_words(before)) } else { "Stop".to_owned() };
     let response = lasting_menu(ui, &words, |ui| {
-        ui.weak("A run comes to rest where");
+        ui.weak("Stop a run if");
         ui.checkbox(&mut stop.planar, "it is planar").on_hover_text("The embedding is proved one-to-one");
-        ui.checkbox(&mut stop.stalled, "it stalls").on_hover_text("The iteration gets no better and hardly moves");
+        ui.checkbox(&mut stop.stalled, "it stalls").on_hover_text("The iteration no longer improves and hardly moves");
         ui.checkbox(&mut stop.crossing, "the boundary crosses").on_hover_text("Two boundary edges meet");
         ui.horizontal(|ui| {
             let mut at_step = stop.at_step.is_some();
@@ -145,19 +145,19 @@ pub(super) fn stop_menu(ui: &mut egui::Ui, editor: &Editor, room: Room, requests
                 field.named(Role::SpinButton, "Step to stop at");
             }
         });
-        ui.weak("The end of the method always counts.");
+        ui.weak("A run always stops at the end of its method.");
     });
-    response.named(Role::Button, "Where a run stops").on_hover_text("Where a run comes to rest");
+    response.named(Role::Button, "Stop conditions").on_hover_text("Conditions that stop a run");
     if stop != before {
         requests.push(Action::SetStop(stop).into());
     }
 }
 
-/// A quiet button with a menu that stays open while its boxes are ticked.
+/// Frameless button with a menu that stays open while its boxes are ticked.
 pub(in crate::ui) fn lasting_menu(ui: &mut egui::Ui, words: &str, add: impl FnOnce(&mut egui::Ui)) -> egui::Response {
     let ink = theme_of(ui).weak_text;
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    // Room at the end for the mark that tells a menu from a button.
+    // Room for the triangle that marks a menu.
     let button = Button::new(RichText::new(format!("{words}    ")).color(ink)).frame(false);
     let (response, _) = MenuButton::from_button(button).config(config).ui(ui, add);
     let middle = response.rect.right_center() - Vec2::new(4.5, -1.0);
@@ -166,7 +166,7 @@ pub(in crate::ui) fn lasting_menu(ui: &mut egui::Ui, words: &str, add: impl FnOn
     response
 }
 
-/// The conditions in the fewest words.
+/// Stop conditions in few words.
 fn conditions_in_words(stop: StopConditions) -> String {
     let named = [(stop.planar, "planar"), (stop.stalled, "stalled"), (stop.crossing, "crossing")];
     let mut words: Vec<String> = named.iter().filter(|(on, _)| *on).map(|(_, words)| (*words).to_owned()).collect();

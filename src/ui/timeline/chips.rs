@@ -1,4 +1,4 @@
-//! The steps in a row: number, stage, and how good each is.
+//! Row of steps: number, stage, and verdict of each.
 
 use eframe::egui;
 use egui::{Align2, Color32, FontId, Modifiers, Rangef, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, WidgetInfo};
@@ -11,31 +11,31 @@ use crate::ui::{Control, Editor, Request, Theme, counted, number, pairs, remark,
 use freebound_core::problem::Progress;
 use freebound_io::StepReport;
 
-/// Height of a step, points.
+/// Height of a chip, points.
 const CHIP: f32 = 22.0;
 
-/// Room before and after what a step says, points.
+/// Padding at both ends of a chip, points.
 const PADDING: f32 = 8.0;
 
-/// Between two steps, points.
+/// Gap between two chips, points.
 const GAP: f32 = 4.0;
 
-/// Side of the sign that tells good from bad, points.
+/// Side of the verdict sign, points.
 const SIGN: f32 = 9.0;
 
-/// Size of the letters, points.
+/// Font size, points.
 const LETTERS: f32 = 12.0;
 
-/// A step of the row.
+/// Chip of a step.
 struct Chip<'a> {
     index: usize,
     record: &'a StepReport,
     standing: &'a StepDistortion,
-    /// Its number, and its stage where that is another one than before and there is room.
+    /// Number of the step, and its stage if that has changed and there is room.
     label: String,
     is_shown: bool,
     is_compared: bool,
-    /// Whether its embedding was kept, and not only its numbers.
+    /// True if the embedding of the step was kept, not only its numbers.
     is_kept: bool,
 }
 
@@ -55,7 +55,7 @@ impl<'a> Chip<'a> {
         }
     }
 
-    /// How good the step is, and the number of defects or of constraints that are not met.
+    /// Verdict sign of the step, and the number of defects or of unmet constraints.
     fn score(&self) -> (Sign, Option<usize>) {
         match (self.record.planar, self.standing.unmet) {
             (false, _) => (Sign::Bad, Some(self.record.defect_count())),
@@ -64,7 +64,7 @@ impl<'a> Chip<'a> {
         }
     }
 
-    /// The step in words, without its place on the screen.
+    /// Description of the step for screen readers.
     fn name(&self) -> String {
         let state = match self.score() {
             (Sign::Unmet, Some(unmet)) => format!("planar, constraints not met: {unmet}"),
@@ -75,7 +75,7 @@ impl<'a> Chip<'a> {
         format!("{}, {state}{compared}", title_of(self.record))
     }
 
-    /// How wide it is, with letters measured by `width_of` and figures of one width.
+    /// Width of the chip. `width_of` measures letters; `figure` is the width of a digit.
     fn width(&self, width_of: impl Fn(&str) -> f32, figure: f32) -> f32 {
         let is_number = self.label.bytes().all(|byte| byte.is_ascii_digit());
         let letters = if is_number { figure * self.label.len() as f32 } else { width_of(&self.label) };
@@ -119,7 +119,7 @@ impl<'a> Chip<'a> {
         painter.rect_stroke(rect, CHIP / 2.0, outline, StrokeKind::Inside);
     }
 
-    /// Number, stage, and the score.
+    /// Paints number, stage and verdict.
     fn paint_words(&self, painter: &egui::Painter, rect: Rect, theme: &Theme) {
         let font = FontId::proportional(LETTERS);
         let at = rect.left_center() + egui::vec2(PADDING, 0.0);
@@ -148,7 +148,7 @@ impl<'a> Chip<'a> {
         }
     }
 
-    /// All numbers of the step.
+    /// Tooltip with all numbers of the step.
     fn tip(&self, ui: &mut egui::Ui) {
         ui.set_max_width(300.0);
         ui.strong(title_of(self.record));
@@ -160,7 +160,8 @@ impl<'a> Chip<'a> {
         if let Some(note) = &self.record.note {
             ui.label(sentence(note));
         }
-        let hint = if self.is_kept { "Click shows it, Shift+click compares." } else { "Only its numbers were kept." };
+        let hint =
+            if self.is_kept { "Click to show it, Shift + click to compare." } else { "Only its numbers were kept." };
         remark(ui, hint);
     }
 }
@@ -188,11 +189,11 @@ pub(super) fn chips(ui: &mut egui::Ui, editor: &mut Editor, room: Room, requests
         };
         row = viewport.width();
         for (index, place) in places.iter().enumerate() {
-            // Whole steps only: half a number is another number.
+            // Draw whole chips only: half a number would read as another number.
             let is_whole = place.min >= viewport.left() - 0.5 && place.max <= viewport.right() + 0.5;
             let is_wide = place.span() > row && place.max >= viewport.left() && place.min <= viewport.right();
             if is_whole || is_wide {
-                // What is wider than the row is cut by it: it must not lie under what comes after the row.
+                // Clip a chip that is wider than the row, so that it does not overlap what follows the row.
                 let rect = rect_of(place).intersect(ui.clip_rect());
                 Chip::new(timeline, index, room).show(ui, rect, timeline, requests);
             }
@@ -207,12 +208,12 @@ pub(super) fn chips(ui: &mut egui::Ui, editor: &mut Editor, room: Room, requests
     editor.timeline.scrolled_to = editor.session.timeline().shown().map(|shown| (shown, row));
 }
 
-/// Where each step lies, from left to right.
+/// Horizontal extent of each chip, from left to right.
 fn places(ui: &egui::Ui, timeline: &Timeline, room: Room) -> Vec<Rangef> {
     let font = FontId::proportional(LETTERS);
     let width_of =
         |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
-    // Figures are all of one width; only names are measured.
+    // All digits have equal width, so only names are measured.
     let figure = width_of("0");
     let mut left = 0.0;
     let place = |index| {
@@ -223,7 +224,7 @@ fn places(ui: &egui::Ui, timeline: &Timeline, room: Room) -> Vec<Rangef> {
     (0..timeline.records().len()).map(place).collect()
 }
 
-/// A residual; a step that solves no linear system has none.
+/// Formats a residual; a step without a linear solve has none.
 pub(in crate::ui) fn residual_words(residual: Option<f64>) -> String {
     residual.map_or_else(|| "–".to_owned(), |residual| format!("{residual:.1e}"))
 }
@@ -252,7 +253,7 @@ fn numbers_of(record: &StepReport, standing: &StepDistortion) -> Vec<(&'static s
         ("Outside the hull of their neighbours", record.outside_hull_vertices),
         ("Constraints not met", standing.unmet),
         ("New vertices", standing.new_vertices),
-        ("Boundary vertices bent", record.bent_vertices),
+        ("Boundary vertices pinned", record.bent_vertices),
         ("Corners bounded", record.bounded_corners),
         ("Pivots replaced", record.replaced_pivots),
     ];

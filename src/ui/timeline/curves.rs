@@ -1,4 +1,4 @@
-//! The numbers of the steps as curves, side by side. A click goes to the step under the pointer.
+//! Curves of the numbers of the steps, side by side. A click shows the step under the pointer.
 
 use eframe::egui::{self, Align, Color32, Layout, Rect, RichText, Role, Sense};
 use egui_plot::{HPlacement, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotResponse, Points, VLine};
@@ -10,19 +10,19 @@ use crate::ui::state::CURVE_COUNT;
 use crate::ui::{Control, Editor, Request, Theme, remark, short, theme_of};
 use freebound_io::StepReport;
 
-/// A curve is at least so wide, points.
+/// Least width of a curve, points.
 const LEAST_WIDTH: f32 = 118.0;
 
-/// Between two curves, points.
+/// Gap between two curves, points.
 const GAP: f32 = 12.0;
 
-/// With more steps than this single points are not drawn.
+/// Greatest number of steps for which single points are drawn.
 const MOST_POINTS: usize = 80;
 
-/// What stands for 0 where sizes are compared by their powers of ten.
+/// Exponent that stands for 0 on a logarithmic scale.
 const LEAST_POWER: f64 = -17.0;
 
-/// One number of each step.
+/// Curve of one number of each step.
 pub(super) struct Curve {
     title: &'static str,
     about: &'static str,
@@ -31,12 +31,12 @@ pub(super) struct Curve {
     colour: ColourOf,
 }
 
-/// How a number goes up.
+/// Scale of a curve.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum CurveScale {
-    /// A count, from 0.
+    /// Linear from 0, for counts.
     Count,
-    /// By powers of ten.
+    /// Logarithmic.
     Powers,
 }
 
@@ -61,19 +61,19 @@ const CURVES: [Curve; CURVE_COUNT] = [
     ),
     size(
         "Largest move",
-        "largest move of a vertex since the step before, in units of the plane; by powers of ten",
+        "largest move of a vertex since the previous step, in units of the plane; by powers of ten",
         |record, _| record.max_move,
         |theme| theme.accent,
     ),
     size(
         "Distance left",
-        "largest distance of an exact pin from its target, in units of the plane; by powers of ten",
+        "largest distance of a hard pin from its target, in units of the plane; by powers of ten",
         |_, standing| Some(standing.progress?.distance_left),
         |theme| theme.unmet,
     ),
     size(
         "Energy",
-        "mean symmetric Dirichlet energy: 4 where nothing is distorted",
+        "mean symmetric Dirichlet energy: 4 without distortion",
         |_, standing| Some(standing.progress?.energy),
         |theme| theme.constraint,
     ),
@@ -111,7 +111,7 @@ const CURVES: [Curve; CURVE_COUNT] = [
 ];
 
 impl Curve {
-    /// Where a value lies.
+    /// Height of a value in the plot.
     pub(super) fn height_of(&self, value: f64) -> f64 {
         match self.scale {
             CurveScale::Count => value,
@@ -119,12 +119,12 @@ impl Curve {
         }
     }
 
-    /// The number of a step, where it has one.
+    /// Number of a step, if it has one.
     fn value_at(&self, timeline: &Timeline, index: usize) -> Option<f64> {
         (self.value)(timeline.records().get(index)?, timeline.standings().get(index)?).filter(|value| value.is_finite())
     }
 
-    /// The least and the greatest value of all steps.
+    /// Least and greatest value over all steps.
     fn ends(&self, timeline: &Timeline) -> Option<[f64; 2]> {
         let values = (0..timeline.records().len()).filter_map(|index| self.value_at(timeline, index));
         values.fold(None, |ends, value| match ends {
@@ -133,7 +133,7 @@ impl Curve {
         })
     }
 
-    /// A value in words.
+    /// Formats a value.
     pub(super) fn words(&self, value: f64) -> String {
         match self.scale {
             CurveScale::Count => format!("{value:.0}"),
@@ -144,7 +144,7 @@ impl Curve {
     }
 }
 
-/// Puts curves away, or shows them again; says of which there is nothing to show.
+/// Menu that hides or shows curves. Entries name curves without numbers and curves that are 0 in every step.
 pub(super) fn curves_menu(ui: &mut egui::Ui, editor: &mut Editor) {
     let (timeline, hidden) = (editor.session.timeline(), &mut editor.timeline.curves_hidden);
     let response = lasting_menu(ui, "Curves", |ui| {
@@ -159,17 +159,17 @@ pub(super) fn curves_menu(ui: &mut egui::Ui, editor: &mut Editor) {
             *hidden = !shown;
         }
     });
-    response.named(Role::Button, "Which curves show").on_hover_text(
-        "Which curves show: those whose numbers are not all 0, as many as there is room for, the first ones first.",
-    );
+    response
+        .named(Role::Button, "Choice of curves")
+        .on_hover_text("Choose the curves to show. Default: the first ones with numbers other than 0, as many as fit.");
 }
 
-/// Whether all numbers between these ends are 0.
+/// True if all numbers between these ends are 0.
 fn says_nothing(ends: [f64; 2]) -> bool {
     ends.iter().all(|end| end.abs() <= 0.0)
 }
 
-/// Shows as many of the curves as there is room for.
+/// Shows the first visible curves that fit side by side.
 pub(in crate::ui) fn curves(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let all = ui.available_rect_before_wrap().shrink2(egui::vec2(4.0, 0.0));
     let timeline = editor.session.timeline();
@@ -222,7 +222,7 @@ fn show_curve(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline, requests: &
     response.on_hover_text_at_pointer(format!("Step {index}: {words}\n{}", curve.about));
 }
 
-/// The step nearest to a place.
+/// Step nearest to a place of the horizontal axis.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the steps that there are")]
 fn nearest(place: f64, count: usize) -> usize {
     place.round().clamp(0.0, count.saturating_sub(1) as f64) as usize
@@ -256,7 +256,7 @@ fn plot(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline) -> PlotResponse<(
     })
 }
 
-/// A plot that only shows: it can neither be dragged nor zoomed, and its ends are those of the run.
+/// Plot without interaction, scaled to the range of the run.
 fn base<'a>(theme: &Theme, curve: &Curve, points: &[[f64; 2]], count: usize) -> Plot<'a> {
     let heights = || points.iter().map(|point| point[1]);
     let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));

@@ -1,4 +1,4 @@
-//! The marks of a curve: its ends and powers of ten, beside the plot.
+//! Marks of a curve: its least and greatest value and powers of ten, beside the plot.
 
 use std::sync::Arc;
 
@@ -7,13 +7,13 @@ use eframe::egui::{self, FontId, Galley, Rect};
 use super::curves::{Curve, CurveScale};
 use crate::ui::theme_of;
 
-/// Size of the letters of the marks, points.
+/// Font size of the marks, points.
 const MARKS: f32 = 9.0;
 
-/// What stands at the left of a curve: its greatest and its least value, and whole powers of ten between them, each
-/// with its height. Their lines go through the plot, their words stay out of it.
+/// Marks at the left of a curve: its greatest and its least value, and whole powers of ten between them, with their
+/// heights. Lines at the powers of ten cross the plot; the labels stay outside.
 pub(super) struct Marks {
-    /// Greatest and least value, the latter where it is another.
+    /// Greatest value, and the least if its label differs.
     ends: Vec<(f64, Arc<Galley>)>,
     powers: Vec<(f64, Arc<Galley>)>,
 }
@@ -32,13 +32,13 @@ impl Marks {
         }
     }
 
-    /// The room that the words take, points.
+    /// Width of the labels, points.
     pub(super) fn width(&self) -> f32 {
         let all = self.ends.iter().chain(&self.powers);
         all.map(|(_, words)| words.size().x).fold(0.0, f32::max) + 4.0
     }
 
-    /// Paints the words from `left` on, and the lines through the plot in `rect`.
+    /// Paints the labels from `left` on, and the lines across the plot in `rect`.
     pub(super) fn paint(&self, ui: &egui::Ui, left: f32, rect: Rect, height_on_screen: &dyn Fn(f64) -> f32) {
         let (painter, theme) = (ui.painter(), theme_of(ui));
         let write = |middle: f32, words: &Arc<Galley>| {
@@ -48,7 +48,7 @@ impl Marks {
         let half = MARKS / 2.0 + 1.0;
         let mut taken: Vec<f32> = Vec::new();
         for (height, words) in &self.ends {
-            // The least value lies below the greatest, however near to it.
+            // Place the least value below the greatest, even if both are close.
             let highest = taken.last().map_or(rect.top() + half, |above| above + 2.0 * half);
             let middle = height_on_screen(*height).min(rect.bottom() - half).max(highest);
             write(middle, words);
@@ -65,7 +65,7 @@ impl Marks {
     }
 }
 
-/// Whole powers of ten in a range, three at most, from one to the next by the same step.
+/// Whole powers of ten in a range, evenly spaced, at most three.
 #[expect(clippy::cast_possible_truncation, reason = "powers of ten of f64 are below 400")]
 fn powers_within(least: f64, greatest: f64) -> Vec<i32> {
     let (lowest, highest) = (least.ceil() as i32, greatest.floor() as i32);

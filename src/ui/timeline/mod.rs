@@ -1,12 +1,12 @@
-//! The strip under the panes: buttons, the steps in a row, and their numbers as curves.
+//! Strip under the panes: buttons, the row of steps, and curves of their numbers.
 //!
 //! | file | what |
 //! |---|---|
-//! | `buttons.rs` | through the steps that there are, on to new ones, and where a run comes to rest |
-//! | `chips.rs` | the steps in a row |
-//! | `curves.rs` | their numbers as curves |
-//! | `room.rs` | how much there is to say in a row |
-//! | `marks.rs` | the curves' ends and powers of ten |
+//! | `buttons.rs` | navigation between steps, running, stop conditions |
+//! | `chips.rs` | the row of steps |
+//! | `curves.rs` | curves of the numbers of the steps |
+//! | `room.rs` | amount of room in a row |
+//! | `marks.rs` | least and greatest value of a curve, and powers of ten |
 
 mod buttons;
 pub(super) mod chips;
@@ -26,7 +26,7 @@ use curves::{curves, curves_menu};
 use freebound_core::flatten::Ending;
 use room::Room;
 
-/// In a window lower than this the curves do not show until they are asked for, points.
+/// Least height of a window that shows the curves by default, points.
 pub(super) const CURVES_FROM: f32 = 560.0;
 
 pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
@@ -44,7 +44,7 @@ pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut
                 curves_menu(ui, editor);
             }
             stop_menu(ui, editor, room, requests);
-            // Why the run is at rest, where the verdict does not say it.
+            // Show the reason for the stop, unless the verdict says it.
             let stop =
                 editor.session.stopped().filter(|stop| !matches!(stop, RunStop::Ended(Ending::Planar | Ending::Done)));
             if let Some(stop) = stop.filter(|_| room == Room::Ample) {
@@ -65,22 +65,22 @@ pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut
     }
 }
 
-/// What stands in the place of curves as long as there is only one step.
+/// Text in place of the curves while there is at most one step.
 fn notice(editor: &Editor) -> Option<&'static str> {
     let session = &editor.session;
     Some(match (session.timeline().records().len(), session.status()) {
-        (0, _) if session.is_running() => "The first step is on its way.",
-        (0, _) => "There is no step yet.",
+        (0, _) if session.is_running() => "The first step is running.",
+        (0, _) => "No steps yet.",
         (1, Status::Held) => PRESS_SPACE,
         (1, Status::Preview(_)) => "The other steps follow when the gesture ends.",
-        (1, Status::Solving) => "The first step is there, the others follow.",
+        (1, Status::Solving) => "The first step is done; the others follow.",
         (1, _) if session.stopped() == Some(RunStop::Ended(Ending::Planar)) => {
             "Planar at the first step: nothing to repair. Space takes one more."
         }
-        (1, _) => "This method is a single solve. Space goes on with a mean-value iteration.",
+        (1, _) => "This method is a single solve. Press Space to continue with a mean-value iteration.",
         _ => return None,
     })
 }
 
-/// The hint for whoever has just begun.
+/// Hint for new users.
 pub(super) const PRESS_SPACE: &str = "Press Space to take a step.";

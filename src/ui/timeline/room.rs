@@ -1,12 +1,12 @@
-//! Room in the row of the timeline.
+//! Amount of room in the row of the timeline.
 
-/// Width of the strip below which it says less in words, points.
+/// Width of the strip below which it has shorter texts, points.
 const ROOMY: f32 = 720.0;
 
-/// Width of the strip below which it has fewer buttons, and steps by their numbers alone, points.
+/// Width of the strip below which it has fewer buttons, and steps show only their numbers, points.
 const TIGHT: f32 = 440.0;
 
-/// Room for words in one row.
+/// Amount of room in one row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Room {
     Ample,

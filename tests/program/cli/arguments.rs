@@ -1,4 +1,4 @@
-//! What can be typed: options of `flatten`, and names of choices.
+//! Command-line values: options of `flatten`, and names of choices.
 
 use clap::{CommandFactory as _, Parser as _};
 use freebound::cli::{Arguments, FlattenArguments, Subcommands};
@@ -8,7 +8,7 @@ use freebound_core::pipeline::Target;
 use freebound_core::problem::{BoundaryShape, Family, Growth, Method, NamedOption, Settings, Spacing, Treatment};
 use glam::DVec2;
 
-/// The arguments of `flatten` with an option.
+/// Arguments of `flatten` with an option.
 fn parsed(option: &str, value: &str) -> Option<FlattenArguments> {
     let arguments = Arguments::try_parse_from(["freebound", "flatten", "mesh.obj", option, value]).ok()?;
     match arguments.command {

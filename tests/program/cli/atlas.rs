@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::program::{Program, textured_text};
 use freebound_testkit::{Random, band, disk, grid};
 
-/// Meshes side by side in one.
+/// Meshes merged into one.
 fn together(meshes: &[TriMesh]) -> TriMesh {
     let mut whole = TriMesh::new(Vec::new(), &[]);
     for mesh in meshes {
@@ -25,7 +25,7 @@ fn charts(mesh: &TriMesh) -> Vec<Part> {
     parts(mesh).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-/// The places of a flat mesh as an embedding, moved by so much.
+/// Positions of a flat mesh as an embedding, moved by a vector.
 fn flat(mesh: &TriMesh, by: DVec2) -> Vec<DVec2> {
     mesh.positions.iter().map(|p| p.truncate() + by).collect()
 }
@@ -63,7 +63,7 @@ fn a_chart_without_holes_gets_the_verdict_of_disks() {
     assert!((50..350).contains(&planar), "both verdicts occur: {planar}");
 }
 
-/// Area that two triangles share, by clipping one with the sides of the other.
+/// Common area of two triangles, by clipping one with the sides of the other.
 pub(crate) fn shared_area(a: [DVec2; 3], b: [DVec2; 3]) -> f64 {
     let turn = |a: DVec2, b: DVec2, c: DVec2| (b - a).perp_dot(c - a);
     let upright = |[a, b, c]: [DVec2; 3]| if turn(a, b, c) > 0.0 { [a, b, c] } else { [a, c, b] };
@@ -92,7 +92,7 @@ fn two_faces_overlap_where_clipping_leaves_an_area() {
     let mut random = Random(17);
     let mut overlapping = 0;
     for case in 0..20_000 {
-        // Whole coordinates, few of them: touching, sharing sides and corners are common.
+        // Few integer coordinates, so touching and common sides and corners are frequent.
         let mut place = || DVec2::new(f64::from(random.below(7)), f64::from(random.below(7)));
         let [a, b] = [0, 1].map(|_| [place(), place(), place()]);
         if [a, b].iter().any(|[a, b, c]| (*b - *a).perp_dot(*c - *a) == 0.0) {
@@ -101,7 +101,8 @@ fn two_faces_overlap_where_clipping_leaves_an_area() {
         let triangle = TriMesh::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]]);
         let whole = together(&[triangle.clone(), triangle]);
         let found = atlas_verdict(&charts(&whole), &[a, b].concat().into());
-        // The least area that whole coordinates up to 6 can share is far above the rounding of the clipping.
+        // The least common area of triangles with integer coordinates up to 6 is far above the rounding of the
+        // clipping.
         let expected = shared_area(a, b) > 1e-9;
         assert_eq!(!found.overlapping_faces.is_empty(), expected, "case {case}: {a:?} {b:?}");
         overlapping += usize::from(expected);
@@ -109,7 +110,7 @@ fn two_faces_overlap_where_clipping_leaves_an_area() {
     assert!((2_000..18_000).contains(&overlapping), "both occur: {overlapping}");
 }
 
-/// A ring of squares in the plane.
+/// Ring of squares in the plane.
 fn ring() -> TriMesh {
     let mut mesh = grid(3, 3);
     mesh.triangles.drain(8..10);
@@ -138,7 +139,7 @@ fn charts_may_touch_and_must_not_overlap() {
 
 #[test]
 fn what_is_pulled_through_its_own_hole_is_no_chart() {
-    // The outer loop of a ring made the inner one: all faces are turned over.
+    // Inverts a ring, so that its outer loop becomes the inner one and all faces flip.
     let mut ring = ring();
     let middle = DVec3::new(1.5, 1.5, 0.0);
     for p in &mut ring.positions {
@@ -150,7 +151,7 @@ fn what_is_pulled_through_its_own_hole_is_no_chart() {
         inside_out.charts[0].mirrored && inside_out.planar,
         "a mirror image, its loops changed over: it is one-to-one"
     );
-    // A ring around twice: every face is positive, no loop is simple.
+    // A ring that goes around twice: every face is positive, no loop is simple.
     let strip = band(16, 0);
     let twice: Vec<DVec2> = (0..strip.vertex_count())
         .map(|v| {

@@ -1,4 +1,4 @@
-//! `freebound flatten` on meshes of several charts: solved, packed, proved together and written into the file they came in.
+//! `freebound flatten` on meshes of several charts: solved, packed, proved together and written into their file.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -14,7 +14,7 @@ use super::program::{Program, argument, obj_text};
 use freebound_testkit::many_parts::{disks, interleaved, surfaces};
 use freebound_testkit::{Entry, Random, corpus_disks, corpus_test, data_disks, grid, manifest};
 
-/// Disks and closed surfaces, their faces mixed, in a file.
+/// Disks and closed surfaces with interleaved faces, in a file.
 fn mixed(program: &Program, seed: u64) -> PolygonMesh {
     let mut random = Random(seed);
     let parts = surfaces(&mut random);
@@ -23,7 +23,7 @@ fn mixed(program: &Program, seed: u64) -> PolygonMesh {
     source
 }
 
-/// The triangles in the plane, polygons cut as a fan from their first corner.
+/// Triangles in the plane, polygons split as a fan from their first corner.
 pub(crate) fn triangles(file: &MeshFile) -> Vec<[DVec2; 3]> {
     let texture = file.texture.as_ref().expect("coordinates");
     let at = |place: usize| texture.coordinates[texture.corners[place] as usize];
@@ -34,14 +34,14 @@ pub(crate) fn triangles(file: &MeshFile) -> Vec<[DVec2; 3]> {
     (0..file.polygons.face_count()).flat_map(fan).collect()
 }
 
-/// Asserts by clipping that no two triangles share an area, and that none is turned over.
+/// Asserts by clipping that no two triangles share an area, and that none is flipped.
 #[track_caller]
 pub(crate) fn assert_one_to_one(file: &MeshFile) {
     let triangles = triangles(file);
     for (k, &a) in triangles.iter().enumerate() {
         assert!((a[1] - a[0]).perp_dot(a[2] - a[0]) > 0.0, "{a:?}");
         for &b in &triangles[k + 1..] {
-            // The least of these triangles has an area of some 1e-4.
+            // The least of these triangles has an area of about 1e-4.
             assert!(shared_area(a, b) < 1e-12, "{a:?} {b:?}");
         }
     }
@@ -52,7 +52,7 @@ fn report_of(program: &Program, name: &str) -> Value {
     serde_json::from_str(&fs::read_to_string(program.path(name)).expect("written")).expect("JSON")
 }
 
-/// What `check` proves of a file: how many charts.
+/// Number of charts that `check` proves in a file.
 #[track_caller]
 pub(crate) fn charts_proved(program: &Program, name: &str) -> usize {
     let report = program.run(&["check", name, "--report", "-"]).expect(0).json();
@@ -117,7 +117,7 @@ fn pins_hold_their_chart_and_the_others_lie_beside_the_square() {
     let parts = disks(&mut random);
     let source = interleaved(&parts, &mut random);
     program.write("in.obj", &obj_text(&source));
-    // The vertices of the second part, as they are numbered in the file.
+    // Vertices of the second part, with their numbers in the file.
     let of_part = |part: f64| {
         let is_there = move |x: f64| (part * 100.0 - 20.0..part * 100.0 + 80.0).contains(&x);
         (0..source.positions.len()).filter(move |&v| is_there(source.positions[v].x))
@@ -158,7 +158,7 @@ fn pins_that_are_not_met_are_named_as_the_file_numbers_vertices() {
     let program = Program::new();
     let source = interleaved(&[(&grid(3, 3)).into(), (&grid(2, 2)).into()], &mut Random(6));
     program.write("in.obj", &obj_text(&source));
-    // Two neighbours in the wrong order between others: no straight way leads there without new vertices.
+    // Two neighbours in swapped order between others: no straight path exists without new vertices.
     let corner = |x: f64, y: f64| {
         let is_here = |p: &glam::DVec3| p.x == x && p.y == y;
         VertexId::from_index(source.positions.iter().position(is_here).expect("a vertex of the first"))
@@ -252,7 +252,7 @@ fn what_means_nothing_to_several_charts_is_refused_and_so_are_pins_of_no_face() 
     assert_eq!(program.files(), ["in.obj"], "nothing was written");
     let picture = ["--picture", "picture.png", "--pack", "64x64"];
     program.run(&[&["flatten", "in.obj"], &picture[..]].concat()).expect(2);
-    // On a mesh of one part these options mean nothing, and do no harm.
+    // On a mesh of one part these options are accepted without effect.
     program.write("one.obj", &obj_text(&(&grid(2, 2)).into()));
     program.run(&["flatten", "one.obj", "--pack", "64x64", "--gap", "0"]).expect(0);
 }
@@ -267,7 +267,7 @@ fn a_drawing_shows_all_charts_and_is_a_page_as_the_picture() {
     assert_eq!(elements.iter().filter(|element| element.contains(r#"class="boundary""#)).count(), 8);
 }
 
-/// The bad files that nothing can be done about: no faces, a face of two corners, a number that is none.
+/// Bad files beyond repair: no faces, a face with two corners, a malformed number.
 const UNUSABLE: [&str; 3] = ["raw_empty.obj", "raw_notenoughindices.obj", "raw_corrupted_invalid_double.off"];
 
 corpus_test! {
@@ -280,7 +280,7 @@ corpus_test! {
                 assert!(run.stderr.contains("; "), "the reason and a remedy: {}", run.stderr);
                 continue;
             }
-            // Rounds that lower the distortion come after the proof.
+            // Relaxation comes after the proof, so it is not needed.
             let report = program.run(&[&arguments[..], &["--relax", "0", "--report", "-"]].concat()).expect(0).json();
             let verdict = if report["atlas"].is_null() { &report["verdict"] } else { &report["atlas"] };
             assert_eq!(verdict["planar"], json!(true), "{}", entry.file);

@@ -1,4 +1,4 @@
-//! `freebound flatten` on meshes of several charts: how they are packed into a picture.
+//! `freebound flatten` on meshes of several charts: packing into a picture.
 
 use std::fs;
 
@@ -56,7 +56,7 @@ fn a_chart_is_packed_as_many_times_as_large_as_is_asked_for() {
     let report = run.json();
     let density = report["packing"]["density"].as_f64().expect("a number");
     let file = read_mesh(&program.path("out.obj")).expect("written");
-    // Each part has its own hundreds.
+    // Each part occupies a different hundred along x.
     let part_of = |vertex: VertexId| {
         let aside = file.polygons.positions[vertex.index()].x;
         [0.0, 100.0, 200.0].iter().rposition(|&begin| aside >= begin).expect("one of three")
@@ -82,16 +82,16 @@ fn a_chart_is_packed_as_many_times_as_large_as_is_asked_for() {
     let other = program.run(&[&arguments[..], &["--chart-size", "3=2"]].concat()).expect(2);
     assert!(other.stderr.contains("--chart-size 3: the mesh has charts 0 to 2"), "{}", other.stderr);
     let twice = program.run(&[&arguments[..], &["--chart-size", "0=2,0=3"]].concat()).expect(2);
-    assert!(twice.stderr.contains("--chart-size 0: the chart has a size twice"), "{}", twice.stderr);
+    assert!(twice.stderr.contains("--chart-size 0: the chart has two sizes"), "{}", twice.stderr);
     let pin = format!("{}:2,2", first_vertex(&report["charts"][1]).number());
     let held = program.run(&[&arguments[..], &["--pin", &pin, "--chart-size", "0=2,1=3"]].concat()).expect(2);
-    assert!(held.stderr.contains("--chart-size 1: pins hold the chart"), "{}", held.stderr);
+    assert!(held.stderr.contains("--chart-size 1: the chart is pinned"), "{}", held.stderr);
     for wrong in ["0", "0=0", "0=-1", "0=nan", "x=1", "0=1000"] {
         program.run(&[&arguments[..], &["--chart-size", wrong]].concat()).expect(2);
     }
 }
 
-/// Asserts that corners of different charts are at least so far apart: those of squares, of which corners tell.
+/// Asserts the least distance between corners of different charts. Corners suffice since the charts are squares.
 fn assert_apart(file: &MeshFile, pixels: &[[DVec2; 3]], gap: f64) {
     let part =
         |triangle: usize| (file.polygons.positions[file.polygons.corners[3 * triangle].index()].x / 100.0).floor();

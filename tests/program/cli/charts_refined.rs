@@ -1,4 +1,4 @@
-//! Charts with new vertices: everything else of the file comes back.
+//! Charts with new vertices: everything else in the file is preserved.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -10,7 +10,8 @@ use serde_json::{Value, json};
 use super::charts::charts_proved;
 use super::program::Program;
 
-/// Two sheets of quads and a ring of them, with normals, colours, comments and names; faces of the sheets in turn.
+/// Two sheets of quads and a ring of quads, with normals, colours, comments and names; faces of the sheets
+/// alternate.
 fn text() -> String {
     let mut text = String::from("# made by hand\r\nmtllib some.mtl\r\n");
     for (x, y) in (0..32).map(|v| (v % 4, v / 4)) {
@@ -40,8 +41,8 @@ fn text() -> String {
     text + "l 1 2 3\r\nunknown line\r\n"
 }
 
-/// Pins of the first sheet: its corners, and those of its middle quad, of which two opposite ones change places. However
-/// the quad is cut, a face of three pinned corners is turned over: that takes new vertices.
+/// Pins of the first sheet: its corners, and those of its middle quad with two opposite ones swapped. Every
+/// triangulation of the quad has a flipped face with three pinned corners, so new vertices are needed.
 const PINS: [&str; 16] = [
     "--pin",
     "0:0,0",
@@ -66,7 +67,7 @@ fn run(program: &Program, output: &str) -> Value {
     program.run(&[&arguments[..], &PINS].concat()).expect(0).json()
 }
 
-/// Whether a line is one of the input's, or what is new.
+/// True if a line defines geometry (`v`, `vn`, `vt` or `f`), which may be changed or new.
 fn is_new(line: &str) -> bool {
     ["v ", "vn ", "vt ", "f "].iter().any(|word| line.starts_with(word))
 }
@@ -85,7 +86,7 @@ fn lines_that_do_not_change_come_back_byte_for_byte_in_their_order() {
         while rest.next_if(|next| *next != line && is_new(next)).is_some() {}
         assert_eq!(rest.next(), Some(line), "{after}");
     }
-    // Faces of the second sheet are whole: but for texture coordinates they are what they were.
+    // Faces of the second sheet are whole: they are unchanged except for texture coordinates.
     let bare = |line: &str| {
         let corner = |word: &str| match word.split('/').collect::<Vec<_>>()[..] {
             [v, _, n] => format!("{v}//{n}"),
@@ -99,7 +100,7 @@ fn lines_that_do_not_change_come_back_byte_for_byte_in_their_order() {
         let is_of_first = line.contains("# of sheet 0");
         assert!(is_of_first || written.iter().any(|face| face == line.trim_end()), "{line} in {written:?}");
     }
-    // New vertices have a colour and, at faces that have any, a normal.
+    // New vertices have a colour, and a normal at faces with normals.
     let new = after.lines().filter(|line| line.starts_with("v ")).skip(48);
     assert!(new.clone().count() > 0 && new.clone().all(|line| line.split(' ').count() == 7), "{after}");
     assert!(after.lines().filter(|line| line.contains("# of sheet 0")).all(|line| line.matches("//").count() == 0));

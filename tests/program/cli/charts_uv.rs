@@ -9,7 +9,7 @@ use super::program::Program;
 use freebound_testkit::many_parts::{interleaved, torus};
 use freebound_testkit::{Random, band, grid, quad_sheet};
 
-/// A mesh whose faces are in groups: corners have one coordinate where they have one vertex and one group.
+/// Mesh with grouped faces: corners share a coordinate if they have equal vertex and group.
 pub(crate) fn grouped(polygons: PolygonMesh, group: impl Fn(usize) -> usize) -> MeshFile {
     let count = polygons.positions.len();
     let groups = (0..polygons.face_count()).map(&group).max().map_or(0, |most| most + 1);
@@ -45,7 +45,7 @@ fn the_charts_are_those_of_the_texture_coordinates() {
         assert_eq!(charts.is_some(), are_disks && expected.len() > 1, "case {case}");
         let Some(charts) = charts else { continue };
         several += 1;
-        // The parts as `check` finds them have the same faces, in the same order.
+        // The parts found by `check` have these faces, in equal order.
         assert_eq!(charts.count(), expected.len());
         for (number, part) in expected.iter().enumerate() {
             let mut faces: Vec<u32> = part.face_of().iter().map(|face| texture.mesh.polygon(*face)).collect();
@@ -71,7 +71,7 @@ fn faces_turned_around_are_cut_along_the_same_seams() {
 #[test]
 fn each_chart_of_a_layout_is_flattened_packed_and_proved() {
     let program = Program::new();
-    // The torus in twelve patches, most of whose seams meet inside the surface.
+    // The torus in twelve patches; most seams meet inside the surface.
     let file = grouped((&torus(8, 12)).into(), |face| face / 2 % 8 / 4 * 6 + face / 16 / 2);
     write(&program, "in.obj", &file);
     let run = program.run(&["flatten", "in.obj", "--charts", "uv", "-o", "out.obj"]).expect(0);
@@ -80,7 +80,7 @@ fn each_chart_of_a_layout_is_flattened_packed_and_proved() {
     let written = read_mesh(&program.path("out.obj")).expect("written");
     assert_one_to_one(&written);
     assert_eq!(written.polygons, file.polygons);
-    // Flattened again from what was written, it is cut along the same seams.
+    // Flattened again from the output, it is cut along equal seams.
     program.run(&["flatten", "out.obj", "--charts", "uv", "-o", "again.obj"]).expect(0);
     let [first, second] = ["out.obj", "again.obj"].map(|name| std::fs::read(program.path(name)).expect("written"));
     assert!(first == second, "the same layout");
@@ -111,7 +111,7 @@ fn parts_that_have_seams_too_become_the_charts_of_both() {
 #[test]
 fn a_chart_with_a_hole_is_cut_where_that_is_asked_for() {
     let program = Program::new();
-    // A cylinder of two rings that wind around it.
+    // A cylinder, whose two boundary loops wind around it.
     let ring = band(12, 0);
     write(&program, "in.obj", &grouped(interleaved(&[(&ring).into(), (&grid(2, 2)).into()], &mut Random(2)), |_| 0));
     let refused = program.run(&["flatten", "in.obj", "--charts", "uv", "--holes", "cut"]).expect(3);
@@ -146,7 +146,7 @@ fn a_file_without_all_coordinates_has_no_charts_of_them() {
     write(&program, "none.obj", &MeshFile { texture: None, ..file.clone() });
     let run = program.run(&["flatten", "none.obj", "--charts", "uv"]).expect(2);
     assert!(
-        run.stderr.contains("no texture coordinates") && run.stderr.contains("leave out --charts"),
+        run.stderr.contains("no texture coordinates") && run.stderr.contains("remove --charts uv"),
         "{}",
         run.stderr
     );

@@ -1,4 +1,4 @@
-//! `freebound check` on files that another program might have written, and Ctrl-C.
+//! `freebound check` on files as other programs write them, and Ctrl-C.
 
 #![allow(clippy::float_cmp, reason = "whole numbers are read without rounding")]
 
@@ -15,7 +15,7 @@ use serde_json::Value;
 use super::program::{Program, obj_text, polygons_of, textured_text};
 use freebound_testkit::{corpus, corpus_disks, corpus_test, grid};
 
-/// The meshes of the corpus that come with a map, and the maps, one position per vertex.
+/// Meshes of the corpus with a published map, and the maps, one position per vertex.
 fn published() -> Vec<(String, DiskMesh, Embedding)> {
     let folder = corpus();
     let disks = corpus_disks();
@@ -30,7 +30,7 @@ fn published() -> Vec<(String, DiskMesh, Embedding)> {
         .collect()
 }
 
-/// Lines "vertex u v", in the order of vertices.
+/// Reads lines "vertex u v", in the order of vertices.
 fn read_map(path: &Path) -> Embedding {
     let text = fs::read_to_string(path).expect("the map is there");
     let lines = text.lines().filter(|line| !line.starts_with('#'));
@@ -44,7 +44,7 @@ fn read_map(path: &Path) -> Embedding {
         .collect()
 }
 
-/// The verdict that `check` gives on a file, with its exit status checked against it.
+/// Verdict of `check` on a file; asserts the matching exit status.
 fn checked(program: &Program, text: &str) -> Value {
     program.write("in.obj", text);
     let run = program.run(&["check", "in.obj", "--report", "-"]);
@@ -58,7 +58,7 @@ fn value(verdict: &Verdict) -> Value {
     serde_json::to_value(verdict).expect("a verdict is plain data")
 }
 
-/// The file's corners, each with the texture coordinate of its vertex.
+/// OBJ text with one texture coordinate per vertex.
 fn by_vertex(polygons: &PolygonMesh, map: &[DVec2]) -> String {
     textured_text(polygons, map, |face, k| [polygons.face(face)[k].index(); 2])
 }
@@ -77,7 +77,7 @@ corpus_test! {
     fn a_map_cut_along_seams_gets_the_verdict_of_the_mesh_cut_there() {
         let mut welded_away = 0;
         for (name, mesh, map) in published().into_iter().filter(|(name, ..)| name != "cortex_conte69_R") {
-            // One vertex of all that lie on one place: the seams are left in the texture coordinates alone.
+            // One vertex per position, so that the seams remain in the texture coordinates alone.
             let mut first_at: BTreeMap<[u64; 3], usize> = BTreeMap::new();
             let mut welded = PolygonMesh::default();
             let new_number: Vec<usize> = mesh
@@ -135,7 +135,7 @@ corpus_test! {
     }
 }
 
-/// A flat grid with itself as its map.
+/// Flat grid with itself as its map.
 fn mapped_grid() -> (PolygonMesh, Embedding) {
     let mesh = grid(3, 2);
     let map = mesh.positions.iter().map(|p| p.truncate()).collect();
@@ -159,7 +159,7 @@ fn a_folded_face_is_named_and_ends_with_4() {
 fn check_says_whether_a_map_holds_in_32_bits() {
     let (polygons, mut map) = mapped_grid();
     for (height, words, holds) in [(1.0, "; holds in 32 bits", true), (1e-9, "; does not hold in 32 bits", false)] {
-        // The row of vertices in the middle comes near to the lowest, at a distance from the origin that takes its digits.
+        // The middle row of vertices approaches the lowest row, at a distance from the origin that costs digits.
         map.iter_mut().skip(4).take(4).for_each(|z| z.y = height);
         let far: Embedding = map.iter().map(|z| *z + DVec2::splat(8.0)).collect();
         let program = Program::new();
@@ -174,7 +174,7 @@ fn a_mesh_without_texture_coordinates_is_described_and_reported() {
     let program = Program::new();
     program.write("in.obj", &obj_text(&mapped_grid().0));
     let run = program.run(&["check", "in.obj"]).expect(0);
-    assert!(run.stdout.contains("12 vertices and 12 faces"), "{}", run.stdout);
+    assert!(run.stdout.contains("12 vertices, 12 faces"), "{}", run.stdout);
     assert!(run.stdout.contains("no texture coordinates"), "{}", run.stdout);
     let report = program.run(&["check", "in.obj", "--report", "-"]).expect(0).json();
     assert_eq!(report["mesh"]["vertices"], 12);
@@ -188,13 +188,13 @@ fn a_mesh_without_texture_coordinates_is_described_and_reported() {
 fn texture_coordinates_may_be_many_charts_but_every_corner_has_to_have_some() {
     let (polygons, map) = mapped_grid();
     let program = Program::new();
-    // Every face by itself: as many charts as faces.
+    // Every face separate: as many charts as faces.
     let repeated: Embedding =
         (0..).zip(&polygons.corners).map(|(k, v)| map[v.index()] + DVec2::X * f64::from(k / 3)).collect();
     program.write("in.obj", &textured_text(&polygons, &repeated, |f, k| [polygons.face(f)[k].index(), 3 * f + k]));
     let run = program.run(&["check", "in.obj", "--report", "out.json"]).expect(0);
     assert!(run.stdout.contains("12 charts, each planar, and apart"), "{}", run.stdout);
-    // Some corners without.
+    // Some corners without coordinates.
     let text = by_vertex(&polygons, &map).replacen("f 1/1 2/2 6/6", "f 1 2 6", 1);
     program.write("in.obj", &text);
     let run = program.run(&["check", "in.obj", "--report", "out.json"]).expect(3);
@@ -222,7 +222,7 @@ mod interrupt {
             u64::from_str_radix(mask, 16).is_ok_and(|mask| mask & 0b10 != 0)
         };
         while !catches() {
-            // An ended process is a zombie, which catches nothing; then there is nothing to interrupt.
+            // An ended process is a zombie, which catches nothing; there is nothing to interrupt.
             if fs::read_to_string(&status).is_ok_and(|text| text.contains("State:\tZ")) {
                 return;
             }
@@ -281,7 +281,7 @@ mod interrupt {
         program.write("out.json", "{}");
         let mut command = program.command(&["flatten", "-", "-o", "out.obj", "--report", "out.json"]);
         let mut child = command.stdin(Stdio::piped()).spawn().expect("the program starts");
-        // A mesh as far as it has come: it must not be taken for the whole.
+        // A partial mesh that must not be taken for the whole.
         let mut input = child.stdin.take().expect("a pipe");
         input.write_all(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("the program reads");
         interrupt(&child);
@@ -321,4 +321,18 @@ mod interrupt {
         assert_eq!(run.status, Some(130), "{run:?}");
         assert_eq!(program.files(), ["in.obj"]);
     }
+}
+
+#[test]
+fn a_mesh_without_texture_coordinates_is_diagnosed_whole() {
+    let program = Program::new();
+    // Two triangles apart, the second twice.
+    program.write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 4 5 6\nf 4 5 6\n");
+    let report = program.run(&["check", "two.obj", "--report", "-"]).expect(0).json();
+    assert_eq!((&report["mesh"]["vertices"], &report["mesh"]["faces"]), (&6.into(), &2.into()));
+    assert_eq!(report["mesh"]["repairs"][0]["repair"], "drop-duplicate-faces", "{report}");
+    // Two triangles that share a vertex, which a default run splits.
+    program.write("tie.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 1 2 3\nf 1 4 5\n");
+    let report = program.run(&["check", "tie.obj", "--report", "-"]).expect(0).json();
+    assert_eq!((&report["mesh"]["vertices"], &report["mesh"]["unused_vertices"]), (&6.into(), &0.into()), "{report}");
 }

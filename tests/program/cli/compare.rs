@@ -1,4 +1,4 @@
-//! `freebound compare`: several methods on one mesh as a script meets them.
+//! `freebound compare`: several methods on one mesh, as a script uses it.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -12,10 +12,10 @@ use super::program::{Program, example_file};
 use super::report_schema::TENT;
 use freebound_testkit::csv_rows;
 
-/// Three pins of a tent, which are constraints.
+/// Three pins of a tent, which act as constraints.
 const PINS: [&str; 6] = ["--pin", "0:0,0", "--pin", "1:1,0.2", "--pin", "2:0.9,1"];
 
-/// The mesh that an example is written to.
+/// File of an example's mesh.
 pub(crate) const IN: &str = "in.obj";
 
 pub(crate) fn tent() -> Program {
@@ -24,7 +24,7 @@ pub(crate) fn tent() -> Program {
     program
 }
 
-/// The methods of a comparison, as its report has them.
+/// Methods of a comparison, from its report.
 pub(crate) fn methods(program: &Program, arguments: &[&str]) -> Vec<Value> {
     let report = program.run(&[&["compare"], arguments, &["--report", "-"]].concat()).expect(0).json();
     report["methods"].as_array().expect("a list").clone()
@@ -34,7 +34,7 @@ pub(crate) fn names(methods: &[Value]) -> Vec<&str> {
     methods.iter().map(|method| method["name"].as_str().expect("a name")).collect()
 }
 
-/// The counts of a verdict that `flatten` reports.
+/// Verdict of `flatten`'s report with lists replaced by their counts.
 fn counted(verdict: &Value) -> Value {
     let mut counts = verdict.clone();
     let fields = counts.as_object_mut().expect("an object");
@@ -48,7 +48,7 @@ fn counted(verdict: &Value) -> Value {
     counts
 }
 
-/// A step without its seconds.
+/// Step without its seconds.
 fn timeless(step: &Value) -> Value {
     let mut step = step.clone();
     step.as_object_mut().expect("an object").remove("seconds");
@@ -197,11 +197,11 @@ fn one_chart_of_several_is_compared() {
     assert_eq!(of(&[])["chart"], serde_json::json!({"number": 0, "of": 2}));
     assert_eq!(of(&[])["mesh"]["faces"], 2);
     assert_eq!(of(&["--chart", "1"])["mesh"]["faces"], 1);
-    // A pin is of the file's vertex.
+    // A pin uses the vertex number of the file.
     let pinned = of(&["--chart", "1", "--pin", "4:0,0", "--pin", "5:2,0"]);
     assert_eq!(pinned["methods"][0]["result"]["pins"]["max_error"], 0.0);
     let run = program.run(&["compare", "two.obj", "--pin", "4:0,0"]).expect(2);
-    assert!(run.stderr.contains("another chart than 0"), "{}", run.stderr);
+    assert!(run.stderr.contains("is not on chart 0"), "{}", run.stderr);
     let run = program.run(&["compare", "two.obj", "--chart", "2"]).expect(2);
     assert!(run.stderr.contains("charts 0 to 1"), "{}", run.stderr);
 }
@@ -211,17 +211,17 @@ fn wrong_use_of_compare_ends_with_2_and_writes_nothing() {
     let program = tent();
     program.write("pins.txt", "0 0 0\n");
     let cases: [(&[&str], &str); 11] = [
-        (&["--methods", "best"], "no method `best`"),
+        (&["--methods", "best"], "unknown method `best`"),
         (&["--methods", "natural,natural/conformal"], "would run twice"),
-        (&["--methods", "natural,lscm", "--max-steps", "3"], "takes --max-steps"),
-        (&["--methods", "convex", "--pin", "0:0,0"], "takes --pin"),
-        (&["--methods", "natural,convex", "--shading", "area"], "give --png, --svg or --morph"),
+        (&["--methods", "natural,lscm", "--max-steps", "3"], "no compared method uses --max-steps"),
+        (&["--methods", "convex", "--pin", "0:0,0"], "no compared method uses --pin"),
+        (&["--methods", "natural,convex", "--shading", "area"], "add --png, --svg or --morph"),
         (&["--csv", "a", "--svg", "a"], "both write"),
-        (&["--csv", "-", "--report", "-"], "cannot both go there"),
-        (&["--png", "tent.obj"], "would write over the mesh"),
-        (&["--constraints", "pins.txt", "--csv", "pins.txt"], "would write over the constraints"),
+        (&["--csv", "-", "--report", "-"], "cannot both use it"),
+        (&["--png", "tent.obj"], "would overwrite the mesh"),
+        (&["--constraints", "pins.txt", "--csv", "pins.txt"], "would overwrite the constraints"),
         (&["--pin", "99:0,0"], "only 5 vertices"),
-        (&["--start", "uv"], "leave out --start uv"),
+        (&["--start", "uv"], "remove --start uv"),
     ];
     for (arguments, word) in cases {
         let run = program.run(&[&["compare", "tent.obj"], arguments].concat()).expect(2);

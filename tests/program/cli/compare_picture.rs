@@ -1,4 +1,4 @@
-//! `freebound compare`: the picture of methods side by side.
+//! `freebound compare`: picture of methods side by side.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -10,7 +10,7 @@ use serde_json::Value;
 use super::compare::IN;
 use super::program::{Program, example_file};
 
-/// The fills and strokes of an SVG file.
+/// Fills and strokes of an SVG file.
 fn paths(svg: &str) -> impl Iterator<Item = &str> {
     svg.lines().filter(|line| line.starts_with("<path "))
 }
@@ -36,7 +36,7 @@ fn the_picture_has_every_method_with_its_numbers_at_one_scale() {
         report["methods"].as_array().unwrap().iter().any(|of| of["result"]["verdict"]["flipped_faces"] != 0);
     assert_eq!(svg.contains(&format!("fill=\"#{r:02x}{g:02x}{b:02x}\"")), has_flips);
 
-    // One embedding twice: natural and least squares agree to rounding, and their boundaries are drawn alike.
+    // Two equal embeddings: natural and least squares agree to rounding, and so do their drawn boundaries.
     let boundaries: Vec<Vec<f64>> = paths(&svg)
         .filter(|line| line.contains("stroke-width=\"0.900\""))
         .map(|line| {
@@ -62,7 +62,7 @@ fn the_same_drawing_comes_out_with_any_number_of_threads() {
     let program = Program::new();
     example_file(&program, Example::Dome);
     let draw = |threads: &str, name: &str| {
-        // Times differ from run to run: the picture's paths, not its words, are the same.
+        // Times differ from run to run, so only the picture's paths are compared, not its texts.
         program.run(&["compare", IN, "--methods", "natural,convex", "--threads", threads, "--svg", name]).expect(0);
         let svg = fs::read_to_string(program.path(name)).unwrap();
         paths(&svg).map(str::to_owned).collect::<Vec<_>>()

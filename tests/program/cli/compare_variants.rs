@@ -1,4 +1,4 @@
-//! `freebound compare`: methods by their names, with their weights and shapes.
+//! `freebound compare`: methods by name, with their weights and shapes.
 
 use std::collections::BTreeSet;
 use std::str::FromStr;
@@ -29,15 +29,15 @@ fn every_variant_has_a_name_that_stands_for_it() {
     }
     assert_eq!(names.len(), count);
     for (wrong, word) in [
-        ("best", "choose of auto"),
-        ("natural/uniform", "convex boundaries only"),
+        ("best", "choose from auto"),
+        ("natural/uniform", "need a convex boundary"),
         ("natural/odd", "choose one of conformal"),
         ("lscm/mean-value", "no choice of weights"),
-        ("natural@square", "on no shape"),
-        ("convex@ring", "choose of circle"),
-        ("convex@polygon:0", "\"0\" is no point"),
+        ("natural@square", "no boundary shape"),
+        ("convex@ring", "choose from circle"),
+        ("convex@polygon:0", "\"0\" is not a point"),
         ("lee@polygon:0 0; 0 1; 1 0", "clockwise"),
-        ("", "no method"),
+        ("", "unknown method"),
     ] {
         let error = Variant::from_str(wrong).expect_err(wrong);
         assert!(error.contains(word), "{wrong}: {error}");
@@ -72,7 +72,7 @@ fn weights_that_no_method_takes_are_refused_and_the_table_says_which_are_used() 
         |list: &'static str, family: &'static str| ["compare", "tent.obj", "--methods", list, "--family", family];
     for family in ["uniform", "shape-preserving"] {
         let run = program.run(&with("natural,lscm", family)).expect(2);
-        assert!(run.stderr.contains(&format!("natural does not go with the family {family}")), "{}", run.stderr);
+        assert!(run.stderr.contains(&format!("natural does not support {family} weights")), "{}", run.stderr);
     }
     let run = program.run(&with("natural/mean-value,lscm", "wachspress")).expect(2);
     assert!(run.stderr.contains("all name their own weights"), "{}", run.stderr);

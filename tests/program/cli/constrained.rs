@@ -1,4 +1,4 @@
-//! The constrained problems of the corpus, and what the command line makes of constraints.
+//! Constrained problems of the corpus, and constraints on the command line.
 
 use std::fs;
 use std::path::Path;
@@ -14,7 +14,7 @@ use serde_json::Value;
 use super::program::{Program, argument, coordinates_by_vertex, example_file};
 use freebound_testkit::{corpus, corpus_test};
 
-/// The sets, with their meshes.
+/// Constraint sets with their meshes.
 const SETS: [(&str, &str); 9] = [
     ("fran_face_k6", "fran_face"),
     ("fran_face_k20", "fran_face"),
@@ -27,7 +27,7 @@ const SETS: [(&str, &str); 9] = [
     ("cortex_conte69_R_k10", "cortex_conte69_R"),
 ];
 
-/// Targets of a constraint file, read without the reader under test.
+/// Targets of a constraint file, parsed without the reader under test.
 fn targets(text: &str) -> Vec<(usize, DVec2)> {
     let numbers = |line: &str| -> Vec<f64> { line.split_whitespace().map(|word| word.parse().unwrap()).collect() };
     let lines = text.lines().map(numbers).filter(|numbers| !numbers.is_empty());
@@ -35,7 +35,7 @@ fn targets(text: &str) -> Vec<(usize, DVec2)> {
     lines.map(|numbers| (vertex(numbers[0]), DVec2::new(numbers[1], numbers[2]))).collect()
 }
 
-/// Flattens so many sets by the program, those whose names begin with one of some words.
+/// Flattens the sets whose names begin with one of `words`; there must be `count`.
 fn flatten_sets(words: &[&str], count: usize) {
     let folder = corpus();
     let chosen: Vec<_> = SETS.iter().filter(|(set, _)| words.iter().any(|word| set.starts_with(*word))).collect();
@@ -45,8 +45,8 @@ fn flatten_sets(words: &[&str], count: usize) {
     }
 }
 
-/// Flattens one set by the program: planar, constraints to the last bit, and the report as true as `check` and the file
-/// say.
+/// Flattens one set with the program. Asserts that it is planar with exactly met constraints, and that the report
+/// agrees with `check` and the file.
 fn flatten_set(folder: &Path, set: &str, mesh: &str) {
     let [mesh, file] = [format!("{mesh}.obj"), format!("constrained/{set}.txt")].map(|name| folder.join(name));
     let program = Program::new();
@@ -69,7 +69,7 @@ fn flatten_set(folder: &Path, set: &str, mesh: &str) {
     let check = program.run(&["check", "out.obj", "--report", "-"]).expect(0).json();
     assert_eq!(check["verdict"], report["verdict"], "{set}");
     let [new, last] = [&report["new_vertices"], report["steps"].as_array().unwrap().last().unwrap()];
-    // Those whose published map is planar within a simple boundary show that the mesh allows it.
+    // Meshes with a planar published map and a simple boundary need no new vertices.
     let needs_none = ["maze", "fran_face", "cow_seamster"].iter().any(|mesh| set.starts_with(mesh));
     assert!(*new == 0 || !needs_none, "{set}: {new} new vertices");
     println!("{set}: {} pins, step {} ({}), {new} new vertices", targets.len(), last["index"], last["stage"]);
@@ -108,7 +108,7 @@ corpus_test! {
     }
 }
 
-/// Three corners of one face of the dome, turned over.
+/// Three corners of a face of the dome, to be flipped.
 fn turned_over(mesh: &DiskMesh) -> [u32; 3] {
     let face = mesh.faces().find(|&f| mesh.face(f).iter().all(|&v| mesh.boundary_place(v).is_none()));
     mesh.face(face.expect("an inner face")).map(VertexId::number)
@@ -121,7 +121,7 @@ fn constraints_that_contradict_each_other_are_named_beforehand_and_without_new_v
     program.write("turned.txt", &format!("{a} 0 0\n{b} 0 1\n{c} 1 0\n"));
     let turned = ["flatten", "in.obj", "--constraints", "turned.txt", "--no-new-vertices", "-o", "out.obj"];
     let run = program.run(&turned).expect(4);
-    let named = format!("vertices v{a}, v{b}, v{c}: this face would be turned over: needs new vertices");
+    let named = format!("vertices v{a}, v{b}, v{c}: their face would flip: needs new vertices");
     assert!(run.stderr.contains(&named), "{}", run.stderr);
     assert!(run.stdout.contains("planar: proved one-to-one"), "the best planar embedding: {}", run.stdout);
     assert!(run.stdout.contains("not met: v"), "{}", run.stdout);
@@ -140,7 +140,7 @@ fn a_step_of_continuation_has_its_own_numbers_and_no_residual() {
     example_file(&program, Example::Dome);
     program.run(&["flatten", "in.obj", "-o", "flat.obj"]).expect(0);
     let free = coordinates_by_vertex(&read_mesh(&program.path("flat.obj")).unwrap());
-    // Four vertices where they lie without constraints, but for one that is moved a little.
+    // Four vertices at their unconstrained positions, except one that is moved a little.
     let moved = |v: usize| if v == 3 { free[v] + DVec2::new(0.03, 0.02) } else { free[v] };
     let lines: Vec<String> =
         [3, 40, 11, 25].iter().map(|&v| format!("{v} {:?} {:?}", moved(v).x, moved(v).y)).collect();
@@ -218,7 +218,7 @@ fn the_report_lists_what_weights_make_of_each_soft_constraint() {
     let program = Program::new();
     example_file(&program, Example::Dome);
     program.write("mixed.txt", "3 0.1 0.1\n40 0.9 0.2\n11 0.8 0.9 0.5\n25 0.1 0.6 0.25\n");
-    // One solve: the iteration changes the equations until they and the constraints agree.
+    // A single solve: the iteration would change the equations until they agree with the constraints.
     let natural = ["flatten", "in.obj", "--constraints", "mixed.txt", "--method", "natural"];
     let run = program.run(&[&natural[..], &["-o", "out.obj", "--report", "-"]].concat());
     let pins = &run.json()["pins"];
@@ -236,7 +236,7 @@ fn the_report_lists_what_weights_make_of_each_soft_constraint() {
     }
     assert_eq!([&pins["max_soft_error"], &pins["max_error"]], [largest; 2]);
     let run = program.run(&natural);
-    assert!(run.stdout.contains("2 hard met exactly, 2 weighted met within"), "{}", run.stdout);
+    assert!(run.stdout.contains("2 hard met exactly, 2 soft met within"), "{}", run.stdout);
 }
 
 #[test]
@@ -256,7 +256,7 @@ fn weighted_treatment_holds_nothing_exactly() {
 fn angles_are_kept_on_a_picture_of_any_aspect_and_targets_to_the_last_bit() {
     let program = Program::new();
     let mesh = example_file(&program, Example::Ell);
-    // The L lies flat: three of its vertices at their own places on a picture of 3:1 leave nothing to distort.
+    // The L is flat: three of its vertices at their own positions on a 3:1 picture leave no distortion.
     let aspect = 3.0;
     let place = |v: usize| mesh.mesh().positions[v].truncate() * 0.1 / DVec2::new(aspect, 1.0);
     let pins: Vec<String> = [0, 20, 90].iter().map(|&v| format!("{v}:{:?},{:?}", place(v).x, place(v).y)).collect();
@@ -284,14 +284,14 @@ fn an_embedding_without_pins_lies_within_the_picture() {
     let written = coordinates_by_vertex(&read_mesh(&program.path("out.obj")).unwrap());
     let low = written.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let high = written.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-    // A dome is round: half as wide in u as in v on a picture that is twice as wide as high.
+    // A dome is round: half as wide in u as in v on a picture twice as wide as high.
     assert!(low.min_element() >= -1e-12 && high.max_element() <= 1.0 + 1e-12, "{low} {high}");
     assert!((high.y - low.y - 1.0).abs() < 1e-9 && (high.x - low.x) < 0.7, "{low} {high}");
     let run = program.run(&["flatten", "in.obj", "--aspect", "2:1", "--fit", "true"]).expect(2);
     assert!(run.stderr.contains("--fit"), "{}", run.stderr);
 }
 
-/// The steps of the built-in face with its landmarks, by the method that is the default.
+/// Steps of the built-in face with its landmarks, by the default method.
 fn face_steps() -> (DiskMesh, Pins, Vec<Step>) {
     let mesh = DiskMesh::try_from(Example::Face.mesh()).unwrap();
     let landmarks = Example::Face.landmarks();

@@ -1,4 +1,4 @@
-//! Runs that once never ended: what a stage has solved and the verdict does not accept, asked for again and again.
+//! Runs that once never ended: a stage's result, rejected by the verdict, was requested again and again.
 
 use freebound_core::mesh::{PolygonMesh, VertexId};
 use glam::DVec3;
@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::program::{Program, obj_text};
 use freebound_testkit::{Random, grid, quad_sheet};
 
-/// Eight by eight quads, one of which has a vertex inside that hangs on two edges: two polygons that cannot both be convex.
+/// Eight by eight quads. One quad contains a vertex with only two edges: two polygons that cannot both be convex.
 fn with_bare_vertex() -> PolygonMesh {
     let mut mesh = quad_sheet(8, 8, 0.0, &mut Random(1));
     let quad: Vec<VertexId> = mesh.face(27).to_vec();

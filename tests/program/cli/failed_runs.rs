@@ -1,4 +1,4 @@
-//! What a run leaves that came to nothing: a report with the error, and no report of an earlier run.
+//! Files left by a failed run: a report with the error, and no report of an earlier run.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::program::{Program, Run};
 use super::report_schema::TENT;
 
-/// Runs `flatten` on a text, with a report of an earlier run where the new one goes.
+/// Runs `flatten` on a text, with an earlier report at the path of the new one.
 fn flattened(text: &str, options: &[&str]) -> (Run, Option<Value>) {
     let program = Program::new();
     program.write("in.obj", text);
@@ -23,7 +23,7 @@ fn the_faults_of_a_mesh_stand_in_the_report_with_their_elements_and_remedies() {
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 9 9 9\nf 1 2 3\nf 2 1 4\nf 1 2 5\n";
     let (run, report) = flattened(text, &[]);
     let run = run.expect(3);
-    assert!(run.stderr.starts_with("freebound: in.obj: cannot be flattened as it is\n"), "{}", run.stderr);
+    assert!(run.stderr.starts_with("freebound: in.obj: the mesh cannot be flattened\n"), "{}", run.stderr);
     let report = report.expect("a report");
     assert_eq!([&report["schema"], &report["mesh"]["path"]], [&json!(2), &json!("in.obj")]);
     let error = &report["error"];
@@ -82,7 +82,7 @@ fn every_message_names_the_file_first() {
     let cases: [(&[&str], i32, &str); 11] = [
         (&["flatten", "missing.obj"], 3, "missing.obj: cannot be read: "),
         (&["flatten", "empty.obj"], 3, "empty.obj: the file has no faces; "),
-        (&["flatten", "mesh.dae"], 3, "mesh.dae: format not read yet: COLLADA; export the mesh as OBJ or PLY"),
+        (&["flatten", "mesh.dae"], 3, "mesh.dae: unsupported format: COLLADA; export the mesh as OBJ or PLY"),
         (&["flatten", "tent.obj", "--constraints", "bad.txt"], 3, "bad.txt: line 1: "),
         (&["flatten", "tent.obj", "--constraints", "gone.txt"], 3, "gone.txt: the constraints cannot be read: "),
         (&["flatten", "tent.obj", "--picture", "text.png"], 3, "text.png: the picture cannot be read: "),

@@ -1,4 +1,4 @@
-//! `freebound figures`: the files, their numbers, and the pairs of pins that they stand on.
+//! `freebound figures`: the files, their numbers, and the underlying pairs of pins.
 
 use std::fs;
 
@@ -16,7 +16,7 @@ use freebound_testkit::{csv_rows, grid};
 
 const NUMBERS: [u32; 7] = [1, 3, 4, 5, 6, 8, 9];
 
-/// Red of a flipped face, as figures draw it.
+/// Red of a flipped face in figures.
 const RED: Colour = freebound_io::figure::colours::FLIPPED;
 
 fn made() -> Program {
@@ -51,7 +51,7 @@ fn every_figure_is_a_drawing_and_a_picture_with_all_its_panels() {
     let rows = rows(&program);
     for number in NUMBERS {
         let svg = fs::read_to_string(program.path(&format!("out/figure-{number}.svg"))).unwrap();
-        // Pictures are in the drawing as text that may hold any letters.
+        // Embedded pictures are base64 text that may contain any letters.
         let svg: String = svg.lines().filter(|line| !line.starts_with("<image ")).flat_map(|l| [l, "\n"]).collect();
         assert!(svg.ends_with("</svg>\n") && !svg.contains("NaN") && !svg.contains("inf"));
         let letters: Vec<&str> =
@@ -63,7 +63,7 @@ fn every_figure_is_a_drawing_and_a_picture_with_all_its_panels() {
         assert!(svg.contains(&format!(">Figure {number}. ")), "figure {number} has no caption");
         let picture = image::open(program.path(&format!("out/figure-{number}.png"))).unwrap().to_rgba8();
         assert!(picture.width() >= 1200 && picture.height() >= 600, "{:?}", picture.dimensions());
-        // The flipped faces of the face are thinner than pixels: of figure 9 the drawing is looked at.
+        // The flipped faces of the built-in face are thinner than pixels, so figure 9 is checked by its drawing.
         let [r, g, b] = RED;
         let is_drawn = svg.contains(&format!("fill=\"#{r:02x}{g:02x}{b:02x}\""));
         let has_red = if number == 9 { is_drawn } else { share_of(&picture, RED) > 1e-4 };
@@ -153,7 +153,7 @@ fn the_table_shows_how_weights_fold_the_face_and_the_iteration_repairs_it() {
         assert_eq!([flips, crossings, turning], [0, 0, 1], "9 {after}");
         assert_eq!(cells("9", on_mesh), cells("9", after));
     }
-    // Farther off with medium weights than with large ones: "… off by 0.0123".
+    // Medium weights are farther off than large ones: "… off by 0.0123".
     let off = |panel: &str| -> f64 {
         let row = rows.iter().find(|row| row[0] == "9" && row[1] == panel).expect("a row");
         row[2].split_whitespace().next_back().expect("a number").parse().expect("a number")
@@ -194,7 +194,7 @@ fn the_pairs_fold_as_measured_and_both_methods_repair_what_they_fold() {
 fn faces_near_each_other_are_one_zone_and_the_largest_comes_first() {
     let mesh = DiskMesh::try_from(grid(20, 20)).unwrap();
     let places: Embedding = mesh.mesh().positions.iter().map(|p| p.truncate()).collect();
-    // The first face of the first square; three of the last two squares.
+    // The first face of the first square; three faces of the last two squares.
     let faces = [0, 797, 798, 799].map(FaceId::new);
     let zones = zones_of(&mesh, &places, &faces);
     assert_eq!(zones, [faces[1..].to_vec(), faces[..1].to_vec()]);

@@ -1,4 +1,4 @@
-//! `freebound flatten` as a script meets it: exit status, messages, files, report.
+//! `freebound flatten` as a script uses it: exit status, messages, files, report.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -21,7 +21,7 @@ const BAD: [(&str, i32, i32, &str, &str); 14] = [
     ("moebius.obj", 3, 3, "non-orientable", "non-orientable"),
     ("torus_one_hole.obj", 3, 3, "handles", "handles"),
     ("raw_nancolor.obj", 3, 3, "closed", "closed"),
-    // Its texture coordinates are charts, and `check` looks at the mesh cut along their seams.
+    // Its texture coordinates form charts, and `check` examines the mesh cut along their seams.
     ("raw_negative_indices.obj", 3, 4, "closed", ""),
     ("raw_empty.obj", 3, 3, "no faces", "no faces"),
     ("raw_notenoughindices.obj", 3, 3, "line 9", "line 9"),
@@ -30,7 +30,7 @@ const BAD: [(&str, i32, i32, &str, &str); 14] = [
     ("raw_corrupted_invalid_double.off", 3, 3, "line 4: \"X0.425325\" is not", "line 4: \"X0.425325\" is not"),
 ];
 
-/// Every output that there is, by its option.
+/// All outputs, each by its option.
 const ALL_OUTPUTS: [&str; 8] = ["-o", "out.obj", "--svg", "out.svg", "--png", "out.png", "--report", "out.json"];
 
 corpus_test! {
@@ -60,16 +60,16 @@ corpus_test! {
 #[test]
 fn where_areas_of_a_planar_map_differ_a_hundred_times_the_summary_offers_to_relax() {
     let program = Program::new();
-    // A sheet with a tall hill: its natural map crowds the top together.
+    // A sheet with a tall hill: its natural map crowds the top.
     let mut hill = grid(24, 24);
     for x in &mut hill.positions {
         x.z = 24.0 * (-0.03 * ((x.x - 12.0).powi(2) + (x.y - 12.0).powi(2))).exp();
     }
     program.write("hill.obj", &obj_text(&PolygonMesh::from(&hill)));
-    let offered = "--relax 20 lowers the distortion";
+    let offered = "add --relax 20 to lower the distortion";
     let natural = program.run(&["flatten", "hill.obj", "--relax", "0", "-o", "out.obj"]).expect(0);
     assert!(
-        natural.stdout.contains(": 1 between mesh and map") && natural.stdout.contains(offered),
+        natural.stdout.contains("areas of mesh and map differ by") && natural.stdout.contains(offered),
         "{}",
         natural.stdout
     );
@@ -175,10 +175,10 @@ fn a_polygon_is_read_from_its_file_said_in_the_report_and_not_written_over() {
     let shape = serde_json::json!({"outline": "polygon:0 0; 2 -1; 3 0; 2 1", "spacing": "chord"});
     assert_eq!((&report["shape"], &report["boundary"]), (&shape, &serde_json::json!("convex")));
     let run = program.run(&[&convex[..], &["--svg", "shape.txt"]].concat()).expect(2);
-    assert!(run.stderr.contains("write over the polygon"), "{}", run.stderr);
+    assert!(run.stderr.contains("overwrite the polygon"), "{}", run.stderr);
     program.write("shape.txt", "0 0\n1 0\n1 x\n");
     let run = program.run(&convex).expect(2);
-    assert!(run.stderr.contains("shape.txt: line 3: \"1 x\" is no point"), "{}", run.stderr);
+    assert!(run.stderr.contains("shape.txt: line 3: \"1 x\" is not a point"), "{}", run.stderr);
 }
 
 #[test]
@@ -227,7 +227,7 @@ fn the_report_in_a_file_is_the_report_on_standard_output() {
     assert_eq!(on_screen, in_file);
 }
 
-/// Takes out what differs from run to run.
+/// Removes values that differ from run to run.
 fn forget_the_clock(report: &mut Value) {
     report["seconds"] = Value::Null;
     report["peak_memory_bytes"] = Value::Null;

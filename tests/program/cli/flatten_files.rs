@@ -1,4 +1,4 @@
-//! What `freebound flatten` writes: the mesh, the drawing, the picture.
+//! Outputs of `freebound flatten`: the mesh, the drawing, the picture.
 
 #![allow(clippy::float_cmp, reason = "the unit square is filled bit for bit")]
 
@@ -26,7 +26,7 @@ corpus_test! {
             let bits = |p: &DVec3| p.to_array().map(f64::to_bits);
             assert!(before.polygons.positions.iter().map(bits).eq(after.polygons.positions.iter().map(bits)));
             assert_eq!(before.polygons, after.polygons, "{}", entry.file);
-            // The verdict of the report, of the library on the file as written, and of `check` are one.
+            // The verdicts of the report, of the library on the written file, and of `check` agree.
             let report: Value = serde_json::from_slice(&fs::read(program.path("out.json")).unwrap()).unwrap();
             let on_file = verdict(&entry.disk(), &coordinates_by_vertex(&after));
             assert_eq!(report["verdict"], serde_json::to_value(&on_file).unwrap(), "{}", entry.file);
@@ -41,7 +41,7 @@ corpus_test! {
 #[test]
 fn polygons_are_written_back_whole() {
     let program = Program::new();
-    // A quad, a pentagon that is not convex, and a triangle, on one strip.
+    // A quad, a non-convex pentagon, and a triangle, on one strip.
     let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 3 0 0\nv 2 .5 0\nv 3 1 0\nv 4 .5 1\n\
                 g first\nf 1 2 3 4\nusemtl red\nf 2 5 6 7 3\nf 5 8 6\n";
     program.write("in.obj", text);
@@ -106,7 +106,7 @@ fn the_result_fits_the_unit_square_or_has_the_area_of_the_surface() {
     assert!((ratio - 1.0).abs() < 1e-12, "{ratio}");
 }
 
-/// Walks over XML and asserts that tags are closed in order and attributes quoted; returns the elements' start tags.
+/// Parses XML and asserts that tags are closed in order and attributes quoted; returns the elements' start tags.
 pub(crate) fn xml_elements(text: &str) -> Vec<String> {
     let (mut open, mut elements) = (Vec::<String>::new(), Vec::new());
     for piece in text.split('<').skip(1) {

@@ -1,4 +1,5 @@
-//! glTF files as the program takes and gives them: with their buffers and pictures, seams of exporters, and nothing written over.
+//! Reading and writing glTF files with the program: buffers and pictures, seams of exporters, and no overwritten
+//! inputs.
 
 use std::fs;
 
@@ -8,7 +9,7 @@ use serde_json::json;
 use super::program::Program;
 use freebound_testkit::glb::{GlbMaker, U16, json_of, plain, read, written};
 
-/// A ball as programs export it: vertices twice along the seam and at the poles, and triangles without area there.
+/// Ball as exporters write it: doubled vertices along the seam and at the poles, and degenerate triangles there.
 fn ball(columns: u32, rows: u32) -> GlbMaker {
     let mut maker = GlbMaker::new();
     let (mut positions, mut texture, mut indices) = (Vec::new(), Vec::new(), Vec::new());

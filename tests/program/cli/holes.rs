@@ -1,4 +1,4 @@
-//! `freebound flatten` on surfaces with holes: nothing of what fills them is written.
+//! `freebound flatten` on surfaces with holes: fillings are not written.
 
 use std::fs;
 
@@ -10,7 +10,7 @@ use super::program::{Program, argument, obj_text};
 use freebound_testkit::surfaces::without_faces;
 use freebound_testkit::{Random, band, corpus_entry, corpus_test, quad_sheet};
 
-/// A bent sheet of quads with two holes, one of two quads.
+/// Bent sheet of quads with two holes, one of two quads.
 fn sheet() -> PolygonMesh {
     without_faces(&quad_sheet(6, 6, 0.0, &mut Random(1)), |face| [14, 15, 28].contains(&face))
 }
@@ -19,7 +19,7 @@ fn lines<'a>(text: &'a str, keyword: &str) -> Vec<&'a str> {
     text.lines().filter(|line| line.split(' ').next() == Some(keyword)).collect()
 }
 
-/// The lines of a text without texture coordinates.
+/// Lines of a text without texture coordinates.
 fn without_texture(text: &str) -> Vec<String> {
     let bare =
         |line: &str| line.split(' ').map(|word| word.split('/').next().unwrap_or(word)).collect::<Vec<_>>().join(" ");
@@ -44,7 +44,7 @@ fn a_file_with_holes_comes_back_with_coordinates_and_nothing_else() {
     assert_eq!(check["atlas"]["planar"], json!(true));
     assert_eq!(check["atlas"]["charts"][0]["boundary_loops"], json!(3));
     let words = program.run(&["check", "sheet.obj"]).expect(0).stdout;
-    assert!(words.contains("a disk with 2 holes, of 49 vertices and 66 faces"), "{words}");
+    assert!(words.contains("a disk with 2 holes, 49 vertices, 66 faces"), "{words}");
 }
 
 #[test]
@@ -60,12 +60,12 @@ fn a_ply_file_with_holes_comes_back_with_coordinates() {
 #[test]
 fn a_file_that_is_repaired_and_gets_new_vertices_keeps_its_text() {
     let program = Program::new();
-    // A duplicate face, so that it is repaired, too; a comment and a normal that the file would lose.
+    // A duplicate face, so that it is repaired too; a comment and a normal that a rewritten file would lose.
     let mesh = sheet();
     let first: Vec<String> = mesh.face(0).iter().map(|v| (v.number() + 1).to_string()).collect();
     let text = format!("# kept\n{}f {}\nl 1 2 3\n", obj_text(&mesh), first.join(" "));
     program.write("sheet.obj", &text);
-    // The corners of the sheet in their places, a quad turned over.
+    // The corners of the sheet in place, a quad flipped.
     let pins = ["0:0,0", "6:1,0", "48:1,1", "42:0,1", "16:.6,.4", "17:.4,.4", "24:.4,.6", "23:.6,.6"];
     let pins: Vec<&str> = pins.iter().flat_map(|pin| ["--pin", *pin]).collect();
     let run = program.run(&[&["flatten", "sheet.obj", "-o", "out.obj", "--report", "-"][..], &pins].concat()).expect(0);
@@ -79,7 +79,7 @@ fn a_file_that_is_repaired_and_gets_new_vertices_keeps_its_text() {
     assert_eq!(vertices.len(), 49 + new);
     assert_eq!(vertices[..49], lines(&text, "v"));
     assert_eq!(lines(&written, "vt").len(), 49 + new, "one for each vertex that is written");
-    // Every new vertex has a face, and lies on the edge that the report names.
+    // Every new vertex has a face, and is on the edge named in the report.
     let back = read_mesh(&program.path("out.obj")).unwrap();
     for number in 49..49 + new {
         assert!(back.polygons.corners.iter().any(|corner| corner.index() == number), "vertex {number}");
@@ -144,7 +144,7 @@ corpus_test! {
 fn charts_with_holes_are_filled_each_by_itself() {
     let program = Program::new();
     let one = obj_text(&sheet());
-    // The same again, beside the first, its faces after those of the first.
+    // A copy beside the first sheet, its faces after those of the first.
     let moved = |line: &str| match line.split_once(' ') {
         Some(("v", rest)) => {
             let (x, others) = rest.split_once(' ').unwrap();
@@ -169,7 +169,7 @@ fn charts_with_holes_are_filled_each_by_itself() {
     for chart in 0..2 {
         assert_eq!(check["atlas"]["charts"][chart]["boundary_loops"], json!(3));
     }
-    // The other treatment: each is cut.
+    // With the other treatment both are cut.
     let cut = program.run(&["flatten", "two.obj", "--holes", "cut", "--cut", "auto", "--report", "-"]).expect(0).json();
     assert_eq!(cut["mesh"]["repairs"][0]["repair"], json!("cut"));
 }

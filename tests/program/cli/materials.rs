@@ -1,4 +1,4 @@
-//! The picture that an OBJ file's materials name.
+//! Picture named by an OBJ file's materials.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use tempfile::TempDir;
 use super::program::Program;
 use super::report_schema::TENT;
 
-/// A folder with these files, whose contents do not matter where they are empty.
+/// Folder with these files; empty texts stand for arbitrary contents.
 fn folder(files: &[(&str, &str)]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in files {
@@ -20,7 +20,7 @@ fn folder(files: &[(&str, &str)]) -> TempDir {
     folder
 }
 
-/// The picture of an OBJ text in a folder, relative to it.
+/// Picture of an OBJ text in a folder, relative to the folder.
 fn picture_in(folder: &Path, statements: &str) -> Option<String> {
     let text = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n{statements}");
     let mesh = read_stream(text.as_bytes()).unwrap();
@@ -79,7 +79,7 @@ fn without_a_material_in_use_there_is_no_picture() {
     assert_eq!(picture_in(folder.path(), text), None, "a material that no library has");
 }
 
-/// A program's folder with a mesh, its library and its pictures in a folder of it.
+/// Program folder with a mesh, its material library and its pictures in a subfolder.
 fn with_materials() -> Program {
     let program = Program::new();
     fs::create_dir_all(program.path("in/looks")).unwrap();
@@ -93,7 +93,7 @@ fn with_materials() -> Program {
     program
 }
 
-/// The contents of the picture that a written mesh shows; its library is found by tobj, too.
+/// Contents of the picture that a written mesh shows; tobj must find its library too.
 fn picture_shown(program: &Program, mesh: &str) -> String {
     let path = program.path(mesh);
     let (models, materials) = tobj::load_obj(&path, &tobj::LoadOptions::default()).expect("tobj reads it");
@@ -112,7 +112,7 @@ fn listing(folder: &Path) -> Vec<String> {
 #[test]
 fn a_mesh_in_another_folder_names_its_library_from_there() {
     let program = with_materials();
-    // What is missing keeps its name, on a line of its own; tobj would stop at it.
+    // A missing library keeps its name, on a separate line; tobj would stop at it.
     program.write("in/gone.mtl", "");
     program.run(&["flatten", "in/mesh.obj", "-o", "out/flat.obj"]).expect(0);
     let text = fs::read_to_string(program.path("out/flat.obj")).unwrap();
@@ -179,7 +179,7 @@ fn copying_materials_needs_a_place_and_does_not_go_with_a_picture() {
     assert_eq!(listing(&program.path("out")), Vec::<String>::new());
 }
 
-/// On Linux a program's memory is a file that cannot be read from its beginning, whoever asks.
+/// On Linux a process's memory is a file that nobody can read from its beginning.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_file_to_be_copied_that_cannot_be_read_is_unusable_input() {

@@ -1,4 +1,4 @@
-//! Memory that a mesh file would take, told before it is read; on Linux, which tells the memory of the machine.
+//! Memory estimate of a mesh file before it is read; on Linux, which reports the machine's memory.
 #![cfg(target_os = "linux")]
 
 use std::fs;
@@ -12,10 +12,10 @@ use serde_json::json;
 use super::program::{HUGE, Program, argument};
 use super::report_schema::TENT;
 
-/// Far more than the program takes with a small mesh, far less than a large one would take, KiB.
+/// Memory limit: far more than the program needs for a small mesh, far less than for a large one, KiB.
 const ROOM: u64 = 2 << 20;
 
-/// An empty file may take as long as the program takes to start, on a machine under load.
+/// Time limit for a refused file: the program's start on a machine under load.
 const MOMENT: Duration = Duration::from_secs(5);
 
 #[test]
@@ -45,7 +45,7 @@ fn a_shortage_is_told_in_units_that_can_be_read() {
     let words = |needed, memory| MemoryShortage { needed, memory }.to_string();
     assert_eq!(
         words(3 << 29, 2 << 30),
-        "reading it may take 1.5 GiB, more than half of the machine's memory of 2.0 GiB"
+        "reading it may need 1.5 GiB, more than half of the machine's memory of 2.0 GiB"
     );
     assert!(words(u64::MAX, 1023).contains("16.0 EiB, more than half of the machine's memory of 1023 bytes"));
 }
@@ -77,12 +77,12 @@ fn a_file_beyond_the_memory_of_the_machine_is_named_at_once_and_without_taking_a
         assert!(begun.elapsed() < MOMENT, "{:?}", begun.elapsed());
         let said = String::from_utf8(run.stderr).unwrap();
         assert_eq!(run.status.code(), Some(3), "{said}");
-        assert!(said.starts_with(&format!("freebound: {name}: reading it may take ")), "{said}");
+        assert!(said.starts_with(&format!("freebound: {name}: reading it may need ")), "{said}");
         assert!(said.contains(" TiB, more than half of the machine's memory of "), "{said}");
-        assert!(said.ends_with("; --large reads it all the same\n"), "{said}");
+        assert!(said.ends_with("; add --large to read it anyway\n"), "{said}");
         let report: serde_json::Value = serde_json::from_slice(&fs::read(program.path("out.json")).unwrap()).unwrap();
         assert_eq!(report["error"]["kind"], json!("too-large-for-memory"), "{report:#}");
-        assert_eq!(report["error"]["remedy"], json!("--large reads it all the same"), "{report:#}");
+        assert_eq!(report["error"]["remedy"], json!("add --large to read it anyway"), "{report:#}");
     }
 }
 
@@ -92,10 +92,10 @@ fn a_large_file_is_read_where_that_is_asked_for() {
     program.write("tent.obj", TENT);
     program.run(&["flatten", "tent.obj", "--large"]).expect(0);
     program.run(&["check", "tent.obj", "--large"]).expect(0);
-    // Zeros are no text: the first of them are read, and no more.
+    // Zeros are not text: reading stops after the first of them.
     program.write_huge("huge.obj");
     for command in ["flatten", "check"] {
         let run = program.run(&[command, "huge.obj", "--large"]).expect(3);
-        assert!(run.stderr.starts_with("freebound: huge.obj: this is no text"), "{}", run.stderr);
+        assert!(run.stderr.starts_with("freebound: huge.obj: neither text"), "{}", run.stderr);
     }
 }

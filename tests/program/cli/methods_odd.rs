@@ -1,6 +1,6 @@
-//! Every method of `compare`, with all its weights and shapes, on surfaces that strain it: it ends with an embedding and an honest
-//! verdict, or with an error that names a way out; what is written has no NaN; and the report says how well it was solved or why
-//! it ended.
+//! Every method of `compare`, with all its weights and shapes, on difficult surfaces. It ends with an embedding and
+//! an honest verdict, or with an error that suggests a remedy. The output has no NaN. The report states the quality
+//! of the solution or the reason for the end.
 
 use freebound::session::{Compared, Document, Model};
 use freebound_core::mesh::{PolygonMesh, Preparation, VertexId};
@@ -13,11 +13,11 @@ use freebound_testkit::oracle::{OracleVerdict, examine};
 use freebound_testkit::surfaces::without_faces;
 use freebound_testkit::{Random, fan, grid, honeycomb, quad_sheet, sheet};
 
-/// Residuals of linear solves are no larger. What 64 bits leave of needles of 1e-12 is 5e-5: of positions solved for that is
-/// refused, of an eigenvector and a layout of angles it is reported.
+/// Largest residual of linear solves. Needles of 1e-12 leave 5e-5 in 64 bits. That is an error for solved positions;
+/// for an eigenvector and a layout of angles it is reported.
 const RESIDUAL: f64 = 1e-4;
 
-/// A surface as a file has it, in a form.
+/// Surface as in a file, prepared.
 struct Odd {
     name: &'static str,
     model: Model,
@@ -50,7 +50,7 @@ fn bumpy() -> PolygonMesh {
     (&sheet(4, 0.4)).into()
 }
 
-/// Faces without area: a vertex in the middle of an edge, two ends of an edge in one place, a fan on one line.
+/// Degenerate faces: a vertex in the middle of an edge, two coinciding ends of an edge, a fan on one line.
 fn without_area() -> Vec<Odd> {
     let at = |column: usize, row: usize| 5 * row + column;
     let [mut on_edge, mut in_one_place, mut on_line] = [(); 3].map(|()| bumpy());
@@ -69,7 +69,7 @@ fn without_area() -> Vec<Odd> {
     ]
 }
 
-/// Polygons that are no triangles, and holes that are filled.
+/// Polygons other than triangles, and filled holes.
 fn polygonal() -> Vec<Odd> {
     let mut random = Random(3);
     let concave = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.1], [0.5, 0.5, 0.2], [0.0, 2.0, 0.0], [2.0, 2.0, 0.5]];
@@ -84,7 +84,7 @@ fn polygonal() -> Vec<Odd> {
     ]
 }
 
-/// As few faces and inner vertices as there can be.
+/// Smallest possible numbers of faces and inner vertices.
 fn small() -> Vec<Odd> {
     let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.3], [0.0, 1.0, 0.0]];
     let around: Vec<[f64; 3]> = [[0.0, 0.0, 0.0]]
@@ -108,7 +108,7 @@ fn small() -> Vec<Odd> {
     ]
 }
 
-/// Numbers and angles near the ends of what 64 bits hold.
+/// Numbers and angles near the limits of 64 bits.
 fn extreme() -> Vec<Odd> {
     let scaled = |name, scale: DVec3| odd(name, moved(bumpy(), |p| p * scale));
     let mut needles = bumpy();
@@ -123,7 +123,7 @@ fn extreme() -> Vec<Odd> {
     ]
 }
 
-/// All that can be run: each method with all its weights, and on all its shapes with the usual ones.
+/// All variants: each method with all its weights, and on all its shapes with the default weights.
 fn variants() -> Vec<Variant> {
     let mut variants = Vec::new();
     for method in Method::ALL {
@@ -147,7 +147,7 @@ fn constrained(model: &Model) -> Document {
     Document { targets: targets.collect(), ..Document::default() }
 }
 
-/// Runs one and says what is wrong with what comes of it.
+/// Runs a variant and returns the faults of its result.
 fn faults(model: &Model, document: &Document, variant: &Variant) -> Vec<String> {
     let problem = document.problem().by(variant);
     let compared = Compared::run(model, problem, Control::unattended(), |_| {}).expect("nobody cancels");
@@ -197,7 +197,7 @@ fn faults(model: &Model, document: &Document, variant: &Variant) -> Vec<String> 
     faults
 }
 
-/// Runs all of them on all surfaces.
+/// Runs all variants on all surfaces.
 #[track_caller]
 fn assert_honest(surfaces: Vec<Odd>) {
     let mut found = Vec::new();

@@ -1,7 +1,8 @@
-//! Command line: the program as people and scripts run it.
+//! Command line: the program as users and scripts run it.
 
 pub(crate) mod arguments;
 pub(crate) mod atlas;
+pub(crate) mod book;
 pub(crate) mod charts;
 pub(crate) mod charts_packed;
 pub(crate) mod charts_refined;

@@ -1,5 +1,5 @@
-//! `freebound compare --morph`: the animated picture as a script meets it, read by the PNG decoder frame by frame, and every
-//! frame's embedding proved by the oracle.
+//! `freebound compare --morph`: the animated picture, read frame by frame with the PNG decoder, and every frame's
+//! embedding proved by the oracle.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -29,10 +29,10 @@ use super::report_schema::{Schema, TENT};
 use freebound_testkit::oracle::examine;
 use freebound_testkit::{sheet, write_obj};
 
-/// The mesh.
+/// Mesh file.
 const IN: &str = "sheet.obj";
 
-/// Pixels per point of a frame, and the drawing's place on its page, points.
+/// Pixels per point of a frame, and the range of the drawing on its page, points.
 const PIXELS: f64 = 1.25;
 const DRAWING: [f64; 2] = [14.0, 334.0];
 
@@ -42,7 +42,7 @@ fn with_sheet() -> Program {
     program
 }
 
-/// What an animated PNG holds: its pictures, without opacity, how long each is seen, and how often all are played.
+/// Contents of an animated PNG: pictures without opacity, their display times, and the number of plays.
 struct Decoded {
     size: [u32; 2],
     frames: Vec<Vec<u8>>,
@@ -69,13 +69,13 @@ fn decoded(bytes: &[u8]) -> Decoded {
     Decoded { size, frames, milliseconds, plays: control.num_plays }
 }
 
-/// A picture as an animation has it: without opacity, colours at the nearest multiple of 4 that there is.
+/// Picture as in an animation: without opacity, colours rounded to multiples of 4.
 fn opaque(picture: &Picture) -> Vec<u8> {
     let rounded = |channel: &u8| ((f64::from(*channel) / 4.0).round() * 4.0).min(255.0) as u8;
     picture.pixels.chunks_exact(4).flat_map(|pixel| pixel[..3].iter().map(rounded).collect::<Vec<_>>()).collect()
 }
 
-/// A mesh with what methods have come to on it, as the program finds them.
+/// Mesh with the results of methods, computed as in the program.
 fn compared(path: &Path, methods: &[&str]) -> (Model, Vec<Compared>) {
     let model = Model::read(path, Preparation::default()).expect("it was written just now");
     let problem = Document { settings: Settings::default(), ..Document::default() }.problem();
@@ -91,7 +91,7 @@ fn report(program: &Program, name: &str) -> Value {
     serde_json::from_str(&fs::read_to_string(program.path(name)).expect("a report")).expect("JSON")
 }
 
-/// The smallest ratio of a face's area in the plane to that on the surface, both as shares of the whole.
+/// Smallest ratio of a face's share of the area in the plane to its share on the surface.
 fn least_ratio(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let areas: Vec<[f64; 2]> = mesh
         .faces()
@@ -106,7 +106,7 @@ fn least_ratio(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     areas.iter().map(|[on, of]| (of / plane) / (on / surface)).fold(f64::INFINITY, f64::min)
 }
 
-/// A map's drawing as a step of the comparison has it, in a window of its own, cut out of its page.
+/// Drawing of a method's map in a window of half-width `half`, cropped from its page.
 fn drawing_of(model: &Model, method: &Compared, half: f64, others: &[&Compared]) -> Picture {
     let outcome = method.outcome.as_ref().expect("a map");
     let mesh = model.disk().expect("a disk");
@@ -121,7 +121,7 @@ fn drawing_of(model: &Model, method: &Compared, half: f64, others: &[&Compared])
     still.page().picture(PIXELS)
 }
 
-/// The pixels of the drawing in a frame, without its line around.
+/// Pixels of the drawing in a frame, without its outline.
 fn drawing(pixels: &[u8], width: u32) -> Vec<&[u8]> {
     let [low, high] = DRAWING.map(|at| (at * PIXELS) as usize);
     let row = 3 * width as usize;
@@ -140,7 +140,7 @@ fn between_two_maps_the_picture_goes_there_and_back_through_frames_that_the_orac
     assert_eq!((&found.frames[1], &found.frames[2]), (&found.frames[5], &found.frames[4]));
     assert!((0..4).all(|k| (0..k).all(|other| found.frames[k] != found.frames[other])));
 
-    // The maps as `compare` has them, drawn from their steps.
+    // Maps as in `compare`, drawn from their steps.
     let (model, methods) = compared(&program.path(IN), &names);
     let methods: Vec<&Compared> = methods.iter().collect();
     let mesh = model.disk().unwrap();
@@ -152,7 +152,7 @@ fn between_two_maps_the_picture_goes_there_and_back_through_frames_that_the_orac
         assert_eq!(drawing(&found.frames[frame], found.size[0]), drawing(&own, found.size[0]), "frame {frame}");
     }
 
-    // What lies between is proved by the oracle, and is what was drawn.
+    // Intermediate frames are proved by the oracle, and equal the drawn ones.
     let picture = MorphPicture::new(mesh, &tour, CellShading::default());
     let triangles: Vec<[u32; 3]> =
         mesh.mesh().triangles.iter().map(|t| t.map(|v: VertexId| u32::try_from(v.index()).unwrap())).collect();
@@ -203,8 +203,8 @@ fn fewer_than_two_planar_maps_are_an_error_with_a_remedy_and_nothing_is_written(
     let list = "virtual-boundary,auto";
     let files = ["--morph", "m.png", "--csv", "all.csv", "--report", "r.json"];
     let run = program.run(&[&["compare", "tent.obj", "--methods", list], &pins[..], &files[..]].concat()).expect(4);
-    assert!(run.stderr.contains("one method alone has it (virtual-boundary: no map)"), "{}", run.stderr);
-    assert!(run.stderr.contains("choose with --methods those with planar maps"), "{}", run.stderr);
+    assert!(run.stderr.contains("only one method has one (virtual-boundary: no map)"), "{}", run.stderr);
+    assert!(run.stderr.contains("use --methods to choose planar maps"), "{}", run.stderr);
     assert_eq!(run.stdout, "");
     assert_eq!(program.files(), ["r.json", "tent.obj"], "nothing but the report of that");
     let report = report(&program, "r.json");
@@ -212,20 +212,20 @@ fn fewer_than_two_planar_maps_are_an_error_with_a_remedy_and_nothing_is_written(
     let error = &report["error"];
     assert_eq!((&error["kind"], &error["exit_status"]), (&Value::from("no-morph"), &Value::from(4)));
     let remedy = error["remedy"].as_str().expect("a remedy");
-    assert!(remedy.starts_with("choose with --methods those with planar maps"), "{remedy}");
+    assert!(remedy.starts_with("use --methods to choose planar maps"), "{remedy}");
 }
 
 #[test]
 fn wrong_use_of_a_morph_ends_with_2_and_writes_nothing() {
     let program = with_sheet();
     let cases: [(&[&str], &str); 7] = [
-        (&["--methods", "natural", "--morph", "m.png"], "name two or more"),
+        (&["--methods", "natural", "--morph", "m.png"], "--morph needs the maps of at least two methods"),
         (&["--methods", "natural,convex", "--frames", "5"], "--morph"),
         (&["--methods", "natural,convex", "--morph", "m.png", "--frames", "2"], "3..=1000"),
         (&["--methods", "natural,convex", "--morph", "m.png", "--frames", "1001"], "3..=1000"),
         (&["--methods", "natural,convex", "--morph", "m.png", "--png", "m.png"], "both write"),
-        (&["--methods", "natural,convex", "--morph", IN], "would write over the mesh"),
-        (&["--methods", "natural,convex", "--morph", "-", "--csv", "-"], "cannot both go there"),
+        (&["--methods", "natural,convex", "--morph", IN], "would overwrite the mesh"),
+        (&["--methods", "natural,convex", "--morph", "-", "--csv", "-"], "cannot both use it"),
     ];
     for (arguments, word) in cases {
         let run = program.run(&[&["compare", IN], arguments].concat()).expect(2);
@@ -234,7 +234,7 @@ fn wrong_use_of_a_morph_ends_with_2_and_writes_nothing() {
     }
 }
 
-/// The longest names that a method is typed by, on shapes with a name.
+/// Longest names of methods on the command line, on named shapes.
 fn longest_names() -> [String; 2] {
     let shapes = || BoundaryShape::ALL.iter().filter(|shape| !matches!(shape, BoundaryShape::Polygon(_)));
     let methods = Method::ALL.iter().flat_map(|method| shapes().map(|shape| method.clone().on_shape(shape.clone())));
@@ -263,7 +263,7 @@ fn the_longest_names_stay_on_the_page_and_all_frames_have_one_size() {
     let picture = MorphPicture::new(mesh, &tour, CellShading::default());
     let pages: Vec<Picture> = picture.places().into_iter().map(|place| picture.frame(place).picture).collect();
     let paper = pages[0].pixels[..4].to_vec();
-    // Half of the margin, so that a stroke may be rounded off into it.
+    // Half of the margin, since a stroke may be rounded into it.
     let free = ((DRAWING[1] + 7.0) * PIXELS) as usize;
     for (number, page) in pages.iter().enumerate() {
         let width = page.width as usize;
@@ -286,7 +286,8 @@ fn the_search_announces_each_frame_that_it_looks_at_once() {
         let stops = MorphStops::of(&methods.iter().collect::<Vec<_>>());
         let tour = MorphTour::through(model.disk().unwrap(), stops, frames, Control::new(&cancel, &count)).unwrap();
         assert_eq!((tour.legs[0].route, tour.legs[0].frames.len()), (Route::Straight, frames));
-        // Both ends are proved already. Of an even number none is half way: what is there is looked at, too.
+        // Both ends are already proved. With an even number of frames none is at the midpoint, which is verified
+        // additionally.
         let half_way = usize::from(frames % 2 == 0);
         assert_eq!(proofs.load(Ordering::Relaxed), frames - 2 + half_way);
     }

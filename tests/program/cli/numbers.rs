@@ -1,4 +1,5 @@
-//! Hostile numbers: scale, offset and order of magnitude are no matter, failures have names, and no NaN leaves the program.
+//! Hostile numbers: results do not depend on scale, offset or order of magnitude, failures are named errors, and no
+//! NaN is output.
 
 use std::time::{Duration, Instant};
 
@@ -20,7 +21,7 @@ use serde_json::Value;
 use super::program::{Program, argument, obj_text};
 use freebound_testkit::{corpus_entry, corpus_test, disk, grid};
 
-/// What takes longer on a dozen faces hangs, however busy the machine is.
+/// Time limit: a longer run on a dozen faces hangs, even on a busy machine.
 const HANG: Duration = Duration::from_secs(30);
 
 /// Methods that take pins as constraints.
@@ -34,7 +35,7 @@ const CONSTRAINED: [Method; 7] = [
     Method::Auto,
 ];
 
-/// A bumpy sheet of 4 × 3 squares.
+/// Bumpy sheet of 4 × 3 squares.
 fn sheet() -> TriMesh {
     let mut mesh = grid(4, 3);
     for p in &mut mesh.positions {
@@ -48,7 +49,7 @@ fn moved(mut mesh: TriMesh, place: impl Fn(DVec3) -> DVec3) -> TriMesh {
     mesh
 }
 
-/// The corners of the sheet, and where they are to go: on a trapezium in the unit square.
+/// Corners of the sheet with their targets, a trapezium in the unit square.
 fn corners() -> [(VertexId, DVec2); 4] {
     let place = |v, x, y| (VertexId::new(v), DVec2::new(x, y));
     [place(0, 0.125, 0.0), place(4, 1.0, 0.25), place(19, 0.875, 0.75), place(15, 0.1, 0.7)]
@@ -78,7 +79,7 @@ fn targets_far_from_the_origin_are_no_matter() {
         assert_eq!(here.candidate.stage, there.candidate.stage, "{}: another rung", method.name());
         let off = here.candidate.solution.embedding.iter().zip(&there.candidate.solution.embedding);
         let off = off.map(|(a, b)| (*a + far - *b).abs().max_element()).fold(0.0, f64::max);
-        // The step between numbers there is 2⁻³⁴; what is solved near 0 is rounded to it once.
+        // The spacing of numbers there is 2⁻³⁴; a solution near 0 is rounded to it once.
         assert!(off <= 2_f64.powi(-33), "{}: off by {off:e}", method.name());
     }
 }
@@ -86,7 +87,7 @@ fn targets_far_from_the_origin_are_no_matter() {
 #[test]
 fn targets_of_any_order_of_magnitude_give_the_same_map_to_the_last_bit() {
     let mesh = disk(sheet());
-    // Without relaxing, which goes on where a map does not hold in 32 bits: those end at 2^±149.
+    // Without relaxation, which continues if a map is not planar in 32 bits: those end at 2^±149.
     let last_of = |mesh: &DiskMesh, method: Method, pins: &Pins| {
         let settings = Settings { relax_rounds: Some(0), ..Settings::new(method, Family::default()) };
         steps_of(mesh, settings, pins).unwrap().pop().unwrap()
@@ -111,7 +112,7 @@ fn targets_of_any_order_of_magnitude_give_the_same_map_to_the_last_bit() {
 fn meshes_of_any_order_of_magnitude_give_the_same_map_to_the_last_bit() {
     let near = disk(sheet());
     for exponent in [-1030, -990, -531, 530, 1015] {
-        // In two factors: a power alone may be beyond the range of numbers.
+        // Split into two factors, since a single power may be out of range.
         let half = 2_f64.powi(exponent / 2);
         let rest = 2_f64.powi(exponent - exponent / 2);
         let far = disk(moved(sheet(), |p| (64.0 * p).round() / 64.0 * half * rest));
@@ -221,14 +222,14 @@ fn no_writer_lets_a_nan_or_an_infinity_pass() {
     }
 }
 
-/// A number of any order of magnitude.
+/// Number of any order of magnitude.
 fn any_number() -> impl Strategy<Value = f64> {
     let magnitude = prop_oneof![3 => -3..3_i32, 1 => -307..308_i32];
     (prop_oneof![Just(1.0), Just(-1.0)], 1.0..9.9_f64, magnitude)
         .prop_map(|(sign, digits, e)| sign * digits * 10_f64.powi(e))
 }
 
-/// A pin with a target around a common middle, and a weight that may be any.
+/// Pin with a target around a common middle, and any weight.
 fn any_pin() -> impl Strategy<Value = (u32, DVec2, Option<f64>)> {
     let weight = prop_oneof![2 => Just(None), 1 => any_number().prop_map(|w| Some(w.abs()))];
     (0..20_u32, -1.0..1.0_f64, -1.0..1.0_f64, weight).prop_map(|(v, x, y, weight)| (v, DVec2::new(x, y), weight))
@@ -280,7 +281,7 @@ proptest! {
     }
 }
 
-/// Arguments, the statuses that are right, and what is said.
+/// Arguments, the accepted exit statuses, and the message.
 const RUNS: [(&[&str], &[i32]); 16] = [
     (&["--pin", "0:1e200,0", "--pin", "4:2e200,0", "--pin", "19:2e200,1e200"], &[0]),
     (&["--pin", "0:1e300,0", "--pin", "4:-1e300,0", "--pin", "19:0,1e300", "--method", "natural"], &[0, 4]),
@@ -294,7 +295,7 @@ const RUNS: [(&[&str], &[i32]); 16] = [
     (&["--aspect", "1e300:1"], &[0, 4]),
     (&["--aspect", "1:1e300"], &[0, 4]),
     (&["--aspect", "1:1e300", "--pin", "0:1e200,0", "--pin", "4:1e300,1"], &[0, 4]),
-    // Beyond the range of numbers in the plane: a pin that cannot be.
+    // Out of the range of numbers in the plane: an invalid pin.
     (&["--aspect", "1e300:1", "--pin", "0:1e200,0", "--pin", "4:1,1"], &[2]),
     (&["--pin", "0:1e200,0", "--pin", "4:0,0", "--method", "virtual-boundary"], &[0, 4]),
     (&["--pin", "0:1e200,0", "--pin", "4:0,0", "--method", "schnyder"], &[0, 4]),

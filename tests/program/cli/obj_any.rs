@@ -1,4 +1,4 @@
-//! OBJ files of any pieces in any order come back as they went.
+//! OBJ files of arbitrary pieces in any order survive a round trip.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::obj_carried::{by_corner, unchanged, written};
 use freebound_testkit::files::read;
 
-/// How the lines of a generated file look.
+/// Line style of a generated file.
 #[derive(Clone, Debug)]
 struct Looks {
     end: &'static str,
@@ -26,10 +26,10 @@ fn looks() -> impl Strategy<Value = Looks> {
     )
 }
 
-/// A polygon's corners: places among the vertices so far, and whether each has a texture coordinate and a normal.
+/// Corners of a polygon: indices among the vertices so far, and true for each texture coordinate and normal.
 type Corners = Vec<(prop::sample::Index, bool, bool)>;
 
-/// What a file may hold, piece by piece.
+/// Piece of a generated file.
 #[derive(Clone, Debug)]
 enum Piece {
     Vertex([f64; 3], String),
@@ -70,7 +70,7 @@ fn pieces() -> impl Strategy<Value = Vec<Piece>> {
     prop::collection::vec(piece, 1..40)
 }
 
-/// A file of these pieces, with three vertices, a texture coordinate and a normal before them and a face behind.
+/// Text of a file with these pieces. Three vertices, a texture coordinate and a normal come first, and a face last.
 fn text_of(pieces: &[Piece], looks: &Looks) -> String {
     let mut text = String::from(if looks.has_mark { "\u{feff}" } else { "" });
     let [mut vertices, mut coordinates, mut normals] = [3_i64, 1, 1];
@@ -117,7 +117,7 @@ proptest! {
     #[test]
     fn any_file_comes_back_as_it_went(pieces in pieces(), looks in looks()) {
         let text = text_of(&pieces, &looks);
-        // A reader of lines that CR alone ends sees the same as one of lines that LF ends.
+        // A reader that ends lines at CR sees what a reader of LF files sees.
         let as_lines = |text: &str| if looks.end == "\r" { text.replace('\r', "\n") } else { text.to_owned() };
         let mesh = read(&text);
         let texture = by_corner(&mesh);

@@ -1,4 +1,4 @@
-//! OBJ files come back as they went: nothing differs but `vt` lines and the middle indices of faces.
+//! OBJ files survive a round trip: only `vt` lines and the middle indices of faces differ.
 
 use std::collections::BTreeMap;
 
@@ -16,15 +16,15 @@ pub(crate) fn written(mesh: &MeshFile, texture: &Texture) -> String {
     String::from_utf8(bytes).expect("the texts of these tests are UTF-8")
 }
 
-/// Coordinates of their own for all corners, none of them alike, in an order that is not that of the corners.
+/// Distinct coordinates for all corners, in an order different from that of the corners.
 pub(crate) fn by_corner(mesh: &MeshFile) -> Texture {
     let count = u32::try_from(mesh.polygons.corners.len()).expect("few");
     let coordinates = (0..count).map(|k| DVec2::new(f64::from(k) / 7.0, -f64::from(k).powi(2))).collect();
     Texture { coordinates, corners: (0..count).rev().collect() }
 }
 
-/// What does not change in a text: each line but those of texture coordinates, the middle indices of faces left out.
-/// Knows nothing of the writer's ways: a line is taken apart byte by byte.
+/// Unchanged part of a text: all lines except texture coordinates, with the middle indices of faces removed.
+/// Independent of the writer: lines are parsed byte by byte.
 pub(crate) fn unchanged(text: &str) -> String {
     let mut rest = text;
     let mut kept = String::new();
@@ -49,7 +49,8 @@ pub(crate) fn unchanged(text: &str) -> String {
     kept
 }
 
-/// A face's line without the indices of texture coordinates: `1/2/3` and `1//3` are `1//3`, `1/2` and `1` are `1`.
+/// Line of a face without the indices of texture coordinates: `1/2/3` and `1//3` become `1//3`, `1/2` and `1` become
+/// `1`.
 fn without_middle(line: &str) -> String {
     let (corners, comment) = line.split_at(line.find('#').unwrap_or(line.len()));
     let mut kept = String::new();
@@ -72,7 +73,7 @@ fn without_middle(line: &str) -> String {
     kept + comment
 }
 
-/// The text of a mesh with these coordinates; asserts that nothing else changed, and that it reads back as it should.
+/// Writes a mesh with these coordinates; asserts that nothing else changed, and that it reads back correctly.
 fn assert_carried(text: &str, texture: &Texture) -> String {
     let mesh = read(text);
     let out = written(&mesh, texture);
@@ -85,7 +86,7 @@ fn assert_carried(text: &str, texture: &Texture) -> String {
     out
 }
 
-/// One of everything that a file may hold.
+/// Example of everything that a file may contain.
 const RICH: &str = "\u{feff}# Made by hand, 100 % \u{e9}\r\n\
     mtllib  a b.mtl\r\n\
     o first\r\n\
@@ -156,13 +157,13 @@ fn faces_that_are_turned_keep_their_line_and_their_normals() {
     assert_eq!(read(&out).texture, Some(by_corner(&turned)));
 }
 
-/// A disk of two quads and a triangle, in a file with normals, colours, and corners counted backwards.
+/// Disk of two quads and a triangle, in a file with normals, colours, and relative indices.
 const TWO_QUADS: &str = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\n\
     vn 0 0 1\nvn 0 0.6 0.8\nvn 0.6 0 0.8\nvt 1 1\no a\nv 2 0 0 1 1 1\nv 2 1 0 0 0 0\nv 1.5 2 0\n\
     usemtl skin\n  f 1/1/1 2/1/2 3/1/3 4/1/1 # left\r\nl -1 -2\n# here\n\
     f -6/-1/2 -3/-1/1 -2/-1/1 -5/-1/3\nf 3//1 6//1 7//1\np 1\n";
 
-/// The mesh with a new vertex, number 7, on the edge between the quads, a quarter of the way up.
+/// Mesh with a new vertex, number 7, on the edge between the quads, a quarter of the way up.
 fn refined(file: &MeshFile) -> MeshFile {
     let disk = DiskMesh::try_from(file.polygons.triangulate()).expect("a disk");
     let [a, b] = [1, 2].map(VertexId::new);
@@ -180,7 +181,7 @@ fn refined(file: &MeshFile) -> MeshFile {
     freebound_io::Refined::new(file, None, &refinement).mesh
 }
 
-/// Every corner of a file as tobj reads it: position and normal.
+/// Corners of a file as read by tobj: position and normal.
 fn corners_by_tobj(text: &str) -> Vec<[[f32; 3]; 2]> {
     let no_materials = |_: &std::path::Path| tobj::MTLLoadResult::Err(tobj::LoadError::OpenFileFailed);
     let (models, _) =
@@ -202,11 +203,11 @@ fn only_faces_with_split_edges_become_triangles_in_their_place() {
     let file = read(TWO_QUADS);
     let refined = refined(&file);
     let out = written(&refined, &by_corner(&refined));
-    // The unsplit faces and all else are carried over.
+    // Unsplit faces and everything else are preserved.
     for kept in ["usemtl skin\n", "# here\n", "p 1\n", "o a\nv 2 0 0 1 1 1\nv 2 1 0 0 0 0\nv 1.5 2 0\n"] {
         assert!(out.contains(kept), "{kept}{out}");
     }
-    // A quarter of the way from (0, 1, 0) to (0, 0, 1), as colours go; and one vertex further back for what counts back.
+    // A quarter of the way from (0, 1, 0) to (0, 0, 1) in colour; relative indices reach one vertex further back.
     assert!(out.contains("v 1.5 2 0\nv 1.0 0.25 0.0 0.0 0.75 0.25\n"), "{out}");
     assert!(out.contains("\nl -2 -3\n"), "{out}");
     let normal = DVec3::new(0.0, 0.6, 0.8).lerp(DVec3::new(0.6, 0.0, 0.8), 0.25).normalize_or_zero();
@@ -224,7 +225,8 @@ fn only_faces_with_split_edges_become_triangles_in_their_place() {
 
 #[test]
 fn another_reader_finds_new_vertices_with_the_normals_between() {
-    // That reader takes comments behind a face for corners and lines for faces, and wants all vertices coloured or none.
+    // tobj takes comments after a face for corners, and lines for faces. It requires colours at all vertices or at
+    // none.
     let text = TWO_QUADS.replace(" # left", "").replace("l -1 -2\n", "").replace("v 1.5 2 0\n", "v 1.5 2 0 0 0 0\n");
     let refined = refined(&read(&text));
     let found = corners_by_tobj(&written(&refined, &by_corner(&refined)));

@@ -15,7 +15,7 @@ use glam::DVec2;
 
 use super::program::{Program, coordinates_by_vertex, example_file};
 
-/// A picture whose left is red, whose right is green, and whose upper edge is blue besides.
+/// Picture with red left, green right, and blue added in the upper half.
 fn quarters(width: u32, height: u32) -> Picture {
     let pixel = |k: u32| {
         let (x, y) = (k % width, k / width);
@@ -29,8 +29,8 @@ fn write_quarters(path: &Path) {
     freebound_io::raster::write_png(&quarters(40, 20), fs::File::create(path).unwrap()).unwrap();
 }
 
-/// The colour that a program shows at a vertex of a mesh: read by tobj, which knows nothing of this project. It numbers
-/// vertices in its own way, so that this one is found by its place in space.
+/// Colour shown at a vertex of a mesh, as read by tobj, which is independent of this project. It renumbers vertices,
+/// so the vertex is found by its position.
 fn colour_at(obj: &Path, position: glam::DVec3) -> [u8; 3] {
     let (models, materials) = tobj::load_obj(obj, &tobj::LoadOptions::default()).expect("tobj reads it");
     let mesh = &models[0].mesh;
@@ -124,7 +124,7 @@ fn where_names_are_taken_again_and_again_they_are_counted_up() {
     let mesh = example_file(&program, Example::Dome);
     fs::create_dir(program.path("pictures")).unwrap();
     write_quarters(&program.path("pictures/four.png"));
-    // A library of another mesh's, and a folder, are not this mesh's either.
+    // A library of another mesh, and a folder, do not belong to this mesh either.
     let others = [
         ("four.png", "somebody's"),
         ("out-four.png", "somebody's"),
@@ -235,7 +235,7 @@ fn the_picture_is_on_the_mesh_in_the_picture_of_it() {
 fn the_picture_of_mesh_and_layout_is_not_squeezed_where_the_aspect_is_not_square() {
     let program = Program::new();
     let mesh = example_file(&program, Example::Ell);
-    // The same places in the plane, once as texture coordinates of a picture twice as wide as high.
+    // Equal positions in the plane, also as texture coordinates of a picture twice as wide as high.
     let shown = |aspect: &str, width: f64| {
         let pin = |&v: &usize| {
             let place = mesh.mesh().positions[v].truncate() * 0.1;
@@ -268,7 +268,7 @@ fn a_drawing_has_true_lengths_or_is_the_unit_square() {
     assert_eq!(view_box(&[]), [0.0, 0.0, 1000.0, 1000.0]);
     assert_eq!(view_box(&["--svg-scale", "unit", "--aspect", "2:1"]), [0.0, 0.0, 1000.0, 500.0]);
     let [.., width, height] = view_box(&["--svg-scale", "true"]);
-    // The outline, in the drawing's units, is as long as on the mesh: the L is flat.
+    // In the drawing's units the outline is as long as on the mesh, since the L is flat.
     let text = fs::read_to_string(program.path("out.svg")).unwrap();
     assert!(text.contains(&format!("width=\"{width}\" height=\"{height}\"")));
     let line = text.lines().find(|line| line.contains("class=\"boundary\"")).unwrap();

@@ -1,4 +1,4 @@
-//! Meshes with new vertices as files: everything old stays as it was.
+//! Meshes with new vertices as files: everything old is unchanged.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -15,7 +15,7 @@ const MESH: &str = "\
 v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0.25\nv 1 1 0.1\nv 2 1 0\nv 0.5 2 0\nv 3 0.5 0\n\
 o thing\ng left\nf 1 2 5 4\ng right\nf 2 3 6 5\nusemtl skin\nf 4 5 7\ns off\nf 3 8 6\n";
 
-/// The mesh as read, as a disk, and refined: a new vertex on the edge between the first square and the triangle on top.
+/// Mesh as read, as a disk, and refined with a new vertex on the edge between the first square and the top triangle.
 fn refined() -> (MeshFile, DiskMesh, Refinement) {
     let file = read_stream(MESH.as_bytes()).unwrap();
     let disk = DiskMesh::try_from(file.polygons.triangulate()).unwrap();
@@ -35,7 +35,7 @@ fn refined() -> (MeshFile, DiskMesh, Refinement) {
     (file, disk, refinement)
 }
 
-/// The file as text.
+/// File as text.
 fn text_of(mesh: &MeshFile, texture: &Embedding) -> String {
     let mut bytes = Vec::new();
     write_obj(&mut bytes, mesh, &Texture::per_vertex(&mesh.polygons, texture)).unwrap();

@@ -1,4 +1,4 @@
-//! `freebound flatten --parts`: some parts of a mesh flattened, the others as they were.
+//! `freebound flatten --parts`: flattens some parts of a mesh and keeps the others unchanged.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,8 @@ use serde_json::json;
 use super::program::{Program, obj_text};
 use freebound_testkit::tetrahedron;
 
-/// A tetrahedron, then two sheets of two triangles each, a larger one of four, with texture coordinates at the first sheet.
+/// A tetrahedron, two sheets of two triangles each, and a larger one of four. The first sheet has texture
+/// coordinates.
 fn text() -> String {
     let mut text = obj_text(&(&tetrahedron()).into());
     let mut count = 4;
@@ -61,7 +62,7 @@ fn the_largest_part_is_flattened_alone_whatever_the_others_are() {
     program.run(&["flatten", "in.obj"]).expect(3);
     for parts in ["largest", "0"] {
         let refused = program.run(&["flatten", "in.obj", "--parts", parts]);
-        // Of four faces each: the first is the tetrahedron, which is closed.
+        // Among the parts with four faces the first is the tetrahedron, which is closed.
         refused.expect(3);
     }
     let run =

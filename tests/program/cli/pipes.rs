@@ -1,4 +1,4 @@
-//! Standard output and standard error that take no more: a closed pipe, a full disk.
+//! Standard output and standard error that cannot be written to: a closed pipe, a full disk.
 #![cfg(unix)]
 
 use std::fs::File;
@@ -8,7 +8,7 @@ use super::program::{Program, Run};
 use super::report_schema::TENT;
 use crate::house::sources::sources;
 
-/// Commands that write to standard output, with the exit status of their work.
+/// Commands that write to standard output, with their exit status.
 const COMMANDS: [(&[&str], i32); 5] = [
     (&["methods"], 0),
     (&["check", "in.obj"], 0),
@@ -28,7 +28,7 @@ fn a_closed_pipe_ends_quietly_with_the_status_of_the_work() {
     let program = program();
     for (arguments, status) in COMMANDS {
         let mut child = program.command(arguments).spawn().unwrap();
-        // The reader leaves before a word is written.
+        // The reader closes before anything is written.
         drop(child.stdout.take());
         let run = Run::from(child.wait_with_output().unwrap());
         assert_eq!((run.status, run.stderr.as_str()), (Some(status), ""), "{arguments:?}");

@@ -1,4 +1,4 @@
-//! Files of a run that must not be one another, and standard input and output.
+//! Conflicting files of a run, and standard input and output.
 
 use std::fs;
 use std::io::Write as _;
@@ -10,7 +10,7 @@ use image::RgbImage;
 use super::program::{Program, Run};
 use super::report_schema::TENT;
 
-/// A folder with every kind of input.
+/// Folder with every kind of input.
 fn inputs() -> Program {
     let program = Program::new();
     program.write("in.obj", &format!("mtllib looks.mtl\nusemtl skin\n{TENT}"));
@@ -39,7 +39,7 @@ fn no_input_is_written_over() {
                     _ => {}
                 }
                 let run = program.run(&arguments).expect(2);
-                let words = format!("{option} would write over");
+                let words = format!("{option} would overwrite");
                 assert!(run.stderr.contains(file) && run.stderr.contains(&words), "{arguments:?}: {}", run.stderr);
                 assert_eq!(run.stdout, "", "nothing is computed before");
             }
@@ -58,7 +58,7 @@ fn links_to_an_input_are_the_input() {
     let before = fs::read(program.path("in.obj")).unwrap();
     for [input, output] in [["in.obj", "soft.obj"], ["in.obj", "hard.obj"], ["soft.obj", "in.obj"]] {
         let run = program.run(&["flatten", input, "-o", output]).expect(2);
-        assert!(run.stderr.contains("-o would write over the mesh"), "{}", run.stderr);
+        assert!(run.stderr.contains("-o would overwrite the mesh"), "{}", run.stderr);
     }
     assert!(before == fs::read(program.path("in.obj")).unwrap());
 }
@@ -71,23 +71,23 @@ fn steps_do_not_replace_an_input() {
     program.write("steps/steps.csv", "0 0 0\n");
     let arguments = ["flatten", "in.obj", "--constraints", "steps/steps.csv", "--steps", "./steps"];
     let run = program.run(&arguments).expect(2);
-    assert!(run.stderr.contains("--steps would write over the constraints"), "{}", run.stderr);
+    assert!(run.stderr.contains("--steps would overwrite the constraints"), "{}", run.stderr);
 }
 
 #[test]
 fn two_results_do_not_go_to_one_place() {
     let program = inputs();
     for (options, words) in [
-        (&["-o", "a.out", "--svg", "./a.out"][..], "-o and --svg would both write it"),
-        (&["-o", "-", "--report", "-"], "standard output: -o and --report cannot both go there"),
-        (&["--svg", "-", "--png", "-"], "standard output: --svg and --png cannot both go there"),
-        (&["-o", "-", "--picture", "photo.png"], "standard output: -o has no folder there for --picture"),
+        (&["-o", "a.out", "--svg", "./a.out"][..], "-o and --svg would both write this file"),
+        (&["-o", "-", "--report", "-"], "standard output: -o and --report cannot both use it"),
+        (&["--svg", "-", "--png", "-"], "standard output: --svg and --png cannot both use it"),
+        (&["-o", "-", "--picture", "photo.png"], "standard output: --picture needs a folder for its files"),
     ] {
         let run = program.run(&[&["flatten", "in.obj"], options].concat()).expect(2);
         assert!(run.stderr.contains(words), "{options:?}: {}", run.stderr);
     }
     assert_eq!(program.files(), inputs().files(), "told before anything is written");
-    // What goes to the null device disturbs nobody.
+    // The null device conflicts with nothing.
     #[cfg(unix)]
     program.run(&["flatten", "in.obj", "-o", "/dev/null", "--svg", "/dev/null"]).expect(0);
 }
@@ -100,14 +100,14 @@ fn a_result_does_not_lie_where_the_steps_go() {
         for path in ["steps/step-000-natural.svg", "./steps/steps.csv", "folder/../steps/step-123-relax.svg", "steps"] {
             for option in ["-o", "--svg", "--png", "--report"] {
                 let run = program.run(&["flatten", "in.obj", option, path, "--steps", "steps"]).expect(2);
-                let words = format!("{option} and --steps would both write it");
+                let words = format!("{option} and --steps would both write this file");
                 assert!(run.stderr.contains(&words), "{option} {path}: {}", run.stderr);
             }
         }
         assert_eq!(program.path("steps").is_dir(), is_there, "nothing is computed before");
         fs::create_dir_all(program.path("steps")).unwrap();
     }
-    // A drawing of another name disturbs no step.
+    // A drawing with another name conflicts with no step.
     program.run(&["flatten", "in.obj", "--svg", "steps/last.svg", "--steps", "steps"]).expect(0);
     assert!(program.path("steps/last.svg").is_file() && program.path("steps/steps.csv").is_file());
 }
@@ -127,7 +127,7 @@ fn a_result_does_not_lie_where_copies_beside_the_mesh_go() {
     let asserted = |options: &[&str], path: &str| {
         for option in ["--report", "--svg", "--png"] {
             let run = program.run(&[&["flatten", "in.obj", option, path], options].concat()).expect(2);
-            let words = format!("{option} and {} would both write it", options[2]);
+            let words = format!("{option} and {} would both write this file", options[2]);
             assert!(run.stderr.contains(&words), "{option} {path} {options:?}: {}", run.stderr);
         }
     };
@@ -135,13 +135,13 @@ fn a_result_does_not_lie_where_copies_beside_the_mesh_go() {
         asserted(options, path);
     }
     assert_eq!(fs::read_dir(program.path("out")).unwrap().count(), 0, "nothing is computed before");
-    // The copies of an earlier run are there, and are not copied again.
+    // The copies of an earlier run exist, and are not copied again.
     program.run(&[&["flatten", "in.obj"], materials].concat()).expect(0);
     program.run(&[&["flatten", "in.obj"], picture].concat()).expect(0);
     for (options, path) in cases {
         asserted(options, path);
     }
-    // Where the first name is another's, the copy has the second one.
+    // If the first name is taken by another file, the copy gets the second name.
     program.write("out/looks.mtl", "newmtl another\n");
     asserted(materials, "out/flat-looks.mtl");
     let report = ["flatten", "in.obj", "--report", "out/flat.json"];
@@ -154,7 +154,7 @@ fn copies_do_not_lie_where_the_steps_go() {
     fs::copy(program.path("photo.png"), program.path("step-000-natural.svg")).unwrap();
     let arguments = ["--picture", "step-000-natural.svg", "-o", "steps/flat.obj", "--steps", "steps"];
     let run = program.run(&[&["flatten", "in.obj"], &arguments[..]].concat()).expect(2);
-    assert!(run.stderr.contains("--steps and --picture would both write it"), "{}", run.stderr);
+    assert!(run.stderr.contains("--steps and --picture would both write this file"), "{}", run.stderr);
     assert!(!program.path("steps").exists());
 }
 
@@ -181,7 +181,7 @@ fn the_file_that_standard_input_comes_from_is_not_written_over() {
         ] {
             let run = fed_from(&program, "s.obj", arguments).expect(2);
             let option = arguments[2];
-            let words = format!("{option} would write over the mesh, which standard input comes from");
+            let words = format!("{option} would overwrite the mesh, the source of standard input");
             assert!(run.stderr.contains(&words) && run.stderr.contains(path), "{arguments:?}: {}", run.stderr);
         }
     }

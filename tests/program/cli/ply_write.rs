@@ -1,4 +1,4 @@
-//! PLY files come back with other texture coordinates and all else as it was, as another reader of them sees.
+//! PLY files survive a round trip except for texture coordinates, as checked by another reader.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -24,7 +24,7 @@ fn by_vertex(mesh: &PolygonMesh) -> Texture {
     Texture::per_vertex(mesh, &mesh.positions.iter().map(|p| DVec2::new(p.y / 3.0, -p.x)).collect())
 }
 
-/// Coordinates of their own for all corners; the first face has none.
+/// Distinct coordinates for all corners except those of the first face, which has none.
 fn by_corner(mesh: &PolygonMesh) -> Texture {
     let count = u32::try_from(mesh.corners.len()).expect("few");
     let first = mesh.corner_range(0).len();

@@ -1,4 +1,4 @@
-//! The real program, run in a folder of its own.
+//! Runs of the compiled program in a temporary folder.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -13,15 +13,15 @@ use glam::DVec2;
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// Length of a file that no memory could hold, bytes.
+/// Length of a file too large for any memory, bytes.
 pub(crate) const HUGE: u64 = 1 << 42;
 
-/// A folder that vanishes with it, to run the program in.
+/// Temporary folder to run the program in.
 pub(crate) struct Program {
     folder: TempDir,
 }
 
-/// How a run ended.
+/// Result of a run.
 #[derive(Debug)]
 pub(crate) struct Run {
     pub(crate) status: Option<i32>,
@@ -46,13 +46,13 @@ impl Program {
         path
     }
 
-    /// Makes a file of zeros that no memory could hold, and that takes no room on the disk.
+    /// Creates a sparse file of zeros that is too large for any memory.
     pub(crate) fn write_huge(&self, name: &str) {
         let file = fs::File::create(self.path(name)).expect("the folder can be written to");
         file.set_len(HUGE).expect("a file can have a hole");
     }
 
-    /// The command, not yet started, without a screen and with the folder as the current one.
+    /// Command, not yet started, without a display and with the folder as current directory.
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_freebound"));
         command.args(arguments).current_dir(self.folder.path());
@@ -86,21 +86,21 @@ impl From<Output> for Run {
 }
 
 impl Run {
-    /// Asserts the exit status, with all that was said if it is another.
+    /// Asserts the exit status, and shows the outputs otherwise.
     #[track_caller]
     pub(crate) fn expect(self, status: i32) -> Self {
         assert_eq!(self.status, Some(status), "{self:#?}");
         self
     }
 
-    /// Standard output as one JSON object, and nothing else.
+    /// Standard output as a single JSON value.
     #[track_caller]
     pub(crate) fn json(&self) -> Value {
         serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {}", self.stdout))
     }
 }
 
-/// A path as an argument.
+/// Path as an argument.
 pub(crate) fn argument(path: &Path) -> &str {
     path.to_str().expect("the test's paths are UTF-8")
 }
@@ -147,19 +147,19 @@ fn positions_text(polygons: &PolygonMesh) -> String {
     text
 }
 
-/// The faces of a disk as polygons.
+/// Faces of a disk as polygons.
 pub(crate) fn polygons_of(mesh: &DiskMesh) -> PolygonMesh {
     PolygonMesh::from(mesh.mesh())
 }
 
-/// A built-in mesh as a file in the program's folder.
+/// Writes a built-in mesh to a file in the program's folder.
 pub(crate) fn example_file(program: &Program, example: Example) -> DiskMesh {
     let mesh = DiskMesh::try_from(example.mesh()).expect("well-formed by construction");
     program.write("in.obj", &obj_text(&PolygonMesh::from(mesh.mesh())));
     mesh
 }
 
-/// Texture coordinates by vertex of a file that gives every vertex one.
+/// Texture coordinates by vertex, from a file that gives every vertex one.
 pub(crate) fn coordinates_by_vertex(file: &MeshFile) -> Embedding {
     let texture = file.texture.as_ref().expect("the file has texture coordinates");
     let mut found = Embedding::from(vec![DVec2::NAN; file.polygons.positions.len()]);

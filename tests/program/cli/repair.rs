@@ -1,4 +1,4 @@
-//! `freebound flatten` on meshes that are no disks: what is done to them by itself, and on request.
+//! `freebound flatten` on meshes that are not disks: default repairs, and repairs on request.
 
 use std::fmt::Write as _;
 
@@ -16,7 +16,7 @@ fn repairs(report: &Value) -> &Value {
 #[test]
 fn harmless_faults_are_no_reason_to_refuse_a_mesh_unless_none_may_be_mended() {
     let program = Program::new();
-    // A vertex of no face; a face twice; a quad that names a corner twice; a face without area.
+    // An unreferenced vertex; a duplicate face; a quad with a repeated corner; a degenerate face.
     program.write(
         "odd.obj",
         "v 9 9 9\nv 0 0 0\nv 1 0 .2\nv 1 1 0\nv 0 1 .1\nv 2 0 0\nv 2 1 0\nv 1 .5 .1\n\
@@ -33,7 +33,7 @@ fn harmless_faults_are_no_reason_to_refuse_a_mesh_unless_none_may_be_mended() {
     ]);
     assert_eq!(repairs(&report), &expected);
     assert_eq!(report["mesh"]["unused_vertices"], json!(1));
-    // The file is what it was: its text, with coordinates at all corners, those of faces that were left out, too.
+    // The file keeps its text, with coordinates added at all corners, those of dropped faces included.
     let (before, after) =
         ["odd.obj", "out.obj"].map(|name| std::fs::read_to_string(program.path(name)).expect("text")).into();
     let without: Vec<&str> = after.lines().filter(|line| !line.starts_with("vt ")).collect();
@@ -59,7 +59,7 @@ fn a_closed_surface_is_refused_with_the_way_on_and_cut_open_where_that_is_asked_
     let run = program.run(&["flatten", "closed.obj", "--cut", "auto", "-o", "out.obj", "--report", "-"]);
     let report = run.expect(0).json();
     assert_eq!(repairs(&report), &json!([{"repair": "cut", "count": 3}]));
-    // The proof is of what the file says: its seams make it the disk that was flattened.
+    // The proof applies to the file: its seams make it the disk that was flattened.
     let written = read_mesh(&program.path("out.obj")).expect("written").texture_mesh().expect("complete");
     let disk = DiskMesh::try_from(written.mesh).expect("cut along its seams");
     assert_eq!(disk.boundary_loop().len(), 6);
@@ -80,7 +80,7 @@ fn a_pin_on_the_side_of_a_cut_that_is_new_is_met() {
 
 #[test]
 fn a_soup_with_a_pole_is_written_with_coordinates_at_every_corner_and_proves_again() {
-    // Quads around a pole, each with corners of its own: two of them lie in the pole.
+    // Quads around a pole with separate corners: two corners of each coincide with the pole.
     let program = Program::new();
     let (mut text, mut count) = (String::new(), 0);
     let at = |ring: u32, k: u32| {
@@ -104,7 +104,7 @@ fn a_soup_with_a_pole_is_written_with_coordinates_at_every_corner_and_proves_aga
 #[test]
 fn check_names_faces_as_the_file_counts_them() {
     let program = Program::new();
-    // Two quads, one over the other.
+    // Two quads, one above the other.
     let quad = |z: u32| format!("v 0 0 {z}\nv 1 0 {z}\nv 1 1 {z}\nv 0 1 {z}\n");
     let text = [quad(0), quad(1), "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n".to_owned()].concat();
     program.write("in.obj", &(text + "f 1/1 2/2 3/3 4/4\nf 5/1 6/2 7/3 8/4\n"));
@@ -112,7 +112,7 @@ fn check_names_faces_as_the_file_counts_them() {
     assert!(run.stdout.contains("1 pair of faces of different charts overlaps (0 and 1)"), "{}", run.stdout);
 }
 
-/// Two triangles side by side, their common edge taken apart by a little; the second one runs the other way.
+/// Two triangles side by side with a small gap along their common edge; the second has the opposite orientation.
 const APART: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1.001 0 0\nv 0.001 1 0\nv 1 1 .3\nf 1 2 3\nf 4 5 6\n";
 
 #[test]
@@ -130,7 +130,7 @@ fn vertices_are_welded_within_the_distance_that_is_asked_for_and_the_file_keeps_
     let written = std::fs::read_to_string(program.path("out.obj")).expect("written");
     let kept = |text: &str| text.lines().filter(|line| line.starts_with("v ")).map(str::to_owned).collect::<Vec<_>>();
     assert_eq!(kept(&written), kept(APART));
-    // Both sides of the common edge have the same coordinates.
+    // Both sides of the common edge have equal coordinates.
     let texture = read_mesh(&program.path("out.obj")).expect("a mesh").texture.expect("coordinates");
     let at = |corner: usize| texture.coordinates[texture.corners[corner] as usize];
     assert_eq!([at(1), at(2)], [at(3), at(4)]);
@@ -140,12 +140,16 @@ fn vertices_are_welded_within_the_distance_that_is_asked_for_and_the_file_keeps_
 fn repairs_are_chosen_one_by_one_and_an_unknown_one_is_refused_with_the_names_of_all() {
     let program = Program::new();
     program.write("apart.obj", APART);
-    // Welded, but not turned: the faces clash.
+    // Welded but not turned, the faces have conflicting orientations.
     let refused = program.run(&["flatten", "apart.obj", "--weld", "0.002", "--repair", "none"]).expect(3);
     assert!(refused.stderr.contains("mixed-orientation"), "{}", refused.stderr);
     program.run(&["flatten", "apart.obj", "--weld", "0.002", "--repair", "turn-faces"]).expect(0);
     let unknown = program.run(&["flatten", "apart.obj", "--repair", "safe,turn"]).expect(2);
-    assert!(unknown.stderr.contains("no repair \"turn\": name some of none, safe, all, drop-"), "{}", unknown.stderr);
+    assert!(
+        unknown.stderr.contains("unknown repair \"turn\": choose from none, safe, all, drop-"),
+        "{}",
+        unknown.stderr
+    );
     for odd in ["-1", "nan", "inf", "1cm"] {
         let refused = program.run(&["flatten", "apart.obj", "--weld", odd]).expect(2);
         assert!(refused.stderr.contains("write a distance of 0 or more"), "{odd}: {}", refused.stderr);
@@ -162,7 +166,7 @@ fn welding_excuses_no_fault_of_the_file_where_nothing_may_be_repaired() {
         ("duplicate-faces", format!("{square}{faces}f 2 3 1\n")),
         ("repeated-vertices", format!("{square}{faces}f 2 3 3\n")),
         ("unreferenced-vertices", format!("{square}v 5 5 5\n{faces}")),
-        // Others are joined.
+        // These are welded.
         ("duplicate-faces", format!("{apart}f 2 3 1\n")),
         ("unreferenced-vertices", apart.replace("f 1", "v 9 9 9\nf 1")),
     ];
@@ -207,7 +211,7 @@ fn a_distance_that_leaves_no_face_is_refused_by_name() {
     program.write("apart.obj", APART);
     for repairs in ["none", "safe", "all"] {
         let refused = program.run(&["flatten", "apart.obj", "--weld", "5", "--repair", repairs]).expect(2);
-        let message = "apart.obj: no face is left after joining vertices within 5: choose a smaller distance";
+        let message = "apart.obj: --weld: no face is left if vertices within 5 are joined: choose a smaller distance";
         assert!(refused.stderr.contains(message), "{}", refused.stderr);
     }
 }
@@ -215,7 +219,7 @@ fn a_distance_that_leaves_no_face_is_refused_by_name() {
 #[test]
 fn new_vertices_of_a_welded_mesh_lie_on_the_edges_of_the_file() {
     let program = Program::new();
-    // Two squares whose sides, 0.3 apart, are joined.
+    // Two squares with facing sides 0.3 apart, which are joined.
     let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1.3 0 0.2\nv 2 0 0.1\nv 2 1 0\nv 1.3 1 0.2\n\
                 f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\n";
     program.write("in.obj", text);

@@ -1,5 +1,5 @@
-//! The schema of reports, `docs/report.schema.json`, against reports that are written: every field that is written is
-//! described, every field that is required is there, and every field that is described is written by some run.
+//! Schema of reports, `docs/report.schema.json`, against written reports. Every written field is described, every
+//! required field is present, and every described field is written by some run.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::program::Program;
 
-/// What the schemas here are made of; a keyword beside these would be passed over unseen.
+/// Keywords of the schemas; a keyword missing here would be ignored silently.
 const KEYWORDS: [&str; 15] = [
     "$defs",
     "$ref",
@@ -28,7 +28,7 @@ const KEYWORDS: [&str; 15] = [
     "title",
 ];
 
-/// A schema, and the fields of it that were met.
+/// Schema, and the fields encountered so far.
 pub(crate) struct Schema {
     root: Value,
     met: BTreeSet<String>,
@@ -40,13 +40,13 @@ impl Schema {
         Self { root: serde_json::from_slice(&fs::read(path).unwrap()).unwrap(), met: BTreeSet::new() }
     }
 
-    /// What is wrong with a report.
+    /// Violations of the schema in a report.
     pub(crate) fn faults(&mut self, report: &Value) -> Vec<String> {
         let root = self.root.clone();
         self.check(&root, "#", report)
     }
 
-    /// Checks a value against the schema at `place`, a path in the whole one.
+    /// Checks a value against the schema at `place`, a path in the root schema.
     fn check(&mut self, schema: &Value, place: &str, value: &Value) -> Vec<String> {
         let mut faults = Vec::new();
         for (keyword, rule) in schema.as_object().expect("a schema is an object") {
@@ -110,7 +110,7 @@ impl Schema {
         faults
     }
 
-    /// Places of all fields that are described.
+    /// Paths of all described fields.
     fn described(schema: &Value, place: &str) -> BTreeSet<String> {
         let mut found = BTreeSet::new();
         for (keyword, rule) in schema.as_object().into_iter().flatten() {
@@ -147,10 +147,10 @@ fn has_type(value: &Value, rule: &Value) -> bool {
     rule.as_array().map_or_else(|| is(rule), |names| names.iter().any(is))
 }
 
-/// A tent of four triangles, with its tip in the middle.
+/// Tent of four triangles, with its tip in the middle.
 pub(crate) const TENT: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0.3\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
 
-/// Files to run on, with what is wrong with them.
+/// Input files with various faults.
 const FILES: [(&str, &str); 13] = [
     ("parts.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 6 1 0\nf 1 2 3 4\nf 5 6 7\n"),
     (
@@ -181,7 +181,7 @@ const FILES: [(&str, &str); 13] = [
     ("pins.txt", "0 0 0\n0 1 1\n"),
 ];
 
-/// Runs with their exit status: all kinds of fields of a report occur in them.
+/// Runs with their exit status: together they write all kinds of fields.
 const RUNS: [(&[&str], i32); 29] = [
     (&["flatten", "parts.obj", "--pin", "0:0,0", "--pin", "1:1,0"], 0),
     (&["check", "charts.obj"], 4),

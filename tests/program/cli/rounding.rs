@@ -1,4 +1,5 @@
-//! Texture coordinates of 32 bits: the verdict is on these very numbers, and where the nearest fold a face, corners move.
+//! Texture coordinates of 32 bits: the verdict applies to these rounded numbers, and corners move if the nearest
+//! ones fold a face.
 
 use std::collections::BTreeSet;
 
@@ -26,7 +27,7 @@ proptest! {
         let z = RoundingGrid::TurnedOver.nearest(DVec2::new(u, v));
         prop_assert!(is_f32(z.x) && is_f32(1.0 - z.y));
         prop_assert_eq!(1.0 - (1.0 - z.y), z.y);
-        // Half a unit of the last place of 1 − v, and half of what 64 bits hold of v.
+        // Half a unit in the last place of 1 − v, and half of the 64-bit unit of v.
         let unit = f64::from(f32::EPSILON) * (1.0 - v).abs() + f64::EPSILON;
         prop_assert!((z.y - v).abs() <= unit, "{} {}", z.y, v);
         let z = RoundingGrid::Upright.nearest(DVec2::new(u, v));
@@ -35,7 +36,7 @@ proptest! {
     }
 }
 
-/// A grid of so many units of the last place a square, each vertex off its place by at most `jitter` of that.
+/// Grid with squares of `units` units in the last place, each vertex displaced by at most `jitter` of that.
 fn fine_map(mesh: &DiskMesh, units: f64, jitter: f64, random: &mut Random) -> Embedding {
     // Units of numbers between one half and 1.
     let size = units * f64::from(f32::EPSILON) / 2.0;
@@ -117,11 +118,11 @@ fn the_program_writes_and_proves_numbers_of_32_bits_where_it_is_asked_or_the_for
     assert_eq!(short, nearest);
 }
 
-/// A fan whose middle lies so near its rim that 32 bits have no number between.
+/// Fan with its middle so near its rim that 32 bits have no number between.
 #[test]
 fn what_32_bits_cannot_hold_is_said_with_a_way_on() {
     let program = Program::new();
-    // With its boundary pinned, the one inner vertex lies in a needle between three of them.
+    // With a pinned boundary, the inner vertex lies in a needle between three boundary vertices.
     program.write("in.obj", "v 0 0 0\nv 1 0 0\nv 0.5 1 0\nv 0.5 0.3 0\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
     let pins = ["--pin", "0:0.5,0.5", "--pin", "1:0.500000000000001,0.5", "--pin", "2:0.5,0.500000000000001"];
     let options = ["--method", "natural", "--report", "r.json"];
@@ -130,7 +131,7 @@ fn what_32_bits_cannot_hold_is_said_with_a_way_on() {
     };
     run("a.obj", 0);
     let said = run("a.glb", 4);
-    assert!(said.stdout.contains("32 bits are too few"), "{said:#?}");
+    assert!(said.stdout.contains("planar in 64 bits, but not in 32"), "{said:#?}");
     let report: serde_json::Value = serde_json::from_slice(&std::fs::read(program.path("r.json")).unwrap()).unwrap();
     assert_eq!(report["rounding"]["folded"], true);
     assert_eq!(report["verdict"]["planar"], false);

@@ -12,10 +12,10 @@ use super::program::{Program, obj_text};
 use freebound_testkit::cubes::{cross, cube, edge};
 use freebound_testkit::{Random, band, quad_sheet};
 
-/// The seams of a cross in words, with comments.
+/// Seam file of a cross, with comments.
 const CROSS: &str = "\u{feff}# a cross\n0 4\r\n5 1  # upright\n\n 2\t6\n3 7\n5 7\n7 6\n6 4\n6 4\n";
 
-/// The cube as a program writes it that knows much more than positions and faces.
+/// Cube with other contents of a file besides positions and faces.
 fn rich_cube() -> String {
     let mut text = "# a cube\r\no Würfel\r\nvn 0 0 1\r\nusemtl red\r\n".to_owned();
     let bare = obj_text(&cube());
@@ -44,7 +44,7 @@ fn a_cube_cut_along_a_cross_unfolds_to_its_net() {
     assert_eq!(report["mesh"]["repairs"], json!([{"repair": "cut-seams", "count": 7}]));
     let file = read_mesh(&program.path("out.obj")).expect("written");
     let texture = file.texture.expect("coordinates");
-    // Every side has its length in space, and every diagonal: the map is an isometry.
+    // Every side and every diagonal keeps its length: the map is an isometry.
     let mut sides: Vec<[[i64; 2]; 2]> = Vec::new();
     for face in 0..6 {
         let at: Vec<DVec2> = file
@@ -92,7 +92,7 @@ fn what_the_edges_leave_is_cut_as_auto_does() {
     program.write("two.txt", "0 4\n4 5\n");
     let arguments = ["flatten", "cube.obj", "--cut", "two.txt", "-o", "out.obj", "--report", "-"];
     let report = program.run(&arguments).expect(0).json();
-    // With holes filled, a slit makes a disk of a closed surface.
+    // With filled holes, a slit turns a closed surface into a disk.
     assert_eq!(report["mesh"]["repairs"], json!([{"repair": "cut-seams", "count": 2}]));
     program.write("none.txt", "# nothing\n");
     let report = program.run(&["flatten", "cube.obj", "--cut", "none.txt", "--report", "-"]).expect(0).json();
@@ -103,7 +103,7 @@ fn what_the_edges_leave_is_cut_as_auto_does() {
 fn creases_materials_and_groups_are_seams_by_name() {
     let program = Program::new();
     program.write("cube.obj", &rich_cube());
-    // Lid and floor, which are of one material, are two charts, and the sides are one.
+    // Lid and floor, of one material, are two charts; the sides are one.
     let cases = [("sharp", 6), ("sharp=90", 6), ("materials", 3), ("groups", 3), ("materials,groups", 3)];
     for (seams, charts) in cases {
         let run = program.run(&["flatten", "cube.obj", "--seams", seams, "--cut", "auto", "--report", "-"]);
@@ -118,7 +118,9 @@ fn creases_materials_and_groups_are_seams_by_name() {
 fn seams_that_the_file_does_not_have_are_named() {
     let program = Program::new();
     program.write("sheet.obj", &obj_text(&quad_sheet(3, 2, 0.1, &mut Random(1))));
-    for (seams, why) in [("materials", "no materials: leave out --seams materials"), ("groups", "no groups")] {
+    for (seams, why) in
+        [("materials", "no materials to its faces: remove --seams materials"), ("groups", "neither groups nor objects")]
+    {
         let refused = program.run(&["flatten", "sheet.obj", "--seams", seams]).expect(2);
         assert!(refused.stderr.contains(why), "{}", refused.stderr);
     }
@@ -132,7 +134,7 @@ fn an_edge_that_is_none_is_refused_with_its_line() {
     let program = Program::new();
     program.write("sheet.obj", &obj_text(&quad_sheet(3, 2, 0.1, &mut Random(1))));
     for (text, why) in [
-        ("0 1\n# x\n0 5\n", "edges.txt: line 3: no face has a side from vertex v0 to vertex v5"),
+        ("0 1\n# x\n0 5\n", "edges.txt: line 3: no edge joins vertices v0 and v5"),
         ("0 12\n", "line 1: there is no vertex v12: the mesh has 12"),
     ] {
         program.write("edges.txt", text);
@@ -144,7 +146,7 @@ fn an_edge_that_is_none_is_refused_with_its_line() {
     let gone = program.run(&["flatten", "sheet.obj", "--cut", "gone.txt"]).expect(3);
     assert!(gone.stderr.contains("gone.txt: the edges cannot be read"), "{}", gone.stderr);
     let over = program.run(&["flatten", "sheet.obj", "--cut", "edges.txt", "-o", "edges.txt"]).expect(2);
-    assert!(over.stderr.contains("would write over the edges"), "{}", over.stderr);
+    assert!(over.stderr.contains("would overwrite the edges"), "{}", over.stderr);
     program.write("long.txt", &"# a comment\n".repeat(100_000));
     let long = program.run(&["flatten", "sheet.obj", "--cut", "long.txt"]).expect(3);
     assert!(long.stderr.contains("choose an edges file"), "{}", long.stderr);
@@ -162,7 +164,7 @@ fn every_wrong_line_has_its_fault() {
     assert_eq!(fault("0 4294967296"), (1, EdgeFault::BadVertex("4294967296".into())));
     assert_eq!(fault("3 3"), (1, EdgeFault::OneVertex(v(3))));
     assert_eq!(fault("3 8"), (1, EdgeFault::NoSuchVertex { vertex: v(8), count: 8 }));
-    // Across a square; across the cube. The first line at fault is told, whatever its fault.
+    // Across a square; across the cube. The first faulty line is reported, whatever its fault.
     assert_eq!(fault("0 1\n3 0\n7 0\nx"), (2, EdgeFault::NoSuchEdge(edge(0, 3))));
     assert_eq!(fault("0 1\nx\n3 0"), (2, EdgeFault::Form("x".into())));
 }
@@ -177,7 +179,7 @@ fn edges_that_are_written_are_read_again() {
     assert_eq!((read.len(), read[1]), (8, edge(5, 1)));
 }
 
-/// Three quads in a row, of which the middle one runs the other way.
+/// Three quads in a row, the middle one with the opposite orientation.
 const MIXED: &str = "v 0 0 0\nv 1 0 0\nv 2 0 .3\nv 0 1 0\nv 1 1 0\nv 2 1 .3\nv 3 0 0\nv 3 1 0\n\
                      f 1 2 5 4\nf 2 5 6 3\nf 3 7 8 6\n";
 
@@ -190,7 +192,7 @@ fn faces_that_run_the_other_way_are_turned_where_that_is_allowed_with_seams_too(
     assert!(refused.stderr.contains("mixed-orientation"), "{}", refused.stderr);
     let turned = program.run(&["flatten", "mixed.obj", "--cut", "seam.txt", "--repair", "all", "--report", "-"]);
     assert_eq!(turned.expect(0).json()["mesh"]["repairs"][0], json!({"repair": "turn-faces", "count": 1}));
-    // A strip with one side has two once it is cut, and then its faces have to be turned.
+    // A one-sided strip becomes two-sided once cut, and then its faces have to be turned.
     program.write("band.obj", &obj_text(&(&band(13, 1)).into()));
     program.write("across.txt", "10 11\n");
     let report = program.run(&["flatten", "band.obj", "--cut", "across.txt", "--report", "-"]).expect(0).json();
@@ -220,12 +222,12 @@ fn the_way_on_names_what_is_to_be_added_to_the_options_that_are_given() {
     let added = |given: &[&str]| {
         let arguments: Vec<&str> = ["flatten", "mixed.obj"].iter().chain(given).copied().collect();
         let refused = program.run(&arguments).expect(3);
-        let (_, way) = refused.stderr.split_once("it can be mended by adding ").expect("a way on");
+        let (_, way) = refused.stderr.split_once("to repair the mesh, add ").expect("a way on");
         way.split(':').next().expect("options").to_owned()
     };
     assert_eq!(added(&["--cut", "seam.txt"]), "--repair all");
     assert_eq!(added(&["--seams", "sharp=91"]), "--repair all --cut auto");
     program.write("cube.obj", &obj_text(&cube()));
     let refused = program.run(&["flatten", "cube.obj", "--seams", "sharp=91", "--repair", "all"]).expect(3);
-    assert!(refused.stderr.contains("mended by adding --cut auto: "), "{}", refused.stderr);
+    assert!(refused.stderr.contains("to repair the mesh, add --cut auto: "), "{}", refused.stderr);
 }

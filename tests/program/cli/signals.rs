@@ -1,4 +1,4 @@
-//! SIGINT and SIGTERM end the program in a moment, whatever it is doing. Sent to processes that these tests started.
+//! SIGINT and SIGTERM end the program promptly during any work. They are sent to processes that these tests started.
 #![cfg(target_os = "linux")]
 
 use std::fmt::Write as _;
@@ -15,7 +15,7 @@ use glam::DVec2;
 use super::program::{Program, Run, obj_text};
 use freebound_testkit::{Random, grid};
 
-/// A tenth of a second, and what a machine with much other work takes to start `kill` and to end a process.
+/// A tenth of a second, plus the time to start `kill` and end a process on a busy machine.
 const SOON: Duration = Duration::from_secs(3);
 
 fn send(child: &Child, signal: &str) {
@@ -23,8 +23,8 @@ fn send(child: &Child, signal: &str) {
     assert!(sent.expect("there is a kill").success());
 }
 
-/// Starts the program, lets it work for a while, and sends it a signal. It must end soon after, as an interrupted one,
-/// and leave no file that is not whole. Returns false where it had ended by itself before.
+/// Starts the program, and sends it a signal after a while. Asserts that it ends soon as interrupted, without
+/// partial files. Returns false if it had ended before.
 fn ends_soon(program: &Program, arguments: &[&str], signal: &str, after: Duration) -> bool {
     let mut child = program.command(arguments).spawn().expect("the program starts");
     std::thread::sleep(after);
@@ -46,7 +46,7 @@ fn ends_soon(program: &Program, arguments: &[&str], signal: &str, after: Duratio
     true
 }
 
-/// How long the program takes where nobody stops it, and at most so long.
+/// Duration of an uninterrupted run, up to a limit.
 fn length_of_run(program: &Program, arguments: &[&str]) -> Duration {
     const LONG_ENOUGH: Duration = Duration::from_secs(4);
     let mut child = program.command(arguments).spawn().expect("the program starts");
@@ -63,8 +63,8 @@ fn length_of_run(program: &Program, arguments: &[&str]) -> Duration {
     length
 }
 
-/// Sends both signals at several moments of a run, however long it is on this machine, and asserts that some of them came
-/// while the program was at work.
+/// Sends both signals at several moments of a run, whatever its duration on this machine. Asserts that some arrived
+/// while the program was working.
 fn assert_ends_soon(program: &Program, arguments: &[&str]) {
     let length = length_of_run(program, arguments);
     let moments = [0.1, 0.3, 0.5, 0.7].map(|share| length.mul_f64(share));
@@ -115,14 +115,14 @@ fn the_matchmaker_with_permuted_pins_ends_soon() {
     let mesh = grid(50, 50);
     write_mesh(&program, &mesh);
     let mut random = Random(5);
-    // With more pins there are soon too many new vertices.
+    // More pins would exceed the limit of new vertices.
     write_pins(&program, (0..mesh.positions.len()).step_by(200), |_| in_square(&mut random));
     let arguments = ["flatten", "in.obj", "--method", "matchmaker", "--constraints", "pins.txt", "-o", "out.obj"];
     assert_ends_soon(&program, &arguments);
 }
 
-/// Starts the program on a mesh that never comes, so that it cannot stop by itself, and sends it signals one right after
-/// the other.
+/// Starts the program on a mesh that never arrives, so that it cannot end by itself. Sends it signals in direct
+/// succession.
 fn ended_by(program: &Program, signals: &[&str], after: Duration) -> Run {
     let child = program.command(&["flatten", "never.obj", "-o", "out.obj"]).spawn().expect("the program starts");
     std::thread::sleep(after);
@@ -142,7 +142,7 @@ fn a_second_signal_does_not_wait_for_the_first() {
         once.status == Some(130) && once.stderr.contains("cancelled"),
         "after its grace, with a last word: {once:?}"
     );
-    // On a machine with much other work the grace may be over before the second signal is heard.
+    // On a busy machine the grace period may end before the second signal arrives.
     let is_at_once = |after| {
         let twice = ended_by(&program, &["-INT", "-TERM"], Duration::from_millis(after));
         assert_eq!(twice.status, Some(130), "{twice:?}");
@@ -151,10 +151,10 @@ fn a_second_signal_does_not_wait_for_the_first() {
     assert!([500, 1000, 1500, 2000].into_iter().any(is_at_once), "the second signal waited for the last word");
 }
 
-/// Set for a process that is to write files and be ended.
+/// Environment variable of a process that writes files and is ended.
 const WRITES_INTO: &str = "FREEBOUND_TEST_WRITES_INTO";
 
-/// Writes files without pause until the clean-up, and gives everything time to go wrong after it.
+/// Writes files without pause until the clean-up, then allows time for errors after it.
 fn write_until_the_clean_up(folder: &Path) -> ! {
     static FAILED: AtomicBool = AtomicBool::new(false);
     std::thread::scope(|scope| {
@@ -175,7 +175,7 @@ fn write_until_the_clean_up(folder: &Path) -> ! {
     })
 }
 
-/// This very test is run again in a process of its own, because nothing is written there any more.
+/// Runs this very test again in a separate process, since nothing can be written there after the clean-up.
 #[test]
 fn the_clean_up_at_the_end_leaves_nothing_behind() {
     if let Some(folder) = std::env::var_os(WRITES_INTO) {

@@ -1,4 +1,4 @@
-//! `--start uv`: `freebound flatten` goes on from the texture coordinates of the file.
+//! `--start uv`: `freebound flatten` starts from the texture coordinates of the file.
 
 use std::fs;
 
@@ -14,12 +14,12 @@ use freebound_testkit::grid;
 use freebound_testkit::many_parts::torus;
 use freebound_testkit::surfaces::bump;
 
-/// The bumpy sheet seen from above, sheared.
+/// View of the bumpy sheet from above, sheared.
 fn layout_of(mesh: &TriMesh) -> Vec<DVec2> {
     mesh.positions.iter().map(|p| DVec2::new(0.1 * p.x + 0.05 * p.y, 0.03 * p.y)).collect()
 }
 
-/// A bumpy sheet with a planar layout of its own; a vertex of it can be pulled over its neighbours.
+/// Bumpy sheet with a planar layout; `pulled` moves one vertex over its neighbours.
 fn sheet(pulled: f64) -> String {
     let mesh = bump(6);
     let mut layout = layout_of(&mesh);
@@ -46,14 +46,15 @@ fn coordinates(program: &Program, name: &str) -> Vec<DVec2> {
     coordinates_by_vertex(&read_mesh(&program.path(name)).expect("written")).to_vec()
 }
 
-/// The texture coordinates, one per corner.
+/// Texture coordinates, one per corner.
 fn at_corners(program: &Program, name: &str) -> Vec<DVec2> {
     let MeshFile { texture, .. } = read_mesh(&program.path(name)).expect("written");
     let texture = texture.expect("coordinates");
     texture.corners.iter().map(|&corner| texture.coordinates[corner as usize]).collect()
 }
 
-/// A sheet with its layout away from the origin, and vertices of no face: behind all others, in a hole, or welded to others.
+/// Sheets with layouts away from the origin, and unreferenced vertices: after all others, in a hole, or welded to
+/// others.
 fn sheets_with_unused_vertices() -> [(String, &'static [&'static str]); 3] {
     let mesh = bump(6);
     let layout: Vec<DVec2> = layout_of(&mesh).into_iter().map(|z| z + DVec2::new(5.0, 3.0)).collect();
@@ -85,7 +86,7 @@ fn vertices_of_no_face_move_no_layout() {
         program.run(&arguments).expect(0);
         let before = at_corners(&program, "in.obj");
         assert!(at_corners(&program, "out.obj") == before, "to the last bit, {options:?}");
-        // A pin, at the first corner, moves all by the same; rounds of relaxing stay over the layout.
+        // A pin at the first corner translates everything; rounds of relaxation stay over the layout.
         program.run(&[&arguments[..], &["--pin", "0:2,2"]].concat()).expect(0);
         let moves: Vec<DVec2> = at_corners(&program, "out.obj").iter().zip(&before).map(|(z, at)| *z - *at).collect();
         assert!(
@@ -102,7 +103,7 @@ fn vertices_of_no_face_move_no_layout() {
 
 #[test]
 fn of_several_charts_that_cannot_begin_the_first_is_named_on_any_number_of_threads() {
-    // The first has the most faces: others fail before it does.
+    // The first chart has the most faces, so others fail before it.
     let mut mesh = grid(60, 60);
     let first = mesh.triangles.len();
     for chart in 1..6 {
@@ -168,7 +169,7 @@ fn a_folded_layout_is_reported_with_its_faults_and_solved() {
     let report = program.run(&["flatten", "in.obj", "--start", "uv", "--report", "-"]).expect(0).json();
     assert_eq!(report["steps"][0]["flipped_faces"], json!(flipped));
     let note = report["steps"][1]["note"].as_str().expect("a note");
-    assert!(note.contains("solved afresh, for the layout of the file is not one-to-one"), "{note}");
+    assert!(note.contains("restarted from scratch: the layout of the file is not one-to-one"), "{note}");
     let iterated =
         program.run(&["flatten", "in.obj", "--start", "uv", "--method", "iterate", "--report", "-"]).expect(0);
     assert_eq!(iterated.json()["steps"][1]["stage"], json!("iterate"));
@@ -193,7 +194,7 @@ fn charts_stay_where_the_file_has_them_unless_they_are_to_be_packed() {
     program.run(&[&arguments[..], &["-o", "packed.obj", "--pack", "512x256"]].concat()).expect(0);
     assert_ne!(texture("packed.obj"), texture("laid.obj"));
     assert_eq!(charts_proved(&program, "packed.obj"), 12);
-    // The layout of the first file is a heap of lines: each chart is solved from scratch, and all are packed.
+    // The layout of the first file is degenerate: each chart is solved from scratch, and all are packed.
     program.run(&["flatten", "in.obj", "--charts", "uv", "--start", "uv", "-o", "mended.obj"]).expect(0);
     assert_eq!(charts_proved(&program, "mended.obj"), 12);
 }
@@ -208,7 +209,7 @@ fn a_layout_that_is_cut_where_the_surface_is_not_is_refused_with_what_to_do() {
     let file = grouped((&grid(2, 2)).into(), |_| 0);
     write(&program, "none.obj", &MeshFile { texture: None, ..file });
     let run = program.run(&["flatten", "none.obj", "--start", "uv"]).expect(2);
-    assert!(run.stderr.contains("no texture coordinates: leave out --start uv"), "{}", run.stderr);
+    assert!(run.stderr.contains("no texture coordinates: remove --start uv"), "{}", run.stderr);
 }
 
 #[test]
@@ -217,10 +218,10 @@ fn options_that_go_against_a_layout_are_refused() {
     program.write("in.obj", &sheet(0.0));
     for method in ["natural", "lscm", "levy", "spectral", "abf", "abf++", "convex", "schnyder"] {
         let run = program.run(&["flatten", "in.obj", "--start", "uv", "--method", method]).expect(2);
-        assert!(run.stderr.contains("takes no --start"), "{}", run.stderr);
+        assert!(run.stderr.contains("does not use --start"), "{}", run.stderr);
     }
     let run = program.run(&["flatten", "in.obj", "--start", "uv", "--fit", "unit"]).expect(2);
-    assert!(run.stderr.contains("leave out --fit unit"), "{}", run.stderr);
+    assert!(run.stderr.contains("remove --fit unit"), "{}", run.stderr);
     let full = program.run(&["flatten", "in.obj", "--start", "uv", "--fit", "true", "--report", "-"]).expect(0).json();
     assert_eq!(full["placement"], json!("true"));
     program.run(&["flatten", "in.obj", "--start", "uv", "--fit", "true", "-o", "out.obj"]).expect(0);

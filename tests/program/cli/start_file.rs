@@ -1,4 +1,4 @@
-//! `--start FILE`: `freebound flatten` goes on from the texture coordinates of another file of the same mesh.
+//! `--start FILE`: `freebound flatten` starts from the texture coordinates of another file of the mesh.
 
 use freebound_core::mesh::{PolygonMesh, TriMesh};
 use freebound_io::{MeshFile, read_mesh};
@@ -10,13 +10,13 @@ use super::program::{Program, coordinates_by_vertex, textured_text};
 use freebound_testkit::grid;
 use freebound_testkit::surfaces::bump;
 
-/// The corners of the bumpy sheet drawn apart, and a vertex in its middle moved.
+/// Pins that pull the corners of the bumpy sheet apart and move a vertex in its middle.
 const FIVE: [&str; 10] =
     ["--pin", "0:0,0", "--pin", "6:1.2,0.1", "--pin", "42:-0.1,0.9", "--pin", "48:1,1.1", "--pin", "24:0.55,0.6"];
-/// A sixth beside it.
+/// Sixth pin in addition.
 const SIXTH: [&str; 2] = ["--pin", "32:0.7,0.75"];
 
-/// A folder with the bumpy sheet, flattened with five constraints into `five.obj`.
+/// Folder with the bumpy sheet, flattened with five constraints into `five.obj`.
 fn with_five() -> Program {
     let program = Program::new();
     let mesh = MeshFile::from(&bump(6));
@@ -62,7 +62,7 @@ fn a_further_constraint_is_met_from_the_others_as_they_lie() {
     assert!(stages[..2] == ["given", "continuation"] && stages.len() <= 6, "{stages:?}");
     assert!(went_on["steps"].as_array().expect("steps").iter().all(|step| step["planar"] == json!(true)));
     assert_eq!(went_on["pins"]["unmet"], json!([]));
-    // Of numbers in 32 bits, too: those of the pins are off by their rounding.
+    // Numbers in 32 bits work too: those of the pins are off by their rounding.
     program.run(&[&["flatten", "in.obj", "-o", "rounded.obj", "--precision", "f32"], &FIVE[..]].concat()).expect(0);
     let rounded = report(&program, &[&options[..], &["--start", "rounded.obj"]].concat());
     assert_eq!((&rounded["steps"][1]["stage"], &rounded["pins"]["max_error"]), (&json!("continuation"), &json!(0.0)));
@@ -84,7 +84,7 @@ fn coordinates_are_read_on_the_picture_as_pins_are() {
 #[test]
 fn a_file_with_split_edges_is_read_by_the_numbers_of_vertices() {
     let program = with_five();
-    // A face's corners turned over: that takes new vertices.
+    // The corners of a face are flipped, which requires new vertices.
     let turned = ["--pin", "16:0.5,0.5", "--pin", "17:0.5,0.7", "--pin", "23:0.7,0.5"];
     let corners = &FIVE[..8];
     let run =
@@ -92,14 +92,14 @@ fn a_file_with_split_edges_is_read_by_the_numbers_of_vertices() {
     assert!(run.json()["new_vertices"].as_u64().expect("a count") > 0);
     let report = report(&program, &[corners, &["--start", "split.obj"]].concat());
     assert_eq!(report["steps"][0]["stage"], json!("given"));
-    // The turned face is turned over without the vertices that were made for it.
+    // The flipped face stays flipped without its new vertices.
     assert_eq!(report["steps"][0]["flipped_faces"].as_u64().map(|count| count > 0), Some(true));
     let note = report["steps"][1]["note"].as_str().expect("a note");
-    assert!(note.contains("solved afresh, for the layout of the file is not one-to-one"), "{note}");
+    assert!(note.contains("restarted from scratch: the layout of the file is not one-to-one"), "{note}");
     assert_eq!(report["pins"]["unmet"], json!([]));
 }
 
-/// The mesh with a layout of its own, or without one.
+/// Writes a mesh with the given layout.
 fn other(program: &Program, name: &str, mesh: &TriMesh, layout: impl Fn(usize) -> DVec2) {
     let layout: Vec<DVec2> = (0..mesh.positions.len()).map(layout).collect();
     let polygons = PolygonMesh::from(mesh);
@@ -116,15 +116,19 @@ fn what_is_no_layout_of_the_mesh_is_named_with_what_to_do() {
         }
     };
     refused(&["--start", "missing.obj"], 3, &["missing.obj"]);
-    refused(&["--start", "in.obj"], 2, &["in.obj", "no texture coordinates", "leave out --start"]);
+    refused(&["--start", "in.obj"], 2, &["in.obj", "no texture coordinates", "remove --start"]);
     other(&program, "small.obj", &grid(2, 2), |v| DVec2::new((v % 3) as f64, (v / 3) as f64));
-    refused(&["--start", "small.obj"], 2, &["small.obj", "no texture coordinates for vertex v", "this very mesh"]);
+    refused(
+        &["--start", "small.obj"],
+        2,
+        &["small.obj", "no texture coordinates for vertex v", "a layout of this mesh"],
+    );
     write(&program, "torn.obj", &grouped((&bump(6)).into(), |face| face / 2 % 6 / 3));
     refused(&["--start", "torn.obj"], 2, &["torn.obj: vertex v", "several texture coordinates", "--charts uv"]);
     refused(&["--start", "five.obj", "-o", "five.obj"], 2, &["five.obj", "the layout to start from"]);
-    refused(&["--start", "five.obj", "--method", "lscm"], 2, &["--method lscm takes no --start"]);
+    refused(&["--start", "five.obj", "--method", "lscm"], 2, &["--method lscm does not use --start"]);
     let both = program.run(&["flatten", "-", "--start", "-"]).expect(2);
-    assert!(both.stderr.contains("cannot both come from there"), "{}", both.stderr);
+    assert!(both.stderr.contains("cannot be both the mesh and --start"), "{}", both.stderr);
 }
 
 #[test]
@@ -135,5 +139,5 @@ fn a_layout_that_folds_is_shown_and_solved_afresh() {
     let report = report(&program, &[&FIVE[..], &["--start", "heap.obj"]].concat());
     assert!(report["steps"][0]["flipped_faces"].as_u64() > Some(0));
     let note = report["steps"][1]["note"].as_str().expect("a note");
-    assert!(note.contains("solved afresh, for the layout of the file is not one-to-one"), "{note}");
+    assert!(note.contains("restarted from scratch: the layout of the file is not one-to-one"), "{note}");
 }

@@ -1,4 +1,4 @@
-//! A session that goes on from the layout of a file, and then again does not.
+//! Session that starts from the layout of a file, and then without it.
 
 use freebound::session::{Action, Session};
 use freebound_core::mesh::PolygonMesh;
@@ -10,7 +10,7 @@ use crate::session::basics::{session, settle, settled};
 use crate::session::constraints::place;
 use freebound_testkit::surfaces::bump;
 
-/// A session with a bumpy sheet and its layout, four corners held a bit away from where that has them.
+/// Session with a bumpy sheet and its layout; four corners are pinned a little off the layout.
 fn with_sheet(method: Method, start: Start) -> Session {
     let mesh = bump(6);
     let layout: Vec<DVec2> = mesh.positions.iter().map(|p| DVec2::new(0.1 * p.x + 0.05 * p.y, 0.03 * p.y)).collect();

@@ -1,4 +1,4 @@
-//! `freebound flatten --steps`, and the options that decide about steps.
+//! `freebound flatten --steps`, and the options that control steps.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -17,7 +17,7 @@ use serde_json::Value;
 use super::program::{Program, argument, coordinates_by_vertex, example_file};
 use freebound_testkit::{Entry, corpus_disks, corpus_test, csv_rows, data_disks, fan, grid};
 
-/// Two opposite corners of the cube's top: mean-value weights fold 8 faces when they are pinned.
+/// Pins at two opposite corners of the cube's top: with them mean-value weights fold 8 faces.
 const FOLDING: [&str; 4] = ["--pin", "12:0,0", "--pin", "36:1,0"];
 
 fn files_in(program: &Program, folder: &str) -> Vec<String> {
@@ -33,7 +33,7 @@ fn flatten(program: &Program, options: &[&str], status: i32) -> Value {
     program.run(&[&["flatten", "in.obj", "--report", "-"][..], options].concat()).expect(status).json()
 }
 
-/// The table of the steps, as the report would say it.
+/// Table of the steps, by column names of the report.
 fn table(program: &Program, folder: &str) -> Vec<BTreeMap<String, String>> {
     let text = fs::read_to_string(program.path(folder).join("steps.csv")).expect("the table is there");
     let mut rows = csv_rows(&text).into_iter();
@@ -41,7 +41,7 @@ fn table(program: &Program, folder: &str) -> Vec<BTreeMap<String, String>> {
     rows.map(|row| head.iter().cloned().zip(row).collect()).collect()
 }
 
-/// A value of the report as a cell.
+/// Value of the report as a cell.
 fn cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
@@ -62,7 +62,7 @@ fn the_table_of_the_steps_is_the_report() {
     assert_eq!(rows.len(), steps.len());
     for (row, step) in rows.iter().zip(steps) {
         let fields = step.as_object().expect("an object");
-        // What a step of another method has within it stands in three columns.
+        // Inner iterations of another method's step are in three columns.
         assert!(!fields.contains_key("convergence"));
         assert_eq!(row.len(), fields.len() + 3 + usize::from(!fields.contains_key("note")));
         for (key, value) in fields {
@@ -168,7 +168,7 @@ fn the_limit_of_steps_is_kept() {
         assert_eq!(report["steps"].as_array().unwrap().len(), 1 + count, "the natural boundary and {limit} more");
     }
     let run = program.run(&[&["flatten", "in.obj"][..], &options, &["2"], &FOLDING].concat()).expect(4);
-    assert!(run.stdout.contains("after 3 steps (iteration, as many as it may take)"), "{}", run.stdout);
+    assert!(run.stdout.contains("after 3 steps (iteration, step limit reached)"), "{}", run.stdout);
 }
 
 #[test]
@@ -192,7 +192,7 @@ fn the_treatment_is_the_one_that_was_asked_for_and_the_report_says_which_was_use
 fn the_growth_of_the_pinned_boundary_is_a_choice() {
     let program = Program::new();
     example_file(&program, Example::Cube);
-    // Two neighbours on the boundary: with mean-value weights it crosses itself, so that more of it is pinned.
+    // Two neighbours on the boundary: with mean-value weights it crosses itself, so more of it is pinned.
     let pins = ["--pin", "173:0,0", "--pin", "177:0.339,0", "--family", "mean-value", "--method", "virtual-boundary"];
     let bent = |growth: &[&str]| {
         let report = flatten(&program, &[growth, &pins].concat(), 0);
@@ -229,7 +229,7 @@ fn assert_auto_ends_planar_and_proved_on_every_disk(disks: Vec<Entry>) {
         let report: Value = serde_json::from_slice(&fs::read(program.path("out.json")).unwrap()).unwrap();
         assert_eq!(report["verdict"]["planar"], true, "{}", entry.file);
         assert_eq!(report["verdict"]["turning_number"], 1, "{}", entry.file);
-        // Once more on the file as it was written.
+        // Verifies the written file again.
         let written = coordinates_by_vertex(&read_mesh(&program.path("out.obj")).unwrap());
         assert!(verdict(&entry.disk(), &written).planar, "{}", entry.file);
     }
@@ -247,7 +247,7 @@ corpus_test! {
     }
 }
 
-/// A fan whose embedding is `places`, the centre first, as the outcome of a solve.
+/// Outcome of a solve with the embedding `places`.
 fn outcome_with(mesh: &DiskMesh, places: Embedding) -> Outcome {
     let mut run = Flattener::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let mut step = run.step(mesh, Control::unattended()).expect("a fan is flat");
@@ -269,7 +269,7 @@ fn finish(mesh: &TriMesh, places: Embedding) -> (bool, Placement, bool) {
 
 #[test]
 fn what_the_unit_square_would_fold_is_written_where_it_was_solved() {
-    // A square around the origin so small that its shape is lost when half the extent is added.
+    // A square around the origin so small that adding half the extent destroys its shape.
     let mesh = grid(3, 3);
     let mut places: Embedding = mesh.positions.iter().map(|p| p.truncate() - DVec2::splat(1.0)).collect();
     // Vertices 5, 6, 9 and 10 are the corners of the square in the middle.
@@ -285,7 +285,8 @@ fn what_the_unit_square_would_fold_is_written_where_it_was_solved() {
 
 #[test]
 fn what_the_division_would_fold_is_scaled_by_a_power_of_two() {
-    // The centre lies next to the side from (0, 0) to (3, 3), above it by one digit, which a division by 3 may take away.
+    // The centre is next to the side from (0, 0) to (3, 3), above it by one digit, which a division by 3 may
+    // destroy.
     let mesh = fan(3);
     let disk = DiskMesh::try_from(mesh.clone()).unwrap();
     let mut found = 0;

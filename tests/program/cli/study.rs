@@ -1,4 +1,4 @@
-//! `freebound study`: table, plots and summary; rows that can be run again by hand.
+//! `freebound study`: table, plots and summary; rows that can be reproduced individually.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use super::program::{Program, obj_text};
 use freebound_testkit::surfaces::irregular_cube;
 use freebound_testkit::{Random, bumpy_cap_of, csv_rows};
 
-/// The program with a cube and a cap in its folder.
+/// Program with a cube and a cap in its folder.
 fn with_meshes() -> Program {
     let program = Program::new();
     let cube = irregular_cube(3, &mut Random(3));
@@ -17,7 +17,7 @@ fn with_meshes() -> Program {
     program
 }
 
-/// A table's rows by the names of its columns.
+/// Rows of a table, accessed by column names.
 struct Table(Vec<Vec<String>>);
 
 impl Table {
@@ -111,7 +111,7 @@ fn tables_are_put_together_as_if_all_had_been_run_at_once() {
     for [a, b] in [["sum.csv", "whole.csv"], ["sum.svg", "whole.svg"]] {
         assert!(fs::read(program.path(a)).unwrap() == fs::read(program.path(b)).unwrap(), "{a}");
     }
-    // Without a mesh it sums up what there is.
+    // Without a mesh it summarises existing rows.
     let again = program.run(&["study", "--add", "sum.csv"]).expect(0);
     assert_eq!(again.stdout, whole);
 }
@@ -205,7 +205,7 @@ fn options_of_runs_are_refused_where_there_is_no_mesh_to_run_on() {
     program.run(&["study", "--add", "one.csv", "--threads", "1"]).expect(0);
 }
 
-/// The mesh is missing, which is told of only where the outputs can be written.
+/// The missing mesh is reported only if the outputs can be written.
 #[test]
 fn outputs_are_tried_before_all_work() {
     let program = with_meshes();
@@ -218,7 +218,7 @@ fn outputs_are_tried_before_all_work() {
         }
     }
     program.run(&["study", "missing.obj", "--csv", "runs.csv"]).expect(3);
-    // Nothing is written where one of two cannot be.
+    // Nothing is written if one of two outputs cannot be.
     program.run(&["study", "cap.obj", "--runs", "1", "--csv", "runs.csv", "--svg", "folder"]).expect(1);
     assert_eq!(program.files(), before);
 }

@@ -1,10 +1,10 @@
-//! Every path that `docs/architecture.md` names exists.
+//! Every path that `book/src/contributing/architecture.md` names exists.
 
 use std::fs;
 
 use super::sources::root;
 
-/// Source folders by the names that stand for them in the document.
+/// Source folders by their short names in the document.
 const SHORT: [(&str, &str); 4] = [
     ("core/", "crates/freebound-core/src/"),
     ("io/", "crates/freebound-io/src/"),
@@ -12,7 +12,7 @@ const SHORT: [(&str, &str); 4] = [
     ("", ""),
 ];
 
-/// Words between backticks that are paths: they have a slash and no other sign than those of file names.
+/// Words between backticks that are paths: they have a slash and otherwise only characters of file names.
 fn paths(text: &str) -> Vec<&str> {
     let is_sign = |c: char| c.is_alphanumeric() || "/._-".contains(c);
     let is_path = |word: &&str| word.contains('/') && word.chars().all(is_sign);
@@ -21,7 +21,7 @@ fn paths(text: &str) -> Vec<&str> {
 
 #[test]
 fn every_path_of_the_architecture_exists() {
-    let text = fs::read_to_string(root().join("docs/architecture.md")).expect("the page is there");
+    let text = fs::read_to_string(root().join("book/src/contributing/architecture.md")).expect("the page is there");
     let paths = paths(&text);
     assert!(paths.len() > 30, "only {} paths were found", paths.len());
     let exists = |path: &&str| {
@@ -29,5 +29,9 @@ fn every_path_of_the_architecture_exists() {
         root().join(folder).join(&path[short.len()..]).exists()
     };
     let missing: Vec<&str> = paths.into_iter().filter(|path| !exists(path)).collect();
-    assert!(missing.is_empty(), "docs/architecture.md names what is not there:\n{}", missing.join("\n"));
+    assert!(
+        missing.is_empty(),
+        "book/src/contributing/architecture.md names what is not there:\n{}",
+        missing.join("\n")
+    );
 }

@@ -1,16 +1,17 @@
-//! The files of `assets/` are what their makers make, and the makers do what they say.
+//! The files of `assets/` are up to date with their makers, and the makers are correct.
 
-use freebound::examples::{Example, Landmark};
-use freebound_core::mesh::TriMesh;
+use freebound::examples::{Example, ExampleFiles, Landmark};
+use freebound_core::mesh::{PolygonMesh, TriMesh};
+use freebound_io::read_stream;
 use glam::DVec2;
 use robust::{incircle, orient2d};
 
 use freebound_testkit::{
-    BuiltIn, PORTRAIT_SIZE, PlacedLandmark, Random, bumpy_cap_of, coord, disk, landmarks, picture_from_sculpture,
-    plane, portrait, sculpture_from_plane, triangulate,
+    BuiltIn, PORTRAIT_SIZE, PlacedLandmark, Random, bumpy_ball, bumpy_cap_of, coord, disk, landmarks,
+    picture_from_sculpture, plane, portrait, scan, sculpture_from_plane, table, triangulate,
 };
 
-/// What to do where a file differs.
+/// Remedy if a file differs.
 const REMEDY: &str = "cargo run --release --example assets writes the files anew";
 
 fn bits(mesh: &TriMesh) -> Vec<[u64; 3]> {
@@ -33,6 +34,19 @@ fn the_files_of_the_meshes_are_what_their_makers_make() {
 
 #[test]
 #[cfg_attr(not(all(target_os = "linux", target_env = "gnu")), ignore = "sines differ by the last bit between systems")]
+fn the_files_of_the_tutorials_are_what_their_makers_make() {
+    for (name, made) in [("ball", bumpy_ball()), ("scan", scan()), ("table", table())] {
+        let example = ExampleFiles::ALL.into_iter().find(|example| example.name == name).expect("an example");
+        let (_, bytes) = example.files[0];
+        let read = read_stream(bytes).expect("readable").polygons;
+        let faces =
+            |mesh: &PolygonMesh| (0..mesh.face_count()).map(|face| mesh.face(face).to_vec()).collect::<Vec<_>>();
+        assert!(made.positions == read.positions && faces(&made) == faces(&read), "{name}: {REMEDY}");
+    }
+}
+
+#[test]
+#[cfg_attr(not(all(target_os = "linux", target_env = "gnu")), ignore = "sines differ by the last bit between systems")]
 fn the_file_of_the_portrait_is_what_its_maker_makes() {
     assert!(Some(portrait(PORTRAIT_SIZE)) == Example::Face.picture(), "{REMEDY}");
 }
@@ -51,7 +65,7 @@ fn bumpy_caps_of_other_sizes_are_disks_with_about_so_many_vertices() {
 
 #[test]
 fn the_random_numbers_are_those_of_splitmix64() {
-    // First outputs for seed 0, as the generator's published reference code gives them.
+    // First outputs for seed 0 of the generator's published reference code.
     let mut random = Random(0);
     assert_eq!([random.bits(), random.bits()], [0xe220_a839_7b1d_cdaf, 0x6e78_9e6a_a1b9_65f4]);
 }

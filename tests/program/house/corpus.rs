@@ -1,4 +1,4 @@
-//! Tests over the corpus stand in `corpus_test!`, so that they are counted as ignored where it is missing.
+//! Tests over the corpus use `corpus_test!`, so that they are counted as ignored if it is missing.
 
 use std::collections::BTreeSet;
 
@@ -7,14 +7,14 @@ use super::sources::{TESTS, code_of, sources};
 /// Functions of the testkit that read the corpus.
 const READERS: [&str; 4] = ["corpus", "corpus_disks", "corpus_entry", "manifest"];
 
-/// A function of a file: its name and its body, and whether it is a test.
+/// Function of a file: its name and body; `is_test` is true for a test.
 struct Function<'a> {
     name: &'a str,
     body: &'a str,
     is_test: bool,
 }
 
-/// The end of a block that `code` begins with or comes to, in bytes. Braces in strings count: they come in pairs.
+/// End of the first block in `code`, in bytes. Braces in strings count, since they come in pairs.
 fn block_end(code: &str) -> usize {
     let mut depth = 0_usize;
     for (at, c) in code.char_indices() {
@@ -28,7 +28,7 @@ fn block_end(code: &str) -> usize {
     code.len()
 }
 
-/// The code without its `corpus_test!` blocks.
+/// Code without its `corpus_test!` blocks.
 fn outside_the_macro(code: &str) -> String {
     let mut kept = String::new();
     let mut rest = code;
@@ -39,7 +39,7 @@ fn outside_the_macro(code: &str) -> String {
     kept + rest
 }
 
-/// Functions at the top of a file.
+/// Functions at the top level of a file.
 fn functions(code: &str) -> Vec<Function<'_>> {
     let mut found = Vec::new();
     let mut at = 0;
@@ -62,13 +62,13 @@ fn functions(code: &str) -> Vec<Function<'_>> {
     found
 }
 
-/// True if a text calls one of some functions, or hands it on by its name.
+/// True if a text calls one of these functions, or mentions it by name.
 fn mentions(text: &str, names: &BTreeSet<&str>) -> bool {
     let words = text.split(|c: char| !c.is_alphanumeric() && c != '_' && c != '"' && c != '.');
     words.into_iter().any(|word| names.contains(word))
 }
 
-/// Tests outside the macro that reach the corpus, by functions of their own file or at once.
+/// Tests outside the macro that reach the corpus, directly or by functions of their file.
 fn loose_tests(text: &str) -> Vec<String> {
     let code = outside_the_macro(&code_of(text));
     let functions = functions(&code);

@@ -1,17 +1,18 @@
-//! Imports between the files of each crate: short cycles within a folder, and none between the folders of the library.
+//! Imports between the files of each crate: short cycles within a folder, and none between the folders of the
+//! library.
 //!
-//! The graph has a node for each file and an edge for each name that a file takes from another: by a `use` line, or by
-//! a path that begins with `crate`, `self` or `super`. A name that is re-exported counts for the file that defines it,
-//! and the re-export itself is no edge.
+//! The graph has a node for each file and an edge for each name that a file imports from another: by a `use` line,
+//! or by a path that begins with `crate`, `self` or `super`. A re-exported name counts for the file that defines it,
+//! and the re-export is no edge.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::sources::{CRATES, code_of, sources};
 
-/// Most files of a cycle.
+/// Largest number of files in a cycle.
 const CYCLE_FILES: usize = 5;
 
-/// Most imports between a name and its definition.
+/// Largest number of imports between a name and its definition.
 const HOPS: usize = 12;
 
 /// Source folder of the library.
@@ -43,7 +44,7 @@ struct Import {
     name: String,
 }
 
-/// What a file imports, and the paths in its code.
+/// Imports of a file, and the paths in its code.
 struct Module {
     imports: Vec<Import>,
     inline: Vec<ModulePath>,
@@ -57,17 +58,17 @@ fn module_path(path: &str) -> ModulePath {
     names
 }
 
-/// Names, and the signs `::`, `{`, `}`, `,` and `*`, of a use tree.
+/// Names of a use tree, and the signs `::`, `{`, `}`, `,` and `*`.
 fn tokens(tree: &str) -> Vec<String> {
     let spaced =
         ["::", "{", "}", ",", "*"].iter().fold(tree.to_owned(), |text, sign| text.replace(sign, &format!(" {sign} ")));
     spaced.split_whitespace().filter(|token| *token != "::").map(str::to_owned).collect()
 }
 
-/// The paths of a use tree, each with the name that it brings.
+/// Paths of a use tree, each with the name that it imports.
 fn paths(tokens: &[String], at: &mut usize, prefix: &[String]) -> Vec<(ModulePath, String)> {
     let mut path = prefix.to_vec();
-    // Behind the last comma.
+    // After the last comma.
     if tokens.get(*at).is_some_and(|token| token == "}") {
         return Vec::new();
     }
@@ -87,7 +88,7 @@ fn paths(tokens: &[String], at: &mut usize, prefix: &[String]) -> Vec<(ModulePat
                 *at += 2;
                 return vec![(path, tokens[*at - 1].clone())];
             }
-            // `a::{self}` is a.
+            // The path `a::{self}` is a.
             "self" if !path.is_empty() => *at += 1,
             _ => {
                 path.push(token.clone());
@@ -98,7 +99,7 @@ fn paths(tokens: &[String], at: &mut usize, prefix: &[String]) -> Vec<(ModulePat
     path.last().cloned().map(|name| (path, name)).into_iter().collect()
 }
 
-/// The statement of visibility and `use` that a line begins with, if it does: whether it re-exports, and the rest.
+/// Parses visibility and `use` at the start of a line: true if it re-exports, and the rest.
 fn use_line(line: &str) -> Option<(bool, &str)> {
     let line = line.trim_start();
     let (is_reexport, rest) = match line.strip_prefix("pub") {
@@ -141,7 +142,7 @@ fn inline_paths(code: &str) -> Vec<ModulePath> {
     words.filter(is_path).map(|word| word.split("::").map(str::to_owned).collect()).collect()
 }
 
-/// A path as written in a module, from the crate's root; `None` for names of other crates.
+/// Path from the crate's root of a path written in a module; `None` for names of other crates.
 fn from_root(modules: &Modules, module: &[String], path: &[String]) -> Option<ModulePath> {
     let joined = |base: &[String], rest: &[String]| [base, rest].concat();
     match path.first()?.as_str() {
@@ -155,7 +156,7 @@ fn from_root(modules: &Modules, module: &[String], path: &[String]) -> Option<Mo
     }
 }
 
-/// The module that defines what a path from the root names; names that are imported again are followed so many times.
+/// Module that defines a path from the root. Re-imported names are followed at most `most` times.
 fn definition(modules: &Modules, path: &[String], most: usize) -> Option<ModulePath> {
     let count = (0..=path.len()).rev().find(|&count| modules.contains_key(&path[..count]))?;
     let (module, rest) = path.split_at(count);
@@ -177,7 +178,7 @@ fn graph(modules: &Modules) -> Graph {
     modules.iter().map(edges).collect()
 }
 
-/// The graph of a crate by its source folder.
+/// Graph of the crate in a source folder.
 fn graph_of(folder: &str) -> Graph {
     let sources = sources(&[folder]);
     let named = sources.iter().filter(|source| !source.path.ends_with("/main.rs"));

@@ -1,4 +1,4 @@
-//! The files of `tests/data` are what their makers make.
+//! The files of `tests/data` are up to date with their makers.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! The built-in meshes: disks of good triangles.
+//! Built-in meshes: disks of well-shaped triangles.
 
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, OnceLock};
@@ -9,17 +9,17 @@ use glam::{DVec2, DVec3};
 
 use freebound_testkit::PORTRAIT_SIZE;
 
-/// The landmarks, found once.
+/// Landmarks of the face, read once.
 static LANDMARKS: LazyLock<Vec<Landmark>> = LazyLock::new(|| Example::Face.landmarks());
 
-/// A mesh that all tests share.
+/// Mesh shared by all tests.
 fn mesh_of(example: Example) -> &'static TriMesh {
     static MESHES: [OnceLock<TriMesh>; 6] = [const { OnceLock::new() }; 6];
     let place = Example::ALL.iter().position(|e| *e == example).expect("one of all");
     MESHES[place].get_or_init(|| example.mesh())
 }
 
-/// Directed sides of all triangles, with how often each occurs.
+/// Directed sides of all triangles, with their counts.
 fn sides(mesh: &TriMesh) -> BTreeMap<(u32, u32), usize> {
     let mut count = BTreeMap::new();
     for t in &mesh.triangles {
@@ -30,7 +30,7 @@ fn sides(mesh: &TriMesh) -> BTreeMap<(u32, u32), usize> {
     count
 }
 
-/// Number of boundary loops, if every boundary vertex has one side in and one out.
+/// Number of boundary loops; `None` unless every boundary vertex has one side in and one out.
 fn boundary_loops(mesh: &TriMesh) -> Option<usize> {
     let sides = sides(mesh);
     let mut next = BTreeMap::new();
@@ -49,7 +49,7 @@ fn boundary_loops(mesh: &TriMesh) -> Option<usize> {
     Some(loops)
 }
 
-/// The smallest angle of any corner, degrees.
+/// Smallest angle of any corner, degrees.
 fn least_angle(mesh: &TriMesh) -> f64 {
     let mut least = f64::INFINITY;
     for t in &mesh.triangles {
@@ -62,7 +62,7 @@ fn least_angle(mesh: &TriMesh) -> f64 {
     least
 }
 
-/// How many corners of triangles meet at each vertex, against the number reached by going from face to face.
+/// True if the corners at every vertex form a single fan: their number equals the number reached from face to face.
 fn fans_are_single(mesh: &TriMesh) -> bool {
     let mut next: Vec<BTreeMap<u32, u32>> = vec![BTreeMap::new(); mesh.vertex_count()];
     for t in &mesh.triangles {
@@ -124,8 +124,8 @@ fn names_differ() {
 
 #[test]
 fn the_flat_examples_are_flat_and_do_not_overlap() {
-    // The L is two squares and one; the strip's area is its width times the length of its middle line,
-    // ∫ √(r² + r′²) dφ with r = 0.22 + 0.3 φ/2π, less the little that chords cut off.
+    // The L is three unit squares. The strip's area is its width times the length of its middle line, which is ∫
+    // √(r² + r′²) dφ with r = 0.22 + 0.3 φ/2π. Chords cut off a little of it.
     let middle: f64 = (0..30_000)
         .map(|k| {
             let turn = (f64::from(k) + 0.5) / 10_000.0;
@@ -139,7 +139,7 @@ fn the_flat_examples_are_flat_and_do_not_overlap() {
         let up =
             (0..mesh.face_count()).map(freebound_core::mesh::FaceId::from_index).map(|f| mesh.double_area_vector(f).z);
         assert!(up.clone().all(|z| z > 0.0), "{}: a face looks down", example.name());
-        // All faces look up, and together they are no larger than the outline: none lies over another.
+        // All faces point up, and their total area equals that of the outline, so none overlap.
         assert!((mesh.area() - area).abs() < tolerance * area, "{}: area {} for {area}", example.name(), mesh.area());
     }
 }
@@ -166,7 +166,7 @@ fn the_bumpy_cap_passes_its_equator() {
     let mesh = mesh_of(Example::BumpyCap);
     let lowest = mesh.positions.iter().map(|p| p.z / p.length()).fold(f64::INFINITY, f64::min);
     assert!(lowest < 120_f64.to_radians().cos(), "cosine of the polar angle {lowest}");
-    // Wider at the equator than at its rim: no height field.
+    // Wider at the equator than at its rim, hence no height field.
     let mut rim = 0.0_f64;
     let sides = sides(mesh);
     for &(a, _) in sides.keys().filter(|&&(a, b)| !sides.contains_key(&(b, a))) {
@@ -199,12 +199,12 @@ fn the_face_is_a_mask_two_high_and_curved_far_back() {
     let size = high - low;
     assert!((1.8..2.3).contains(&size.y), "{size}");
     assert!(size.z > 0.8, "{size}");
-    // The nose is what stands out most, on the middle line.
+    // The nose protrudes most, on the middle line.
     let tip = mesh.positions.iter().max_by(|a, b| a.z.total_cmp(&b.z)).expect("a vertex");
     assert!(tip.x.abs() < 0.05 && tip.z - 0.2 > 0.5, "{tip}");
 }
 
-/// Sum of squared distances that the best similarity (or its mirror image) leaves, as a share of the targets' own.
+/// Sum of squared distances after the best similarity (or its mirror image), relative to the targets' own sum.
 fn misfit(from: &[DVec2], to: &[DVec2]) -> f64 {
     let mean = |p: &[DVec2]| p.iter().sum::<DVec2>() / p.len() as f64;
     let (a, b) = (mean(from), mean(to));
@@ -231,7 +231,7 @@ fn landmarks_are_distinct_inside_and_on_their_own_side() {
                 "{a:?} {b:?}"
             );
         }
-        // The person looks along +z with y up, so their left is +x, and on the right in a picture of their front.
+        // The face looks along +z with y up. Its left is +x, on the right in a picture of its front.
         let x = mesh.positions[a.vertex.index()].x;
         let right_of_middle = a.target[0] - 0.5;
         if a.name.starts_with("left") {

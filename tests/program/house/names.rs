@@ -1,4 +1,4 @@
-//! Names of public types: each is used once in the workspace.
+//! Names of public types: each is unique in the workspace.
 
 use std::collections::BTreeMap;
 

@@ -1,23 +1,23 @@
 //! Structs and parameters of all crates: few fields, and no tuples of unlike things.
 //!
-//! Functions are kept short by clippy (`clippy.toml`).
+//! Clippy limits the length of functions (`clippy.toml`).
 
 use super::sources::{CRATES, sources};
 
-/// Most fields of a struct.
+/// Largest number of fields in a struct.
 const FIELDS: usize = 12;
 
-/// Structs with these words in their attributes mirror something outside: a file, the command line, a uniform buffer.
+/// Words in the attributes of structs that mirror something external: a file, the command line, a uniform buffer.
 const WIRE: [&str; 5] = ["Serialize", "Deserialize", "Args", "Parser", "Pod"];
 
-/// Lines, one for each offence, over the sources of all crates.
+/// Offences over the sources of all crates, one line each.
 fn offences(find: impl Fn(&str) -> Vec<String>) -> Vec<String> {
     let in_file =
         |path: &str, text: &str| find(text).into_iter().map(|what| format!("{path}: {what}")).collect::<Vec<_>>();
     sources(&CRATES).iter().flat_map(|source| in_file(&source.path, &source.text)).collect()
 }
 
-/// Structs with named fields that have too many of them, with their numbers.
+/// Structs with too many named fields, with their counts.
 fn crowded_structs(text: &str) -> Vec<String> {
     let lines: Vec<&str> = text.lines().collect();
     let mut found = Vec::new();
@@ -52,7 +52,7 @@ fn is_field(line: &str) -> bool {
     is_indented_once && !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_')
 }
 
-/// Pieces of a list between commas that lie in no bracket.
+/// Pieces of a list, split at commas outside brackets.
 fn pieces(list: &str) -> Vec<String> {
     let mut depth = 0_i32;
     let mut pieces = vec![String::new()];
@@ -74,7 +74,7 @@ fn pieces(list: &str) -> Vec<String> {
     pieces.iter().map(|piece| piece.trim().to_owned()).filter(|piece| !piece.is_empty()).collect()
 }
 
-/// Text within the bracket that `text` begins with.
+/// Text within the bracket at the start of `text`.
 fn bracketed(text: &str) -> &str {
     let mut depth = 0_i32;
     for (at, c) in text.char_indices() {

@@ -1,4 +1,4 @@
-//! Source files of the workspace, as the tests of the house read them.
+//! Source files of the workspace, for the tests of the house.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ pub(crate) const CRATES: [&str; 4] =
 /// Folders of all tests.
 pub(crate) const TESTS: [&str; 3] = ["tests", "crates/freebound-core/tests", "crates/freebound-io/tests"];
 
-/// A Rust file.
+/// Rust file.
 pub(crate) struct Source {
     /// Path from the root of the workspace.
     pub(crate) path: String,
@@ -22,7 +22,7 @@ pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// All Rust files of some folders of the workspace, by name.
+/// All Rust files of some folders of the workspace, sorted by name.
 pub(crate) fn sources(folders: &[&str]) -> Vec<Source> {
     let paths: Vec<PathBuf> = folders.iter().flat_map(|folder| rust_files(&root().join(folder))).collect();
     assert!(!paths.is_empty(), "{folders:?} hold no source");
@@ -42,7 +42,7 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     paths.into_iter().flat_map(below).filter(is_rust).collect()
 }
 
-/// A text without its comments. Two slashes within a string stay.
+/// Text without its comments. Two slashes within a string stay.
 pub(crate) fn code_of(text: &str) -> String {
     let is_comment = |line: &str, at: usize| line[..at].matches('"').count().is_multiple_of(2);
     let code = |line: &str| {

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use freebound::session::{Background, JobFailure, Wake};
 
-/// A slot, and what hears its wakes.
+/// Slot, and the receiver of its wakes.
 fn slot<K, T>() -> (Background<K, T>, Receiver<()>) {
     let (sender, woken) = sync_channel(8);
     (Background::new("test", &(Arc::new(move || sender.send(()).unwrap()) as Wake)), woken)

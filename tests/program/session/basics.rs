@@ -1,4 +1,4 @@
-//! A session without a screen: opening, solving, pinning, undoing, saving; and thousands of actions at random.
+//! Session without a screen: opening, solving, pinning, undo, saving; and thousands of random actions.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,14 +16,14 @@ use tempfile::TempDir;
 
 use freebound_testkit::{Random, grid, write_obj};
 
-/// What the background is given before a test fails.
+/// Time limit for the background before a test fails.
 const PATIENCE: Duration = Duration::from_secs(90);
 
 pub(crate) fn session() -> Session {
     Session::new(Arc::new(|| ()), RecentFiles::default())
 }
 
-/// Polls until nothing goes on in the background.
+/// Polls until the background is idle.
 pub(crate) fn settle(session: &mut Session) {
     let start = Instant::now();
     session.poll();
@@ -193,14 +193,14 @@ fn pins_in_a_saved_file_are_the_user_s_own_numbers() {
     assert!(text.lines().any(|line| line == "vt 0.1 0.7"), "written with all digits");
 }
 
-/// A session with what a test has to remember about it.
+/// Session with the state that the test must remember.
 struct Walk {
     session: Session,
     random: Random,
     folder: TempDir,
-    /// The document when the mesh was opened.
+    /// Document when the mesh was opened.
     opening: Document,
-    /// Which mesh that was.
+    /// Revision of the opened mesh.
     revision: u64,
     saves: usize,
 }
@@ -227,7 +227,7 @@ impl Walk {
     }
 
     fn settings(&mut self) -> Settings {
-        // Those that climb to constraints take long where these are at random.
+        // Methods that meet random constraints one-to-one take long, so they are left out.
         let methods: Vec<Method> = Method::ALL.iter().filter(|method| !method.is_one_to_one()).cloned().collect();
         let count = u32::try_from(methods.len()).expect("few");
         let families = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.5), Family::Uniform];
@@ -265,7 +265,7 @@ impl Walk {
         }
     }
 
-    /// Takes steps, and looks at those that there are.
+    /// Takes steps, and shows existing ones.
     fn look(&mut self) -> Action {
         let index = self.random.below(6) as usize;
         match self.random.below(8) {
@@ -294,7 +294,7 @@ impl Walk {
         save(&self.folder, &format!("{}.{extension}", self.saves), kind)
     }
 
-    /// Notes when another mesh was opened: its history begins anew.
+    /// Notes if another mesh was opened, which starts a new history.
     fn note_opening(&mut self) {
         if self.session.model_revision() != self.revision {
             self.revision = self.session.model_revision();
@@ -302,7 +302,7 @@ impl Walk {
         }
     }
 
-    /// What holds whenever nothing goes on in the background.
+    /// Checks invariants of an idle session.
     fn check(&mut self) {
         settle(&mut self.session);
         self.note_opening();
@@ -317,7 +317,7 @@ impl Walk {
         let count = model.mesh().vertex_count() + outcome.new_vertex_count();
         assert_eq!(outcome.step.candidate.solution.embedding.len(), count);
         assert!(outcome.step.candidate.solution.embedding.iter().all(|z| z.is_finite()));
-        // A step on the way to the constraints is planar, and meets them at the end.
+        // A step before the constraints are met is planar, and the last one meets them.
         let is_one_to_one = outcome.step.candidate.stage.is_one_to_one()
             && outcome.step.verdict.planar
             && !outcome.step.unmet().is_empty();
@@ -329,7 +329,7 @@ impl Walk {
         }
     }
 
-    /// All the way back is where it began, and all the way forth where it was.
+    /// Undoing everything restores the initial document, and redoing everything the current one.
     fn check_history(&mut self) {
         let now = self.session.document().clone();
         self.session.handle(Action::EndGesture);

@@ -1,4 +1,4 @@
-//! A session with a mesh of several charts: each is solved and keeps its steps and its pins; all are laid out and proved.
+//! Session with a mesh of several charts: each is solved and keeps its steps and pins; all are laid out and proved.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ use freebound_testkit::many_parts::{disks, interleaved};
 
 const PATIENCE: Duration = Duration::from_secs(90);
 
-/// Five disks in one file, in a folder of their own.
+/// Five disks in one file, in a temporary folder.
 fn with_disks() -> (TempDir, Session) {
     let folder = tempfile::tempdir().unwrap();
     let mut random = Random(9);
@@ -58,7 +58,7 @@ fn count(session: &Session) -> usize {
     session.charts().expect("several charts").count()
 }
 
-/// Pins the first vertices of the chart on the screen.
+/// Pins the first vertices of the shown chart.
 fn pin(session: &mut Session, at: DVec2) -> [VertexId; 2] {
     let vertices = [VertexId::new(0), VertexId::new(1)];
     for (vertex, by) in vertices.into_iter().zip([0.0, 0.25]) {
@@ -340,7 +340,7 @@ fn a_chart_asked_for_before_it_is_there_comes_and_pins_never_go_to_another() {
     let first = session.chart_on_screen().expect("one of five");
     let next = (first + 3) % 5;
     session.handle(Action::ShowChart(next));
-    // Whichever chart is on the screen by now, the pin is of that.
+    // The pin belongs to the chart that is now shown, whichever it is.
     let shown = session.chart_on_screen().expect("one of five");
     session.handle(Action::Place { vertex: VertexId::new(2), target: Target::hard(DVec2::splat(0.5)) });
     until_laid_out(&mut session);

@@ -1,4 +1,4 @@
-//! Constraints in a session: the flattener's last stages in the background, relaxing, conflicts, mirrored targets, new
+//! Constraints in a session: the last stages in the background, relaxation, conflicts, mirrored targets, new
 //! vertices in an outcome.
 
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ pub(crate) fn id(number: u32) -> VertexId {
     VertexId::new(number)
 }
 
-/// A session with a flat grid of 8 × 8 squares.
+/// Session with a flat grid of 8 × 8 squares.
 pub(crate) fn with_grid() -> Session {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("grid.obj");
@@ -35,8 +35,8 @@ pub(crate) fn place(session: &mut Session, pins: &[(u32, DVec2)]) {
     }
 }
 
-/// The corners of the grid where they are, and four vertices around its middle turned by a quarter: the linear solve
-/// folds.
+/// Targets for the corners of the grid in place, and four vertices around its middle rotated by a quarter turn. The
+/// linear solve folds.
 fn twist() -> Vec<(u32, DVec2)> {
     let at = |x: f64, y: f64| DVec2::new(x, y);
     let corners = [(0, at(0.0, 0.0)), (8, at(8.0, 0.0)), (72, at(0.0, 8.0)), (80, at(8.0, 8.0))];
@@ -44,7 +44,7 @@ fn twist() -> Vec<(u32, DVec2)> {
     corners.into_iter().chain(ring).collect()
 }
 
-/// Whether all exact pins of the newest step are on their targets, to the last bit, and it is planar.
+/// True if all hard pins of the newest step are met bitwise, and it is planar.
 fn is_solved(session: &Session) -> bool {
     let outcome = session.outcome().expect("solved");
     let embedding = &outcome.step.candidate.solution.embedding;
@@ -72,7 +72,7 @@ fn a_hard_set_of_constraints_ends_planar_by_itself() {
 fn a_run_that_is_stopped_on_its_way_keeps_a_planar_step_and_can_go_on() {
     let mut session = with_grid();
     place(&mut session, &twist());
-    // Whatever is computed meanwhile, no later than at the first planar step it is asked to rest.
+    // Pauses after the first planar step of the continuation, whatever is computed meanwhile.
     let begun = Instant::now();
     while !session
         .timeline()
@@ -103,7 +103,7 @@ fn relaxing_lowers_the_energy_and_keeps_the_constraints() {
     let timeline = session.timeline();
     let relaxed = &timeline.records()[before + 1..];
     assert!(!relaxed.is_empty() && relaxed.iter().all(|record| record.stage == Stage::Relax && record.planar));
-    // From the step that arrived on, rounds that follow by themselves included.
+    // Counted from the first step that meets the constraints, automatic rounds included.
     let arrived =
         timeline.records().iter().rposition(|record| record.stage == Stage::Continuation).expect("it arrived");
     let energies: Vec<f64> =
@@ -159,7 +159,7 @@ fn what_is_one_to_one_but_for_concave_polygons_can_be_relaxed() {
     assert!(session.timeline().records().iter().any(|record| record.stage == Stage::Relax));
 }
 
-/// A face's corners with targets that turn it over.
+/// Corners of a face, with targets that flip it.
 fn turned() -> [(u32, DVec2); 3] {
     [(30, DVec2::new(3.0, 3.0)), (31, DVec2::new(3.0, 4.0)), (40, DVec2::new(4.0, 3.0))]
 }
@@ -195,7 +195,7 @@ fn without_new_vertices_the_best_planar_step_stays_and_the_unmet_constraints_are
     assert!(message.remedy.as_ref().is_some_and(|remedy| remedy.contains("allow new vertices")), "{message:?}");
 }
 
-/// Polls until the targets have been looked at.
+/// Polls until the targets have been checked.
 fn until_mirrored(session: &mut Session) {
     let begun = Instant::now();
     while !session.targets_look_mirrored() {
@@ -218,13 +218,13 @@ fn mirrored_targets_are_asked_about_until_they_are_mirrored_back() {
     assert!(session.targets_look_mirrored());
 }
 
-/// A grid of one square, its diagonal split in the middle.
+/// Grid of one square with its diagonal split in the middle.
 fn split_square() -> (DiskMesh, Arc<Refinement>) {
     let disk = DiskMesh::try_from(grid(1, 1)).expect("a disk");
     let new = NewVertex { edge: [id(0), id(3)], at: 0.5 };
     let parts = disk.faces().map(|face| {
         let corners = disk.face(face);
-        // The corner that is not on the diagonal, with the halves of the diagonal.
+        // The corner off the diagonal, with the halves of the diagonal.
         let place = corners.iter().position(|v| ![id(0), id(3)].contains(v)).expect("each face has one");
         let [apex, a, b] = [corners[place], corners[(place + 1) % 3], corners[(place + 2) % 3]];
         (face, vec![[apex, a, id(4)], [apex, id(4), b]])

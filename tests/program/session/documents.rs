@@ -1,4 +1,4 @@
-//! What belongs to a mesh in a session: pictures, constraint files, all targets together, faces turned around.
+//! Data of a mesh in a session: pictures, constraint files, all targets together, turned faces.
 
 use std::path::{Path, PathBuf};
 
@@ -33,7 +33,7 @@ pub(crate) fn write_picture(path: &Path, width: u32, height: u32) {
     freebound_io::raster::write_png(&picture, &mut std::fs::File::create(path).unwrap()).unwrap();
 }
 
-/// A session with a dome of 7 × 5 vertices, in a folder of its own.
+/// Session with a dome of 7 × 5 vertices, in a temporary folder.
 pub(crate) fn with_dome() -> (TempDir, Session) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("dome.obj");
@@ -159,7 +159,7 @@ fn mirrored_targets_keep_their_box_and_twice_mirrored_their_places() {
     assert_eq!(*session.document(), before, "each is one step of undo");
 }
 
-/// By which complex number three points are turned and scaled to three others, going by either of two sides.
+/// Complex numbers by which three points are rotated and scaled to three others, measured along two sides.
 fn turns(from: [DVec2; 3], to: [DVec2; 3]) -> [DVec2; 2] {
     [1, 2].map(|end| {
         let (a, b) = (from[end] - from[0], to[end] - to[0]);

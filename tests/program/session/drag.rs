@@ -1,4 +1,4 @@
-//! Dragging pins: what follows the pointer, its proof, rest and end.
+//! Dragging pins: the embedding under the pointer, its proof, pause and end.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use glam::DVec2;
 
 use super::basics::{opened, settle, settled};
 
-/// The pins of a drag on a mesh with three constraints and one that pulls.
+/// Session for a drag on a mesh with three constraints and a soft pin.
 fn with_constraints() -> Session {
     let mut session = opened(Example::Dome);
     for (number, place, kind) in [
@@ -27,14 +27,14 @@ fn with_constraints() -> Session {
     session
 }
 
-/// The same with the method whose only step is the linear solve.
+/// Session whose method has the linear solve as its only step.
 fn with_linear_method() -> Session {
     let mut session = with_constraints();
     settled(&mut session, Action::SetSettings(Settings::new(Method::Natural, Family::default())));
     session
 }
 
-/// The embedding that the document's first solve gives.
+/// Embedding of the document's first solve.
 fn first_solve(session: &Session) -> Embedding {
     let document = session.document();
     let disk = session.model().expect("open").disk().expect("a disk");

@@ -1,4 +1,5 @@
-//! Edits on a planar map: they go on from it, undo and redo show again what was there, and a solve from scratch knows nothing of it.
+//! Edits on a planar map: solves continue from it, undo and redo show earlier results again, and a solve from
+//! scratch ignores it.
 
 use std::sync::Arc;
 
@@ -13,7 +14,7 @@ use glam::DVec2;
 use super::basics::{opened, session, settle, settled};
 use freebound_testkit::{grid, write_obj};
 
-/// A dome with five hard constraints: four at the boundary, drawn apart, and one inside. And a vertex for a sixth.
+/// Dome with five hard constraints: four at the boundary, pulled apart, and one inside. Also a vertex for a sixth.
 struct Dome {
     session: Session,
     sixth: VertexId,
@@ -37,14 +38,14 @@ impl Dome {
         embedding(&self.session).bounds().extent()
     }
 
-    /// Places the sixth, a little beside where it lies.
+    /// Pins the sixth vertex a little off its position.
     fn place_sixth(&mut self) {
         let uv = embedding(&self.session)[self.sixth] + 0.05 * self.width() * DVec2::Y;
         settled(&mut self.session, Action::Place { vertex: self.sixth, target: Target::hard(uv) });
     }
 }
 
-/// The targets of five vertices, and the one inside with another beside it.
+/// Targets of five vertices; the inner one, and a vertex beside it.
 fn five_pins(disk: &DiskMesh, flat: &Embedding) -> (Vec<(VertexId, Target)>, [VertexId; 2]) {
     let (middle, extent) = (flat.bounds().middle(), flat.bounds().extent());
     let nearest = |z: DVec2| {
@@ -66,7 +67,7 @@ fn stages(session: &Session) -> Vec<Stage> {
     session.timeline().records().iter().map(|record| record.stage.clone()).collect()
 }
 
-/// Whether the map on the screen is planar and meets all constraints.
+/// True if the shown map is planar and meets all constraints.
 fn is_solved(session: &Session) -> bool {
     let step = &session.outcome().expect("solved").step;
     session.is_current() && step.verdict.planar && step.unmet().is_empty()
@@ -91,7 +92,7 @@ fn placing_a_sixth_landmark_keeps_the_others_where_they_are_and_takes_few_steps(
     let moved = largest_move(&before, &embedding(session));
     assert!(moved < 0.12 * width, "a pin that goes by 0.05 moves the map by {} of its width", moved / width);
     let note = session.timeline().records()[0].note.as_deref().expect("it is said");
-    assert!(note.contains("goes on from"), "{note}");
+    assert!(note.contains("continued from"), "{note}");
 }
 
 #[test]
@@ -120,7 +121,7 @@ fn freeing_and_weighting_a_constraint_go_on_too() {
             stages(session)
         );
     }
-    // Exact, two pins only say where a map lies.
+    // Two hard pins only fix position, size and rotation of a map.
     let pinned: Vec<VertexId> = session.document().targets.keys().copied().filter(|v| *v != inside).collect();
     settled(session, Action::SetPinKind { vertices: vec![inside], kind: PinKind::Hard });
     settled(session, Action::Unpin(pinned[..3].to_vec()));
@@ -159,7 +160,7 @@ fn undo_and_redo_bring_back_the_same_bytes_and_solve_nothing() {
     states.push(embedding(&dome.session));
     let (vertex, width) = (dome.inside, dome.width());
     let session = &mut dome.session;
-    // A drag, in two moves.
+    // A drag in two moves.
     let from = session.document().targets[&vertex].uv;
     for share in [0.02, 0.04] {
         settled(session, Action::MovePin { vertex, target: from + share * width * DVec2::X });
@@ -184,7 +185,7 @@ fn undo_and_redo_bring_back_the_same_bytes_and_solve_nothing() {
             shows_at_once(session, Action::Redo, state);
         }
     }
-    // The run that is shown again can be taken on.
+    // The run that is shown again can be continued.
     settled(session, Action::Undo);
     let count = stages(session).len();
     settled(session, Action::Step);
@@ -224,7 +225,7 @@ fn a_solve_afresh_gives_the_same_bytes_as_a_fresh_session() {
     write_obj(&mesh, &grid(8, 8));
     let mut edited = session();
     settled(&mut edited, Action::Open(mesh.clone()));
-    // Turned so far that the first solve folds: the planar start is wanted, too.
+    // Rotated so far that the first solve folds, so the planar start is needed too.
     let at = |x: f64, y: f64| DVec2::new(x, y);
     let corners = [(0, at(0.0, 0.0)), (8, at(8.0, 0.0)), (72, at(0.0, 8.0)), (80, at(8.0, 8.0))];
     let ring = [(30, at(5.0, 3.0)), (32, at(5.0, 5.0)), (48, at(3.0, 3.0)), (50, at(3.0, 5.0))];

@@ -1,4 +1,4 @@
-//! What tells faces of a file apart, and the edges where faces of two kinds meet.
+//! Labels of faces in a file, and the edges between faces with different labels.
 
 use freebound::session::Model;
 use freebound_core::mesh::{Preparation, Repairs, VertexId, borders};
@@ -42,7 +42,7 @@ fn borders_are_edges_of_faces_with_two_labels() {
     assert_eq!(found, [[1, 6], [2, 7]].map(|edge| edge.map(VertexId::new)));
 }
 
-/// A sheet whose lower and upper squares are two primitives of one mesh, shown by so many nodes.
+/// Sheet whose lower and upper squares are two primitives of one mesh, shown by `nodes` nodes.
 fn two_primitives(materials: [Value; 2], nodes: usize) -> Model {
     let mut maker = GlbMaker::new();
     let (positions, _, indices) = sheet(4);

@@ -1,4 +1,4 @@
-//! Files that the session remembers, and what it says in those that it writes.
+//! Files that the session remembers, and the contents of files that it writes.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -37,7 +37,7 @@ fn a_broken_list_is_an_empty_one() {
     assert!(RecentFiles::load(store).paths().is_empty());
 }
 
-/// The dome's first step with hard pins, on a picture twice as wide as high.
+/// First step of the dome with hard pins, on a picture twice as wide as high.
 fn first_step() -> Outcome {
     let model = Model::example(Example::Dome);
     let mesh = model.disk().expect("a dome is a disk");
@@ -50,7 +50,7 @@ fn first_step() -> Outcome {
     Outcome::new(mesh, problem, step)
 }
 
-/// The largest error of the hard pins that the report tells.
+/// Largest error of the hard pins in the report.
 fn reported(outcome: &Outcome) -> Option<f64> {
     let model = Model::example(Example::Dome);
     let finished = model.finished(outcome, Vec::new(), Fit::Unit);
@@ -83,7 +83,7 @@ fn every_format_stands_in_its_own_row_of_the_table() {
     }
 }
 
-/// A folder with a mesh that has materials, and with constraints; a session with both, a picture, and a project.
+/// Folder with a mesh with materials, and with constraints; session with both, a picture, and a project.
 fn with_open_files() -> (TempDir, Session) {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
@@ -123,7 +123,7 @@ fn what_is_open_is_not_written_over() {
         let mut requests: Vec<Action> = [OutputKind::Obj, OutputKind::Svg, OutputKind::Png, OutputKind::Json]
             .map(|kind| Action::Save(SaveRequest { path: path.clone(), kind, fit: Fit::Unit }))
             .into();
-        // Project and constraints may be brought up to date.
+        // Project and constraints may be overwritten.
         requests.extend((name != "work.freebound").then(|| Action::SaveProject(path.clone())));
         requests.extend((name != "pins.txt").then(|| Action::ExportConstraints(path.clone())));
         for request in requests {

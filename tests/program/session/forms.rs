@@ -1,4 +1,5 @@
-//! The form of the mesh in a session: pins go along with every change of it, and nothing is read by the numbers of another form.
+//! Preparation of the mesh in a session: pins follow every change of it, and no number of another preparation is
+//! used.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -15,10 +16,10 @@ use super::basics::{session, settle, settled};
 use crate::cli::program::obj_text;
 use freebound_testkit::{grid, write_obj};
 
-/// The gap between two sheets.
+/// Gap between two sheets.
 const GAP: f64 = 1.0 / 2_097_152.0;
 
-/// Two sheets of 3×2 squares in one file, side by side with a gap between them, the right one first in the file.
+/// Two sheets of 3×2 squares in one file, side by side with a gap, the right one first in the file.
 fn two_sheets() -> PolygonMesh {
     let left = grid(3, 2);
     let mut positions: Vec<DVec3> = left.positions.iter().map(|p| *p + (3.0 + GAP) * DVec3::X).collect();
@@ -39,7 +40,7 @@ fn with_two_sheets() -> (TempDir, Session) {
     (folder, session)
 }
 
-/// A session with a sheet of 4×2 squares that is cut twice, after the pins of two corners were placed.
+/// Session with a sheet of 4×2 squares that is cut twice, after two corners were pinned.
 fn cut_twice() -> (TempDir, Session) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("sheet.obj");
@@ -68,7 +69,7 @@ fn chart_count(session: &Session) -> usize {
     session.model().expect("open").chart_count()
 }
 
-/// Where the pins of all charts are on the mesh, each with its u, as an exported file has them.
+/// Positions on the mesh of the pins of all charts, each with its u, from an exported file.
 fn places(folder: &TempDir, session: &mut Session) -> Vec<(DVec3, f64)> {
     let path = folder.path().join("pins.txt");
     settled(session, Action::ExportConstraints(path.clone()));
@@ -228,8 +229,8 @@ fn the_mesh_is_cut_once_while_pins_are_dragged_and_the_cut_follows_the_drag() {
     settled(&mut session, Action::Undo);
     session.handle(Action::MovePin { vertex: VertexId::new(4), target: DVec2::new(0.5, 0.25) });
     session.handle(Action::SetSeams(Seams::default().with([edge(7, 2), edge(7, 12)])));
-    assert_eq!(session.busy(), Some(Busy::Job("cutting or mending the mesh")));
-    // Were it cut again and again, there would be no end of it.
+    assert_eq!(session.busy(), Some(Busy::Job("cutting or repairing the mesh")));
+    // If the mesh were cut repeatedly, this would never return.
     settle(&mut session);
     assert_eq!(chart_count(&session), 1);
     settled(&mut session, Action::EndGesture);

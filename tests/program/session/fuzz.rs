@@ -1,4 +1,4 @@
-//! Ten thousand actions at random, with good and bad input: what holds after each of them, and what holds at rest.
+//! Ten thousand random actions, with good and bad input: invariants after each action, and of the idle session.
 
 use std::path::PathBuf;
 
@@ -18,16 +18,16 @@ use freebound_testkit::Random;
 
 const ACTIONS: u32 = 10_000;
 
-/// After so many actions the session is given time to come to rest.
+/// Number of actions after which the session gets time to become idle.
 const REST: u32 = 40;
 
 struct Fuzz {
     session: Session,
     random: Random,
     folder: TempDir,
-    /// Projects that were asked for.
+    /// Number of requested projects.
     saves: u32,
-    /// Drags from beginning to end that were looked at.
+    /// Number of complete drags that were checked.
     drags: u32,
 }
 
@@ -60,14 +60,14 @@ impl Fuzz {
         self.at(names[chosen])
     }
 
-    /// Mostly one of the mesh's.
+    /// Random vertex, mostly a valid one.
     fn vertex(&mut self) -> VertexId {
         let count = self.session.model().map_or(1, |model| model.mesh().vertex_count());
         let beyond = u32::from(self.random.below(20) == 0);
         id(self.random.below(u32::try_from(count).expect("small") + beyond))
     }
 
-    /// Mostly a pinned one.
+    /// Random vertex, mostly a pinned one.
     fn pinned(&mut self) -> VertexId {
         let pins: Vec<VertexId> = self.session.document().targets.keys().copied().collect();
         let any = self.vertex();
@@ -95,7 +95,7 @@ impl Fuzz {
     }
 
     fn settings(&mut self) -> Settings {
-        // Those that climb to constraints take long where these are at random.
+        // Methods that meet random constraints one-to-one take long, so they are left out.
         let methods: Vec<Method> = Method::ALL.iter().filter(|method| !method.is_one_to_one()).cloned().collect();
         let count = u32::try_from(methods.len()).expect("few");
         let families = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.5), Family::Uniform];
@@ -154,7 +154,7 @@ impl Fuzz {
         }
     }
 
-    /// Takes steps, and looks at those that there are.
+    /// Takes steps, and shows existing ones.
     fn look(&mut self) -> Action {
         let index = self.random.below(6) as usize;
         match self.random.below(6) {
@@ -171,7 +171,7 @@ impl Fuzz {
         Action::Save(SaveRequest { path, kind: OutputKind::Obj, fit: Fit::Unit })
     }
 
-    /// What holds after every action.
+    /// Checks invariants after every action.
     fn check(&self) {
         let Document { targets: pins, .. } = self.session.document();
         let count = self.session.model().map_or(0, |model| model.mesh().vertex_count());
@@ -192,7 +192,7 @@ impl Fuzz {
         }
     }
 
-    /// What holds when nothing goes on.
+    /// Checks invariants of an idle session.
     fn check_at_rest(&mut self) {
         self.session.handle(Action::EndGesture);
         settle(&mut self.session);
@@ -210,7 +210,7 @@ impl Fuzz {
         let (Some(outcome), Some(model)) = (self.session.outcome(), self.session.model()) else { return };
         let disk = model.disk().expect("only a disk is solved");
         assert!(outcome.step.candidate.solution.embedding.iter().all(|z| z.is_finite()));
-        // A run that was cancelled on its way is shown again as it stood.
+        // A cancelled run is shown again in its last state.
         let is_on_its_way = outcome.step.is_of_planar_start() || self.session.can_run();
         if !self.session.is_current() || !outcome.problem.settings.method.uses_pins() || is_on_its_way {
             return;
@@ -235,7 +235,7 @@ impl Fuzz {
         }
     }
 
-    /// A whole drag of a pin: one step of undo, and no constraint is lost.
+    /// Complete drag of a pin: a single undo step, and no lost constraint.
     fn drag(&mut self) {
         self.session.handle(Action::EndGesture);
         settle(&mut self.session);

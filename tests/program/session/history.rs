@@ -1,4 +1,4 @@
-//! Undo and redo: what is one step, and what is none.
+//! Undo and redo: actions that form one step, and actions that form none.
 
 use freebound::session::{Command, Document, History};
 use freebound_core::mesh::VertexId;

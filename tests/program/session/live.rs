@@ -1,4 +1,4 @@
-//! A drag on a planar sheet: every frame planar, and nothing jumps, neither at its beginning nor at its end.
+//! Drag on a planar embedding: every frame is planar, and nothing jumps at the start or at the end.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use glam::DVec2;
 
 use super::basics::{opened, settle, settled};
 
-/// A dome with constraints that its map meets, planar: four at the boundary, and two inside.
+/// Dome whose planar map meets its constraints: four at the boundary, and two inside.
 fn planar() -> (Session, Arc<DiskMesh>, [VertexId; 2]) {
     let mut session = opened(Example::Dome);
     let disk = Arc::clone(session.model().expect("open").disk().expect("a disk"));
@@ -134,7 +134,7 @@ fn a_pin_dragged_over_another_says_which_is_in_its_way() {
 fn what_is_not_planar_follows_from_where_it_is() {
     let (mut session, _, [vertex, other]) = planar();
     settled(&mut session, Action::SetSettings(Settings::new(Method::Iterate, Family::default())));
-    // Beyond one another they fold the first step, with which the method begins.
+    // Past one another they fold the first step, with which the method begins.
     let over = session.document().targets[&other].uv;
     let from = session.document().targets[&vertex].uv;
     settled(
@@ -150,7 +150,7 @@ fn what_is_not_planar_follows_from_where_it_is() {
         let preview = session.preview().expect("it follows");
         assert!(preview.live.is_none());
         assert_eq!(preview.embedding[vertex], target);
-        // The first solve answers a pin between others by more than its way.
+        // Other vertices may move farther than the pin, since it lies between other pins.
         let jump = largest_move(&before, &preview.embedding);
         assert!(jump < 50.0 * way * size, "{jump} for {way}");
     }

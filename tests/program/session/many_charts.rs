@@ -1,4 +1,4 @@
-//! The charts of a mesh: which faces, corners and vertices each has.
+//! Charts of a mesh: the faces, corners and vertices of each.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,8 @@ fn with_all_repairs(source: &PolygonMesh) -> Charts {
     Charts::of(Preparation::default().with_all_repairs().repaired(source)).expect("all parts become disks")
 }
 
-/// Every corner of the mesh as given is one corner of one chart, at its own position; a face's corners stay together.
+/// Asserts that every corner of the given mesh is one corner of one chart, at its own position, and that faces stay
+/// whole.
 #[track_caller]
 fn assert_partition(source: &PolygonMesh, charts: &Charts) {
     let mut seen = vec![false; source.corners.len()];
@@ -44,7 +45,7 @@ fn assert_partition(source: &PolygonMesh, charts: &Charts) {
     assert!(first_faces.is_sorted(), "{first_faces:?}");
 }
 
-/// Vertices of a chart know those of the whole, and these know them.
+/// Asserts that the vertex numbers of a chart and of the whole map to each other.
 #[track_caller]
 fn assert_vertices(charts: &Charts, number: usize) {
     let chart = charts.chart(number);

@@ -1,4 +1,4 @@
-//! A mesh that is no disk, mended in a session: undone, repeated, saved and opened again.
+//! Mesh that is not a disk, repaired in a session: undone, redone, saved and opened again.
 
 use freebound::session::{Action, MessagePlace, Session};
 use freebound_core::mesh::{Fault, PolygonMesh, Preparation, Repair, Repairs, WeldDistance};
@@ -11,7 +11,7 @@ use super::documents::errors;
 use crate::cli::program::obj_text;
 use freebound_testkit::{tetrahedron, write_obj};
 
-/// A session with a tetrahedron, in a folder of its own.
+/// Session with a tetrahedron, in a temporary folder.
 fn with_closed() -> (TempDir, Session) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("closed.obj");

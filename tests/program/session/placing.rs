@@ -1,4 +1,4 @@
-//! Placing never folds, and `auto` goes on until the map serves: on disks so deep that every rounding tells.
+//! Placing never folds, and `auto` continues until the map is usable: on disks so deep that all rounding matters.
 
 use freebound_core::bijective::schnyder;
 use freebound_core::flatten::{Ending, FlattenError, Options, Step, flatten};
@@ -12,10 +12,10 @@ use proptest::prelude::*;
 
 use freebound_testkit::{Random, disk, fan, grid, hand, stacked, tube};
 
-/// Pictures from a tall one to a wide one.
+/// Aspect ratios from a tall picture to a wide one.
 const ASPECTS: [f64; 7] = [1.0 / 9.0, 0.3, 0.7, 1.0, 1.1, 16.0 / 9.0, 16.0];
 
-/// A flattening for a picture, by `auto`.
+/// Flattening for a picture, by `auto`.
 fn on_picture(aspect: f64, targets: Targets) -> Problem {
     let frame = PictureFrame { aspect, v_axis: VAxis::Up };
     let [low, high] = frame.corners();
@@ -29,7 +29,7 @@ fn steps_of(mesh: &DiskMesh, problem: &Problem) -> (Vec<Step>, Ending) {
     (steps, ending)
 }
 
-/// The last step is planar as it is written, in 64 bits and in 32, every pin on its number. Returns the steps.
+/// Asserts that the last step is planar as written, in 64 bits and in 32, with every pin met. Returns the steps.
 fn assert_proved(name: &str, mesh: &DiskMesh, problem: &Problem) -> Vec<Step> {
     let (steps, ending) = steps_of(mesh, problem);
     let last = steps.last().expect("a ladder gives steps");
@@ -45,7 +45,7 @@ fn assert_proved(name: &str, mesh: &DiskMesh, problem: &Problem) -> Vec<Step> {
     steps
 }
 
-/// Targets of so many vertices, spread over the mesh and over the picture.
+/// Targets of `count` vertices, spread over the mesh and over the picture.
 fn targets_on(mesh: &DiskMesh, count: usize, random: &mut Random) -> Targets {
     let vertex = |k: usize| VertexId::from_index(k * mesh.vertex_count() / count);
     (0..count).map(|k| (vertex(k), Target::hard(DVec2::new(random.unit(), random.unit())))).collect()
@@ -74,7 +74,7 @@ fn a_pin_at_a_tenth_and_a_pin_far_away_keep_a_deep_disk_planar() {
         assert_eq!(ending, Ending::Planar);
         assert_eq!(last.candidate.solution.embedding[0], DVec2::from(at));
         assert!(is_planar(&mesh, &last.candidate.solution.embedding));
-        // So far away 32 bits have no digits left for a disk of this size.
+        // At this distance 32 bits have no digits left for a disk of this size.
         assert_eq!(last.verdict.planar_in_f32, is_near);
     }
 }
@@ -201,7 +201,7 @@ proptest! {
         assert_proved(&format!("{count} {newest} {seed}, {pins} pins"), &mesh, &on_picture(aspect, targets));
     }
 
-    /// The grid drawing by any similarity at all: what it comes from is planar, so is what is placed.
+    /// Any similarity of the grid drawing: the drawing is planar, hence so is its placed image.
     #[test]
     fn random_tubes_are_planar_wherever_they_are_placed(
         around in 3_u32..8,

@@ -1,4 +1,4 @@
-//! Projects: everything comes back, what has changed is said, and the session knows what is saved.
+//! Projects: everything is restored, changes are reported, and the session tracks unsaved work.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ fn reopened(path: &Path) -> Session {
     session
 }
 
-/// A dome with everything that a project holds.
+/// Dome with everything that a project contains.
 fn with_everything() -> (TempDir, Session) {
     let (folder, mut session) = with_dome();
     fs::create_dir(folder.path().join("pictures")).unwrap();
@@ -253,7 +253,7 @@ fn a_missing_and_a_changed_picture_are_said() {
     fs::remove_file(&picture).unwrap();
     let session = reopened(&project_in(&folder));
     assert!(session.document().picture.is_none() && session.document().targets.len() == 3);
-    assert!(errors(&session)[0].contains("is not there") && errors(&session)[0].contains("ä b.png"));
+    assert!(errors(&session)[0].contains("does not exist") && errors(&session)[0].contains("ä b.png"));
 }
 
 #[test]
@@ -269,7 +269,7 @@ fn saving_a_project_without_its_picture_keeps_the_picture_s_name_in_the_file() {
     assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().picture, before);
 }
 
-/// What is said of a project file with this text.
+/// Messages on a project file with this text.
 fn said_of(text: &str) -> (String, Option<String>) {
     let folder = tempfile::tempdir().unwrap();
     fs::write(project_in(&folder), text).unwrap();
@@ -318,10 +318,10 @@ fn faults_of_a_project_name_line_and_field() {
 #[test]
 fn a_newer_project_is_refused_by_name_and_other_files_are_no_projects() {
     let (text, remedy) = said_of("{\"freebound_project\": 2, \"mesh\": 7}");
-    assert!(text.contains("newer Freebound") && text.contains("its format is 2"), "{text}");
+    assert!(text.contains("project format 2 is too new"), "{text}");
     assert!(remedy.is_some_and(|remedy| remedy.contains("newer version")));
     for other in ["", "v 1 2 3\n", "{}", "[1, 2]", "{\"freebound_project\": 0}"] {
-        assert!(said_of(other).0.contains("no Freebound project"), "{other}");
+        assert!(said_of(other).0.contains("not a Freebound project"), "{other}");
     }
 }
 
@@ -341,7 +341,7 @@ fn the_stamp_of_abc_is_that_of_the_standard() {
     let path = folder.path().join("abc");
     fs::write(&path, "abc").unwrap();
     let stamp = FileStamp::read(&path).unwrap();
-    // FIPS 180-4, the example of one block.
+    // FIPS 180-4, the one-block example.
     let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
     assert_eq!((stamp.bytes, stamp.sha256.as_str()), (3, expected));
 }

@@ -1,4 +1,4 @@
-//! Copies for recovery, and sessions that are killed: at any moment the disk holds something whole.
+//! Recovery copies, and killed sessions: at any moment the disk has a complete version.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,17 +13,18 @@ use glam::DVec2;
 use super::basics::{session, settle, settled};
 use super::documents::{errors, id, place, with_dome, write_dome};
 
-/// Tells a child process which folder to work in.
+/// Environment variable with the folder of a child process.
 const FOLDER_OF_CHILD: &str = "FREEBOUND_TEST_FOLDER";
 
-/// More than the time between two copies.
+/// Longer than the time between two copies.
 const LONG: Duration = Duration::from_mins(1);
 
-/// How often a process is killed: at least, and at most where one of its two projects was not seen yet.
+/// Number of times a process is killed. It is a lower bound, extended up to the maximum until both projects were
+/// seen.
 const KILLS: u32 = 36;
 const MOST_KILLS: u32 = 10 * KILLS;
 
-/// Polls at a time until the copies in a folder have so many pins each.
+/// Polls until the copies in a folder have these numbers of pins.
 fn until_copies(session: &mut Session, now: Instant, (store, pins): (&Path, &[usize])) {
     let begun = Instant::now();
     while pins_in_copies(store) != pins {
@@ -160,17 +161,17 @@ fn a_folder_that_takes_no_copies_is_said_once() {
         session.poll_at(Instant::now() + round * LONG);
         session.poll();
     }
-    assert_eq!(errors(&session).iter().filter(|text| text.contains("no copy is kept")).count(), 1);
+    assert_eq!(errors(&session).iter().filter(|text| text.contains("no recovery copy is kept")).count(), 1);
 }
 
-/// Starts this very program as a child that runs one test in a folder.
+/// Starts this test program as a child that runs one test in a folder.
 fn child(test: &str, folder: &Path) -> Child {
     let mut command = Command::new(std::env::current_exe().unwrap());
     command.args(["--ignored", "--exact", test]).env(FOLDER_OF_CHILD, folder);
     command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the tests can be started")
 }
 
-/// Kills a child at some moment after it has begun to write, later each round.
+/// Kills a child some time after its first write, later in each round.
 fn killed(mut child: Child, sign: &Path, round: u32) {
     let begun = Instant::now();
     while !sign.exists() {
@@ -182,7 +183,7 @@ fn killed(mut child: Child, sign: &Path, round: u32) {
     child.wait().unwrap();
 }
 
-/// Opens the dome and pins so many vertices, each at its own number.
+/// Opens the dome and pins `count` vertices, each at a numbered target.
 fn with_pins(folder: &Path, count: u32) -> Session {
     let mut session = session();
     settled(&mut session, Action::Open(folder.join("dome.obj")));
@@ -215,7 +216,7 @@ fn a_project_is_whole_whenever_its_writer_is_killed() {
     write_dome(&folder.path().join("dome.obj"), 6, 4);
     let (path, sign) = (folder.path().join("work.freebound"), folder.path().join("sign"));
     let mut seen = [0, 0];
-    // A machine with much other work may give all kills to one of the projects: then there are more, later ones.
+    // On a busy machine all kills may hit one of the projects; further, later ones follow.
     for round in 0..MOST_KILLS {
         if round >= KILLS && !seen.contains(&0) {
             break;

@@ -1,4 +1,4 @@
-//! A run in a session: steps one by one and by themselves, pause, stop conditions, edits while it goes on.
+//! Run in a session: single steps and continuous steps, pause, stop conditions, edits during the run.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use glam::DVec2;
 use super::basics::{opened, session, settle, settled};
 use freebound_testkit::{grid, write_obj};
 
-/// Neither proof nor standstill ends a run: it goes on to the limit of steps.
+/// Stop conditions without proof and stall: a run continues to the limit of steps.
 const ON_AND_ON: StopConditions = StopConditions { planar: false, stalled: false, crossing: false, at_step: None };
 
 fn step_count(session: &Session) -> usize {
@@ -27,7 +27,7 @@ fn embedding(session: &Session) -> Embedding {
     session.outcome().expect("solved").step.candidate.solution.embedding.clone()
 }
 
-/// What the document's method gives where nothing interrupts it.
+/// Steps of the document's method without interruption.
 fn uninterrupted(session: &Session, count: usize) -> Vec<Step> {
     let disk = session.model().expect("open").disk().expect("a disk");
     let document = session.document();
@@ -35,7 +35,7 @@ fn uninterrupted(session: &Session, count: usize) -> Vec<Step> {
     (0..count).map(|_| run.step(disk, Control::unattended()).expect("solvable")).collect()
 }
 
-/// Polls until the run has at least so many steps.
+/// Polls until the run has at least `count` steps.
 fn until_step(session: &mut Session, count: usize) {
     while step_count(session) < count {
         assert!(
@@ -49,7 +49,7 @@ fn until_step(session: &mut Session, count: usize) {
     }
 }
 
-/// An example with a run of many steps: iterations that no proof ends.
+/// Session with a run of many steps: iterations that no proof ends.
 fn with_long_run(max_steps: usize) -> Session {
     let mut session = opened(Example::BumpyCap);
     settled(&mut session, Action::SetStop(ON_AND_ON));
@@ -154,7 +154,7 @@ fn a_pause_takes_effect_within_a_step_of_a_large_mesh() {
         until_step(&mut session, count + 1);
     }
     println!("paused after {longest:?} at most");
-    // Ten times what it has to take on an idle machine: tests run side by side.
+    // Ten times the limit for an idle machine, since tests run in parallel.
     assert!(longest < Duration::from_secs(1), "{longest:?}");
 }
 
@@ -213,7 +213,7 @@ fn a_run_stops_where_the_boundary_crosses_itself() {
     for (vertex, Pin { target, .. }) in pins {
         session.handle(Action::Place { vertex, target: Target::hard(target) });
     }
-    // From a planar map on, no step would cross.
+    // Starting from a planar map, no step would cross.
     settled(&mut session, Action::Solve);
     assert_eq!(session.stopped(), Some(RunStop::Crossing));
     let count = step_count(&session);
@@ -221,7 +221,7 @@ fn a_run_stops_where_the_boundary_crosses_itself() {
     assert!(step_count(&session) > count, "asked again, it goes on");
 }
 
-/// Three neighbours on the boundary, the middle one pulled through to the other side.
+/// Three neighbours on the boundary, the middle one pulled across to the other side.
 fn crossing_pins(session: &Session) -> Pins {
     let disk = session.model().expect("open").disk().expect("a disk");
     let boundary = disk.boundary_loop();
@@ -354,7 +354,7 @@ fn the_step_on_the_screen_is_saved_with_the_numbers_up_to_it() {
     assert_eq!(written_coordinates(&folder.path().join("a.obj")), embedding(&session));
 }
 
-/// The texture coordinates of an OBJ file, in order.
+/// Texture coordinates of an OBJ file, in order.
 fn written_coordinates(path: &Path) -> Embedding {
     let text = std::fs::read_to_string(path).unwrap();
     let numbers = |line: &str| -> Vec<f64> { line.split(' ').map(|number| number.parse().unwrap()).collect() };

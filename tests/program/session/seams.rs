@@ -1,4 +1,4 @@
-//! Seams in a session: an edit that is undone and repeated, saved and opened again.
+//! Seams in a session: an edit that is undone and redone, saved and opened again.
 
 use freebound::session::{Action, Session};
 use freebound_core::mesh::{Seams, VertexId};
@@ -7,7 +7,7 @@ use tempfile::TempDir;
 use super::basics::{session, settled};
 use freebound_testkit::{grid, write_obj};
 
-/// A session with a sheet of 4×2 squares, in a folder of its own.
+/// Session with a sheet of 4×2 squares, in a temporary folder.
 fn with_sheet() -> (TempDir, Session) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("sheet.obj");
@@ -21,7 +21,7 @@ fn edge(a: u32, b: u32) -> [VertexId; 2] {
     [a, b].map(VertexId::new)
 }
 
-/// The edges across the middle of the sheet.
+/// Edges across the middle of the sheet.
 fn across() -> Seams {
     Seams::default().with([edge(7, 2), edge(7, 12)])
 }
@@ -41,7 +41,7 @@ fn seams_are_an_edit_that_is_undone_and_repeated() {
     settled(&mut session, Action::Redo);
     assert_eq!(chart_count(&session), 2);
     settled(&mut session, Action::SetSeams(across().without([edge(2, 7)])));
-    // A slit from the boundary takes nothing apart.
+    // A slit from the boundary separates nothing.
     assert_eq!((chart_count(&session), session.model().expect("open").vertex_count()), (1, 16));
 }
 
@@ -60,10 +60,10 @@ fn a_project_with_seams_opens_as_it_was() {
     std::fs::write(&path, text.replace("2 7", "2-7")).expect("written");
     settled(&mut again, Action::Open(path));
     let message = &again.messages().iter().next().expect("a fault").text;
-    assert!(message.contains("\"2-7\" is no edge"), "{message}");
+    assert!(message.contains("\"2-7\" is not an edge"), "{message}");
 }
 
-/// The pins as a constraint file has them: vertex and u.
+/// Pins from an exported constraint file: vertex and u.
 fn pins(folder: &TempDir, session: &mut Session) -> Vec<(u32, f64)> {
     let path = folder.path().join("pins.txt");
     settled(session, Action::ExportConstraints(path.clone()));
@@ -75,7 +75,7 @@ fn pins(folder: &TempDir, session: &mut Session) -> Vec<(u32, f64)> {
     text.lines().filter(|line| !line.starts_with('#')).map(pin).collect()
 }
 
-/// Pins vertices in the order given, each with a u of its own: 0, 0.1 and so on.
+/// Pins vertices in the given order, each with a different u: 0, 0.1 and so on.
 fn pin(folder: &TempDir, session: &mut Session, vertices: &[u32]) {
     let line = |(k, v): (usize, &u32)| format!("{v} 0.{k} {v}\n");
     let path = folder.path().join("in.txt");
@@ -83,7 +83,7 @@ fn pin(folder: &TempDir, session: &mut Session, vertices: &[u32]) {
     settled(session, Action::ImportConstraints(path));
 }
 
-/// The vertices of one chart that lie at x, and whether all of it lies beyond.
+/// Coordinate x of a vertex, and least x of its chart.
 fn chart_with(session: &Session, vertex: u32) -> (f64, f64) {
     let model = session.model().expect("open");
     let charts = &model.prepared.chart.as_ref().expect("charts").charts;
@@ -147,7 +147,7 @@ fn seams_asked_for_one_after_the_other_are_all_cut() {
     assert_eq!(session.seams(), &across());
     super::basics::settle(&mut session);
     assert_eq!((chart_count(&session), &session.document().form.seams), (2, &across()));
-    // What is only being cut is taken back alone.
+    // A cut in progress is undone alone.
     session.handle(Action::SetSeams(Seams::default()));
     session.handle(Action::Undo);
     super::basics::settle(&mut session);
@@ -179,7 +179,7 @@ fn seams_are_written_to_a_file_and_read_from_it() {
     assert_eq!(session.seams(), &across().with([edge(3, 8)]), "those that there were stay");
     std::fs::write(&path, "0 1\n0 7\n").expect("written");
     settled(&mut session, Action::ImportSeams(path));
-    let said = session.messages().iter().find(|message| message.text.contains("line 2: no face has a side"));
+    let said = session.messages().iter().find(|message| message.text.contains("line 2: no edge joins vertices"));
     assert_eq!(said.expect("it is told").vertices.len(), 2);
     assert_eq!(session.seams().edges().len(), 3);
 }
@@ -202,7 +202,7 @@ fn a_project_keeps_pins_on_both_sides_of_a_seam() {
 fn seams_of_texture_coordinates_are_an_edit_too() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("two.obj");
-    // Two squares that have other coordinates at their common side.
+    // Two squares with different coordinates at their common side.
     let text = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n\
                 vt 0 0\nvt .3 0\nvt .3 1\nvt 0 1\nvt .6 0\nvt .9 0\nvt .9 1\nvt .6 1\n\
                 f 1/1 2/2 5/3 4/4\nf 2/5 3/6 6/7 5/8\n";

@@ -1,4 +1,4 @@
-//! The timeline by itself: what is kept whole within a budget, and what is on the screen.
+//! Timeline alone: steps kept whole within a budget, and the shown step.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use freebound_core::problem::{Control, Family, Method, Pins, Settings};
 
 use freebound_testkit::grid;
 
-/// The first step of a small run.
+/// First step of a small run.
 fn first() -> Outcome {
     let disk = DiskMesh::try_from(grid(4, 4)).expect("a disk");
     let mut run = Flattener::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
@@ -18,7 +18,7 @@ fn first() -> Outcome {
     Outcome::new(&disk, Problem { settings: run.settings().clone(), ..Problem::default() }, step)
 }
 
-/// The same as another step with so many flipped faces.
+/// Copy of an outcome with another step index and number of flipped faces.
 fn like(first: &Outcome, index: usize, flipped: usize) -> Arc<Outcome> {
     let mut outcome = first.clone();
     outcome.step.index = index;
@@ -27,10 +27,10 @@ fn like(first: &Outcome, index: usize, flipped: usize) -> Arc<Outcome> {
     Arc::new(outcome)
 }
 
-/// A timeline with room for so many steps, and steps with these numbers of flipped faces.
+/// Timeline with a budget of `room` steps, filled with steps that have these numbers of flipped faces.
 fn with_room_for(room: usize, flipped: impl IntoIterator<Item = usize>) -> Timeline {
     let first = first();
-    // None of the steps that tests make is larger by more than a few words.
+    // No step made by the tests is larger by more than a few words.
     let mut timeline = Timeline::with_budget(room * (first.bytes() + 64));
     for (index, flipped) in flipped.into_iter().enumerate() {
         timeline.push(like(&first, index, flipped));

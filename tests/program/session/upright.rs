@@ -1,4 +1,4 @@
-//! Embeddings without pins of the user's stand upright: the mesh's up is the picture's up, and nothing is mirrored.
+//! Embeddings without the user's pins are upright: the mesh's up is the picture's up, and nothing is mirrored.
 
 use freebound::examples::Example;
 use freebound_core::flatten::Step;
@@ -27,7 +27,7 @@ fn last_step(mesh: &DiskMesh, problem: &Problem) -> Step {
     last.expect("a ladder gives steps")
 }
 
-/// A plane sheet with its vertices in the reverse order, turned in space.
+/// Plane sheet with its vertices in reverse order, mapped to space by `turn`.
 fn reversed(turn: impl Fn(DVec3) -> DVec3) -> DiskMesh {
     let TriMesh { positions, triangles, .. } = grid(6, 4);
     let last = u32::try_from(positions.len()).unwrap() - 1;
@@ -36,8 +36,8 @@ fn reversed(turn: impl Fn(DVec3) -> DVec3) -> DiskMesh {
     disk(TriMesh::new(positions, &triangles))
 }
 
-/// The turn that takes vertices in the plane nearest to where they are seen, radians; and the error that stays, over the
-/// extent.
+/// Rotation, in radians, that best maps vertices in the plane to their seen positions, and the remaining error
+/// relative to the extent.
 fn turn_to(embedding: &Embedding, seen: impl Fn(VertexId) -> DVec2) -> (f64, f64) {
     let pairs: Vec<[DVec2; 2]> =
         embedding.iter().enumerate().map(|(i, &z)| [z, seen(VertexId::from_index(i))]).collect();
@@ -67,7 +67,7 @@ fn a_sheet_that_its_gauge_pins_lay_upside_down_comes_out_upright() {
 
 #[test]
 fn a_sheet_is_seen_from_the_side_that_its_faces_look_at() {
-    // Standing with its back to us; lying on the floor, face up and face down; leaning.
+    // With its back to the viewer; lying on the floor, face up and face down; leaning.
     let ways: [fn(DVec3) -> DVec3; 4] = [
         |p| DVec3::new(-p.x, p.y, -p.z),
         |p| DVec3::new(p.x, p.z, -p.y),

@@ -1,4 +1,4 @@
-//! Embeddings beside each other under one camera, and one scale of colours for them.
+//! Embeddings side by side under one camera, and their common scale of colours.
 
 use freebound::examples::Example;
 use freebound::view::{CellFrames, PlaneCamera, Quantity};
@@ -8,7 +8,7 @@ use freebound_core::pipeline::{Outcome, Problem, hard_targets};
 use freebound_core::problem::{Control, Settings, Variant};
 use glam::DVec2;
 
-/// The first step of a method, with two vertices pinned where it takes pins.
+/// First step of a method, with two pinned vertices if it takes pins.
 fn outcome(mesh: &DiskMesh, variant: &str, pins: &[(VertexId, DVec2)]) -> Outcome {
     let variant: Variant = variant.parse().expect("a variant");
     let targets = hard_targets(pins.iter().copied());
@@ -21,7 +21,7 @@ fn dome() -> DiskMesh {
     DiskMesh::try_from(Example::Dome.mesh()).expect("a disk")
 }
 
-/// The area that faces cover.
+/// Area covered by the faces.
 fn area(mesh: &DiskMesh, outcome: &Outcome) -> f64 {
     let embedding = &outcome.step.candidate.solution.embedding;
     let of = |face| {
@@ -41,7 +41,7 @@ fn without_pins_each_is_seen_about_its_own_middle_at_its_own_size() {
         let own = outcome.step.candidate.solution.embedding.bounds();
         assert!(frame.own(DVec2::ZERO).distance(own.middle()) < 1e-12 * own.size().length());
         assert_eq!(frame.size(), 1.0);
-        // All of it is within what is to be seen.
+        // The whole embedding lies within the shown bounds.
         let [low, high] = [frames.bounds.low, frames.bounds.high].map(|corner| frame.own(corner));
         assert!(low.cmple(own.low).all() && high.cmpge(own.high).all());
     }

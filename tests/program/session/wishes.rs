@@ -1,5 +1,4 @@
-//! What a person has asked for beside edits, through edits, undo, pause and opening: rounds of relaxing, and steps taken
-//! one by one.
+//! Requests of the user besides edits (rounds of relaxation, single steps) through edits, undo, pause and opening.
 
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -13,14 +12,14 @@ use super::basics::{opened, session, settle, settled};
 use super::constraints::{id, place, with_grid};
 use freebound_testkit::{grid, write_obj};
 
-/// The energy of the newest step, where rounds of relaxing were the last ones taken.
+/// Energy of the newest step, if it is a round of relaxation.
 fn relaxed_energy(session: &Session) -> Option<f64> {
     let newest = session.timeline().newest().expect("solved");
     let is_relaxed = session.timeline().records()[newest].stage == Stage::Relax;
     session.timeline().standings()[newest].progress.filter(|_| is_relaxed).map(|progress| progress.energy)
 }
 
-/// A grid that its corners stretch: planar by its first solve, and distorted.
+/// Grid stretched by its corners: planar by its first solve, and distorted.
 fn stretched() -> Session {
     let mut session = with_grid();
     let corners = [(0, [0.0, 0.0]), (8, [12.0, 1.0]), (72, [-1.0, 8.0]), (80, [9.0, 10.0])];
@@ -85,13 +84,13 @@ fn a_relaxing_is_kept_in_the_project() {
     assert!((before - after).abs() < 1e-6 * before, "{before} {after}");
 }
 
-/// How many of the newest steps are rounds of relaxing.
+/// Number of the newest steps that are rounds of relaxation.
 fn rounds(session: &Session) -> usize {
     session.timeline().records().iter().rev().take_while(|record| record.stage == Stage::Relax).count()
 }
 
-/// A grid drawn by a method that leaves much to relax, and a gate: while it is locked, the background waits after each
-/// step.
+/// Grid flattened by a method that leaves much to relax, and a gate: while it is locked, the background waits after
+/// each step.
 fn drawn() -> (Session, Arc<Mutex<()>>) {
     let gate = Arc::new(Mutex::new(()));
     let of_background = Arc::clone(&gate);
@@ -106,7 +105,7 @@ fn drawn() -> (Session, Arc<Mutex<()>>) {
     (session, gate)
 }
 
-/// A relaxing that was paused before the second round, and after the first where one is wanted.
+/// Session whose relaxation is paused before the second round. If `wants_round`, the first round is complete.
 fn paused(wants_round: bool) -> Session {
     let (mut session, gate) = drawn();
     let waits = gate.lock().unwrap();
@@ -174,7 +173,7 @@ fn at_rest(session: &Session) -> (usize, Embedding) {
     (outcome.step.index, outcome.step.candidate.solution.embedding.clone())
 }
 
-/// Takes steps by hand, and says where they lead.
+/// Takes single steps, and returns the last step's index and embedding.
 fn taken_on(session: &mut Session, steps: usize) -> (usize, Embedding) {
     for _ in 0..steps {
         settled(session, Action::Step);

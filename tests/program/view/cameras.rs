@@ -11,14 +11,14 @@ use glam::{DVec2, DVec3, Vec4};
 use proptest::prelude::*;
 
 const PANE: DVec2 = DVec2::new(640.0, 480.0);
-/// Points by which a pointer may be off after a way there and back.
+/// Tolerance of a round trip of the pointer, points.
 const POINT_TOLERANCE: f64 = 1e-6;
 
 fn id(v: u32) -> VertexId {
     VertexId::new(v)
 }
 
-/// A height field over the unit square with `n` × `n` vertices, faces counter-clockwise from above.
+/// Height field over the unit square with `n` × `n` vertices, faces counter-clockwise from above.
 fn terrain(n: u32, height: impl Fn(f64, f64) -> f64) -> (Vec<DVec3>, Vec<[VertexId; 3]>) {
     let share = |k: u32| f64::from(k) / f64::from(n - 1);
     let position = |k: u32| {
@@ -214,7 +214,7 @@ fn the_first_view_is_of_the_side_that_the_surface_faces() {
         for up in [UpAxis::Y, UpAxis::Z] {
             let camera = OrbitCamera::facing(BALL, up, normal);
             let to_eye = camera.eye() - BALL.center;
-            // Sheets that look down are seen from the side: the turntable starts no view from below.
+            // Surfaces that face down are seen from the side: the turntable starts no view from below.
             let is_down = normal == DVec3::NEG_Z && up == UpAxis::Z;
             assert!(to_eye.dot(normal) > 0.0 || is_down, "{normal} {up:?}");
         }
@@ -223,7 +223,7 @@ fn the_first_view_is_of_the_side_that_the_surface_faces() {
 
 #[test]
 fn a_hidden_vertex_is_picked_with_x_ray_only() {
-    // A small triangle with vertex 4 in its middle axis, and a large one before it.
+    // A small triangle with vertex 4 on its middle axis, and a large one in front of it.
     let positions = [
         DVec3::new(-3.0, -3.0, 1.0),
         DVec3::new(3.0, -3.0, 1.0),

@@ -1,4 +1,4 @@
-//! What views keep and show: cameras as numbers, parts of the whole, snapped targets, smaller pictures.
+//! Saved and derived state of views: cameras as numbers, detail views, snapped targets, smaller pictures.
 
 use std::sync::Arc;
 
@@ -93,7 +93,7 @@ fn what_is_snapped_stays() {
     }
 }
 
-/// The boundary of the L as it lies in its plane, and the same moved.
+/// Boundary of the L in its plane, and its moved image.
 fn boundary_moved(moved: impl Fn(DVec2) -> DVec2) -> (Embedding, Vec<[DVec2; 2]>) {
     let disk = DiskMesh::try_from(Example::Ell.mesh()).expect("a disk");
     let before: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::nonlinear::Scaffold;
 use crate::problem::{Embedding, Progress};
 
-/// A one-to-one embedding on its way, with its numbers and the scaffold around it.
+/// Intermediate one-to-one embedding with its progress numbers and the scaffold around it.
 #[derive(Clone, Debug)]
 pub(crate) struct Advance {
     pub(crate) embedding: Embedding,

@@ -1,8 +1,9 @@
-//! A whole boundary held where faces between three of its vertices would turn over: edges between its vertices are split.
+//! Clearance inside a pinned boundary: splits interior edges if a face between three boundary vertices would turn
+//! over.
 //!
-//! Where all corners of a face are held, nothing that follows can unfold it: an ear whose tip lies in a concave part of the
-//! targets' polygon, by however little, cannot be embedded. With a new vertex on each of its edges that lead from one
-//! boundary vertex to another through the surface, no face has three corners there, and a polygon that is simple can be met.
+//! A face with three pinned corners cannot be unfolded by any later step. For example, an ear whose tip lies in a
+//! concave part of the target polygon, by however little, cannot be embedded. With a new vertex on each interior edge
+//! between two boundary vertices, no face has three boundary corners. Then every simple target polygon can be met.
 
 use std::collections::BTreeMap;
 
@@ -11,8 +12,10 @@ use glam::DVec2;
 use crate::geom::{Orientation, orientation};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, VertexId};
 
-/// The mesh with a new vertex in the middle of each edge that joins two boundary vertices through the surface, where their
-/// targets turn over a face between three of them, or leave it without area; `None` where they turn over none.
+/// Returns the mesh with a new vertex in the middle of each interior edge between two boundary vertices.
+///
+/// Edges are split only if the targets turn over a face between three boundary vertices, or leave it without area.
+/// Otherwise `None`. `targets` holds one position per vertex of the boundary loop.
 pub(crate) fn with_boundary_clearance(mesh: &DiskMesh, targets: &[DVec2]) -> Option<Refinement> {
     let target = |vertex: VertexId| mesh.boundary_place(vertex).map(|place| targets[place]);
     let is_turned = |face: FaceId| {
@@ -45,7 +48,8 @@ pub(crate) fn with_boundary_clearance(mesh: &DiskMesh, targets: &[DVec2]) -> Opt
     Refinement::new(mesh, new_vertices, &parts).ok()
 }
 
-/// A triangle in parts, with new vertices on some of its sides, which begin at its corners in turn.
+/// Triangles of a face after splitting: `on` holds the new vertex of each side, `on[k]` on the side that starts at
+/// corner k.
 #[expect(clippy::many_single_char_names, reason = "corners, and what lies between them")]
 fn cut([a, b, c]: [VertexId; 3], on: [Option<VertexId>; 3]) -> Vec<[VertexId; 3]> {
     match on {
@@ -53,7 +57,7 @@ fn cut([a, b, c]: [VertexId; 3], on: [Option<VertexId>; 3]) -> Vec<[VertexId; 3]
         [Some(p), None, None] => vec![[a, p, c], [p, b, c]],
         [Some(p), Some(q), None] => vec![[a, p, c], [p, b, q], [p, q, c]],
         [Some(p), Some(q), Some(r)] => vec![[a, p, r], [p, b, q], [r, q, c], [p, q, r]],
-        // The same, turned.
+        // Rotates the corners until one of the cases above applies.
         [x, y, z] => cut([b, c, a], [y, z, x]),
     }
 }

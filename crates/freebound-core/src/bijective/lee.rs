@@ -1,9 +1,10 @@
-//! Lee's virtual boundary: layers of triangles around the mesh, their outermost ring on a convex shape, peeled off again.
+//! Lee's virtual boundary: layers of triangles around the mesh, the outermost ring on a convex shape, peeled off
+//! afterwards.
 //!
 //! # Method
 //!
-//! Each layer is a ring of as many vertices as the boundary has. Of ring k + 1 one vertex belongs to each edge of ring k,
-//! ring 0 being the boundary, so that a layer is a strip of triangles that point outwards and inwards in turn:
+//! Each layer adds a ring with as many vertices as the boundary. Ring 0 is the boundary. Each vertex of ring k + 1
+//! belongs to an edge of ring k. A layer is therefore a strip of triangles that point outwards and inwards in turn:
 //!
 //! ```text
 //!    v₀ ────── v₁ ────── v₂        ring k + 1
@@ -12,27 +13,29 @@
 //!   ╲─── b₁ ────── b₂ ────── b₃    ring k
 //! ```
 //!
-//! The outermost ring lies on a convex shape. All vertices within, those of the mesh and of the inner rings, lie at weighted
-//! means of their neighbours. Where the weights are positive (mean value and equal ones always are, conformal, Wachspress and
-//! powers may be negative), and since no edge joins two vertices of the outermost ring but its own, the padded mesh is planar
-//! by the theorem of Tutte and Floater, and so is the mesh, once the padding is peeled. Its
-//! boundary is free to be what it likes, but for the pull of the padding: a planar mesh does not come back, not even one
-//! with a convex boundary (the paper, §1.1).
+//! The outermost ring lies on a convex shape. Every other vertex, of the mesh and of the inner rings, is a weighted
+//! mean of its neighbours. No edge joins two vertices of the outermost ring except the edges of the ring itself. If
+//! the weights are positive, the padded mesh is therefore planar by the theorem of Tutte and Floater, and so is the
+//! mesh without padding. Mean-value and equal weights are always positive; conformal, Wachspress and power weights may
+//! be negative.
+//!
+//! The boundary of the mesh is free, but the padding pulls on it. A planar mesh is not reproduced, not even one with a
+//! convex boundary (paper §1.1).
 //!
 //! # Shapes of the padding
 //!
-//! Weights other than equal ones come from shapes. Virtual triangles have the shapes that they have on a straight strip of
-//! that height: the edges of a ring in a row, each vertex of the next ring above the middle of its edge.
+//! All weights except equal ones depend on shapes. A virtual triangle has its shape on a straight strip of height h:
+//! the edges of a ring in a row, each vertex of the next ring above the middle of its edge.
 //!
 //! ```text
 //! l(vᵢ vᵢ₊₁) = ½ (l(bᵢ bᵢ₊₁) + l(bᵢ₊₁ bᵢ₊₂))        l(bᵢ vᵢ) = l(bᵢ₊₁ vᵢ) = √(¼ l(bᵢ bᵢ₊₁)² + h²)
 //! ```
 //!
-//! with h of an equilateral triangle on the boundary's mean edge. They are shapes of single triangles alone: nothing has
-//! to fit together around the mesh, whose boundary may be bent as it is.
+//! with h of an equilateral triangle on the boundary's mean edge. Each triangle has its own shape; the shapes need not
+//! fit together around the mesh, so the boundary may have any form.
 //!
-//! Source: Y. Lee, H. S. Kim, S. Lee, "Mesh Parameterization with a Virtual Boundary", 2002. How layers are triangulated and
-//! shaped is ours: symmetric, so that no direction along the boundary is preferred.
+//! Source: Y. Lee, H. S. Kim, S. Lee, "Mesh Parameterization with a Virtual Boundary", 2002. The triangulation and the
+//! shapes of the layers are our own: symmetric, so that no direction along the boundary is preferred.
 
 use std::time::Instant;
 
@@ -51,21 +54,21 @@ use crate::weights::corner_weights::{Corner, three_point_weights};
 use crate::weights::equations::{Equations, length_scale, sum_corners_of, uniform};
 use crate::weights::shape_preserving::shape_preserving_of;
 
-/// Height of a layer, by the boundary's mean edge: that of an equilateral triangle.
+/// Height of a layer, relative to the boundary's mean edge: height of an equilateral triangle.
 const HEIGHT: f64 = 0.866_025_403_784_438_6;
 
 /// A mesh with layers of virtual triangles around it.
 #[derive(Debug)]
 pub struct Padded<'a> {
     mesh: &'a DiskMesh,
-    /// Mesh and padding: the virtual vertices behind those of the mesh, ring by ring, and the virtual faces behind its faces.
+    /// Mesh and padding. Virtual vertices follow the mesh vertices, ring by ring; virtual faces follow the mesh faces.
     disk: DiskMesh,
-    /// For each ring from the boundary on the length of the edge from each vertex to the next.
+    /// Length of the edge from each vertex to the next, for each ring from the boundary outwards.
     lengths: Vec<Vec<f64>>,
     height: f64,
 }
 
-/// A vertex of a ring: how many rings lie within it, and its place there.
+/// Vertex of a ring: number of the ring (0 is the boundary), and place within the ring.
 #[derive(Clone, Copy)]
 struct OnRing {
     ring: usize,
@@ -73,7 +76,7 @@ struct OnRing {
 }
 
 impl<'a> Padded<'a> {
-    /// Puts so many layers around a mesh, one at least.
+    /// Surrounds a mesh with `layers` layers of virtual triangles, at least one.
     ///
     /// # Panics
     ///
@@ -94,14 +97,14 @@ impl<'a> Padded<'a> {
             })
         };
         let triangles = mesh.mesh().triangles.iter().copied().chain((0..layers).flat_map(strip)).collect();
-        // Where virtual vertices lie in space is no matter: their triangles have shapes of their own.
+        // Positions of virtual vertices are arbitrary: their triangles have prescribed shapes.
         let mut positions = mesh.mesh().positions.clone();
         for _ in 0..layers {
             positions.extend(boundary.iter().map(|&v| mesh.position(v)));
         }
         let real = mesh.mesh().real_face_count();
         let of_mesh = mesh.faces().map(|face| mesh.mesh().polygon(face));
-        // Faces that fill holes keep their numbers, and no two of the padding have the same.
+        // Faces that fill holes keep their polygon numbers; each padding face gets a number of its own.
         let first = of_mesh.clone().skip(real).max().map_or(FIRST_HOLE, |last| last + 1);
         let of_padding = (first..).take(2 * count * layers);
         let polygon_of = Some(of_mesh.chain(of_padding).collect());
@@ -116,12 +119,12 @@ impl<'a> Padded<'a> {
         Self { mesh, disk, lengths, height: HEIGHT * mean }
     }
 
-    /// Mesh and padding as one disk. Virtual vertices have no place in space.
+    /// Mesh and padding as one disk. Positions of virtual vertices in space are meaningless.
     pub fn disk(&self) -> &DiskMesh {
         &self.disk
     }
 
-    /// Where a vertex of the padding, or of the boundary, stands.
+    /// Ring and place of a vertex of the padding or of the boundary.
     fn on_ring(&self, vertex: VertexId) -> Option<OnRing> {
         let count = self.lengths[0].len();
         match vertex.index().checked_sub(self.mesh.vertex_count()) {
@@ -130,7 +133,7 @@ impl<'a> Padded<'a> {
         }
     }
 
-    /// The length of an edge of the padding.
+    /// Length of an edge of the padding.
     fn length(&self, ends: [VertexId; 2]) -> f64 {
         let [Some(a), Some(b)] = ends.map(|end| self.on_ring(end)) else { return self.mesh.length(ends) };
         let lengths = &self.lengths[a.ring.min(b.ring)];
@@ -142,7 +145,7 @@ impl<'a> Padded<'a> {
         (0.5 * lengths[above]).hypot(self.height)
     }
 
-    /// The triangle of three vertices that weights take.
+    /// Triangle whose shape determines the weights of three vertices.
     pub fn shape(&self, corners: [VertexId; 3]) -> [DVec3; 3] {
         let is_real = corners.iter().all(|corner| corner.index() < self.mesh.vertex_count());
         if is_real {
@@ -152,11 +155,11 @@ impl<'a> Padded<'a> {
         triangle_of_sides([[a, b], [b, c], [c, a]].map(|ends| self.length(ends)))
     }
 
-    /// The equations of all vertices within the outermost ring.
+    /// Equations of all vertices inside the outermost ring.
     ///
     /// # Errors
     ///
-    /// [`SolveError::NotFinite`] where a weight overflows; [`SolveError::Cancelled`].
+    /// [`SolveError::NotFinite`] if a weight overflows; [`SolveError::Cancelled`].
     pub fn equations(&self, family: Family, control: Control<'_>) -> Result<Equations<f64>, SolveError> {
         let scale = length_scale(self.mesh);
         let shape = |corners| self.shape(corners).map(|x| x * scale);
@@ -170,7 +173,7 @@ impl<'a> Padded<'a> {
         }
     }
 
-    /// Where the outermost ring lies.
+    /// Positions of the outermost ring.
     fn places(&self, settings: &Settings) -> Result<PinPositions, SolveError> {
         let shape = settings.method.boundary_shape().cloned().unwrap_or_default();
         let outermost = self.lengths.len() - 1;
@@ -180,12 +183,12 @@ impl<'a> Padded<'a> {
         Ok((first..).map(VertexId::from_index).zip(places).collect())
     }
 
-    /// Solves for mesh and padding by the settings' shape, spacing and family, and peels: the mesh's embedding, and the
-    /// padding around it.
+    /// Solves for mesh and padding with the shape, spacing and family of `settings`. Returns the embedding of the
+    /// mesh, and the padding around it.
     ///
     /// # Errors
     ///
-    /// A shape that does not go with the boundary, a system that cannot be solved, or the caller's wish to stop.
+    /// If the shape does not fit the boundary, the system cannot be solved, or the caller cancels.
     pub fn solve(&self, settings: &Settings, control: Control<'_>) -> Result<(Solution, Scaffold), SolveError> {
         control.enter(Phase::Assemble)?;
         let start = Instant::now();

@@ -3,11 +3,11 @@
 //! | file | contents |
 //! |---|---|
 //! | `virtual_boundary`, `lee` | mesh and outside embedded together (paper §5); layers around the mesh |
-//! | `continuation/`, `relaxing/`, `advance` | the way to the constraints; lower distortion; what both return |
-//! | `matchmaker/`, `clearance` | new vertices along paths; new vertices at a held boundary |
-//! | `multires/` | a disk with fewer vertices, and the way back |
+//! | `continuation/`, `relaxing/`, `advance` | moving to the constraints; lowering distortion; result of both |
+//! | `matchmaker/`, `clearance` | new vertices along paths; new vertices inside a pinned boundary |
+//! | `multires/` | coarsening of a disk, and prolongation back to the mesh |
 //! | `drag/` | an embedding under a dragged pin, proved at every frame |
-//! | `morph/` | a planar way between two embeddings |
+//! | `morph/` | a planar morph between two embeddings |
 //! | `schnyder` | a grid drawing, planar by theorem |
 
 mod advance;

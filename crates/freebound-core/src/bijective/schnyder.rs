@@ -1,14 +1,15 @@
 //! Schnyder's grid drawing: a planar embedding of any disk in small whole numbers, exact by theorem.
 //!
-//! W. Schnyder, "Embedding planar graphs on the grid" (1990): the vertices of a triangulation of the sphere can be laid
-//! on the points of an (n − 2) × (n − 2) grid so that all edges, drawn straight, keep apart. A cone over the boundary
-//! makes such a triangulation of a disk, whatever the disk is; the cone is taken away again. Whole numbers of that size
-//! are exact in 64 bits, and in 32 as well.
+//! W. Schnyder, "Embedding planar graphs on the grid" (1990): the vertices of a triangulation of the sphere can be
+//! placed on an (n − 2) × (n − 2) grid such that straight edges do not cross. A cone over the boundary turns any disk
+//! into such a triangulation; the cone is removed afterwards. Whole numbers of that size are exact in 64 bits, and in
+//! 32 bits as well.
 //!
-//! The vertices come in *canonical order* (de Fraysseix, Pach, Pollack 1990): taken away one by one from the outside, so
-//! that what remains is bounded by a simple contour. Each vertex then has an edge to the left and one to the right of the
-//! contour below it, and one to the vertex above that covered it: three trees, and three paths from each vertex to their
-//! roots. The grid's coordinates of a vertex count the vertices between these paths. All of it takes linear time.
+//! The vertices are processed in *canonical order* (de Fraysseix, Pach, Pollack 1990): they are removed one by one
+//! from the outside, and a simple contour always bounds the remainder. Each vertex then has an edge to the left and an
+//! edge to the right neighbour on the contour below it, and an edge to the vertex above that covered it. These edges
+//! form three trees, which give three paths from each vertex to the roots. The grid coordinates of a vertex count the
+//! vertices between its paths. The total time is linear.
 
 use std::collections::VecDeque;
 
@@ -17,22 +18,22 @@ use glam::DVec2;
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::Embedding;
 
-/// A planar embedding with whole numbers for coordinates, from 0 to the number of vertices. Every face is positive and
-/// the boundary simple: by theorem, without rounding.
+/// Planar embedding with whole numbers from 0 to the number of vertices as coordinates. Every face is positive and the
+/// boundary is simple: by theorem, without rounding.
 pub fn schnyder(mesh: &DiskMesh) -> Embedding {
     Wood::new(mesh).on_grid()
 }
 
-/// No parent: a root.
+/// Parent of a root.
 const NONE: usize = usize::MAX;
 
-/// Three trees over the vertices of the mesh and the apex of the cone over its boundary, which comes last. Their roots
-/// are the first boundary edge's ends and the apex.
+/// Three trees over the vertices of the mesh and the apex of the cone, which comes last. Their roots are the ends of
+/// the first boundary edge and the apex.
 #[derive(Debug)]
 struct Wood {
-    /// Per tree, the parent of each vertex.
+    /// Parent of each vertex, per tree.
     parents: [Vec<usize>; 3],
-    /// The vertices that are no roots, in the order in which they are taken away from the outside.
+    /// Vertices other than the roots, in order of removal from the outside.
     peeled: Vec<usize>,
     roots: [usize; 3],
 }
@@ -58,13 +59,13 @@ impl Wood {
         Self { parents, peeled, roots: [boundary[0].index(), boundary[1].index(), apex] }
     }
 
-    /// Vertices of a tree but its root, each after its parent.
+    /// Vertices of a tree without its root, each after its parent.
     fn down(&self, tree: usize) -> Box<dyn DoubleEndedIterator<Item = usize> + '_> {
         let peeled = self.peeled.iter().copied();
         if tree == 2 { Box::new(peeled) } else { Box::new(peeled.rev()) }
     }
 
-    /// How many vertices of a tree lie below each vertex, itself included.
+    /// Number of vertices in the subtree of each vertex, itself included.
     fn subtree_sizes(&self, tree: usize) -> Vec<i64> {
         let mut sizes = vec![1; self.parents[tree].len()];
         for vertex in self.down(tree).rev() {
@@ -82,18 +83,18 @@ impl Wood {
         sums
     }
 
-    /// A coordinate of every vertex but the roots: the vertices between the paths along the two other trees, without
-    /// those of the path along the tree before.
+    /// Coordinate of every vertex except the roots: number of vertices between its paths in the two other trees.
+    /// Vertices on the path in the preceding tree do not count.
     fn coordinate(&self, tree: usize) -> Vec<i64> {
         let (after, before) = ((tree + 1) % 3, (tree + 2) % 3);
         let sizes = self.subtree_sizes(tree);
-        // The other trees' roots, where the paths end, have no children in this tree: they count as one vertex.
+        // The paths end at the roots of the other trees. These have no children in this tree and count as one vertex.
         let left = self.path_sums(after, |vertex| sizes[vertex]);
         let right = self.path_sums(before, |vertex| sizes[vertex] - 1);
         (0..sizes.len()).map(|vertex| left[vertex] + right[vertex] - sizes[vertex]).collect()
     }
 
-    /// The embedding without the apex.
+    /// Embedding without the apex.
     fn on_grid(&self) -> Embedding {
         let [mut x, mut y] = [0, 1].map(|tree| self.coordinate(tree));
         let far = i64::try_from(self.peeled.len() + 1).expect("a count of vertices fits");
@@ -105,15 +106,15 @@ impl Wood {
     }
 }
 
-/// The outline of what has not been taken away yet: a path from the first root to the second.
+/// Contour of the vertices not yet removed: a path from the first root to the second.
 #[derive(Debug)]
 struct Contour {
     left: Vec<usize>,
     right: Vec<usize>,
     state: Vec<State>,
-    /// Edges between vertices of the contour that are not neighbours on it, per vertex.
+    /// Number of chords per vertex: edges to contour vertices that are not its neighbours on the contour.
     chords: Vec<u32>,
-    /// Vertices that had no chord when they were put here.
+    /// Candidates for removal: vertices without a chord when they were added.
     free: VecDeque<usize>,
     ends: [usize; 2],
 }
@@ -126,7 +127,7 @@ enum State {
 }
 
 impl Contour {
-    /// The whole boundary, from its first vertex backwards to its second.
+    /// Whole boundary as a contour, from its first vertex backwards to its second.
     fn new(mesh: &DiskMesh) -> Self {
         let boundary: Vec<usize> = mesh.boundary_loop().iter().map(|v| v.index()).collect();
         let count = mesh.vertex_count();
@@ -153,7 +154,7 @@ impl Contour {
         self.left[right] = left;
     }
 
-    /// Puts a vertex, joined already, on the contour and counts its chords.
+    /// Adds a vertex, already joined to its neighbours, to the contour and counts its chords.
     fn enter(&mut self, mesh: &DiskMesh, vertex: usize) {
         for other in neighbours(mesh, vertex) {
             let is_beside = [self.left[vertex], self.right[vertex]].contains(&other);
@@ -166,7 +167,7 @@ impl Contour {
         self.state[vertex] = State::OnContour;
     }
 
-    /// Takes a vertex away. Returns it with its neighbours of the new contour, from left to right.
+    /// Removes a vertex. Returns it with its neighbours on the new contour, from left to right.
     fn peel(&mut self, mesh: &DiskMesh) -> Option<(usize, Vec<usize>)> {
         let vertex = loop {
             let vertex = self.free.pop_front()?;
@@ -195,7 +196,7 @@ impl Contour {
         Some((vertex, below))
     }
 
-    /// A chord between two vertices that have become neighbours on the contour.
+    /// Drops the chord between two vertices that have become neighbours on the contour.
     fn lose_chord(&mut self, ends: &[usize]) {
         if ends.iter().all(|v| self.ends.contains(v)) {
             return;
@@ -209,7 +210,8 @@ impl Contour {
     }
 }
 
-/// Neighbours of a vertex, counter-clockwise; at a boundary vertex from the next one of the loop to the one before.
+/// Neighbours of a vertex, counter-clockwise. At a boundary vertex they run from the next vertex of the loop to the
+/// previous.
 fn neighbours(mesh: &DiskMesh, vertex: usize) -> impl Iterator<Item = usize> + '_ {
     mesh.outgoing(VertexId::from_index(vertex)).map(|halfedge| mesh.head(halfedge).index())
 }

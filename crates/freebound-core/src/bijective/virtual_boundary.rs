@@ -1,18 +1,19 @@
-//! The virtual boundary: the embedding's outside is triangulated up to a convex polygon, and mesh and outside are
+//! The virtual boundary: the outside of an embedding is triangulated up to a convex polygon, and mesh and outside are
 //! embedded together (paper §5).
 //!
 //! # Theorem
 //!
-//! The extended mesh is a triangulated disk. With its boundary on a convex polygon and positive weights every face of
-//! it is positive (Tutte 1963, Floater 2003), provided that it is simplicial and that no interior edge joins two
+//! The extended mesh is a triangulated disk. With its boundary on a convex polygon and positive weights, every face is
+//! positive (Tutte 1963, Floater 2003), provided that the disk is simplicial and that no interior edge joins two
 //! vertices of one side of the polygon. Mean-value weights are positive, and reproduce a planar embedding.
 //!
-//! # Where the hull is not enough
+//! # If the hull is not enough
 //!
 //! A pocket's edge may join two vertices that the mesh itself joins: a dividing edge, or the base of a flap that is
 //! folded inward. The double edge would collapse the faces beside it. A dividing edge may also lie on a side of the
-//! hull. Then the outside is triangulated up to a strictly convex frame around the hull, and every doubled edge is
-//! split by a virtual vertex. The frame's vertices and these are peeled off afterwards, as the faces are.
+//! hull. In these cases the outside is triangulated up to a strictly convex frame around the hull, and every doubled
+//! edge is split by a virtual vertex. The frame's vertices and the virtual vertices are removed afterwards, as are the
+//! virtual faces.
 
 use std::collections::BTreeSet;
 
@@ -28,7 +29,8 @@ use crate::nonlinear::scaffold::{disk_in_plane, triangles_around};
 use crate::problem::{Control, Embedding, LinearSolve, Phase, SolveError};
 use crate::weights::equations::Equations;
 
-/// The frame's corners, relative to half the extent of the boundary: an octagon whose sides are far from straight.
+/// Corners of the frame, relative to half the extent of the boundary: an octagon whose corner angles are far from
+/// straight.
 const FRAME: [DVec2; 8] = [
     DVec2::new(3.0, -1.5),
     DVec2::new(3.0, 1.5),
@@ -40,7 +42,7 @@ const FRAME: [DVec2; 8] = [
     DVec2::new(1.5, -3.0),
 ];
 
-/// What the outside of an embedding is triangulated up to.
+/// Outer limit of the triangulated outside of an embedding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outline {
     /// The convex hull of the boundary (paper §5).
@@ -49,52 +51,54 @@ pub enum Outline {
     Frame,
 }
 
-/// Each stage of §5, kept to be looked at. Vertices beyond the mesh's are virtual.
+/// Intermediate results of paper §5, for display. Vertices numbered beyond those of the mesh are virtual.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VirtualBoundary {
-    /// Boundary vertices that the embedding before was pinned by.
+    /// Number of boundary vertices by which the previous embedding was pinned.
     pub pinned: usize,
-    /// What the outside was triangulated up to.
+    /// Outer limit of the triangulated outside.
     pub outline: Outline,
-    /// What mesh and outside were solved from, with the virtual vertices at its end.
+    /// Embedding before the joint solve, with the virtual vertices at its end.
     pub before: Embedding,
-    /// Whether the weights are mean values of `before`. Where rounding collapses faces, others are tried at the very end.
+    /// True if the weights are mean-value weights of `before`. Other weights are the last resort if rounding collapses
+    /// faces.
     pub weights_of_before: bool,
     /// Vertices of the convex outline B′, counter-clockwise.
     pub hull: Vec<VertexId>,
-    /// The faces between the boundary and the outline.
+    /// Faces between the boundary and the outline.
     pub pockets: Vec<[VertexId; 3]>,
-    /// Mesh and outside as solved together.
+    /// Mesh and outside after the joint solve.
     pub solved: Embedding,
 }
 
-/// An embedding with its outside: the paper's E′.
+/// Embedding together with its outside: E′ of the paper.
 #[derive(Debug)]
 pub struct Extended {
     /// Mesh and outside as one disk.
     pub disk: DiskMesh,
-    /// What the outside was triangulated up to.
+    /// Outer limit of the triangulated outside.
     pub outline: Outline,
-    /// Embedding of both, the virtual vertices last.
+    /// Embedding of mesh and outside, the virtual vertices last.
     pub embedding: Embedding,
-    /// The faces between the boundary and the outline.
+    /// Faces between the boundary and the outline.
     pub pockets: Vec<[VertexId; 3]>,
 }
 
 impl Extended {
-    /// Extends an embedding with a simple upright boundary up to the hull, else up to a frame; `None` where neither can be.
+    /// Extends an embedding with a simple, positively oriented boundary up to the hull, else up to a frame. `None` if
+    /// both fail.
     pub fn new(mesh: &DiskMesh, embedding: &Embedding) -> Option<Self> {
         Self::up_to_hull(mesh, embedding).or_else(|| Self::up_to_frame(mesh, embedding))
     }
 
-    /// Extends an embedding up to its hull; `None` where its boundary is not simple or Tutte's theorem does not hold.
+    /// Extends an embedding up to its hull. `None` if its boundary is not simple or Tutte's theorem does not apply.
     pub fn up_to_hull(mesh: &DiskMesh, embedding: &Embedding) -> Option<Self> {
         let pockets = triangles_around(mesh, &embedding.boundary(mesh), &[])?;
         let extended = Self::join(mesh, Outline::Hull, embedding.clone(), pockets)?;
         (!extended.has_edge_along_outline()).then_some(extended)
     }
 
-    /// Extends an embedding up to a frame. `None` where its boundary is not simple.
+    /// Extends an embedding up to a frame. `None` if its boundary is not simple.
     pub fn up_to_frame(mesh: &DiskMesh, embedding: &Embedding) -> Option<Self> {
         let boundary = embedding.boundary(mesh);
         let bounds = Bounds::of(boundary.iter().copied());
@@ -113,7 +117,7 @@ impl Extended {
         Some(Self { disk, outline, embedding, pockets })
     }
 
-    /// Whether an interior edge lies on a side of the outline: Tutte's theorem does not allow that.
+    /// True if an interior edge lies on a side of the outline, which Tutte's theorem excludes.
     fn has_edge_along_outline(&self) -> bool {
         let outline = self.disk.boundary_loop();
         let at = |v: VertexId| self.embedding[v];
@@ -124,12 +128,12 @@ impl Extended {
         })
     }
 
-    /// Solves equations of mesh and outside with the outline where it is, for the move from `start`. Its residuals are
-    /// summed up where they are not known better.
+    /// Solves equations of mesh and outside for the move from `start`, with the outline fixed. `residuals` holds the
+    /// residuals at `start`, per vertex of the disk, if more accurate ones than direct evaluation are known.
     ///
     /// # Errors
     ///
-    /// A system that cannot be solved, or the caller's wish to stop.
+    /// If the system cannot be solved, or the caller cancels.
     pub fn solve(
         &self,
         equations: Equations<f64>,
@@ -155,7 +159,7 @@ impl Extended {
     }
 }
 
-/// Splits every edge of the pockets that the mesh has as well, other than the boundary's own, at its middle.
+/// Splits each pocket edge that is also an interior edge of the mesh at its middle.
 fn split_doubled_edges(mesh: &DiskMesh, positions: &mut Vec<DVec2>, pockets: &mut Vec<[VertexId; 3]>) {
     let key = |a: VertexId, b: VertexId| [a.min(b), a.max(b)];
     let sides = |t: [VertexId; 3]| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];

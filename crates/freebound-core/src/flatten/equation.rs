@@ -1,4 +1,4 @@
-//! Equation of one vertex in a step: its family and the embedding of its weights follow from the stage of the step.
+//! Equation of one vertex in a step. The stage of the step determines its family and the embedding of its weights.
 
 use super::Step;
 use crate::mesh::{DiskMesh, VertexId};
@@ -6,11 +6,11 @@ use crate::problem::{Embedding, Family, NoEquation, Stage, WeightSource};
 use crate::weights::VertexEquation;
 use crate::weights::vertex_equation::{Fan, in_plane, on_surface};
 
-/// Equation of a vertex in a step. `before` is the embedding of the step before.
+/// Equation of a vertex in a step, with the source of its weights. `before` is the embedding of the previous step.
 ///
 /// # Errors
 ///
-/// The reason why the vertex has no equation.
+/// [`NoEquation`] with the reason why the vertex has no equation.
 pub fn equation_of_step(
     mesh: &DiskMesh,
     step: &Step,
@@ -36,7 +36,8 @@ pub fn equation_of_step(
             let fan = Fan::of_extended(mesh, &stages.pockets, vertex);
             Ok((in_plane(mesh, &fan, &stages.before, &stages.solved), source))
         }
-        // Without stages the virtual boundary has solved the natural equations, some of the boundary pinned.
+        // Without recorded steps of §5, the virtual boundary solved the natural equations with part of the boundary
+        // pinned.
         (WeightSource::Surface | WeightSource::Extended, _) => {
             let family = if step.candidate.stage.uses_family() { step.candidate.family } else { Family::Conformal };
             Ok((on_surface(mesh, family, embedding, vertex), WeightSource::Surface))

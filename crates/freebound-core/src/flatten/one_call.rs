@@ -1,10 +1,10 @@
-//! The easy call: a disk in, a proved embedding out, or the reason why there is none.
+//! Single call: a disk in, a proved embedding out, or the reason why there is none.
 
 use super::{Flattener, Options, Step};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::{Control, SolveError};
 
-/// Why [`flatten`] gives nothing that is proved, with the last step that it took.
+/// Reason why [`flatten`] returns no proved embedding, with the last step.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FlattenError {
@@ -12,25 +12,26 @@ pub enum FlattenError {
     #[error(transparent)]
     Solve(#[from] SolveError),
 
-    /// The method came to its end before the embedding was one-to-one.
-    #[error("not planar: {}; method auto goes on until it is", .0.verdict.summary())]
+    /// The method ended before the embedding was planar.
+    #[error("not planar: {}; method auto continues until it is planar", .0.verdict.summary())]
     NotPlanar(Box<Step>),
 
-    /// The embedding is one-to-one, but does not meet all exact pins.
+    /// The embedding is planar, but does not meet all hard pins.
     #[error("planar, but pinned vertices are not on their targets: {}", listed(&.0.unmet()))]
     Unmet(Box<Step>),
 }
 
-/// Flattens a disk: takes all steps of the method, and gives the last one, proved one-to-one with its exact pins on their
-/// targets to the last bit. [`Candidate::mesh`](super::Candidate::mesh) is the mesh that it is of: edges may have been
-/// split for the pins, and polygons cut, unless [`Settings::new_vertices`] says no.
+/// Flattens a disk: takes all steps of a method and returns the last one, proved planar, with its hard pins on their
+/// targets to the last bit.
 ///
-/// To watch or to stop it, climb a [`Flattener`].
+/// [`Candidate::mesh`](super::Candidate::mesh) returns the mesh of the embedding. Edges may have been split for the
+/// pins, and polygons cut, unless [`new_vertices`](crate::problem::Settings::new_vertices) is false. Use a [`Flattener`]
+/// to observe or cancel the steps.
 ///
 /// # Errors
 ///
-/// Pins or settings that cannot be, or a method that does not end planar with the pins met: `auto` without pins always
-/// does.
+/// If pins or settings are invalid, or the method does not end planar with the pins met. With `auto` and without pins,
+/// the method always ends planar.
 pub fn flatten(mesh: &DiskMesh, options: &Options) -> Result<Step, FlattenError> {
     let mut last = None;
     let mut flattener = Flattener::with_options(options.clone());
@@ -38,7 +39,7 @@ pub fn flatten(mesh: &DiskMesh, options: &Options) -> Result<Step, FlattenError>
     match (last, ending) {
         (Some(step), _) if !step.verdict.planar => Err(FlattenError::NotPlanar(Box::new(step))),
         (Some(step), _) if !step.unmet().is_empty() => Err(FlattenError::Unmet(Box::new(step))),
-        // What is proved stays so where a further step, to make it better, has failed.
+        // A proved step stays valid if a further step that was to improve it failed.
         (Some(step), _) => Ok(step),
         (None, ending) => Err(ending.err().unwrap_or(SolveError::NotPlanar).into()),
     }

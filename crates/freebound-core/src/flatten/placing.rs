@@ -1,9 +1,9 @@
-//! Placing: an embedding that is proved is brought to where it is asked for, and no face folds on the way.
+//! Placement of a proved embedding at the requested position, without folding a face.
 //!
-//! A similarity in 64 bits rounds, and rounding folds what is fine. Each wish therefore has several *ways*, tried in turn
-//! until one is proved: as wished; upright only up to a multiple of 90°; by a power of two, which rounds nothing; by a shift that is a multiple of the largest
-//! coordinate's last digit, which rounds that one not at all. Where none will do, the embedding stays where it lies: what
-//! is proved is never given up for a place.
+//! A similarity in 64 bits rounds, and rounding folds thin faces. Each request therefore has several *ways*, tried in
+//! order until one is proved: as requested; rotated by a multiple of 90° only; scaled by a power of two, which rounds
+//! nothing; moved by a multiple of the last digit of the largest coordinate, which does not round that coordinate. If
+//! all fail, the embedding stays where it is: a proof is never given up for a position.
 
 use glam::DVec2;
 
@@ -13,31 +13,31 @@ use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::problem::{Control, Embedding, GaugeSize, Pins, SolveError};
 use crate::weights::equations::length_scale;
 
-/// What the rounding of a turn adds to a length at most, as a share of it.
+/// Bound for the relative rounding error of a length under a rotation.
 const TURN_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// What is wanted of an embedding's place.
+/// Requested placement of an embedding.
 #[derive(Debug)]
 pub(crate) struct Placing {
-    /// Ways to it, the best first.
+    /// Similarities that achieve it, the best first.
     ways: Vec<Similarity>,
-    /// Vertices that end on these places to the last bit.
+    /// Vertices that end on these points to the last bit.
     anchors: Vec<(VertexId, DVec2)>,
 }
 
-/// An embedding in its place.
+/// Embedding after its placement.
 #[derive(Debug)]
 pub(crate) struct Placed {
     pub(crate) embedding: Embedding,
-    /// The way that it took; none where each would have folded it, and it lies as before.
+    /// Similarity that was applied. `None` if each would fold the embedding, which then stays.
     pub(crate) way: Option<Similarity>,
-    /// Whether that was the first.
+    /// True if the first similarity was applied.
     pub(crate) is_as_wished: bool,
 }
 
 impl Placing {
-    /// To where up to two pins want an embedding; at the size asked for, and turned, where they do not say. None where two
-    /// pins have fallen together, and no similarity takes them to their targets.
+    /// Placement for up to two pins. Scale and rotation that the pins leave open follow `of.free`. `None` if two
+    /// pinned vertices coincide, so that no similarity takes them to their targets.
     ///
     /// # Errors
     ///
@@ -48,7 +48,7 @@ impl Placing {
         let ways = match (&anchors[..], size) {
             (&[(first, a), (second, b)], _) => {
                 let (is, wanted) = (embedding[second] - embedding[first], b - a);
-                // The quotient wanted / is of complex numbers.
+                // Quotient wanted / is of complex numbers.
                 let turn = DVec2::new(is.dot(wanted), is.perp_dot(wanted)) / is.length_squared();
                 if !turn.is_finite() || turn == DVec2::ZERO {
                     return Ok(None);
@@ -72,7 +72,7 @@ impl Placing {
         Ok(Some(Self { ways, anchors }))
     }
 
-    /// To where an embedding fits pins best, in the sum of squares; the targets are not met by that.
+    /// Placement that fits the pins best, in the sum of squares. Targets are not met exactly.
     pub(crate) fn fitting(embedding: &Embedding, pins: &Pins) -> Self {
         let pairs: Vec<[DVec2; 2]> = pins.iter().map(|(v, pin)| [embedding[v], pin.target]).collect();
         let shift = pairs.iter().map(|[is, wanted]| *wanted - *is).sum::<DVec2>() / pairs.len().max(1) as f64;
@@ -81,8 +81,9 @@ impl Placing {
         Self { ways: Similarity::fitting(&pairs).into_iter().chain(shifts).collect(), anchors: Vec::new() }
     }
 
-    /// The first of two embeddings over the second, as large and turned as that is; a pin moves it from there onto its target.
-    /// What counts is the surface alone: no vertices of no face, of what fills holes, or that the second does not have.
+    /// Placement of the first embedding over the second, with the scale and rotation of the second. A pin then moves
+    /// it onto the pin's target. Only the surface counts: unreferenced vertices, vertices that fill holes, and
+    /// vertices that the second embedding lacks are ignored.
     pub(crate) fn over(mesh: &DiskMesh, [embedding, other]: [&Embedding; 2], pins: &Pins) -> Self {
         let is_of_surface = |vertex: &VertexId| mesh.is_used(*vertex) && !mesh.is_virtual_vertex(*vertex);
         let pair = |vertex: VertexId| Some([embedding[vertex], *other.get(vertex.index())?]);
@@ -98,16 +99,17 @@ impl Placing {
         }
     }
 
-    /// The embedding in the place that is wished for.
+    /// Embedding in the requested placement.
     pub(crate) fn as_wished(&self, embedding: &Embedding) -> Embedding {
         self.along(&self.ways[0], embedding)
     }
 
-    /// The embedding by the first way that a proof `holds` on. One that does not hold as it lies goes as wished.
+    /// Embedding under the first similarity for which `holds` is true. If `holds` is false without a placement, the
+    /// first similarity is applied.
     ///
     /// # Errors
     ///
-    /// Those of the proof.
+    /// Errors of `holds`.
     pub(crate) fn best<E>(
         &self,
         embedding: &Embedding,
@@ -135,14 +137,14 @@ impl Placing {
     }
 }
 
-/// What pins do not say of an embedding's place.
+/// Degrees of freedom of a placement that pins leave open.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Free {
     pub(crate) size: GaugeSize,
     pub(crate) turns: Turns,
 }
 
-/// What is to be placed, what of its place is free, and who may stop it.
+/// Embedding to place, with its free parameters and the control of cancellation.
 #[derive(Clone, Copy)]
 pub(crate) struct Placement<'a> {
     pub(crate) mesh: &'a DiskMesh,
@@ -152,7 +154,7 @@ pub(crate) struct Placement<'a> {
 }
 
 impl Placement<'_> {
-    /// Ways to stand upright at a size, one point moved onto another, the best first.
+    /// Similarities that rotate an embedding upright at a size and move one point onto another, the best first.
     fn upright_ways(self, [from, to]: [DVec2; 2]) -> Result<Vec<Similarity>, SolveError> {
         let Free { size, turns } = self.free;
         let [factor, power] = with_power_of_two(self.factor_of(size)?, f64::round);
@@ -160,7 +162,7 @@ impl Placement<'_> {
         Ok(ways.map(|(factor, turn)| Similarity::new(factor * turn, from, to)).into())
     }
 
-    /// The factor that gives an embedding the size asked for; 1 where it has no finite extent.
+    /// Factor that gives an embedding the requested size. 1 if the embedding has no finite extent.
     fn factor_of(self, size: GaugeSize) -> Result<f64, SolveError> {
         let factor = match size {
             GaugeSize::TrueArea => area_factor(self.mesh, self.embedding, self.control)?,
@@ -170,11 +172,11 @@ impl Placement<'_> {
     }
 }
 
-/// Ways into the middle of a box as large as it holds an embedding that is turned, the best first.
+/// Similarities that centre a rotated embedding in a box, as large as fits, the best first.
 fn within(embedding: &Embedding, into: Bounds, turn: DVec2) -> Vec<Similarity> {
     let turned = Bounds::of(embedding.iter().map(|&z| turn.rotate(z)));
     let fitting = usable_factor((into.size() / turned.size()).min_element());
-    // The rounding of a turn must not reach out of the box.
+    // The rounding of the rotation must not exceed the box.
     let fitting = if turn == DVec2::X { fitting } else { fitting * (1.0 - TURN_ROUNDING) };
     let [factor, power] = with_power_of_two(fitting, f64::floor);
     let (from, to) = (DVec2::new(turn.x, -turn.y).rotate(turned.middle()), into.middle());
@@ -188,7 +190,7 @@ fn within(embedding: &Embedding, into: Bounds, turn: DVec2) -> Vec<Similarity> {
     ]
 }
 
-/// Moves an embedding to where fewer than two pins want it, without a turn and without a proof.
+/// Places an embedding for fewer than two pins, without a rotation and without a proof.
 pub(crate) fn complete_gauge(mesh: &DiskMesh, embedding: &mut Embedding, pins: &Pins, size: GaugeSize) {
     let free = Free { size, turns: Turns::NONE };
     let placement = Placement { mesh, embedding, free, control: Control::unattended() };
@@ -197,17 +199,17 @@ pub(crate) fn complete_gauge(mesh: &DiskMesh, embedding: &mut Embedding, pins: &
     }
 }
 
-/// Multiplies by a factor and moves one point onto another.
+/// Scales by a factor and moves one point onto another.
 fn scaled(factor: f64, from: DVec2, to: DVec2) -> Similarity {
     Similarity::new(DVec2::new(factor, 0.0), from, to)
 }
 
-/// A factor, and the power of two next to it.
+/// Factor, with the power of two next to it.
 fn with_power_of_two(factor: f64, next: fn(f64) -> f64) -> [f64; 2] {
     [factor, next(factor.log2()).exp2()]
 }
 
-/// A shift changed to a multiple of the last digit of numbers as large as `extent`, so that these round to themselves.
+/// Shift rounded to a multiple of the last digit of numbers as large as `extent`, so that such numbers do not round.
 fn rounding_alike(shift: DVec2, extent: f64) -> DVec2 {
     let digit = extent.next_up() - extent;
     if digit.is_finite() && digit > 0.0 { (shift / digit).round() * digit } else { shift }
@@ -217,10 +219,10 @@ fn usable_factor(factor: f64) -> f64 {
     if factor.is_finite() && factor > 0.0 { factor } else { 1.0 }
 }
 
-/// The factor to the total area of the surface, holes left out, in the mesh's unit. Both areas are summed at a size near 1, so that no square of a length
-/// overflows or vanishes.
+/// Factor to the total area of the surface, without holes, in the mesh's unit. Both areas are summed at a size near 1,
+/// so that no square of a length overflows or underflows.
 pub fn true_area_factor(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
-    // Nobody stops it.
+    // Cancellation is impossible here.
     area_factor(mesh, embedding, Control::unattended()).unwrap_or(1.0)
 }
 
@@ -232,13 +234,13 @@ fn area_factor(mesh: &DiskMesh, embedding: &Embedding, control: Control<'_>) -> 
         (b - a).cross(c - a).length()
     };
     let flat = |face| double_area(mesh.face(FaceId::from_index(face)).map(|v| embedding[v] * in_plane)).abs();
-    // Summed in one order, for any number of threads.
+    // The order of summation does not depend on the number of threads.
     let surface: f64 = control.each(count, surface)?.iter().sum();
     let flat: f64 = control.each(count, flat)?.iter().sum();
     Ok((surface / flat).sqrt() * (in_plane / in_space))
 }
 
-/// Scales an embedding about the origin to the total area of the surface; one without a finite area stays as it is.
+/// Scales an embedding about the origin to the total area of the surface. Unchanged if its area is not finite.
 pub fn to_true_area(mesh: &DiskMesh, embedding: &mut Embedding) {
     let factor = usable_factor(true_area_factor(mesh, embedding));
     for z in embedding.iter_mut() {
@@ -246,12 +248,12 @@ pub fn to_true_area(mesh: &DiskMesh, embedding: &mut Embedding) {
     }
 }
 
-/// Largest coordinate by amount.
+/// Largest absolute coordinate.
 fn extent_of(embedding: &Embedding) -> f64 {
     embedding.iter().fold(0.0, |m, z| m.max(z.abs().max_element()))
 }
 
-/// As [`to_unit_square`], but scaled by a power of two alone: the one rounding is that of the move.
+/// Moves an embedding to the origin and scales it by a power of two into the unit square. Only the move rounds.
 pub fn to_unit_square_by_power_of_two(embedding: &mut Embedding) {
     let Bounds { low, .. } = embedding.bounds();
     for z in embedding.iter_mut() {
@@ -260,8 +262,8 @@ pub fn to_unit_square_by_power_of_two(embedding: &mut Embedding) {
     to_unit_box(embedding);
 }
 
-/// Scales an embedding about the origin by a power of two, so that no coordinate lies beyond −1 or 1. No digit is lost
-/// unless a coordinate is too small for 64 bits afterwards.
+/// Scales an embedding about the origin by a power of two, so that all coordinates lie between −1 and 1. No digit is
+/// lost unless a coordinate becomes too small for 64 bits.
 pub fn to_unit_box(embedding: &mut Embedding) {
     let extent = extent_of(embedding);
     if extent.is_finite() && extent > 0.0 {
@@ -272,8 +274,8 @@ pub fn to_unit_box(embedding: &mut Embedding) {
     }
 }
 
-/// Moves and scales an embedding uniformly to fill the unit square's width or height from the origin on; one without a
-/// finite extent stays as it is.
+/// Moves and scales an embedding uniformly to fill the width or height of the unit square, starting at the origin.
+/// Unchanged if its extent is not finite.
 pub fn to_unit_square(embedding: &mut Embedding) {
     let bounds = embedding.bounds();
     let extent = bounds.size().max_element();

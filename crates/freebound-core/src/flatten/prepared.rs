@@ -1,6 +1,7 @@
-//! A method made ready for one mesh and one set of pinned vertices: equations, matrix and factors.
+//! Prepared method for one mesh and one set of pinned vertices: equations, matrix and factors.
 //!
-//! New targets for the same pinned vertices then cost one substitution. That is what makes a pin follow the pointer.
+//! New targets for the prepared pins then cost one substitution, which is fast enough for a pin that follows the
+//! pointer.
 
 use std::time::Instant;
 
@@ -27,13 +28,13 @@ use crate::weights::equations;
 use crate::weights::equations::Equations;
 use crate::weights::shape_preserving::shape_preserving;
 
-/// Everything about a solve that does not depend on where the pins are to go.
+/// Data of a solve that do not depend on the targets of the pins.
 #[derive(Debug)]
 pub struct Prepared {
     settings: Settings,
-    /// The user's pins that it was made for: whether it fits others is asked of these.
+    /// Pins for which this was prepared, for [`Prepared::serves`].
     asked: Pins,
-    /// Gauge pins or the convex boundary, where the solver places vertices by itself.
+    /// Gauge pins or the convex boundary, if the solver places vertices by itself.
     own_places: Option<PinPositions>,
     system: FreeSystem,
     values: Values,
@@ -42,14 +43,14 @@ pub struct Prepared {
 
 #[derive(Debug)]
 enum Values {
-    /// A free boundary couples x and y: one complex unknown per vertex.
+    /// Free boundary, which couples x and y: one complex unknown per vertex.
     Free(Box<FreeSolve>),
-    /// A prescribed boundary does not: one real matrix, two right-hand sides.
+    /// Prescribed boundary without coupling: one real matrix, two right-hand sides.
     Fixed(Box<FixedSolve>),
 }
 
-/// Solves for an embedding once, by a linear method or the first stage of another: that of SLIM is Tutte's map. Nothing is
-/// proved of it: [`flatten`](super::flatten) goes on until it is.
+/// Solves once for an embedding, by a linear method or by the first stage of another method. For SLIM that stage is
+/// Tutte's map. Nothing is proved: [`flatten`](super::flatten) continues until the embedding is proved.
 ///
 /// # Errors
 ///
@@ -73,7 +74,7 @@ pub fn solve_once(
     Ok(solution)
 }
 
-/// The solution of a method whose shape does not depend on pins, so that it has no factors that serve them.
+/// Solution of a method whose shape does not depend on pins, so that there are no factors to reuse.
 fn own_solution(mesh: &DiskMesh, settings: &Settings, control: Control<'_>) -> Result<Solution, SolveError> {
     match &settings.method {
         Method::Lee(_) => Ok(Padded::new(mesh, settings.layers).solve(settings, control)?.0),
@@ -87,13 +88,12 @@ fn own_solution(mesh: &DiskMesh, settings: &Settings, control: Control<'_>) -> R
 }
 
 impl Prepared {
-    /// Computes weights, matrix and factors for the vertices that `pins` holds.
+    /// Computes weights, matrix and factors for the vertices in `pins`.
     ///
     /// # Errors
     ///
-    /// A method that does not begin with a linear solve for positions, pins that cannot be, a family that does not go with
-    /// the method, degenerate weights, a singular matrix, or the
-    /// caller's wish to stop.
+    /// If the method does not start with a linear solve for positions, pins are invalid, the family does not fit the
+    /// method, weights are degenerate, the matrix is singular, or the caller cancels.
     pub fn new(mesh: &DiskMesh, settings: &Settings, pins: &Pins, control: Control<'_>) -> Result<Self, SolveError> {
         settings.family().check_for(&settings.method)?;
         let method = &settings.method;
@@ -138,27 +138,29 @@ impl Prepared {
         Ok(Self { settings: settings.clone(), asked, own_places, system, values, seconds })
     }
 
-    /// Whether this preparation serves these settings and pins: where they are to go does not matter.
+    /// True if this preparation fits the settings and pins. Targets of the pins may differ.
     pub fn serves(&self, settings: &Settings, pins: &Pins) -> bool {
         let alike = || are_held_alike(&self.asked, &settings.held(pins));
         self.settings == *settings && (!settings.method.uses_pins() || alike())
     }
 
-    /// How all vertices move when the targets of some pins move by (1, 0): the embedding is complex-linear in the
-    /// targets, so that a move by δ adds δ times this, as complex numbers. Pins do not move what has a convex boundary.
+    /// Moves of all vertices when the targets of the pins in `moved` move by (1, 0).
+    ///
+    /// The embedding is complex-linear in the targets: a move by δ adds δ times these moves, as complex numbers. With
+    /// a convex boundary, pins move nothing.
     ///
     /// # Errors
     ///
-    /// A residual that refinement cannot bring down.
+    /// If refinement cannot reduce the residual.
     ///
     /// # Panics
     ///
-    /// If one of the vertices is not pinned, where pins matter.
+    /// If a vertex in `moved` is not pinned, unless the boundary is convex.
     pub fn column(&self, mesh: &DiskMesh, moved: &[VertexId]) -> Result<Vec<DVec2>, SolveError> {
         let Values::Free(free) = &self.values else { return Ok(vec![DVec2::ZERO; mesh.vertex_count()]) };
         assert!(moved.iter().all(|vertex| self.asked.contains_key(vertex)), "only pins have columns");
         if self.own_places.is_some() {
-            // One pin alone moves everything.
+            // A single pin moves all vertices.
             return Ok(vec![DVec2::X; mesh.vertex_count()]);
         }
         let target = |v: VertexId| if moved.contains(&v) { DVec2::X } else { DVec2::ZERO };
@@ -168,14 +170,15 @@ impl Prepared {
         Ok(column.into_inner())
     }
 
-    /// Solves for the embedding that has the pins on their targets.
+    /// Solves for the embedding with the pins on their targets.
     ///
-    /// Fewer than two pins leave a similarity open: none, and the gauge pins stand in; one, and that solution is moved
-    /// onto the target. Either way the embedding has the area of the surface.
+    /// Fewer than two pins leave a similarity open. Without pins, the gauge pins fix it. A single pin moves that
+    /// solution onto its target. In both cases [`Settings::size`] determines the size; by default, the area of the
+    /// surface.
     ///
     /// # Errors
     ///
-    /// Pins that cannot be, a residual that refinement cannot bring down, or the caller's wish to stop.
+    /// If pins are invalid, refinement cannot reduce the residual, or the caller cancels.
     pub fn solve(&self, mesh: &DiskMesh, pins: &Pins, control: Control<'_>) -> Result<Solution, SolveError> {
         let mut solution = self.solve_unplaced(mesh, pins, control)?;
         if solution.gauge_completed {
@@ -188,7 +191,8 @@ impl Prepared {
         Ok(solution)
     }
 
-    /// The same where the solver's own places leave it, if fewer than two pins fix the similarity.
+    /// Solves like [`Prepared::solve`], but keeps the solver's own positions if fewer than two pins fix the
+    /// similarity.
     pub(crate) fn solve_unplaced(
         &self,
         mesh: &DiskMesh,
@@ -237,7 +241,7 @@ fn convex_equations(mesh: &DiskMesh, family: Family, control: Control<'_>) -> Re
     }
 }
 
-/// Analyses a pattern; adds the time that took to `seconds`.
+/// Analyses a pattern. Adds the elapsed time to `seconds`.
 pub(crate) fn analyze(
     analysis: impl FnOnce() -> Result<Analysis, SolveError>,
     seconds: &mut PhaseSeconds,

@@ -5,10 +5,10 @@ use crate::mesh::DiskMesh;
 use crate::nonlinear::slim::is_unfolded;
 use crate::problem::{BoundaryShape, Control, Family, Method, Pins, Settings, Solution, SolveError};
 
-/// Weights of the map with which SLIM begins, in the order of trial: rounding may fold the first.
+/// Weights of the initial map of SLIM, in the order of trial: rounding may fold the first map.
 const STARTS: [Family; 2] = [Family::Uniform, Family::MeanValue];
 
-/// Tutte's map on a circle, with which SLIM begins, and the family of its weights. The first of [`STARTS`] that folds no
+/// Tutte's map on a circle, the start of SLIM, with the family of its weights: the first of [`STARTS`] that folds no
 /// face, or else the last.
 pub(crate) fn tutte(mesh: &DiskMesh, control: Control<'_>) -> Result<(Solution, Family), SolveError> {
     let mut found = Err(SolveError::NotPlanar);

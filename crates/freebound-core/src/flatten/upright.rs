@@ -1,15 +1,17 @@
-//! Which way up an embedding lies that no pin holds: as its mesh stands, up for up.
+//! Rotation of an embedding that no pin fixes: the vertical of its mesh becomes the vertical of the plane.
 //!
-//! With w(v) the place of a vertex in the mesh's front view and z(v) that in the plane, complex numbers both, the turn is
+//! Let w(v) be the position of a vertex in the front view of the mesh and z(v) its position in the plane, both complex
+//! numbers. The turn is
 //!
 //! ```text
 //! turn = s / |s|,   s = Σ_f A_f (z_f − z̄)* w_f
 //! ```
 //!
 //! over the centroids of the faces, weighted by their areas in space; z̄ is the weighted mean, * the conjugate. Of all
-//! turns it brings the embedding nearest to the front view, in the sum of squares: never a reflection. The view is from the
-//! side that the faces look at, y up; a body that looks to no side is seen from the front, z towards the eye, and only a
-//! sheet that lies down from above or below.
+//! turns this one brings the embedding closest to the front view, in the sum of squares. A reflection is never used.
+//!
+//! The view is from the side that the faces point to, y up. A body whose faces point to no side is seen from the
+//! front, z towards the eye. Only a nearly flat mesh that lies down is seen from above or below.
 
 use std::ops::Add;
 
@@ -21,35 +23,35 @@ use crate::mesh::{DiskMesh, FaceId};
 use crate::problem::{Control, Embedding, SolveError};
 use crate::weights::equations::length_scale;
 
-/// Length of the mean of the faces' normals above which a mesh is a sheet rather than a body: a hemisphere has 0.5.
+/// Length of the mean face normal above which a mesh counts as nearly flat. A hemisphere has 0.5.
 const NEARLY_FLAT: f64 = 0.6;
 
-/// Length of a mean normal, or of its horizontal part, below which it points nowhere.
+/// Length of a mean normal, or of its horizontal part, below which it has no direction.
 const NOWHERE: f64 = 0.1;
 
-/// |s| over the greatest that it could be, below which the front view says nothing of the turn.
+/// Ratio of |s| to its upper bound below which the front view does not determine the turn.
 const LEAST_AGREEMENT: f64 = 1e-6;
 
-/// A turn as near to a multiple of 90° as this, radians, is one: rounding turns nothing.
+/// Distance from a multiple of 90°, in radians, below which a turn becomes that multiple: then rounding turns nothing.
 const NEARLY_QUARTER: f64 = 1e-9;
 
-/// Faces that share the work of one task.
+/// Number of faces per parallel task.
 const FACES_PER_TASK: usize = 4096;
 
-/// Turns of an embedding that no pin holds, as complex numbers of length 1.
+/// Turns of an embedding that no pin fixes, as complex numbers of length 1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Turns {
-    /// To where it stands upright.
+    /// Turn to the upright position.
     pub(crate) wished: DVec2,
-    /// The nearest multiple of 90° to that, which rounds nothing.
+    /// Multiple of 90° nearest to `wished`, which rounds nothing.
     pub(crate) quarter: DVec2,
 }
 
 impl Turns {
-    /// None at all.
+    /// No turn.
     pub(crate) const NONE: Self = Self { wished: DVec2::X, quarter: DVec2::X };
 
-    /// Those that bring an embedding upright.
+    /// Turns that bring an embedding upright.
     ///
     /// # Errors
     ///
@@ -61,7 +63,7 @@ impl Turns {
         Ok(Self { wished: if is_quarter { quarter } else { wished }, quarter })
     }
 
-    /// By multiples of 90° alone.
+    /// Turns restricted to multiples of 90°.
     pub(crate) fn by_quarters(self) -> Self {
         Self { wished: self.quarter, ..self }
     }
@@ -72,13 +74,14 @@ fn nearest_quarter(turn: DVec2) -> DVec2 {
     if along_x { DVec2::new(1.0_f64.copysign(turn.x), 0.0) } else { DVec2::new(0.0, 1.0_f64.copysign(turn.y)) }
 }
 
-/// Sums over the faces, by twice their areas in space.
+/// Sums over the faces, weighted by twice their areas in space.
 #[derive(Clone, Copy, Default)]
 struct Sums {
     normal: DVec3,
     area: f64,
-    /// Of centroids in the plane and in space.
+    /// Sum of the centroids in the plane.
     in_plane: DVec2,
+    /// Sum of the centroids in space.
     in_space: DVec3,
 }
 
@@ -96,11 +99,11 @@ impl Add for Sums {
 }
 
 fn upright_turn(mesh: &DiskMesh, embedding: &Embedding, control: Control<'_>) -> Result<Option<DVec2>, SolveError> {
-    // Both near size 1, so that no product overflows or vanishes.
+    // Both sizes near 1, so that no product overflows or underflows.
     let in_space = length_scale(mesh);
     let in_plane = power_of_two_near(embedding.bounds().size().max_element()).recip();
     let origin = mesh.mesh().positions[0];
-    // Twice a face with its area for a length, and its centroids in the plane and in space.
+    // Vector of twice the area of a face, and its centroids in the plane and in space.
     let face_of = |face: FaceId| {
         let [a, b, c] = mesh.mesh().corners(face).map(|x| (x - origin) * in_space);
         let z = embedding.corners(mesh, face).iter().sum::<DVec2>() / 3.0 * in_plane;
@@ -118,7 +121,7 @@ fn upright_turn(mesh: &DiskMesh, embedding: &Embedding, control: Control<'_>) ->
     let of_products = |face| {
         let (normal, z, middle) = face_of(face);
         let (z, w) = (z - z_mean, in_view(middle) - w_mean);
-        // The conjugate of z, times w; and both squares.
+        // The conjugate of z times w, and both squares.
         normal.length() * DVec4::new(z.dot(w), z.perp_dot(w), z.length_squared(), w.length_squared())
     };
     let products = sum_over_faces(mesh, control, of_products)?;
@@ -127,7 +130,7 @@ fn upright_turn(mesh: &DiskMesh, embedding: &Embedding, control: Control<'_>) ->
     Ok(sum.try_normalize().filter(|_| is_clear))
 }
 
-/// The sum of a quantity over the faces of the surface, the same for any number of threads.
+/// Sum of a quantity over the faces of the surface. The result does not depend on the number of threads.
 fn sum_over_faces<T: Add<Output = T> + Default + Send>(
     mesh: &DiskMesh,
     control: Control<'_>,
@@ -144,8 +147,8 @@ fn sum_over_faces<T: Add<Output = T> + Default + Send>(
     Ok(sums?.into_iter().fold(T::default(), T::add))
 }
 
-/// Right and up of the view from the side that a surface faces. `mean_normal` has length 1 for a plane sheet and 0 for a
-/// closed surface.
+/// Right and up direction of the view from the side that a surface faces. `mean_normal` has length 1 for a plane
+/// surface and 0 for a closed one.
 fn front_view(mean_normal: DVec3) -> [DVec3; 2] {
     let across = DVec3::new(mean_normal.x, 0.0, mean_normal.z);
     let right = if across.length() > NOWHERE { DVec3::Y.cross(across) } else { DVec3::X };

@@ -1,18 +1,19 @@
-//! A tree of boxes over things in a given order, such as the edges of a polygon; and an order for things that have none.
+//! Tree of bounding boxes over items in a given order, such as the edges of a polygon; and an order along a
+//! space-filling curve for items that have none.
 
 use glam::DVec2;
 
 use super::Bounds;
 
-/// Boxes over ranges of things: node 1 is the root, node k has the children 2k and 2k + 1, the leaves come last. Where
-/// things that follow each other lie together, the boxes are small.
+/// Bounding boxes of ranges of items: node 1 is the root, node k has the children 2k and 2k + 1, the leaves come
+/// last. Boxes are small if consecutive items lie close together.
 pub struct BoxTree {
     boxes: Vec<Bounds>,
     leaf_count: usize,
 }
 
 impl BoxTree {
-    /// A tree over the boxes of all things.
+    /// Tree over the bounding boxes of all items.
     pub fn new(leaves: impl ExactSizeIterator<Item = Bounds>) -> Self {
         let leaf_count = leaves.len().next_power_of_two();
         let mut boxes = vec![Bounds::EMPTY; leaf_count];
@@ -24,10 +25,10 @@ impl BoxTree {
         Self { boxes, leaf_count }
     }
 
-    /// The things behind one whose boxes its own box meets, in their order.
+    /// Items after `thing` whose boxes meet the box of `thing`, in ascending order.
     pub fn later(&self, thing: usize) -> impl Iterator<Item = usize> + '_ {
         let bounds = self.boxes[self.leaf_count + thing];
-        // Nodes to look at with the end of the range of things below them; the left child is taken first.
+        // Nodes to visit, each with the end of its range of items; the left child is visited first.
         let mut pending = Vec::with_capacity(64);
         pending.push((1, self.leaf_count));
         std::iter::from_fn(move || {
@@ -46,17 +47,17 @@ impl BoxTree {
     }
 }
 
-/// The place of a point of a box along a curve that keeps near what lies near (G. M. Morton 1966, the bits of both
-/// coordinates in turn).
+/// Position of a point of a box along a space-filling curve that keeps neighbours close: the interleaved bits of
+/// both coordinates (G. M. Morton 1966).
 pub fn place_along_curve(bounds: Bounds, point: DVec2) -> u64 {
     const CELLS: f64 = 4_294_967_295.0;
     let share = (point - bounds.low) / bounds.size();
-    // What is not a number counts as 0.
+    // Coordinates that are not a number become 0.
     let [x, y] = (share * CELLS).as_uvec2().to_array().map(spread_bits);
     x | (y << 1)
 }
 
-/// The bits of a number, a zero after each.
+/// Bits of a number with a zero inserted after each.
 fn spread_bits(number: u32) -> u64 {
     let mut bits = u64::from(number);
     for (shift, mask) in [

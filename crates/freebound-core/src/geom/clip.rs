@@ -1,10 +1,10 @@
-//! Segments and polygons cut to a box.
+//! Clipping of segments and polygons to a box.
 
 use glam::DVec2;
 
 use super::Bounds;
 
-/// The part of a segment inside a box, if there is any (Liang and Barsky 1984).
+/// Part of a segment inside a box, if any (Liang and Barsky 1984).
 pub fn clip_segment([a, b]: [DVec2; 2], bounds: Bounds) -> Option<[DVec2; 2]> {
     let along = b - a;
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
@@ -23,8 +23,8 @@ pub fn clip_segment([a, b]: [DVec2; 2], bounds: Bounds) -> Option<[DVec2; 2]> {
     (from <= to).then(|| [from, to].map(|share| a + share * along))
 }
 
-/// The part of a polygon inside a box (Sutherland and Hodgman 1974). Where the polygon leaves and comes back, its
-/// parts hang together along the box's side.
+/// Part of a polygon inside a box (Sutherland and Hodgman 1974). If the polygon leaves the box and returns, its
+/// parts stay connected along the side of the box.
 pub fn clip_polygon(polygon: &[DVec2], bounds: Bounds) -> Vec<DVec2> {
     let sides = [
         (DVec2::X, bounds.low.x),
@@ -41,7 +41,8 @@ pub fn clip_polygon(polygon: &[DVec2], bounds: Bounds) -> Vec<DVec2> {
     kept
 }
 
-/// Adds to `cut` the part of a polygon on one side of a line: where `depth`, which is linear, is not negative.
+/// Appends to `cut` the part of a polygon on the side of a line on which `depth`, a linear function, is not
+/// negative.
 pub(super) fn cut_by_line(polygon: &[DVec2], depth: impl Fn(DVec2) -> f64, cut: &mut Vec<DVec2>) {
     for (k, &b) in polygon.iter().enumerate() {
         let a = polygon[(k + polygon.len() - 1) % polygon.len()];

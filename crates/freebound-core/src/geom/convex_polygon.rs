@@ -1,7 +1,8 @@
-//! Convex polygons that a user gives as a boundary: reading and checks.
+//! Convex polygons given by the user as a boundary: parsing and checks.
 //!
-//! Text form: corners separated by semicolons or line ends, each of two numbers separated by a space or a comma. Text from
-//! a `#` to the end of its line is a comment. Corners run counter-clockwise, and each turns left in exact arithmetic.
+//! Text form: corners separated by semicolons or line ends. Each corner is two numbers separated by a space or a
+//! comma. Text from a `#` to the end of its line is a comment. Corners run counter-clockwise, and each turns left in
+//! exact arithmetic.
 
 use std::fmt;
 use std::sync::Arc;
@@ -10,81 +11,83 @@ use glam::DVec2;
 
 use super::{Bounds, Orientation, orientation, turning_number};
 
-/// The most corners.
+/// Largest number of corners of a polygon.
 const MOST_CORNERS: usize = 10_000;
 
-/// The greatest coordinate, and the least extent of all: beyond these, lengths run out of range.
+/// Largest magnitude of a coordinate. Lengths of larger polygons overflow.
 const GREATEST: f64 = 1e100;
+
+/// Smallest extent of a polygon. Lengths in smaller polygons underflow.
 const LEAST_EXTENT: f64 = 1e-100;
 
-/// A strictly convex polygon with counter-clockwise corners. Cheap to clone. Polygons with equal corners are equal.
+/// Strictly convex polygon with counter-clockwise corners. Cheap to clone. Polygons with equal corners are equal.
 #[derive(Clone, Debug)]
 pub struct ConvexPolygon(Corners);
 
 /// Storage of the corners.
 #[derive(Clone, Debug)]
 enum Corners {
-    /// Corners of a polygon that is part of the program.
+    /// Corners of a polygon built into the program.
     Static(&'static [DVec2]),
-    /// Corners of a polygon that was read, shared by its copies.
+    /// Corners of a parsed polygon, shared by its clones.
     Shared(Arc<[DVec2]>),
 }
 
-/// Why a text or a list of corners is no convex polygon.
+/// Reason for which a text or a list of corners is no convex polygon.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PolygonFault {
     /// A corner that is not two numbers.
-    #[error("line {line}: \"{text}\" is no point: write two numbers, x y")]
+    #[error("line {line}: \"{text}\" is not a point: write two numbers, x y")]
     NotAPoint {
-        /// The line, from 1.
+        /// Line number, from 1.
         line: usize,
-        /// What stands there.
+        /// Text of the corner.
         text: String,
     },
-    /// Coordinates beyond the range in which lengths can be told.
-    #[error("corner {corner} lies beyond the range of numbers that lengths can be told of, or all lie in one place")]
+    /// Coordinates or an extent outside of the range in which lengths can be computed.
+    #[error("corner {corner} is beyond the range of lengths, or all corners coincide")]
     OutOfRange {
-        /// The corner, from 1.
+        /// Number of the corner, from 1.
         corner: usize,
     },
-    /// Too few corners for an area.
-    #[error("a polygon has 3 corners or more, found {found}")]
+    /// Fewer than 3 corners.
+    #[error("a polygon needs at least 3 corners, found {found}")]
     TooFewCorners {
-        /// How many there are.
+        /// Number of corners given.
         found: usize,
     },
-    /// More corners than are taken.
-    #[error("a polygon has {most} corners at most, found {found}")]
+    /// More corners than the limit.
+    #[error("a polygon has at most {most} corners, found {found}")]
     TooManyCorners {
-        /// How many there are.
+        /// Number of corners given.
         found: usize,
-        /// How many there may be.
+        /// Largest number of corners.
         most: usize,
     },
-    /// All corners turn right.
-    #[error("its corners run clockwise: write them the other way around")]
+    /// Corners that all turn right.
+    #[error("the corners run clockwise: reverse their order")]
     Clockwise,
-    /// A corner that does not turn left.
-    #[error("corner {corner}, at {x} {y}, does not turn left: the polygon has to be convex, without straight corners")]
+    /// Corner that does not turn left.
+    #[error("corner {corner}, at {x} {y}, does not turn left: make the polygon strictly convex")]
     NotConvex {
-        /// The corner, from 1.
+        /// Number of the corner, from 1.
         corner: usize,
-        /// Its place.
+        /// Coordinate x of the corner.
         x: f64,
-        /// Its place.
+        /// Coordinate y of the corner.
         y: f64,
     },
-    /// Every corner turns left, but more than once around.
-    #[error("it winds {turns} times around: a convex polygon does so once")]
+    /// Corners that all turn left, but wind more than once around.
+    #[error("the polygon winds {turns} times around: make it convex, with one turn")]
     WindsAround {
-        /// How often.
+        /// Turning number of the polygon.
         turns: i64,
     },
 }
 
 impl ConvexPolygon {
-    /// A regular hexagon, where nobody says which polygon it is to be.
+    /// Regular hexagon, the default polygon.
     pub const HEXAGON: Self = Self(Corners::Static(&[
         DVec2::new(1.0, 0.0),
         DVec2::new(0.5, 0.866_025_403_784_438_6),
@@ -94,33 +97,33 @@ impl ConvexPolygon {
         DVec2::new(0.5, -0.866_025_403_784_438_6),
     ]));
 
-    /// Takes corners that make a convex polygon, counter-clockwise.
+    /// Creates a polygon from counter-clockwise corners.
     ///
     /// # Errors
     ///
-    /// What is wrong with them.
+    /// Returns the first [`PolygonFault`] of the corners.
     pub fn new(corners: &[DVec2]) -> Result<Self, PolygonFault> {
         check(corners)?;
-        // A negative zero is zero.
+        // Adding zero turns a negative zero into a positive zero.
         let corners = corners.iter().map(|&corner| corner + DVec2::ZERO).collect();
         Ok(Self(Corners::Shared(corners)))
     }
 
-    /// Reads corners.
+    /// Parses a polygon from its text form.
     ///
     /// # Errors
     ///
-    /// A line that is no point, or what is wrong with the corners.
+    /// Returns a [`PolygonFault`] for text that is no point, and for corners that make no convex polygon.
     pub fn parse(text: &str) -> Result<Self, PolygonFault> {
         Self::new(&corners_in(text)?)
     }
 
-    /// What is wrong with a text, if anything, while it is only being typed: nothing is kept of it.
+    /// First fault of a text that is still being typed, if any. Creates no polygon.
     pub fn fault_in(text: &str) -> Option<PolygonFault> {
         corners_in(text).and_then(|corners| check(&corners)).err()
     }
 
-    /// The corners, counter-clockwise.
+    /// Corners, counter-clockwise.
     pub fn corners(&self) -> &[DVec2] {
         match &self.0 {
             Corners::Static(corners) => corners,
@@ -137,7 +140,7 @@ impl PartialEq for ConvexPolygon {
 
 impl Eq for ConvexPolygon {}
 
-/// The corners as they are read.
+/// Writes the corners in the text form that [`ConvexPolygon::parse`] reads.
 impl fmt::Display for ConvexPolygon {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let corners: Vec<String> = self.corners().iter().map(|corner| format!("{} {}", corner.x, corner.y)).collect();

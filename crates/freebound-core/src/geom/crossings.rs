@@ -1,58 +1,58 @@
-//! All pairs of edges of a closed polygon that meet other than at a shared end. Exact.
+//! Pairs of edges of a closed polygon that meet other than at a shared end. Exact.
 //!
-//! # What counts
+//! # Definition
 //!
-//! Edge i runs from corner i to corner i + 1. Edges that are not next to each other cross where they have any point
-//! in common: crossing, touching, overlapping. Edges next to each other cross where they have more than their shared
-//! end in common: one folds back onto the other. An edge of length zero has one point; the edges before and behind it
-//! then meet there and are not neighbours, so that they cross. Edges with an end that is not finite are left out.
+//! Edge i runs from corner i to corner i + 1. Two edges that are not adjacent cross if they have any point in
+//! common: crossing, touching, overlapping. Adjacent edges cross if they have more than their shared end in common:
+//! one folds back onto the other. An edge of length zero is a single point; the edges before and after it meet there
+//! without being adjacent, so they cross. Edges with an end that is not finite are skipped.
 //!
 //! # Method
 //!
-//! A binary tree of bounding boxes over the edges in polygon order: neighbours lie together, so that the boxes are
-//! small and nothing needs sorting. Every edge asks the tree for the later edges whose boxes its own box meets.
-//! On a boundary of n short edges that is n log n; on edges most of whose boxes overlap (n long parallel edges
-//! aslant) it is quadratic, as any method over boxes is. The search ends with the first [`CROSSINGS_LISTED`] pairs: of n
-//! random edges nearly a quarter of all pairs cross, and nobody looks at them.
+//! A binary tree holds the bounding boxes of the edges in polygon order: neighbours lie together, so the boxes are
+//! small and nothing needs sorting. Each edge queries the tree for the later edges whose boxes meet its own. A
+//! boundary of n short edges takes O(n log n). Edges most of whose boxes overlap (n long parallel slanted edges)
+//! take quadratic time, like any method based on boxes. The search ends with the first [`CROSSINGS_LISTED`] pairs:
+//! of n random edges nearly a quarter of all pairs cross, more than anybody needs.
 
 use crate::parallel::prelude::*;
 use glam::DVec2;
 
 use super::{Bounds, BoxTree, Orientation, orientation};
 
-/// The most pairs that are looked for, listed in less than a megabyte.
+/// Largest number of pairs listed: less than a megabyte.
 pub const CROSSINGS_LISTED: usize = 100_000;
 
-/// Edges that share the work of one task.
+/// Number of edges per task.
 const EDGES_PER_TASK: usize = 256;
 
-/// The most tasks that run side by side before the pairs are counted. Not the number of threads, on which no result may
-/// depend.
+/// Largest number of parallel tasks between two counts of the pairs. A constant instead of the number of threads, so
+/// that no result depends on the number of threads.
 const TASKS_PER_ROUND: usize = 64;
 
 /// Pairs of crossing edges.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Crossings {
-    /// Numbers of edges, the lower first, in ascending order: the first [`CROSSINGS_LISTED`] of all.
+    /// Edge numbers, the lower first, in ascending order: the first [`CROSSINGS_LISTED`] of all.
     pub pairs: Vec<[u32; 2]>,
-    /// Whether there are more than these.
+    /// True if there are more crossings than [`pairs`](Self::pairs) lists.
     pub has_more: bool,
 }
 
-/// Finds the pairs of edges of a closed polygon that meet other than at a shared end, up to [`CROSSINGS_LISTED`] of them.
+/// Finds the pairs of edges of a closed polygon that meet other than at a shared end, at most [`CROSSINGS_LISTED`].
 ///
 /// # Panics
 ///
 /// If the polygon has 2³² edges or more.
 pub fn crossings(polygon: &[DVec2]) -> Crossings {
-    // One more than are listed tells that there are more.
+    // An extra pair shows that there are more than are listed.
     let mut pairs = first_crossings(polygon, CROSSINGS_LISTED + 1);
     let has_more = pairs.len() > CROSSINGS_LISTED;
     pairs.truncate(CROSSINGS_LISTED);
     Crossings { pairs, has_more }
 }
 
-/// Whether no two edges of a closed polygon meet other than at a shared end.
+/// True if no two edges of a closed polygon meet other than at a shared end.
 ///
 /// # Panics
 ///
@@ -61,7 +61,7 @@ pub fn is_simple(polygon: &[DVec2]) -> bool {
     first_crossings(polygon, 1).is_empty()
 }
 
-/// The first `most` pairs of all.
+/// First `most` pairs of crossing edges.
 fn first_crossings(polygon: &[DVec2], most: usize) -> Vec<[u32; 2]> {
     let edges = Polygon::new(polygon);
     let task_count = polygon.len().div_ceil(EDGES_PER_TASK);
@@ -76,7 +76,7 @@ fn first_crossings(polygon: &[DVec2], most: usize) -> Vec<[u32; 2]> {
         };
         let tasks = done..(done + round).min(task_count);
         done = tasks.end;
-        // Where nearly all edges cross, the first task alone finds enough.
+        // If nearly all edges cross, the first task alone finds enough.
         round = (2 * round).min(TASKS_PER_ROUND);
         let found: Vec<Vec<[u32; 2]>> = tasks.into_par_iter().map(of_task).collect();
         pairs.extend(found.into_iter().flatten().take(missing));
@@ -84,32 +84,33 @@ fn first_crossings(polygon: &[DVec2], most: usize) -> Vec<[u32; 2]> {
     pairs
 }
 
-/// Whether two closed segments meet: points where their length is zero; none where an end is not finite.
+/// True if two closed segments meet. A segment of length zero is a point. False if an end is not finite.
 pub fn segments_meet(first: [DVec2; 2], second: [DVec2; 2]) -> bool {
     box_around(first).meets(box_around(second)) && straddles(first, second) && straddles(second, first)
 }
 
-/// Whether the ends of a segment do not lie strictly on the same side of a line.
+/// True unless both ends of a segment lie strictly on one side of a line. False if a coordinate is not finite.
 fn straddles(line: [DVec2; 2], segment: [DVec2; 2]) -> bool {
     let side = |point| orientation(line[0], line[1], point);
     let Some(first) = side(segment[0]) else { return false };
     first == Orientation::Collinear || side(segment[1]).is_some_and(|second| second != first)
 }
 
-/// Whether the segments from `shared` to `a` and to `b` have more than `shared` in common.
+/// True if the segments from `shared` to `a` and to `b` have more than `shared` in common.
 pub fn folds_back(a: DVec2, shared: DVec2, b: DVec2) -> bool {
-    // On one line they overlap where both go the same way. Comparing coordinates is exact, subtracting them is not.
+    // Collinear segments overlap if both have one direction. Comparing coordinates is exact, subtracting them is
+    // not.
     let same_way = |a: f64, shared: f64, b: f64| (a > shared && b > shared) || (a < shared && b < shared);
     orientation(a, shared, b) == Some(Orientation::Collinear)
         && (same_way(a.x, shared.x, b.x) || same_way(a.y, shared.y, b.y))
 }
 
-/// The box around a segment, empty where an end is not finite.
+/// Bounding box of a segment; empty if an end is not finite.
 fn box_around([a, b]: [DVec2; 2]) -> Bounds {
     if a.is_finite() && b.is_finite() { Bounds::of([a, b]) } else { Bounds::EMPTY }
 }
 
-/// A closed polygon, with a tree over its edges.
+/// Closed polygon with a tree over its edges.
 struct Polygon<'a> {
     corners: &'a [DVec2],
     tree: BoxTree,
@@ -122,16 +123,16 @@ impl<'a> Polygon<'a> {
         Self { corners, tree: BoxTree::new(boxes) }
     }
 
-    /// The crossings of an edge with later edges, in ascending order.
+    /// Crossings of an edge with later edges, in ascending order.
     fn later_crossings(&self, edge: usize) -> impl Iterator<Item = [u32; 2]> + '_ {
         let crossing = self.tree.later(edge).filter(move |&later| self.edges_cross(edge, later));
         crossing.map(move |later| [edge, later].map(|e| u32::try_from(e).expect("checked in new")))
     }
 
-    /// Whether two edges, the lower first, whose boxes meet, meet other than at a shared end.
+    /// True if two edges, the lower first, whose boxes meet, meet other than at a shared end.
     fn edges_cross(&self, lower: usize, higher: usize) -> bool {
         let [[a, b], [c, d]] = [lower, higher].map(|edge| segment(self.corners, edge));
-        // In a triangle the first and the last edge share a corner, as all pairs do.
+        // In a triangle, the first and the last edge share a corner, like all pairs.
         if lower + 1 == higher {
             folds_back(a, b, d)
         } else if lower == 0 && higher + 1 == self.corners.len() {

@@ -1,4 +1,4 @@
-//! The convex hull of points, by Andrew's monotone chain with the exact predicate; whether a point lies inside one.
+//! Convex hull of points by Andrew's monotone chain with the exact predicate; test if a point lies inside a hull.
 //!
 //! Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979.
 
@@ -9,8 +9,8 @@ use glam::DVec2;
 use super::polygon::is_down;
 use super::{Orientation, orientation};
 
-/// The corners of the convex hull as places among the points, counter-clockwise from the leftmost, none within a side.
-/// Points that are not finite are left out; there are fewer than three corners where no area is spanned.
+/// Corners of the convex hull as indices into `points`, counter-clockwise from the leftmost, none inside a side.
+/// Points that are not finite are skipped. Fewer than three corners are returned if the points span no area.
 pub fn convex_hull(points: &[DVec2]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).filter(|&i| points[i].is_finite()).collect();
     order.sort_by(|&i, &j| points[i].x.total_cmp(&points[j].x).then(points[i].y.total_cmp(&points[j].y)));
@@ -36,11 +36,12 @@ pub fn convex_hull(points: &[DVec2]) -> Vec<usize> {
     lower
 }
 
-/// Whether a point lies strictly inside the convex hull of others: not on its rim, and not where the hull has no area.
-/// Exact; false where a coordinate is not finite.
+/// True if a point lies strictly inside the convex hull of the others: not on its boundary, and never if the hull
+/// has no area. Exact. False if a coordinate is not finite.
 ///
-/// So it is where the directions to the others leave no gap of half a turn or more: each of them, followed by the next one
-/// counter-clockwise, turns left. Others in the order of their directions are told at once; else they are sorted.
+/// The point is inside exactly if the directions to the others leave no gap of half a turn or more: each direction,
+/// followed by the next one counter-clockwise, turns left. Points given in the order of their directions need no
+/// sorting; other points are sorted first.
 pub fn is_inside_hull(point: DVec2, others: &[DVec2]) -> bool {
     if !point.is_finite() || !others.iter().all(|other| other.is_finite()) {
         return false;
@@ -49,7 +50,8 @@ pub fn is_inside_hull(point: DVec2, others: &[DVec2]) -> bool {
     if others.len() > 2 && in_turn(others).all(|[a, b]| turns_left(a, b)) {
         return true;
     }
-    // With the half-turn of the direction: points on one line with it lie in one direction if they share that.
+    // Each point carries the half-turn of its direction: points collinear with `point` share a direction if they
+    // share the half-turn.
     let halved = |&other: &DVec2| Some((is_down(point, other)?, other));
     let mut sorted: Vec<(bool, DVec2)> = others.iter().filter_map(halved).collect();
     sorted.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| turn_order(orientation(point, a.1, b.1))));
@@ -60,12 +62,12 @@ pub fn is_inside_hull(point: DVec2, others: &[DVec2]) -> bool {
     sorted.len() > 2 && in_turn(&sorted).all(|[a, b]| turns_left(a.1, b.1))
 }
 
-/// Each with the next one, the last with the first.
+/// Pairs of consecutive items; the last item is paired with the first.
 fn in_turn<T: Copy>(all: &[T]) -> impl Iterator<Item = [T; 2]> + '_ {
     all.iter().zip(all.iter().cycle().skip(1)).map(|(&a, &b)| [a, b])
 }
 
-/// How two directions of one half-turn follow each other counter-clockwise, by the orientation of their points.
+/// Counter-clockwise order of two directions of one half-turn, from the orientation of their points.
 fn turn_order(turn: Option<Orientation>) -> Ordering {
     match turn {
         Some(Orientation::CounterClockwise) => Ordering::Less,

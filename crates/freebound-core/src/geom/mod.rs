@@ -1,18 +1,20 @@
-//! The plane: exact predicates on points, segments and closed polygons, convex hulls, and pictures. Knows no mesh.
+//! Geometry of the plane: exact predicates on points, segments and closed polygons, convex hulls, packing and
+//! pictures. Knows no mesh.
 //!
-//! | file | what |
+//! | file | contents |
 //! |---|---|
-//! | `orient.rs`, `along.rs` | the side of a line that a point lies on, and the order of points along a direction, exactly |
-//! | `bounds.rs`, `clip.rs`, `box_tree.rs` | boxes; segments and polygons cut to one; which of many boxes meet |
-//! | `polygon.rs`, `crossings.rs` | turning and winding numbers of a closed polygon; where it meets itself |
-//! | `convex_polygon.rs` | a convex polygon that a person gives |
-//! | `kernel.rs` | the points that see all of a polygon |
-//! | `hull.rs`, `rectangle.rs` | the convex hull, and whether a point lies inside; the rectangle of the least area around points |
+//! | `orient.rs`, `order_along_direction.rs` | orientation of three points, order of points along a direction; exact |
+//! | `bounds.rs`, `clip.rs`, `box_tree.rs` | boxes; segments and polygons clipped to a box; pairs of boxes that meet |
+//! | `polygon.rs`, `crossings.rs` | turning and winding numbers of a closed polygon; pairs of its edges that meet |
+//! | `convex_polygon.rs` | convex polygon given by the user |
+//! | `visibility_kernel.rs` | kernel of a polygon: the points that see all of it |
+//! | `hull.rs`, `rectangle.rs` | convex hull and point-in-hull test; rectangle of least area around points |
 //! | `packing.rs` | boxes packed into a picture |
-//! | `triangulation.rs` | triangulations of points, and of what lies outside a polygon |
-//! | `similarity.rs` | the similarity that fits pairs of points best; whether pairs look mirrored |
+//! | `triangulation.rs` | triangulations of points and of the outside of a polygon |
+//! | `similarity.rs` | similarity that best fits pairs of points; test for mirrored pairs |
 //! | `power.rs` | powers of two as factors |
-//! | `picture.rs`, `picture_frame.rs` | a picture, and how texture coordinates lie in the plane |
+//! | `picture.rs`, `picture_frame.rs` | picture in memory; map between texture coordinates and the plane |
+//! | `random.rs` | reproducible pseudo-random numbers |
 
 mod bounds;
 mod box_tree;

@@ -1,4 +1,4 @@
-//! How two points follow each other along a direction, exact for every finite input.
+//! Order of two points along a direction, exact for every finite input.
 //!
 //! # Equation
 //!
@@ -8,9 +8,10 @@
 //!
 //! # Method
 //!
-//! Two differences, two products and one sum round five times: by at most 4 ε of the sum of the products' sizes, as long as nothing
-//! underflows. Where the sum is larger than that its sign is right; elsewhere the products of the coordinates are written
-//! as integers times powers of two, and added in integers of any length.
+//! Two differences, two products and one sum round five times. The error is at most 4 ε of the sum of the magnitudes
+//! of the products, unless something underflows. If the sum exceeds this bound, its sign is right. Otherwise the
+//! products of the coordinates are written as integers times powers of two and added in arbitrary-precision
+//! integers.
 
 use std::cmp::Ordering;
 
@@ -19,14 +20,14 @@ use num_bigint::{BigInt, Sign};
 
 use super::orient::integer_and_exponent;
 
-/// Bound of the rounding of the sum, relative to the sum of the products' sizes.
+/// Bound of the rounding error of the sum, relative to the sum of the magnitudes of the products.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Sums of sizes from here on have lost nothing by underflow that matters beside [`ROUNDING`].
+/// Sum of magnitudes above which underflow is negligible beside [`ROUNDING`].
 const LEAST_SIZE: f64 = 1e-280;
 
-/// How two points follow each other along a direction, which need have no unit length; `None` where a coordinate is infinite
-/// or not a number.
+/// Order of two points along a direction, which need not have unit length. `None` if a coordinate is infinite or not
+/// a number.
 pub fn order_along(direction: DVec2, a: DVec2, b: DVec2) -> Option<Ordering> {
     let terms = direction * (b - a);
     let (sum, size) = (terms.x + terms.y, terms.x.abs() + terms.y.abs());
@@ -37,7 +38,7 @@ pub fn order_along(direction: DVec2, a: DVec2, b: DVec2) -> Option<Ordering> {
     is_finite.then(|| order_in_integers(direction, a, b))
 }
 
-/// The sign of the sum by integers of any length.
+/// Sign of the sum in arbitrary-precision integers.
 fn order_in_integers(direction: DVec2, a: DVec2, b: DVec2) -> Ordering {
     let products = [(direction.x, b.x), (-direction.x, a.x), (direction.y, b.y), (-direction.y, a.y)];
     let products = products.map(|(d, z)| {

@@ -1,4 +1,4 @@
-//! The sign of the area of a triangle, exact for every finite input.
+//! Sign of the area of a triangle, exact for every finite input.
 //!
 //! # Equation
 //!
@@ -8,47 +8,47 @@
 //!
 //! # Method
 //!
-//! Shewchuk's adaptive predicate (crate `robust`) is exact as long as nothing underflows or overflows. It is asked
-//! where every coordinate is 0 or lies within 2⁻⁴⁰⁰ … 2⁴⁰⁰ ([`LEAST`], [`GREATEST`]), because there
+//! Shewchuk's adaptive predicate (crate `robust`) is exact unless something underflows or overflows. It is used if
+//! every coordinate is 0 or lies within 2⁻⁴⁰⁰ … 2⁴⁰⁰ ([`LEAST`], [`GREATEST`]), because in this range
 //!
-//! * all coordinates, hence all their differences and the rounding errors of these, are multiples of 2⁻⁴⁵²; all
-//!   products and the rounding errors of these are multiples of 2⁻⁹⁰⁴, so that none is lost: the least positive
-//!   number is 2⁻¹⁰⁷⁴;
-//! * the predicate's error bounds are such a multiple times at least 2⁻¹⁰⁶, a normal number (2⁻¹⁰²² or more);
+//! * all coordinates, their differences and the rounding errors of the differences are multiples of 2⁻⁴⁵²; all
+//!   products and their rounding errors are multiples of 2⁻⁹⁰⁴. Nothing is lost: the least positive number is
+//!   2⁻¹⁰⁷⁴;
+//! * the error bounds of the predicate are such a multiple times at least 2⁻¹⁰⁶, a normal number (2⁻¹⁰²² or more);
 //! * differences are at most 2⁴⁰¹ and sums of two products at most 2⁸⁰³; splitting a factor multiplies it by 2²⁷:
 //!   nothing comes near 2¹⁰²⁴.
 //!
-//! Elsewhere the coordinates are written as integers times a common power of two, and the determinant is computed
-//! in integers of any length.
+//! Otherwise the coordinates are written as integers times a common power of two, and the determinant is computed in
+//! arbitrary-precision integers.
 //!
 //! Source: J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997.
 
 use glam::DVec2;
 use num_bigint::{BigInt, Sign};
 
-/// 2⁻⁴⁰⁰: the least magnitude, but for 0, that is left to the adaptive predicate.
+/// Least nonzero magnitude for the adaptive predicate: 2⁻⁴⁰⁰.
 const LEAST: f64 = f64::from_bits((1023 - 400) << 52);
 
-/// 2⁴⁰⁰: the greatest magnitude that is left to the adaptive predicate.
+/// Greatest magnitude for the adaptive predicate: 2⁴⁰⁰.
 const GREATEST: f64 = f64::from_bits((1023 + 400) << 52);
 
-/// Twice the area of a triangle, rounded: negative where it turns right.
+/// Twice the signed area of a triangle, rounded: negative if the triangle turns right.
 pub fn double_area([a, b, c]: [DVec2; 3]) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// How three points lie in the plane.
+/// Orientation of three points in the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Orientation {
-    /// They turn left: the triangle's area is positive.
+    /// Left turn: the area of the triangle is positive.
     CounterClockwise,
-    /// They turn right: the triangle's area is negative.
+    /// Right turn: the area of the triangle is negative.
     Clockwise,
-    /// They lie on one line, or some of them coincide.
+    /// Points on one line, including points that coincide.
     Collinear,
 }
 
-/// Tells exactly how three points lie; `None` where a coordinate is infinite or not a number.
+/// Exact orientation of three points; `None` if a coordinate is infinite or not a number.
 pub fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Option<Orientation> {
     let coordinates = [a.x, a.y, b.x, b.y, c.x, c.y];
     if coordinates.iter().all(|&v| v == 0.0 || (LEAST..=GREATEST).contains(&v.abs())) {
@@ -65,12 +65,12 @@ pub fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Option<Orientation> {
     coordinates.iter().all(|v| v.is_finite()).then(|| orientation_in_integers(coordinates))
 }
 
-/// The determinant's sign by integers of any length.
+/// Sign of the determinant in arbitrary-precision integers.
 fn orientation_in_integers(coordinates: [f64; 6]) -> Orientation {
     let parts = coordinates.map(integer_and_exponent);
     let lowest = parts.iter().filter(|(integer, _)| *integer != 0).map(|&(_, exponent)| exponent).min().unwrap_or(0);
     let [ax, ay, bx, by, cx, cy] = parts.map(|(integer, exponent)| {
-        // A zero's exponent may lie below the lowest; shifting it means nothing.
+        // The exponent of a zero may lie below the lowest; shifting a zero has no effect.
         BigInt::from(integer) << exponent.saturating_sub(lowest)
     });
     let area = (bx - &ax) * (cy - &ay) - (by - &ay) * (cx - &ax);
@@ -81,13 +81,13 @@ fn orientation_in_integers(coordinates: [f64; 6]) -> Orientation {
     }
 }
 
-/// A finite number as integer · 2^(exponent − 1075); the exponent is at least 1.
+/// Decomposition of a finite number into integer · 2^(exponent − 1075); the exponent is at least 1.
 pub(super) fn integer_and_exponent(value: f64) -> (i64, u32) {
     const FRACTION_BITS: u32 = 52;
     let bits = value.to_bits();
     let fraction = (bits & ((1 << FRACTION_BITS) - 1)).cast_signed();
     let exponent = u32::try_from((bits >> FRACTION_BITS) & 0x7ff).expect("eleven bits fit");
-    // Subnormal numbers have the exponent of the least normal ones and no hidden bit.
+    // Subnormal numbers have the exponent of the least normal numbers and no hidden bit.
     let magnitude = if exponent == 0 { fraction } else { fraction | (1 << FRACTION_BITS) };
     (if value.is_sign_negative() { -magnitude } else { magnitude }, exponent.max(1))
 }

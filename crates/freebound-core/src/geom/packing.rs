@@ -1,42 +1,47 @@
-//! Boxes packed into a picture without overlap, as large as they fit: all by the same factor.
+//! Packing of boxes into a picture without overlap, all scaled by one factor, as large as possible.
 //!
-//! Boxes take whole pixels, with half of the gap around each. The factor is found by bisection; whether boxes of a size fit is asked
-//! of the crate `crunch` (maximal rectangles, best side first), or, of many boxes, of `guillotiere`. On random boxes, with a gap of
-//! 4 pixels on 1024: 30 boxes cover 81 to 88 % by the first, 72 to 74 % by the second; 200 boxes 82 to 84 % by either,
-//! in 60 ms by the first and 1 ms by the second; 1,000 boxes 70 % and 71 %, in 2 s and 8 ms.
+//! Boxes occupy whole pixels, with half of the gap around each. Bisection finds the factor. The crate `crunch`
+//! (maximal rectangles, best side first) decides if boxes of a given size fit; for many boxes `guillotiere` decides.
+//! Coverage of random boxes, with a gap of 4 pixels on 1024 pixels:
+//!
+//! | boxes | `crunch` | `guillotiere` |
+//! |---|---|---|
+//! | 30 | 81 to 88 % | 72 to 74 % |
+//! | 200 | 82 to 84 %, 60 ms | 82 to 84 %, 1 ms |
+//! | 1,000 | 70 %, 2 s | 71 %, 8 ms |
 
 use crunch::{Item, Rect, Rotation};
 use glam::{DVec2, UVec2, Vec2Swizzles as _};
 use guillotiere::{SimpleAtlasAllocator, size2};
 
-/// Above so many boxes the faster packer is asked.
+/// Number of boxes above which the faster packer (`guillotiere`) is used.
 const MANY: usize = 100;
 
-/// Halvings of the interval in which the factor lies.
+/// Number of bisection steps for the factor.
 const HALVINGS: usize = 24;
 
-/// What boxes are packed into.
+/// Size of the picture, and rules for packing boxes into it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default))]
 pub struct PackingOptions {
-    /// Width and height of the picture, pixels; from 1 to [`LONGEST_SIDE`](Self::LONGEST_SIDE), as what lies beyond is taken.
+    /// Width and height of the picture in pixels, clamped to 1 to [`LONGEST_SIDE`](Self::LONGEST_SIDE).
     pub picture: [u32; 2],
-    /// The least distance between boxes, pixels; half of it between a box and the picture's edge. At most
-    /// [`WIDEST_GAP`](Self::WIDEST_GAP), as what is wider is taken.
+    /// Least distance between boxes in pixels; half of it between a box and the edge of the picture. Clamped to at
+    /// most [`WIDEST_GAP`](Self::WIDEST_GAP).
     pub gap: u32,
-    /// Whether boxes may be turned by a quarter.
+    /// True if boxes may be rotated by 90°.
     pub turns: bool,
 }
 
 impl PackingOptions {
-    /// The longest side of a picture, pixels.
+    /// Longest side of a picture in pixels.
     pub const LONGEST_SIDE: u32 = 1 << 16;
 
-    /// The widest gap, pixels.
+    /// Widest gap in pixels.
     pub const WIDEST_GAP: u32 = 1 << 10;
 
-    /// How many times as large as others a chart may be.
+    /// Range of the size of a chart relative to other charts.
     pub const SIZES: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 }
 
@@ -46,7 +51,7 @@ impl Default for PackingOptions {
     }
 }
 
-/// A picture to pack into.
+/// Options of a packing with clamped sizes.
 #[derive(Clone, Copy)]
 struct Room {
     picture: UVec2,
@@ -54,35 +59,35 @@ struct Room {
     turns: bool,
 }
 
-/// Boxes that are packed.
+/// Packed boxes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Packing {
-    /// Width and height of the picture that they fit into, pixels: the one given, doubled as often as the gaps need.
+    /// Width and height of the picture in pixels: the given size, doubled until the gaps fit.
     pub picture: UVec2,
-    /// Pixels per unit of length of the boxes.
+    /// Pixels per length unit of the boxes.
     pub scale: f64,
-    /// Where each box lies.
+    /// Placement of each box.
     pub places: Vec<Packed>,
 }
 
-/// Where a box lies.
+/// Placement of a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Packed {
-    /// Its lower left corner, pixels from that of the picture.
+    /// Lower left corner in pixels from the lower left corner of the picture.
     pub low: DVec2,
-    /// Whether it is turned by a quarter: its width and height are exchanged.
+    /// True if the box is rotated by 90°: its width and height are exchanged.
     pub turned: bool,
 }
 
-/// Packs boxes of these widths and heights.
+/// Packs boxes of the given widths and heights.
 ///
 /// # Panics
 ///
-/// If a box has an infinite or negative size, or none that is a number.
+/// If a width or height is negative, infinite or not a number.
 pub fn pack(sizes: &[DVec2], options: PackingOptions) -> Packing {
     assert!(sizes.iter().all(|size| size.is_finite() && size.cmpge(DVec2::ZERO).all()), "boxes have sizes");
     let longest = sizes.iter().fold(0.0, |longest: f64, size| longest.max(size.max_element()));
-    // In units of the longest side nothing overflows.
+    // Division by the longest side prevents overflow.
     let unit = if longest > 0.0 { longest } else { 1.0 };
     let sizes: Vec<DVec2> = sizes.iter().map(|&size| size / unit).collect();
     let side = |pixels: u32| pixels.clamp(1, PackingOptions::LONGEST_SIDE);
@@ -96,7 +101,7 @@ pub fn pack(sizes: &[DVec2], options: PackingOptions) -> Packing {
     }
 }
 
-/// The largest factor by which boxes fit, and how; none where not even their gaps do.
+/// Largest factor by which the boxes fit, and their placements. `None` if not even the gaps fit.
 fn largest(sizes: &[DVec2], room: Room) -> Option<(f64, Vec<Packed>)> {
     let (mut low, mut high) = (0.0, f64::from(room.picture.max_element()));
     let mut best = places(sizes, low, room).map(|places| (low, places))?;
@@ -110,11 +115,11 @@ fn largest(sizes: &[DVec2], room: Room) -> Option<(f64, Vec<Packed>)> {
             None => high = middle,
         }
     }
-    // A box of no size at all has a pixel: a factor of zero would flatten them all.
+    // A box of size zero occupies a pixel; without this check, a factor of zero would flatten all boxes.
     (best.0 > 0.0 || sizes.is_empty()).then_some(best)
 }
 
-/// Where boxes lie that are larger by a factor; none where they do not fit.
+/// Placements of boxes scaled by a factor; `None` if they do not fit.
 fn places(sizes: &[DVec2], scale: f64, room: Room) -> Option<Vec<Packed>> {
     let with_gap = |size: &DVec2| (*size * scale).ceil().max(DVec2::ONE).as_u64vec2().as_uvec2() + room.gap;
     let boxes: Vec<UVec2> = sizes.iter().map(with_gap).collect();
@@ -147,7 +152,7 @@ fn by_maximal(boxes: &[UVec2], room: Room) -> Option<Vec<Packed>> {
     Some(places)
 }
 
-/// Boxes lie on their longer side where they may be turned, the highest come first.
+/// Packs with `guillotiere`. Boxes that may be rotated lie on their longer side; higher boxes are placed first.
 fn by_guillotines(boxes: &[UVec2], room: Room) -> Option<Vec<Packed>> {
     let size = |size: UVec2| Some(size2(i32::try_from(size.x).ok()?, i32::try_from(size.y).ok()?));
     let is_turned = |number: usize| room.turns && boxes[number].x < boxes[number].y;

@@ -1,4 +1,4 @@
-//! A picture in memory.
+//! Picture in memory.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -10,18 +10,18 @@ use std::fmt;
 
 use glam::DVec2;
 
-/// A picture of 8-bit sRGB colours with opacity, row by row from the top.
+/// Picture of 8-bit sRGB colours with opacity, row by row from the top.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Picture {
-    /// Pixels in a row.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
-    /// Red, green, blue, opacity of each pixel: 4 × width × height bytes.
+    /// Red, green, blue and opacity of each pixel: 4 × width × height bytes.
     pub pixels: Vec<u8>,
 }
 
-/// Its size alone: what fails says what it holds, and millions of numbers say nothing.
+/// Prints only the size: the pixels would flood a failure message with millions of numbers.
 impl fmt::Debug for Picture {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Picture").field("width", &self.width).field("height", &self.height).finish_non_exhaustive()
@@ -29,12 +29,12 @@ impl fmt::Debug for Picture {
 }
 
 impl Picture {
-    /// A picture of one colour.
+    /// Picture of one colour.
     pub fn filled(width: u32, height: u32, colour: [u8; 4]) -> Self {
         Self { width, height, pixels: colour.repeat(width as usize * height as usize) }
     }
 
-    /// Colour of a pixel, `None` outside the picture.
+    /// Colour of a pixel, counted from the top left. `None` outside the picture.
     pub fn pixel(&self, x: u32, y: u32) -> Option<[u8; 4]> {
         if x >= self.width || y >= self.height {
             return None;
@@ -43,7 +43,8 @@ impl Picture {
         Some([self.pixels[at], self.pixels[at + 1], self.pixels[at + 2], self.pixels[at + 3]])
     }
 
-    /// Colour at texture coordinates, v up, between the centres of pixels in proportion; beyond the edges the nearest.
+    /// Colour at texture coordinates, v up, interpolated bilinearly between pixel centres. Points beyond the edges
+    /// get the colour of the nearest edge point.
     pub fn sample(&self, uv: DVec2) -> [u8; 3] {
         let size = DVec2::new(f64::from(self.width), f64::from(self.height));
         let at = (DVec2::new(uv.x, 1.0 - uv.y) * size - 0.5).clamp(DVec2::ZERO, size - 1.0);
@@ -55,7 +56,7 @@ impl Picture {
         [r, g, b]
     }
 
-    /// This picture on the left, another on the right, top aligned; white where one is less high.
+    /// Picture with `self` on the left and `right` on the right, aligned at the top, padded with white.
     #[must_use]
     pub fn beside(&self, right: &Self) -> Self {
         let mut both = Self::filled(self.width + right.width, self.height.max(right.height), [255; 4]);
@@ -73,7 +74,7 @@ impl Picture {
     }
 }
 
-/// The mean of two colours by the share of the second.
+/// Linear interpolation between two colours; `share` is the weight of the second.
 fn mix(a: [f64; 4], b: [f64; 4], share: f64) -> [f64; 4] {
     std::array::from_fn(|k| a[k] + (b[k] - a[k]) * share)
 }

@@ -1,29 +1,29 @@
-//! How texture coordinates lie in the plane where angles are measured.
+//! Map between texture coordinates and the plane in which angles are measured.
 //!
-//! Pictures are not square: a picture of w × h pixels covers the unit square of u and v, but angles and energies are
-//! measured at (u·w/h, v), so that what is conformal is conformal on the picture. And v runs up, as in OBJ files, or
-//! down, as in image files; the plane's y always runs up, so that the picture stands upright in it.
+//! Pictures need not be square: a picture of w × h pixels covers the unit square of u and v. Angles and energies are
+//! measured at (u·w/h, v), so that a conformal map is conformal on the picture. The v axis runs up (OBJ files) or
+//! down (image files). The y axis of the plane always runs up, so that the picture stands upright in the plane.
 
 use glam::DVec2;
 
-/// Where v = 0 is.
+/// Position of v = 0 on the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum VAxis {
-    /// At the picture's lower edge, as OBJ files have it.
+    /// v = 0 at the lower edge of the picture, the convention of OBJ files.
     #[default]
     Up,
-    /// At its upper edge.
+    /// v = 0 at the upper edge of the picture, the convention of image files.
     Down,
 }
 
-/// The map from u and v to the plane.
+/// Map from u and v to the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureFrame {
     /// Width of the picture over its height.
     pub aspect: f64,
-    /// Where v = 0 is.
+    /// Position of v = 0.
     pub v_axis: VAxis,
 }
 
@@ -34,17 +34,17 @@ impl Default for PictureFrame {
 }
 
 impl PictureFrame {
-    /// The place of texture coordinates in the plane. Nothing is rounded where the picture is square.
+    /// Position of texture coordinates in the plane. Not rounded if the picture is square.
     pub fn plane_from_uv(self, uv: DVec2) -> DVec2 {
         DVec2::new(uv.x * self.aspect, self.signed(uv.y))
     }
 
-    /// The texture coordinates of a place in the plane.
+    /// Texture coordinates of a point of the plane.
     pub fn uv_from_plane(self, place: DVec2) -> DVec2 {
         DVec2::new(place.x / self.aspect, self.signed(place.y))
     }
 
-    /// The picture's lower left and upper right corner in the plane.
+    /// Lower left and upper right corner of the picture in the plane.
     pub fn corners(self) -> [DVec2; 2] {
         let bottom = match self.v_axis {
             VAxis::Up => 0.0,

@@ -1,24 +1,24 @@
-//! How often a closed polygon turns, and how often it winds around a point: exact integers, no angle is summed.
+//! Turning number of a closed polygon and its winding number around a point, as exact integers. No angle is summed.
 //!
 //! # Method
 //!
-//! Directions are sorted into two half-turns: *up* holds the angles [0, π), *down* holds [π, 2π). A direction's half
-//! follows from comparing coordinates, which is exact. A walk that turns by less than π at a time passes the angle 0
-//! exactly where it goes from down to up while turning left (+1) or from up to down while turning right (−1).
+//! Directions are sorted into two half-turns: *up* holds the angles [0, π), *down* holds [π, 2π). Comparing
+//! coordinates gives the half of a direction exactly. A walk that turns by less than π per step passes the angle 0
+//! in exactly two cases: from down to up in a left turn (+1), and from up to down in a right turn (−1).
 
 use glam::DVec2;
 
 use super::{Orientation, orientation};
 
-/// Whether the direction from one point to another is down: an angle in [π, 2π), where up is [0, π). `None` where they coincide
-/// or are not finite.
+/// True if the direction from one point to another is down, an angle in [π, 2π); up is [0, π). `None` if the points
+/// coincide or are not finite.
 pub fn is_down(from: DVec2, to: DVec2) -> Option<bool> {
     let has_direction = from.is_finite() && to.is_finite() && from != to;
     has_direction.then_some(to.y < from.y || (to.y <= from.y && to.x <= from.x))
 }
 
-/// How often the direction passes the angle 0 counter-clockwise, `[before, after]` being whether it is down; `None` where
-/// it turns exactly back.
+/// Number of counter-clockwise passes of the angle 0 between two directions, 1, 0 or −1. `are_down` tells for the
+/// direction before and the direction after if it is down. `None` if the second direction is opposite to the first.
 fn passes(are_down: [bool; 2], turn: Orientation) -> Option<i64> {
     match (are_down, turn) {
         ([true, false], Orientation::CounterClockwise) => Some(1),
@@ -28,10 +28,10 @@ fn passes(are_down: [bool; 2], turn: Orientation) -> Option<i64> {
     }
 }
 
-/// The turning number of a closed polygon: full turns to the left of its edge directions, once around.
+/// Turning number of a closed polygon: full left turns of its edge directions, once around.
 ///
-/// A simple polygon turns once: 1 counter-clockwise, −1 clockwise. `None` where an edge has length zero or turns
-/// exactly back at its end, where a coordinate is not finite, and for fewer than three corners.
+/// A simple polygon has turning number 1 if counter-clockwise, −1 if clockwise. `None` if an edge has length zero or
+/// the next edge folds exactly back, if a coordinate is not finite, and for fewer than three corners.
 pub fn turning_number(polygon: &[DVec2]) -> Option<i64> {
     let count = polygon.len();
     if count < 3 {
@@ -45,15 +45,17 @@ pub fn turning_number(polygon: &[DVec2]) -> Option<i64> {
     Some(turns)
 }
 
-/// The winding number of a closed polygon around a point: full turns to the left of the direction from the point.
+/// Winding number of a closed polygon around a point: full left turns of the direction from the point to the
+/// polygon.
 ///
-/// `None` where the polygon passes through the point, or a coordinate is not finite.
+/// `None` if the polygon passes through the point or a coordinate is not finite.
 pub fn winding_number(polygon: &[DVec2], around: DVec2) -> Option<i64> {
     let mut turns = 0;
     let mut before = *polygon.last()?;
     for &after in polygon {
         let [first, second] = [is_down(around, before)?, is_down(around, after)?];
-        // Within one half nothing passes 0, and the point cannot lie between: no need for the exact turn.
+        // Within one half, the direction passes no angle 0 and the point cannot lie on the edge: the exact turn is
+        // not needed.
         if first != second {
             turns += passes([first, second], orientation(around, before, after)?)?;
         }

@@ -1,10 +1,10 @@
-//! Powers of two as factors: multiplying by one rounds nothing.
+//! Powers of two as factors: multiplying by a power of two does not round.
 
-/// The greatest power, as an exponent, that has a normal number for its reciprocal.
+/// Largest exponent of a power of two whose reciprocal is a normal number.
 const GREATEST: f64 = 1022.0;
 
-/// The power of two nearest to a number, in ratio, among those that have a normal reciprocal; 1 for what is not positive
-/// and finite.
+/// Power of two nearest in ratio to a number, among those that have a normal reciprocal. Returns 1 unless the number
+/// is positive and finite.
 pub fn power_of_two_near(number: f64) -> f64 {
     let is_usable = number > 0.0 && number.is_finite();
     if is_usable { number.log2().round().clamp(-GREATEST, GREATEST).exp2() } else { 1.0 }

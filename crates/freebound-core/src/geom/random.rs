@@ -1,11 +1,11 @@
-//! Numbers that look random and are the same in every run: splitmix64 (Steele, Lea, Flood 2014).
+//! Reproducible pseudo-random numbers: splitmix64 (Steele, Lea, Flood 2014).
 
-/// A stream of pseudo-random numbers that its seed decides.
+/// Stream of pseudo-random numbers, determined by its seed.
 #[derive(Clone, Debug)]
 pub struct Random(pub u64);
 
 impl Random {
-    /// The stream of one of many runs: those of other seeds and of other numbers have nothing in common with it.
+    /// Stream of one of many runs. Streams of other seeds and of other run numbers are unrelated to it.
     pub fn of_run(seed: u64, number: u64) -> Self {
         let seed = Self(seed).bits();
         Self(Self(seed ^ number).bits())
@@ -20,31 +20,31 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// A number in `0..limit`.
+    /// Integer in `0..limit`.
     ///
     /// # Panics
     ///
-    /// Where the limit is 0.
+    /// If the limit is 0.
     pub fn below(&mut self, limit: u32) -> u32 {
         u32::try_from(self.bits() % u64::from(limit)).expect("smaller than a u32")
     }
 
-    /// A place in a list of so many.
+    /// Index into a list of `count` items.
     ///
     /// # Panics
     ///
-    /// Where the list is empty.
+    /// If the list is empty.
     pub fn index(&mut self, count: usize) -> usize {
         usize::try_from(self.bits() % count as u64).expect("smaller than a usize")
     }
 
-    /// A number in `[0, 1)`.
+    /// Number in `[0, 1)`.
     pub fn unit(&mut self) -> f64 {
-        // The upper 53 bits are a whole multiple of 2⁻⁵³.
+        // The upper 53 bits make a multiple of 2⁻⁵³.
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// A number in `[low, high)`.
+    /// Number in `[low, high)`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }

@@ -3,12 +3,12 @@
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, DelaunayTriangulation, Point2, Triangulation};
 
-/// Coordinates nearer to zero than this, at a size near 1, are beyond spade's range and are taken as zero.
+/// Magnitude below which coordinates, scaled to a size near 1, become zero: they are beyond the range of `spade`.
 const LEAST_COORDINATE: f64 = 1e-40;
 
-/// Triangulates the convex hull of points, triangles counter-clockwise, corners by their places in the list.
+/// Triangulates the convex hull of points. Triangles are counter-clockwise; corners are indices into `points`.
 ///
-/// `None` where a coordinate is not finite or too large, and where two points coincide.
+/// `None` if a coordinate is not finite or too large, or if two points coincide.
 ///
 /// # Panics
 ///
@@ -18,25 +18,26 @@ pub fn delaunay_triangles(points: &[DVec2]) -> Option<Vec<[u32; 3]>> {
     (triangulation.num_vertices() == points.len()).then(|| triangles_where(&triangulation, |_| true))
 }
 
-/// The same with some sides that are to be edges of the triangulation, two corners each: a constrained Delaunay
-/// triangulation.
+/// Constrained Delaunay triangulation of points: the given sides, two indices each, become edges of the
+/// triangulation. Otherwise like [`delaunay_triangles`].
 ///
-/// `None` also where sides cross or go through points.
+/// Also `None` if sides cross or pass through points.
 ///
 /// # Panics
 ///
-/// If there are 2³² points or more, or where a corner is none of the points.
+/// If there are 2³² points or more, or if the index of a corner is out of range.
 pub fn constrained_triangles(points: &[DVec2], sides: &[[u32; 2]]) -> Option<Vec<[u32; 3]>> {
     let sides = sides.iter().map(|side| side.map(|corner| corner as usize)).collect();
     triangles_with(spade_points(points.iter()), sides, |_| true)
 }
 
-/// Triangulates the region between a simple polygon, counter-clockwise, and the convex hull of polygon and frame, without
-/// new points: a constrained Delaunay triangulation, whose triangles lie either inside the polygon or outside.
+/// Triangulates the region between a simple counter-clockwise polygon and the convex hull of polygon and frame,
+/// without new points. The triangulation is constrained Delaunay: each triangle lies either inside or outside the
+/// polygon.
 ///
-/// Corners of the frame, which must lie outside the polygon's hull, are numbered after those of the polygon. Triangles
-/// are counter-clockwise. `None` where a coordinate is not finite or beyond what the triangulation can represent, and
-/// where the polygon is not simple.
+/// Corners of the frame must lie outside the hull of the polygon and are numbered after the corners of the polygon.
+/// Triangles are counter-clockwise. `None` if a coordinate is not finite or too large for the triangulation, and if
+/// the polygon is not simple.
 ///
 /// # Panics
 ///
@@ -48,7 +49,7 @@ pub fn outside_triangles(polygon: &[DVec2], frame: &[DVec2]) -> Option<Vec<[u32;
     triangles_with(points, sides, |corners| !is_inside(corners, count))
 }
 
-/// Some triangles of the triangulation with these sides.
+/// Wanted triangles of the constrained triangulation with the given sides.
 fn triangles_with(
     points: Vec<Point2<f64>>,
     sides: Vec<[usize; 2]>,
@@ -61,7 +62,8 @@ fn triangles_with(
     is_sound.then(|| triangles_where(&triangulation, is_wanted))
 }
 
-/// Some of the triangles, in the same order however the triangulation came about, each from its lowest corner.
+/// Wanted triangles of a triangulation, sorted, each rotated to start at its lowest corner. The order does not
+/// depend on the construction of the triangulation.
 fn triangles_where(
     triangulation: &impl Triangulation<Vertex = Point2<f64>>,
     is_wanted: impl Fn([usize; 3]) -> bool,
@@ -79,18 +81,18 @@ fn triangles_where(
     triangles
 }
 
-/// Whether a counter-clockwise triangle that crosses no side of the polygon lies inside: its corners then follow each
-/// other as they do along the polygon, and outside the other way round.
+/// True if a counter-clockwise triangle that crosses no side of the polygon lies inside. Its corners then have the
+/// cyclic order of the polygon; outside they have the opposite order.
 fn is_inside([a, b, c]: [usize; 3], count: usize) -> bool {
     let descents = usize::from(a > b) + usize::from(b > c) + usize::from(c > a);
     a.max(b).max(c) < count && descents == 1
 }
 
-/// Points as the triangulation takes them: scaled by a power of two to a size near 1, which changes no orientation.
+/// Points for the triangulation: scaled by a power of two to a size near 1, which changes no orientation.
 fn spade_points<'a>(points: impl Iterator<Item = &'a DVec2> + Clone) -> Vec<Point2<f64>> {
     let extent = points.clone().fold(0.0_f64, |most, z| most.max(z.abs().max_element()));
     let is_usable = extent.is_finite() && extent > 0.0;
-    // In two factors, each of which is a normal number.
+    // Two factors, each a normal number.
     let half = if is_usable { (-0.5 * extent.log2()).floor().exp2() } else { 1.0 };
     let seen = |x: f64| {
         let x = x * half * half;

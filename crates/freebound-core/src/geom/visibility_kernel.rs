@@ -1,12 +1,12 @@
-//! The kernel of a polygon: the points that see all of it.
+//! Kernel of a polygon: the points that see all of it.
 
 use glam::DVec2;
 
 use super::Bounds;
 use super::clip::cut_by_line;
 
-/// The kernel of a polygon whose corners run counter-clockwise, as a convex polygon: what lies to the left of all its
-/// sides. Empty where there is none, but for rounding.
+/// Kernel of a counter-clockwise polygon as a convex polygon: the points to the left of all its sides. Empty, up to
+/// rounding, if no point sees all of the polygon.
 pub fn kernel(polygon: &[DVec2]) -> Vec<DVec2> {
     let Bounds { low, high } = Bounds::of(polygon.iter().copied());
     let mut kept = vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
@@ -20,7 +20,7 @@ pub fn kernel(polygon: &[DVec2]) -> Vec<DVec2> {
     kept
 }
 
-/// The centre of gravity of a convex polygon; of its corners where it has no area. `None` where it has no corners.
+/// Centroid of a convex polygon, or of its corners if it has no area. `None` if it has no corners.
 pub fn centre_of_gravity(polygon: &[DVec2]) -> Option<DVec2> {
     let &first = polygon.first()?;
     let (mut area, mut moment) = (0.0, DVec2::ZERO);
@@ -44,7 +44,7 @@ mod tests {
 
     #[test]
     fn the_kernel_of_an_arrow_lies_between_its_wings() {
-        // A square with a notch from below up to its middle.
+        // Square with a notch from below up to its middle.
         let arrow = points(&[(0.0, 0.0), (2.0, 2.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]);
         let kernel = kernel(&arrow);
         // Left of both sides of the notch: above y = x and above y = 4 − x.

@@ -1,4 +1,4 @@
-//! The one interface of the layer: analyse a pattern, factor a matrix; `factor.rs` solves.
+//! Interface of the layer: analysis of a pattern, factorization of a matrix. `factor.rs` solves.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -17,16 +17,16 @@ use super::pattern::{Order, Pattern, go_on_unless};
 use super::scalar::Scalar;
 use super::sparse::check_finite;
 
-/// What is known of the values of a matrix. The pattern is symmetric, diagonal included, in every case.
+/// Known properties of the values of a matrix. The pattern is always symmetric, diagonal included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A or −A is Hermitian positive definite; both triangles are stored.
+    /// Hermitian positive definite A or −A; both triangles are stored.
     Hermitian,
     /// Hermitian `[−E A; Aᴴ F]` with E positive definite and F positive semidefinite; both triangles are stored. The
-    /// first `pairs` rows of E and all of F stand in turn (e₀, f₀, e₁, f₁, …), the rows of a pair with one pattern, then
-    /// the other rows of E.
+    /// first `pairs` rows of E alternate with all rows of F (e₀, f₀, e₁, f₁, …). The rows of a pair have equal
+    /// patterns. The other rows of E follow.
     Augmented {
-        /// How many rows F has.
+        /// Number of rows of F.
         pairs: usize,
     },
     /// Any values.
@@ -39,15 +39,15 @@ pub struct Analysis {
     pub(super) shared: Arc<Shared>,
 }
 
-/// An order of elimination, for patterns that differ in a few places.
+/// Order of elimination, reusable for patterns that differ in a few places.
 #[derive(Clone, Debug)]
 pub struct EliminationOrder {
     order: Order,
-    /// Multiplications of a factorization in it.
+    /// Number of multiplications of a factorization in this order.
     work: f64,
 }
 
-/// An order that takes so many times the work for a pattern that it was not found for is given up for a new one.
+/// Largest accepted ratio of the work in a reused order to the work for the pattern that it was found for.
 const TOO_MUCH_WORK: f64 = 1.25;
 
 #[derive(Debug)]
@@ -62,29 +62,29 @@ pub(super) enum Symbolic {
     Ldlt(LdltAnalysis),
     Lu {
         analysis: FrontAnalysis,
-        /// For each entry of the pattern the place of its mirror image.
+        /// Index of the mirror image of each entry of the pattern.
         transposed: Vec<u32>,
     },
 }
 
 impl Analysis {
-    /// Orders the pattern and finds the pattern of its factors. Looks at `cancel` all the way.
+    /// Orders the pattern and finds the pattern of its factors. Checks `cancel` throughout.
     ///
     /// # Errors
     ///
-    /// [`LinalgError::NotSquare`], [`LinalgError::PatternNotSymmetric`] (which includes a missing diagonal entry)
+    /// [`LinalgError::NotSquare`], [`LinalgError::PatternNotSymmetric`] (also for a missing diagonal entry),
     /// [`LinalgError::TooLarge`] and [`LinalgError::Cancelled`].
     pub fn new(kind: Kind, pattern: &SparsityPattern, cancel: &AtomicBool) -> Result<Self, LinalgError> {
         Self::of(kind, Arc::new(Pattern::checked(pattern, cancel)?), cancel)
     }
 
-    /// The same of a pattern that is known to be symmetric, with its diagonal; it is shared, not copied.
+    /// Analyses a pattern that is known to be symmetric, with its diagonal; the pattern is shared, not copied.
     ///
     /// # Errors
     ///
     /// [`LinalgError::TooLarge`] and [`LinalgError::Cancelled`].
     pub(crate) fn of(kind: Kind, pattern: Arc<Pattern>, cancel: &AtomicBool) -> Result<Self, LinalgError> {
-        // faer keeps a sign bit to itself.
+        // faer reserves the sign bit.
         if i32::try_from(pattern.rows.len()).is_err() {
             return Err(LinalgError::TooLarge { order: pattern.order() });
         }
@@ -108,12 +108,13 @@ impl Analysis {
         Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) })
     }
 
-    /// Analyses the pattern of a Hermitian matrix in an order of elimination: for patterns that differ from that which it was
-    /// found for in a few places. One of another size is ordered anew, and one that takes much more work in that order.
+    /// Analyses the pattern of a Hermitian matrix in a given order of elimination. The pattern may differ in a few
+    /// places from the pattern of that order. A pattern of another size is ordered anew, and so is a pattern that
+    /// takes much more work in that order.
     ///
     /// # Errors
     ///
-    /// Those of [`Analysis::new`].
+    /// Errors of [`Analysis::new`].
     pub fn in_order(
         order: &EliminationOrder,
         pattern: &SparsityPattern,
@@ -132,7 +133,7 @@ impl Analysis {
         Self::of(Kind::Hermitian, pattern, cancel)
     }
 
-    /// The order of elimination of a Hermitian matrix; none of others.
+    /// Order of elimination of a Hermitian matrix; `None` for other kinds.
     pub fn order(&self) -> Option<EliminationOrder> {
         match &self.shared.symbolic {
             Symbolic::Llt(llt) => Some(EliminationOrder { order: llt.order.clone(), work: llt.work() }),
@@ -140,8 +141,8 @@ impl Analysis {
         }
     }
 
-    /// Factors a matrix of the analysed pattern. LU and Cholesky look at `cancel` at every supernode, and at every few
-    /// columns of it, the augmented factorization only before and after.
+    /// Factors a matrix of the analysed pattern. LU and Cholesky check `cancel` at every supernode and at every few
+    /// columns of it; the augmented factorization checks it only before and after.
     ///
     /// # Errors
     ///

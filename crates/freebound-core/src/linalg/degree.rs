@@ -1,4 +1,4 @@
-//! Approximate minimum degree (Amestoy, Davis and Duff 1996, through faer), and stopping it.
+//! Approximate minimum degree (Amestoy, Davis and Duff 1996, through faer), with cancellation.
 
 use std::sync::atomic::AtomicBool;
 
@@ -9,11 +9,11 @@ use super::LinalgError;
 use super::detached::run_apart;
 use super::pattern::{Order, Pattern};
 
-/// Patterns of so many unknowns take AMD some hundredths of a second.
+/// Number of unknowns from which AMD runs on detached threads. At this size it takes some hundredths of a second.
 const WORTH_LEAVING: usize = 50_000;
 
-/// AMD cannot be stopped. For large patterns it runs apart, and a caller who gives up leaves it behind: it ends by itself,
-/// in half a second at a million faces.
+/// Orders a pattern by AMD, which cannot be stopped. For large patterns AMD runs on detached threads, and a cancelled
+/// caller leaves it behind. It ends by itself, in half a second at a million faces.
 pub(super) fn minimum_degree(pattern: &Pattern, cancel: &AtomicBool) -> Result<Order, LinalgError> {
     if pattern.order() < WORTH_LEAVING {
         return minimum_degree_to_the_end(pattern);
@@ -22,7 +22,7 @@ pub(super) fn minimum_degree(pattern: &Pattern, cancel: &AtomicBool) -> Result<O
     run_apart(move || minimum_degree_to_the_end(&own), cancel)?
 }
 
-/// The same, whatever the caller wishes meanwhile.
+/// Orders a pattern by AMD without cancellation.
 pub(super) fn minimum_degree_to_the_end(pattern: &Pattern) -> Result<Order, LinalgError> {
     let n = pattern.order();
     let too_large = LinalgError::TooLarge { order: n };
@@ -41,7 +41,7 @@ mod tests {
 
     use super::*;
 
-    /// Unknowns in a row, so many that AMD runs on a thread of its own.
+    /// Chain of unknowns, long enough that AMD runs on a detached thread.
     fn long_chain() -> Pattern {
         let n = WORTH_LEAVING;
         let lanes: Vec<Vec<usize>> = (0..n).map(|k| (k.saturating_sub(1)..(k + 2).min(n)).collect()).collect();

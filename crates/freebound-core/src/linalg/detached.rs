@@ -1,4 +1,4 @@
-//! Work that cannot be stopped, on threads of its own, which a caller who gives up leaves behind.
+//! Work that cannot be stopped, on detached threads, which a cancelled caller leaves behind.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::AtomicBool;
@@ -10,12 +10,13 @@ use crate::parallel::spawn_detached;
 use super::LinalgError;
 use super::pattern::go_on_unless;
 
-/// How often the wish to stop is looked at meanwhile.
+/// Interval between two checks of the cancel flag.
 const LOOKS: Duration = Duration::from_millis(5);
 
-/// What `work` gives, unless the caller gives up before: then it ends by itself, with its memory and its share of the
-/// processor until then, and nobody hears of it. It has as many threads as the caller's, but none of these: those may all
-/// be waiting here. Where there are none to be had, it is done by the caller.
+/// Returns the result of `work`, or leaves it behind if the caller cancels. Work left behind ends by itself and keeps
+/// its memory and its share of the processor until then; its result is dropped. The work has its own threads, as many
+/// as the caller's pool, since all threads of that pool may be waiting here. If no threads are available, the caller
+/// does the work.
 ///
 /// # Errors
 ///
@@ -23,7 +24,7 @@ const LOOKS: Duration = Duration::from_millis(5);
 ///
 /// # Panics
 ///
-/// Where the work does.
+/// If the work panics.
 pub(crate) fn run_apart<T: Send + 'static>(
     work: impl FnOnce() -> T + Send + 'static,
     cancel: &AtomicBool,
@@ -32,7 +33,7 @@ pub(crate) fn run_apart<T: Send + 'static>(
     let (send, receive) = sync_channel(1);
     let detached = move || {
         let found = catch_unwind(AssertUnwindSafe(work));
-        // A caller who gave up does not listen.
+        // A cancelled caller does not receive.
         send.send(found).ok();
     };
     if let Err(detached) = spawn_detached(detached) {
@@ -72,14 +73,14 @@ mod tests {
         let (caller_is_back, wait) = sync_channel::<()>(0);
         let work = move || {
             raises.store(true, Ordering::Relaxed);
-            // The caller lets go of the other end.
+            // The caller drops its end.
             assert!(wait.recv().is_err());
         };
         assert_eq!(run_apart(work, &flag), Err(LinalgError::Cancelled));
         drop(caller_is_back);
     }
 
-    /// All threads of the pool that everybody shares wait for work that shares itself out.
+    /// Waits for parallel work on all threads of the shared pool at once.
     #[test]
     fn work_on_all_threads_is_done_while_all_threads_wait_for_it() {
         let flag = AtomicBool::new(false);

@@ -1,6 +1,6 @@
-//! The elimination tree of a pattern in an order, how many entries each column of its factor has, and a postorder.
+//! Elimination tree of a pattern in a given order, number of entries of each column of its factor, and a postorder.
 //!
-//! A postorder of the elimination tree changes neither fill nor flops but numbers every subtree contiguously, which
+//! A postorder of the elimination tree changes neither fill nor flops. It numbers every subtree contiguously, which
 //! supernodes and parallel subtrees need. (Liu 1990, "The role of elimination trees in sparse factorization".)
 
 use std::sync::atomic::AtomicBool;
@@ -14,12 +14,12 @@ pub(super) struct Elimination {
     pub(super) order: Order,
     pub(super) parent: Vec<u32>,
     pub(super) counts: Vec<u32>,
-    /// The pattern of pairs, where unknowns come in pairs: then all of this is about pairs.
+    /// Pattern of pairs, if unknowns form pairs: then all other fields refer to pairs.
     pub(super) pairs: Option<Pattern>,
 }
 
 impl Elimination {
-    /// A postorder of the elimination tree that a pattern has in an order.
+    /// Computes a postorder of the elimination tree of a pattern in the order `degree`.
     ///
     /// # Errors
     ///
@@ -47,14 +47,14 @@ impl Elimination {
         Ok(Self { order, parent, counts, pairs })
     }
 
-    /// The order of the unknowns themselves.
+    /// Order of the unknowns themselves.
     pub(super) fn order(self) -> Order {
         if self.pairs.is_some() { self.order.of_pairs() } else { self.order }
     }
 }
 
-/// The parent of every column. Ways up the tree are shortened as they are gone (Liu 1986, "A compact row storage scheme for
-/// Cholesky factors using elimination trees").
+/// Parent of every column, with path compression (Liu 1986, "A compact row storage scheme for Cholesky factors using
+/// elimination trees").
 fn parents(pattern: &Pattern, order: &Order, cancel: &AtomicBool) -> Result<Vec<u32>, LinalgError> {
     let n = pattern.order();
     let (mut parent, mut ancestor) = (vec![NONE; n], vec![NONE; n]);
@@ -77,9 +77,9 @@ fn parents(pattern: &Pattern, order: &Order, cancel: &AtomicBool) -> Result<Vec<
     Ok(parent)
 }
 
-/// The entries of every column of the factor, from leaves of row subtrees and where two of them meet, in nearly linear time. The
-/// order is a postorder of the tree. (Gilbert, Ng and Peyton 1994, "An efficient algorithm to compute row and column counts for
-/// sparse Cholesky factorization".)
+/// Number of entries of every column of the factor, from the leaves of row subtrees and their meeting points, in
+/// nearly linear time. The order is a postorder of the tree. (Gilbert, Ng and Peyton 1994, "An efficient algorithm to
+/// compute row and column counts for sparse Cholesky factorization".)
 fn column_counts(
     pattern: &Pattern,
     order: &Order,
@@ -88,7 +88,7 @@ fn column_counts(
 ) -> Result<Vec<u32>, LinalgError> {
     let n = parent.len();
     let first = first_descendants(parent);
-    // The difference of a column's count and the sum of its children's.
+    // Difference between the count of a column and the sum of the counts of its children.
     let mut counts: Vec<i32> = (0..).zip(&first).map(|(column, &first)| i32::from(first == column)).collect();
     let mut ways = Ways { ancestor: (0..narrow(n)).collect() };
     let mut rows = vec![RowSubtree { last_first: NONE, last_leaf: NONE }; n];
@@ -124,20 +124,20 @@ fn column_counts(
     Ok(counts.into_iter().map(i32::cast_unsigned).collect())
 }
 
-/// What is known of a row's subtree: of its last leaf the first descendant and the number.
+/// Last leaf of a row's subtree: its first descendant and its number.
 #[derive(Clone)]
 struct RowSubtree {
     last_first: u32,
     last_leaf: u32,
 }
 
-/// Ways up the part of the tree that was gone through.
+/// Compressed paths up the visited part of the tree.
 struct Ways {
     ancestor: Vec<u32>,
 }
 
 impl Ways {
-    /// The highest ancestor so far; the way there is shortened.
+    /// Highest ancestor so far; compresses the path to it.
     fn up_from(&mut self, node: u32) -> u32 {
         let mut top = node;
         while self.ancestor[top as usize] != top {
@@ -151,7 +151,7 @@ impl Ways {
     }
 }
 
-/// The first node of the subtree below each node of a tree in postorder.
+/// First node of the subtree below each node of a tree in postorder.
 fn first_descendants(parent: &[u32]) -> Vec<u32> {
     let mut first: Vec<u32> = (0..narrow(parent.len())).collect();
     for (node, &above) in parent.iter().enumerate().filter(|(_, above)| **above != NONE) {
@@ -160,9 +160,9 @@ fn first_descendants(parent: &[u32]) -> Vec<u32> {
     first
 }
 
-/// A postorder of a forest: children before parents, subtrees contiguous, siblings in their given order.
+/// Postorder of a forest: children before parents, subtrees contiguous, siblings in their given order.
 pub(super) fn postorder<I: Iterator<Item = u32>>(roots: Vec<u32>, children: impl Fn(u32) -> I) -> Vec<u32> {
-    // Parents first and siblings last to first: reversed, it is the postorder.
+    // Parents first and siblings last to first: the reverse is the postorder.
     let (mut sequence, mut stack) = (Vec::new(), roots);
     while let Some(node) = stack.pop() {
         sequence.push(node);
@@ -193,7 +193,7 @@ mod tests {
     use super::*;
     use crate::linalg::order::in_order;
 
-    /// A pattern of so many unknowns with entries strewn by a linear congruence, and its diagonal.
+    /// Pattern of n unknowns with entries scattered by a linear congruence, and its diagonal.
     fn strewn(n: usize, pairs: usize, seed: usize) -> Pattern {
         let mut columns: Vec<BTreeSet<u32>> = (0..n).map(|k| BTreeSet::from([narrow(k)])).collect();
         let mut state = seed;
@@ -210,7 +210,7 @@ mod tests {
         Pattern { offsets: running_sum(&counts), rows: columns.into_iter().flatten().collect() }
     }
 
-    /// The columns of the factor by the definition: each adds its rows to that of the first of them.
+    /// Columns of the factor by definition: each column adds its rows to the column of its first row.
     fn columns_of_factor(pattern: &Pattern, order: &Order) -> Vec<BTreeSet<u32>> {
         let below = |k: usize| pattern.renumbered(order, k).filter(|&row| row as usize > k).collect();
         let mut columns: Vec<BTreeSet<u32>> = (0..pattern.order()).map(below).collect();

@@ -1,11 +1,11 @@
-//! Everything that can stop a factorization or a solve.
+//! Errors of a factorization or a solve.
 
-/// Why a system was not solved. Every `row` is a row of the caller's matrix.
+/// Reason for which a system was not solved. Every `row` is a row of the caller's matrix.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LinalgError {
     /// The pattern is not square.
-    #[error("the matrix has {rows} rows and {columns} columns, expected as many of both")]
+    #[error("the matrix has {rows} rows and {columns} columns, expected a square matrix")]
     NotSquare {
         /// Rows of the pattern.
         rows: usize,
@@ -13,66 +13,66 @@ pub enum LinalgError {
         columns: usize,
     },
 
-    /// The pattern is not one that [`Analysis`](super::Analysis) takes.
-    #[error("the pattern is not symmetric with a full diagonal: entry ({row}, {column}) has no counterpart")]
+    /// The pattern is not symmetric with a full diagonal, as [`Analysis`](super::Analysis) requires.
+    #[error("the pattern is not symmetric with a full diagonal: ({row}, {column}) has no counterpart")]
     PatternNotSymmetric {
-        /// Row of the entry whose mirror image, or diagonal place, is missing.
+        /// Row of the entry whose mirror image, or diagonal entry, is missing.
         row: usize,
-        /// Its column.
+        /// Column of the entry.
         column: usize,
     },
 
-    /// The matrix has other nonzeros than the pattern that was analysed.
+    /// The nonzeros of the matrix are not those of the analysed pattern.
     #[error("the matrix does not have the pattern that was analysed")]
     OtherPattern,
 
-    /// A right-hand side of the wrong length.
+    /// A right-hand side has the wrong length.
     #[error("the right-hand side has {found} entries, expected a multiple of {order}")]
     WrongLength {
         /// Order of the matrix.
         order: usize,
-        /// Entries given.
+        /// Number of entries given.
         found: usize,
     },
 
     /// An entry of the matrix or of the right-hand side is infinite or not a number.
     #[error("row {row} has an entry that is not finite")]
     NotFinite {
-        /// The row that holds the entry.
+        /// Row that holds the entry.
         row: usize,
     },
 
     /// The Hermitian matrix is not definite.
     #[error("the matrix is not definite: elimination stopped at row {row}")]
     NotPositiveDefinite {
-        /// The row whose pivot was not positive.
+        /// Row whose pivot was not positive.
         row: usize,
     },
 
     /// The matrix is singular to working precision.
     #[error("the matrix is singular to working precision at row {row}")]
     Singular {
-        /// A row that depends on the others.
+        /// Row that depends on the others.
         row: usize,
     },
 
-    /// Refinement ended, but the answer does not satisfy the system.
+    /// Refinement ended, but the solution does not satisfy the system.
     #[error("relative residual {residual:.1e} is above the limit {limit:.1e}")]
     ResidualTooLarge {
-        /// ‖Ax − b‖ / ‖b‖.
+        /// Relative residual ‖Ax − b‖ / ‖b‖.
         residual: f64,
-        /// The limit in force.
+        /// Largest accepted residual.
         limit: f64,
     },
 
-    /// The factor would need more entries than indices can count, or more memory than there is.
+    /// The factor needs more entries than indices can count, or more memory than available.
     #[error("the factorization of {order} unknowns is too large")]
     TooLarge {
         /// Order of the matrix.
         order: usize,
     },
 
-    /// The caller asked to stop.
+    /// The caller cancelled.
     #[error("the factorization was cancelled")]
     Cancelled,
 }

@@ -1,4 +1,4 @@
-//! A factored matrix: solves, and how good they are.
+//! Factored matrix: solves, and their accuracy.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -16,17 +16,17 @@ use super::scalar::Scalar;
 use super::sparse::{Operation, Operator};
 use super::{FactorStats, LinalgError};
 
-/// A factored matrix. It keeps what it needs of its [`Analysis`](super::Analysis), but not the matrix.
+/// Factored matrix. Holds the required data of its [`Analysis`](super::Analysis), but not the matrix.
 #[derive(Debug)]
 pub struct Factor<T: Scalar> {
     pub(super) shared: Arc<Shared>,
     pub(super) numeric: Numeric<T>,
 }
 
-/// How a factor answers: [`Factor::solve`], [`Factor::solve_correction`], [`Factor::solve_columns`].
+/// Function that solves with a factor: [`Factor::solve`], [`Factor::solve_correction`], [`Factor::solve_columns`].
 pub type SolveFunction<T> = fn(&Factor<T>, &CscMatrix<T>, &[T], &AtomicBool) -> Result<Solved<T>, LinalgError>;
 
-/// What a factor is asked.
+/// Request to solve with a factor.
 #[derive(Clone, Copy)]
 struct Ask<'a, T> {
     matrix: &'a CscMatrix<T>,
@@ -43,26 +43,26 @@ pub(super) enum Numeric<T: Scalar> {
 }
 
 impl<T: Scalar> Factor<T> {
-    /// Solves A X = B with iterative refinement against `matrix`, which must be the matrix that was factored. Several
-    /// right-hand sides are stored one after another; so is the answer. The residual is that of the worst column. Looks at
-    /// `cancel` all the way.
+    /// Solves A X = B with iterative refinement against `matrix`, which must be the factored matrix. Right-hand sides
+    /// are consecutive columns, and so are the solutions. The residual is that of the worst column. Checks `cancel`
+    /// throughout.
     ///
     /// # Errors
     ///
-    /// [`LinalgError::ResidualTooLarge`] when neither refinement nor GMRES makes the residual good;
-    /// [`LinalgError::NotFinite`] for a broken right-hand side; [`LinalgError::WrongLength`],
+    /// [`LinalgError::ResidualTooLarge`] if neither refinement nor GMRES reduces the residual enough;
+    /// [`LinalgError::NotFinite`] for a right-hand side that is not finite; [`LinalgError::WrongLength`],
     /// [`LinalgError::OtherPattern`], [`LinalgError::Cancelled`].
     pub fn solve(&self, matrix: &CscMatrix<T>, rhs: &[T], cancel: &AtomicBool) -> Result<Solved<T>, LinalgError> {
         self.run(Ask { matrix, rhs, operation: Operation::Plain, accept: Accept::Residual }, cancel)
     }
 
-    /// Solves Aᴴ X = B, otherwise as [`Factor::solve`]. The adjoint systems of this project have single rows on their
-    /// right, and answers larger than those by up to the condition number: so an answer with a backward error of some
-    /// units of rounding is accepted whatever its residual, and no more refined.
+    /// Solves Aᴴ X = B, otherwise like [`Factor::solve`]. The adjoint systems of this project have single rows as
+    /// right-hand sides, and solutions larger than these by up to the condition number. So a solution with a backward
+    /// error of a few units of rounding is accepted with any residual, and not refined further.
     ///
     /// # Errors
     ///
-    /// Those of [`Factor::solve`].
+    /// Errors of [`Factor::solve`].
     pub fn solve_adjoint(
         &self,
         matrix: &CscMatrix<T>,
@@ -81,12 +81,12 @@ impl<T: Scalar> Factor<T> {
         }
     }
 
-    /// Solves A X = B for corrections of answers whose residuals are B: accepted as those of [`Factor::solve_adjoint`], but refined
-    /// as far as it goes.
+    /// Solves A X = B for corrections of solutions whose residuals are B. Accepted like solutions of
+    /// [`Factor::solve_adjoint`], but refined as far as possible.
     ///
     /// # Errors
     ///
-    /// Those of [`Factor::solve`].
+    /// Errors of [`Factor::solve`].
     pub fn solve_correction(
         &self,
         matrix: &CscMatrix<T>,
@@ -96,11 +96,12 @@ impl<T: Scalar> Factor<T> {
         self.run(Ask { matrix, rhs, operation: Operation::Plain, accept: Accept::BackwardError }, cancel)
     }
 
-    /// Solves A X = B for columns that answers are made of: accepted as those of [`Factor::solve_adjoint`].
+    /// Solves A X = B for columns that other solutions are composed of. Accepted like solutions of
+    /// [`Factor::solve_adjoint`].
     ///
     /// # Errors
     ///
-    /// Those of [`Factor::solve`].
+    /// Errors of [`Factor::solve`].
     pub fn solve_columns(
         &self,
         matrix: &CscMatrix<T>,
@@ -110,7 +111,7 @@ impl<T: Scalar> Factor<T> {
         self.run(Ask { matrix, rhs, operation: Operation::Plain, accept: Accept::SmallBackwardError }, cancel)
     }
 
-    /// Solves A x = b by substitution alone, without refinement: good enough for directions of descent.
+    /// Solves A x = b by substitution alone, without refinement: accurate enough for directions of descent.
     ///
     /// # Errors
     ///
@@ -118,7 +119,7 @@ impl<T: Scalar> Factor<T> {
     ///
     /// # Panics
     ///
-    /// If the right-hand side has another length than the system.
+    /// If the length of the right-hand side is not the order of the system.
     pub fn substitute(&self, rhs: &[T], cancel: &AtomicBool) -> Result<Vec<T>, LinalgError> {
         assert_eq!(rhs.len(), self.shared.pattern.order(), "one number per row");
         let mut x = rhs.to_vec();
@@ -126,12 +127,12 @@ impl<T: Scalar> Factor<T> {
         Ok(x)
     }
 
-    /// Solves Aᴴ X = B in place by substitution alone, without refinement: good enough to know sizes. Columns are stored one
-    /// after another.
+    /// Solves Aᴴ X = B in place by substitution alone, without refinement: accurate enough for magnitudes. Columns
+    /// are stored consecutively.
     ///
     /// # Errors
     ///
-    /// [`LinalgError::Cancelled`]: the columns are then of no use.
+    /// [`LinalgError::Cancelled`]: the columns are then unusable.
     ///
     /// # Panics
     ///
@@ -155,7 +156,7 @@ impl<T: Scalar> Factor<T> {
             return Err(LinalgError::NotFinite { row: place % order });
         }
         let solve = |columns: &mut [T]| self.solve_in_place(operation, columns, cancel);
-        // Where A = Aᴴ, the rows of either are its columns.
+        // If A = Aᴴ, its rows are its conjugated columns.
         let (row_scale, places) = match (&self.numeric, &self.shared.symbolic, operation) {
             (Numeric::Lu(lu), Symbolic::Lu { transposed, .. }, Operation::Plain) => {
                 (Some(lu.row_scale.as_slice()), Some(transposed.as_slice()))
@@ -170,7 +171,7 @@ impl<T: Scalar> Factor<T> {
     fn solve_in_place(&self, operation: Operation, columns: &mut [T], cancel: &AtomicBool) -> Result<(), LinalgError> {
         match (&self.shared.symbolic, &self.numeric) {
             (Symbolic::Llt(analysis), Numeric::Llt(llt)) => {
-                // A = Aᴴ: both operations are one.
+                // Since A = Aᴴ, both operations are identical.
                 llt.solve_in_place(analysis, columns, cancel)
             }
             (Symbolic::Ldlt(analysis), Numeric::Ldlt(ldlt)) => {
@@ -183,8 +184,8 @@ impl<T: Scalar> Factor<T> {
         }
     }
 
-    /// Where pivots were replaced, tells a singular matrix from one that only wanted another order of elimination: a
-    /// right-hand side with a part in every direction has a solution only if the matrix is regular.
+    /// Distinguishes a singular matrix from one that only needed another order of elimination, if pivots were
+    /// replaced. A right-hand side with a component in every direction has a solution only if the matrix is regular.
     pub(super) fn check_regular(&self, matrix: &CscMatrix<T>, cancel: &AtomicBool) -> Result<(), LinalgError> {
         let (row, scales) = match &self.numeric {
             Numeric::Llt(_) => return Ok(()),
@@ -201,7 +202,7 @@ impl<T: Scalar> Factor<T> {
     }
 }
 
-/// A number in [0, 1) that looks random: multiples of the golden ratio, modulo one (Weyl's sequence).
+/// Pseudo-random number in [0, 1): multiples of the golden ratio, modulo one (Weyl's sequence).
 fn spread(index: usize) -> f64 {
     const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
     (index as f64 * GOLDEN_RATIO).fract()

@@ -1,4 +1,4 @@
-//! GMRES for a system whose factors were disturbed by replaced pivots.
+//! GMRES for a system whose factors were perturbed by replaced pivots.
 //!
 //! Saad and Schultz 1986, preconditioned from the right with the factors M and, for rows of very different sizes, with
 //! the rows scaled by R⁻¹:
@@ -7,18 +7,18 @@
 //! minimise ‖R⁻¹ (b − A (x + M⁻¹ V y))‖   over the Krylov space V of R⁻¹ A M⁻¹
 //! ```
 //!
-//! k replaced pivots change A by a matrix of rank k, so about k + 1 steps suffice.
+//! Replacing k pivots changes A by a matrix of rank k, so about k + 1 steps suffice.
 
 use super::LinalgError;
 use super::refine::System;
 use super::scalar::Scalar;
 use super::sparse::norm;
 
-/// Steps before a restart; each keeps a vector.
+/// Number of steps before a restart; each step stores a vector.
 const RESTART: usize = 30;
-/// Restarts before giving up.
+/// Largest number of restarts.
 const MOST_RESTARTS: usize = 4;
-/// A restart ends when the residual has fallen this far; the next begins from the true residual.
+/// Reduction of the residual that ends a cycle; the next cycle starts from the true residual.
 const REDUCTION: f64 = 1e-13;
 
 /// Improves `x` in place; returns the number of steps.
@@ -61,7 +61,7 @@ fn scale<T: Scalar>(vector: &mut [T], factor: f64) {
     }
 }
 
-/// R⁻¹ (b − op(A) x).
+/// Scaled residual R⁻¹ (b − op(A) x).
 fn scaled_residual<T: Scalar>(system: &System<'_, T>, x: &[T], b: &[T]) -> Result<Vec<T>, LinalgError> {
     let mut r = vec![T::ZERO; b.len()];
     system.operator.residual(x, b, &mut r)?;
@@ -71,7 +71,7 @@ fn scaled_residual<T: Scalar>(system: &System<'_, T>, x: &[T], b: &[T]) -> Resul
     Ok(r)
 }
 
-/// An orthonormal basis of the Krylov space and the least-squares problem in it, made triangular by rotations.
+/// Orthonormal basis of the Krylov space and its least-squares problem, made triangular by rotations.
 struct Krylov<T> {
     basis: Vec<Vec<T>>,
     /// Columns of the triangular factor.
@@ -82,7 +82,7 @@ struct Krylov<T> {
 }
 
 impl<T: Scalar> Krylov<T> {
-    /// Adds one vector. False when the space cannot grow.
+    /// Adds a vector. Returns false if the space cannot grow.
     fn extend(&mut self, system: &System<'_, T>) -> Result<bool, LinalgError> {
         let mut direction = self.basis.last().expect("begins with one").clone();
         (system.solve)(&mut direction)?;
@@ -91,7 +91,7 @@ impl<T: Scalar> Krylov<T> {
         scale(&mut next, -1.0);
         let before = norm(next.iter().copied());
         let mut column: Vec<T> = vec![T::ZERO; self.basis.len()];
-        // Twice is enough (Kahan and Parlett) to stay orthogonal.
+        // Orthogonalising twice is enough (Kahan and Parlett).
         for _ in 0..2 {
             for (entry, known) in column.iter_mut().zip(&self.basis) {
                 let part = known.iter().zip(&next).fold(T::ZERO, |sum, (&q, &v)| sum + q.conjugate() * v);
@@ -112,7 +112,8 @@ impl<T: Scalar> Krylov<T> {
         Ok(grows)
     }
 
-    /// Applies the rotations so far to a new column and adds the one that removes the entry `below` its diagonal.
+    /// Applies the previous rotations to a new column and adds the rotation that removes the entry `below` its
+    /// diagonal.
     fn rotate(&mut self, mut column: Vec<T>, below: f64) {
         for (k, &(cosine, sine)) in self.rotations.iter().enumerate() {
             let (upper, lower) = (column[k], column[k + 1]);
@@ -138,7 +139,7 @@ impl<T: Scalar> Krylov<T> {
         self.rhs.last().map_or(0.0, |last| norm(std::iter::once(*last)))
     }
 
-    /// V y.
+    /// Combination V y of the basis.
     fn combination(&self) -> Vec<T> {
         let count = self.triangle.len();
         let mut y = self.rhs[..count].to_vec();

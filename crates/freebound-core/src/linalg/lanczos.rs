@@ -1,4 +1,4 @@
-//! The greatest eigenvalue of a Hermitian operator and its eigenvector, by Lanczos' method.
+//! Greatest eigenvalue of a Hermitian operator and its eigenvector, by the Lanczos method.
 //!
 //! # Equation
 //!
@@ -7,9 +7,9 @@
 //! (θ, s) the greatest eigenpair of that small matrix:    ‖T (V s) − θ V s‖ = β_{j+1} |s_j|
 //! ```
 //!
-//! Where T is the inverse of a matrix this is inverse iteration that forgets none of its iterates: of all their
-//! combinations it takes the best. Every vector is made orthogonal to all before it, twice, so that no eigenvalue shows up
-//! again by rounding.
+//! If T is the inverse of a matrix, this is inverse iteration that keeps all iterates and uses their best
+//! combination. Every vector is orthogonalised against all previous vectors, twice, so that rounding does not
+//! duplicate eigenvalues.
 //!
 //! # Symbols
 //!
@@ -20,42 +20,43 @@
 //! | α, β    | `diagonal`, `beside` | entries of the small matrix       |
 //! | θ       | `value`      | the greatest eigenvalue so far            |
 //!
-//! Source: C. Lanczos, "An iteration method for the solution of the eigenvalue problem of linear differential and integral
-//! operators", 1950; with inverted matrices T. Ericsson, A. Ruhe, "The spectral transformation Lanczos method", 1980.
+//! Source: C. Lanczos, "An iteration method for the solution of the eigenvalue problem of linear differential and
+//! integral operators", 1950; with inverted matrices T. Ericsson, A. Ruhe, "The spectral transformation Lanczos
+//! method", 1980.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 use num_complex::Complex;
 
 type C64 = Complex<f64>;
 
-/// An eigenvalue, and how well it is known.
+/// Eigenvalue with its eigenvector and accuracy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Eigenpair {
-    /// The eigenvalue θ.
+    /// Eigenvalue θ.
     pub value: f64,
-    /// Its eigenvector x, of length 1.
+    /// Eigenvector x, of length 1.
     pub vector: Vec<C64>,
-    /// How often the operator was applied.
+    /// Number of applications of the operator.
     pub applications: usize,
-    /// ‖T x − θ x‖ / |θ|.
+    /// Relative residual ‖T x − θ x‖ / |θ|.
     pub residual: f64,
 }
 
-/// When to be content.
+/// Stopping criteria.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EigenLimits {
-    /// A residual that is small enough.
+    /// Largest residual that counts as converged.
     pub tolerance: f64,
-    /// The most applications of the operator.
+    /// Largest number of applications of the operator.
     pub applications: usize,
 }
 
-/// The greatest eigenpair of a Hermitian operator in the space that its powers make of `start`, which must not be zero.
-/// Where numbers overflow, value and residual are none.
+/// Greatest eigenpair of a Hermitian operator in the Krylov space of `start`, which must not be zero. If numbers
+/// overflow, value and residual are NaN.
 ///
 /// # Errors
 ///
-/// Those of `apply`.
+/// Errors of `apply`.
 pub fn greatest_eigenpair<E>(
     start: &[C64],
     limits: EigenLimits,
@@ -81,13 +82,13 @@ pub fn greatest_eigenpair<E>(
         }
         length = norm(&next);
         if !length.is_finite() {
-            // The search for eigenvalues of what is no number would not end.
+            // The search for eigenvalues of a matrix with NaN entries would not end.
             return Ok(Eigenpair { value: f64::NAN, vector: next, applications: basis.len(), residual: f64::NAN });
         }
         let (value, weights) = greatest_of(&diagonal, &beside);
         let residual = length * weights[weights.len() - 1].abs() / value.abs();
         let is_whole = basis.len() >= start.len();
-        // Written so that a NaN ends it, too.
+        // Written so that a NaN ends the iteration, too.
         let is_continued = residual > limits.tolerance && basis.len() < limits.applications && !is_whole;
         if !is_continued {
             let combined = |place: usize| basis.iter().zip(&weights).map(|(v, &w)| v[place] * w).sum();
@@ -98,7 +99,7 @@ pub fn greatest_eigenpair<E>(
     }
 }
 
-/// The greatest eigenvalue of a real symmetric tridiagonal matrix, with its eigenvector.
+/// Greatest eigenvalue of a real symmetric tridiagonal matrix, with its eigenvector.
 fn greatest_of(diagonal: &[f64], beside: &[f64]) -> (f64, Vec<f64>) {
     let mut matrix = DMatrix::from_diagonal(&nalgebra::DVector::from_column_slice(diagonal));
     for (k, &entry) in beside.iter().enumerate() {
@@ -110,7 +111,7 @@ fn greatest_of(diagonal: &[f64], beside: &[f64]) -> (f64, Vec<f64>) {
     (eigen.eigenvalues[at], eigen.eigenvectors.column(at).iter().copied().collect())
 }
 
-/// a* b.
+/// Inner product a* b.
 fn dot(a: &[C64], b: &[C64]) -> C64 {
     a.iter().zip(b).fold(C64::ZERO, |sum, (a, b)| sum + a.conj() * b)
 }

@@ -5,11 +5,11 @@
 //!   ⎣ Aᴴ  F ⎦
 //! ```
 //!
-//! With E and F positive definite it exists for every order of elimination (Vanderbei 1995, "Symmetric quasi-definite
-//! matrices"). F may also be singular here: each row of F is then eliminated right after its partner in E, whose pivot
-//! has made a positive number of the coefficient that joins them. Where that coefficient is zero there is no such number
-//! yet: pivots without the sign that they are to have are replaced, and refinement mends what that does.
-//! Half the memory of an LU.
+//! With E and F positive definite the factorization exists for every order of elimination (Vanderbei 1995, "Symmetric
+//! quasi-definite matrices"). F may also be singular here. Each row of F is eliminated right after its partner in E:
+//! the partner's pivot makes the row's own pivot positive through the coefficient that joins them. If that
+//! coefficient is zero, the row has no positive pivot yet. Pivots with a wrong sign are replaced, and refinement
+//! repairs the effect. The factors take half the memory of an LU.
 
 use crate::parallel::parallelism;
 use crate::parallel::prelude::*;
@@ -28,11 +28,13 @@ use super::pattern::{Order, Pattern};
 use super::scalar::Scalar;
 use super::{FactorStats, LinalgError};
 
-/// A pivot this small, relative to the largest entry, has no sign; it is replaced by one of this size.
+/// Pivot size relative to the largest entry below which a pivot has no sign and is replaced.
 const NO_PIVOT: f64 = f64::EPSILON;
+
+/// Size of a replacement pivot, relative to the largest entry.
 const REPLACED: f64 = 1e-8;
 
-/// Symbolic factorization, the rows of each pair in turn.
+/// Symbolic factorization with the rows of each pair in turn.
 #[derive(Debug)]
 pub(super) struct LdltAnalysis {
     symbolic: SymbolicCholesky<u32>,
@@ -44,7 +46,7 @@ pub(super) struct LdltAnalysis {
 pub(super) struct Ldlt<T> {
     values: Vec<T>,
     peak_bytes: usize,
-    /// The first row without a pivot of its own, where there is one.
+    /// First row whose pivot was replaced, if any.
     pub(super) replaced_row: Option<usize>,
 }
 
@@ -71,7 +73,7 @@ impl LdltAnalysis {
         Ok(ldlt)
     }
 
-    /// Factors once. Returns the row whose pivot was zero, where that ended it.
+    /// Factors once. Returns the row whose zero pivot stopped the factorization, if any.
     fn run<T: Scalar>(
         &self,
         pattern: &Pattern,
@@ -127,7 +129,7 @@ fn symbolic(pattern: &Pattern, order: &Order) -> Result<SymbolicCholesky<u32>, L
         .map_err(|_| LinalgError::TooLarge { order: pattern.order() })
 }
 
-/// Solves for groups of columns side by side.
+/// Solves for groups of columns in parallel.
 fn by_groups<T: Scalar>(
     symbolic: &SymbolicCholesky<u32>,
     columns: &mut [T],

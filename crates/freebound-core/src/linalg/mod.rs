@@ -2,26 +2,27 @@
 //! unsymmetric values on a symmetric pattern, refinement and residuals. Knows no mesh.
 //!
 //! ```text
-//! Analysis::new(kind, pattern)     ordering and symbolic factorization, once a pattern
-//!     .factor(matrix, cancel)      numeric factorization, once a matrix
+//! Analysis::new(kind, pattern)     ordering and symbolic factorization, once per pattern
+//!     .factor(matrix, cancel)      numeric factorization, once per matrix
 //!         .solve(matrix, rhs)      solve, refine, measure the residual
 //! ```
 //!
-//! | file | what |
+//! | file | contents |
 //! |---|---|
-//! | `analysis.rs`, `factor.rs`, `stats.rs` | the interface |
+//! | `analysis.rs`, `factor.rs`, `stats.rs` | interface |
+//! | `pattern.rs` | sparsity patterns and orders of elimination |
 //! | `order.rs`, `elimination.rs` | fill-reducing order (dissection, AMD); elimination tree, column counts, postorder |
 //! | `degree.rs` | minimum degree |
-//! | `apart.rs` | work that cannot be stopped, on threads that are left behind |
+//! | `detached.rs` | work that cannot be stopped, on detached threads |
 //! | `dissection/` | separators of large patterns |
-//! | `fronts/` | the tree of dense fronts that both multifrontal factorizations go up |
+//! | `fronts/` | tree of dense fronts, shared by both multifrontal factorizations |
 //! | `llt/` | Hermitian definite: our multifrontal Cholesky |
 //! | `ldlt.rs` | Hermitian augmented, for least squares: faer's supernodal `LDLᴴ` |
 //! | `lu/` | unsymmetric: our multifrontal LU |
-//! | `lanczos.rs` | the greatest eigenvalue of an operator, such as the inverse of a factored matrix |
-//! | `rough.rs` | definite systems of which a few digits are enough: Cholesky in `f32`, conjugate gradients |
-//! | `refine.rs`, `gmres.rs` | what makes a factor's answer good, or an error |
-//! | `sparse.rs`, `scalar.rs`, `error.rs` | products, norms and inner products; real and complex numbers alike; what can go wrong |
+//! | `lanczos.rs` | greatest eigenvalue of an operator, such as the inverse of a factored matrix |
+//! | `rough.rs` | definite systems solved to a few digits: Cholesky in `f32`, conjugate gradients |
+//! | `refine.rs`, `gmres.rs` | iterative refinement and acceptance of solutions |
+//! | `sparse.rs`, `scalar.rs`, `error.rs` | products, norms and inner products; real and complex numbers; errors |
 
 mod analysis;
 mod degree;

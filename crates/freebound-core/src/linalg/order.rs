@@ -1,5 +1,5 @@
-//! Orders of elimination: a shallow dissection of large patterns with approximate minimum degree in its parts, made a
-//! postorder of the elimination tree.
+//! Orders of elimination: a shallow dissection of large patterns with approximate minimum degree in its parts, turned
+//! into a postorder of the elimination tree.
 
 use std::sync::atomic::AtomicBool;
 
@@ -18,7 +18,8 @@ pub(super) fn order(pattern: &Pattern, cancel: &AtomicBool) -> Result<Eliminatio
     Elimination::new(pattern, pairs, &degree, cancel)
 }
 
-/// Orders a pattern by AMD in the parts of a dissection, all of them side by side, where the pattern is large and is cut cheaply.
+/// Orders a pattern by AMD in the parts of a dissection, in parallel, if the pattern is large and has cheap cuts.
+/// Otherwise orders it by AMD.
 pub(super) fn dissected(pattern: &Pattern, cancel: &AtomicBool) -> Result<Elimination, LinalgError> {
     let pairs = pattern.of_pairs();
     let graph = pairs.as_ref().unwrap_or(pattern);
@@ -36,7 +37,8 @@ pub(super) fn dissected(pattern: &Pattern, cancel: &AtomicBool) -> Result<Elimin
     Elimination::new(pattern, pairs, &order, cancel)
 }
 
-/// Takes a given order, but for its postorder. Pairs of unknowns are taken as such where they are neighbours in it.
+/// Uses a given order up to a postorder of its tree. Pairs of unknowns are ordered as pairs if they are neighbours in
+/// it.
 pub(super) fn in_order(pattern: &Pattern, given: &Order, cancel: &AtomicBool) -> Result<Elimination, LinalgError> {
     let has_pairs = given.new_to_old.chunks(2).all(|pair| pair.iter().all(|&old| old / 2 == pair[0] / 2));
     let pairs = if has_pairs { pattern.of_pairs() } else { None };

@@ -10,16 +10,16 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::LinalgError;
 
-/// Columns of a pattern between two looks at the flag.
+/// Number of columns of a pattern between two checks of the cancel flag.
 pub(super) const COLUMNS_AT_ONCE: usize = 16_384;
 
-/// "No parent" in a tree of `u32`.
+/// Marker of "no parent" in a tree of `u32`.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Lists of 32-bit indices, one after another: the sorted columns of a symmetric pattern, the children of a tree's nodes.
+/// Consecutive lists of 32-bit indices: the sorted columns of a symmetric pattern, the children of a tree's nodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Pattern {
-    /// Where each list begins, and the end of the last.
+    /// Start of each list, followed by the end of the last.
     pub(crate) offsets: Vec<u32>,
     pub(crate) rows: Vec<u32>,
 }
@@ -31,7 +31,7 @@ impl Pattern {
         if pattern.minor_dim() != order {
             return Err(LinalgError::NotSquare { rows: pattern.minor_dim(), columns: order });
         }
-        // faer keeps a sign bit to itself.
+        // faer reserves the sign bit.
         if i32::try_from(pattern.nnz()).is_err() {
             return Err(LinalgError::TooLarge { order });
         }
@@ -42,7 +42,7 @@ impl Pattern {
         Ok(this)
     }
 
-    /// The same in as many bits as indices of matrices have.
+    /// Converts the pattern to indices of matrices (`usize`).
     pub(crate) fn widened(&self) -> SparsityPattern {
         let wide = |indices: &[u32]| indices.par_iter().map(|&index| index as usize).collect();
         SparsityPattern::try_from_offsets_and_indices(self.order(), self.order(), wide(&self.offsets), wide(&self.rows))
@@ -62,7 +62,7 @@ impl Pattern {
         SymbolicSparseColMatRef::new_checked(n, n, &self.offsets, None, &self.rows)
     }
 
-    /// Whether a matrix has just these entries.
+    /// True if a matrix has exactly the entries of this pattern.
     pub(super) fn is_that_of<T>(&self, matrix: &CscMatrix<T>) -> bool {
         let same = |narrow: &[u32], wide: &[usize]| {
             narrow.len() == wide.len() && narrow.par_iter().zip(wide).all(|(&narrow, &wide)| narrow as usize == wide)
@@ -72,7 +72,7 @@ impl Pattern {
             && same(&self.rows, matrix.pattern().minor_indices())
     }
 
-    /// Where unknowns come in pairs 2k and 2k + 1, all of whose entries stand in blocks of 2 × 2, the pattern of the pairs.
+    /// Pattern of pairs of unknowns, if unknowns form pairs 2k and 2k + 1 and all entries form blocks of 2 × 2.
     pub(super) fn of_pairs(&self) -> Option<Self> {
         let n = self.order();
         let are_pairs =
@@ -86,7 +86,8 @@ impl Pattern {
         Some(Self { offsets, rows })
     }
 
-    /// Walks the columns once: entry (i, j) of column j must be the next unread entry of row j in column i.
+    /// Checks symmetry in a single pass over the columns. Entry (i, j) of column j must be the next unread entry of
+    /// row j in column i.
     pub(super) fn check_symmetric(&self, cancel: &AtomicBool) -> Result<(), LinalgError> {
         let mut next: Vec<u32> = self.offsets[..self.order()].to_vec();
         for column in 0..self.order() {
@@ -109,7 +110,7 @@ impl Pattern {
         Ok(())
     }
 
-    /// For each entry (i, j) the place of (j, i).
+    /// Index of the entry (j, i) for each entry (i, j).
     pub(super) fn transposed(&self) -> Vec<u32> {
         let mut next: Vec<u32> = self.offsets[..self.order()].to_vec();
         let place = |&row: &u32| {
@@ -119,19 +120,19 @@ impl Pattern {
         self.rows.iter().map(place).collect()
     }
 
-    /// The rows of a column of the pattern renumbered by `order`, in no order.
+    /// Rows of a column of the pattern renumbered by `order`, unsorted.
     pub(super) fn renumbered(&self, order: &Order, column: usize) -> impl Iterator<Item = u32> {
         let rows = self.column(order.new_to_old[column] as usize);
         rows.iter().map(|&old| order.old_to_new[old as usize])
     }
 }
 
-/// An index that [`Pattern::checked`] has already found to fit.
+/// Converts an index that [`Pattern::checked`] has found to fit.
 pub(super) fn narrow(index: usize) -> u32 {
     u32::try_from(index).expect("orders and positions were checked to fit 32 bits")
 }
 
-/// A renumbering of rows and columns alike.
+/// Renumbering of both rows and columns.
 #[derive(Clone, Debug)]
 pub(super) struct Order {
     pub(super) new_to_old: Vec<u32>,
@@ -139,7 +140,7 @@ pub(super) struct Order {
 }
 
 impl Order {
-    /// The order in which new index `k` stands for `new_to_old[k]`.
+    /// Order whose new index `k` stands for `new_to_old[k]`.
     pub(super) fn from_new_to_old(new_to_old: Vec<u32>) -> Self {
         let mut old_to_new = vec![0; new_to_old.len()];
         for (new, &old) in new_to_old.iter().enumerate() {
@@ -148,17 +149,17 @@ impl Order {
         Self { new_to_old, old_to_new }
     }
 
-    /// The order that applies `self` and then `later` to the result.
+    /// Order that applies `self` and then `later`.
     pub(super) fn then(&self, later: &[u32]) -> Self {
         Self::from_new_to_old(later.iter().map(|&middle| self.new_to_old[middle as usize]).collect())
     }
 
-    /// The order of a matrix whose unknowns stand for pairs: 2k and 2k + 1 for k.
+    /// Order of the unknowns of a matrix, if the unknowns of this order stand for pairs: 2k and 2k + 1 for k.
     pub(super) fn of_pairs(&self) -> Self {
         Self::from_new_to_old(in_pairs(&self.new_to_old))
     }
 
-    /// The order in which 2k comes before 2k + 1 for k below `pairs`: where they have one pattern, the fill stays as it is.
+    /// Order with 2k before 2k + 1 for k below `pairs`. Fill does not change if both have equal patterns.
     pub(super) fn with_pairs_in_turn(mut self, pairs: usize) -> Self {
         for (first, second) in (0..pairs).map(|k| (2 * k, 2 * k + 1)) {
             let [first_at, second_at] = [first, second].map(|old| self.old_to_new[old] as usize);
@@ -175,17 +176,17 @@ impl Order {
     }
 }
 
-/// [`LinalgError::Cancelled`] where the caller asked to stop.
+/// Returns [`LinalgError::Cancelled`] if the caller cancelled.
 pub(super) fn go_on_unless(cancel: &AtomicBool) -> Result<(), LinalgError> {
     if cancel.load(Ordering::Relaxed) { Err(LinalgError::Cancelled) } else { Ok(()) }
 }
 
-/// 2k and 2k + 1 for every k of a list.
+/// List of 2k and 2k + 1 for every k of a list.
 pub(super) fn in_pairs(list: &[u32]) -> Vec<u32> {
     list.iter().flat_map(|&k| [2 * k, 2 * k + 1]).collect()
 }
 
-/// Where lists of these lengths begin, and the end of the last.
+/// Starts of consecutive lists of the given lengths, followed by the end of the last.
 pub(super) fn running_sum(counts: &[u32]) -> Vec<u32> {
     let mut total = 0usize;
     let later = counts.iter().map(|&count| {

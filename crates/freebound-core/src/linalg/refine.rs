@@ -1,12 +1,12 @@
-//! Iterative refinement: what makes an answer as good as the matrix allows.
+//! Iterative refinement: solutions as accurate as the matrix allows.
 //!
 //! ```text
 //! r = b − A x,   x ← x + (LU)⁻¹ r     until   ω = maxᵢ |r|ᵢ / (|A||x| + |b|)ᵢ   stops falling
 //! ```
 //!
 //! ω is the componentwise backward error (Arioli, Demmel and Duff 1989, "Solving sparse linear systems with sparse
-//! backward error"): it does not depend on the scale of the rows. Where refinement stalls above the goal, GMRES
-//! preconditioned with the same factors takes over.
+//! backward error"). It does not depend on the scale of the rows. If refinement stalls above the goal, GMRES
+//! preconditioned with the current factors takes over.
 
 use crate::parallel::prelude::*;
 
@@ -15,63 +15,63 @@ use super::gmres::gmres;
 use super::scalar::Scalar;
 use super::sparse::{Operator, norm};
 
-/// Answers with a larger relative residual are errors.
+/// Largest accepted relative residual.
 const LIMIT: f64 = 1e-10;
 
-/// Above this, GMRES is tried, but only where refinement stalled as well.
+/// Relative residual above which GMRES is tried, but only if refinement stalled as well.
 const GOAL: f64 = 1e-12;
 
-/// A larger backward error means that the factors are those of another matrix. With a smaller one a large residual
-/// comes from a large ‖A‖‖x‖/‖b‖, which no method can better in working precision.
+/// Backward error above which the factors do not belong to the matrix. With a smaller error, a large residual comes
+/// from a large ‖A‖‖x‖/‖b‖, which no method can improve in working precision.
 const STALLED: f64 = 1e3 * f64::EPSILON;
 
-/// A componentwise backward error of so many units of rounding cannot be bettered in working precision.
+/// Componentwise backward error that cannot be improved in working precision.
 const GOOD_BACKWARD_ERROR: f64 = 2.0 * f64::EPSILON;
 
-/// One of so many is what substitution mostly leaves.
+/// Componentwise backward error that substitution usually leaves.
 const SMALL_BACKWARD_ERROR: f64 = 64.0 * f64::EPSILON;
 
-/// A step must at least halve the backward error to be followed by another.
+/// Largest ratio of the backward errors after and before a step at which another step is worthwhile.
 const WORTHWHILE: f64 = 0.5;
 
-/// Two steps are the rule; more help only where pivots were replaced.
+/// Largest number of steps. Two are usual; more help only if pivots were replaced.
 const MOST_STEPS: usize = 8;
 
-/// Right-hand sides refined together; each takes three vectors meanwhile.
+/// Number of right-hand sides refined together; each needs three vectors.
 const GROUP: usize = 8;
 
-/// The answer to a linear system, and how good it is.
+/// Solution of a linear system, with its accuracy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solved<T> {
-    /// The solution; several, one after another, for several right-hand sides.
+    /// Solution; for several right-hand sides, consecutive columns.
     pub x: Vec<T>,
-    /// ‖Ax − b‖ / ‖b‖ in the Euclidean norm, 0 where b = 0; of the worst right-hand side.
+    /// Relative residual ‖Ax − b‖ / ‖b‖ in the Euclidean norm, 0 if b = 0; of the worst right-hand side.
     pub residual: f64,
-    /// The same with every row divided by (a power of two near) its diagonal entry, as the LU sees the system. Where
-    /// the rows differ by many decades, this is the one that every equation has a part in.
+    /// Relative residual with every row divided by (a power of two near) its diagonal entry, like the LU sees the
+    /// system. If the rows differ by many decades, every equation contributes to this residual.
     pub scaled_residual: f64,
-    /// The componentwise backward error that refinement reached, of the worst right-hand side: a few units of rounding
-    /// where the answer is as good as the numbers allow.
+    /// Componentwise backward error after refinement, of the worst right-hand side. A few units of rounding if the
+    /// solution is as accurate as possible.
     pub backward_error: f64,
-    /// Steps of refinement that were kept, and of GMRES; the most for any right-hand side.
+    /// Number of kept steps of refinement and of GMRES steps; the most for any right-hand side.
     pub refinement_steps: usize,
 }
 
-/// What makes an answer good.
+/// Criterion for accepting a solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Accept {
-    /// A small relative residual.
+    /// Small relative residual.
     Residual,
-    /// That, or a backward error of a few units of rounding by faithful factors. For right-hand sides that are far
-    /// smaller than ‖A‖‖x‖, where ‖A‖‖x‖ε alone can pass the limit of the relative residual.
+    /// Small relative residual, or a backward error of a few units of rounding by faithful factors. For right-hand
+    /// sides far smaller than ‖A‖‖x‖: then ‖A‖‖x‖ε alone can exceed the limit of the relative residual.
     BackwardError,
-    /// The same, and not refined where substitution leaves a small backward error. For answers that others are made of, and
-    /// these are refined.
+    /// Accepted like [`Self::BackwardError`], and not refined if substitution leaves a small backward error. For
+    /// solutions from which refined solutions are composed.
     SmallBackwardError,
 }
 
 impl Accept {
-    /// The backward error at which refinement ends.
+    /// Backward error at which refinement ends.
     fn goal(self) -> f64 {
         match self {
             Self::Residual | Self::BackwardError => GOOD_BACKWARD_ERROR,
@@ -93,7 +93,7 @@ pub(super) struct System<'a, T> {
     pub(super) operator: Operator<'a, T>,
     /// Factors of the rows of op(A), if they are scaled.
     pub(super) row_scale: Option<&'a [f64]>,
-    /// Whether the factors are those of the matrix up to rounding: no pivot was replaced.
+    /// True if the factors are those of the matrix up to rounding: no pivot was replaced.
     pub(super) is_faithful: bool,
     pub(super) accept: Accept,
     /// Solves in place, column by column.
@@ -108,7 +108,7 @@ impl<T: Scalar> System<'_, T> {
         Sizes { plain, scaled: self.row_scale.map_or(plain, scaled) }
     }
 
-    /// The relative residuals that `r` is of.
+    /// Relative residuals of the residual vector `r`.
     fn relative(&self, r: &[T], b: Sizes) -> Sizes {
         let ratio = |r: f64, b: f64| if r == 0.0 { 0.0 } else { r / b };
         let r = self.sizes(r);
@@ -142,14 +142,14 @@ pub(super) fn refined<T: Scalar>(system: &System<'_, T>, rhs: &[T]) -> Result<So
     Ok(all)
 }
 
-/// Betters a refined answer by GMRES if need be, and returns its relative residuals if they are good.
+/// Improves a refined solution by GMRES if necessary, and returns its relative residuals if it is accepted.
 fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Result<Sizes, LinalgError> {
     let measure = |x: &[T]| {
         let mut r = vec![T::ZERO; x.len()];
         system.operator.residual(x, column.b, &mut r)?;
         Ok(system.relative(&r, column.b_sizes))
     };
-    // A NaN is not good, and neither is an infinity on one side.
+    // Neither a NaN nor an infinity on either side is good.
     let good = |limit: f64, Sizes { plain, scaled }: Sizes| plain.min(scaled) <= limit && (plain + scaled).is_finite();
     let mut relative = column.relative;
     // Written so that a NaN counts as stalled.
@@ -165,14 +165,14 @@ fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Resu
     Err(LinalgError::ResidualTooLarge { residual: relative.plain, limit: LIMIT })
 }
 
-/// One right-hand side and its answer under way.
+/// Right-hand side with its current solution.
 struct Column<'a, T> {
     x: &'a mut [T],
     b: &'a [T],
-    /// ‖b‖.
+    /// Norms of b.
     b_sizes: Sizes,
     backward_error: f64,
-    /// The relative residuals of `x`; no numbers before it was judged.
+    /// Relative residuals of `x`; NaN before the first measurement.
     relative: Sizes,
     steps: usize,
 }
@@ -191,7 +191,7 @@ impl<'a, T: Scalar> Column<'a, T> {
     }
 }
 
-/// Refines the answers in place, all that still gain by it together.
+/// Refines the solutions in place, all that still improve together.
 fn refine<T: Scalar>(system: &System<'_, T>, columns: &mut [Column<'_, T>]) -> Result<(), LinalgError> {
     let n = system.operator.matrix.nrows();
     let mut active: Vec<&mut Column<'_, T>> = columns.iter_mut().collect();
@@ -213,7 +213,7 @@ fn refine<T: Scalar>(system: &System<'_, T>, columns: &mut [Column<'_, T>]) -> R
         }
         (system.solve)(&mut r)?;
         active.par_iter_mut().zip(r.par_chunks_exact_mut(n)).for_each(|(column, r)| {
-            // The answer so far stays in `r`, in case the step makes it worse.
+            // The previous solution stays in `r`, in case the step makes it worse.
             column.x.iter_mut().zip(r).for_each(|(x, r)| {
                 let before = *x;
                 *x += *r;
@@ -224,8 +224,8 @@ fn refine<T: Scalar>(system: &System<'_, T>, columns: &mut [Column<'_, T>]) -> R
     Ok(())
 }
 
-/// Takes the residual after `step` steps. `r` holds the answer before the last, which comes back if that was
-/// better. Returns whether another step may help.
+/// Measures the residual after `step` steps. `r` holds the solution before the last step, which is restored if it was
+/// better. Returns true if another step may help.
 fn judge<T: Scalar>(
     system: &System<'_, T>,
     column: &mut Column<'_, T>,

@@ -1,16 +1,15 @@
-//! Real positive definite systems of which a few digits are enough, such as those of a direction of descent.
+//! Real positive definite systems of which a few digits are enough, such as systems for a direction of descent.
 //!
-//! In double precision the answer is that of the substitution alone. In single precision the factor takes half the memory
-//! and half the time, and it is a preconditioner:
+//! In double precision the solution comes from substitution alone. In single precision the factor takes half the
+//! memory and half the time, and it is a preconditioner:
 //!
 //! ```text
-//! S A S + δ I ≈ L Lᵀ  in f32,     S = diag(A)^−½,     δ = 0 where that can be factored
+//! S A S + δ I ≈ L Lᵀ  in f32,     S = diag(A)^−½,     δ = 0 if that can be factored
 //! A x = b             by conjugate gradients in f64, preconditioned by S (L Lᵀ)⁻¹ S
 //! ```
 //!
-//! S brings all entries to at most 1, whatever their size. What rounding makes of the softest modes, or δ, costs an
-//! iteration or two for each of them. Sums run over parts of fixed length, so that they are the same for any number of
-//! threads.
+//! S scales all entries to at most 1. The error of rounding, or of δ, in the softest modes costs an iteration or two
+//! for each of them. Sums run over parts of fixed length, so that they do not depend on the number of threads.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -24,29 +23,30 @@ use super::llt::Llt;
 use super::pattern::{Pattern, go_on_unless};
 use super::{Analysis, LinalgError};
 
-/// Multiples of the diagonal that are added where rounding to `f32` has made the matrix indefinite.
+/// Multiples of the diagonal that are added if rounding to `f32` has made the matrix indefinite.
 const SHIFTS: [f32; 3] = [0.0, 1e-6, 1e-5];
 
-/// The error that is left of an answer, in the norm of the matrix, by that of x = 0: a direction of descent promises less
-/// energy than the best one by the square of it. One iteration is the rule, which leaves 1e-4 to 3e-3.
+/// Largest accepted error of a solution in the norm of the matrix, relative to the error of x = 0. A direction of
+/// descent then promises less energy decrease than the best direction by the square of this error. Usually a single
+/// iteration suffices and leaves 1e-4 to 3e-3.
 const GOAL: f64 = 1e-2;
 
-/// Iterations after which a factor in double precision costs less.
+/// Number of iterations after which a factor in double precision costs less.
 const MOST_ITERATIONS: usize = 30;
 
-/// Rows that share the work of one task, and are summed by it.
+/// Number of rows per task, also the length of a partial sum.
 const ROWS_PER_TASK: usize = 4096;
 
-/// What a factor is made of.
+/// Precision of a factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FactorPrecision {
-    /// `f64`: answers by substitution.
+    /// `f64`: solves by substitution.
     Double,
-    /// `f32`: answers by conjugate gradients against the matrix in `f64`.
+    /// `f32`: solves by conjugate gradients against the matrix in `f64`.
     Single,
 }
 
-/// A factored matrix. It keeps what it needs of its [`Analysis`], but not the matrix.
+/// Factored matrix. Holds the required data of its [`Analysis`], but not the matrix.
 #[derive(Debug)]
 pub struct RoughFactor {
     shared: Arc<Shared>,
@@ -56,18 +56,18 @@ pub struct RoughFactor {
 #[derive(Debug)]
 enum Numeric {
     Double(Llt<f64>),
-    /// The factor, and S.
+    /// Factor, and S.
     Single(Llt<f32>, Vec<f64>),
 }
 
 impl Analysis {
-    /// Factors the positive definite matrix with these values, which stand in the order of the analysed pattern, in the
-    /// memory of a factor that is no longer needed: new memory costs a good part of the time of a factorization.
+    /// Factors the positive definite matrix with the given values, in the order of the analysed pattern. Reuses the
+    /// memory of an earlier factor: allocating new memory costs a considerable part of the time of a factorization.
     ///
     /// # Errors
     ///
-    /// [`LinalgError::NotPositiveDefinite`]: in single precision that may be rounding's doing.
-    /// [`LinalgError::OtherPattern`] where the number of values is another, or the analysis is of another kind;
+    /// [`LinalgError::NotPositiveDefinite`]: in single precision rounding may be the reason.
+    /// [`LinalgError::OtherPattern`] if the number of values or the kind of the analysis does not match;
     /// [`LinalgError::NotFinite`], [`LinalgError::Cancelled`].
     pub fn factor_roughly(
         &self,
@@ -110,20 +110,20 @@ impl Analysis {
     }
 }
 
-/// S A S.
+/// Scaled matrix S A S.
 struct Scaled<'a> {
     pattern: &'a Pattern,
     values: &'a [f64],
     scale: &'a [f64],
 }
 
-/// S, one over the root of each entry of the diagonal.
+/// Diagonal of S: the reciprocal root of each diagonal entry.
 fn scale(pattern: &Pattern, values: &[f64]) -> Result<Vec<f64>, LinalgError> {
     let of = |row: usize| {
         let column = pattern.column(row);
         let place = column.partition_point(|&other| (other as usize) < row);
         let root = values[pattern.offsets[row] as usize + place].sqrt();
-        // Also where the root is not a number.
+        // Also fails if the root is not a number.
         if root > 0.0 { Ok(root.recip()) } else { Err(LinalgError::NotPositiveDefinite { row }) }
     };
     (0..pattern.order()).map(of).collect()
@@ -156,16 +156,16 @@ fn rounded(value: f64) -> f32 {
 }
 
 impl RoughFactor {
-    /// Solves A x = b for the matrix with these values, which must be those that were factored.
+    /// Solves A x = b for the matrix with the given values, which must be the factored values.
     ///
     /// # Errors
     ///
-    /// [`LinalgError::ResidualTooLarge`] where factors in single precision are no good preconditioner;
+    /// [`LinalgError::ResidualTooLarge`] if factors in single precision are no good preconditioner;
     /// [`LinalgError::Cancelled`].
     ///
     /// # Panics
     ///
-    /// If the right-hand side has another length than the system.
+    /// If the length of the right-hand side is not the order of the system.
     pub fn solve(&self, values: &[f64], rhs: &[f64], cancel: &AtomicBool) -> Result<Vec<f64>, LinalgError> {
         let Shared { pattern, symbolic } = &*self.shared;
         assert_eq!(rhs.len(), pattern.order(), "one number per row");
@@ -187,7 +187,7 @@ impl RoughFactor {
     }
 }
 
-/// S (L Lᵀ)⁻¹ S.
+/// Preconditioner S (L Lᵀ)⁻¹ S.
 struct Preconditioner<'a> {
     analysis: &'a FrontAnalysis,
     llt: &'a Llt<f32>,
@@ -198,7 +198,7 @@ impl Preconditioner<'_> {
     fn applied(&self, r: &[f64], cancel: &AtomicBool) -> Result<Vec<f64>, LinalgError> {
         let Self { analysis, llt, scale } = *self;
         let scaled = || r.par_iter().zip(scale).with_min_len(ROWS_PER_TASK).map(|(r, scale)| r * scale);
-        // The same maximum in any order.
+        // A maximum does not depend on the order.
         let largest = reduce(scaled().map(f64::abs), || 0.0, f64::max);
         if largest == 0.0 {
             return Ok(vec![0.0; r.len()]);
@@ -211,7 +211,7 @@ impl Preconditioner<'_> {
     }
 }
 
-/// Solves A x = b by conjugate gradients; flexible ones, for a preconditioner in `f32` is not quite symmetric.
+/// Solves A x = b by flexible conjugate gradients: a preconditioner in `f32` is not quite symmetric.
 fn conjugate_gradients(
     product: &impl Fn(&[f64]) -> Vec<f64>,
     precondition: &impl Fn(&[f64]) -> Result<Vec<f64>, LinalgError>,
@@ -235,7 +235,7 @@ fn conjugate_gradients(
         add(&mut x, step, &direction);
         add(&mut r, -step, &image);
         z = precondition(&r)?;
-        // What is new of r is −step · image.
+        // The change of r is −step · image.
         let share = -step * dot(&image, &z) / size;
         size = dot(&r, &z);
         direction.par_iter_mut().zip(&z).with_min_len(ROWS_PER_TASK).for_each(|(d, z)| *d = z + share * *d);
@@ -243,7 +243,7 @@ fn conjugate_gradients(
     Err(LinalgError::ResidualTooLarge { residual: (size / first).abs().sqrt(), limit: GOAL })
 }
 
-/// A x of a symmetric matrix: its columns are its rows.
+/// Product A x of a symmetric matrix, whose columns are its rows.
 fn product(pattern: &Pattern, values: &[f64], x: &[f64]) -> Vec<f64> {
     let of = |row: usize| {
         let entries = pattern.offsets[row] as usize..pattern.offsets[row + 1] as usize;
@@ -262,7 +262,7 @@ fn dot(x: &[f64], y: &[f64]) -> f64 {
     sums.iter().sum()
 }
 
-/// x ← x + share · y.
+/// Updates x ← x + share · y.
 fn add(x: &mut [f64], share: f64, y: &[f64]) {
     x.par_iter_mut().zip(y).with_min_len(ROWS_PER_TASK).for_each(|(x, y)| *x += share * y);
 }

@@ -1,35 +1,35 @@
-//! The numbers of this layer: `f64` and `Complex<f64>`, and `f32` for factors of which a few digits are enough.
+//! Number types of this layer: `f64` and `Complex<f64>`, and `f32` for factors of which a few digits are enough.
 
 use num_complex::Complex;
 
-/// A number that a Cholesky factor can be made of.
+/// Number type of a Cholesky factor.
 pub trait Number: faer::traits::ComplexField + nalgebra::ComplexField<RealField: Copy> + Copy {
-    /// What its real part is: itself where it has no imaginary one.
+    /// Type of the real part; the type itself if it is real.
     type Part: Number<Part = Self::Part>;
     /// Additive identity.
     const ZERO: Self;
     /// Multiplicative identity.
     const ONE: Self;
-    /// Whether there is an imaginary part.
+    /// True if the type has an imaginary part.
     const IS_COMPLEX: bool;
 
-    /// The real and the imaginary part.
+    /// Real and imaginary part.
     fn parts(self) -> [Self::Part; 2];
 
-    /// The number with these parts; of a real number the imaginary one is not looked at.
+    /// Number with the given real and imaginary parts; a real type ignores the imaginary part.
     fn from_parts(parts: [Self::Part; 2]) -> Self;
 
-    /// The number with this real part alone.
+    /// Number with a real part alone.
     fn from_real_part(part: Self::Part) -> Self {
         Self::from_parts([part, Self::Part::ZERO])
     }
 }
 
-/// An entry of a matrix: `f64` or `Complex<f64>`.
+/// Entry of a matrix: `f64` or `Complex<f64>`.
 pub trait Scalar:
     Number<Part = f64> + faer::traits::ComplexField<Real = f64> + nalgebra::ComplexField<RealField = f64>
 {
-    /// The larger of |re| and |im|: within √2 of the modulus, and it neither overflows nor underflows.
+    /// Larger of |re| and |im|: within √2 of the modulus, without overflow or underflow.
     fn size(self) -> f64;
 }
 

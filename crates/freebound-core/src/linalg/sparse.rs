@@ -12,55 +12,55 @@ use super::LinalgError;
 use super::pattern::go_on_unless;
 use super::scalar::Scalar;
 
-/// Which of the two systems of a matrix is meant.
+/// System of a matrix to solve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Operation {
-    /// A x = b.
+    /// System A x = b.
     Plain,
-    /// Aᴴ x = b.
+    /// System Aᴴ x = b.
     Adjoint,
 }
 
-/// The rows of op(A), each of which threads can read by itself, and the caller's wish to stop.
+/// Rows of op(A), which threads can read independently, and the cancel flag.
 #[derive(Clone, Copy)]
 pub(super) struct Operator<'a, T> {
     pub(super) matrix: &'a CscMatrix<T>,
-    /// For A itself, whose pattern is symmetric: for each entry (i, j) the place of (j, i). None for Aᴴ, whose rows are A's
-    /// columns, conjugated.
+    /// Index of (j, i) for each entry (i, j), for A itself, whose pattern is symmetric. `None` for Aᴴ, whose rows are
+    /// the conjugated columns of A.
     pub(super) places: Option<&'a [u32]>,
     pub(super) cancel: &'a AtomicBool,
 }
 
-/// Rows that share the work of one task: enough to outweigh the handing out.
+/// Number of rows per task: enough to outweigh the scheduling.
 const ROWS_PER_TASK: usize = 4096;
 
-/// The Euclidean norm, scaled so that it neither overflows nor underflows.
+/// Euclidean norm, scaled so that it neither overflows nor underflows.
 pub(super) fn norm<T: Scalar>(vector: impl Iterator<Item = T> + Clone) -> f64 {
     let largest = vector.clone().fold(0.0, |largest: f64, v| if v.size() <= largest { largest } else { v.size() });
     if largest == 0.0 || !largest.is_finite() {
         return largest;
     }
-    // Two factors, because 1/largest overflows where `largest` is subnormal.
+    // Two factors, because 1/largest overflows if `largest` is subnormal.
     let half = power_of_two_near(largest).sqrt().recip();
     let sum: f64 = vector.map(|v| v.scale(half).scale(half).modulus_squared()).sum();
     sum.sqrt() / half / half
 }
 
-/// The power of two at or just below a positive number, so that dividing by it rounds nothing. For numbers below the
-/// normal range it is the smallest normal number.
+/// Power of two at or just below a positive number, so that division by it does not round. For numbers below the
+/// normal range, the smallest normal number.
 pub(super) fn power_of_two_near(value: f64) -> f64 {
     const EXPONENT_MASK: u64 = 0x7ff0_0000_0000_0000;
     f64::from_bits(value.to_bits() & EXPONENT_MASK).max(f64::MIN_POSITIVE)
 }
 
-/// The first row that holds an entry which is not finite, as an error.
+/// Returns an error with the first row that holds an entry which is not finite.
 pub(super) fn check_finite<T: Scalar>(matrix: &CscMatrix<T>) -> Result<(), LinalgError> {
     let broken = matrix.row_indices().par_iter().zip(matrix.values()).filter(|(_, value)| !value.is_finite());
     broken.map(|(&row, _)| row).min().map_or(Ok(()), |row| Err(LinalgError::NotFinite { row }))
 }
 
 impl<T: Scalar> Operator<'_, T> {
-    /// The entries of a row with their columns.
+    /// Entries of a row with their columns.
     fn row(&self, row: usize) -> impl Iterator<Item = (T, usize)> {
         let (offsets, columns, values) = self.matrix.csc_data();
         let places = self.places;
@@ -83,8 +83,8 @@ impl<T: Scalar> Operator<'_, T> {
         Ok(())
     }
 
-    /// The same. Returns the componentwise backward error maxᵢ |r|ᵢ / (|op(A)||x| + |b|)ᵢ of an answer with residual `r`, sizes
-    /// measured by [`Scalar::size`]. A row with both 0 counts as 0.
+    /// Writes `rhs − op(A) x` into `out` and returns the componentwise backward error maxᵢ |r|ᵢ / (|op(A)||x| + |b|)ᵢ
+    /// of a solution with residual `r`. Sizes are measured by [`Scalar::size`]. A row with both 0 counts as 0.
     ///
     /// # Errors
     ///
@@ -105,7 +105,7 @@ impl<T: Scalar> Operator<'_, T> {
     }
 }
 
-/// Wᴴ W of the columns of W, `n` entries each, one after another: Hermitian to the last bit, column by column.
+/// Gram matrix Wᴴ W, column-major and Hermitian to the last bit. W is column-major with `n` rows.
 pub fn gram<T: Scalar>(columns: &[T], n: usize) -> Vec<T> {
     let k = columns.len().checked_div(n).unwrap_or(0);
     let w = MatRef::from_column_major_slice(columns, n, k);

@@ -1,31 +1,33 @@
-//! The pattern of a membrane's Hessian: a 2×2 block for every pair of unknowns that share an element.
+//! Sparsity pattern of the Hessian of an energy over elements: a 2×2 block for every pair of unknowns that share an
+//! element.
 
 use crate::parallel::prelude::*;
 use nalgebra_sparse::pattern::SparsityPattern;
 
 use crate::problem::{Control, SolveError};
 
-/// A point without an unknown of its own, and an entry that the matrix does not have.
+/// Marker of a point without an unknown, and of an entry that the matrix does not have.
 pub(crate) const HELD: u32 = u32::MAX;
 
-/// Unknowns whose neighbours are found by one task.
+/// Number of unknowns per task.
 const PART: usize = 2048;
 
 pub(crate) fn number(count: usize) -> u32 {
     u32::try_from(count).expect("entries fit")
 }
 
-/// For each unknown the unknowns that share an element with it, itself included, ascending.
+/// Unknowns that share an element with each unknown, itself included, ascending.
 pub(crate) struct Neighbours {
-    /// Where the neighbours of each unknown begin in `list`, and where the last ones end.
+    /// Start of the neighbours of each unknown in `list`, followed by the end of the last.
     starts: Vec<usize>,
     list: Vec<u32>,
 }
 
 impl Neighbours {
-    /// Neighbours of so many unknowns. Of each element its corners' unknowns, or [`HELD`].
+    /// Finds the neighbours of `count` unknowns. `of_corners` holds the unknown of each corner of each element, or
+    /// [`HELD`].
     pub(crate) fn new(of_corners: &[[u32; 3]], count: usize) -> Self {
-        // The elements at each unknown.
+        // Elements at each unknown.
         let mut firsts = vec![0_u32; count + 1];
         for &unknown in of_corners.as_flattened().iter().filter(|&&u| u != HELD) {
             firsts[unknown as usize + 1] += 1;
@@ -55,7 +57,7 @@ impl Neighbours {
             }
             (lengths, list)
         };
-        // Parts share their ends.
+        // Consecutive parts share a boundary entry.
         let parts: Vec<&[u32]> = (0..count).step_by(PART).map(|k| &firsts[k..=(k + PART).min(count)]).collect();
         let of_parts: Vec<(Vec<usize>, Vec<u32>)> = parts.into_par_iter().map(of_part).collect();
         let total = of_parts.iter().map(|(_, list)| list.len()).sum();
@@ -74,23 +76,23 @@ impl Neighbours {
         self.starts.windows(2).map(|pair| number(2 * (pair[1] - pair[0]))).collect()
     }
 
-    /// Where the columns of each unknown begin among the matrix's values, and where the last ones end.
+    /// Start of the columns of each unknown among the values of the matrix, followed by the end of the last.
     pub(crate) fn columns(&self) -> Vec<u32> {
         self.starts.iter().map(|start| number(4 * start)).collect()
     }
 
-    /// The place among the matrix's values of the first entry of the block of two unknowns that share an element.
+    /// Index among the values of the matrix of the first entry of a block. The two unknowns must share an element.
     pub(crate) fn slot(&self, row: u32, column: u32) -> u32 {
         let (from, to) = (self.starts[column as usize], self.starts[column as usize + 1]);
         let at = self.list[from..to].binary_search(&row).expect("corners of one element are neighbours");
         number(4 * from + 2 * at)
     }
 
-    /// The pattern with a 2×2 block for every pair of neighbours.
+    /// Pattern with a 2×2 block for every pair of neighbours.
     ///
     /// # Errors
     ///
-    /// The caller's wish to stop.
+    /// [`SolveError::Cancelled`] if cancelled.
     pub(crate) fn block_pattern(&self, control: Control<'_>) -> Result<SparsityPattern, SolveError> {
         let count = self.starts.len() - 1;
         let mut offsets = Vec::with_capacity(2 * count + 1);

@@ -1,12 +1,12 @@
-//! A convex boundary: the boundary loop laid on a convex shape (Tutte 1963, Floater 1997).
+//! Convex boundary: the boundary loop placed on a convex shape (Tutte 1963, Floater 1997).
 //!
-//! Along the shape vertices lie as far apart as in space, in proportion, or evenly. Where the shape has corners, vertices
-//! lie on these: those of the loop that come nearest to the corners' shares of the whole length, or, on the hull of the
-//! boundary's projection, those whose projections the corners are. The vertices between two corners lie along the side,
-//! one after another: by their lengths, or evenly.
+//! Distances along the shape are proportional to the edge lengths in space, or equal. If the shape has corners, some
+//! vertices of the loop lie on them: the vertices nearest to the shares of the corners in the whole length. On the
+//! hull of the projected boundary, the corners are projections of vertices, which lie on them. The vertices between
+//! two corners lie along the side in order, spaced by their lengths or evenly.
 //!
-//! Where two vertices of one side are joined by an edge that is not of the boundary, no face beyond that edge has an area:
-//! the theorem asks for a strictly convex shape there, such as the circle.
+//! If an inner edge joins two vertices of one side, the faces beyond that edge have no area. The theorem requires a
+//! strictly convex shape for such meshes, for instance the circle.
 
 use std::f64::consts::TAU;
 
@@ -16,36 +16,36 @@ use super::hull_corners::hull_corners;
 use crate::mesh::DiskMesh;
 use crate::problem::{BoundaryShape, PinPositions, SolveError, Spacing};
 
-/// The corners of the unit square.
+/// Corners of the unit square.
 const SQUARE: [DVec2; 4] = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
 
-/// A vertex of the loop that lies on a corner of the shape.
+/// Vertex of the loop that lies on a corner of the shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Corner {
-    /// Its place in the loop.
+    /// Index in the loop.
     pub(crate) place: usize,
-    /// Where it lies.
+    /// Position of the corner.
     pub(crate) at: DVec2,
 }
 
-/// Lays the boundary loop on a shape, whose size is that of the shape alone.
+/// Places the boundary loop on a shape. The shape alone determines the size.
 ///
 /// # Errors
 ///
-/// [`SolveError::BoundaryTooShort`] where the shape has more corners than the boundary has vertices,
-/// [`SolveError::NoHull`] where the boundary's projection has no hull to lie on.
+/// [`SolveError::BoundaryTooShort`] if the shape has more corners than the boundary has vertices,
+/// [`SolveError::NoHull`] if the projected boundary has no usable hull.
 pub fn convex_boundary(mesh: &DiskMesh, shape: &BoundaryShape, spacing: Spacing) -> Result<PinPositions, SolveError> {
     let places = on_shape(mesh, &boundary_lengths(mesh), shape, spacing)?;
     Ok(mesh.boundary_loop().iter().copied().zip(places).collect())
 }
 
-/// The length of each edge of the loop, from its vertex to the next.
+/// Length of each edge of the loop, from its vertex to the next.
 pub(crate) fn boundary_lengths(mesh: &DiskMesh) -> Vec<f64> {
     let boundary = mesh.boundary_loop();
     boundary.iter().zip(boundary.iter().cycle().skip(1)).map(|(&a, &b)| mesh.length([a, b])).collect()
 }
 
-/// Places on a shape for a loop with as many vertices as the boundary, and with these lengths.
+/// Positions on a shape for a loop with the given edge lengths and the vertices of the boundary.
 pub(crate) fn on_shape(
     mesh: &DiskMesh,
     lengths: &[f64],
@@ -69,7 +69,7 @@ pub(crate) fn on_shape(
     Ok(between(&corners, &arcs))
 }
 
-/// Share of a loop's length before each of its vertices, from 0 towards 1.
+/// Share of the length of a loop before each of its vertices, from 0 towards 1.
 fn arcs(lengths: &[f64]) -> Vec<f64> {
     let total: f64 = lengths.iter().sum();
     let mut walked = 0.0;
@@ -83,7 +83,8 @@ fn arcs(lengths: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// The first corner at the loop's first vertex, the others at those nearest to their shares of the outline.
+/// Assigns corners to vertices: the first corner to the first vertex of the loop, each other corner to the vertex
+/// nearest to its share of the outline.
 fn nearest_to_corners(outline: &[DVec2], arcs: &[f64], shape: &'static str) -> Result<Vec<Corner>, SolveError> {
     let (count, needed) = (arcs.len(), outline.len());
     if count < needed {
@@ -106,7 +107,8 @@ fn nearest_to_corners(outline: &[DVec2], arcs: &[f64], shape: &'static str) -> R
     Ok(corners)
 }
 
-/// All vertices of the loop, those between two corners along the side: corners as they follow each other around the loop.
+/// Positions of all vertices of the loop, interpolated along the side between consecutive corners. Corners are given
+/// in the order of the loop.
 fn between(corners: &[Corner], arcs: &[f64]) -> Vec<DVec2> {
     let count = arcs.len();
     let arc = |place: usize| arcs[place % count] + (place / count) as f64;

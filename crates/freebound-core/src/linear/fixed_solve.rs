@@ -1,4 +1,4 @@
-//! One factored system of a prescribed boundary: a real matrix, which x and y share.
+//! Factored system of a fixed boundary: a real matrix, shared by x and y.
 
 use glam::DVec2;
 use nalgebra_sparse::CscMatrix;
@@ -29,11 +29,12 @@ impl FixedSolve {
         Ok(Self { equations, matrix, factor })
     }
 
-    /// The embedding with the prescribed vertices in their places, and the residual.
+    /// Solves for the embedding with the fixed vertices at the given positions. Returns the embedding and its
+    /// residual.
     ///
     /// # Errors
     ///
-    /// A residual that refinement cannot bring down, or the caller's wish to stop.
+    /// [`SolveError::ResidualTooLarge`] if refinement cannot reduce the residual; [`SolveError::Cancelled`].
     pub(crate) fn solve(
         &self,
         site: Site<'_>,
@@ -43,14 +44,15 @@ impl FixedSolve {
         let terms = site.system.pinned_terms(site.mesh, &self.equations, |v| places[&v]);
         let (free, residual) = self.answer(site, &terms, Factor::solve, control)?;
         let mut embedding = Embedding::from(vec![DVec2::ZERO; site.mesh.vertex_count()]);
-        // Assigned, not added: adding to zero would make a zero of a negative zero.
+        // Assigned, not added: adding to zero would turn a negative zero into a positive zero.
         for (vertex, place) in free.into_iter().chain(places.iter().map(|(&v, &place)| (v, place))) {
             embedding[vertex] = place;
         }
         Ok((embedding, residual))
     }
 
-    /// The same, found as a move from an embedding whose free vertices have these residuals.
+    /// Solves like [`solve`](Self::solve), but for the move from an embedding whose free vertices have the given
+    /// residuals.
     pub(crate) fn solve_from(
         &self,
         site: Site<'_>,
@@ -66,7 +68,7 @@ impl FixedSolve {
         Ok((embedding, residual))
     }
 
-    /// What the system says of the free vertices for one term each, and the residual.
+    /// Solves for the free vertices from a term for each; returns their values and the residual.
     fn answer(
         &self,
         site: Site<'_>,
@@ -82,12 +84,12 @@ impl FixedSolve {
         Ok((free.collect(), solved.residual))
     }
 
-    /// Its equations, without the factors.
+    /// Equations, without the factors.
     pub(crate) fn into_equations(self) -> Equations<f64> {
         self.equations
     }
 
-    /// The numbers of a solve. Prescribed vertices have no equation.
+    /// Statistics of a solve. Fixed vertices have no equation.
     pub(crate) fn numbers(
         &self,
         site: Site<'_>,

@@ -1,16 +1,17 @@
-//! A free boundary made ready: its equations, and which two of them are left out.
+//! Prepared system of a free boundary: its equations, and the choice of the two that are left out.
 //!
-//! Up to two pins only fix the similarity, and their equations are dropped (paper §3.3). Two equations say nothing that the
-//! others do not say, so on a surface that unrolls any two may go, in exact arithmetic. In 64 bits only those may that
-//! depend on the others: on regular grids and in corridors those of the usual pins do not (`left_kernel.rs`). There
+//! A problem with up to two pins only fixes the similarity, and drops their equations (paper §3.3). Two equations
+//! are redundant on a surface that unrolls, so in exact arithmetic any two may be dropped. In 64 bits the dropped
+//! equations must clearly depend on the others. On regular grids and in corridors the equations of the usual pins do
+//! not (`left_kernel.rs`). On such meshes
 //!
-//! * gauge pins, which the solver chooses by itself, go to vertices whose equations do depend on the others. The answer is moved to
-//!   where it belongs by a similarity anyway;
-//! * with two pins of the user's all equations are kept (least squares), unless their treatment was asked for;
-//! * where all equations are kept, the factors leave out two more.
+//! * gauge pins, chosen by the solver, move to vertices whose equations do depend on the others. A similarity places
+//!   the result afterwards in any case;
+//! * with two pins of the user, all equations are kept (least squares), unless the user set a treatment;
+//! * if all equations are kept, the factors leave out two more.
 //!
-//! Other surfaces have no second equation to spare, and each choice has an answer of its own. So the usual pins stay
-//! wherever they do: nothing is factored twice there.
+//! Other surfaces have no second redundant equation, and each choice has a different solution. So the usual pins are
+//! kept wherever they work, and such systems are factored only once.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -29,34 +30,34 @@ use crate::problem::{Control, Family, Method, PhaseSeconds, Settings, SolveError
 use crate::weights::equations;
 use crate::weights::equations::{Equations, mean_edge_length};
 
-/// Gauges that are tried before the last one is taken as it is. The second has always done.
+/// Number of gauges tried before the last is accepted. The second has always sufficed.
 const MOST_GAUGES: usize = 4;
 
-/// A solve with a free boundary.
+/// Problem of a solve with a free boundary.
 #[derive(Clone, Copy)]
 pub(crate) struct FreeProblem<'a> {
     pub(crate) mesh: &'a DiskMesh,
     pub(crate) settings: &'a Settings,
-    /// The user's pins, as they are held.
+    /// Pins of the user with their kinds.
     pub(crate) asked: &'a Pins,
 }
 
-/// The same, factored.
+/// Factored system of a [`FreeProblem`].
 pub(crate) struct FreeReady {
     pub(crate) system: FreeSystem,
     pub(crate) solve: FreeSolve,
-    /// The gauge pins, where the solver has its own.
+    /// Gauge pins, if the solver chose them.
     pub(crate) own_places: Option<PinPositions>,
 }
 
-/// A try: the gauge pins, and what is left out beside them.
+/// Choice of gauge pins and of the equations left out beside them.
 struct Try {
     own_places: Option<PinPositions>,
     way: Way,
 }
 
 impl FreeProblem<'_> {
-    /// Factors the system, with these gauge pins if the solver is to have its own: they move where they have to.
+    /// Factors the system. `own_places` holds gauge pins if the solver chooses them; they move if necessary.
     pub(crate) fn prepare(
         self,
         own_places: Option<PinPositions>,
@@ -78,7 +79,7 @@ impl FreeProblem<'_> {
                 }
                 Err(Unsolved::Error(_)) => None,
             };
-            // The same again would end as this did.
+            // Repeating a choice would give an identical outcome.
             let is_new =
                 |gauge: &[VertexId; 2]| !choice.own_places.as_ref().is_some_and(|places| is_at(places, *gauge));
             let Some(gauge) = gauge.filter(is_new) else { return outcome.map_err(SolveError::from) };
@@ -87,7 +88,7 @@ impl FreeProblem<'_> {
         self.factored(&choice, seconds, control).map_err(SolveError::from)
     }
 
-    /// Whether it is the solver's choice which equations are left out, and another one could be made.
+    /// True if the solver may choose the equations that are left out, and another choice is possible.
     fn can_change(self, Try { own_places, way }: &Try) -> bool {
         if self.is_hermitian() || way.gauge.is_some() {
             return false;
@@ -104,7 +105,8 @@ impl FreeProblem<'_> {
         Try { own_places, way: Way { treatment: Treatment::LeastSquares, gauge: Some(gauge) } }
     }
 
-    /// Gauge pins at two vertices, as far apart as in space. Their size does not matter, but may not be nothing.
+    /// Gauge pins at two vertices, with their distance in space. Any positive distance works; if theirs is zero, the
+    /// distance of the farthest pair of the boundary is used.
     fn places(self, gauge: [VertexId; 2]) -> PinPositions {
         let apart = |[a, b]: [VertexId; 2]| self.mesh.position(a).distance(self.mesh.position(b));
         let distance =
@@ -118,7 +120,7 @@ impl FreeProblem<'_> {
         let kind = if self.is_hermitian() { Kind::Hermitian } else { Kind::General };
         let pins = choice.own_places.clone().map_or_else(|| self.asked.clone(), fixed_pins);
         let laid_out = Unanalysed::new(mesh, &pins, choice.way, kind, control)?;
-        // What the equations are does not matter to the order.
+        // The order does not depend on the values of the equations.
         let numbers = || laid_out.numbers(mesh, self.equations(control)?, control);
         let (numbers, analysis) = crate::parallel::join(numbers, || laid_out.analysis(mesh, control));
         let (mut numbers, (analysis, analysis_seconds)) = (numbers?, analysis?);
@@ -136,7 +138,8 @@ impl FreeProblem<'_> {
         self.settings.method != Method::Levy && self.power() == Family::CONFORMAL_POWER
     }
 
-    /// The power p of the offsets d = rᵖ. Lévy's equations and those of least squares are free of scale, as conformal ones are.
+    /// Power p of the offsets d = rᵖ. Lévy's equations and those of least squares (LSCM) are scale-free, like
+    /// conformal ones.
     fn power(self) -> f64 {
         match self.settings.method {
             Method::Levy | Method::Lscm => Family::CONFORMAL_POWER,
@@ -144,7 +147,7 @@ impl FreeProblem<'_> {
         }
     }
 
-    /// The equations of a free boundary.
+    /// Equations of a free boundary.
     fn equations(self, control: Control<'_>) -> Result<Equations<Complex<f64>>, SolveError> {
         match self.settings.method {
             Method::Levy => equations::levy(self.mesh, control),

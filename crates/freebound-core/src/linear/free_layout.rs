@@ -1,4 +1,4 @@
-//! A system of a free boundary before it is factored: which vertices the factors leave out, what the pins add, its numbers.
+//! System of a free boundary before it is factored: vertices that the factors leave out, terms of the pins, values.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -15,36 +15,37 @@ use crate::problem::pins::GAUGE_PINS;
 use crate::problem::{Control, Phase, PinKind, Pins, SolveError, Treatment, farthest_pair};
 use crate::weights::equations::Equations;
 
-/// With more pins than this that least squares has to treat, their rows go sparse. An estimate: at a thousand the dense
-/// way takes many times as long.
+/// Number of pins for least squares above which the sparse system is used. An estimate: at a thousand pins the dense
+/// system takes many times as long.
 const FEW: usize = 64;
 
-/// What becomes of the equations of pins, and whether others are left out beside them.
+/// Treatment of the equations of pins, and the choice of equations left out beside them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Way {
     pub(crate) treatment: Treatment,
-    /// Two vertices whose equations depend on the others, where they are known: least squares leaves them out, too.
+    /// Two vertices whose equations depend on the others, if known: least squares leaves them out, too.
     pub(crate) gauge: Option<[VertexId; 2]>,
 }
 
 impl Way {
-    /// Whether the equations of these pins are kept. One exact pin alone does not fix the similarity: the rest without its
-    /// equation would still be singular.
+    /// True if the equations of these pins are kept. A single hard pin does not fix the similarity: without its
+    /// equation, the remaining system would still be singular.
     pub(crate) fn keeps_equations(self, pins: &Pins) -> bool {
         let exact = pins.values().filter(|pin| pin.kind.is_hard()).count();
         self.treatment != Treatment::Eliminate || exact < GAUGE_PINS
     }
 }
 
-/// How pins enter a system.
+/// Layout of pins in a system.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Layout {
-    /// The vertices without unknown in the factors, ascending: all pins and a gauge where all equations are kept and pins
-    /// are few, otherwise the exact pins.
+    /// Vertices without an unknown in the factors, ascending. All pins and a gauge if all equations are kept and
+    /// pins are few, otherwise the hard pins.
     pub(crate) left_out: Vec<VertexId>,
-    /// Whether the equations of those are kept beside the factors; otherwise they are pins, eliminated.
+    /// True if the equations of `left_out` are kept beside the factors; otherwise these vertices are pins,
+    /// eliminated.
     pub(crate) keeps_equations: bool,
-    /// Whether least squares has too many pins to treat them one by one.
+    /// True if least squares has too many pins to treat them one by one.
     pub(crate) has_many: bool,
     pub(crate) holds: BTreeMap<VertexId, PinKind>,
 }
@@ -60,7 +61,8 @@ impl Layout {
         let has_many = springs + if keeps_equations { pins.len() } else { 0 } > FEW;
         if keeps_equations && !has_many {
             left_out = pins.keys().copied().collect();
-            // With one pin the equations still depend on each other: those of any vertices will do to begin with.
+            // With a single pin the equations still depend on each other: the equations of any vertices will do at
+            // first.
             let to_begin_with = (left_out.len() < GAUGE_PINS).then(|| farthest_pair(mesh));
             left_out.extend(way.gauge.or(to_begin_with).into_iter().flatten());
             left_out.sort_unstable();
@@ -81,7 +83,7 @@ impl Layout {
         }
     }
 
-    /// What least squares has to treat, if anything. For `unit` see [`Numbers`].
+    /// Vertices and pins for least squares, if any. For `unit` see [`Numbers`].
     pub(crate) fn rest(&self, unit: f64) -> Option<Remainder> {
         let spring = |(&vertex, kind): (&VertexId, &PinKind)| match kind {
             PinKind::Fixed | PinKind::Hard => None,
@@ -95,32 +97,32 @@ impl Layout {
     }
 }
 
-/// The numbers of a system.
+/// Values of a system.
 pub(crate) struct Numbers {
     pub(crate) equations: Equations<Complex<f64>>,
-    /// Their matrix, where it is there already.
+    /// Matrix of the equations, if it is already assembled.
     pub(crate) matrix: Option<CscMatrix<Complex<f64>>>,
-    /// What the rows are to be multiplied by so that they are those of a geometry whose edges have length 1 on average.
+    /// Factor that scales the rows to a geometry with mean edge length 1.
     pub(crate) unit: f64,
 }
 
-/// A system laid out.
+/// System with its layout, not yet analysed.
 #[derive(Debug)]
 pub(crate) struct Unanalysed {
     way: Way,
     layout: Layout,
     system: FreeSystem,
-    /// What is known of its matrix.
+    /// Known properties of the matrix.
     kind: Kind,
 }
 
-/// The same, analysed.
+/// System with its layout and its analysis.
 #[derive(Debug)]
 pub(crate) struct LaidOut {
     pub(crate) way: Way,
     pub(crate) layout: Layout,
     pub(crate) system: FreeSystem,
-    /// What is known of its matrix.
+    /// Known properties of the matrix.
     pub(crate) kind: Kind,
     pub(crate) analysis: Analysis,
     /// Seconds of the analysis.
@@ -140,8 +142,8 @@ impl Unanalysed {
         Ok(Self { way, layout, system, kind })
     }
 
-    /// The numbers of equations for its factors; with the matrix, which does not wait for the analysis, where pins have no rows in
-    /// it.
+    /// Values of equations for the factors. Includes the matrix if pins have no rows in it: that matrix does not
+    /// need the analysis.
     pub(crate) fn numbers(
         &self,
         mesh: &DiskMesh,
@@ -153,7 +155,7 @@ impl Unanalysed {
         Ok(Numbers { equations, matrix, unit: 1.0 })
     }
 
-    /// Orders and analyses it. Returns also the seconds that took.
+    /// Orders and analyses the system. Returns the analysis and its seconds.
     pub(crate) fn analysis(&self, mesh: &DiskMesh, control: Control<'_>) -> Result<(Analysis, f64), SolveError> {
         control.enter(Phase::Analyze)?;
         let start = Instant::now();
@@ -161,27 +163,27 @@ impl Unanalysed {
         Ok((analysis, start.elapsed().as_secs_f64()))
     }
 
-    /// With what [`analysis`](Self::analysis) returned.
+    /// Adds the results of [`analysis`](Self::analysis).
     pub(crate) fn analysed(self, analysis: Analysis, seconds: f64) -> LaidOut {
         let Self { way, layout, system, kind } = self;
         LaidOut { way, layout, system, kind, analysis, seconds }
     }
 
-    /// Orders and analyses it here and now.
+    /// Orders and analyses the system at once.
     pub(crate) fn analysed_now(self, mesh: &DiskMesh, control: Control<'_>) -> Result<LaidOut, SolveError> {
         let (analysis, seconds) = self.analysis(mesh, control)?;
         Ok(self.analysed(analysis, seconds))
     }
 
-    /// Whether pins pull by a weight.
+    /// True if there are soft pins.
     pub(crate) fn has_springs(&self) -> bool {
         self.layout.holds.values().any(|kind| !kind.is_hard())
     }
 }
 
 impl LaidOut {
-    /// Whether all equations are kept, and it was not looked at yet where they depend on each other. Conformal ones do so all
-    /// over the mesh.
+    /// True if all equations are kept and their dependence was not examined yet. False for conformal equations,
+    /// which depend on each other all over the mesh.
     pub(crate) fn may_want_gauge(&self) -> bool {
         self.way.gauge.is_none() && self.layout.keeps_equations && self.kind == Kind::General
     }

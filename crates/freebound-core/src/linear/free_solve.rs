@@ -1,4 +1,4 @@
-//! One factored system of a free boundary, and its solution for given pins.
+//! Factored system of a free boundary, and its solution for given pins.
 
 use std::time::Instant;
 
@@ -19,16 +19,16 @@ use crate::problem::pins::GAUGE_PINS;
 use crate::problem::{Control, Embedding, LinearSolve, Phase, PhaseSeconds, PinPositions, SolveError};
 use crate::weights::equations::{Equations, modulus};
 
-/// A least-squares answer whose conditions for a minimum are off by more, relative to their terms, is wrong.
+/// Largest accepted error of the conditions for a minimum of a least-squares solution, relative to their terms.
 const GRADIENT_LIMIT: f64 = 1e-10;
 
-/// Where more than this of the extent is left to move, the embedding is solved for once more.
+/// Share of the extent above which a remaining move triggers another solve.
 const MOST_REST: f64 = 1e-11;
 
-/// The square of the number of boundary vertices, in numbers of faces, from which a mesh counts as a corridor.
+/// Ratio of the squared number of boundary vertices to the number of faces above which a mesh counts as a corridor.
 const CORRIDOR: usize = 64;
 
-/// Equations, matrix and factors; for least squares also what the pins add.
+/// Equations, matrix and factors; for least squares also the terms of the pins.
 #[derive(Debug)]
 pub(crate) struct FreeSolve {
     equations: Equations<Complex<f64>>,
@@ -40,7 +40,7 @@ pub(crate) struct FreeSolve {
     is_hermitian: bool,
 }
 
-/// The two ways of least squares.
+/// Dense system for few pins, or sparse system for many.
 #[derive(Debug)]
 enum Ways {
     Few(LeastSquares),
@@ -56,24 +56,24 @@ impl Ways {
     }
 }
 
-/// An embedding that a solve moves from.
+/// Embedding from which a solve moves.
 #[derive(Clone, Copy)]
 pub(crate) struct SolveStart<'a> {
     pub(crate) embedding: &'a Embedding,
-    /// The residual of every vertex's equation there.
+    /// Residual of the equation of every vertex at the embedding.
     pub(crate) residuals: &'a [Complex<f64>],
 }
 
-/// Where a solve takes place, for which targets, and who may stop it.
+/// System, targets and cancellation of a solve.
 struct Asked<'a> {
     site: Site<'a>,
     targets: &'a PinPositions,
     control: Control<'a>,
 }
 
-/// Why there is no factored system.
+/// Reason for which there is no factored system.
 pub(crate) enum Unsolved {
-    /// Two more equations have to be left out: of these vertices, where they are known.
+    /// Two more equations must be left out: the equations of these vertices, if known.
     WithoutGauge(Option<[VertexId; 2]>),
     Error(SolveError),
 }
@@ -94,7 +94,7 @@ impl From<Unsolved> for SolveError {
 }
 
 impl FreeSolve {
-    /// Factors the matrix of the equations; adds the time that took to `seconds`.
+    /// Factors the matrix of the equations and adds the elapsed time to `seconds`.
     pub(crate) fn new(
         mesh: &DiskMesh,
         laid_out: &LaidOut,
@@ -122,7 +122,7 @@ impl FreeSolve {
             None => site.system.named(error),
         };
         let unsolved = |error| match named(error) {
-            // The equations that are factored may depend on each other.
+            // The factored equations may depend on each other.
             SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } if laid_out.may_want_gauge() => {
                 Unsolved::WithoutGauge(None)
             }
@@ -148,12 +148,12 @@ impl FreeSolve {
         Ok(Self { equations, matrix, factor, least_squares, eliminated, is_hermitian })
     }
 
-    /// Two vertices whose equations are better left out than those of the two pins that are; none where these will do, or
-    /// where all equations are kept.
+    /// Two vertices whose equations are better left out than those of the two eliminated pins. `None` if the pins
+    /// are good enough or if all equations are kept.
     ///
     /// # Errors
     ///
-    /// The caller's wish to stop.
+    /// [`SolveError::Cancelled`] if cancelled.
     pub(crate) fn better_gauge(
         &self,
         site: Site<'_>,
@@ -169,11 +169,12 @@ impl FreeSolve {
         Factored { matrix: &self.matrix, factor: &self.factor, cancel: control.cancel() }
     }
 
-    /// The embedding with the pins on their targets, or as near as weights bring them, linear in these; and its residual.
+    /// Embedding with hard pins on their targets and soft pins as near as their weights bring them, and its relative
+    /// residual. The embedding is linear in the targets.
     ///
     /// # Errors
     ///
-    /// A residual that refinement cannot bring down, or the caller's wish to stop.
+    /// [`SolveError::ResidualTooLarge`] if refinement cannot reduce the residual; [`SolveError::Cancelled`].
     pub(crate) fn solve(
         &self,
         site: Site<'_>,
@@ -194,9 +195,10 @@ impl FreeSolve {
         Ok((embedding, residual))
     }
 
-    /// A solution with the move that its equations still ask for; none where that is not worth it. Differences of neighbours have all
-    /// their digits, so it is known where a solve for positions is at an end: in corridors, where equations tell little
-    /// of long moves. A Hermitian matrix tells enough of them unless the mesh is a corridor.
+    /// Corrects a solution by the move that its residuals still require. `None` if that move is negligible.
+    /// Differences of neighbours have full precision, so residuals show the error that remains after solving for
+    /// positions. It is large in corridors, because the equations hardly determine long-range moves there. A
+    /// Hermitian matrix determines them well enough unless the mesh is a corridor.
     fn rest_of(&self, asked: &Asked<'_>, embedding: &Embedding) -> Result<Option<(Embedding, f64)>, SolveError> {
         let &Asked { site, targets, control } = asked;
         if self.is_hermitian && !is_corridor(site.mesh) {
@@ -217,8 +219,8 @@ impl FreeSolve {
         Ok((!is_little(moved)).then_some(again))
     }
 
-    /// The same, found as a move from an embedding that has the exact pins on their targets. Where that nearly solves the
-    /// equations the move is small, and so is its rounding.
+    /// Solves like [`solve`](Self::solve), but for the move from an embedding that has the hard pins on their
+    /// targets. If the embedding nearly solves the equations, the move is small, and so is its rounding error.
     pub(crate) fn solve_from(
         &self,
         site: Site<'_>,
@@ -229,7 +231,7 @@ impl FreeSolve {
         self.move_from(&Asked { site, targets, control }, start, Factor::solve_correction)
     }
 
-    /// Solves for the move from `start` that takes up the residuals there.
+    /// Solves for the move from `start` that cancels the residuals there.
     fn move_from(
         &self,
         asked: &Asked<'_>,
@@ -258,7 +260,7 @@ impl FreeSolve {
             Ways::Few(few) => few.moves(site, &factored, residuals, &to_targets).map_err(named)?,
             Ways::Many(many) => many.moves(site, &factored, residuals, &to_targets)?,
         };
-        // Adding nothing would still make a zero of a negative zero.
+        // Adding zero would still turn a negative zero into a positive zero.
         embedding.par_iter_mut().zip(moves).filter(|(_, by)| *by != Complex::ZERO).for_each(|(z, by)| {
             *z += DVec2::new(by.re, by.im);
         });
@@ -266,8 +268,10 @@ impl FreeSolve {
         Ok((embedding, residual))
     }
 
-    /// The conditions for a minimum: the residuals must be orthogonal to every move. ‖Aᴴ A z + W² (z − t)‖ over the
-    /// vertices that can move, relative to ‖|A|ᵀ |A| |z| + W² (|z| + |t|)‖, the sizes of the terms that should cancel.
+    /// Relative error of the conditions for a minimum: the residuals must be orthogonal to every move. The error is
+    /// ‖Aᴴ A z + W² (z − t)‖ over the vertices that can move. It is relative to ‖|A|ᵀ |A| |z| + W² (|z| + |t|)‖, the
+    /// sizes of the terms that should cancel.
+    /// |A| |z| + W² (|z| + |t|)‖.
     fn gradient_residual(
         &self,
         asked: &Asked<'_>,
@@ -315,7 +319,7 @@ impl FreeSolve {
         Ok(if gradient > 0.0 { f64::sqrt(gradient / whole) } else { 0.0 })
     }
 
-    /// The residual of every vertex's equation.
+    /// Residual of the equation of every vertex.
     pub(crate) fn residuals(
         &self,
         mesh: &DiskMesh,
@@ -339,8 +343,9 @@ impl FreeSolve {
     }
 }
 
-/// Whether the mesh has many boundary vertices for its faces: their number's square is 8 times that of the faces of a regular
-/// grid of squares. In corridors the smallest numbers that tell one map from another fall with the fourth power of that ratio.
+/// True if the mesh has many boundary vertices for its number of faces: the ratio [`CORRIDOR`] is 8 times that of a
+/// regular grid of squares. In corridors the smallest eigenvalues that distinguish maps fall with the fourth power
+/// of the ratio.
 fn is_corridor(mesh: &DiskMesh) -> bool {
     mesh.boundary_loop().len().pow(2) > CORRIDOR * mesh.face_count()
 }

@@ -1,13 +1,13 @@
-//! The convex hull of the boundary's projection to its best plane: an outline that is like the boundary itself.
+//! Convex hull of the boundary projected to its best-fitting plane: an outline that resembles the boundary.
 //!
-//! The best plane is that of least squares, through the middle of the boundary: its normal is the direction in which the
-//! boundary extends least. A vertex counts by the length of its edges.
+//! The plane is fitted by least squares through the centroid of the boundary: its normal is the direction of least
+//! extent. Each vertex is weighted by the length of its edges.
 //!
-//! The corners of the hull are vertices of the boundary; on the outline they have to follow each other as they do around
-//! the loop. Of a boundary that crosses itself in the projection not all do: then the longest run of corners that does is
-//! taken. Corners left out leave the outline convex.
+//! The corners of the hull are vertices of the boundary. On the outline they must have the order of the loop. If the
+//! projected boundary crosses itself, some corners break this order; then the longest run in order is used. Omitting
+//! corners keeps the outline convex.
 //!
-//! Source: the outline is proposed by Y. Lee, H. S. Kim, S. Lee, "Mesh Parameterization with a Virtual Boundary", 2002.
+//! Source: Y. Lee, H. S. Kim, S. Lee, "Mesh Parameterization with a Virtual Boundary", 2002, propose the outline.
 
 use glam::{DVec2, DVec3};
 use nalgebra::{Matrix3, SymmetricEigen};
@@ -15,28 +15,29 @@ use nalgebra::{Matrix3, SymmetricEigen};
 use super::convex::Corner;
 use crate::geom::convex_hull;
 
-/// A boundary whose second extent is a smaller share of its first lies on a line.
+/// Ratio of the second extent of a boundary to the first below which the boundary counts as a line.
 const THINNEST: f64 = 1e-9;
 
-/// A corner that turns by a smaller angle, radians, is one of rounding: there the boundary is straight.
+/// Turning angle in radians below which a corner counts as rounding of a straight boundary.
 const STRAIGHT: f64 = 1e-9;
 
-/// The most corners among which a run is looked for: more are thinned out evenly first.
+/// Largest number of corners among which a run is searched; more corners are thinned out evenly first.
 const MOST_CORNERS: usize = 256;
 
-/// The corners of the outline, as they follow each other around the loop; none where fewer than three do.
+/// Corners of the outline in the order of the loop; `None` if fewer than three are in order.
 pub(crate) fn hull_corners(boundary: &[DVec3]) -> Option<Vec<Corner>> {
     let seen = projected(boundary)?;
     let double_area: f64 = seen.iter().zip(seen.iter().cycle().skip(1)).map(|(a, b)| a.perp_dot(*b)).sum();
     let mirrored: Vec<DVec2> = seen.iter().map(|z| DVec2::new(-z.x, z.y)).collect();
-    // From either side of the plane; where both show as many corners, from that where the loop runs counter-clockwise.
+    // Both sides of the plane are tried. If both show equally many corners, the side from which the loop runs
+    // counter-clockwise wins.
     let sides = if double_area < 0.0 { [mirrored, seen] } else { [seen, mirrored] };
     let [first, second] = sides.map(|seen| in_order(&clear_corners(&seen), &seen));
     let found = if second.len() > first.len() { second } else { first };
     (found.len() >= 3).then_some(found)
 }
 
-/// The points in the plane that fits them best, relative to their middle and their extent; none where they lie on a line.
+/// Points in their best-fitting plane, relative to their centroid and extent; `None` if they lie on a line.
 fn projected(points: &[DVec3]) -> Option<Vec<DVec2>> {
     let count = points.len();
     let length = |place: usize| points[place % count].distance(points[(place + 1) % count]);
@@ -61,7 +62,7 @@ fn projected(points: &[DVec3]) -> Option<Vec<DVec2>> {
     Some(around.iter().map(|p| DVec2::new(p.dot(first), p.dot(second))).collect())
 }
 
-/// The corners of the hull that turn clearly, as places among the points.
+/// Corners of the hull that turn clearly, as indices into the points.
 fn clear_corners(seen: &[DVec2]) -> Vec<usize> {
     let hull = convex_hull(seen);
     let at = |k: usize| seen[hull[k % hull.len()]];
@@ -72,7 +73,7 @@ fn clear_corners(seen: &[DVec2]) -> Vec<usize> {
     (0..hull.len()).filter(turns).map(|k| hull[k]).collect()
 }
 
-/// The longest run of a hull's corners that follow each other around the loop, from some corner on.
+/// Longest run of corners of a hull in the order of the loop, from any first corner.
 fn in_order(hull: &[usize], seen: &[DVec2]) -> Vec<Corner> {
     let corner = |&place: &usize| Corner { place, at: seen[place] };
     let falls = hull.iter().zip(hull.iter().cycle().skip(1)).filter(|(place, next)| next < place).count();
@@ -91,9 +92,9 @@ fn in_order(hull: &[usize], seen: &[DVec2]) -> Vec<Corner> {
     longest.unwrap_or_default().iter().map(corner).collect()
 }
 
-/// The places of a longest strictly increasing subsequence.
+/// Indices of a longest strictly increasing subsequence.
 fn longest_increasing(values: &[usize]) -> Vec<usize> {
-    // For each length the place of the least value that a subsequence of that length can end with.
+    // For each length, the index of the least value that ends a subsequence of that length.
     let mut ends: Vec<usize> = Vec::new();
     let mut before = vec![None; values.len()];
     for (place, value) in values.iter().enumerate() {

@@ -1,9 +1,10 @@
-//! The mean-value iteration: solve again with weights from the latest embedding (paper §4).
+//! Mean-value iteration: repeated solves with weights from the latest embedding (paper §4).
 //!
-//! `x_{k+1} = A(x_k)⁻¹ b`, where A(x) holds the mean-value equations of the planar geometry x, angles unsigned. The
-//! pins stay what they are. A planar embedding is a fixed point, and nothing is solved for it; a fixed point with turning
-//! number 1 that meets *all* equations is planar (Theorem 2). The move `x_{k+1} − x_k` is what is solved for, so that its
-//! rounding shrinks with it. The pattern never changes: it is ordered and analysed once a run.
+//! Each step solves `x_{k+1} = A(x_k)⁻¹ b`, where A(x) holds the mean-value equations of the planar geometry x,
+//! angles unsigned. The pins do not change. A planar embedding is a fixed point and needs no solve. A fixed point
+//! with turning number 1 that meets *all* equations is planar (Theorem 2). The unknown of a solve is the move
+//! `x_{k+1} − x_k`, so that its rounding error shrinks with the move. The pattern never changes: it is ordered and
+//! analysed once per run.
 
 use std::time::Instant;
 
@@ -23,7 +24,7 @@ use crate::problem::{
 };
 use crate::weights::plane_weights::{mean_edge_length_in_plane, natural_in_plane, residuals_in_plane};
 
-/// An iteration made ready: the layout of the system and its analysis, for a mesh and its pinned vertices.
+/// Prepared iteration: layout and analysis of the system for a mesh and its pinned vertices.
 #[derive(Debug)]
 pub struct Iteration {
     pins: Pins,
@@ -31,12 +32,12 @@ pub struct Iteration {
 }
 
 impl Iteration {
-    /// Lays out and analyses the system, to go on from `embedding` with `pins`: exact ones hold their vertices where
-    /// they lie, weighted ones pull them to their targets.
+    /// Lays out and analyses the system for steps from `embedding` with `pins`. Hard pins hold their vertices at
+    /// their current positions; soft pins pull their vertices to their targets.
     ///
     /// # Errors
     ///
-    /// Pins that cannot be, or the caller's wish to stop.
+    /// Returns an error for invalid pins, and [`SolveError::Cancelled`].
     pub fn new(
         mesh: &DiskMesh,
         embedding: &Embedding,
@@ -50,13 +51,14 @@ impl Iteration {
         Ok(Self { pins: pins.clone(), laid_out })
     }
 
-    /// One step: solves the mean-value equations of `embedding`. Its pinned vertices stay where they are. Where equations of
-    /// other vertices than the pinned ones depend on each other, these are found, and the system is laid out anew for all
+    /// Takes a step: solves the mean-value equations of `embedding`. Hard-pinned vertices keep their positions. If
+    /// the equations of unpinned vertices depend on each other, the step finds them and lays out the system anew for
     /// further steps.
     ///
     /// # Errors
     ///
-    /// A singular matrix, a residual that refinement cannot bring down, or the caller's wish to stop.
+    /// [`SolveError::Singular`], [`SolveError::ResidualTooLarge`] if refinement cannot reduce the residual, or
+    /// [`SolveError::Cancelled`].
     pub fn step(
         &mut self,
         mesh: &DiskMesh,
@@ -69,7 +71,7 @@ impl Iteration {
         let is_pulled = |(v, pin): (&VertexId, &Pin)| embedding[v] != pin.target;
         let residuals = residuals_in_plane(mesh, embedding, control)?;
         if residuals.iter().all(|residual| *residual == Complex::ZERO) && !pins.iter().any(is_pulled) {
-            // The embedding meets its equations, and no pin pulls: it is the answer.
+            // The embedding meets its equations and no pin pulls: it is the solution.
             let seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
             let (embedding, linear) = (embedding.clone(), Some(LinearSolve::default()));
             return Ok(Solution { embedding, pins, gauge_completed: false, linear, seconds, convergence: None });
@@ -86,7 +88,7 @@ impl Iteration {
         Ok(Solution { embedding, pins, gauge_completed: false, linear, seconds, convergence: None })
     }
 
-    /// Factors the equations of an embedding; without two more of them where least squares asks for that.
+    /// Factors the equations of an embedding, without two more of them if least squares requires that.
     fn factored(
         &mut self,
         mesh: &DiskMesh,
@@ -115,19 +117,20 @@ impl Iteration {
         FreeSolve::new(mesh, &self.laid_out, numbers(seconds)?, seconds, control).map_err(SolveError::from)
     }
 
-    /// Seconds that the analysis took, once for all steps.
+    /// Seconds of the analysis, which all steps share.
     pub(crate) fn analyze_seconds(&self) -> f64 {
         self.laid_out.seconds
     }
 
-    /// Whether it serves these pins: the same vertices, held in the same way, weighted ones with the same targets.
+    /// True if the iteration can be reused for these pins: equal vertices and kinds of pins, and soft pins with
+    /// equal targets.
     pub fn serves(&self, pins: &Pins) -> bool {
         let pulls_alike = |(a, b): (&Pin, &Pin)| a.kind.is_hard() || a.target == b.target;
         are_held_alike(&self.pins, pins) && self.pins.values().zip(pins.values()).all(pulls_alike)
     }
 }
 
-/// Pins whose exact ones hold their vertices where an embedding has them.
+/// Pins with the targets of hard pins moved to the positions of their vertices in an embedding.
 fn held_in(embedding: &Embedding, pins: &Pins) -> Pins {
     let place = |v: VertexId| embedding.get(v.index()).copied().unwrap_or(DVec2::NAN);
     let held = |pin: &Pin, v| if pin.kind.is_hard() { Pin { target: place(v), ..*pin } } else { *pin };

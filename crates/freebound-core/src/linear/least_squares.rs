@@ -1,30 +1,30 @@
-//! Least squares with pins: all equations kept, exact pins met exactly, weighted ones by their weights (paper §6).
+//! Least squares with pins: all equations kept, hard pins met exactly, soft pins by their weights (paper §6).
 //!
 //! # Problem
 //!
-//! A move δ from positions with the residuals D, with the exact pins on their targets already, minimises
+//! A move δ from positions with the residuals D, with the hard pins on their targets already, minimises
 //!
 //! ```text
-//! ‖A δ + D‖² + Σ w_j² |δ_j − τ_j|²      over the weighted pins j,   with δ = 0 on the exact ones
+//! ‖A δ + D‖² + Σ w_j² |δ_j − τ_j|²      over the soft pins j,   with δ = 0 on the hard pins
 //! ```
 //!
-//! where τ is the vector from a pin to its target.
+//! with τ the vector from a pin to its target.
 //!
 //! # Method
 //!
-//! The factors leave out the unknowns *and* the equations of a few vertices g, and these equations are kept apart: g are
-//! all pins, which mostly makes the rest well-conditioned, and where it does not two vertices where the equations depend
-//! on each other (`left_kernel.rs`). Of g those that are not pinned exactly can move: m. With N = −A without the rows and
-//! columns of g, s = δ on m, and e the (negated) residual of the other rows:
+//! The factors leave out the unknowns *and* the equations of a few vertices g; these equations are kept apart. The
+//! set g holds all pins, which usually makes the rest well-conditioned. If not, it also holds two vertices whose
+//! equations depend on the others (`left_kernel.rs`). The vertices m of g that are not hard-pinned can move. With
+//! N = −A without the rows and columns of g, s = δ on m, and e the (negated) residual of the other rows:
 //!
 //! ```text
 //! δ   = u + U s + N⁻¹ e        u = N⁻¹ D,  U = N⁻¹ A_{·m}
 //! r_g = ρ + S s + A_{g·} N⁻¹ e  ρ = A_{g·} u + D_g,  S = A_{g·} U + A_gm
 //! ```
 //!
-//! Stationarity gives `e = −W (r_g, λ)` and `w_j² (δ_j − τ_j) = λ_j`, where W has the columns `N⁻ᴴ A_{g·}ᴴ` and `N⁻ᴴ E_Pᵀ`,
-//! P being the weighted pins. With K = Wᴴ W, the compliances `C = diag(1/w_j²)`, and M = U on P (the identity where P and
-//! m meet) that is a small dense system:
+//! Stationarity gives `e = −W (r_g, λ)` and `w_j² (δ_j − τ_j) = λ_j`. W has the columns `N⁻ᴴ A_{g·}ᴴ` and `N⁻ᴴ E_Pᵀ`,
+//! and P are the soft pins. With K = Wᴴ W, the compliances `C = diag(1/w_j²)`, and M = U on P (the identity where P
+//! and m meet), this is a small dense system:
 //!
 //! ```text
 //! ⎡ I + K_gg  K_gP      −S ⎤ ⎡ r_g ⎤   ⎡ ρ       ⎤
@@ -32,8 +32,9 @@
 //! ⎣ Sᴴ        Mᴴ         0 ⎦ ⎣ s   ⎦   ⎣ 0       ⎦
 //! ```
 //!
-//! It depends on the pinned vertices and their weights alone: other targets cost one solve, for the rows along u are Wᴴ D, and
-//! three where W is too large to keep. Where pins are eliminated, their equations are not kept, and g is empty.
+//! The system depends on the pinned vertices and their weights alone. Other targets cost a single solve, because the
+//! rows along u are Wᴴ D, and three solves if W is too large to keep. If pins are eliminated, their equations are
+//! not kept, and g is empty.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -49,27 +50,27 @@ use crate::weights::equations::Equations;
 
 type C64 = Complex<f64>;
 
-/// Columns that are solved for together.
+/// Number of columns per solve.
 const GROUP: usize = 8;
 
-/// Bytes that the columns of W may take together; beyond, they are solved for once more instead of being kept.
+/// Largest memory of the columns of W in bytes; larger sets are solved for again instead of being kept.
 const COLUMNS_KEPT: usize = 256_000_000;
 
-/// Rows of columns that share the work of one task.
+/// Number of rows per task.
 const ROWS_PER_TASK: usize = 4096;
 
 /// Entries of a row, by column.
 type Row = Vec<(usize, C64)>;
 
-/// A factored matrix with what it was made of.
+/// Matrix with its factors.
 pub(crate) struct Factored<'a> {
     pub(crate) matrix: &'a CscMatrix<C64>,
     pub(crate) factor: &'a Factor<C64>,
-    /// Looked at between groups of solves.
+    /// Cancel flag, checked between groups of solves.
     pub(crate) cancel: &'a AtomicBool,
 }
 
-/// A weighted pin as least squares sees it.
+/// Soft pin in least squares.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Spring {
     pub(crate) vertex: VertexId,
@@ -77,26 +78,26 @@ pub(crate) struct Spring {
     pub(crate) compliance: f64,
 }
 
-/// What the factors leave out, and what pulls.
+/// Vertices that the factors leave out, and soft pins.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Remainder {
-    /// g: the vertices whose equations are kept apart.
+    /// Set g: the vertices whose equations are kept apart.
     pub(crate) left_out: Vec<VertexId>,
-    /// m: those of them that can move.
+    /// Set m: the vertices of g that can move.
     pub(crate) movers: Vec<VertexId>,
-    /// P: the weighted pins.
+    /// Set P: the soft pins.
     pub(crate) springs: Vec<Spring>,
 }
 
-/// A problem made ready: everything that does not depend on where the pins are to go.
+/// Prepared problem: everything that does not depend on the targets of the pins.
 #[derive(Debug)]
 pub(crate) struct LeastSquares {
     pub(crate) rest: Remainder,
-    /// The equations of g and the unit rows of P, over the unknowns of the factors.
+    /// Equations of g and unit rows of P, over the unknowns of the factors.
     rows: Vec<Row>,
-    /// The columns of W, one after another, where they may be kept.
+    /// Consecutive columns of W, if they fit in memory.
     columns: Option<Vec<C64>>,
-    /// What the movers give to the other equations.
+    /// Coefficients of the vertices of m in the equations of the factors.
     from_movers: Vec<Vec<C64>>,
     dense: LU<C64, Dyn, Dyn>,
 }
@@ -145,8 +146,8 @@ impl LeastSquares {
         Ok(Self { rest, rows, columns, from_movers, dense })
     }
 
-    /// The moves of all vertices that make the equations' residuals least, which are `residuals` before. `to_targets` are
-    /// the vectors from the weighted pins to their targets.
+    /// Moves of all vertices that minimise the residuals of the equations, which start at `residuals`. `to_targets`
+    /// holds the vectors from the soft pins to their targets.
     pub(crate) fn moves(
         &self,
         site: Site<'_>,
@@ -178,7 +179,7 @@ impl LeastSquares {
         Ok(all)
     }
 
-    /// The rows along u = N⁻¹ D, which is Wᴴ D.
+    /// Products of the rows with u = N⁻¹ D, which are Wᴴ D.
     fn along_still(&self, terms: &[C64], factored: &Factored<'_>) -> Result<Vec<C64>, LinalgError> {
         if let Some(columns) = self.columns.as_ref().filter(|_| !terms.is_empty()) {
             let columns: Vec<&[C64]> = columns.chunks_exact(terms.len()).collect();
@@ -188,7 +189,7 @@ impl LeastSquares {
         Ok(self.rows.iter().map(|row| along(row, &still)).collect())
     }
 
-    /// W times the answer of the dense system: the residual of the equations of the factors, negated.
+    /// Product of W with the solution of the dense system: the negated residual of the equations of the factors.
     fn residual_of(&self, answer: &[C64], factored: &Factored<'_>) -> Result<Vec<C64>, LinalgError> {
         let n = factored.matrix.nrows();
         let Some(columns) = self.columns.as_ref().filter(|_| n > 0) else {
@@ -204,7 +205,7 @@ impl LeastSquares {
     }
 }
 
-/// Whether so many columns with n entries may be in memory together.
+/// True if `columns` columns with n entries fit in memory together.
 pub(crate) fn may_be_kept(n: usize, columns: usize) -> bool {
     n * columns * size_of::<C64>() <= COLUMNS_KEPT
 }
@@ -220,12 +221,12 @@ fn along(row: &Row, column: &[C64]) -> C64 {
     row.iter().map(|&(at, value)| value * column[at]).sum()
 }
 
-/// xᴴ y.
+/// Inner product xᴴ y.
 fn inner(x: &[C64], y: &[C64]) -> C64 {
     x.iter().zip(y).map(|(x, y)| x.conj() * y).sum()
 }
 
-/// W: a solve for every row.
+/// Columns of W: a solve for every row.
 fn columns_of(rows: &[Row], n: usize, factored: &Factored<'_>) -> Result<Vec<C64>, LinalgError> {
     if rows.len() <= GROUP {
         return columns_of_group(rows, n, factored);
@@ -248,7 +249,7 @@ fn columns_of_group(group: &[Row], n: usize, factored: &Factored<'_>) -> Result<
     Ok(factored.factor.solve_adjoint(factored.matrix, &columns, factored.cancel)?.x)
 }
 
-/// K = Wᴴ W by two solves a row, where W is too large to keep.
+/// Matrix K = Wᴴ W by two solves per row, if W is too large to keep.
 fn gram_of(rows: &[Row], n: usize, factored: &Factored<'_>) -> Result<DMatrix<C64>, LinalgError> {
     let mut matrix = DMatrix::zeros(rows.len(), rows.len());
     for (place, group) in rows.chunks(GROUP).enumerate() {
@@ -265,13 +266,13 @@ fn gram_of(rows: &[Row], n: usize, factored: &Factored<'_>) -> Result<DMatrix<C6
     Ok(matrix)
 }
 
-/// A vertex's equation over the unknowns of the factors.
+/// Equation of a vertex over the unknowns of the factors.
 fn equation_of(site: Site<'_>, equations: &Equations<C64>, vertex: VertexId) -> Row {
     let entry = |h| Some((site.system.row(site.mesh.head(h))?, equations.coefficients[h.index()]));
     site.mesh.links_from(vertex).filter_map(entry).collect()
 }
 
-/// Coefficients of a vertex without unknown in the equations of the others.
+/// Coefficients of a vertex without an unknown in the equations of the factors.
 fn column_of(site: Site<'_>, equations: &Equations<C64>, vertex: VertexId) -> Vec<C64> {
     let mut column = vec![C64::ZERO; site.system.free().len()];
     for h in site.mesh.links_from(vertex) {
@@ -282,7 +283,7 @@ fn column_of(site: Site<'_>, equations: &Equations<C64>, vertex: VertexId) -> Ve
     column
 }
 
-/// The coefficient of one vertex in the equation of another, or of itself.
+/// Coefficient of the vertex `to` in the equation of the vertex `of`; both may be equal.
 fn between(site: Site<'_>, equations: &Equations<C64>, [of, to]: [VertexId; 2]) -> C64 {
     let coefficients = &equations.coefficients;
     if of == to {

@@ -1,13 +1,15 @@
-//! Where the equations of a free boundary depend on each other: the left kernel of their matrix.
+//! Dependence among the equations of a free boundary: the left kernel of their matrix.
 //!
-//! The mean-value matrix has a left kernel of two dimensions, or nearly, and on large regular meshes it lives in a few
-//! corners of the boundary. Leaving out the equations of vertices elsewhere makes the rest singular in 64 bits. So the
-//! factors leave out two vertices where that kernel is large. They are found by inverse iteration.
+//! The mean-value matrix has a left kernel of two dimensions, exactly or nearly. On large regular meshes the kernel
+//! is concentrated in a few corners of the boundary. Leaving out the equations of vertices elsewhere makes the
+//! remaining matrix singular in 64 bits. So the factors leave out two vertices at which the kernel is large. Inverse
+//! iteration finds them.
 //!
-//! Where the equations of two vertices P are left out already and the rest is factored, the kernel is known by one
-//! substitution. With the identity on P, it is `Y = −A_FF⁻ᴴ A_PFᴴ` on the others, exactly on a surface that unrolls and nearly
-//! on others. What rounding leaves of the equations that are kept comes back at P's, larger by the size of Y. So this is
-//! by how much these two are a bad choice, and where Y is largest there are better ones.
+//! If the equations of two vertices P are left out already and the rest is factored, a single substitution gives the
+//! kernel. With the identity on P, it is `Y = −A_FF⁻ᴴ A_PFᴴ` on the others: exactly on a surface that unrolls,
+//! nearly on other surfaces. Rounding errors in the kept equations reappear in the equations of P, amplified by the
+//! size of Y. The size of Y therefore measures how bad the choice of P is, and better vertices are where Y is
+//! largest.
 
 use num_complex::Complex;
 
@@ -19,26 +21,26 @@ use crate::weights::equations::Equations;
 
 type C64 = Complex<f64>;
 
-/// Share of its diagonal that is added to a singular matrix, so that its left kernel can be found by inverse iteration.
+/// Share of the diagonal added to a singular matrix, so that inverse iteration can find its left kernel.
 const SHIFT: f64 = 1e-8;
 
-/// Rounds of inverse iteration: each brings the kernel forward by the ratio of singular values.
+/// Number of rounds of inverse iteration. Each amplifies the kernel by the ratio of singular values.
 const ROUNDS: usize = 2;
 
-/// So many times larger may the left kernel be elsewhere than at the vertices whose equations are left out: of 16 digits
-/// 12 are left. On meshes of scans and of art it is up to a thousand times larger (on the corpus, with the farthest two vertices and
-/// weights of five families), on regular grids it grows by e every two squares.
+/// Largest accepted ratio of the left kernel elsewhere to the left kernel at the vertices left out: of 16 digits 12
+/// remain. On meshes of scans and of art the ratio reaches a thousand (on the corpus, with the farthest two vertices
+/// and weights of five families). On regular grids it grows by a factor of e every two squares.
 const MOST_GROWTH: f64 = 1e4;
 
-/// Of vertices whose choice loses no more than this share of the best one's, the farthest is taken.
+/// Share of the best candidate's value from which candidates count as equally good; the farthest of them is taken.
 const NEARLY_AS_GOOD: f64 = 0.5;
 
-/// The two vertices whose equations depend most on all others: where the left kernel of the equations is largest. The
-/// farthest two of the boundary where it cannot be found.
+/// Two vertices whose equations depend most on all others: the left kernel of the equations is largest there.
+/// Returns the farthest pair of the boundary if the kernel cannot be found.
 ///
 /// # Errors
 ///
-/// The caller's wish to stop.
+/// [`SolveError::Cancelled`] if cancelled.
 pub(crate) fn gauge_of(
     mesh: &DiskMesh,
     equations: &Equations<C64>,
@@ -66,7 +68,7 @@ fn gauge_in_kernel(
     }
     let factor = system.analysis(Kind::General, control)?.factor(&matrix, control.cancel()).map_err(named)?;
     let n = system.free().len();
-    // Any start that has a part in the kernel will do: an even column and an alternating one.
+    // Any start with a component in the kernel works: a constant column and an alternating column.
     let mut kernel: Vec<C64> =
         (0..2 * n).map(|i| C64::new(1.0, if i < n { 0.0 } else { (i % 7) as f64 - 3.0 })).collect();
     for _ in 0..ROUNDS {
@@ -82,8 +84,8 @@ fn gauge_in_kernel(
     Ok([a.min(b), a.max(b)].map(|row| system.free()[row]))
 }
 
-/// Two vertices whose equations are better left out than those of `held`, which the factors leave out; none where these
-/// are good enough. Sizes are those of equations whose coefficients sum to 1.
+/// Two vertices whose equations are better left out than those of `held`, which the factors leave out. `None` if
+/// `held` is good enough. Sizes refer to equations whose coefficients sum to 1.
 ///
 /// # Errors
 ///
@@ -118,7 +120,7 @@ pub(crate) fn better_gauge(
     if growths[a] <= MOST_GROWTH {
         return Ok(None);
     }
-    // The parts of rows across that of a; not by squares of them, which could leave the range of numbers.
+    // Components of the rows orthogonal to the row of a. Not by their squares, which could overflow or underflow.
     let row = |i: usize| kernel.iter().skip(i).step_by(n);
     let length = row(a).map(|z| z.norm()).fold(0.0, f64::hypot);
     let along_a: Vec<C64> = row(a).map(|z| z / length).collect();
@@ -134,7 +136,7 @@ pub(crate) fn better_gauge(
     Ok(is_found.then(|| [a.min(b), a.max(b)].map(|row| system.free()[row])))
 }
 
-/// The first of the numbers up to n whose size is largest.
+/// Index below n of the largest size; the first if several are equal.
 fn largest(n: usize, size: impl Fn(usize) -> f64) -> Option<usize> {
     (0..n).reduce(|best, i| if size(i) > size(best) { i } else { best })
 }

@@ -1,18 +1,19 @@
 //! Least squares with many pins: the residuals of the equations and the moves of the vertices in one sparse system.
 //!
-//! `least_squares.rs` solves once for every pin and keeps a dense matrix of them: time goes with the cube of their number.
-//! Here the same minimum is found without either. With the residuals r of all equations that are kept, the moves δ of all
-//! vertices that can move, and the compliances c of the weighted pins, `r = A δ + D` and stationarity are
+//! `least_squares.rs` solves once for every pin and keeps a dense matrix of them: its time grows with the cube of
+//! their number. The sparse system here has the same minimum without either. With the residuals r of all equations
+//! that are kept, the moves δ of all vertices that can move, and the compliances c of the soft pins, `r = A δ + D`
+//! and stationarity are
 //!
 //! ```text
 //! ⎡ −I     A f        ⎤ ⎡ r   ⎤   ⎡ −D          ⎤
-//! ⎣ f Aᴴ  f² diag 1/c ⎦ ⎣ δ/f ⎦ = ⎣ f diag 1/c τ ⎦      f² = min(1, c) by rows; without a weighted pin 1/c = 0
+//! ⎣ f Aᴴ  f² diag 1/c ⎦ ⎣ δ/f ⎦ = ⎣ f diag 1/c τ ⎦      f² = min(1, c) by rows; without a soft pin 1/c = 0
 //! ```
 //!
-//! (the augmented system of Björck 1967, "Iterative refinement of linear least squares solutions"). Residual and move of a
-//! vertex are eliminated as a pair: a pair's pivot block is regular wherever the vertex's own coefficient is not zero, so
-//! that the order of elimination is as free as that of A itself, and A is never squared. The matrix is Hermitian. An exact
-//! pin has a residual alone, and only where one of its neighbours can move.
+//! (the augmented system of Björck 1967, "Iterative refinement of linear least squares solutions"). Residual and
+//! move of a vertex are eliminated as a pair: a pair's pivot block is regular wherever the vertex's own coefficient
+//! is not zero. So the order of elimination is as free as that of A itself, and A is never squared. The matrix is
+//! Hermitian. A hard pin has a residual alone, and only if one of its neighbours can move.
 
 use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
@@ -27,25 +28,26 @@ use crate::weights::equations::Equations;
 
 type C64 = Complex<f64>;
 
-/// The layout of the system: vertices that can move in the order of the [`Site`]'s unknowns, two rows each, then pins.
+/// Layout of the system: vertices that can move in the order of the unknowns of the [`Site`], two rows each, then
+/// pins.
 #[derive(Debug)]
 pub(crate) struct ManyPins {
-    /// The weighted pins, ascending.
+    /// Soft pins, ascending.
     pub(crate) springs: Vec<Spring>,
-    /// The exact pins whose equations have a part in the minimum, ascending.
+    /// Hard pins whose equations have a part in the minimum, ascending.
     kept: Vec<VertexId>,
 }
 
-/// The rows of a vertex; those of its residual and its move have the same numbers as their columns.
+/// Rows of the residual and of the move of a vertex; their columns have equal numbers.
 #[derive(Clone, Copy)]
 struct Rows {
     residual: usize,
-    /// None for a pin.
+    /// `None` for a pin.
     moved: Option<usize>,
 }
 
 impl ManyPins {
-    /// Lays out the system. `rest` names the exact pins whose equations are kept, and the weighted ones.
+    /// Lays out the system. `rest` names the hard pins whose equations are kept, and the soft pins.
     pub(crate) fn new(site: Site<'_>, rest: Remainder) -> Self {
         let mut kept = rest.left_out;
         kept.retain(|&pin| site.mesh.links_from(pin).any(|h| site.system.row(site.mesh.head(h)).is_some()));
@@ -60,7 +62,7 @@ impl ManyPins {
         Analysis::new(kind, matrix.pattern(), control.cancel()).map_err(|error| self.named(site, error))
     }
 
-    /// The matrix of the system. Its pattern does not depend on the values of the equations.
+    /// Matrix of the system. Its pattern does not depend on the values of the equations.
     pub(crate) fn matrix(&self, site: Site<'_>, equations: &Equations<C64>) -> CscMatrix<C64> {
         let order = self.order(site);
         let mut column: Vec<(usize, C64)> = Vec::new();
@@ -87,7 +89,8 @@ impl ManyPins {
         CscMatrix::try_from_pattern_and_values(pattern, values).expect("one value per entry was made")
     }
 
-    /// What a residual is multiplied by in each row. Zeros make the pattern one of pairs, so that these stay together.
+    /// Column of the residual of a vertex. Explicit zeros make the pattern a pattern of pairs, so that pairs stay
+    /// together.
     fn residual_column(
         &self,
         site: Site<'_>,
@@ -114,7 +117,7 @@ impl ManyPins {
         }
     }
 
-    /// What the move of a vertex that can move is multiplied by in each row.
+    /// Column of the move of a vertex that can move.
     fn move_column(
         &self,
         site: Site<'_>,
@@ -162,7 +165,7 @@ impl ManyPins {
         Ok(moves)
     }
 
-    /// Says a linear solver's error in terms of the mesh.
+    /// Translates an error of the linear solver into terms of the mesh.
     pub(crate) fn named(&self, site: Site<'_>, error: LinalgError) -> SolveError {
         let free = site.system.free();
         let vertex_of = |row: usize| free.get(row / 2).copied().unwrap_or_else(|| self.kept[row - 2 * free.len()]);
@@ -186,7 +189,7 @@ impl ManyPins {
         Some(Rows { residual: 2 * site.system.free().len() + place, moved: None })
     }
 
-    /// f, what the equations of a vertex's move are multiplied by, and the move is divided by.
+    /// Factor f of the equations of a vertex's move; the move itself is divided by f.
     fn damping(&self, vertex: VertexId) -> f64 {
         self.spring(vertex).map_or(1.0, |pin| pin.compliance.min(1.0).sqrt())
     }
@@ -197,7 +200,7 @@ impl ManyPins {
     }
 }
 
-/// f²/c: 0 where there is no pull, 1 where there is no give.
+/// Ratio f²/c: 0 if there is no pull, 1 for any compliance of at most 1.
 fn pull(compliance: f64) -> f64 {
     compliance.recip().min(1.0)
 }

@@ -1,13 +1,13 @@
-//! One linear solve with a free or a fixed boundary (paper §3.3 and §6).
+//! Linear solve with a free or a fixed boundary (paper §3.3 and §6).
 //!
 //! | file | contents |
 //! |---|---|
 //! | `system`, `block_pattern` | pattern and matrix |
-//! | `free_gauge`, `free_layout`, `free_solve` | a free boundary: gauge, layout of unknowns, solve |
-//! | `least_squares`, `many_pins`, `left_kernel` | all equations kept, with few or many pins, and dependent equations |
-//! | `convex`, `hull_corners`, `fixed_solve` | a boundary on a convex shape |
-//! | `iterate` | one mean-value iteration (paper §4) |
-//! | `spectral`, `stretch` | an eigenvector without pins; stretch minimisation |
+//! | `free_gauge`, `free_layout`, `free_solve` | free boundary: gauge, layout of unknowns, solve |
+//! | `least_squares`, `many_pins`, `left_kernel` | all equations kept, for few or many pins; dependent equations |
+//! | `convex`, `hull_corners`, `fixed_solve` | boundary on a convex shape |
+//! | `iterate` | mean-value iteration (paper §4) |
+//! | `spectral`, `stretch` | spectral parameterization without pins; stretch minimisation |
 
 pub(crate) mod block_pattern;
 pub(crate) mod convex;

@@ -1,28 +1,31 @@
-//! Spectral conformal parameterization: the least conformal energy of all maps with one size of boundary, without a pin.
+//! Spectral conformal parameterization: the map of least conformal energy for a fixed size of the boundary, without
+//! a pin.
 //!
 //! # Equation
 //!
-//! The conformal energy of an embedding is E(z) = z* L z, with L = −A the negated natural boundary equations of the
-//! conformal weights, pinned vertices not eliminated. It is 0 where all vertices lie in one place, and so wants a size:
+//! The conformal energy of an embedding is E(z) = z* L z. L = −A is the negated matrix of the natural boundary
+//! equations with conformal weights, pinned vertices not eliminated. E is 0 if all vertices coincide, so the size
+//! must be fixed:
 //!
 //! ```text
 //! min  z* L z     with  z* B z = 1,  1* B z = 0          L z = λ B z,  λ the least but that of the constants
 //! ```
 //!
-//! B has ones at boundary vertices and zeros inside: the free-boundary version of the source. All of the boundary fixes the
-//! size together, in place of two pins, and so no vertex bears the distortion of having been chosen.
+//! B has ones at boundary vertices and zeros inside: the free-boundary version of the source. The whole boundary
+//! fixes the size, in place of two pins. So no single vertex bears the distortion of being chosen.
 //!
 //! # Method
 //!
-//! Inverse iteration on the factors of L + σB: (L + σB)⁻¹ B has the same eigenvectors, with eigenvalues θ = 1/(λ + σ). The
-//! *shift* σ > 0 is there because L alone is singular (the constants, and all similarities of a planar surface, have no
-//! energy), while L + σB is positive definite for every surface: what has no energy and no place on the boundary is zero.
-//! Holding one vertex instead would do for curved surfaces alone, and would single that vertex out. So σ is as small as
-//! rounding allows; constants, whose θ would be the greatest, are taken out of every iterate.
+//! Inverse iteration on the factors of L + σB: (L + σB)⁻¹ B has the eigenvectors of the pencil (L, B), with
+//! eigenvalues θ = 1/(λ + σ). The *shift* σ > 0 is needed because L alone is singular: the constants, and all
+//! similarities of a planar surface, have no energy. L + σB is positive definite for every surface: a vector without
+//! energy that vanishes on the boundary is zero. Holding a vertex instead would work for curved surfaces alone, and
+//! would single that vertex out. So σ is as small as rounding allows. Constants, whose θ would be the greatest, are
+//! removed from every iterate.
 //!
-//! All that matters happens on the boundary: with P the rows of its vertices the iteration is one of
-//! T = P (L + σB)⁻¹ Pᵀ, an ordinary Hermitian operator on boundary vectors. Where λ₂ and λ₃ are close, plain iteration is
-//! slow; the combination of all iterates is not (`linalg/lanczos.rs`).
+//! The iteration works on the boundary alone: with P the rows of its vertices, it iterates T = P (L + σB)⁻¹ Pᵀ, an
+//! ordinary Hermitian operator on boundary vectors. If λ₂ and λ₃ are close, plain iteration is slow; the combination
+//! of all iterates is not (`linalg/lanczos.rs`).
 //!
 //! # Symbols
 //!
@@ -33,8 +36,8 @@
 //! | σ      | `shift`      | moves all eigenvalues up                           | none            |
 //! | λ      | `eigenvalue` | energy at boundary norm 1                          | none            |
 //!
-//! Source: P. Mullen, Y. Tong, P. Alliez, M. Desbrun, "Spectral Conformal Parameterization", 2008, §3; as one complex system
-//! in place of a real one of twice the order.
+//! Source: P. Mullen, Y. Tong, P. Alliez, M. Desbrun, "Spectral Conformal Parameterization", 2008, §3; here as a
+//! complex system in place of a real system of twice the order.
 
 use std::f64::consts::TAU;
 use std::time::Instant;
@@ -53,25 +56,31 @@ use crate::weights::equations::{Equations, natural};
 
 type C64 = Complex<f64>;
 
-/// The shift, by the middle diagonal entry and by the vertices for each one of the boundary: the share of it that rounding
-/// leaves to a constant. It is raised where the factorization finds no positive pivot.
+/// Shift, relative to the median diagonal entry times the number of vertices per boundary vertex: the share that
+/// rounding leaves to a constant.
 const SHIFT: f64 = 1e-13;
+
+/// Factor of the shift if the factorization finds no positive pivot.
 const RAISED: f64 = 100.0;
+
+/// Largest number of raises of the shift.
 const RAISES: usize = 5;
 
-/// The iteration is content with an iterate that the operator turns by no more than this.
+/// Limits of the iteration: it converges if the operator rotates the iterate by at most the tolerance.
 const LIMITS: EigenLimits = EigenLimits { tolerance: 1e-13, applications: 100 };
 
-/// Share of scattered numbers in the first iterate: no symmetry of a mesh is to hide the answer from it.
+/// Share of scattered numbers in the first iterate. They break symmetries of a mesh, which could make the iterate
+/// orthogonal to the solution.
 const SCATTERED: f64 = 1e-3;
 
-/// The spectral conformal embedding of a disk.
+/// Spectral conformal embedding of a disk.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectral {
-    /// The embedding, its boundary around the origin, and the numbers of the solves. The convergence's residual is
-    /// ‖T x − θ x‖ / θ; the linear solve's ‖L z − λ B z‖ relative to the sizes of the terms of L z.
+    /// Embedding with its boundary centred at the origin, and statistics of the solves. The residual of the
+    /// convergence is ‖T x − θ x‖ / θ. The residual of the linear solve is ‖L z − λ B z‖ relative to the sizes of
+    /// the terms of L z.
     pub solution: Solution,
-    /// λ: the conformal energy at Σ |z|² = 1 over the boundary.
+    /// Eigenvalue λ: the conformal energy at Σ |z|² = 1 over the boundary.
     pub eigenvalue: f64,
 }
 
@@ -79,7 +88,8 @@ pub struct Spectral {
 ///
 /// # Errors
 ///
-/// Weights that are not finite, a matrix that stays indefinite whatever the shift, or the caller's wish to stop.
+/// Returns an error if weights are not finite or if the matrix stays indefinite for every shift;
+/// [`SolveError::Cancelled`].
 pub fn spectral(mesh: &DiskMesh, control: Control<'_>) -> Result<Spectral, SolveError> {
     control.enter(Phase::Assemble)?;
     let start = Instant::now();
@@ -111,7 +121,7 @@ pub fn spectral(mesh: &DiskMesh, control: Control<'_>) -> Result<Spectral, Solve
     Ok(answer)
 }
 
-/// The boundary on a circle, in proportion to its lengths.
+/// First iterate: the boundary on a circle, in proportion to its lengths.
 fn first_iterate(mesh: &DiskMesh) -> Vec<C64> {
     let boundary = mesh.boundary_loop();
     let lengths = boundary.iter().zip(boundary.iter().cycle().skip(1)).map(|(&a, &b)| mesh.length([a, b]));
@@ -128,7 +138,7 @@ fn first_iterate(mesh: &DiskMesh) -> Vec<C64> {
     iterate
 }
 
-/// Takes the constant part out.
+/// Removes the constant part.
 fn centre(x: &mut [C64]) {
     let mean = x.iter().sum::<C64>() / x.len() as f64;
     for x in x {
@@ -142,11 +152,11 @@ struct Setup<'a> {
     boundary: Vec<usize>,
 }
 
-/// L + σB with its factors.
+/// Matrix L + σB with its factors.
 struct Shifted {
     matrix: CscMatrix<C64>,
     factor: Factor<C64>,
-    /// The rows of the boundary, in the order of the loop.
+    /// Rows of the boundary vertices, in the order of the loop.
     boundary: Vec<usize>,
 }
 
@@ -170,7 +180,7 @@ impl Shifted {
             for &place in &places {
                 matrix.values_mut()[place] += step;
             }
-            // What has a pivot only by rounding gives answers that solve nothing.
+            // A matrix that has positive pivots only by rounding fails this trial solve.
             let factored = analysis.factor(&matrix, control.cancel()).and_then(|factor| {
                 factor.solve_correction(&matrix, &vec![C64::ONE; diagonal.len()], control.cancel())?;
                 Ok(factor)
@@ -184,7 +194,7 @@ impl Shifted {
         }
     }
 
-    /// (L + σB)⁻¹ Pᵀ x.
+    /// Vector (L + σB)⁻¹ Pᵀ x.
     fn inverse(&self, x: &[C64], control: Control<'_>) -> Result<Vec<C64>, LinalgError> {
         let mut rhs = vec![C64::ZERO; self.matrix.nrows()];
         for (&row, &x) in self.boundary.iter().zip(x) {
@@ -198,7 +208,7 @@ impl Shifted {
     }
 }
 
-/// What an eigenvector becomes an embedding by.
+/// Data that turns an eigenvector into an embedding.
 struct Answer<'a> {
     mesh: &'a DiskMesh,
     system: &'a FreeSystem,
@@ -207,7 +217,7 @@ struct Answer<'a> {
 }
 
 impl Answer<'_> {
-    /// The embedding of an eigenvector z, and how well it is one.
+    /// Embedding of an eigenvector z, with its residuals.
     fn spectral(&self, shifted: &Shifted, found: &Eigenpair, z: Vec<C64>) -> Result<Spectral, SolveError> {
         let on_boundary = shifted.on_boundary(&z);
         let mean = on_boundary.iter().sum::<C64>() / on_boundary.len() as f64;
@@ -239,7 +249,8 @@ impl Answer<'_> {
         Ok(Spectral { solution, eigenvalue })
     }
 
-    /// λ as the energy of an embedding of boundary norm 1, and ‖L z − λ B z‖ relative to the sizes of the terms of L z.
+    /// Eigenvalue λ as the energy of an embedding of boundary norm 1, and its residual. The residual is ‖L z − λ B
+    /// z‖ relative to the sizes of the terms of L z.
     fn eigenvalue(&self, embedding: &Embedding) -> Result<(f64, f64), SolveError> {
         let place = |v: VertexId| C64::new(embedding[v].x, embedding[v].y);
         let free = self.system.free();

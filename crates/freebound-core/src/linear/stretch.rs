@@ -1,23 +1,26 @@
-//! Stretch minimising by modified weights: a convex boundary stays, and weights of the inside are divided by stretch.
+//! Stretch minimisation by modified weights: a convex boundary stays fixed, and weights of inner vertices are
+//! divided by stretch.
 //!
 //! # Equations
 //!
-//! Of a triangle the L² stretch σ is the root mean square length on the surface of unit vectors of the plane
-//! (see the module `distortion`). A vertex has that of the faces around it, which count by their areas A on the surface:
+//! The L² stretch σ of a triangle is the root mean square length on the surface of unit vectors of the plane (module
+//! `distortion`). The stretch of a vertex averages over the faces around it, weighted by their areas A on the
+//! surface:
 //!
 //! ```text
 //! σⱼ = √( Σ_T∋j A(T) σ(T)² / Σ_T∋j A(T) )          local stretch of vertex j
 //! wᵢⱼ ← wᵢⱼ / σⱼ                                    after each solve of  Σⱼ wᵢⱼ (zⱼ − zᵢ) = 0
 //! ```
 //!
-//! A neighbour that is stretched pulls less, so that what lies around it may spread. Only the ratios of a vertex's
-//! weights matter: so σⱼ is taken relative to the stretch of the whole, and no weight runs out of range. The L² stretch of
-//! the whole falls from solve to solve, until one does not fall: the embedding before that is the answer. There is no proof
-//! that it falls, nor that the end is the least there is; each solve says what it has come to.
+//! A stretched neighbour pulls less, so that the faces around it can spread. Only the ratios of the weights of a
+//! vertex matter: so σⱼ is taken relative to the stretch of the whole map, and no weight overflows. The L² stretch
+//! of the whole map falls from solve to solve. The iteration ends when it does not fall: the embedding before that
+//! is the result. There is no proof that it falls, nor that the result is a minimum. Each solve reports the stretch
+//! it reached.
 //!
-//! The first weights are mean values. All weights stay positive, so that every solve is planar by the theorem of Tutte and
-//! Floater, wherever a mesh of triangles has no dividing edge along a side of the boundary's shape; the verdict of each
-//! says so of what rounding has left of it.
+//! The first weights are mean-value weights. All weights stay positive, so every solve is planar by the theorem of
+//! Tutte and Floater. The exception is a mesh with a dividing edge along a side of the boundary's shape. The verdict
+//! of each solve checks the effect of rounding.
 //!
 //! # Symbols
 //!
@@ -27,8 +30,8 @@
 //! | σⱼ    | `local`             | stretch around a vertex, by the whole's | one per vertex, none   |
 //! | σ(T)  | `FaceDistortion`    | stretch of a face                       | one per real face      |
 //!
-//! Source: S. Yoshizawa, A. Belyaev, H.-P. Seidel, "A Fast and Simple Stretch-Minimizing Mesh Parameterization", 2004,
-//! with their exponent η = 1. What fills holes has no stretch: vertices of it alone count as 1.
+//! Source: S. Yoshizawa, A. Belyaev, H.-P. Seidel, "A Fast and Simple Stretch-Minimizing Mesh Parameterization",
+//! 2004, with exponent η = 1. Faces that fill holes have no stretch: vertices of such faces alone count as 1.
 
 use std::time::Instant;
 
@@ -43,49 +46,50 @@ use crate::problem::{
 use crate::verify::{Distortion, distortion};
 use crate::weights::equations::{Equations, barycentric};
 
-/// The power of the offsets d = rᵖ of mean-value weights.
+/// Power of the offsets d = rᵖ of mean-value weights.
 const MEAN_VALUE_POWER: f64 = 0.0;
 
-/// The boundary on its shape, and the system of the inside. Its pattern never changes: it is analysed once for all solves.
+/// Boundary on its shape, and the system of the inner vertices. The pattern never changes: it is analysed once for
+/// all solves.
 #[derive(Debug)]
 pub struct StretchMinimising {
-    /// The boundary vertices, and where they lie.
+    /// Boundary vertices with their positions.
     pub(crate) places: PinPositions,
     system: FreeSystem,
     analysis: Analysis,
-    /// Seconds that the analysis took.
+    /// Seconds of the analysis.
     pub(crate) analyze_seconds: f64,
 }
 
-/// One solve, with its weights.
+/// Result of a solve, with its weights.
 #[derive(Clone, Debug)]
 pub struct LessStretched {
-    /// One position per vertex, the boundary on its shape.
+    /// Position of each vertex, the boundary on its shape.
     pub embedding: Embedding,
-    /// The numbers of the solve.
+    /// Statistics of the solve.
     pub linear: LinearSolve,
-    /// Where its time went.
+    /// Seconds of each phase.
     pub seconds: PhaseSeconds,
-    /// L² stretch of the whole, 1 at best; infinite where a face has no area in the plane.
+    /// L² stretch of the whole map, at best 1; infinite if a face has no area in the plane.
     pub stretch: f64,
     weights: Equations<f64>,
-    /// Stretch of each vertex relative to the whole, which its weights are divided by next: positive.
+    /// Stretch of each vertex relative to the whole map: the positive divisor of its weights in the next solve.
     local: Vec<f64>,
 }
 
 impl LessStretched {
-    /// For each link of the mesh its weight in the equation of the vertex that it leaves.
+    /// Weight of each link of the mesh in the equation of its tail.
     pub fn weights(&self) -> &[f64] {
         &self.weights.coefficients
     }
 }
 
 impl StretchMinimising {
-    /// Lays the boundary on its shape and analyses the system of the vertices within.
+    /// Places the boundary on its shape and analyses the system of the inner vertices.
     ///
     /// # Errors
     ///
-    /// A boundary that does not go with the shape, or the caller's wish to stop.
+    /// Returns an error if the boundary does not fit the shape; [`SolveError::Cancelled`].
     pub fn new(
         mesh: &DiskMesh,
         shape: &BoundaryShape,
@@ -100,11 +104,11 @@ impl StretchMinimising {
         Ok(Self { places, system, analysis, analyze_seconds: start.elapsed().as_secs_f64() })
     }
 
-    /// The first solve, with mean-value weights.
+    /// First solve, with mean-value weights.
     ///
     /// # Errors
     ///
-    /// A weight that is not finite, a system that cannot be solved, or the caller's wish to stop.
+    /// Returns an error if a weight is not finite or the system cannot be solved; [`SolveError::Cancelled`].
     pub fn first(&self, mesh: &DiskMesh, control: Control<'_>) -> Result<LessStretched, SolveError> {
         control.enter(Phase::Assemble)?;
         let start = Instant::now();
@@ -112,11 +116,11 @@ impl StretchMinimising {
         self.solved(mesh, weights, PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..self.seconds() }, control)
     }
 
-    /// The solve that follows another, its weights divided by the stretch of that.
+    /// Next solve: the weights of `before` are divided by its stretch.
     ///
     /// # Errors
     ///
-    /// Those of [`StretchMinimising::first`].
+    /// Errors of [`StretchMinimising::first`].
     pub fn after(
         &self,
         before: &LessStretched,
@@ -150,7 +154,7 @@ impl StretchMinimising {
         embedding.gather_unused(mesh);
         let linear = solve.numbers(site, &embedding, residual, control)?;
         let solve_seconds = start.elapsed().as_secs_f64();
-        // What the next weights come from counts as assembling.
+        // Work for the next weights counts as assembly.
         let start = Instant::now();
         let distortion = distortion(mesh, &embedding);
         let local = local_stretches(mesh, &distortion);
@@ -165,7 +169,7 @@ impl StretchMinimising {
     }
 }
 
-/// The stretch around each vertex, relative to that of the whole; 1 where nothing is measured.
+/// Stretch around each vertex, relative to the whole map; 1 if nothing is measured there.
 fn local_stretches(mesh: &DiskMesh, distortion: &Distortion) -> Vec<f64> {
     let whole = distortion.summary.stretch_l2;
     let mut sums = vec![[0.0; 2]; mesh.vertex_count()];

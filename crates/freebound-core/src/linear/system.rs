@@ -1,7 +1,7 @@
-//! The linear system of the free vertices: vertex equations with the pinned vertices eliminated (paper §3.3).
+//! Linear system of the free vertices: vertex equations with the pinned vertices eliminated (paper §3.3).
 //!
-//! With F the free and P the pinned vertices, `A_FF z_F = −A_FP t`. The pattern depends on the mesh and on which
-//! vertices are pinned; weights and targets only change values.
+//! With F the free and P the pinned vertices, `A_FF z_F = −A_FP t`. The pattern depends on the mesh and on the set
+//! of pinned vertices; weights and targets only change values.
 
 use std::ops::{AddAssign, Mul};
 use std::sync::Arc;
@@ -16,40 +16,40 @@ use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 use crate::problem::{Control, Embedding, SolveError};
 use crate::weights::equations::Equations;
 
-/// Columns that share the work of one task.
+/// Number of columns per task.
 const COLUMNS_PER_TASK: usize = 16_384;
 
-/// Marks a vertex without a row and an entry without a link.
+/// Marker of a vertex without a row and of an entry without a link.
 const NONE: u32 = u32::MAX;
 
-/// Which vertices are unknown, and where each coefficient stands in the matrix.
+/// Layout of the system: its unknown vertices, and the position of each coefficient in the matrix.
 #[derive(Clone, Debug)]
 pub struct FreeSystem {
     free: Vec<VertexId>,
     row_of_vertex: Vec<u32>,
-    /// Where the matrix has entries.
+    /// Sparsity pattern of the matrix.
     pattern: Arc<Pattern>,
-    /// For each entry (tail, head) its link; `NONE` on the diagonal.
+    /// Link of each entry (tail, head); `NONE` on the diagonal.
     links: Vec<u32>,
-    /// For each row the place of its diagonal entry.
+    /// Index of the diagonal entry of each row among the values.
     slot_of_diagonal: Vec<u32>,
     /// Links from a free to a pinned vertex.
     to_pinned: Vec<HalfedgeId>,
 }
 
-/// Columns of the system, one after another.
+/// Consecutive columns of the system.
 #[derive(Default)]
 struct Columns {
     shapes: Vec<ColumnShape>,
     rows: Vec<u32>,
-    /// As [`FreeSystem::links`].
+    /// Link of each entry, like [`FreeSystem::links`].
     links: Vec<u32>,
     to_pinned: Vec<HalfedgeId>,
 }
 
 struct ColumnShape {
     entries: usize,
-    /// Those above the diagonal.
+    /// Number of entries above the diagonal.
     above: usize,
 }
 
@@ -66,7 +66,7 @@ impl Columns {
                 if row == NONE {
                     this.to_pinned.push(h);
                 } else {
-                    // The entry (tail, head) of the link that comes back stands in this column.
+                    // The entry (tail, head) of the reverse link belongs to this column.
                     column.push((row, mesh.twin(h).number()));
                 }
             }
@@ -121,33 +121,33 @@ impl FreeSystem {
         Ok(Self { free, row_of_vertex, pattern, links, slot_of_diagonal, to_pinned })
     }
 
-    /// The vertices whose positions are unknown, in the order of the rows.
+    /// Vertices with unknown positions, in the order of the rows.
     pub fn free(&self) -> &[VertexId] {
         &self.free
     }
 
-    /// The row of a vertex, `None` where it is pinned, or of no face.
+    /// Row of a vertex; `None` if the vertex is pinned or belongs to no face.
     pub fn row(&self, vertex: VertexId) -> Option<usize> {
         let row = self.row_of_vertex[vertex.index()];
         (row != NONE).then_some(row as usize)
     }
 
-    /// Where the values of the matrix have the diagonal entry of a row.
+    /// Index of the diagonal entry of a row among the values of the matrix.
     pub(crate) fn place_of_diagonal(&self, row: usize) -> usize {
         self.slot_of_diagonal[row] as usize
     }
 
-    /// Where the matrix has entries. Symmetric, with a full diagonal. Made anew each time: it takes twice the memory of what
-    /// is kept for it.
+    /// Sparsity pattern of the matrix: symmetric, with a full diagonal. Built anew by each call, since it takes
+    /// twice the memory of the stored form.
     ///
     /// # Panics
     ///
-    /// Never: columns are sorted, and neighbours are distinct.
+    /// Never: columns are sorted and neighbours are distinct.
     pub fn pattern(&self) -> SparsityPattern {
         self.pattern.widened()
     }
 
-    /// The matrix `−A_FF`; positive definite where the coefficients are conformal.
+    /// Matrix `−A_FF`, positive definite if the coefficients are conformal.
     ///
     /// # Errors
     ///
@@ -166,7 +166,8 @@ impl FreeSystem {
         T: Scalar,
     {
         let coefficients = &equations.coefficients;
-        // In ascending order, so that it does not matter to a sum where the fan of a vertex begins.
+        // Links are summed in ascending order, so that the sum does not depend on the first link of the fan of a
+        // vertex.
         let ascending = |links: &mut Vec<HalfedgeId>, row: usize| {
             links.clear();
             links.extend(mesh.links_from(self.free[row]));
@@ -184,7 +185,7 @@ impl FreeSystem {
         Ok(matrix.expect("one value per entry was made"))
     }
 
-    /// The vector `A_FP t`, the right-hand side that goes with [`negated_matrix`](Self::negated_matrix).
+    /// Vector `A_FP t`: the right-hand side for [`negated_matrix`](Self::negated_matrix).
     pub fn pinned_terms<T, P>(
         &self,
         mesh: &DiskMesh,
@@ -203,7 +204,8 @@ impl FreeSystem {
         terms
     }
 
-    /// ‖Ax − b‖ / ‖b‖, b being what the pinned vertices give where they lie.
+    /// Relative residual ‖Ax − b‖ / ‖b‖. The right-hand side b holds the terms of the pinned vertices at their
+    /// positions.
     pub(crate) fn relative_residual<T>(
         &self,
         mesh: &DiskMesh,
@@ -222,12 +224,12 @@ impl FreeSystem {
         Ok(if residual > 0.0 { f64::sqrt(residual / whole) } else { 0.0 })
     }
 
-    /// Orders and analyses its pattern.
+    /// Orders and analyses the pattern.
     pub(crate) fn analysis(&self, kind: Kind, control: Control<'_>) -> Result<Analysis, SolveError> {
         Analysis::of(kind, Arc::clone(&self.pattern), control.cancel()).map_err(|error| self.named(error))
     }
 
-    /// Says a linear solver's error in terms of the mesh: its rows are the free vertices.
+    /// Translates an error of the linear solver into terms of the mesh: its rows are the free vertices.
     pub(crate) fn named(&self, error: LinalgError) -> SolveError {
         match error {
             LinalgError::Singular { row }
@@ -238,7 +240,7 @@ impl FreeSystem {
     }
 }
 
-/// Where a system stands: its mesh and its unknowns.
+/// Mesh and unknowns of a system.
 #[derive(Clone, Copy)]
 pub(crate) struct Site<'a> {
     pub(crate) mesh: &'a DiskMesh,

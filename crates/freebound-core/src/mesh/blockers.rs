@@ -1,4 +1,4 @@
-//! Corners of a polygon, to be asked whether one of them lies in a triangle.
+//! Search tree over polygon corners: does any corner lie in a given triangle?
 
 use std::ops::Range;
 
@@ -6,16 +6,16 @@ use glam::DVec2;
 
 use super::triangulate::turn;
 
-/// Corners in a leaf.
+/// Largest number of corners in a leaf.
 const LEAF: usize = 8;
 
-/// A binary tree of boxes over corners: node 1 is the root, node k has the children 2k and 2k + 1. Each node halves the
-/// range of its parent.
+/// Binary tree of bounding boxes over corners. Node 1 is the root; node k has the children 2k and 2k + 1. Each node
+/// halves the range of its parent.
 pub(super) struct Blockers<'a> {
     points: &'a [DVec2],
-    /// The corners, those of every node together.
+    /// The corners in the tree, ordered so that every node covers a contiguous range.
     corners: Vec<usize>,
-    /// Where each corner of the polygon stands among these, if it does.
+    /// Position of each polygon corner in `corners`; `None` for corners that are absent or removed.
     place: Vec<Option<usize>>,
     nodes: Vec<Node>,
 }
@@ -24,7 +24,7 @@ pub(super) struct Blockers<'a> {
 struct Node {
     low: DVec2,
     high: DVec2,
-    /// Corners below it that were not removed.
+    /// Number of corners below the node that were not removed.
     live: usize,
 }
 
@@ -63,7 +63,7 @@ impl<'a> Blockers<'a> {
         2 * node >= self.nodes.len()
     }
 
-    /// Forgets a corner, if it is one of these.
+    /// Removes a corner. Does nothing if the corner is not in the tree.
     pub(super) fn remove(&mut self, corner: usize) {
         let Some(place) = self.place[corner].take() else { return };
         let (mut node, mut range) = (1, 0..self.corners.len());
@@ -75,7 +75,7 @@ impl<'a> Blockers<'a> {
         }
     }
 
-    /// Whether one of them lies in a counter-clockwise triangle or on its rim, elsewhere than at its corners.
+    /// True if a corner lies inside a counter-clockwise triangle or on its rim, other than at the triangle's corners.
     pub(super) fn any_in(&self, triangle: [DVec2; 3]) -> bool {
         self.any_below(1, 0..self.corners.len(), triangle)
     }
@@ -92,7 +92,7 @@ impl<'a> Blockers<'a> {
         let [a, b, c] = triangle;
         let holds = |p: DVec2| turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
         let live = self.corners[range].iter().filter(|&&corner| self.place[corner].is_some());
-        // Corners at the same place as one of the triangle's own (a bridge to a hole) do not count.
+        // Corners that coincide with a corner of the triangle (a bridge to a hole) do not count.
         live.map(|&corner| self.points[corner]).any(|p| !triangle.contains(&p) && holds(p))
     }
 }
@@ -102,7 +102,7 @@ fn halves(range: Range<usize>) -> [Range<usize>; 2] {
     [range.start..middle, middle..range.end]
 }
 
-/// Whether a box lies beyond one side of a counter-clockwise triangle: then so does its corner nearest to the inside.
+/// True if a box lies beyond one side of a counter-clockwise triangle. Tests the box corner nearest to the inside.
 fn misses(low: DVec2, high: DVec2, [a, b, c]: [DVec2; 3]) -> bool {
     let beyond = |[from, to]: [DVec2; 2]| {
         let side = if to.y > from.y { low.x } else { high.x };

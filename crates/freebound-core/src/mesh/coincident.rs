@@ -1,12 +1,13 @@
-//! Vertices of different parts of a mesh in one place: faces that look as if they hung together, and do not.
+//! Coincident vertices of different parts of a mesh: faces that look connected and are not.
 //!
-//! Triangle soup is the extreme of it: every face has three vertices of its own.
+//! Triangle soup is the extreme case: every face has its own three vertices.
 
 use super::union::DisjointSets;
 use super::{TriMesh, VertexId};
 
-/// The vertices that lie where a vertex with a lower number lies, of a part that none of their faces leads to. Ascending.
-/// Faces lead on to others across vertices. Seams of one part are not meant: a cut surface has them.
+/// Vertices at the position of a lower-numbered vertex of another part, ascending.
+///
+/// Parts are connected across shared vertices. Seams within one part do not count: a cut surface has them.
 pub(super) fn coincident_vertices(mesh: &TriMesh, triangles: &[[VertexId; 3]]) -> Vec<VertexId> {
     let mut parts = DisjointSets::new(mesh.vertex_count());
     let mut used = vec![false; mesh.vertex_count()];
@@ -16,7 +17,7 @@ pub(super) fn coincident_vertices(mesh: &TriMesh, triangles: &[[VertexId; 3]]) -
             used[corner.index()] = true;
         }
     }
-    // −0 is 0 here.
+    // Adding 0 turns −0 into 0.
     let bits = |v: VertexId| mesh.positions[v.index()].to_array().map(|x| (x + 0.0).to_bits());
     let is_looked_at = |v: &VertexId| used[v.index()] && mesh.positions[v.index()].is_finite();
     let mut by_place: Vec<VertexId> = (0..mesh.vertex_count()).map(VertexId::from_index).filter(is_looked_at).collect();

@@ -1,11 +1,11 @@
-//! Is a mesh a disk, and if not, what are all the reasons?
+//! Diagnosis of a mesh: is it a disk, and if not, which faults does it have?
 //!
-//! A disk is a connected, consistently oriented 2-manifold with one boundary loop and no handles, whose positions are
-//! finite. [`diagnose`] names every fault of a mesh at once; a mesh whose faults are all harmless becomes a [`DiskMesh`],
-//! and only so.
+//! A disk is a connected, consistently oriented 2-manifold with one boundary loop and no handles. All its positions
+//! are finite. [`diagnose`] lists every fault of a mesh at once. Only a mesh whose faults are all harmless becomes a
+//! [`DiskMesh`].
 //!
-//! Limits: handles are counted only where no edge has three faces or more and the surface has two sides, because the
-//! number means nothing elsewhere.
+//! Limits: handles are counted only if no edge has three or more faces and the surface has two sides. Otherwise the
+//! genus is undefined.
 
 use std::fmt;
 
@@ -21,40 +21,40 @@ use super::scale::take_unit;
 use super::topology::Topology;
 use super::{DiskMesh, FaceId, TriMesh, VertexId};
 
-/// Faces whose areas are looked at by one task at least.
+/// Minimum number of faces per task in the area test.
 const FACES_PER_TASK: usize = 4096;
 
-/// Everything that can be said about a mesh before it is flattened.
+/// Result of the diagnosis of a mesh: faults and counts.
 ///
-/// Counts of edges, loops and components are those of the mesh without the faces that are set aside: see [`Fault`].
+/// Counts of edges, loops and components leave out the faces that are set aside: see [`Fault`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Diagnosis {
-    /// Whatever keeps the mesh from being a disk.
+    /// Everything that keeps the mesh from being a disk, and harmless faults.
     pub faults: Vec<Fault>,
     /// Interior edges between two boundary vertices: no fault, but the theorems on planarity do not cover them.
     pub dividing_edges: Vec<[VertexId; 2]>,
-    /// Triangles with two boundary edges or three: no fault either, for the same reason.
+    /// Triangles with two or three boundary edges: no fault, but the theorems on planarity do not cover them.
     pub ears: Vec<FaceId>,
-    /// Vertices, referenced or not.
+    /// Number of vertices, referenced or not.
     pub vertex_count: usize,
-    /// Triangles.
+    /// Number of triangles.
     pub face_count: usize,
-    /// Undirected edges.
+    /// Number of undirected edges.
     pub edge_count: usize,
-    /// Edges with one face.
+    /// Number of edges with one face.
     pub boundary_edge_count: usize,
-    /// Closed chains of boundary edges.
+    /// Number of closed chains of boundary edges.
     pub boundary_loop_count: usize,
-    /// Parts of the surface that hang together across edges.
+    /// Number of components, connected across edges.
     pub component_count: usize,
-    /// Referenced vertices − edges + triangles.
+    /// Euler characteristic: referenced vertices − edges + triangles.
     pub euler: i64,
-    /// Handles of all components; `None` where the number means nothing.
+    /// Number of handles of all components; `None` if undefined.
     pub genus: Option<usize>,
 }
 
 impl Diagnosis {
-    /// Whether the mesh is a disk: whether there are no faults but harmless ones.
+    /// True if the mesh is a disk: every fault is harmless.
     pub fn is_disk(&self) -> bool {
         self.faults.iter().all(Fault::is_harmless)
     }
@@ -78,13 +78,14 @@ impl fmt::Display for Diagnosis {
 
 impl std::error::Error for Diagnosis {}
 
-/// Names all faults of a mesh.
+/// Lists all faults of a mesh.
 pub fn diagnose(mesh: &TriMesh) -> Diagnosis {
     examine(mesh).0
 }
 
 impl TriMesh {
-    /// The same mesh without faces that name a vertex twice or repeat an earlier face; faces keep their numbers in the file.
+    /// Removes faces that name a vertex twice or repeat an earlier face. The remaining faces keep their numbers in the
+    /// file.
     #[must_use]
     pub fn without_repeats(self) -> Self {
         let diagnosis = diagnose(&self);
@@ -107,27 +108,28 @@ impl TriMesh {
 impl TryFrom<TriMesh> for DiskMesh {
     type Error = Box<Diagnosis>;
 
-    /// Takes a mesh that is a disk. Where faces have no area, lengths are mollified.
+    /// Builds a disk from a mesh. Lengths are mollified if faces have no area.
     ///
     /// # Errors
     ///
-    /// The diagnosis, if there are faults that are not harmless.
+    /// The diagnosis, if the mesh has faults that are not harmless.
     fn try_from(mesh: TriMesh) -> Result<Self, Self::Error> {
         Self::measured(mesh, |mesh| take_unit(&mut mesh.positions), true)
     }
 }
 
 impl DiskMesh {
-    /// Takes a mesh that is a disk, with the positions that it has: faces without area have none.
+    /// Builds a disk from a mesh with its positions unchanged. Degenerate faces keep zero area, and the unit is 1.
     ///
     /// # Errors
     ///
-    /// As [`try_from`](Self::try_from).
+    /// The diagnosis, if the mesh has faults that are not harmless.
     pub fn of_topology(mesh: TriMesh) -> Result<Self, Box<Diagnosis>> {
         Self::measured(mesh, |_| 1.0, false)
     }
 
-    /// Takes a mesh without grave faults, in the units that it is brought to.
+    /// Builds a disk in the unit that `take_unit` returns. Mollifies lengths if `mollifies` is set and faces have no
+    /// area.
     fn measured(
         mut mesh: TriMesh,
         take_unit: impl FnOnce(&mut TriMesh) -> f64,
@@ -147,7 +149,7 @@ impl DiskMesh {
     }
 }
 
-/// Moves vertices of no face to one of a face: they have no part in the size of the mesh.
+/// Moves unreferenced vertices to a vertex of the first face, so that they do not affect the size of the mesh.
 fn gather_unused(mesh: &mut TriMesh, diagnosis: &Diagnosis) {
     let first = mesh.positions[mesh.triangles[0][0].index()];
     let lists = diagnosis.faults.iter().filter_map(|fault| match fault {
@@ -157,7 +159,7 @@ fn gather_unused(mesh: &mut TriMesh, diagnosis: &Diagnosis) {
     lists.flatten().for_each(|vertex| mesh.positions[vertex.index()] = first);
 }
 
-/// The diagnosis, and the edge table of the whole mesh where no face had to be set aside.
+/// Returns the diagnosis, and the edge table of the whole mesh if no face was set aside.
 fn examine(mesh: &TriMesh) -> (Diagnosis, Option<EdgeTable>) {
     let mut diagnosis =
         Diagnosis { vertex_count: mesh.vertex_count(), face_count: mesh.face_count(), ..Diagnosis::default() };
@@ -206,9 +208,9 @@ fn unsound_faces(mesh: &TriMesh) -> (Vec<FaceId>, Vec<FaceId>) {
     (missing, repeated)
 }
 
-/// The faces that the topology is made of.
+/// Faces that remain for the topology after unsound faces are set aside.
 struct Sound {
-    /// The kept triangles and their places in the mesh; `None` where all are kept.
+    /// Remaining triangles and their indices in the mesh; `None` if all faces remain.
     kept: Option<(Vec<[VertexId; 3]>, Vec<FaceId>)>,
 }
 
@@ -227,12 +229,12 @@ impl Sound {
         self.kept.as_ref().map_or(&mesh.triangles, |(triangles, _)| triangles)
     }
 
-    /// The mesh's number of a kept triangle.
+    /// Index in the mesh of a remaining triangle.
     fn face(&self, kept: usize) -> FaceId {
         self.kept.as_ref().map_or_else(|| FaceId::from_index(kept), |(_, faces)| faces[kept])
     }
 
-    /// Faces with the same three vertices as an earlier one. The edge table tells whether a search is needed.
+    /// Faces with the three vertices of an earlier face. The edge table shows whether a search is needed at all.
     fn duplicates(&self, mesh: &TriMesh, table: &EdgeTable) -> Vec<FaceId> {
         let triangles = self.triangles(mesh);
         let far = |side: u32| triangles[side as usize / 3][(side as usize + 2) % 3];
@@ -320,7 +322,7 @@ fn count(diagnosis: &mut Diagnosis, triangles: &[[VertexId; 3]], topology: &Topo
     diagnosis.euler = signed(topology.referenced_count) - signed(diagnosis.edge_count) + signed(triangles.len());
 }
 
-/// Triangles with two boundary sides or three.
+/// Triangles with two or three boundary sides.
 fn ears(topology: &Topology) -> Vec<usize> {
     let mut faces: Vec<u32> = topology.boundary.iter().map(|side| side / 3).collect();
     faces.sort_unstable();
@@ -329,7 +331,7 @@ fn ears(topology: &Topology) -> Vec<usize> {
     ears
 }
 
-/// Edges of two faces between two boundary vertices.
+/// Edges with two faces whose ends are both boundary vertices.
 fn dividing_edges(vertex_count: usize, triangles: &[[VertexId; 3]], topology: &Topology) -> Vec<[VertexId; 2]> {
     let mut on_boundary = vec![false; vertex_count];
     for &side in &topology.boundary {

@@ -1,21 +1,21 @@
-//! Diagonals of averaged polygons that no triangle has as a side: links of the equations beyond the halfedges.
+//! Diagonals of averaged polygons that are not sides of triangles: the links of the equations beyond the halfedges.
 
 use super::polygons::Polygons;
 use super::{DiskMesh, VertexId};
 
-/// Diagonals with their ends, and those of each vertex. All empty where there are no polygons.
+/// Diagonals by their ends and by vertex. All lists are empty if there are no polygons.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Diagonals {
     /// Ends of each diagonal, the lower number first; ascending.
     ends: Vec<[VertexId; 2]>,
-    /// Where the list of each vertex begins in `of_vertex`, and the end of the last.
+    /// Start of each vertex's list in `of_vertex`, and the end of the last list.
     starts: Vec<u32>,
-    /// Diagonals by the vertex that they leave: twice their place in `ends`, and one more from the higher end.
+    /// Links by the vertex they leave: 2 k from the lower end of diagonal k, 2 k + 1 from its higher end.
     of_vertex: Vec<u32>,
 }
 
 impl Diagonals {
-    /// Those of a mesh's averaged polygons.
+    /// Collects the diagonals of a mesh's averaged polygons.
     pub(super) fn of(mesh: &DiskMesh, polygons: &Polygons) -> Self {
         let mut ends = Vec::new();
         for polygon in polygons.iter().filter(super::polygons::Polygon::is_averaged) {
@@ -40,12 +40,12 @@ impl Diagonals {
         Self { ends, starts, of_vertex: leaving.into_iter().map(|(_, link)| link).collect() }
     }
 
-    /// How many links they are: one in each direction.
+    /// Number of links: two per diagonal, one in each direction.
     pub(super) fn link_count(&self) -> usize {
         2 * self.ends.len()
     }
 
-    /// Where a link comes from and where it runs to.
+    /// Tail and head of a link.
     pub(super) fn ends(&self, link: usize) -> [VertexId; 2] {
         let [low, high] = self.ends[link / 2];
         if link.is_multiple_of(2) { [low, high] } else { [high, low] }

@@ -1,10 +1,10 @@
 //! A mesh proved to be a disk, with index halfedges.
 //!
-//! Halfedge `3 f + k` is side `k` of triangle `f`. The outer sides of the boundary edges follow behind, in the
-//! order of the boundary loop, so that every edge has exactly two halfedges and every halfedge a twin.
+//! Halfedge `3 f + k` is side `k` of triangle `f`. The outer sides of the boundary edges follow, in the order of the
+//! boundary loop. So every edge has exactly two halfedges, and every halfedge has a twin.
 //!
-//! A *link* is what the equations have a coefficient for: a halfedge, or behind them either direction of a polygon's
-//! diagonal that is no side of a triangle.
+//! A *link* is an index of a coefficient of the equations. Halfedges are the first links; polygon diagonals that are
+//! not sides of triangles follow, in both directions.
 
 use glam::DVec3;
 
@@ -14,7 +14,8 @@ use super::measure::Measure;
 use super::polygons::{Polygon, Polygons};
 use super::{EdgeId, FaceId, HalfedgeId, TriMesh, VertexId};
 
-/// A connected, consistently oriented 2-manifold with one boundary loop and Euler number 1, made by the diagnosis alone.
+/// A connected, consistently oriented 2-manifold with one boundary loop and Euler characteristic 1, verified by the
+/// diagnosis.
 #[derive(Clone, Debug)]
 pub struct DiskMesh {
     mesh: TriMesh,
@@ -22,10 +23,10 @@ pub struct DiskMesh {
     twin: Vec<u32>,
     edge: Vec<u32>,
     halfedge_of_edge: Vec<u32>,
-    /// An outgoing halfedge per vertex; at a boundary vertex the one that begins its fan.
+    /// An outgoing halfedge per vertex; at a boundary vertex, the first halfedge of its fan.
     halfedge_of_vertex: Vec<u32>,
     boundary_loop: Vec<VertexId>,
-    /// Place in the boundary loop, or `u32::MAX` inside.
+    /// Position in the boundary loop; `u32::MAX` for interior vertices.
     boundary_place: Vec<u32>,
     dividing_edges: Vec<[VertexId; 2]>,
     ears: Vec<FaceId>,
@@ -34,8 +35,8 @@ pub struct DiskMesh {
 }
 
 impl DiskMesh {
-    /// Joins the halfedges of a mesh that the diagnosis found to be a disk. Vertices of no face are moved to the first
-    /// vertex of the boundary, where they stretch no bounds.
+    /// Joins the halfedges of a mesh that the diagnosis found to be a disk. Unreferenced vertices move to the first
+    /// boundary vertex, so that they do not enlarge the bounding box.
     pub(super) fn join(
         mut mesh: TriMesh,
         table: &EdgeTable,
@@ -99,23 +100,23 @@ impl DiskMesh {
         Self { polygons, diagonals, ..self }
     }
 
-    /// The polygons with more than three corners that its triangles are cut from.
+    /// Polygons with more than three corners that the triangles are cut from.
     pub fn polygons(&self) -> impl ExactSizeIterator<Item = Polygon<'_>> + Clone {
         self.polygons.iter()
     }
 
-    /// The polygon that a face is cut from, where that has more than three corners.
+    /// Polygon with more than three corners that a face is cut from, if any.
     pub fn polygon_of(&self, face: FaceId) -> Option<Polygon<'_>> {
         self.polygons.with(face)
     }
 
-    /// The same surface as triangles alone.
+    /// Returns the surface with its polygons forgotten: triangles alone.
     #[must_use]
     pub fn without_polygons(&self) -> Self {
         self.clone().with_polygons_where(|_, _| false)
     }
 
-    /// The same surface without the polygons that `is_whole` denies: they are but their triangles.
+    /// Returns the surface without the polygons for which `is_whole` is false: only their triangles remain.
     #[must_use]
     pub(super) fn with_polygons_where(mut self, is_whole: impl Fn(&Polygon<'_>, &TriMesh) -> bool) -> Self {
         let mut polygons = std::mem::take(&mut self.polygons);
@@ -123,22 +124,22 @@ impl DiskMesh {
         self.with_polygons(polygons)
     }
 
-    /// Interior edges between two boundary vertices, by their ends: the theorems on planarity do not cover them.
+    /// Interior edges between two boundary vertices, by their ends. The theorems on planarity do not cover them.
     pub fn dividing_edges(&self) -> &[[VertexId; 2]] {
         &self.dividing_edges
     }
 
-    /// Triangles with two boundary edges or three.
+    /// Triangles with two or three boundary edges.
     pub fn ears(&self) -> &[FaceId] {
         &self.ears
     }
 
-    /// The same, measured otherwise.
+    /// Replaces the unit and the mollification.
     pub(super) fn measured_by(self, measure: Measure) -> Self {
         Self { measure, ..self }
     }
 
-    /// How its lengths are measured.
+    /// Unit and mollification of the lengths.
     pub(super) fn measure(&self) -> Measure {
         self.measure
     }
@@ -158,18 +159,18 @@ impl DiskMesh {
         self.mesh.triangles[face.index()]
     }
 
-    /// Whether a vertex belongs to a face. One that does not is a vertex by its number alone.
+    /// True if a vertex belongs to a face. An unreferenced vertex has a number and nothing else.
     pub fn is_used(&self, vertex: VertexId) -> bool {
         self.halfedge_of_vertex.get(vertex.index()).is_some_and(|&side| side != u32::MAX)
     }
 
     /// Number of vertices that belong to faces.
     pub fn used_vertex_count(&self) -> usize {
-        // Of a disk: vertices − edges + faces = 1.
+        // Euler characteristic of a disk: vertices − edges + faces = 1.
         1 + self.edge_count() - self.face_count()
     }
 
-    /// Number of vertices, those of no face included.
+    /// Number of vertices, unreferenced vertices included.
     pub fn vertex_count(&self) -> usize {
         self.mesh.vertex_count()
     }
@@ -184,12 +185,12 @@ impl DiskMesh {
         self.halfedge_of_edge.len()
     }
 
-    /// Number of halfedges, the outer sides of the boundary included: twice the edges.
+    /// Number of halfedges, the outer sides of the boundary included: twice the number of edges.
     pub fn halfedge_count(&self) -> usize {
         self.twin.len()
     }
 
-    /// All vertices, those of no face included.
+    /// All vertices, unreferenced vertices included.
     pub fn vertices(&self) -> impl ExactSizeIterator<Item = VertexId> + Clone + use<> {
         (0..self.vertex_count()).map(VertexId::from_index)
     }
@@ -204,7 +205,7 @@ impl DiskMesh {
         (0..self.edge_count()).map(EdgeId::from_index)
     }
 
-    /// Number of links: the halfedges, and polygons' diagonals in both directions.
+    /// Number of links: the halfedges, and the polygon diagonals in both directions.
     pub fn link_count(&self) -> usize {
         self.twin.len() + self.diagonals.link_count()
     }
@@ -214,7 +215,7 @@ impl DiskMesh {
         (0..self.link_count()).map(HalfedgeId::from_index)
     }
 
-    /// Links that leave a vertex: its halfedges as in [`outgoing`](Self::outgoing), then diagonals.
+    /// Links that leave a vertex: its halfedges in the order of [`outgoing`](Self::outgoing), then its diagonals.
     pub fn links_from(&self, vertex: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
         let number = |&link: &u32| HalfedgeId::from_index(self.twin.len() + link as usize);
         self.outgoing(vertex).chain(self.diagonals.from(vertex).iter().map(number))
@@ -225,12 +226,12 @@ impl DiskMesh {
         (0..self.halfedge_count()).map(HalfedgeId::from_index)
     }
 
-    /// The vertex that a link leaves.
+    /// Vertex that a link leaves.
     pub fn tail(&self, link: HalfedgeId) -> VertexId {
         self.link_ends(link)[0]
     }
 
-    /// The vertex that a link runs to.
+    /// Vertex that a link points to.
     pub fn head(&self, link: HalfedgeId) -> VertexId {
         self.link_ends(link)[1]
     }
@@ -247,7 +248,7 @@ impl DiskMesh {
         }
     }
 
-    /// The other direction of the same edge or diagonal.
+    /// Opposite direction of an edge or diagonal.
     pub fn twin(&self, link: HalfedgeId) -> HalfedgeId {
         let count = self.twin.len();
         match self.twin.get(link.index()) {
@@ -256,12 +257,12 @@ impl DiskMesh {
         }
     }
 
-    /// The halfedge after this one around its face, or, outside, along the boundary.
+    /// Next halfedge around the face or, for outer halfedges, along the boundary.
     pub fn next(&self, halfedge: HalfedgeId) -> HalfedgeId {
         self.turn(halfedge, 1)
     }
 
-    /// The halfedge before this one around its face, or, outside, along the boundary.
+    /// Previous halfedge around the face or, for outer halfedges, along the boundary.
     pub fn previous(&self, halfedge: HalfedgeId) -> HalfedgeId {
         self.turn(halfedge, 2)
     }
@@ -272,28 +273,28 @@ impl DiskMesh {
         if h < inner {
             return HalfedgeId::from_index(h - h % 3 + (h + by) % 3);
         }
-        // Outside runs against the loop: the next outer side is the one before it in the loop.
+        // Outer halfedges run against the loop: the next outer side is the previous side in the loop.
         let count = self.boundary_loop.len();
         let step = if by == 1 { count - 1 } else { 1 };
         HalfedgeId::from_index(inner + (h - inner + step) % count)
     }
 
-    /// Whether a halfedge lies outside the surface, along its boundary.
+    /// True if a halfedge lies outside the surface, along its boundary.
     pub fn is_outer(&self, halfedge: HalfedgeId) -> bool {
         halfedge.index() >= 3 * self.face_count()
     }
 
-    /// The face to the left of a halfedge, `None` outside.
+    /// Face to the left of a halfedge; `None` for outer halfedges.
     pub fn face_of(&self, halfedge: HalfedgeId) -> Option<FaceId> {
         (!self.is_outer(halfedge)).then(|| FaceId::from_index(halfedge.index() / 3))
     }
 
-    /// The edge that a halfedge is a side of.
+    /// Edge of a halfedge.
     pub fn edge_of(&self, halfedge: HalfedgeId) -> EdgeId {
         EdgeId::new(self.edge[halfedge.index()])
     }
 
-    /// The first halfedge of an edge, inside the surface.
+    /// First halfedge of an edge, inside the surface.
     pub fn halfedge(&self, edge: EdgeId) -> HalfedgeId {
         HalfedgeId::new(self.halfedge_of_edge[edge.index()])
     }
@@ -304,7 +305,7 @@ impl DiskMesh {
         [self.tail(h), self.head(h)]
     }
 
-    /// Whether an edge lies on the boundary.
+    /// True if an edge lies on the boundary.
     pub fn is_boundary_edge(&self, edge: EdgeId) -> bool {
         self.is_outer(self.twin(self.halfedge(edge)))
     }
@@ -314,19 +315,19 @@ impl DiskMesh {
         &self.boundary_loop
     }
 
-    /// The edge from place `place` of the boundary loop to the next.
+    /// Edge from position `place` of the boundary loop to the next position.
     pub fn boundary_edge(&self, place: usize) -> EdgeId {
         self.edge_of(HalfedgeId::from_index(3 * self.face_count() + place))
     }
 
-    /// Where a vertex stands in the boundary loop, `None` inside.
+    /// Position of a vertex in the boundary loop; `None` for interior vertices.
     pub fn boundary_place(&self, vertex: VertexId) -> Option<usize> {
         let place = self.boundary_place[vertex.index()];
         (place != u32::MAX).then_some(place as usize)
     }
 
-    /// Outgoing halfedges of a vertex, counter-clockwise. At a boundary vertex the fan begins at the boundary and
-    /// ends with the outer halfedge. A vertex of no face has none.
+    /// Outgoing halfedges of a vertex, counter-clockwise. At a boundary vertex the fan begins at the boundary and ends
+    /// with the outer halfedge. An unreferenced vertex has none.
     pub fn outgoing(&self, vertex: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
         let first = HalfedgeId::new(self.halfedge_of_vertex[vertex.index()]);
         let mut at = self.is_used(vertex).then_some(first);

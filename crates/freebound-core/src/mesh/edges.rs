@@ -1,21 +1,21 @@
-//! Which triangle sides lie on the same edge, whatever the state of the mesh.
+//! Triangle sides grouped by edge, for any mesh, manifold or not.
 //!
-//! Sides are sorted into buckets by their lower vertex (a counting sort), then within each short bucket by the
-//! higher one: linear time on ordinary meshes.
+//! Sides are sorted into buckets by their lower vertex (a counting sort), then within each short bucket by the higher
+//! vertex. Time: linear on ordinary meshes.
 
 use crate::parallel::prelude::*;
 
 use super::VertexId;
 
-/// Vertices whose buckets are sorted by one task.
+/// Number of vertices whose buckets one task sorts.
 const VERTICES_PER_TASK: usize = 16_384;
 
-/// Sides of triangles by undirected edge. Side `3 f + k` runs from corner `k` of triangle `f` to the next.
+/// Sides of triangles by undirected edge. Side `3 f + k` runs from corner `k` of triangle `f` to the next corner.
 #[derive(Clone, Debug, Default)]
 pub struct EdgeTable {
-    /// All sides, those of one edge next to each other; within an edge in ascending order.
+    /// All sides, grouped by edge; ascending within an edge.
     sides: Vec<u32>,
-    /// Where each edge's sides begin, and the end of the last.
+    /// Start of each edge's sides, and the end of the last edge.
     starts: Vec<u32>,
 }
 
@@ -35,7 +35,7 @@ impl EdgeTable {
         Self::of_sides(vertex_count, side_count, |side| side_ends(triangles, side))
     }
 
-    /// Groups sides of any polygons, by the ends of each.
+    /// Groups the sides of arbitrary polygons by their ends.
     pub(super) fn of_sides(
         vertex_count: usize,
         side_count: u32,
@@ -66,13 +66,14 @@ impl EdgeTable {
         self.starts.len() - 1
     }
 
-    /// The sides of each edge.
+    /// Sides of each edge.
     pub fn edges(&self) -> impl Iterator<Item = &[u32]> {
         self.starts.windows(2).map(|w| &self.sides[w[0] as usize..w[1] as usize])
     }
 }
 
-/// Sorts the sides of each bucket by their higher vertex. Returns where each edge's sides begin, and the end of the last.
+/// Sorts the sides of each bucket by their higher vertex. Returns the start of each edge's sides, and the end of the
+/// last.
 fn sort_buckets(sides: &mut [u32], bucket_end: &[u32], high: impl Fn(u32) -> VertexId + Sync) -> Vec<u32> {
     let (mut rest, mut tasks) = (sides, Vec::new());
     for first in (0..bucket_end.len() - 1).step_by(VERTICES_PER_TASK) {
@@ -101,8 +102,7 @@ fn sort_buckets(sides: &mut [u32], bucket_end: &[u32], high: impl Fn(u32) -> Ver
     starts.concat()
 }
 
-/// Numbers edges by their lower halfedge, of which `twin` is the other: the edge of each halfedge, and the lower halfedge
-/// of each edge.
+/// Numbers edges by their lower halfedge. Returns the edge of each halfedge, and the lower halfedge of each edge.
 pub(super) fn number_edges(twin: &[u32]) -> (Vec<u32>, Vec<u32>) {
     let mut edge = vec![0_u32; twin.len()];
     let mut halfedge_of_edge = Vec::with_capacity(twin.len() / 2);
@@ -116,8 +116,8 @@ pub(super) fn number_edges(twin: &[u32]) -> (Vec<u32>, Vec<u32>) {
     (edge, halfedge_of_edge)
 }
 
-/// An outgoing halfedge per vertex; at a boundary vertex, whose side along the boundary is given, the one that begins its
-/// fan.
+/// Returns an outgoing halfedge per vertex. At a boundary vertex, this is its given side along the boundary, which
+/// begins its fan.
 pub(super) fn first_of_fans(triangles: &[[VertexId; 3]], side_along_boundary: &[u32]) -> Vec<u32> {
     let mut first = vec![u32::MAX; side_along_boundary.len()];
     for side in (0..u32::try_from(3 * triangles.len()).expect("a side fits")).rev() {

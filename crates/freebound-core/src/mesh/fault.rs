@@ -1,86 +1,88 @@
-//! What can keep a mesh from being a disk, each fault with its elements and a remedy.
+//! Faults that keep a mesh from being a disk, each with its elements and a remedy.
 
 use std::fmt::{self, Display};
 
 use super::{FaceId, TriMesh, VertexId};
 
-/// How many elements a message lists before it only counts the rest.
+/// Number of elements that a message lists before it only counts the rest.
 const LISTED: usize = 5;
 
-/// Triangles, and the faces of the file that they are parts of.
+/// Triangles, and the faces of the file that contain them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FaceList {
-    /// Triangles, ascending unless said otherwise.
+    /// Triangles, ascending unless stated otherwise.
     pub triangles: Vec<FaceId>,
-    /// The file's faces, each once, in the same order.
+    /// Faces of the file in the order of the triangles, each once.
     pub polygons: Vec<u32>,
 }
 
 impl FaceList {
     pub(super) fn new(mesh: &TriMesh, triangles: Vec<FaceId>) -> Self {
         let mut polygons: Vec<u32> = triangles.iter().map(|&f| mesh.polygon(f)).collect();
-        // Triangles of one polygon follow each other.
+        // Triangles of one polygon are consecutive.
         polygons.dedup();
         Self { triangles, polygons }
     }
 }
 
-/// One thing that keeps a mesh from being a disk. Faces that name a missing vertex, name a vertex twice, or repeat an
-/// earlier face are set aside first: the other faults are those of the mesh without them.
+/// Fault of a mesh. Every fault that is not harmless keeps the mesh from being a disk.
+///
+/// Faces are set aside first if they name a missing vertex, name a vertex twice, or repeat an earlier face. All other
+/// faults describe the mesh without these faces.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fault {
-    /// There is no face at all.
+    /// The mesh has no faces.
     NoFaces,
     /// Faces name vertices that do not exist.
     MissingVertices(FaceList),
     /// Positions are infinite or not numbers.
     NotFinite(Vec<VertexId>),
-    /// Faces name the same vertex twice.
+    /// Faces name a vertex twice.
     RepeatedVertices(FaceList),
-    /// Faces have the same three vertices as an earlier one.
+    /// Faces have the three vertices of an earlier face.
     DuplicateFaces(FaceList),
     /// No face uses these vertices.
     UnreferencedVertices(Vec<VertexId>),
     /// Faces without area: their corners lie on one line up to the rounding of their coordinates. With `M` the largest
-    /// coordinate by amount, the height over the longest edge is at most 4 ε M.
+    /// absolute coordinate, the height over the longest edge is at most 4 ε M.
     ZeroArea(FaceList),
-    /// Edges of three faces or more.
+    /// Edges with three or more faces.
     NonManifoldEdges(Vec<[VertexId; 2]>),
     /// Vertices whose faces form more than one fan.
     NonManifoldVertices(Vec<VertexId>),
-    /// Some faces run around the other way; turning them over mends it.
+    /// Some faces have the opposite orientation; flipping them repairs the mesh.
     MixedOrientation {
-        /// Edges that two faces run along in the same direction.
+        /// Edges that two faces traverse in one direction.
         edges: Vec<[VertexId; 2]>,
-        /// The faces to turn over.
+        /// Faces to flip.
         faces: FaceList,
     },
-    /// The surface has one side only, like a Möbius strip; these edges clash.
+    /// The surface has one side only, like a Möbius strip. Lists the edges whose faces clash.
     NonOrientable(Vec<[VertexId; 2]>),
-    /// Vertices of different components lie in one place: as a rule they are meant to be one vertex.
+    /// Vertices of different components coincide: as a rule they are meant to be one vertex.
     CoincidentVertices(Vec<VertexId>),
-    /// The faces do not hang together across edges.
+    /// The faces are not connected across edges.
     SeveralComponents {
         /// The first face of each component.
         first_faces: FaceList,
-        /// How many triangles each has.
+        /// Number of triangles of each component.
         sizes: Vec<usize>,
     },
     /// Components without a boundary.
     Closed {
-        /// The first face of each of them.
+        /// First face of each closed component.
         first_faces: FaceList,
-        /// How many components there are in all.
+        /// Number of components of the mesh, closed or not.
         component_count: usize,
     },
-    /// Components with more than one boundary loop; their loops, the longest first.
+    /// Components with more than one boundary loop. Lists their loops, the longest first.
     SeveralBoundaryLoops(Vec<Vec<VertexId>>),
     /// Components with handles.
     Handles {
-        /// Handles in all.
+        /// Number of handles in all.
         genus: usize,
-        /// The first face of each component that has any.
+        /// First face of each component with handles.
         first_faces: FaceList,
     },
 }
@@ -88,7 +90,7 @@ pub enum Fault {
 /// The elements of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Elements<'a> {
-    /// The fault is about the mesh as a whole.
+    /// The fault concerns the mesh as a whole.
     Nothing,
     /// Vertices.
     Vertices(&'a [VertexId]),
@@ -101,7 +103,7 @@ pub enum Elements<'a> {
 }
 
 impl Elements<'_> {
-    /// Number of elements; faces count as the file counts them.
+    /// Number of elements; faces are counted as faces of the file.
     pub fn count(&self) -> usize {
         match self {
             Self::Nothing => 0,
@@ -114,7 +116,7 @@ impl Elements<'_> {
 }
 
 impl Fault {
-    /// Whether there is anything in it: the diagnosis keeps only faults that are there.
+    /// True if the fault has elements or concerns the whole mesh. The diagnosis keeps no other faults.
     pub(super) fn is_present(&self) -> bool {
         match self.elements() {
             Elements::Nothing => true,
@@ -123,12 +125,13 @@ impl Fault {
         }
     }
 
-    /// Whether the mesh is flattened all the same: neither faces without area nor vertices of no face change the surface.
+    /// True if the mesh can be flattened with this fault. Degenerate faces and unreferenced vertices do not change the
+    /// surface.
     pub const fn is_harmless(&self) -> bool {
         matches!(self, Self::ZeroArea(_) | Self::UnreferencedVertices(_))
     }
 
-    /// Whether cutting the surface open mends it.
+    /// True if cutting the surface open repairs the fault.
     pub const fn is_cut_open(&self) -> bool {
         matches!(
             self,
@@ -136,7 +139,7 @@ impl Fault {
         )
     }
 
-    /// Whether it is none where each part of the surface is flattened by itself.
+    /// True if the fault does not matter when each part of the surface is flattened by itself.
     pub const fn is_of_charts(&self) -> bool {
         matches!(self, Self::SeveralComponents { .. })
     }
@@ -146,7 +149,7 @@ impl Fault {
         self.words()[0]
     }
 
-    /// What to do about it.
+    /// Recommended action, in the imperative.
     pub const fn remedy(&self) -> &'static str {
         self.words()[1]
     }
@@ -158,7 +161,9 @@ impl Fault {
             Self::MissingVertices(_) => {
                 ["missing-vertices", "export the file again: it is cut short or its indices are wrong"]
             }
-            Self::NotFinite(_) => ["not-finite", "give these vertices real positions, or delete them with their faces"],
+            Self::NotFinite(_) => {
+                ["not-finite", "give these vertices finite positions, or delete them with their faces"]
+            }
             Self::RepeatedVertices(_) => ["repeated-vertices", "delete these faces"],
             Self::DuplicateFaces(_) => ["duplicate-faces", "delete these faces and keep the first of each"],
             Self::UnreferencedVertices(_) => ["unreferenced-vertices", "delete these vertices"],
@@ -166,19 +171,21 @@ impl Fault {
                 ["zero-area", "merge coincident vertices, or collapse the shortest edge of each of these faces"]
             }
             Self::NonManifoldEdges(_) => {
-                ["non-manifold-edges", "delete or detach faces until two are left at each of these edges"]
+                ["non-manifold-edges", "delete or detach faces until each of these edges has two"]
             }
             Self::NonManifoldVertices(_) => {
-                ["non-manifold-vertices", "split each of these vertices, one for each fan of faces"]
+                ["non-manifold-vertices", "split each of these vertices into one per fan of faces"]
             }
             Self::MixedOrientation { .. } => ["mixed-orientation", "turn these faces over"],
             Self::NonOrientable(_) => {
-                ["non-orientable", "cut the surface along a chain of edges, so that it gets two sides"]
+                ["non-orientable", "cut the surface along a chain of edges so that it has two sides"]
             }
             Self::CoincidentVertices(_) => {
-                ["coincident-vertices", "merge coincident vertices in the program that the mesh comes from"]
+                ["coincident-vertices", "merge coincident vertices in the program that exported the mesh"]
             }
-            Self::SeveralComponents { .. } => ["several-components", "each is flattened by itself, once it is a disk"],
+            Self::SeveralComponents { .. } => {
+                ["several-components", "make each component a disk; each is flattened separately"]
+            }
             Self::Closed { .. } => {
                 ["closed", "cut the surface open along a chain of edges, or delete a part that is not needed"]
             }
@@ -189,7 +196,7 @@ impl Fault {
         }
     }
 
-    /// Where the fault is.
+    /// Elements of the fault.
     pub fn elements(&self) -> Elements<'_> {
         match self {
             Self::NoFaces => Elements::Nothing,
@@ -210,7 +217,7 @@ impl Fault {
         }
     }
 
-    /// The vertices of one of its elements, of `mesh`'s; none where there is no such element.
+    /// Vertices of an element of the fault in `mesh`; empty if there is no such element.
     pub fn vertices_of(&self, element: usize, mesh: &TriMesh) -> Vec<VertexId> {
         let found = match self.elements() {
             Elements::Nothing => None,
@@ -226,7 +233,7 @@ impl Fault {
         found.unwrap_or_default()
     }
 
-    /// What is wrong, how often, and the first few elements, numbered from 0 as in the file.
+    /// Description of the fault: its kind, its count and the first few elements, numbered from 0 in file order.
     pub fn message(&self) -> String {
         match self {
             Self::NoFaces => "the mesh has no faces".to_owned(),
@@ -239,16 +246,16 @@ impl Fault {
             Self::NonManifoldEdges(e) => edges("three or more faces", e),
             Self::NonManifoldVertices(v) => vertices("more than one fan of faces", v),
             Self::MixedOrientation { edges: e, faces: f } => format!(
-                "{}; the fewer faces, to be turned over: {}",
-                edges("two faces that run the same way", e),
+                "{}; faces to turn over, the minority: {}",
+                edges("two faces of opposite orientation", e),
                 listed(&f.polygons)
             ),
             Self::NonOrientable(e) => {
-                format!("the surface has only one side: {}", edges("two faces that run the same way", e))
+                format!("the surface has only one side: {}", edges("two faces of opposite orientation", e))
             }
-            Self::CoincidentVertices(v) => vertices("the place of another component's vertex, but not its number", v),
+            Self::CoincidentVertices(v) => vertices("the position of a vertex of another component", v),
             Self::SeveralComponents { first_faces, sizes } => format!(
-                "{} components, of {} triangles, beginning with faces {}",
+                "{} components, of {} triangles, with first faces {}",
                 sizes.len(),
                 listed(sizes),
                 listed(&first_faces.polygons)
@@ -256,7 +263,7 @@ impl Fault {
             Self::Closed { component_count: 1, .. } => "the surface is closed: it has no boundary".to_owned(),
             Self::Closed { first_faces: f, component_count } => {
                 let count = f.triangles.len();
-                format!("{count} of {component_count} components closed: those of faces {}", listed(&f.polygons))
+                format!("{count} of {component_count} components are closed: those of faces {}", listed(&f.polygons))
             }
             Self::SeveralBoundaryLoops(loops) => {
                 let sizes: Vec<usize> = loops.iter().map(Vec::len).collect();
@@ -287,12 +294,12 @@ fn numbers(vertices: &[VertexId]) -> Vec<u32> {
     vertices.iter().map(|v| v.number()).collect()
 }
 
-/// "3, 4 and 17 more".
+/// Formats a list, such as "3, 4 and 17 more".
 fn listed<T: Display>(items: &[T]) -> String {
     listed_of(items, items.len())
 }
 
-/// The same of so many, of which the first are at hand.
+/// Formats a list of `count` items, of which `items` holds at least those that are shown.
 fn listed_of<T: Display>(items: &[T], count: usize) -> String {
     let shown: Vec<String> = items.iter().take(LISTED).map(T::to_string).collect();
     let more = count - shown.len();

@@ -1,38 +1,38 @@
-//! Holes of a surface, filled with *virtual* faces, which are of no face of the file.
+//! Holes of a surface, filled with *virtual* faces, which belong to no face of the file.
 //!
-//! Virtual faces stand behind all real ones. Those of one hole follow each other and have one number, from
-//! [`FIRST_HOLE`] on, where real faces have the number of their polygon. A refinement cuts faces in their place and keeps
-//! their numbers: so virtual faces are told from real ones there, too.
+//! Virtual faces follow all real faces. The faces of one hole are consecutive and share one number, [`FIRST_HOLE`] or
+//! higher; real faces have the number of their polygon. A refinement that splits a face keeps its number, so virtual
+//! faces remain recognisable there.
 
 use std::collections::BTreeMap;
 
 use super::polygons::outer_sides;
 use super::{DiskMesh, EdgeId, FaceId, TriMesh, VertexId};
 
-/// The number of the first hole in the place of a polygon's: beyond all faces of a file, whose corners are fewer than 2^32.
+/// Polygon number of the first hole, beyond all faces of a file, whose corners are fewer than 2^32.
 pub const FIRST_HOLE: u32 = 1 << 31;
 
-/// A hole that virtual faces fill.
+/// Hole filled with virtual faces.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hole {
-    /// The virtual faces.
+    /// Indices of the virtual faces.
     pub faces: std::ops::Range<usize>,
-    /// The vertices around it, the lowest first, in the direction in which its faces run around.
+    /// Vertices around the hole, the lowest first, in the direction of its faces.
     pub rim: Vec<VertexId>,
 }
 
 impl TriMesh {
-    /// How many triangles are parts of the file's faces: all but the virtual ones, which follow.
+    /// Number of triangles that belong to faces of the file. The virtual triangles follow them.
     pub fn real_face_count(&self) -> usize {
         self.polygon_of.as_ref().map_or(self.face_count(), |of| of.partition_point(|&number| number < FIRST_HOLE))
     }
 
-    /// The triangles that are parts of the file's faces.
+    /// Triangles that belong to faces of the file.
     pub fn real_triangles(&self) -> &[[VertexId; 3]] {
         &self.triangles[..self.real_face_count()]
     }
 
-    /// The holes that are filled, in their order.
+    /// Filled holes, in the order of their numbers.
     pub fn holes(&self) -> Vec<Hole> {
         let mut begin = self.real_face_count();
         let numbers = self.polygon_of.as_ref().map_or(&[][..], |of| &of[begin..]);
@@ -45,7 +45,7 @@ impl TriMesh {
     }
 }
 
-/// The vertices around triangles that make a disk.
+/// Vertices around triangles that form a disk.
 fn rim(triangles: &[[VertexId; 3]]) -> Vec<VertexId> {
     let next: BTreeMap<VertexId, VertexId> =
         outer_sides(triangles).into_iter().map(|[tail, head]| (tail, head)).collect();
@@ -55,28 +55,28 @@ fn rim(triangles: &[[VertexId; 3]]) -> Vec<VertexId> {
 }
 
 impl DiskMesh {
-    /// The faces that are parts of the file's.
+    /// Faces that belong to faces of the file.
     pub fn real_faces(&self) -> impl ExactSizeIterator<Item = FaceId> + Clone + use<> {
         (0..self.mesh().real_face_count()).map(FaceId::from_index)
     }
 
-    /// Whether a face only fills a hole.
+    /// True if a face fills a hole.
     pub fn is_virtual(&self, face: FaceId) -> bool {
         self.mesh().polygon(face) >= FIRST_HOLE
     }
 
-    /// Whether all faces of a vertex only fill a hole.
+    /// True if all faces of a vertex fill holes.
     pub fn is_virtual_vertex(&self, vertex: VertexId) -> bool {
         self.is_used(vertex) && self.outgoing(vertex).filter_map(|h| self.face_of(h)).all(|face| self.is_virtual(face))
     }
 
-    /// Whether an edge lies within a hole.
+    /// True if all faces of an edge fill holes.
     pub fn is_virtual_edge(&self, edge: EdgeId) -> bool {
         let first = self.halfedge(edge);
         [first, self.twin(first)].into_iter().filter_map(|h| self.face_of(h)).all(|face| self.is_virtual(face))
     }
 
-    /// The vertices of virtual faces alone, ascending.
+    /// Vertices that belong to virtual faces only, ascending.
     pub fn virtual_vertices(&self) -> Vec<VertexId> {
         let mut found = self.mesh().triangles[self.mesh().real_face_count()..].concat();
         found.sort_unstable();
@@ -85,7 +85,7 @@ impl DiskMesh {
         found
     }
 
-    /// How many vertices there are but for those of virtual faces alone.
+    /// Number of vertices without those that belong to virtual faces only.
     pub fn real_vertex_count(&self) -> usize {
         self.vertex_count() - self.virtual_vertices().len()
     }

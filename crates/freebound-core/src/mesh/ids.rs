@@ -1,6 +1,6 @@
 //! Typed element indices: a vertex can never be mistaken for a face.
 //!
-//! Every index counts from 0, in file order. It has a meaning in one mesh only.
+//! Every index counts from 0, in file order, and is valid in one mesh only.
 
 use std::fmt;
 
@@ -13,26 +13,26 @@ macro_rules! index_type {
         pub struct $name(u32);
 
         impl $name {
-            /// The element with this number. Whether it exists is for the mesh to say.
+            /// Index with this number. The mesh decides if the element exists.
             pub const fn new(index: u32) -> Self {
                 Self(index)
             }
 
-            /// The element at this place of an array that holds one value per element.
+            /// Index of the element at this position of an array with one value per element.
             ///
             /// # Panics
             ///
-            /// If the place is beyond the four thousand million elements that a mesh can have.
+            /// If the position is 2^32 or larger.
             pub fn from_index(index: usize) -> Self {
                 Self(u32::try_from(index).expect("a mesh has fewer than 2^32 elements"))
             }
 
-            /// Place in arrays that hold one value per element.
+            /// Position in arrays with one value per element.
             pub const fn index(self) -> usize {
                 self.0 as usize
             }
 
-            /// The bare number, as files and reports show it.
+            /// Plain number for files and reports.
             pub const fn number(self) -> u32 {
                 self.0
             }

@@ -1,33 +1,33 @@
-//! How a disk is measured: in which unit, and by lengths a little longer than in space where faces have no area.
+//! Lengths of a disk: their unit, and their mollification if faces have no area.
 //!
 //! # Equation
 //!
-//! A triangle without area breaks weights and energies, which divide by its area. Where a mesh has any, all lengths are
-//! taken longer by the least ε that leaves each triangle inequality a margin δ:
+//! A triangle without area breaks weights and energies, which divide by its area. If a mesh has such triangles, all
+//! lengths grow by the smallest ε that leaves each triangle inequality a margin δ:
 //!
 //! ```text
 //! l(a, b) = |x_a − x_b| + ε        ε = max over all triangles and their sides of  δ + longest − the two others, or 0
 //! ```
 //!
-//! Then any three vertices, not only those of faces, make a triangle with an area: its two shorter sides exceed the
+//! Then any three vertices, not only those of faces, form a triangle with an area: its two shorter sides exceed the
 //! longest by ε at least.
 //!
-//! Source: N. Sharp, K. Crane, "A Laplacian for Nonmanifold Triangle Meshes", 2020, §4.5. δ is a hundred thousandth of the
-//! mean length of a side. A mesh whose faces all have an area keeps its lengths to the last bit.
+//! Source: N. Sharp, K. Crane, "A Laplacian for Nonmanifold Triangle Meshes", 2020, §4.5. δ is 10⁻⁵ of the mean length
+//! of a side. A mesh whose faces all have an area keeps its lengths to the last bit.
 
 use glam::DVec3;
 
 use super::{DiskMesh, FaceId, TriMesh, VertexId};
 
-/// The margin δ, by the mean length of a side.
+/// Margin δ, relative to the mean length of a side.
 const MARGIN: f64 = 1e-5;
 
-/// How the positions of a disk become lengths.
+/// Conversion of positions to lengths.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Measure {
-    /// The length that positions are in units of.
+    /// Length of one unit of the positions.
     pub(super) unit: f64,
-    /// ε, in these units.
+    /// Mollification ε, in units of `unit`.
     pub(super) mollification: f64,
 }
 
@@ -38,32 +38,31 @@ impl Default for Measure {
 }
 
 impl DiskMesh {
-    /// The length that positions are in units of: a power of two, 1 but for meshes of the largest and smallest sizes,
-    /// which are brought to the middle of the range of numbers.
+    /// Length of one unit of the positions, a power of two. Default: 1. Extremely large and small meshes are scaled to
+    /// the middle of the range of numbers.
     pub fn unit(&self) -> f64 {
         self.measure().unit
     }
 
-    /// By how much every length is taken longer than in space, ε in units of [`unit`](Self::unit): 0 where all faces have
-    /// an area.
+    /// Mollification ε added to every length, in units of [`unit`](Self::unit); 0 if all faces have an area.
     pub fn mollification(&self) -> f64 {
         self.measure().mollification
     }
 
-    /// The distance of two vertices that equations and energies take, in units of [`unit`](Self::unit).
+    /// Distance of two vertices for equations and energies, in units of [`unit`](Self::unit), mollified if needed.
     pub fn length(&self, [a, b]: [VertexId; 2]) -> f64 {
         self.position(a).distance(self.position(b)) + self.mollification()
     }
 
-    /// The triangle of three vertices that equations and energies take, in units of [`unit`](Self::unit): as it lies in
-    /// space, or another one of mollified lengths.
+    /// Triangle of three vertices for equations and energies, in units of [`unit`](Self::unit): its shape in space, or
+    /// a triangle with the mollified side lengths.
     pub fn shape(&self, corners: [VertexId; 3]) -> [DVec3; 3] {
         let corners = corners.map(|v| self.position(v));
         if self.mollification() > 0.0 { mollified(corners, self.mollification()) } else { corners }
     }
 }
 
-/// ε for a mesh that has faces without area.
+/// Mollification ε of a mesh that has faces without area.
 pub(super) fn least_mollification(mesh: &TriMesh) -> f64 {
     let sides = |face: usize| side_lengths(mesh.corners(FaceId::from_index(face)));
     let total: f64 = (0..mesh.face_count()).flat_map(sides).sum();
@@ -80,21 +79,21 @@ fn side_lengths([a, b, c]: [DVec3; 3]) -> [f64; 3] {
     [a.distance(b), b.distance(c), c.distance(a)]
 }
 
-/// A triangle whose sides are longer by so much.
+/// Triangle with sides longer by `by`.
 fn mollified(corners: [DVec3; 3], by: f64) -> [DVec3; 3] {
     triangle_of_sides(side_lengths(corners).map(|length| length + by))
 }
 
-/// A triangle by the lengths of the sides that leave each corner, laid with its first corner at the origin and its first
-/// side along the x-axis, counter-clockwise seen from above. Without an area where there is no such triangle.
+/// Triangle from the lengths of the sides that leave each corner. Its first corner lies at the origin and its first
+/// side along the x-axis; it is counter-clockwise seen from above. The area is 0 if no such triangle exists.
 pub(crate) fn triangle_of_sides([first, opposite, last]: [f64; 3]) -> [DVec3; 3] {
     let along = (first * first + (last - opposite) * (last + opposite)) / (2.0 * first);
     let height = 2.0 * area([first, opposite, last]) / first;
     [DVec3::ZERO, DVec3::new(first, 0.0, 0.0), DVec3::new(along, height, 0.0)]
 }
 
-/// Area of a triangle by its sides, in the order of operations in which nothing cancels (W. Kahan, "Miscalculating area and
-/// angles of a needle-like triangle", 2014).
+/// Area of a triangle from its sides, in an order of operations without cancellation (W. Kahan, "Miscalculating area
+/// and angles of a needle-like triangle", 2014).
 fn area(mut sides: [f64; 3]) -> f64 {
     sides.sort_by(f64::total_cmp);
     let [c, b, a] = sides;

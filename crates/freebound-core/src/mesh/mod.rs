@@ -1,21 +1,21 @@
-//! Connectivity and 3D positions of a triangle mesh. Knows nothing of the plane.
+//! Connectivity and 3D positions of a triangle mesh. Independent of the plane.
 //!
-//! | file | what |
+//! | file | contents |
 //! |---|---|
 //! | `ids.rs` | typed indices of vertices, halfedges, edges, faces |
-//! | `parts.rs` | the parts of a surface that hang together, each with its boundary loops |
-//! | `polygon.rs`, `triangulate.rs`, `blockers.rs` | polygons as a file gives them, cut into triangles |
+//! | `parts.rs` | edge-connected parts of a surface, each with its boundary loops |
+//! | `polygon.rs`, `triangulate.rs`, `blockers.rs` | polygons as given by a file, and their triangulation |
 //! | `triangles.rs` | triangles that share vertices |
-//! | `diagnosis.rs`, `fault.rs` | whether a mesh is a disk, and all that keeps it from being one |
-//! | `edges.rs`, `topology.rs`, `orientation.rs`, `coincident.rs`, `union.rs`, `area.rs` | what the diagnosis looks at |
-//! | `measure.rs` | a disk's unit, and lengths a little longer than in space where faces have no area |
-//! | `unit.rs` | meshes of the largest and smallest sizes, brought to the middle of the range of numbers |
+//! | `diagnosis.rs`, `fault.rs` | disk test and all faults of a mesh |
+//! | `edges.rs`, `topology.rs`, `orientation.rs`, `coincident.rs`, `union.rs`, `area.rs` | tests of the diagnosis |
+//! | `measure.rs` | unit of a disk, and mollified lengths if faces have no area |
+//! | `scale.rs` | scaling of extremely large and small meshes to the middle of the range of numbers |
 //! | `disk.rs` | a mesh proved to be a disk, with halfedges |
-//! | `polygons.rs`, `diagonals.rs` | the polygons that a disk's triangles are cut from, and their other diagonals |
+//! | `polygons.rs`, `diagonals.rs` | polygons that a disk's triangles are cut from, and their other diagonals |
 //! | `holes.rs` | virtual faces, which fill holes |
-//! | `repair/` | what keeps a mesh from being a disk, mended; holes filled; surfaces cut open |
+//! | `repair/` | repair of faults, filling of holes, cutting of surfaces |
 //! | `refinement.rs` | a disk with new vertices on its edges |
-//! | `volume.rs` | which side of a surface is the outside |
+//! | `volume.rs` | outside of an open surface |
 
 mod area;
 mod blockers;

@@ -1,7 +1,8 @@
-//! Which faces to turn over so that all run around the same way, if that can be done.
+//! Faces to flip for a consistent orientation, if there is one.
 //!
-//! Two faces that share an edge agree where they run along it in opposite directions. Agreement is carried across edges
-//! of exactly two faces; a contradiction around a closed chain of faces makes the patch one-sided, like a Möbius strip.
+//! Two faces that share an edge agree if they run along it in opposite directions. Agreement is propagated across
+//! edges with exactly two faces. A contradiction around a closed chain of faces makes the patch one-sided, like a
+//! Möbius strip.
 
 use super::edges::side_ends;
 use super::topology::Topology;
@@ -10,16 +11,16 @@ use super::{FaceId, VertexId};
 
 #[derive(Debug, Default)]
 pub(super) struct Orientation {
-    /// Edges with a clash in patches that can be oriented.
+    /// Edges with a clash in orientable patches.
     pub(super) mixed_edges: Vec<[VertexId; 2]>,
-    /// Faces to turn over there: the fewer in each patch.
+    /// Faces to flip in orientable patches: the smaller side of each patch.
     pub(super) turn: Vec<FaceId>,
     /// Edges with a clash in patches that cannot be oriented.
     pub(super) one_sided_edges: Vec<[VertexId; 2]>,
 }
 
 impl Orientation {
-    /// Looks at every patch that has a clash.
+    /// Examines every patch that has a clash.
     pub(super) fn inspect(topology: &Topology, triangles: &[[VertexId; 3]]) -> Self {
         let mut found = Self::default();
         if topology.clashes.is_empty() {
@@ -52,7 +53,7 @@ impl Orientation {
     }
 }
 
-/// Faces of the smaller parity class of each two-sided patch; at a tie those that differ from its first face.
+/// Faces of the smaller parity class of each two-sided patch; at a tie, the class without its first face.
 fn fewer_side(sets: &mut ParitySets, one_sided: &[bool]) -> Vec<FaceId> {
     let faces = 0..u32::try_from(one_sided.len()).expect("faces fit");
     let mut sizes = vec![[0_u32; 2]; one_sided.len()];
@@ -63,7 +64,7 @@ fn fewer_side(sets: &mut ParitySets, one_sided: &[bool]) -> Vec<FaceId> {
     let to_turn = |face: &u32| {
         let (root, odd) = sets.find(*face);
         let [even_count, odd_count] = sizes[root as usize];
-        // The first face is the root, since the lower root stands for both when sets are joined.
+        // The first face is the root, because the lower root represents both sets after a join.
         !one_sided[root as usize] && if odd { odd_count <= even_count } else { even_count < odd_count }
     };
     faces.filter(to_turn).map(FaceId::new).collect()

@@ -1,6 +1,6 @@
-//! The parts of a surface that hang together across edges, each with its boundary loops: the charts of a layout.
+//! Edge-connected parts of a surface, each with its boundary loops: the charts of a layout.
 //!
-//! Fans of faces that meet in nothing but a vertex are not joined by it: each has a vertex of its own in its part.
+//! Fans of faces that meet only at a vertex are not connected by it: each fan has its own copy of the vertex.
 
 use std::collections::HashSet;
 
@@ -9,7 +9,7 @@ use super::polygons::{Polygon, Polygons};
 use super::union::DisjointSets;
 use super::{Diagnosis, FaceId, Fault, TriMesh, VertexId, diagnose};
 
-/// A connected part of a mesh: an oriented surface without handles, with one boundary loop or several.
+/// A connected part of a mesh: an oriented surface without handles, with one or more boundary loops.
 #[derive(Clone, Debug)]
 pub struct Part {
     mesh: TriMesh,
@@ -19,19 +19,19 @@ pub struct Part {
     polygons: Polygons,
 }
 
-/// The parts of a mesh, in the order of their first faces.
+/// Returns the parts of a mesh, in the order of their first faces.
 ///
 /// # Errors
 ///
-/// What keeps a part from being an oriented surface with a boundary and without handles.
+/// The faults that keep a part from being an oriented surface with a boundary and without handles.
 pub fn parts(mesh: &TriMesh) -> Result<Vec<Part>, Box<Diagnosis>> {
     let mut diagnosis = diagnose(mesh);
-    // A part may have holes, and parts lie beside each other.
+    // A part may have holes, and the mesh may have several parts.
     diagnosis.faults.retain(|fault| !fault.is_harmless() && !is_of_parts(fault));
     if diagnosis.faults.is_empty() { Ok(split(mesh)) } else { Err(Box::new(diagnosis)) }
 }
 
-/// Whether a fault is none for parts.
+/// True if a fault is acceptable in parts.
 fn is_of_parts(fault: &Fault) -> bool {
     matches!(
         fault,
@@ -101,7 +101,7 @@ impl Part {
         self.mesh.polygon_of.get_or_insert_default().push(whole.polygon(face));
     }
 
-    /// Joins the boundary edges, which stand in `loops` so far, and finds the polygons.
+    /// Joins the boundary edges, which `loops` holds until now, and finds the polygons.
     fn finish(&mut self) {
         let mut next = vec![None; self.vertex_of.len()];
         for edge in &self.loops {
@@ -122,33 +122,33 @@ impl Part {
         self.polygons = Polygons::of(&self.mesh);
     }
 
-    /// Its triangles, over vertices of its own.
+    /// Triangles of the part, over its own vertices.
     pub fn mesh(&self) -> &TriMesh {
         &self.mesh
     }
 
-    /// The vertex of the whole that each of its vertices is, or is a copy of.
+    /// Vertex of the whole mesh for each vertex of the part, which may be a copy.
     pub fn vertex_of(&self) -> &[VertexId] {
         &self.vertex_of
     }
 
-    /// The face of the whole that each of its faces is.
+    /// Face of the whole mesh for each face of the part.
     pub fn face_of(&self) -> &[FaceId] {
         &self.face_of
     }
 
-    /// Its boundary loops: the surface lies to the left of each.
+    /// Boundary loops of the part: the surface lies to the left of each.
     pub fn loops(&self) -> &[Vec<VertexId>] {
         &self.loops
     }
 
-    /// Lets go of the polygons whose numbers are not among these: from then on they are but their triangles.
+    /// Keeps only the polygons with these numbers; of all others only the triangles remain.
     pub fn keep_polygons(&mut self, whole: &HashSet<u32>) {
         let mesh = &self.mesh;
         self.polygons.retain(|polygon| whole.contains(&mesh.polygon(polygon.first_face)));
     }
 
-    /// The polygons with more than three corners that its triangles are cut from.
+    /// Polygons with more than three corners that the part's triangles are cut from.
     pub fn polygons(&self) -> impl ExactSizeIterator<Item = Polygon<'_>> + Clone {
         self.polygons.iter()
     }

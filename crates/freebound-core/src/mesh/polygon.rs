@@ -1,23 +1,23 @@
-//! Polygons over shared vertices: a mesh as a file gives it.
+//! Polygons over shared vertices: a mesh as given by a file.
 
 use glam::DVec3;
 
 use super::triangulate::triangulate;
 use super::{TriMesh, VertexId};
 
-/// A list of polygons over shared vertices, kept whole so that it can be written back as it was read.
+/// A list of polygons over shared vertices. Polygons stay whole, so that a file can be written back as it was read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolygonMesh {
-    /// One position per vertex, mesh units.
+    /// Position of each vertex, mesh units.
     pub positions: Vec<DVec3>,
     /// Corners of all polygons, one after the other.
     pub corners: Vec<VertexId>,
-    /// `None` where every polygon is a triangle; otherwise where each polygon's corners begin, and the end of the last.
+    /// Start of each polygon's corners, and the end of the last; `None` if every polygon is a triangle.
     pub starts: Option<Vec<u32>>,
 }
 
 impl PolygonMesh {
-    /// Makes a mesh from positions and the vertex numbers of each face, counter-clockwise seen from outside.
+    /// Builds a mesh from positions and the vertex numbers of each face, counter-clockwise seen from outside.
     ///
     /// # Panics
     ///
@@ -37,7 +37,7 @@ impl PolygonMesh {
         self.starts.as_ref().map_or(self.corners.len() / 3, |starts| starts.len().saturating_sub(1))
     }
 
-    /// Places of a polygon's corners in `corners`.
+    /// Range of a polygon's corners in `corners`.
     pub fn corner_range(&self, polygon: usize) -> std::ops::Range<usize> {
         match &self.starts {
             None => 3 * polygon..3 * polygon + 3,
@@ -50,14 +50,14 @@ impl PolygonMesh {
         &self.corners[self.corner_range(polygon)]
     }
 
-    /// The same mesh with every polygon run around the other way, from the same first corner.
+    /// Returns the mesh with every polygon reversed, starting at its first corner as before.
     #[must_use = "the mesh itself stays as it is"]
     pub fn turned(&self) -> Self {
         let corners = self.turned_at_corners(&self.corners);
         Self { positions: self.positions.clone(), corners, starts: self.starts.clone() }
     }
 
-    /// What belongs to the corners, in the order of the mesh that is [`turned`](Self::turned).
+    /// Reorders per-corner values to the corners of the [`turned`](Self::turned) mesh.
     pub fn turned_at_corners<T: Copy>(&self, at_corners: &[T]) -> Vec<T> {
         let mut turned = at_corners.to_vec();
         for face in 0..self.face_count() {
@@ -68,17 +68,17 @@ impl PolygonMesh {
         turned
     }
 
-    /// Cuts every polygon into triangles, in file order; those with fewer than three corners vanish. A corner beyond
-    /// the last vertex is kept for the diagnosis to name.
+    /// Cuts every polygon into triangles, in file order; polygons with fewer than three corners vanish. Corners beyond
+    /// the last vertex are kept, so that the diagnosis can report them.
     pub fn triangulate(&self) -> TriMesh {
         let (places, polygon_of) = self.triangle_places();
         let triangles = places.iter().map(|triangle| triangle.map(|place| self.corners[place as usize])).collect();
         TriMesh { positions: self.positions.clone(), triangles, polygon_of }
     }
 
-    /// For each vertex whether two polygons meet there and share both of its edges.
+    /// True for each vertex at which exactly two polygons meet that share both of its edges.
     fn bare_vertices(&self) -> Vec<bool> {
-        // The corners before and after a vertex in the first polygon there, and in how many polygons it is.
+        // Per vertex: its neighbours in the first polygon there, and the number of polygons there.
         let mut meeting = vec![([VertexId::default(); 2], 0_u32); self.positions.len()];
         let count = self.positions.len();
         let mut are_bare = vec![false; count];
@@ -97,7 +97,7 @@ impl PolygonMesh {
         are_bare
     }
 
-    /// Triangles as places in `corners`, and the polygon of each where they are not one to one.
+    /// Triangles as indices into `corners`, and the polygon of each triangle unless every polygon is a triangle.
     ///
     /// # Panics
     ///

@@ -1,27 +1,27 @@
-//! The polygons that a disk's triangles are cut from, and their diagonals beyond those of the cut.
+//! Polygons that a disk's triangles are cut from, with their diagonals beyond those of the triangulation.
 //!
-//! A corner is *convex in space* where it turns left by a clear angle, seen along the polygon's normal. In the plane it
-//! has to turn left too: then every way to cut the polygon there gives positive triangles. Where all corners are convex
-//! in space and they are few, the polygon is *averaged*: weights are the mean over its fans, and each of its diagonals is
-//! a link of the equations.
+//! A corner is *convex in space* if it turns left by a clear angle, seen along the polygon's normal. In the plane it
+//! must turn left too: then every triangulation of the polygon there has positive triangles. A polygon is *averaged*
+//! if it has few corners, all of them convex in space. Its weights are the mean over its fans, and each of its
+//! diagonals is a link of the equations.
 
 use glam::DVec3;
 
 use super::{FaceId, TriMesh, VertexId};
 
-/// A corner that deviates from straight by a smaller angle, in radians, counts as straight: it may turn either way.
+/// Largest deviation from straight, in radians, at which a corner counts as straight and may turn either way.
 const STRAIGHT: f64 = 1e-4;
 
-/// The most corners of a polygon whose fans are averaged; it has a quarter as many triangles in them as its square.
+/// Largest number of corners of an averaged polygon. The fans of n corners hold n² − 3n different triangles.
 const MOST_AVERAGED: usize = 16;
 
 /// All polygons with more than three corners.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Polygons {
     corners: Vec<VertexId>,
-    /// For each corner whether it is convex in space.
+    /// True for each corner that is convex in space.
     are_convex: Vec<bool>,
-    /// Where each polygon's corners begin, and the end of the last.
+    /// Start of each polygon's corners, and the end of the last polygon.
     starts: Vec<u32>,
     first_faces: Vec<FaceId>,
 }
@@ -29,40 +29,40 @@ pub(super) struct Polygons {
 /// A polygon with more than three corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Polygon<'a> {
-    /// Its corners, counter-clockwise.
+    /// Corners of the polygon, counter-clockwise.
     pub corners: &'a [VertexId],
-    /// For each corner whether it is convex in space, by a clear angle.
+    /// True for each corner that is convex in space by a clear angle.
     pub are_convex: &'a [bool],
-    /// The first of its triangles; the others follow.
+    /// First triangle of the polygon; its other triangles follow.
     pub first_face: FaceId,
 }
 
 impl<'a> Polygon<'a> {
-    /// Its triangles.
+    /// Triangles of the polygon.
     pub fn faces(&self) -> impl ExactSizeIterator<Item = FaceId> + use<> {
         let first = self.first_face.index();
         (first..first + self.corners.len() - 2).map(FaceId::from_index)
     }
 
-    /// Whether weights are the mean over its fans.
+    /// True if the weights are the mean over the polygon's fans.
     pub fn is_averaged(&self) -> bool {
         self.corners.len() <= MOST_AVERAGED && self.are_convex.iter().all(|&is_convex| is_convex)
     }
 
-    /// The triangles at its corners: before, at and after each.
+    /// Triangle at each corner: the corner with its two neighbours.
     pub fn ears(&self) -> impl ExactSizeIterator<Item = [VertexId; 3]> + use<'a> {
         let (corners, count) = (self.corners, self.corners.len());
         (0..count).map(move |at| [corners[(at + count - 1) % count], corners[at], corners[(at + 1) % count]])
     }
 
-    /// The triangles at corners that are convex in space.
+    /// Triangles at the corners that are convex in space.
     pub fn convex_ears(&self) -> impl Iterator<Item = [VertexId; 3]> + use<'a> {
         self.ears().zip(self.are_convex).filter_map(|(ear, &is_convex)| is_convex.then_some(ear))
     }
 }
 
 impl Polygons {
-    /// Finds the polygons whose triangles follow each other in a mesh.
+    /// Finds the polygons of a mesh whose triangles are consecutive.
     pub(super) fn of(mesh: &TriMesh) -> Self {
         let mut found = Self { starts: vec![0], ..Self::default() };
         let Some(polygon_of) = &mesh.polygon_of else { return found };
@@ -89,7 +89,7 @@ impl Polygons {
         self.first_faces.push(first_face);
     }
 
-    /// Lets go of the polygons that `is_whole` denies: from then on they are but triangles.
+    /// Keeps only the polygons for which `is_whole` is true; of all others only the triangles remain.
     pub(super) fn retain(&mut self, is_whole: impl Fn(&Polygon<'_>) -> bool) {
         let mut kept = Self { starts: vec![0], ..Self::default() };
         for polygon in self.iter().filter(is_whole) {
@@ -105,7 +105,7 @@ impl Polygons {
         (0..self.first_faces.len()).map(|place| self.polygon(place))
     }
 
-    /// The one that a face is cut from.
+    /// Returns the polygon that a face is cut from.
     pub(super) fn with(&self, face: FaceId) -> Option<Polygon<'_>> {
         let place = self.first_faces.partition_point(|&first| first <= face).checked_sub(1)?;
         Some(self.polygon(place)).filter(|polygon| polygon.faces().any(|own| own == face))
@@ -118,14 +118,14 @@ impl Polygons {
     }
 }
 
-/// Newell's normal; its length is twice the area of the polygon's shadow.
+/// Newell's normal; its length is twice the area of the polygon's projection along it.
 pub(super) fn newell_normal(points: &[DVec3]) -> DVec3 {
     let origin = points[0];
     let next = points.iter().skip(1);
     points.iter().zip(next).map(|(&a, &b)| (a - origin).cross(b - origin)).sum()
 }
 
-/// The corners around triangles that make a polygon without a vertex inside; `None` where they do not.
+/// Corners around triangles that form a polygon without interior vertices; `None` if they do not.
 fn outline(triangles: &[[VertexId; 3]]) -> Option<Vec<VertexId>> {
     let outer = outer_sides(triangles);
     let mut corners = vec![triangles[0].into_iter().find(|&v| outer.iter().any(|side| side[0] == v))?];
@@ -137,7 +137,7 @@ fn outline(triangles: &[[VertexId; 3]]) -> Option<Vec<VertexId>> {
     is_closed.then_some(corners)
 }
 
-/// The sides of triangles that no other one of them shares, ascending.
+/// Sides that belong to one of the triangles only, ascending.
 pub(super) fn outer_sides(triangles: &[[VertexId; 3]]) -> Vec<[VertexId; 2]> {
     let mut sides: Vec<[VertexId; 2]> = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
     sides.sort_unstable();

@@ -1,49 +1,49 @@
-//! A mesh with new vertices on its edges: the same surface, cut into more triangles.
+//! A mesh with new vertices on its edges: the same surface, split into more triangles.
 //!
-//! New vertices lie on edges of the mesh as given, its *old* edges, and are numbered after the old vertices. A face with
-//! new vertices on its sides is cut into parts; all others stay as they are. So the surface does not change, and whoever
-//! knows only the old vertices still finds them under their numbers.
+//! New vertices lie on *old* edges, the edges of the given mesh, and are numbered after the old vertices. A face with
+//! new vertices on its sides is split into parts; all other faces stay unchanged. So the surface does not change, and
+//! every old vertex keeps its number.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::measure::Measure;
 use super::{Diagnosis, DiskMesh, FaceId, Polygon, TriMesh, VertexId};
 
-/// A vertex on an edge of the mesh as given.
+/// A new vertex on an edge of the given mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewVertex {
-    /// The ends of the edge, the lower number first.
+    /// Ends of the edge, the lower number first.
     pub edge: [VertexId; 2],
-    /// Where on the edge: 0 at the first end, 1 at the second, and strictly between them.
+    /// Parameter along the edge: 0 at its first end, 1 at its second, strictly between them.
     pub at: f64,
 }
 
-/// A mesh with new vertices, and where each part of it comes from.
+/// A mesh with new vertices, and the origin of each of its parts.
 #[derive(Clone, Debug)]
 pub struct Refinement {
     disk: DiskMesh,
     new_vertices: Vec<NewVertex>,
-    /// For each face the old face that it is or is a part of.
+    /// Old face that each face is, or is a part of.
     source: Vec<FaceId>,
 }
 
-/// A mesh whose faces are cut into parts, before these are joined.
+/// A mesh whose faces are split into parts, before its halfedges are joined.
 #[derive(Debug)]
 pub struct CutMesh {
     mesh: TriMesh,
     measure: Measure,
-    /// The polygons of the mesh as given, by their numbers in the file.
+    /// Polygons of the given mesh, by their numbers in the file.
     old_polygons: BTreeSet<u32>,
     new_vertices: Vec<NewVertex>,
     source: Vec<FaceId>,
 }
 
 impl CutMesh {
-    /// Joins the parts.
+    /// Joins the parts to a disk.
     ///
     /// # Errors
     ///
-    /// What keeps them from being a disk together.
+    /// The faults that keep the parts from being a disk.
     pub fn join(self) -> Result<Refinement, Box<Diagnosis>> {
         let Self { mesh, measure, old_polygons, new_vertices, source } = self;
         let old_count = mesh.vertex_count() - new_vertices.len();
@@ -57,12 +57,12 @@ impl CutMesh {
 }
 
 impl Refinement {
-    /// Cuts faces of a mesh into parts, whose corners are numbered with the new vertices after the old ones. The parts
-    /// stand where their face stood; faces without an entry stay whole.
+    /// Splits faces of a mesh into parts. New vertices are numbered after the old ones. The parts of a face replace it
+    /// in the face order; faces without an entry stay whole.
     ///
     /// # Errors
     ///
-    /// What keeps the parts from being a disk together.
+    /// The faults that keep the parts from being a disk.
     pub fn new(
         mesh: &DiskMesh,
         new_vertices: Vec<NewVertex>,
@@ -71,7 +71,7 @@ impl Refinement {
         Self::cut(mesh, new_vertices, parts).join()
     }
 
-    /// The same before its faces are joined.
+    /// Splits faces like [`Refinement::new`], without joining the parts to a disk.
     pub fn cut(mesh: &DiskMesh, new_vertices: Vec<NewVertex>, parts: &BTreeMap<FaceId, Vec<[VertexId; 3]>>) -> CutMesh {
         let (old, measure) = (mesh.mesh(), mesh.measure());
         let mut positions = old.positions.clone();
@@ -92,16 +92,16 @@ impl Refinement {
         CutMesh { mesh, measure, old_polygons, new_vertices, source }
     }
 
-    /// A mesh some of whose polygons are but their triangles: those that begin with one of these faces, which ascend.
+    /// Returns a mesh without the polygons that begin with `first_faces`, ascending: only their triangles remain.
     ///
     /// # Errors
     ///
-    /// None that a mesh proved to be a disk could give.
+    /// None for a mesh proved to be a disk.
     pub fn of_cut_polygons(mesh: &DiskMesh, first_faces: &[FaceId]) -> Result<Self, Box<Diagnosis>> {
         Self::new(mesh, Vec::new(), &BTreeMap::new()).map(|whole| whole.without_polygons(first_faces))
     }
 
-    /// The same with further polygons that are but their triangles: those that begin with one of these faces, which ascend.
+    /// Removes the polygons that begin with `first_faces`, ascending: only their triangles remain.
     #[must_use]
     pub fn without_polygons(self, first_faces: &[FaceId]) -> Self {
         let is_whole = |polygon: &Polygon<'_>, _: &TriMesh| first_faces.binary_search(&polygon.first_face).is_err();
@@ -113,22 +113,22 @@ impl Refinement {
         &self.disk
     }
 
-    /// The new vertices, in the order of their numbers.
+    /// New vertices, in the order of their numbers.
     pub fn new_vertices(&self) -> &[NewVertex] {
         &self.new_vertices
     }
 
-    /// How many vertices the mesh has as given.
+    /// Number of vertices of the given mesh.
     pub fn old_vertex_count(&self) -> usize {
         self.disk.vertex_count() - self.new_vertices.len()
     }
 
-    /// The old face that a face is, or is a part of.
+    /// Old face that a face is, or is a part of.
     pub fn source_of(&self, face: FaceId) -> FaceId {
         self.source[face.index()]
     }
 
-    /// Polygons of the mesh as given, `given`, that are but triangles here, by their numbers in the file.
+    /// Polygons of the given mesh that are triangulated here, by their numbers in the file.
     pub fn cut_polygons(&self, given: &DiskMesh) -> Vec<FaceId> {
         let numbers = |disk: &DiskMesh| -> BTreeSet<u32> {
             disk.polygons().map(|polygon| disk.mesh().polygon(polygon.first_face)).collect()
@@ -136,18 +136,18 @@ impl Refinement {
         numbers(given).difference(&numbers(&self.disk)).copied().map(FaceId::new).collect()
     }
 
-    /// The new vertices that lie on the surface, with their numbers: not those within holes.
+    /// New vertices on the surface, with their numbers. New vertices within holes are left out.
     pub fn new_vertices_of_surface(&self) -> impl Iterator<Item = (VertexId, &NewVertex)> {
         let numbers = (self.old_vertex_count()..).map(VertexId::from_index);
         numbers.zip(&self.new_vertices).filter(|(vertex, _)| !self.disk.is_virtual_vertex(*vertex))
     }
 
-    /// The old edges that are split, each once, ascending; those within holes, too.
+    /// Old edges that are split, each once, ascending. Edges within holes are included.
     pub fn split_edges(&self) -> Vec<[VertexId; 2]> {
         each_once(self.new_vertices.iter())
     }
 
-    /// The same without those within holes.
+    /// Old edges of the surface that are split, each once, ascending. Edges within holes are left out.
     pub fn split_edges_of_surface(&self) -> Vec<[VertexId; 2]> {
         each_once(self.new_vertices_of_surface().map(|(_, new)| new))
     }

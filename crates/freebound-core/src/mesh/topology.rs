@@ -1,16 +1,16 @@
-//! How the faces of any triangle mesh hang together: edges, fans, components and boundary loops.
+//! Topology of any triangle mesh: edges, fans, components and boundary loops.
 //!
-//! Nothing is asked of the mesh but that every face has three different, existing vertices.
+//! The only requirement is that every face has three different, existing vertices.
 //!
-//! A *fan* is a set of corners at one vertex that are joined across edges. Corners are numbered like the sides that
-//! leave them: `3 f + k`. A vertex of a manifold has one fan; a vertex with more could be split into one vertex per
-//! fan. Components, loops and genus are counted as if it were: a *component* hangs together across edges.
+//! A *fan* is a set of corners at one vertex that are connected across edges. Corners are numbered like the sides that
+//! leave them: `3 f + k`. A vertex of a manifold has one fan; a vertex with more fans could be split into one vertex
+//! per fan. Components, loops and genus are counted after such a split: a *component* is connected across edges.
 
 use super::edges::{EdgeTable, side_ends};
 use super::union::DisjointSets;
 use super::{FaceId, VertexId};
 
-/// One boundary loop: its vertices in order, and the component it belongs to.
+/// Boundary loop: its vertices in order, and its component.
 #[derive(Debug)]
 pub(super) struct Loop {
     pub(super) vertices: Vec<VertexId>,
@@ -28,7 +28,7 @@ pub(super) struct Component {
 }
 
 impl Component {
-    /// Number of handles, provided that the component is an orientable 2-manifold once its vertices are split.
+    /// Number of handles, if the component is an orientable 2-manifold once its vertices are split.
     pub(super) fn genus(&self) -> usize {
         (2 + self.edges).saturating_sub(self.loops + self.fans + self.faces) / 2
     }
@@ -39,9 +39,9 @@ pub(super) struct Topology {
     pub(super) table: EdgeTable,
     /// Sides without a partner.
     pub(super) boundary: Vec<u32>,
-    /// Pairs of sides that run along their edge in the same direction.
+    /// Pairs of sides that run along their edge in one direction.
     pub(super) clashes: Vec<[u32; 2]>,
-    /// Ends of the edges with three faces or more.
+    /// Ends of the edges with three or more faces.
     pub(super) crowded_edges: Vec<[VertexId; 2]>,
     pub(super) split_vertices: Vec<VertexId>,
     pub(super) unreferenced: Vec<VertexId>,
@@ -104,7 +104,7 @@ impl Topology {
     }
 }
 
-/// Numbers the components by their first face; one label per face.
+/// Numbers the components in the order of their first faces. Returns one label per face.
 fn label_faces(table: &EdgeTable, face_count: usize) -> Vec<u32> {
     let mut sets = DisjointSets::new(face_count);
     for sides in table.edges() {
@@ -123,7 +123,7 @@ fn label_faces(table: &EdgeTable, face_count: usize) -> Vec<u32> {
     labels
 }
 
-/// Corners that are joined across edges, and how many fans each vertex has.
+/// Corners connected across edges, and the number of fans of each vertex.
 struct Fans<'a> {
     triangles: &'a [[VertexId; 3]],
     sets: DisjointSets,
@@ -155,7 +155,8 @@ fn head_corner(side: u32) -> u32 {
     side - side % 3 + (side + 1) % 3
 }
 
-/// Follows the boundary edges from fan to fan: a loop a walk on a manifold, elsewhere a connected part of the boundary.
+/// Walks the boundary edges from fan to fan. On a manifold each walk is a loop; elsewhere it is a connected part of
+/// the boundary.
 fn walk_boundary(boundary: &[u32], triangles: &[[VertexId; 3]], fans: &mut Fans<'_>) -> Vec<Loop> {
     let ends: Vec<[u32; 2]> =
         boundary.iter().map(|&side| [side, head_corner(side)].map(|corner| fans.sets.find(corner))).collect();
@@ -164,12 +165,12 @@ fn walk_boundary(boundary: &[u32], triangles: &[[VertexId; 3]], fans: &mut Fans<
         ends.iter().enumerate().flat_map(|(edge, pair)| pair.map(|fan| (fan, edge))).collect();
     at_fan.sort_unstable();
     let mut seen = vec![false; boundary.len()];
-    // By the first place of a fan in the list: its edges are on the stack already.
+    // Indexed by the first entry of a fan in `at_fan`: true once its edges are on the stack.
     let mut expanded = vec![false; at_fan.len()];
     let mut loops = Vec::new();
     for start in 0..boundary.len() {
         let mut vertices = Vec::new();
-        // Edge to visit next, and the fan that the walk comes from.
+        // Next edge to visit, and the fan from which the walk arrives.
         let mut stack = vec![(start, ends[start][0])];
         while let Some((edge, entry)) = stack.pop() {
             if std::mem::replace(&mut seen[edge], true) {

@@ -1,29 +1,29 @@
-//! Triangles that share vertices: the input of diagnosis and solver, not yet known to be a disk.
+//! Triangles that share vertices: the input of the diagnosis, not yet known to be a disk.
 
 use glam::DVec3;
 
 use super::{FaceId, VertexId};
 
-/// A list of triangles over shared vertices. Nothing is promised about how they fit together.
+/// A list of triangles over shared vertices, without any guarantee about connectivity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriMesh {
-    /// One position per vertex, mesh units.
+    /// Position of each vertex, mesh units.
     pub positions: Vec<DVec3>,
     /// Three corners per triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[VertexId; 3]>,
-    /// For each triangle the number of the polygon that it is a part of; `None` where every polygon is a triangle.
+    /// Polygon number of each triangle; `None` if every polygon is a triangle.
     pub polygon_of: Option<Vec<u32>>,
 }
 
 impl TriMesh {
-    /// Makes a mesh from positions and bare corner numbers.
+    /// Builds a mesh from positions and plain corner numbers.
     pub fn new(positions: Vec<DVec3>, triangles: &[[u32; 3]]) -> Self {
         let triangles = triangles.iter().map(|t| t.map(VertexId::new)).collect();
         Self { positions, triangles, polygon_of: None }
     }
 
-    /// Makes a mesh from arrays: one position per vertex and three vertex numbers per triangle, counter-clockwise seen from
-    /// outside.
+    /// Builds a mesh from arrays: one position per vertex and three vertex numbers per triangle, counter-clockwise
+    /// seen from outside.
     pub fn from_arrays(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Self {
         Self::new(positions.iter().copied().map(DVec3::from).collect(), triangles)
     }
@@ -38,7 +38,7 @@ impl TriMesh {
         self.triangles.len()
     }
 
-    /// The number that the file gives to the face a triangle comes from.
+    /// Number in the file of the face that contains a triangle.
     pub fn polygon(&self, face: FaceId) -> u32 {
         self.polygon_of.as_ref().map_or(face.number(), |of| of[face.index()])
     }

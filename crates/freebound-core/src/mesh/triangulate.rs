@@ -1,16 +1,17 @@
-//! Cuts one polygon into triangles by clipping ears.
+//! Triangulation of a polygon by ear clipping.
 //!
-//! The polygon is looked at in its best plane: along Newell's normal, the sum of the cross products of its corners. An
-//! ear is a corner that turns left and whose triangle holds no other corner, not even on its rim; every simple polygon
-//! has one (Meisters 1975), and clipping it leaves a simple polygon. A quad takes the diagonal that leaves the better
-//! triangles, if both diagonals lie inside. Where no ear is left, because the polygon crosses itself or is seen edge-on,
-//! the remaining corners are clipped as they come: the result always has `n − 2` triangles over the same corners.
+//! The polygon is projected to its best-fit plane, along Newell's normal, the sum of the cross products of its
+//! corners. An ear is a corner that turns left and whose triangle contains no other corner, not even on its rim. Every
+//! simple polygon has an ear (Meisters 1975), and clipping it leaves a simple polygon. A quad gets the diagonal with
+//! the better triangles, if both diagonals lie inside. No ear remains if the polygon crosses itself or is seen
+//! edge-on. Then the remaining corners are clipped in order, so the result always has `n − 2` triangles over the given
+//! corners.
 //!
-//! A corner where only two polygons meet, inside the surface, is *bare*. Were it clipped from both, the two ears would be
-//! the same triangle.
+//! A corner is *bare* if only two polygons meet there, inside the surface. Clipping it from both polygons would make
+//! the two ears one triangle.
 //!
-//! Time: linear for convex polygons. Whether a triangle holds a corner is asked of a tree of boxes (`blockers.rs`), and a
-//! corner that is no ear is asked again only when a neighbour of it was clipped.
+//! Time: linear for convex polygons. A tree of boxes (`blockers.rs`) finds corners in a triangle. A corner that is not
+//! an ear is tested again only after one of its neighbours was clipped.
 
 use std::collections::BTreeSet;
 
@@ -20,11 +21,11 @@ use robust::{Coord, orient2d};
 use super::blockers::Blockers;
 use super::polygons::newell_normal;
 
-/// A diagonal has to be better than the first by this factor, so that rounding does not decide between equals.
+/// Factor by which the second diagonal must be better than the first, so that rounding does not decide between equals.
 const CLEARLY_BETTER: f64 = 1.0 + 1e-9;
 
-/// Calls `emit` with places `0..n` of the corners of each triangle. At a corner that `is_bare` an ear is clipped only
-/// where it cannot be otherwise.
+/// Calls `emit` with the corner positions `0..n` of each triangle. An ear at a corner that `is_bare` is clipped only
+/// if unavoidable.
 pub(super) fn triangulate(points: &[DVec3], is_bare: impl Fn(usize) -> bool, mut emit: impl FnMut([usize; 3])) {
     match points.len() {
         0..=2 => {}
@@ -38,7 +39,7 @@ fn quad(points: [DVec3; 4], is_bare: impl Fn(usize) -> bool) -> [[usize; 3]; 2] 
     const FIRST: [[usize; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
     const SECOND: [[usize; 3]; 2] = [[0, 1, 3], [1, 2, 3]];
     let normal = newell_normal(&points);
-    // Area over squared lengths, negative where the triangle is turned over: 0 at worst, largest when equilateral.
+    // Area over the sum of squared lengths, −1 for a flipped triangle; largest for an equilateral triangle.
     let quality = |[a, b, c]: [usize; 3]| {
         let (ab, ac, bc) = (points[b] - points[a], points[c] - points[a], points[c] - points[b]);
         let area = ab.cross(ac);
@@ -55,11 +56,11 @@ fn quad(points: [DVec3; 4], is_bare: impl Fn(usize) -> bool) -> [[usize; 3]; 2] 
     if second > 0.0 && second > first * CLEARLY_BETTER { SECOND } else { FIRST }
 }
 
-/// The polygon as seen along its normal, so that it runs counter-clockwise.
+/// Projects the polygon along its normal, so that it is counter-clockwise.
 fn in_best_plane(points: &[DVec3]) -> Vec<DVec2> {
     let normal = newell_normal(points).try_normalize().unwrap_or(DVec3::Z);
     let (x, y) = normal.any_orthonormal_pair();
-    // The pair completes a right-handed frame in either order; take the one that looks down the normal.
+    // The pair completes a right-handed frame in one of its two orders. Choose the order that looks down the normal.
     let (x, y) = if x.cross(y).dot(normal) > 0.0 { (x, y) } else { (y, x) };
     points
         .iter()
@@ -75,16 +76,16 @@ pub(super) fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     orient2d(coord(a), coord(b), coord(c))
 }
 
-/// A polygon from which corners are taken one by one.
+/// Polygon from which corners are clipped one by one.
 struct Ring<'a> {
     points: &'a [DVec2],
     next: Vec<usize>,
     previous: Vec<usize>,
-    /// Corners that did not turn left in the beginning: only these can lie in an ear.
+    /// Corners that did not turn left at the start: only these can lie in an ear.
     blockers: Blockers<'a>,
-    /// Corners that may be ears. The others were none when they were last looked at, with the neighbours they have now.
+    /// Corners that may be ears. Any other corner failed its last test and has had the neighbours of that test since.
     candidates: BTreeSet<usize>,
-    /// Whether other corners than bare ones were ears so far.
+    /// True while all ears so far were found without clipping a bare one.
     spares_bare: bool,
 }
 
@@ -98,18 +99,18 @@ impl<'a> Ring<'a> {
         Self { points, next, previous, blockers, candidates: (0..n).collect(), spares_bare: true }
     }
 
-    /// Whether the polygon turns left here, which with a NaN it does not, and no corner lies in the triangle.
+    /// True if the polygon turns left here and no corner lies in the triangle. False if a coordinate is NaN.
     fn is_ear(&self, at: usize) -> bool {
         let corners = [self.previous[at], at, self.next[at]].map(|corner| self.points[corner]);
         let [a, b, c] = corners;
         turn(a, b, c) > 0.0 && !self.blockers.any_in(corners)
     }
 
-    /// The first ear from a corner on, not a bare one if there is another. None where the polygon is not simple.
+    /// Returns the first ear from a corner on, preferring ears that are not bare. `None` if the polygon is not simple.
     fn ear_from(&mut self, mut at: usize, is_bare: &impl Fn(usize) -> bool) -> Option<usize> {
         for is_second_look in [false, true] {
             if is_second_look {
-                // Where the polygon touches itself, what was clipped may have lain in an ear.
+                // If the polygon touches itself, an earlier clipped corner may have lain in an ear.
                 self.spares_bare = false;
                 self.candidates.extend(std::iter::successors(Some(at), |&v| Some(self.next[v]).filter(|&v| v != at)));
             }
@@ -140,12 +141,12 @@ fn clip_ears(points: &[DVec2], is_bare: &impl Fn(usize) -> bool, emit: &mut impl
     let mut at = 1;
     let mut is_simple = true;
     for _ in 3..points.len() {
-        // Where there is none, looking for more is idle.
+        // Without an ear there is no point in further search.
         let ear = is_simple.then(|| ring.ear_from(at, is_bare)).flatten();
         is_simple = ear.is_some();
         let triangle = ring.clip(ear.unwrap_or(at));
         emit(triangle);
-        // Goes past the new side, so that ears are taken all around rather than from one corner.
+        // Continues beyond the new side, so that ears are clipped all around instead of from one corner.
         at = ring.next[triangle[2]];
     }
     emit([ring.previous[at], at, ring.next[at]]);

@@ -1,6 +1,6 @@
 //! Disjoint sets, with and without a parity between members.
 
-/// Disjoint sets of `0..len` (union by size, path halving).
+/// Disjoint sets of `0..len` (the lower root wins, path halving).
 #[derive(Clone, Debug)]
 pub(super) struct DisjointSets {
     parent: Vec<u32>,
@@ -24,12 +24,12 @@ impl DisjointSets {
         }
     }
 
-    /// The members that stand for a set, one for each, ascending.
+    /// Roots of the sets, one per set, ascending.
     pub(super) fn roots(&self) -> impl Iterator<Item = u32> + '_ {
         (0..).zip(&self.parent).filter(|&(member, &up)| member == up).map(|(member, _)| member)
     }
 
-    /// Joins two sets; the lower root stands for both. Returns whether they were apart.
+    /// Joins two sets; the lower root represents both. Returns true if the sets were different.
     pub(super) fn join(&mut self, a: u32, b: u32) -> bool {
         let (a, b) = (self.find(a), self.find(b));
         self.parent[a.max(b) as usize] = a.min(b);
@@ -37,11 +37,11 @@ impl DisjointSets {
     }
 }
 
-/// Disjoint sets in which every member also has a parity against the one that stands for its set.
+/// Disjoint sets in which every member also has a parity relative to the root of its set.
 #[derive(Debug)]
 pub(super) struct ParitySets {
     parent: Vec<u32>,
-    /// Parity against the parent.
+    /// Parity relative to the parent.
     odd: Vec<bool>,
 }
 
@@ -50,7 +50,7 @@ impl ParitySets {
         Self { parent: (0..u32::try_from(len).expect("fewer than 2^32 members")).collect(), odd: vec![false; len] }
     }
 
-    /// The member that stands for a set, and the parity against it.
+    /// Root of a member's set, and the member's parity relative to it.
     pub(super) fn find(&mut self, member: u32) -> (u32, bool) {
         let mut at = member as usize;
         let mut odd = false;
@@ -59,13 +59,13 @@ impl ParitySets {
             odd ^= self.odd[at];
             self.odd[at] ^= self.odd[up];
             self.parent[at] = self.parent[up];
-            // The new parent is the grandparent; the walk goes on from the old parent, whose parity is unchanged.
+            // The new parent is the grandparent. The walk continues from the old parent, whose parity is unchanged.
             at = up;
         }
         (self.parent[at], odd)
     }
 
-    /// Says that two members differ (`odd`) or agree. Returns whether that contradicts what was said before.
+    /// Records that two members differ (`odd`) or agree. Returns true if this contradicts earlier records.
     pub(super) fn relate(&mut self, a: u32, b: u32, odd: bool) -> bool {
         let ((root_a, odd_a), (root_b, odd_b)) = (self.find(a), self.find(b));
         if root_a == root_b {

@@ -1,18 +1,20 @@
-//! Which side of an open surface is the outside, as far as its shape says.
+//! Volume of an open surface, which shows the side that is its outside.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use super::{DiskMesh, FaceId};
 
-/// Faces summed by one task: the same for any number of threads.
+/// Number of faces summed by one task, independent of the number of threads.
 const FACES_PER_TASK: usize = 16_384;
 
-/// Volume between a surface and the fan from the centroid of its boundary, relative to its area^1.5: positive where
-/// the faces look away from that volume, near 0 where the surface is flat. A whole ball has 1 / (6 √π) = 0.094.
+/// Volume between a surface and the fan from the centroid of its boundary, relative to its area^1.5.
 ///
-/// The centroid is the mean of the boundary's edges by their lengths, so that it does not depend on how finely the
-/// boundary is divided. Seen from it the fan has no volume, so that the surface's tetrahedra are all there is to add.
+/// Positive if the faces point away from that volume, near 0 if the surface is flat. A whole ball has 1 / (6 √π) =
+/// 0.094.
+///
+/// The centroid is the mean of the boundary's edges, weighted by length, so it does not depend on the subdivision of
+/// the boundary. Relative to the centroid the fan has no volume, so only the tetrahedra of the surface are summed.
 pub fn relative_volume(mesh: &DiskMesh) -> f64 {
     let origin = boundary_centroid(mesh);
     let count = mesh.face_count();

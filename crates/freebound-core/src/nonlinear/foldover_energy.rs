@@ -16,31 +16,32 @@
 //! tr(JᵀJ) = 2 (p + q),   det J = p − q,   f = (p + q + ½ (det²J + 1)) / χ(det J)
 //! ```
 //!
-//! So f is a function of p and q alone, and its Hessian in (α, β) falls into three parts that are known in closed form:
-//! 2 ∂f/∂p along iα, 2 ∂f/∂q along iβ, and a 2×2 matrix in the directions of α and β. Where they are not positive they are
-//! made so, which makes a descent direction of Newton's (A. Shtengel et al., "Geometric optimization via composite
-//! majorization", 2017; B. Smith et al., "Analytic eigensystems for isotropic distortion energies", 2019).
+//! So f is a function of p and q alone, and its Hessian in (α, β) falls into three parts that are known in closed
+//! form: 2 ∂f/∂p along iα, 2 ∂f/∂q along iβ, and a 2×2 matrix in the directions of α and β. Parts that are not
+//! positive are made so, which gives a descent direction for Newton's method (A. Shtengel et al., "Geometric
+//! optimization via composite majorization", 2017; B. Smith et al., "Analytic eigensystems for isotropic distortion
+//! energies", 2019).
 
 use glam::DVec2;
 
-/// How strongly an element resists distortion.
+/// Resistance of an element to distortion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stiffness {
     /// Factor of the energy.
     pub weight: f64,
-    /// Least ratio of height to longest side. The energy of a rest shape thinner than this is computed as if the shape were
-    /// that thick.
+    /// Smallest ratio of height to longest side. The energy of a thinner rest shape is computed as if it had this
+    /// ratio.
     pub thinnest: f64,
 }
 
-/// A triangle with the shape that it is to have.
+/// A triangle with its rest shape.
 #[derive(Clone, Copy, Debug)]
 pub struct Element {
-    /// Its corners, as numbers of points.
+    /// Corners of the element, as numbers of points.
     pub corners: [u32; 3],
-    /// Gradients of the three hat functions on the shape at rest.
+    /// Gradients of the three hat functions on the rest shape.
     gradients: [DVec2; 3],
-    /// Factor of its energy.
+    /// Factor of the element's energy.
     weight: f64,
 }
 
@@ -53,7 +54,7 @@ pub struct EnergyModel {
     pub hessian: [[f64; 6]; 6],
 }
 
-/// f by p and q, with its derivatives.
+/// Derivatives of f by p and q, of first and second order.
 struct Terms {
     p: f64,
     q: f64,
@@ -70,29 +71,30 @@ fn inverse_chi(d: f64, epsilon: f64) -> (f64, f64) {
     (inverse, root)
 }
 
-/// What a triangle's energy is.
+/// Energy of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Energy {
-    /// f with this ε.
+    /// Energy f with this ε.
     Foldover(f64),
-    /// ½ (tr(JᵀJ) + tr(J⁻ᵀJ⁻¹)), the symmetric Dirichlet energy: a barrier too, and dearer where a triangle is small.
+    /// ½ (tr(JᵀJ) + tr(J⁻ᵀJ⁻¹)), the symmetric Dirichlet energy: a barrier too, and larger on small triangles.
     SymmetricDirichlet,
-    /// ½ (tr(JᵀJ)/σ + σ tr(J⁻ᵀJ⁻¹)) + p det J: the same of a shape at rest with σ times the area, and a pressure p on it.
+    /// ½ (tr(JᵀJ)/σ + σ tr(J⁻ᵀJ⁻¹)) + p det J: symmetric Dirichlet energy of a rest shape with σ times the area, plus
+    /// a pressure p on the image's area.
     AtSize {
-        /// σ, positive.
+        /// Factor σ, positive.
         size: f64,
-        /// p, of any sign: the energy of a positive one falls where the triangle shrinks.
+        /// Pressure p of any sign. If positive, its energy falls as the triangle shrinks.
         pressure: f64,
     },
 }
 
 impl Energy {
-    /// Whether it is infinite where a triangle is folded.
+    /// True if the energy is infinite on folded triangles.
     pub fn is_barrier(self) -> bool {
         matches!(self, Self::SymmetricDirichlet | Self::AtSize { .. } | Self::Foldover(0.0))
     }
 
-    /// Its value by s = p + q and d = p − q.
+    /// Value of the energy by s = p + q and d = p − q.
     fn value(self, s: f64, d: f64) -> f64 {
         match self {
             _ if self.is_barrier() && d <= 0.0 => f64::INFINITY,
@@ -132,13 +134,13 @@ impl Energy {
     }
 }
 
-/// The energy of elements whose corners lie at these places.
+/// Energy of elements with their points at `z`.
 pub(crate) fn energy_of(elements: &[Element], z: &[DVec2], energy: Energy) -> f64 {
     elements.iter().map(|element| element.energy(element.corners.map(|c| z[c as usize]), energy)).sum()
 }
 
 impl Element {
-    /// Makes an element with the counter-clockwise rest shape `[a, b, c]`.
+    /// Builds an element with the counter-clockwise rest shape `[a, b, c]`.
     pub fn new(corners: [u32; 3], [a, b, c]: [DVec2; 3], Stiffness { weight, thinnest }: Stiffness) -> Self {
         let longest = [b - a, c - b, a - c].iter().map(|side| side.length_squared()).fold(0.0, f64::max);
         let double_area = (b - a).perp_dot(c - a).max(thinnest * longest);
@@ -146,17 +148,17 @@ impl Element {
         Self { corners, gradients, weight }
     }
 
-    /// Gradients of the three hat functions on the shape at rest.
+    /// Gradients of the three hat functions on the rest shape.
     pub fn gradients(&self) -> [DVec2; 3] {
         self.gradients
     }
 
-    /// Factor of its energy.
+    /// Factor of the element's energy.
     pub fn weight(&self) -> f64 {
         self.weight
     }
 
-    /// The derivatives ∂z/∂w and ∂z/∂w̄ of its map: α = ½ Σ ḡ z and β = ½ Σ g z.
+    /// Derivatives ∂z/∂w and ∂z/∂w̄ of the element's map: α = ½ Σ ḡ z and β = ½ Σ g z.
     pub fn derivatives(&self, z: [DVec2; 3]) -> (DVec2, DVec2) {
         let mut sums = (DVec2::ZERO, DVec2::ZERO);
         for (g, z) in self.gradients.iter().zip(z) {
@@ -166,27 +168,27 @@ impl Element {
         (0.5 * sums.0, 0.5 * sums.1)
     }
 
-    /// The determinant of its map.
+    /// Determinant of the element's map.
     pub fn determinant(&self, z: [DVec2; 3]) -> f64 {
         let [g, h] = [self.gradients[1], self.gradients[2]];
         (z[1] - z[0]).perp_dot(z[2] - z[0]) * g.perp_dot(h)
     }
 
-    /// Its energy, times its weight.
+    /// Energy of the element, times its weight.
     pub fn energy(&self, z: [DVec2; 3], energy: Energy) -> f64 {
         let (alpha, beta) = self.derivatives(z);
         self.weight * energy.value(alpha.length_squared() + beta.length_squared(), self.determinant(z))
     }
 
-    /// Gradient and Hessian of its energy, the Hessian made positive semidefinite.
+    /// Gradient and Hessian of the element's energy; the Hessian is made positive semidefinite.
     pub fn model(&self, z: [DVec2; 3], energy: Energy) -> EnergyModel {
         let (alpha, beta) = self.derivatives(z);
         let (p, q) = (alpha.length_squared(), beta.length_squared());
-        // The determinant, which p − q equals but for rounding: folded or not is decided by it alone.
+        // The determinant equals p − q up to rounding. It alone decides if the triangle is folded.
         let by = energy.terms(p + q, self.determinant(z));
         let along = |direction: DVec2| direction.try_normalize().unwrap_or(DVec2::X);
         let (to_alpha, to_beta) = (along(alpha), along(beta));
-        // How a move of the corners changes α and β along these directions and across them.
+        // Changes of α and β along and across these directions when the corners move.
         let on_alpha = |by: DVec2| flat(self.gradients.map(|g| 0.5 * by.rotate(g)));
         let on_beta = |by: DVec2| flat(self.gradients.map(|g| 0.5 * by.rotate(conjugate(g))));
         let rows = [on_alpha(to_alpha), on_beta(to_beta), on_alpha(to_alpha.perp()), on_beta(to_beta.perp())];
@@ -201,7 +203,7 @@ impl Element {
                 across_alpha * rows[2][i],
                 across_beta * rows[3][i],
             ];
-            // Row by row, which vectors of the processor do side by side.
+            // Row by row, so that the compiler can vectorise.
             for (by, source) in scaled.iter().zip(&rows) {
                 row.iter_mut().zip(source).for_each(|(entry, source)| *entry += by * source);
             }
@@ -215,12 +217,12 @@ impl Element {
         EnergyModel { gradient: flat(gradient), hessian }
     }
 
-    /// The longest step, in multiples of the direction, that leaves an unfolded triangle unfolded.
+    /// Longest step, in multiples of the direction, that keeps an unfolded triangle unfolded.
     pub fn longest_step(z: [DVec2; 3], direction: [DVec2; 3]) -> f64 {
         Self::longest_step_above(0.0, z, direction)
     }
 
-    /// The longest step that leaves twice the area of a triangle at or above a floor, above which it is now.
+    /// Longest step that keeps twice the area of a triangle at or above a floor. The area must be above the floor now.
     pub fn longest_step_above(floor: f64, z: [DVec2; 3], direction: [DVec2; 3]) -> f64 {
         let (u, v) = (z[1] - z[0], z[2] - z[0]);
         let (du, dv) = (direction[1] - direction[0], direction[2] - direction[0]);
@@ -228,7 +230,7 @@ impl Element {
     }
 }
 
-/// The smallest positive t with c + b t + a t² = 0, where c > 0; infinite where there is none.
+/// Smallest positive t with c + b t + a t² = 0, for c > 0; infinite if there is none.
 fn smallest_positive_root([c, b, a]: [f64; 3]) -> f64 {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant < 0.0 {
@@ -248,7 +250,7 @@ pub(crate) fn flat(vectors: [DVec2; 3]) -> [f64; 6] {
     [a.x, a.y, b.x, b.y, c.x, c.y]
 }
 
-/// The nearest positive semidefinite matrix to [[a, b], [b, c]].
+/// Nearest positive semidefinite matrix to [[a, b], [b, c]].
 fn positive([a, b, c]: [f64; 3]) -> [[f64; 2]; 2] {
     let (mean, half) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
     let (low, high) = (mean - half, mean + half);
@@ -258,7 +260,7 @@ fn positive([a, b, c]: [f64; 3]) -> [[f64; 2]; 2] {
     if high <= 0.0 {
         return [[0.0; 2]; 2];
     }
-    // The projection on the eigenvector of the larger eigenvalue, which is then kept alone.
+    // Projection on the eigenvector of the larger eigenvalue, the only one that is kept.
     let factor = high / (high - low);
     [[factor * (a - low), factor * b], [factor * b, factor * (c - low)]]
 }

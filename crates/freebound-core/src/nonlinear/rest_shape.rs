@@ -1,4 +1,5 @@
-//! Triangles as they lie in space, each laid into the plane: the shapes that an embedding's triangles are measured by.
+//! Rest shapes: triangles of the surface, each laid out in the plane. The energy of an embedding compares its
+//! triangles with them.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
@@ -12,19 +13,19 @@ use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::{Embedding, PinKind, Pins, Progress, SolveError};
 use crate::weights::equations::length_scale;
 
-/// Faces that are thinner, height to longest side, are measured as if they were so thick.
+/// Smallest ratio of height to longest side; thinner faces are measured as if they had this ratio.
 pub(crate) const THINNEST: f64 = 1e-4;
 
-/// Triangles that share the work of one task.
+/// Smallest number of triangles per task.
 const TRIANGLES_PER_TASK: usize = 4096;
 
-/// Triangles as they lie in space, each laid into the plane.
+/// Triangles of the surface, each laid out in the plane.
 #[derive(Debug)]
 pub(crate) struct RestShape {
     shapes: Vec<Shape>,
-    /// What fills holes: at rest as it lies, as the outside is.
+    /// Triangles that fill holes. Their rest shape is their present shape, as for the scaffold.
     filling: Vec<[VertexId; 3]>,
-    /// Area of the surface.
+    /// Area of the surface, in units of the scaled mesh.
     area: f64,
 }
 
@@ -32,7 +33,7 @@ pub(crate) struct RestShape {
 struct Shape {
     corners: [VertexId; 3],
     flat: [DVec2; 3],
-    /// Share in the surface.
+    /// Share of the surface's area.
     share: f64,
 }
 
@@ -40,18 +41,18 @@ struct Shape {
 pub(crate) struct Surrounded<'a> {
     pub(crate) embedding: &'a Embedding,
     pub(crate) outside: &'a Scaffold,
-    /// How much the outside weighs, where the mesh weighs 1.
+    /// Weight of the scaffold, relative to the mesh with weight 1.
     pub(crate) weight: f64,
 }
 
 impl RestShape {
-    /// The faces.
+    /// Rest shapes of the real faces.
     pub(crate) fn new(mesh: &DiskMesh) -> Self {
         Self::of(mesh, mesh.real_faces().map(|face| (mesh.face(face), 1.0)))
     }
 
-    /// The faces, and the triangles at the corners of polygons, both together with the polygon's area: while none of these
-    /// folds, polygons stay convex. `None` where there are no polygons.
+    /// Rest shapes of the faces and of the triangles at polygon corners, which together count with the polygon's area.
+    /// Polygons stay convex while none of these triangles folds. `None` if there are no such corners.
     pub(crate) fn with_ears(mesh: &DiskMesh) -> Option<Self> {
         let mut parts = vec![1.0; mesh.face_count()];
         let can_be_convex = can_be_convex(mesh);
@@ -63,7 +64,7 @@ impl RestShape {
             if of_ears <= 0.0 {
                 continue;
             }
-            // The ears of a quad are its triangles, of either cut.
+            // The four ears of a quad are the triangles of its two diagonals.
             let is_all = polygon.corners.len() == 4 && convex.len() == 4;
             let of_cut = if is_all { 0.0 } else { 0.5 };
             let whole: f64 = polygon.faces().map(|face| area(mesh, mesh.face(face))).sum();
@@ -75,7 +76,7 @@ impl RestShape {
         (!ears.is_empty()).then(|| Self::of(mesh, faces.chain(ears)))
     }
 
-    /// Triangles, and by how much of its area each counts.
+    /// Rest shapes of triangles, each with a factor of its area.
     fn of(mesh: &DiskMesh, triangles: impl Iterator<Item = ([VertexId; 3], f64)>) -> Self {
         let scale = length_scale(mesh);
         let triangles: Vec<([VertexId; 3], f64)> = triangles.collect();
@@ -92,8 +93,8 @@ impl RestShape {
         Self { shapes, filling, area }
     }
 
-    /// How distorted an embedding is that has no way to go. The shapes are found twice: memory for all of them would cost more
-    /// time.
+    /// Distortion of an embedding whose pins are all at their targets. Computes the shapes twice, because memory for
+    /// all of them would cost more time.
     pub(crate) fn progress_at_end(mesh: &DiskMesh, embedding: &Embedding) -> Progress {
         let (scale, faces) = (length_scale(mesh), mesh.mesh().real_triangles());
         let areas: Vec<f64> = measured_of(faces, |&corners| Shape::new(mesh, scale, corners).share);
@@ -108,13 +109,14 @@ impl RestShape {
         progress_of(&measured_of(faces, measure))
     }
 
-    /// How distorted an embedding is whose pins have so far to go.
+    /// Distortion of an embedding whose pins still have `distance_left` to go.
     pub(crate) fn progress(&self, mesh: &DiskMesh, embedding: &Embedding, distance_left: f64) -> Progress {
         let progress = self.progress_where(mesh, embedding, |_| true);
         Progress { distance_left, ..progress }
     }
 
-    /// The same of the triangles that some move of vertices without exact pins changes: the others stay what they are.
+    /// Distortion of the triangles with a vertex that is not a hard pin. No move of free vertices changes the other
+    /// triangles.
     pub(crate) fn progress_of_movable(&self, mesh: &DiskMesh, embedding: &Embedding, pins: &Pins) -> Progress {
         let is_free = |corner: u32| pins.get(&VertexId::new(corner)).is_none_or(|pin| !pin.kind.is_hard());
         self.progress_where(mesh, embedding, |element| element.corners.into_iter().any(is_free))
@@ -133,19 +135,22 @@ impl RestShape {
         progress_of(&measured)
     }
 
-    /// An energy of an embedding at its own size, of the triangles alone.
+    /// Energy of an embedding, by rest shapes scaled to its area, of the triangles alone.
     pub(crate) fn energy(&self, mesh: &DiskMesh, embedding: &Embedding, energy: Energy) -> f64 {
         self.measured(mesh, embedding, |element, z| element.energy(z, energy)).iter().sum()
     }
 
-    /// How many of the triangles are folded in an embedding.
+    /// Number of folded triangles in an embedding.
     pub(crate) fn folded_count(&self, mesh: &DiskMesh, embedding: &Embedding) -> usize {
         let is_folded = self.measured(mesh, embedding, |element, z| element.determinant(z) <= 0.0);
         is_folded.into_iter().filter(|&is_folded| is_folded).count()
     }
 
-    /// Mesh, what fills its holes, and outside of an embedding with its exact pins held and the others on springs; and all points, those of the
-    /// frame last. An order of elimination is that of an earlier one for the same mesh and pins.
+    /// Builds the energy problem of the mesh, the filling of its holes and the scaffold, and returns it with all
+    /// points.
+    ///
+    /// Hard pins are held; soft pins pull by springs. The points of the frame come last. An elimination order in
+    /// `planning` must come from an earlier problem of this mesh with these pins.
     pub(crate) fn problem(
         &self,
         mesh: &DiskMesh,
@@ -180,8 +185,8 @@ impl RestShape {
         Ok((EnergyProblem::new(points.len(), elements, springs.collect(), is_held, planning)?, points))
     }
 
-    /// What each triangle's energy and its place in an embedding give. No list of energies is made: its memory would cost
-    /// more than all else.
+    /// Applies `of` to each triangle's element and its corners in an embedding. Builds no list of elements, because
+    /// its memory would dominate.
     fn measured<T: Send>(
         &self,
         mesh: &DiskMesh,
@@ -194,14 +199,14 @@ impl RestShape {
 }
 
 impl Shape {
-    /// A triangle, with its area for a share.
+    /// Lays out a triangle in the plane, with its area as its share.
     fn new(mesh: &DiskMesh, scale: f64, corners: [VertexId; 3]) -> Self {
         let flat = laid_flat(mesh.shape(corners).map(|x| scale * x));
         Self { corners, flat, share: 0.5 * double_area(flat) }
     }
 }
 
-/// The energy of a triangle, at rest when all, of this area together, are as large as the embedding is now.
+/// Element of a shape, with rest shapes scaled so that their total `area` equals the present area of the embedding.
 fn element_beside(mesh: &DiskMesh, embedding: &Embedding, area: f64) -> impl Fn(&Shape) -> Element + Sync {
     let flat =
         measured_of(mesh.mesh().real_triangles(), |face| 0.5 * double_area(face.map(|vertex| embedding[vertex])));
@@ -219,20 +224,21 @@ fn measured_of<T: Sync, M: Send>(triangles: &[T], of: impl Fn(&T) -> M + Sync) -
     triangles.par_iter().with_min_len(TRIANGLES_PER_TASK).map(&of).collect()
 }
 
-/// What energies and determinants of triangles say of them all.
+/// Total energy and least determinant from the values of all triangles.
 fn progress_of(measured: &[(f64, f64)]) -> Progress {
     let half: f64 = measured.iter().map(|(energy, _)| energy).sum();
     let least_determinant = measured.iter().map(|&(_, determinant)| determinant).fold(f64::INFINITY, f64::min);
     Progress { energy: 2.0 * half, least_determinant, distance_left: 0.0 }
 }
 
-/// Area of a triangle in space.
+/// Area of a triangle on the surface.
 fn area(mesh: &DiskMesh, corners: [VertexId; 3]) -> f64 {
     let [a, b, c] = mesh.shape(corners);
     0.5 * (b - a).cross(c - a).length()
 }
 
-/// For each vertex whether polygons can be convex there: not where just two meet, whose angles make a full turn.
+/// True for each vertex at which polygons can be convex. False for interior vertices of just two polygons, whose
+/// angles sum to a full turn.
 fn can_be_convex(mesh: &DiskMesh) -> Vec<bool> {
     let mut meeting = vec![0_u32; mesh.vertex_count()];
     let mut is_of_polygon = vec![false; mesh.face_count()];
@@ -246,7 +252,7 @@ fn can_be_convex(mesh: &DiskMesh) -> Vec<bool> {
     mesh.vertices().map(|v| meeting[v.index()] != 2 || mesh.boundary_place(v).is_some()).collect()
 }
 
-/// The stiffness of weight 1: a vertex that is one mean edge away costs as much as its share of the surface.
+/// Stiffness of weight 1: a vertex one mean edge away costs as much as its share of the surface.
 fn spring_unit(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let mean = mean_edge_length(mesh, embedding);
     1.0 / (mean * mean * mesh.used_vertex_count() as f64)
@@ -260,7 +266,7 @@ pub(crate) fn mean_edge_length(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     mesh.edges().map(length).sum::<f64>() / mesh.edge_count() as f64
 }
 
-/// A triangle of space in the plane, its first side along the x-axis.
+/// Lays out a triangle of space in the plane, its first side along the x-axis.
 pub(crate) fn laid_flat([a, b, c]: [DVec3; 3]) -> [DVec2; 3] {
     let (first, second) = (b - a, c - a);
     let length = first.length();

@@ -1,7 +1,8 @@
-//! The outside of an embedding, triangulated up to a frame: while none of its triangles folds, the boundary stays simple.
+//! Scaffold: the outside of an embedding, triangulated up to a frame. The boundary stays simple while no scaffold
+//! triangle folds.
 //!
-//! The idea is the paper's virtual boundary (§5); kept up while vertices move as in Z. Jiang, S. Schaefer, D. Panozzo,
-//! "Simplicial complex augmentation framework for bijective maps", 2017.
+//! The idea is the paper's virtual boundary (§5). Maintaining it while vertices move follows Z. Jiang, S. Schaefer, D.
+//! Panozzo, "Simplicial complex augmentation framework for bijective maps", 2017.
 
 use glam::DVec2;
 
@@ -11,25 +12,27 @@ use crate::linalg::run_apart;
 use crate::mesh::{DiskMesh, TriMesh, VertexId};
 use crate::problem::{Control, Embedding, SolveError};
 
-/// Points on each side of a frame that vertices move within.
+/// Number of points on each side of the frame.
 pub(crate) const FRAME_POINTS: u32 = 8;
 
-/// Size of the frame, relative to everything within.
+/// Size of the frame, relative to the bounding box of everything within.
 const FRAME_SIZE: f64 = 2.0;
 
-/// Triangles thinner than this, height to longest side, count as so thick: their size matters, not their shape.
+/// Smallest ratio of height to longest side; thinner triangles count as if they had this ratio. Their size matters,
+/// not their shape.
 pub(crate) const THINNEST: f64 = 0.1;
 
-/// The outside of an embedding up to a frame, triangulated: what keeps the boundary simple while vertices move.
+/// Triangulated outside of an embedding, up to a frame. Keeps the boundary simple while vertices move.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scaffold {
-    /// The frame's points.
+    /// Points of the frame.
     pub frame: Vec<DVec2>,
-    /// Triangles, counter-clockwise. Numbers beyond the step's mesh are the frame's points.
+    /// Triangles, counter-clockwise. Vertex numbers beyond the step's mesh denote points of the frame.
     pub triangles: Vec<[VertexId; 3]>,
 }
 
-/// The frame around points: a square with so many points on each side, one corner of it among them, counter-clockwise.
+/// Square frame around points, with `per_side` points on each side, including one corner of that side;
+/// counter-clockwise.
 pub(crate) fn frame_around(points: impl Iterator<Item = DVec2>, per_side: u32) -> Vec<DVec2> {
     let bounds = Bounds::of(points);
     let (centre, half) = (bounds.middle(), 0.5 * FRAME_SIZE * bounds.size().max_element());
@@ -41,7 +44,7 @@ pub(crate) fn frame_around(points: impl Iterator<Item = DVec2>, per_side: u32) -
     (0..4).flat_map(side).map(|z| centre + half * z).collect()
 }
 
-/// The outside of an embedding with a simple boundary, up to a frame around it and further points.
+/// Scaffold of an embedding with a simple boundary. The frame encloses the boundary and `further` points.
 pub(crate) fn outside_of(
     mesh: &DiskMesh,
     embedding: &Embedding,
@@ -54,8 +57,8 @@ pub(crate) fn outside_of(
     Some(Scaffold { frame, triangles })
 }
 
-/// The triangles between the boundary and a frame, or the hull where that is empty. Beyond the mesh's vertices they are
-/// those of the frame.
+/// Triangles between the boundary and a frame, or the convex hull if the frame is empty. Vertex numbers beyond the
+/// mesh denote points of the frame.
 pub(crate) fn triangles_around(mesh: &DiskMesh, boundary: &[DVec2], frame: &[DVec2]) -> Option<Vec<[VertexId; 3]>> {
     let vertex = |corner: u32| {
         let corner = corner as usize;
@@ -65,13 +68,13 @@ pub(crate) fn triangles_around(mesh: &DiskMesh, boundary: &[DVec2], frame: &[DVe
     Some(outside_triangles(boundary, frame)?.into_iter().map(|t| t.map(vertex)).collect())
 }
 
-/// A mesh in the plane as a disk.
+/// Builds a disk from a mesh in the plane.
 pub(crate) fn disk_in_plane(points: &[DVec2], triangles: Vec<[VertexId; 3]>) -> Option<DiskMesh> {
     let positions = points.iter().map(|z| z.extend(0.0)).collect();
     DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of: None }).ok()
 }
 
-/// The same, left behind where the caller gives up.
+/// Builds a disk from a mesh in the plane on a separate thread, which is abandoned on cancellation.
 ///
 /// # Errors
 ///
@@ -85,7 +88,7 @@ pub(crate) fn disk_in_plane_apart(
     Ok(run_apart(move || disk_in_plane(&points, triangles), control.cancel())?)
 }
 
-/// The energies of triangles outside a mesh, at rest as they lie: all together weigh so much.
+/// Elements of triangles outside a mesh, with their present shapes as rest shapes and with a total weight of `weight`.
 pub(crate) fn outside_elements<'a>(
     triangles: impl Iterator<Item = &'a [VertexId; 3]> + Clone,
     points: &[DVec2],

@@ -1,4 +1,4 @@
-//! SLIM: the symmetric Dirichlet energy lowered by reweighted local and global steps, as others ship it.
+//! SLIM: minimises the symmetric Dirichlet energy by reweighted local and global steps, like the published method.
 //!
 //! # Energy
 //!
@@ -10,8 +10,9 @@
 //!
 //! # Local step
 //!
-//! The rotation nearest to J is R = U Vᵀ. A weight matrix W = U diag(√m(σ₁), √m(σ₂)) Uᵀ makes the gradient of a quadratic
-//! *proxy* that of the energy at the present z, whose minimiser the global step then finds:
+//! The rotation nearest to J is R = U Vᵀ. A weight matrix W = U diag(√m(σ₁), √m(σ₂)) Uᵀ makes the gradient of a
+//! quadratic *proxy* equal to the energy's gradient at the present z. The global step then finds the minimiser of the
+//! proxy:
 //!
 //! ```text
 //! P(z) = Σ A · ½ |W (J − R)|²          ∂P/∂J = W² (J − R) = U diag(σᵢ − σᵢ⁻³) Vᵀ = ∂E/∂J
@@ -20,25 +21,25 @@
 //!
 //! # Global step
 //!
-//! P is a quadratic of z with the Hessian blocks A (gᵢ·gⱼ) W², gᵢ the gradients of the hat functions: real, 2n × 2n, and
-//! positive definite once a vertex is held, which fixes the translation that P leaves open. A line search follows: no
-//! farther than 0.8 of the way to the first face without area, the smallest positive root of the faces' quadratics; halved
-//! until the energy falls.
+//! P is a quadratic of z with the Hessian blocks A (gᵢ·gⱼ) W², with gᵢ the gradients of the hat functions. The Hessian
+//! is real, 2n × 2n, and positive definite once a vertex is held, which fixes the translation that P leaves open. A
+//! line search follows. Its first step is at most 0.8 of the distance to the first face without area, the smallest
+//! positive root of the faces' quadratics. The step is halved until the energy falls.
 //!
 //! # In complex numbers
 //!
-//! As in the module `foldover_energy` J is α w + β w̄, with |α| > |β| where a face is not folded. Then R is α/|α|, the
-//! singular values are |α| ± |β|, and with e = αβ/|αβ|, the square of U's first column,
+//! With the notation of the module `foldover_energy`, J is α w + β w̄, with |α| > |β| if a face is not folded. Then R
+//! is α/|α|, and the singular values are |α| ± |β|. With e = αβ/|αβ|, the square of U's first column,
 //! `W² v = ½ (m₁ + m₂) v + ½ (m₁ − m₂) e v̄`.
 //!
-//! # What it promises
+//! # Guarantee
 //!
-//! No face folds. The start is Tutte's map on a circle; where rounding folds that, whatever its weights, it is the flattener's
-//! first planar map. The boundary is free and may cross itself: nothing here looks at that. `relaxing` does, by a
-//! triangulated outside.
+//! No face folds. The start is Tutte's map on a circle. If rounding folds that map for every choice of weights, the
+//! start is the flattener's first planar map. The boundary is free and may cross itself: SLIM does not check it. The
+//! module `relaxing` prevents crossings by a triangulated outside.
 //!
-//! Source: M. Rabinovich, R. Poranne, D. Panozzo, O. Sorkine-Hornung, "Scalable Locally Injective Mappings", 2017; the line
-//! search is that of J. Smith, S. Schaefer, "Bijective parameterization with free boundaries", 2015.
+//! Source: M. Rabinovich, R. Poranne, D. Panozzo, O. Sorkine-Hornung, "Scalable Locally Injective Mappings", 2017. The
+//! line search is that of J. Smith, S. Schaefer, "Bijective parameterization with free boundaries", 2015.
 
 use crate::parallel::prelude::*;
 use glam::DVec2;
@@ -51,26 +52,27 @@ use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::problem::{Control, Embedding, Progress, SolveError};
 use crate::weights::equations::length_scale;
 
-/// Weight of what fills holes, that of the surface being 1 for the same area: it only has to stay unfolded.
+/// Weight of the filling of holes, relative to weight 1 of the surface for equal areas: the filling only has to stay
+/// unfolded.
 const FILLING_WEIGHT: f64 = 0.002;
 
-/// The quadratic that stands for the energy of an element near a place.
+/// Quadratic proxy of an element's energy near a point.
 #[derive(Clone, Copy, Debug)]
 pub struct Proxy {
-    /// ½ (m₁ + m₂).
+    /// Coefficient ½ (m₁ + m₂).
     mean: f64,
-    /// ½ (m₁ − m₂) e.
+    /// Coefficient ½ (m₁ − m₂) e.
     along: DVec2,
-    /// R, as a complex number of length 1.
+    /// Rotation R, as a complex number of length 1.
     rotation: DVec2,
 }
 
 impl Proxy {
-    /// That of an element whose corners lie there, unfolded.
+    /// Builds the proxy of an unfolded element with corners at `z`.
     pub fn at(element: &Element, z: [DVec2; 3]) -> Self {
         let (alpha, beta) = element.derivatives(z);
         let greater = alpha.length() + beta.length();
-        // Not the difference of the two lengths, which cancels.
+        // Avoids the difference of the two lengths, which cancels.
         let lesser = element.determinant(z) / greater;
         let [first, second] = [greater, lesser].map(|sigma| (1.0 + sigma) * (1.0 + sigma * sigma) / sigma.powi(3));
         let direction = |z: DVec2| z.try_normalize().unwrap_or(DVec2::X);
@@ -79,12 +81,12 @@ impl Proxy {
         Self { mean: 0.5 * (first + second), along, rotation }
     }
 
-    /// W² v.
+    /// Product W² v.
     fn weighted(&self, v: DVec2) -> DVec2 {
         self.mean * v + self.along.rotate(conjugate(v))
     }
 
-    /// Its value where the element's corners lie there, times the element's weight.
+    /// Value of the proxy with the element's corners at `z`, times the element's weight.
     pub fn value(&self, element: &Element, z: [DVec2; 3]) -> f64 {
         let (alpha, beta) = element.derivatives(z);
         let off = alpha - self.rotation;
@@ -93,7 +95,8 @@ impl Proxy {
         0.5 * element.weight() * columns.iter().map(|column| column.dot(self.weighted(*column))).sum::<f64>()
     }
 
-    /// Its gradient where it was made, and its Hessian, by the coordinates x and y of each corner in turn.
+    /// Gradient and Hessian of the proxy at the point for which it was built, by the coordinates x and y of each
+    /// corner in turn.
     pub fn model(&self, element: &Element, z: [DVec2; 3]) -> EnergyModel {
         let (alpha, beta) = element.derivatives(z);
         let off = alpha - self.rotation;
@@ -123,25 +126,26 @@ pub(crate) fn is_unfolded(mesh: &DiskMesh, embedding: &Embedding) -> bool {
     })
 }
 
-/// SLIM under way on a mesh.
+/// State of a SLIM iteration on a mesh.
 #[derive(Debug)]
 pub struct Slim {
     problem: EnergyProblem,
-    /// Where vertices lie, in units of the mesh's edges.
+    /// Positions of the vertices, in units of about one mesh edge.
     z: Vec<DVec2>,
-    /// These units for one of the mesh's, a power of two.
+    /// Scale from mesh units to these units, a power of two.
     scale: f64,
     real_faces: usize,
-    /// Twice the area of the surface in these units.
+    /// Twice the area of the surface, in units of `z`.
     area: f64,
 }
 
 impl Slim {
-    /// Begins at an embedding, brought to the size of the surface.
+    /// Starts at an embedding, scaled to the area of the surface.
     ///
     /// # Errors
     ///
-    /// [`SolveError::NotPlanar`] where a face of it is folded or has no area; a system that is too large.
+    /// [`SolveError::NotPlanar`] if a face of the embedding is folded or has no area. Also fails if the system is too
+    /// large or the caller cancels.
     pub fn new(mesh: &DiskMesh, start: &Embedding, control: Control<'_>) -> Result<Self, SolveError> {
         if !is_unfolded(mesh, start) {
             return Err(SolveError::NotPlanar);
@@ -170,22 +174,22 @@ impl Slim {
         Ok(Self { problem, z, scale, real_faces, area: on_surface })
     }
 
-    /// One iteration. Returns the share of the energy that it gained; `None` where no step lowers the energy.
+    /// Performs one iteration. Returns the relative decrease of the energy, or `None` if no step lowers the energy.
     ///
     /// # Errors
     ///
-    /// A system that cannot be factored, or the caller's wish to stop; the embedding stays what it was.
+    /// Fails if a system cannot be factored or the caller cancels. The embedding then stays unchanged.
     pub fn step(&mut self, control: Control<'_>) -> Result<Option<f64>, SolveError> {
         let energies = self.problem.reweighted_step(&mut self.z, control)?;
         Ok(energies.map(|[before, after]| 1.0 - after / before))
     }
 
-    /// Where all vertices lie now, in units of the surface.
+    /// Present positions of all vertices, in units of the surface.
     pub fn embedding(&self) -> Embedding {
         self.z.iter().map(|z| *z / self.scale).collect()
     }
 
-    /// The energy per area of the surface, and the least determinant, at equal total areas.
+    /// Energy per area of the surface, and least determinant, at equal total areas.
     pub fn progress(&self) -> Progress {
         let size = (self.area / self.problem.double_area(&self.z, self.real_faces)).sqrt();
         let z: Vec<DVec2> = self.z.iter().map(|z| size * *z).collect();

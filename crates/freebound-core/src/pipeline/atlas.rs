@@ -1,9 +1,10 @@
-//! Charts that are solved, laid beside each other and proved together.
+//! Layout of several solved charts: placed beside each other and proved together.
 //!
-//! A chart with pins lies where they hold it. The others are packed into the unit square, all as large on the picture as on the
-//! surface by one factor, times the size that a person gives to each; to the right of the square where pins hold a chart. Each is turned so that its box is small. Numbers
-//! round on the way; where that folds a chart, it is not turned. Charts that went on from the layout of their file may stay where that has
-//! them instead.
+//! A chart with pins stays at its pins. All other charts are packed into the unit square. If a chart has pins, that
+//! square lies to its right. Packed charts share one density, in pixels per unit of length on the surface, times the
+//! size that the user gives to each chart. Each packed chart is turned so that its bounding box is small. Rounding
+//! can fold a turned chart; such a chart is packed without the turn. Charts that started from the layout of their
+//! file may stay there instead ([`Arrangement::AsGiven`]).
 
 use glam::DVec2;
 
@@ -17,31 +18,32 @@ use crate::parallel::prelude::*;
 use crate::problem::Embedding;
 use crate::verify::{AtlasVerdict, DistortionSummary, distortion, verdict};
 
-/// Where charts go that no pins hold.
+/// Placement of charts without pins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Arrangement {
-    /// They are packed.
+    /// Packed into the unit square.
     #[default]
     Packed,
-    /// They stay where the layout has them that they started from, unless they lie over each other there or one has a size of its own.
+    /// Kept at the layout that they started from. If a chart has another start or size, or charts overlap there, the
+    /// charts without pins are packed.
     AsGiven,
 }
 
-/// A chart that is solved.
+/// A solved chart.
 #[derive(Clone, Copy, Debug)]
 pub struct SolvedChart<'a> {
     /// The chart.
     pub chart: &'a PreparedMesh,
-    /// Step that is laid out.
+    /// Step to lay out.
     pub outcome: &'a Outcome,
     /// Size relative to the other packed charts. Default: 1.
     pub size: f64,
 }
 
-/// Summary of one chart of an atlas. Vertices are those of the whole mesh.
+/// Summary of one chart of an atlas. Vertices have their numbers in the whole repaired mesh.
 #[derive(Clone, Debug)]
 pub struct ChartSummary {
-    /// First face of the chart, as the input numbers its polygons.
+    /// First face of the chart, by the number of its polygon in the input.
     pub first_face: FaceId,
     /// Number of triangles.
     pub faces: usize,
@@ -49,13 +51,13 @@ pub struct ChartSummary {
     pub pins: PinsSummary,
     /// True if the boundary was laid on a convex shape or bent to one.
     pub has_convex_boundary: bool,
-    /// Position of the coordinates.
+    /// Placement of the coordinates.
     pub placement: Placement,
     /// Distortion at the final coordinates.
     pub distortion: DistortionSummary,
-    /// Pixels of the picture per unit of length on the surface, on average.
+    /// Average number of pixels of the picture per unit of length on the surface.
     pub density: f64,
-    /// Number of vertices that the mesh did not have before.
+    /// Number of vertices added to the mesh.
     pub new_vertices: usize,
 }
 
@@ -72,17 +74,17 @@ pub struct Atlas<'a> {
     pub packing: Option<PackingSummary>,
     /// Width over height of the picture that the coordinates are for.
     pub aspect: f64,
-    /// Edges of the whole mesh that new vertices lie on, by their ends.
+    /// Edges of the whole mesh that are split by new vertices, by their ends.
     pub split_edges: Vec<[VertexId; 2]>,
-    /// Polygons that were cut into triangles, as the input numbers them.
+    /// Polygons that were cut into triangles, by their numbers in the input.
     pub cut_polygons: Vec<FaceId>,
 }
 
-/// Lays charts out and proves them, each and together. They are those of one mesh, in their order.
+/// Lays out charts and proves each of them and the whole. `charts` are all charts of one mesh, in order.
 ///
 /// # Panics
 ///
-/// If there is no chart, or one is no chart of several, or no disk.
+/// If `charts` is empty, a chart has no disk, or a chart does not belong to a mesh of several charts.
 pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions, arrangement: Arrangement) -> Atlas<'a> {
     let is_placed =
         |chart: &SolvedChart<'_>| chart.is_held() || (chart.outcome.step.lies_as_given && chart.has_usual_size());
@@ -129,7 +131,7 @@ fn packed<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Atlas<'a> 
     output(charts, coordinates, (!free.is_empty()).then_some(packing), options)
 }
 
-/// The whole u from which charts lie free of those with pins; 0 where there are none.
+/// Whole u at which packed charts begin: to the right of the charts with pins, or 0 if there are none.
 fn first_column_beside(laid: &[Option<Embedding>]) -> f64 {
     let held = laid.iter().flatten().map(Embedding::bounds).fold(Bounds::EMPTY, Bounds::union);
     if held.high.x.is_finite() { held.high.x.max(1.0).ceil() } else { 0.0 }
@@ -139,12 +141,12 @@ fn pack_boxes(boxes: &[Boxed], options: PackingOptions) -> Packing {
     pack(&boxes.iter().map(|boxed| boxed.bounds.size()).collect::<Vec<_>>(), options)
 }
 
-/// A chart turned so that its box is small, at the size of its surface times that which it is given.
+/// Chart turned to a small bounding box, at the area of its surface times the square of its size.
 struct Boxed {
-    /// What its embedding is multiplied by, a complex number.
+    /// Complex factor that turns and scales the embedding.
     turn: DVec2,
     bounds: Bounds,
-    /// Area that it takes.
+    /// Area that the chart covers, at its size.
     area: f64,
 }
 
@@ -159,7 +161,7 @@ impl Boxed {
         Self { turn, bounds, area: chart.area() * chart.size().powi(2) }
     }
 
-    /// Texture coordinates where it is packed as the `k`-th box, moved to the right by `beside`.
+    /// Texture coordinates of the chart as packed box `k`, shifted right by `beside`.
     fn laid(&self, chart: &SolvedChart<'_>, packing: &Packing, k: usize, beside: f64) -> Embedding {
         let (place, Bounds { low, high }) = (packing.places[k], self.bounds);
         let coordinate = |&z: &DVec2| {
@@ -172,7 +174,7 @@ impl Boxed {
 }
 
 impl<'a> SolvedChart<'a> {
-    /// The chart with its final coordinates, proved.
+    /// Chart with final coordinates and their verdict.
     fn laid(&self, coordinates: Embedding) -> LaidChart<'a> {
         let step = &self.outcome.step;
         let mesh = step.candidate.mesh(self.chart.disk().expect("only a disk has an outcome"));
@@ -187,19 +189,19 @@ impl<'a> SolvedChart<'a> {
         self.chart.disk().expect("only a disk has an outcome")
     }
 
-    /// How many times as large as the others it is packed, within what is allowed.
+    /// Size relative to other packed charts, clamped to [`PackingOptions::SIZES`].
     fn size(&self) -> f64 {
         self.size.clamp(*PackingOptions::SIZES.start(), *PackingOptions::SIZES.end())
     }
 
-    /// Area of its surface, in the mesh's units.
+    /// Area of the surface, in squared units of the mesh.
     fn area(&self) -> f64 {
         let (disk, mesh) = (self.disk(), self.disk().mesh());
         let areas = disk.real_faces().map(|face| mesh.double_area_vector(face).length() / 2.0);
         areas.sum::<f64>() * disk.unit().powi(2)
     }
 
-    /// Pixels of a picture per unit of length on its surface, in the mean.
+    /// Average number of pixels of a picture per unit of length on the surface.
     fn density(&self, coordinates: &Embedding, picture: DVec2) -> f64 {
         let mesh = self.outcome.step.candidate.mesh(self.disk());
         let doubled = |face: FaceId| {
@@ -208,23 +210,23 @@ impl<'a> SolvedChart<'a> {
         (mesh.real_faces().map(doubled).sum::<f64>() / 2.0 / self.area()).sqrt()
     }
 
-    /// Whether nobody gave it a size of its own.
+    /// True if the chart has the default size.
     fn has_usual_size(&self) -> bool {
         self.size.to_bits() == 1.0_f64.to_bits()
     }
 
-    /// Whether pins hold it.
+    /// True if pins place the chart.
     fn is_held(&self) -> bool {
         self.outcome.targets_in_use().next().is_some()
     }
 
-    /// Its coordinates where its pins hold it, or the layout has it that it started from, as files have them.
+    /// Coordinates placed by the chart's pins or by the given layout, v up.
     fn in_place(&self) -> Embedding {
         let (coordinates, ..) = self.outcome.output(self.disk(), Fit::Unit);
         upright(&coordinates, self.outcome.problem.frame.v_axis).unwrap_or(coordinates)
     }
 
-    /// The edges that new vertices lie on, as the file numbers their ends.
+    /// Edges split by new vertices, each by its sorted ends in the numbering of the repaired mesh.
     fn split_edges(&self) -> Vec<[VertexId; 2]> {
         let edges =
             self.outcome.step.candidate.refinement.as_ref().map(|refinement| refinement.split_edges_of_surface());
@@ -236,21 +238,21 @@ impl<'a> SolvedChart<'a> {
         edges.into_iter().flatten().map(in_file).collect()
     }
 
-    /// Its polygons that are written as triangles.
+    /// Polygons that are written as triangles.
     fn cut_polygons(&self) -> Vec<FaceId> {
         let refinement = self.outcome.step.candidate.refinement.as_ref();
         refinement.map(|refinement| refinement.cut_polygons(self.disk())).unwrap_or_default()
     }
 
-    /// Summary at these coordinates, for a picture of this size in pixels.
-    fn summary(&self, coordinates: &Embedding, picture: DVec2, placement: Placement) -> ChartSummary {
+    /// Summary for these coordinates and a picture of this size in pixels.
+    pub(super) fn summary(&self, coordinates: &Embedding, picture: DVec2, placement: Placement) -> ChartSummary {
         let step = &self.outcome.step;
         let mesh = step.candidate.mesh(self.disk());
         let is_in_place = placement != Placement::Packed;
         let on_picture = || coordinates.iter().map(|uv| *uv * DVec2::new(picture.x / picture.y, 1.0)).collect();
         let summary =
             if is_in_place { self.outcome.distortion.summary } else { distortion(mesh, &on_picture()).summary };
-        // Targets are as the document has them, v up or down.
+        // Targets use the v axis of the document.
         let in_document = upright(coordinates, self.outcome.problem.frame.v_axis).filter(|_| is_in_place);
         let pins = pins_summary(self.outcome, in_document.as_ref().unwrap_or(coordinates));
         let pins = pins.renumbered(|vertex| self.chart.vertex_in_file(vertex));

@@ -1,4 +1,4 @@
-//! Charts with their final coordinates: each by itself, and all of them as one proved mesh.
+//! Charts with final coordinates, and all of them joined to one proved mesh.
 
 use std::collections::HashSet;
 
@@ -6,35 +6,35 @@ use crate::mesh::{DiskMesh, FaceId, Polygon, Refinement, TriMesh, VertexId, part
 use crate::problem::Embedding;
 use crate::verify::{AtlasVerdict, Verdict, atlas_verdict};
 
-/// A chart with its final coordinates. Most meshes have only one.
+/// A chart with final coordinates. Most meshes have only one chart.
 #[derive(Debug)]
 pub struct LaidChart<'a> {
     /// Mesh of the coordinates: the chart as given, or its refinement.
     pub mesh: &'a DiskMesh,
     /// Refinement with the new vertices, if there are any.
     pub refinement: Option<&'a Refinement>,
-    /// Vertex of the repaired mesh that each own vertex is. Absent if the mesh has only one chart.
+    /// Number of each vertex of the chart in the repaired mesh. Absent if the mesh has only one chart.
     pub vertex_of: Option<&'a [VertexId]>,
-    /// One texture coordinate per vertex, v up.
+    /// Texture coordinate of each vertex, v up.
     pub coordinates: Embedding,
-    /// The verdict on these coordinates.
+    /// Verdict on these coordinates.
     pub verdict: Verdict,
-    /// Vertices that pins hold exactly.
+    /// Vertices with hard pins.
     pub held: Vec<VertexId>,
 }
 
-/// Charts as one mesh: the vertices of each follow those of the one before, and so do the faces.
+/// Charts joined to one mesh. Vertices and faces of each chart follow those of the chart before.
 #[derive(Debug)]
 pub struct JoinedCharts {
-    /// Positions and triangles; faces keep their numbers in the file.
+    /// Positions and triangles. Faces keep their numbers in the file.
     pub mesh: TriMesh,
-    /// One texture coordinate per vertex.
+    /// Texture coordinate of each vertex.
     pub coordinates: Embedding,
-    /// Faces that their charts' verdicts call flipped.
+    /// Faces that the verdict of their chart lists as flipped.
     pub flipped: Vec<FaceId>,
 }
 
-/// Charts as one mesh, without what fills their holes.
+/// Joins charts to one mesh, without the virtual faces and vertices that fill their holes.
 pub fn joined(charts: &[LaidChart<'_>]) -> JoinedCharts {
     let (mut mesh, mut polygon_of) = (TriMesh::default(), Vec::new());
     let (mut coordinates, mut flipped) = (Vec::new(), Vec::new());
@@ -58,11 +58,11 @@ pub fn joined(charts: &[LaidChart<'_>]) -> JoinedCharts {
     JoinedCharts { mesh, coordinates: coordinates.into(), flipped }
 }
 
-/// The verdict on charts as they are written, faces as the file numbers them.
+/// Verdict on the joined charts, with faces numbered as in the file.
 ///
 /// # Panics
 ///
-/// If a chart is no disk, which none is.
+/// If the joined charts have faults. Charts of disks have none.
 pub fn prove_atlas(charts: &[LaidChart<'_>]) -> AtlasVerdict {
     let JoinedCharts { mesh, coordinates, .. } = joined(charts);
     let mut parts = parts(&mesh).expect("charts are disks");

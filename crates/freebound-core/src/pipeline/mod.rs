@@ -1,7 +1,7 @@
-//! The way from a mesh to a proved atlas: preparation, charts, one problem a chart, steps, layout, proof.
+//! Pipeline from a mesh to a proved atlas: preparation, one problem per chart, steps, layout, proof.
 //!
-//! The command line, the editor and scripts share this layer. Data in and out are plain types: arrays, ids and options. It
-//! knows no path, no file and no screen.
+//! The command line, the editor and scripts share this layer. Input and output are plain types: arrays, ids and
+//! options. The layer knows no path, no file and no screen.
 //!
 //! | file | contents |
 //! |---|---|

@@ -16,13 +16,13 @@ pub struct PipelineOptions {
     pub settings: Settings,
     /// Position of texture coordinates in the plane.
     pub frame: PictureFrame,
-    /// True if the map is made for a picture: an embedding without pins then lies within it.
+    /// True if the map is made for a picture: an embedding without pins then lies within the picture.
     pub has_picture: bool,
     /// Targets of the user's pins, by vertices of the input.
     pub targets: Targets,
     /// Picture size and gap for packed charts.
     pub packing: PackingOptions,
-    /// Place of charts without pins. Default: packed.
+    /// Placement of charts without pins. Default: packed.
     pub arrangement: Arrangement,
     /// Sizes of packed charts relative to the others, by their first faces. Default: 1.
     pub sizes: BTreeMap<FaceId, f64>,
@@ -39,7 +39,7 @@ impl PipelineOptions {
         self.problem_with(self.targets.clone())
     }
 
-    /// The problem of each chart, with the targets of its own vertices. `charts` are all charts of one mesh, in order.
+    /// Problem of each chart, with the targets on its vertices. `charts` are all charts of one mesh, in order.
     pub fn problems(&self, charts: &[&PreparedMesh]) -> Vec<Problem> {
         let mut of_chart = vec![Targets::new(); charts.len()];
         let all = charts.first().and_then(|chart| chart.chart.as_ref()).map(|of| &of.charts);

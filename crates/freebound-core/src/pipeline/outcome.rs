@@ -9,14 +9,14 @@ use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::{Embedding, GaugeSize, PinKind, Treatment};
 use crate::verify::{Distortion, Verdict, distortion, verdict};
 
-/// A step of a run with everything the screen and files show of it.
+/// A step of a run with all data that the screen and files show.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// What was asked for.
+    /// Settings, frame and targets of the run.
     pub problem: Problem,
-    /// The embedding, its verdict and its numbers.
+    /// Embedding, verdict and numbers of the solve.
     pub step: Step,
-    /// How faces are distorted.
+    /// Distortion of the faces.
     pub distortion: Distortion,
 }
 
@@ -27,8 +27,8 @@ impl Outcome {
         Self { problem, step, distortion }
     }
 
-    /// Bytes of memory that it takes. The factors of a linear solve are kept once, for the next solve, and a mesh with
-    /// new vertices once for all steps on it: both are left out.
+    /// Memory of the outcome in bytes. Excludes the factors of a linear solve, which are kept once for the next
+    /// solve. Excludes the refined mesh, which is kept once for all steps on it.
     pub fn bytes(&self) -> usize {
         let Step { candidate, verdict, outside_hull, .. } = &self.step;
         let Candidate { solution, virtual_boundary, outside, .. } = candidate;
@@ -54,17 +54,20 @@ impl Outcome {
             + outside
     }
 
-    /// How many vertices its mesh has beyond those of the mesh as given.
+    /// Number of vertices added to the mesh as given.
     pub fn new_vertex_count(&self) -> usize {
         self.step.candidate.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices_of_surface().count())
     }
 
-    /// The texture coordinates that go into a file, where they lie, and the verdict on them, which is that on the mesh
-    /// of the step. The user's pins keep their places, exact ones that are met to the last bit; without any, `fit`
-    /// decides the size. `mesh` is the mesh as given.
+    /// Final texture coordinates, their placement, and the verdict on them for the mesh of the step. `mesh` is the
+    /// mesh as given.
     ///
-    /// Moving to the unit square rounds. Where that breaks what was planar, or held in 32 bits, the scale is a power of two, so that less
-    /// is rounded, and then nothing is moved, so that nothing is.
+    /// The user's pins keep their positions; a hard pin that is met keeps the exact numbers of its target. Without
+    /// pins, `fit` decides the size.
+    ///
+    /// Scaling to the unit square rounds. If rounding breaks planarity in 64 or 32 bits, a power of two replaces the
+    /// scale, which rounds less. If planarity still breaks, the embedding is scaled by a power of two and not moved,
+    /// which rounds nothing.
     pub fn output(&self, mesh: &DiskMesh, fit: Fit) -> (Embedding, Placement, Verdict) {
         type Way = (fn(&mut Embedding), Placement);
         let (embedding, mesh) = (&self.step.candidate.solution.embedding, self.step.candidate.mesh(mesh));
@@ -86,7 +89,7 @@ impl Outcome {
             let verdict = verdict(mesh, &coordinates);
             (coordinates, name, verdict)
         };
-        // As much as is proved where it lies: the last way rounds nothing, neither in 64 bits nor in 32.
+        // Required: all that the step proved in 64 and 32 bits. The last transform rounds in neither.
         let holds = |verdict: &Verdict| {
             let Verdict { planar, planar_in_f32, .. } = self.step.verdict;
             (verdict.planar || !planar) && (verdict.planar_in_f32 || !planar_in_f32)
@@ -100,7 +103,7 @@ impl Outcome {
         rescued.unwrap_or(first)
     }
 
-    /// The embedding as large as the surface in its file, and the verdict on it. `mesh` is the step's own.
+    /// Embedding scaled to the area of the surface in its file, and its verdict. `mesh` is the mesh of the step.
     fn at_true_size(&self, mesh: &DiskMesh) -> (Embedding, Placement, Verdict) {
         let embedding = &self.step.candidate.solution.embedding;
         let unit = mesh.unit() * if self.step.lies_as_given { true_area_factor(mesh, embedding) } else { 1.0 };
@@ -112,14 +115,14 @@ impl Outcome {
         (coordinates, Placement::True, verdict)
     }
 
-    /// The texture coordinates of the embedding where it lies, the user's pins on their own numbers, and the verdict on
-    /// them in the plane. `mesh` is the step's own.
+    /// Texture coordinates of the embedding without a transform, met hard pins at the numbers of their targets, and
+    /// the verdict on the coordinates in the plane. `mesh` is the mesh of the step.
     fn as_it_lies(&self, mesh: &DiskMesh, placement: Placement) -> (Embedding, Placement, Verdict) {
         let embedding = &self.step.candidate.solution.embedding;
         let mut coordinates: Embedding = embedding.iter().map(|&z| self.problem.frame.uv_from_plane(z)).collect();
         let settings = &self.problem.settings;
         for (vertex, target, error) in self.pin_errors().filter(|(_, target, _)| settings.is_hard(target.kind)) {
-            // A step on the way to the constraints has not met them yet.
+            // A step before the constraints are met has not reached all targets.
             if error == 0.0 {
                 coordinates[vertex.index()] = target.uv;
             }
@@ -133,8 +136,8 @@ impl Outcome {
         (coordinates, placement, verdict)
     }
 
-    /// Distance of each of the user's pinned vertices from its target, in texture coordinates; 0 for exact ones, whose
-    /// numbers are those given.
+    /// Distance of each of the user's pinned vertices from its target, in texture coordinates. The distance is 0 if
+    /// the vertex is at its target in the plane, whatever the conversion rounds.
     pub fn pin_errors(&self) -> impl Iterator<Item = (VertexId, &Target, f64)> {
         let (embedding, frame) = (&self.step.candidate.solution.embedding, self.problem.frame);
         self.targets_in_use().map(move |(&vertex, target)| {
@@ -145,31 +148,31 @@ impl Outcome {
         })
     }
 
-    /// Whether pins of the user's hold the embedding where it lies.
+    /// True if the user's pins place the embedding.
     pub fn is_held(&self) -> bool {
         self.targets_in_use().next().is_some()
     }
 
-    /// The targets of the user's pins, where the method takes any.
+    /// Targets of the user's pins. Empty if the method does not use pins.
     pub fn targets_in_use(&self) -> impl Iterator<Item = (&VertexId, &Target)> {
         self.problem.targets.iter().filter(|_| self.problem.settings.method.uses_pins())
     }
 
-    /// Vertices that pins hold exactly.
+    /// Vertices with hard pins.
     pub fn held(&self) -> Vec<VertexId> {
         let settings = &self.problem.settings;
         self.targets_in_use().filter(|(_, target)| settings.is_hard(target.kind)).map(|(&vertex, _)| vertex).collect()
     }
 }
 
-/// The coordinates as files have them, where v runs down in the document: there it runs up, which rounds.
+/// Coordinates with v up, as files have them. `None` if v runs up already. The flip rounds.
 pub fn upright(coordinates: &Embedding, v_axis: VAxis) -> Option<Embedding> {
     let turned = || coordinates.iter().map(|uv| DVec2::new(uv.x, 1.0 - uv.y)).collect();
     (v_axis == VAxis::Down).then(turned)
 }
 
-/// What became of the user's pins. Those that are to be met exactly have their own numbers in `coordinates`, whatever
-/// was solved: for them the solver's places count too.
+/// Summary of the user's pins. `coordinates` holds the exact target of a hard pin, whatever was solved. So the error
+/// of a hard pin also counts the position that the solver found.
 pub fn pins_summary(outcome: &Outcome, coordinates: &Embedding) -> PinsSummary {
     let settings = &outcome.problem.settings;
     let (mut max_hard_error, mut max_soft_error) = (None::<f64>, None::<f64>);
@@ -209,11 +212,11 @@ pub fn pins_summary(outcome: &Outcome, coordinates: &Embedding) -> PinsSummary {
     }
 }
 
-/// Distance of a pinned vertex from its target as solved for, in texture coordinates. Compared in the plane, so that it
-/// is 0 where the solver met the target to the last bit, and only there.
+/// Distance of a pinned vertex from its target in the solver's embedding, in texture coordinates. Compared in the
+/// plane: the distance is 0 only if the solver met the target to the last bit.
 fn solver_error(outcome: &Outcome, vertex: VertexId, target: DVec2) -> f64 {
     let frame = outcome.problem.frame;
     let off = outcome.step.candidate.solution.embedding[vertex] - frame.plane_from_uv(target);
-    // The frame has no offset: it takes differences to differences.
+    // The frame has no offset: it maps differences to differences.
     frame.uv_from_plane(off).length()
 }

@@ -1,7 +1,7 @@
 //! A mesh prepared for flattening: repaired, cut along its seams, its holes filled, as one disk or as several charts.
 //!
-//! Preparation changes no number of a vertex that the input has: vertices made by cuts come behind all others, and the order of
-//! faces stays.
+//! Preparation never renumbers a vertex of the input: vertices made by cuts come after all others. The order of faces
+//! stays.
 
 use std::sync::Arc;
 
@@ -10,28 +10,28 @@ use crate::mesh::{
     VertexId, diagnose, relative_volume,
 };
 
-/// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
-/// it is high.
+/// Relative volume below which the outside of a surface is undecided: the volume of a cap 28 times as wide as it is
+/// high.
 const LEAST_VOLUME: f64 = 0.01;
 
-/// A mesh after its preparation, whether or not it can be flattened.
+/// A mesh after its preparation. Only a [`Surface::Disk`] can be flattened.
 #[derive(Clone, Debug, Default)]
 pub struct PreparedMesh {
-    /// Repairs, cuts, seams, holes and parts that were asked for.
+    /// Requested repairs, cuts, seams, holes and parts.
     pub form: Preparation,
     /// Repairs of the input. `None` if it needed none.
     pub repaired: Option<Arc<Repaired>>,
-    /// Repairs that would make a disk of a mesh that is none.
+    /// Repairs that would make a faulty mesh flattenable.
     pub remedy: Option<Arc<Repaired>>,
-    /// Chart that this is, if the mesh has several.
+    /// Chart that `surface` holds, if the mesh has several.
     pub chart: Option<ChartOf>,
-    /// Triangles of the mesh or of the chart, with their diagnosis.
+    /// Triangles of the mesh or of the chart, and their diagnosis.
     pub surface: Surface,
     /// True if most faces seem to point inward. False if the surface is too flat to tell.
     pub faces_point_inward: bool,
 }
 
-/// One chart of several.
+/// Chart of a mesh that has several.
 #[derive(Clone, Debug)]
 pub struct ChartOf {
     /// All charts of the mesh.
@@ -42,12 +42,12 @@ pub struct ChartOf {
     pub chart: Arc<Chart>,
 }
 
-/// Triangles, with their diagnosis.
+/// Triangles and their diagnosis.
 #[derive(Clone, Debug)]
 pub enum Surface {
     /// A disk, which can be flattened.
     Disk(Arc<DiskMesh>),
-    /// Triangles that are no disk, and their faults.
+    /// Triangles that are not a disk, and their faults.
     Faulty(Arc<TriMesh>, Arc<Diagnosis>),
 }
 
@@ -58,9 +58,9 @@ impl Default for Surface {
 }
 
 impl PreparedMesh {
-    /// Prepares polygons. `labels` has one label per corner: seams run along the edges at which labels differ, if the
-    /// preparation cuts along texture coordinates. The polygons are those that [`turned`](PolygonMesh::turned) gives if the
-    /// preparation turns faces around.
+    /// Prepares polygons. `labels` has one label per corner: if the preparation cuts along texture coordinates, edges
+    /// at which labels differ are seams. If the preparation turns faces around, pass the polygons that
+    /// [`turned`](PolygonMesh::turned) returns.
     pub fn new(polygons: &PolygonMesh, labels: Option<&[u32]>, form: Preparation) -> Self {
         let repaired = |form: &Preparation| form.repaired_along(polygons, labels);
         let is_cut_along = !form.seams.edges().is_empty() && !is_refused_uncut(polygons, form.repair);
@@ -73,12 +73,12 @@ impl PreparedMesh {
         Self { form, remedy, ..Self::default() }.with(found)
     }
 
-    /// Parts of the mesh, in the order of their first faces, left-out ones among them.
+    /// Parts of the mesh, also those left out, in the order of their first faces.
     pub fn parts(&self, polygons: &PolygonMesh, labels: Option<&[u32]>) -> Vec<PartFaces> {
         self.form.parts(polygons, labels)
     }
 
-    /// Another chart of the same mesh, if it has several.
+    /// Another chart of the mesh. Returns a copy of `self` if the mesh has only one chart.
     #[must_use = "the mesh itself stays as it is"]
     pub fn of_chart(&self, number: usize) -> Self {
         match &self.chart {
@@ -92,7 +92,7 @@ impl PreparedMesh {
         Self { repaired, chart, surface, faces_point_inward, ..self }
     }
 
-    /// Sides of the edges that are listed as seams, by vertices of this mesh.
+    /// Sides of the listed seam edges, by vertices of this mesh.
     pub fn seam_sides(&self, polygons: &PolygonMesh) -> Vec<[VertexId; 2]> {
         match &self.repaired {
             Some(repaired) => repaired.seam_sides(&self.form.seams, polygons),
@@ -110,12 +110,12 @@ impl PreparedMesh {
         self.chart.as_ref().map(|of| of.charts.whole()).or(self.repaired.as_deref())
     }
 
-    /// Vertex of the repaired mesh that a vertex of this mesh or chart is. Its number is the input's, if the input has it.
+    /// Number of a vertex in the repaired mesh. Vertices of the input have the number of the input.
     pub fn vertex_in_file(&self, vertex: VertexId) -> VertexId {
         self.chart.as_ref().and_then(|of| of.chart.vertex_of.get(vertex.index()).copied()).unwrap_or(vertex)
     }
 
-    /// Triangles, those that fill holes included.
+    /// Triangles, including virtual ones that fill holes.
     pub fn mesh(&self) -> &TriMesh {
         match &self.surface {
             Surface::Disk(disk) => disk.mesh(),
@@ -123,7 +123,7 @@ impl PreparedMesh {
         }
     }
 
-    /// The disk, if it is one.
+    /// The disk. `None` if the surface is faulty.
     pub fn disk(&self) -> Option<&Arc<DiskMesh>> {
         match &self.surface {
             Surface::Disk(disk) => Some(disk),
@@ -141,7 +141,7 @@ struct Found {
 }
 
 impl Found {
-    /// One chart of several.
+    /// Chart with this number.
     fn chart(charts: &Arc<Charts>, number: usize) -> Self {
         let chart = Arc::new(charts.chart(number));
         let mesh = chart.repaired.triangulate();
@@ -157,7 +157,7 @@ impl Found {
         Self { surface: Surface::Disk(Arc::new(disk)), repaired: repaired.map(Arc::new), chart: None }
     }
 
-    /// What is no disk after its repairs, with the faults that are left.
+    /// Surface that is not a disk after its repairs, with the remaining faults.
     fn left(repaired: Repaired, left: Diagnosis) -> Self {
         let surface = Surface::Faulty(Arc::new(repaired.triangulate()), Arc::new(left));
         let is_repaired = !repaired.done().is_empty();
@@ -181,7 +181,7 @@ fn surface_of(polygons: &PolygonMesh, form: &Preparation) -> Found {
     if let Some(disk) = as_given.filter(|_| repaired.done().is_empty()) {
         return Found::disk(disk, None);
     }
-    // Parts that lie side by side, vertex on vertex, are as a rule one surface that a program took apart.
+    // Parts whose vertices coincide are as a rule one surface that a program took apart.
     let lies_apart = diagnosis.faults.iter().any(|fault| matches!(fault, Fault::CoincidentVertices(_)));
     let is_meant_as_one = lies_apart && !form.repair.allows(Repair::WeldVertices) && !is_welded;
     match DiskMesh::try_from(repaired.triangulate()) {
@@ -190,8 +190,8 @@ fn surface_of(polygons: &PolygonMesh, form: &Preparation) -> Found {
     }
 }
 
-/// A mesh with faults that cutting does not mend, where nothing may be repaired. Vertices are welded first: what this mends is
-/// no fault, and vertices that have no face for it alone are none.
+/// Refusal of a mesh with faults that cutting does not repair, if no repair is allowed. Vertices are welded first:
+/// faults that welding removes do not count. Vertices that lose their faces by welding do not count as unreferenced.
 fn refused_unrepaired(polygons: &PolygonMesh, repairs: Repairs) -> Option<Found> {
     if !repairs.is_none() {
         return None;
@@ -207,7 +207,7 @@ fn refused_unrepaired(polygons: &PolygonMesh, repairs: Repairs) -> Option<Found>
     is_refused.then(|| Found::left(welded, left))
 }
 
-/// Whether a mesh is refused wherever it is cut: for faults that cutting does not mend.
+/// True if a mesh is refused however it is cut: it has faults that cutting does not repair.
 fn is_refused_uncut(polygons: &PolygonMesh, repairs: Repairs) -> bool {
     let has = |is_fault: &dyn Fn(&Fault) -> bool| diagnose(&polygons.triangulate()).faults.iter().any(is_fault);
     if repairs.is_none() {
@@ -217,13 +217,13 @@ fn is_refused_uncut(polygons: &PolygonMesh, repairs: Repairs) -> bool {
     !is_welded && has(&|fault| matches!(fault, Fault::CoincidentVertices(_)))
 }
 
-/// What a surface is that is cut along its seams.
+/// Surface cut along its seams.
 fn cut_surface(repaired: Repaired) -> Found {
     let found = DiskMesh::try_from(repaired.triangulate());
     charts_of(repaired, found)
 }
 
-/// A disk, or several, or what is left to be mended.
+/// A disk, several charts, or the remaining faults.
 fn charts_of(repaired: Repaired, found: Result<DiskMesh, Box<Diagnosis>>) -> Found {
     match found {
         Ok(disk) => {
@@ -233,7 +233,7 @@ fn charts_of(repaired: Repaired, found: Result<DiskMesh, Box<Diagnosis>>) -> Fou
         Err(mut left) => match Charts::try_of(repaired).map(Arc::new) {
             Ok(charts) => Found::chart(&charts, charts.largest()),
             Err(repaired) => {
-                // What was split lies in one place, as it is meant to.
+                // Vertices that cuts have split coincide by intention.
                 left.faults.retain(|fault| !matches!(fault, Fault::CoincidentVertices(_)));
                 Found::left(*repaired, *left)
             }

@@ -10,10 +10,10 @@ use crate::mesh::VertexId;
 use crate::problem::{Embedding, GaugeSize, Method, Pins, Settings, Variant};
 use crate::verify::UvFrame;
 
-/// Pins that hold a map: two fix place, turn and size.
+/// Least number of pins that fix the map: two fix position, rotation and size.
 const HOLDING_PINS: usize = 2;
 
-/// One chart's problem: settings, output frame and targets.
+/// Problem of one chart: settings, output frame and targets.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Problem {
     /// Method and weights.
@@ -25,8 +25,8 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Makes a problem. With a picture, an embedding without pins lies within the picture; otherwise it has the area of the
-    /// surface.
+    /// Makes a problem. With a picture, an embedding without pins lies within the picture. Without a picture, its
+    /// area is the area of the surface.
     pub fn new(settings: &Settings, frame: PictureFrame, has_picture: bool, targets: Targets) -> Self {
         let [low, high] = frame.corners();
         let size = if has_picture { GaugeSize::Within(Bounds { low, high }) } else { GaugeSize::TrueArea };
@@ -38,7 +38,7 @@ impl Problem {
         pins_in_plane(&self.targets, self.frame)
     }
 
-    /// Options of a flattener of this problem: each step is proved in the numbers that are written of it.
+    /// Options of a flattener for this problem. Each step is proved in its output coordinates.
     pub fn options(&self) -> Options {
         Options {
             settings: self.settings.clone(),
@@ -48,30 +48,30 @@ impl Problem {
         }
     }
 
-    /// Options of a flattener that starts from an existing layout. The layout has one texture coordinate per vertex, v up.
+    /// Options of a flattener that starts from an existing layout: one texture coordinate per vertex, v up.
     pub fn options_from(&self, layout: &Embedding) -> Options {
         Options { layout: Some(Arc::new(self.in_plane(layout))), ..self.options() }
     }
 
-    /// Position of a layout in the plane. In the layout v runs up.
+    /// Position of a layout in the plane. The layout has v up.
     fn in_plane(&self, layout: &Embedding) -> Embedding {
         let upright = upright(layout, self.frame.v_axis);
         upright.as_ref().unwrap_or(layout).iter().map(|&uv| self.frame.plane_from_uv(uv)).collect()
     }
 
-    /// Flattener of this problem. Each step is proved in the numbers that are written of it.
+    /// Flattener of this problem. Each step is proved in its output coordinates.
     pub fn flattener(&self) -> Flattener {
         Flattener::with_options(self.options())
     }
 
-    /// Frame in which embeddings are written.
+    /// Output frame: the picture's frame and the texture coordinates of hard pins.
     pub fn output_frame(&self) -> UvFrame {
         let is_hard = |target: &Target| self.settings.is_hard(target.kind);
         let exact = self.targets.iter().filter(|(_, target)| is_hard(target));
         UvFrame::new(self.frame, exact.map(|(&vertex, target)| (vertex, target.uv)).collect())
     }
 
-    /// True if another problem has the same vertices, pinned in the same way, and differs at most in their targets.
+    /// True if both problems pin the same vertices in the same way and differ at most in targets.
     pub fn differs_in_targets_alone(&self, other: &Self) -> bool {
         let is_alike = self.settings.resolves_to(&other.settings) && self.frame == other.frame;
         let are_like = |((v, target), (w, other)): ((&VertexId, &Target), (&VertexId, &Target))| {
@@ -80,20 +80,20 @@ impl Problem {
         is_alike && self.targets.len() == other.targets.len() && self.targets.iter().zip(&other.targets).all(are_like)
     }
 
-    /// True if another problem has the same steps. A convex boundary takes no pins.
+    /// True if both problems have identical steps. Targets are compared only if the method uses pins.
     pub fn has_steps_of(&self, other: &Self) -> bool {
         let has_targets = !self.settings.method.uses_pins() || self.targets == other.targets;
         has_targets && self.settings == other.settings && self.frame == other.frame
     }
 
-    /// This problem for another method.
+    /// This problem with another method.
     #[must_use]
     pub fn by(&self, variant: &Variant) -> Self {
         Self { settings: variant.settings(&self.settings), ..self.clone() }
     }
 
-    /// True if a method has something of its own to do here. A method that takes no constraints does not suit a problem with
-    /// constraints, and a method that only meets constraints does not suit one without.
+    /// True if a method is useful for this problem. With constraints, the method must accept constraints. Without
+    /// constraints, the method must have something to do without them.
     pub fn suits(&self, method: &Method) -> bool {
         if self.settings.are_constraints(&self.pins()) {
             method.takes_constraints()
@@ -102,7 +102,8 @@ impl Problem {
         }
     }
 
-    /// True if a planar solution of another problem is a start for this one.
+    /// True if a planar solution of `before` can start this problem. Settings must agree except for edge splits, and
+    /// at least two targets must be unchanged.
     pub fn continues_from(&self, before: &Self) -> bool {
         let of_way = |settings: Settings| Settings { new_vertices: true, ..settings };
         let is_alike =
@@ -119,7 +120,8 @@ impl Problem {
         DragTarget { pins: self.settings.held(&self.pins()), sheet: Arc::new(self.output_frame()) }
     }
 
-    /// True if another problem differs in the targets of these pins alone. `moved` is sorted.
+    /// True if both problems differ at most in the targets of `moved`, which is sorted. All of `moved` must be
+    /// pinned.
     pub fn differs_in_targets_of(&self, other: &Self, moved: &[VertexId]) -> bool {
         let is_moved = |vertex: &VertexId| moved.binary_search(vertex).is_ok();
         let stays = |(vertex, target): (&VertexId, &Target)| {

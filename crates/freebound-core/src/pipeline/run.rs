@@ -1,22 +1,21 @@
-//! One chart from its problem to its last step.
+//! Run of one chart, from its problem to its last step.
 
 use super::{Outcome, Problem};
 use crate::flatten::{Ending, Flattener, Step};
 use crate::mesh::DiskMesh;
 use crate::problem::{Control, Embedding, SolveError};
 
-/// A problem solved to its end.
+/// A solved problem.
 #[derive(Clone, Debug)]
 pub struct SolvedProblem {
-    /// Last step in which the constraints had a part.
+    /// Last step. If a later stage failed, the last valid step that includes the constraints.
     pub outcome: Outcome,
-    /// Reason of the end. An error if a later stage failed after steps that are good.
+    /// Reason of the end. An error if a later stage failed after valid steps.
     pub ending: Result<Ending, SolveError>,
 }
 
 impl Problem {
-    /// Takes all steps of the method on a disk, and passes each to `observe`. A layout to start from has one texture
-    /// coordinate per vertex, v up; the settings say whether it is used.
+    /// Takes all steps of the method on a disk and passes each step to `observe`.
     ///
     /// # Errors
     ///
@@ -33,7 +32,7 @@ impl Problem {
             let step = match flattener.step(mesh, control) {
                 Ok(step) => step,
                 Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
-                // Steps before a stage that fails are good.
+                // Steps before a failed stage are valid.
                 Err(error) => {
                     let Some(before) = last else { return Err(error.into()) };
                     return Ok(SolvedProblem { outcome: Outcome::new(mesh, self, before), ending: Err(error) });
@@ -49,7 +48,8 @@ impl Problem {
         }
     }
 
-    /// Takes all steps of the method on a disk, from the given layout if there is one.
+    /// Takes all steps of the method on a disk, from a layout if one is given: one texture coordinate per vertex, v
+    /// up.
     ///
     /// # Errors
     ///

@@ -3,7 +3,7 @@
 use crate::mesh::VertexId;
 use crate::problem::{Labels, NamedOption, Treatment};
 
-/// Position of the written coordinates.
+/// Placement of the written coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -14,11 +14,11 @@ pub enum Placement {
     Picture,
     /// In the unit square.
     Unit,
-    /// As large as the surface.
+    /// Scaled to the area of the surface.
     True,
-    /// Scaled by a power of two and not moved, because the numbers of the unit square would fold it.
+    /// Scaled by a power of two and not moved, because rounding in the unit square would fold faces.
     Unmoved,
-    /// Where the file had its texture coordinates.
+    /// At the texture coordinates of the file.
     File,
     /// Packed into a picture with other charts.
     Packed,
@@ -30,9 +30,9 @@ pub enum Placement {
 pub struct PackingSummary {
     /// Width and height of the picture, pixels.
     pub picture: [u32; 2],
-    /// The least distance between charts, pixels.
+    /// Least distance between charts, pixels.
     pub gap: u32,
-    /// Pixels per unit of length on the surface, for all charts that are given no size of their own.
+    /// Pixels per unit of length on the surface, for charts of default size.
     pub density: f64,
     /// Share of the picture that the charts cover, from 0 to 1.
     pub covered: f64,
@@ -78,7 +78,7 @@ pub struct SoftPinSummary {
     pub vertex: VertexId,
     /// Weight of the pin.
     pub weight: f64,
-    /// Distance from its target.
+    /// Distance of the vertex from its target.
     pub error: f64,
 }
 
@@ -97,8 +97,8 @@ impl NamedOption for Fit {
 
     fn labels(&self) -> Labels {
         match self {
-            Self::Unit => Labels::new("unit", "Unit square").about("Uniformly into the unit square"),
-            Self::True => Labels::new("true", "True scale").about("The area of the surface"),
+            Self::Unit => Labels::new("unit", "Unit square").about("Scales uniformly into the unit square"),
+            Self::True => Labels::new("true", "True scale").about("Scales to the area of the surface"),
         }
     }
 }

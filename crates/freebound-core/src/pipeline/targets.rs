@@ -1,7 +1,7 @@
 //! Targets: the user's pins in texture coordinates.
 //!
-//! Texture coordinates are not the plane: see [`PictureFrame`]. [`pins_in_plane`] is the one way from targets to the
-//! [`Pins`] of the solver.
+//! Texture coordinates differ from coordinates of the plane: see [`PictureFrame`]. Only [`pins_in_plane`] converts
+//! targets to the [`Pins`] of the solver.
 
 use std::collections::BTreeMap;
 
@@ -24,28 +24,28 @@ pub struct Target {
 }
 
 impl Target {
-    /// A constraint that is met exactly.
+    /// Hard constraint: met exactly.
     pub const fn hard(uv: DVec2) -> Self {
         Self { uv, kind: PinKind::Hard }
     }
 
-    /// A vertex that stays where it is.
+    /// Fixed vertex: stays where it is.
     pub const fn fixed(uv: DVec2) -> Self {
         Self { uv, kind: PinKind::Fixed }
     }
 
-    /// A constraint that pulls with a weight.
+    /// Soft constraint: pulls with a weight.
     pub const fn weighted(uv: DVec2, weight: f64) -> Self {
         Self { uv, kind: PinKind::Soft(weight) }
     }
 }
 
-/// Hard constraints.
+/// Targets of hard constraints.
 pub fn hard_targets(list: impl IntoIterator<Item = (VertexId, DVec2)>) -> Targets {
     list.into_iter().map(|(vertex, uv)| (vertex, Target::hard(uv))).collect()
 }
 
-/// The pins of targets, in the plane of the embedding.
+/// Converts targets to pins in the plane of the embedding.
 pub fn pins_in_plane(targets: &Targets, frame: PictureFrame) -> Pins {
     let pin = |&Target { uv, kind }: &Target| Pin { target: frame.plane_from_uv(uv), kind };
     targets.iter().map(|(&vertex, target)| (vertex, pin(target))).collect()

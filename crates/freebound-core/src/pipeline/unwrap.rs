@@ -1,4 +1,6 @@
-//! Any mesh in, a proved atlas out: repaired, cut, flattened, packed.
+//! Unwrapping of any mesh to a proved atlas: repair, cut, flatten, pack.
+
+use glam::DVec2;
 
 use crate::mesh::{Diagnosis, Done, PolygonMesh, TriMesh, VertexId, parts};
 use crate::parallel::prelude::*;
@@ -15,11 +17,12 @@ pub const NO_COORDINATE: u32 = u32::MAX;
 pub struct Unwrapped {
     /// Texture coordinates, v up. Vertices on seams have several.
     pub coordinates: Embedding,
-    /// Index into `coordinates` of each corner of the input, in the order of its faces; [`NO_COORDINATE`] if it has none.
+    /// Index into `coordinates` of each corner of the input, in the order of its faces. [`NO_COORDINATE`] if a corner
+    /// has none.
     pub corners: Vec<u32>,
     /// Exact verdict on all charts together.
     pub verdict: AtlasVerdict,
-    /// Summary of each chart. Empty if the mesh is one chart.
+    /// Summary of each chart.
     pub charts: Vec<ChartSummary>,
     /// Repairs and cuts that were made, in order.
     pub repairs: Vec<Done>,
@@ -29,7 +32,7 @@ pub struct Unwrapped {
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum UnwrapError {
-    /// The mesh is no surface that repairs and cuts could make flat.
+    /// The mesh is not a surface that repairs and cuts could make flat.
     #[error("{0}")]
     NotASurface(Box<Diagnosis>),
     /// A chart could not be flattened.
@@ -53,13 +56,13 @@ impl PipelineOptions {
     }
 }
 
-/// Unwraps any mesh: repairs and cuts it as the options allow, flattens every chart, packs the charts into the unit square and
-/// proves the whole. Edges are never split, so the mesh stays as it is.
+/// Unwraps any mesh: repairs and cuts it as the options allow, flattens every chart, packs the charts into the unit
+/// square and proves the whole. Edges are never split: the mesh gets no new vertices from a method.
 ///
 /// # Errors
 ///
-/// [`UnwrapError`] if the mesh cannot be made flat, a chart cannot be solved, or the result is not proved planar with its
-/// hard pins met.
+/// [`UnwrapError`] if the mesh cannot be made flat, a chart cannot be solved, or the result is not proved planar with
+/// its hard pins met.
 ///
 /// # Example
 ///
@@ -84,7 +87,7 @@ pub fn unwrap(mesh: &PolygonMesh, options: &PipelineOptions) -> Result<Unwrapped
 ///
 /// # Errors
 ///
-/// Those of [`unwrap`], and [`SolveError::Cancelled`].
+/// Errors of [`unwrap`]. Cancellation is [`UnwrapError::Solve`] with [`SolveError::Cancelled`].
 pub fn unwrap_with(
     mesh: &PolygonMesh,
     options: &PipelineOptions,
@@ -119,7 +122,10 @@ fn unwrap_disk(
     let disk = prepared.disk().expect("faulty surfaces were refused");
     let solved = options.problem().solve_on(disk, None, control);
     let solved = solved.map_err(|error| UnwrapError::Solve { chart: 0, error })?;
-    let (coordinates, _, verdict) = solved.outcome.output(disk, Fit::Unit);
+    let (coordinates, placement, verdict) = solved.outcome.output(disk, Fit::Unit);
+    let picture = DVec2::new(options.frame.aspect, 1.0) * f64::from(options.packing.picture[1]);
+    let chart = SolvedChart { chart: prepared, outcome: &solved.outcome, size: 1.0 };
+    let summary = chart.summary(&coordinates, picture, placement);
     let held = solved.outcome.held();
     let laid = LaidChart { mesh: disk, refinement: None, vertex_of: None, coordinates, verdict, held };
     let number = |vertex: Option<VertexId>| vertex.map_or(NO_COORDINATE, VertexId::number);
@@ -128,7 +134,7 @@ fn unwrap_disk(
         None => mesh.corners.iter().map(|&vertex| vertex.number()).collect(),
     };
     let verdict = prove_atlas(std::slice::from_ref(&laid));
-    Ok(Unwrapped { coordinates: laid.coordinates, corners, verdict, charts: Vec::new(), repairs: done(prepared) })
+    Ok(Unwrapped { coordinates: laid.coordinates, corners, verdict, charts: vec![summary], repairs: done(prepared) })
 }
 
 fn unwrap_charts(
@@ -148,7 +154,7 @@ fn unwrap_charts(
     };
     let work: Vec<_> = charts.iter().zip(problems).enumerate().collect();
     let solved: Vec<Result<_, UnwrapError>> = work.into_par_iter().map(solve).collect();
-    // In the order of the charts: the first failure in time depends on the threads.
+    // In the order of the charts: the first failure in time would depend on the threads.
     let solved = solved.into_iter().collect::<Result<Vec<_>, _>>()?;
     let of_size =
         |prepared: &PreparedMesh| prepared.chart.as_ref().map_or(1.0, |of| options.size_of(&of.charts, of.number));
@@ -177,16 +183,16 @@ fn done(prepared: &PreparedMesh) -> Vec<Done> {
     prepared.whole_repaired().map(|repaired| repaired.done().to_vec()).unwrap_or_default()
 }
 
-/// Decides exactly whether a given layout is one-to-one: one texture coordinate per vertex of `mesh`, v up. A mesh cut along the
-/// seams of its layout has a vertex for every coordinate.
+/// Decides exactly if a given layout is one-to-one. `coordinates` has one texture coordinate per vertex of `mesh`, v
+/// up. A layout with seams needs a mesh that is cut along them, with one vertex per coordinate.
 ///
 /// # Errors
 ///
-/// Faults that keep a part from being an oriented surface with a boundary.
+/// Faults of a part that is not an oriented surface with a boundary.
 ///
 /// # Panics
 ///
-/// If the layout lacks a vertex.
+/// If the numbers of coordinates and vertices differ.
 pub fn verify(mesh: &TriMesh, coordinates: &Embedding) -> Result<AtlasVerdict, Box<Diagnosis>> {
     assert_eq!(coordinates.len(), mesh.vertex_count(), "a coordinate for every vertex");
     Ok(atlas_verdict(&parts(mesh)?, coordinates).as_in_file(mesh))

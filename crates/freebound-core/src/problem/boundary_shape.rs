@@ -1,26 +1,26 @@
-//! The convex shapes that a boundary is laid on, and how far apart its vertices lie there.
+//! Convex shapes for a boundary, and the spacing of its vertices on them.
 
 use std::borrow::Cow;
 
 use super::{Labels, NamedOption};
 use crate::geom::ConvexPolygon;
 
-/// The shape that [`Method::Convex`](super::Method::Convex) and others lay a boundary on.
+/// Shape that [`Method::Convex`](super::Method::Convex) and other methods lay the boundary on.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum BoundaryShape {
     /// A circle.
     #[default]
     Circle,
-    /// A square, its corners at vertices.
+    /// A square with vertices at its corners.
     Square,
-    /// The hull of the boundary's projection to its best plane.
+    /// Convex hull of the boundary's projection to its best plane.
     Hull,
-    /// A polygon of the user's, its corners at vertices.
+    /// A polygon of the user's, with vertices at its corners.
     Polygon(ConvexPolygon),
 }
 
 impl BoundaryShape {
-    /// How a polygon is written, in front of its corners.
+    /// Prefix of a written polygon, before its corners.
     pub const POLYGON: &str = "polygon:";
 }
 
@@ -31,8 +31,10 @@ impl NamedOption for BoundaryShape {
         match self {
             Self::Circle => Labels::new("circle", "Circle").about("a circle"),
             Self::Square => Labels::new("square", "Square").about("a square"),
-            Self::Hull => Labels::new("hull", "Hull").about("the hull of the boundary's projection to its best plane"),
-            Self::Polygon(_) => Labels::new("polygon:CORNERS", "Polygon").about("a convex polygon of yours"),
+            Self::Hull => {
+                Labels::new("hull", "Hull").about("the convex hull of the boundary, projected to its best plane")
+            }
+            Self::Polygon(_) => Labels::new("polygon:CORNERS", "Polygon").about("your convex polygon"),
         }
     }
 
@@ -51,13 +53,13 @@ impl NamedOption for BoundaryShape {
     }
 }
 
-/// How far apart vertices lie on the shape.
+/// Spacing of the boundary vertices on the shape.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Spacing {
-    /// As far as in space, in proportion.
+    /// In proportion to lengths in space.
     #[default]
     Chord,
-    /// All alike.
+    /// All distances equal.
     Even,
 }
 
@@ -66,10 +68,11 @@ impl NamedOption for Spacing {
 
     fn labels(&self) -> Labels {
         match self {
-            Self::Chord => {
-                Labels::new("chord", "By length").about("boundary vertices lie as far apart as in space, in proportion")
+            Self::Chord => Labels::new("chord", "By length")
+                .about("distances between boundary vertices in proportion to their lengths in space"),
+            Self::Even => {
+                Labels::new("even", "Even").about("equal distances between boundary vertices along the shape")
             }
-            Self::Even => Labels::new("even", "Even").about("boundary vertices lie evenly along the shape"),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Serde for named options: each is written and read by its name.
+//! Serde for named options: read and written by name.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -8,7 +8,7 @@ use serde::ser::{Serialize, Serializer};
 
 use super::{BoundaryShape, Family, Growth, Method, NamedOption, Spacing, Treatment};
 
-/// Reads a choice by its name. A fault is noticed at the name, so that it is told with its line.
+/// Visitor that reads an option by its name. An error arises at the name, so that its message has the right line.
 struct ByName<C>(PhantomData<C>);
 
 impl<C: NamedOption> Visitor<'_> for ByName<C> {
@@ -23,7 +23,7 @@ impl<C: NamedOption> Visitor<'_> for ByName<C> {
     }
 }
 
-/// Has choices stand in files by their names.
+/// Implements serde by name for options.
 macro_rules! stand_by_name {
     ($($choice:ty),+) => {$(
         impl Serialize for $choice {

@@ -1,4 +1,4 @@
-//! How a caller watches a solve and stops it.
+//! Progress and cancellation of a solve.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -7,18 +7,19 @@ use crate::parallel::prelude::*;
 
 use super::SolveError;
 
-/// Vertices, faces or links between two looks at the flag: up to some hundredths of a second where memory is slow.
+/// Number of vertices, faces or links between two checks of the cancel flag: up to some hundredths of a second if
+/// memory is slow.
 const AT_ONCE: usize = 1 << 14;
 
-/// Those that share what they work in.
+/// Least number of items that share one working buffer.
 const AT_LEAST: usize = 1 << 10;
 
-/// What a solve is busy with.
+/// Phase of a solve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Phase {
     /// Computing weights and the matrix.
     Assemble,
-    /// Ordering the unknowns and planning the factorization.
+    /// Ordering the unknowns and analysing the factorization.
     Analyze,
     /// Factoring the matrix.
     Factor,
@@ -41,7 +42,7 @@ impl Phase {
     }
 }
 
-/// The caller's hand on a running solve: a flag to stop it, and a place to hear how far it is.
+/// Control of a running solve by its caller: a flag that cancels it, and a callback for its phases.
 #[derive(Clone, Copy)]
 pub struct Control<'a> {
     cancel: &'a AtomicBool,
@@ -54,67 +55,69 @@ impl std::fmt::Debug for Control<'_> {
     }
 }
 
-/// Never raised.
+/// Flag that is never raised.
 static GO_ON: AtomicBool = AtomicBool::new(false);
 
 impl<'a> Control<'a> {
-    /// Stops when `cancel` is raised; calls `report` at the start of each phase.
+    /// Makes a control. The solve stops when `cancel` is raised, and calls `report` at the start of each phase.
     pub fn new(cancel: &'a AtomicBool, report: &'a (dyn Fn(Phase) + Sync)) -> Self {
         Self { cancel, report }
     }
 
-    /// Runs to the end in silence.
+    /// Control of a solve that runs to the end without reports.
     pub fn unattended() -> Control<'static> {
         Control { cancel: &GO_ON, report: &|_| {} }
     }
 
-    /// The flag that stops the work.
+    /// Flag that cancels the solve.
     pub fn cancel(&self) -> &'a AtomicBool {
         self.cancel
     }
 
-    /// Announces a phase.
+    /// Enters a phase: checks for cancellation, then reports the phase.
     ///
     /// # Errors
     ///
-    /// [`SolveError::Cancelled`] where the caller asked to stop.
+    /// [`SolveError::Cancelled`] if the flag is raised.
     pub fn enter(&self, phase: Phase) -> Result<(), SolveError> {
         self.go_on()?;
         (self.report)(phase);
         Ok(())
     }
 
-    /// Looks at the flag. To be asked for all some hundredths of a second, so that a caller never waits for long.
+    /// Checks the cancel flag. Call it every few hundredths of a second, so that a caller never waits for long.
     ///
     /// # Errors
     ///
-    /// [`SolveError::Cancelled`] where the caller asked to stop.
+    /// [`SolveError::Cancelled`] if the flag is raised.
     pub fn go_on(&self) -> Result<(), SolveError> {
         if self.cancel.load(Ordering::Relaxed) { Err(SolveError::Cancelled) } else { Ok(()) }
     }
 
-    /// The numbers below `count` in runs, the flag looked at before each: an error is the last.
+    /// Consecutive ranges that cover the numbers below `count`. The flag is checked before each range. Stop at the
+    /// first error.
     pub(crate) fn runs(self, count: usize) -> impl Iterator<Item = Result<Range<usize>, SolveError>> + use<'a> {
         let run = move |first| self.go_on().map(|()| first..count.min(first + AT_ONCE));
         (0..count).step_by(AT_ONCE).map(run)
     }
 
-    /// What each of the numbers below `count` gives, in their order: found side by side, some at a time.
+    /// Values of `of` at the numbers below `count`, in order. Each range of numbers is computed in parallel.
     ///
     /// # Errors
     ///
-    /// [`SolveError::Cancelled`].
+    /// [`SolveError::Cancelled`] if the flag is raised.
     pub(crate) fn each<T: Send>(self, count: usize, of: impl Fn(usize) -> T + Sync) -> Result<Vec<T>, SolveError> {
         let mut found = Vec::with_capacity(count);
         self.extend(&mut found, count, of)?;
         Ok(found)
     }
 
-    /// The same, put behind what is there.
+    /// Appends the values of `of` at the numbers below `count` to `found`. Each range of numbers is computed in
+    /// parallel.
     ///
     /// # Errors
     ///
-    /// [`SolveError::Cancelled`].
+    /// [`SolveError::Cancelled`] if the flag is raised.
     pub(crate) fn extend<T: Send>(
         self,
         found: &mut Vec<T>,
@@ -127,11 +130,11 @@ impl<'a> Control<'a> {
         Ok(())
     }
 
-    /// The same with something to work in, made by `begin` once for many numbers.
+    /// Values of `of` at the numbers below `count`, in order. `begin` makes a working buffer that many numbers share.
     ///
     /// # Errors
     ///
-    /// [`SolveError::Cancelled`].
+    /// [`SolveError::Cancelled`] if the flag is raised.
     pub(crate) fn each_with<W, T: Send>(
         self,
         count: usize,

@@ -24,11 +24,11 @@ impl Embedding {
         mesh.boundary_loop().iter().map(|&v| self[v]).collect()
     }
 
-    /// Says where numbers are infinite, or none at all.
+    /// Checks that all positions are finite.
     ///
     /// # Errors
     ///
-    /// [`SolveError::OutOfRange`] with the first such vertex.
+    /// [`SolveError::OutOfRange`] with the first vertex whose position is not finite.
     pub fn check_finite(&self) -> Result<(), SolveError> {
         match self.iter().position(|z| !z.is_finite()) {
             Some(vertex) => Err(SolveError::OutOfRange { vertex: VertexId::from_index(vertex) }),
@@ -36,17 +36,17 @@ impl Embedding {
         }
     }
 
-    /// The box around it.
+    /// Bounding box of the positions.
     pub fn bounds(&self) -> Bounds {
         Bounds::of(self.iter().copied())
     }
 
-    /// The first of some points, which are the vertices of a mesh: those after them are virtual.
+    /// Embedding of the first points, which are the vertices of a mesh. All later points are virtual vertices.
     pub fn of_mesh(mesh: &DiskMesh, points: &[DVec2]) -> Self {
         Self(points[..mesh.vertex_count()].to_vec())
     }
 
-    /// Lays vertices of no face where the boundary begins, so that they stretch no bounds.
+    /// Moves unreferenced vertices to the first boundary vertex, so that they do not stretch the bounds.
     pub(crate) fn gather_unused(&mut self, mesh: &DiskMesh) {
         if mesh.used_vertex_count() < mesh.vertex_count() {
             let begin = self[mesh.boundary_loop()[0]];
@@ -94,7 +94,7 @@ impl Index<VertexId> for Embedding {
     }
 }
 
-/// As maps and lists of vertices hand them out.
+/// Index by reference, for vertices in maps and lists.
 impl Index<&VertexId> for Embedding {
     type Output = DVec2;
 

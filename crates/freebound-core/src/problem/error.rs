@@ -1,192 +1,180 @@
-//! Everything that can stop a solve.
+//! Errors that stop a solve.
 
 use crate::linalg::LinalgError;
 use crate::mesh::{FaceId, VertexId};
 
-/// Why no embedding was produced. One with flipped faces is no error: it is a result, described by its verdict.
+/// Reason why no embedding was produced. Flipped faces are no error: such an embedding is a result, described by its
+/// verdict.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolveError {
     /// A corner's weight is infinite or not a number.
-    #[error(
-        "face {face} has a corner whose weight is not finite, its edges being too long or too short for 64-bit numbers: choose \
-         another family or method"
-    )]
+    #[error("face {face}: its weights are not finite: choose another family or method")]
     NotFinite {
-        /// The face that owns the corner.
+        /// Face of the corner.
         face: FaceId,
     },
 
-    /// Two pins on one place leave the similarity undetermined.
+    /// Two hard pins at one position leave the similarity undetermined.
     #[error("vertices {first} and {second} are pinned to the same place: move one of them")]
     CoincidentPins {
-        /// The vertex that was pinned there first.
+        /// Vertex that was pinned there first.
         first: VertexId,
-        /// The other vertex.
+        /// Other vertex.
         second: VertexId,
     },
 
-    /// A pin on a vertex that the mesh does not have.
+    /// Pin on a vertex that the mesh does not have.
     #[error("vertex {vertex} is pinned, but the mesh has only {count} vertices (numbered from 0)")]
     NoSuchVertex {
-        /// The vertex asked for.
+        /// Requested vertex.
         vertex: VertexId,
-        /// How many vertices there are.
+        /// Number of vertices of the mesh.
         count: usize,
     },
 
-    /// A pin on a vertex of no face.
-    #[error("vertex {vertex} is pinned, but belongs to no face: free it")]
+    /// Pin on an unreferenced vertex.
+    #[error("vertex {vertex} is pinned, but belongs to no face: remove its pin")]
     UnusedVertex {
-        /// The vertex asked for.
+        /// Requested vertex.
         vertex: VertexId,
     },
 
-    /// A pin's target is infinite or not a number.
+    /// Target of a pin is infinite or not a number.
     #[error("the target of pinned vertex {vertex} is not finite")]
     TargetNotFinite {
-        /// The pinned vertex.
+        /// Pinned vertex.
         vertex: VertexId,
     },
 
-    /// A constraint's weight is zero, negative, infinite or not a number.
+    /// Weight of a constraint is zero, negative, infinite or not a number.
     #[error("the weight {weight} of pinned vertex {vertex} is not a positive number")]
     WeightNotPositive {
-        /// The pinned vertex.
+        /// Pinned vertex.
         vertex: VertexId,
-        /// Its weight.
+        /// Weight of the pin.
         weight: f64,
     },
 
-    /// A choice of method and family that has no meaning.
-    #[error("{method} does not go with the family {family}: {remedy}")]
+    /// Family of weights that the method cannot use.
+    #[error("{method} does not support {family} weights: {remedy}")]
     FamilyNotApplicable {
-        /// The method's name.
+        /// Name of the method.
         method: &'static str,
-        /// The family's name.
+        /// Name of the family.
         family: String,
-        /// What to choose instead.
+        /// Choice to make instead.
         remedy: &'static str,
     },
 
-    /// A boundary with too few vertices for the shape that it should lie on.
-    #[error("the boundary has {found} vertices, {shape} needs {needed}: choose a circle")]
+    /// Boundary with too few vertices for its convex shape.
+    #[error("the boundary has {found} vertices, but {shape} needs {needed}: choose a circle")]
     BoundaryTooShort {
-        /// The shape, in words.
+        /// Name of the shape.
         shape: &'static str,
-        /// Vertices of the boundary loop.
+        /// Number of vertices of the boundary loop.
         found: usize,
-        /// Vertices that the shape needs.
+        /// Number of vertices that the shape needs.
         needed: usize,
     },
 
-    /// A boundary whose projection has no area, or goes round in no order.
-    #[error("the boundary's projection to its best plane has no hull that it runs around: choose a circle")]
+    /// Boundary whose projection has no area, or does not run around its hull in order.
+    #[error("the projected boundary does not follow its convex hull: choose a circle")]
     NoHull,
 
-    /// Equations and factors were asked for, but the method does not begin with a linear solve that has any.
-    #[error("{method} does not begin with a linear solve for positions: only a whole run gives its embedding")]
+    /// Equations and factors were requested, but the method does not begin with a linear solve that has any.
+    #[error("{method} does not begin with a linear solve for positions: run the whole method")]
     NoLinearSolve {
-        /// The method's name.
+        /// Name of the method.
         method: &'static str,
     },
 
-    /// More pins than the method can do with.
-    #[error(
-        "{count} vertices are constrained, but {method} goes with at most {most} exact pins: choose auto or iterate"
-    )]
+    /// More pins than the method accepts.
+    #[error("{method} supports at most {most} hard pins, not {count}: choose auto or iterate")]
     TooManyPins {
-        /// The method's name.
+        /// Name of the method.
         method: &'static str,
-        /// Pins of the user's.
+        /// Number of the user's pins.
         count: usize,
-        /// The most that only fix the similarity.
+        /// Largest number of pins, which only fix the similarity.
         most: usize,
     },
 
-    /// Two exact targets so near to each other that numbers between them run out.
-    #[error(
-        "the targets of vertices {first} and {second} are nearer to each other than 1e-9 of all targets' extent: move one of them"
-    )]
+    /// Two hard targets so near to each other that numbers between them run out.
+    #[error("vertices {first} and {second}: targets closer than 1e-9 of their extent: move one of them")]
     TargetsTooNear {
-        /// The one with the lower number.
+        /// Vertex with the lower number.
         first: VertexId,
-        /// The other.
+        /// Other vertex.
         second: VertexId,
     },
 
     /// Continuation is stuck, and no stage follows it.
-    #[error("the constraints cannot be met without new vertices: the best planar embedding is the step before")]
+    #[error("the constraints cannot be met without new vertices: allow new vertices")]
     Unmet,
 
     /// Paths match the targets, but the faces between them are too fine.
-    #[error("64-bit numbers cannot hold the faces between the targets apart: move targets that are near to each other")]
+    #[error("faces between the targets are too small for 64-bit numbers: move close targets apart")]
     TooFine,
 
     /// Paths between the targets wind around each other.
-    #[error(
-        "the targets lie in such an order that more than {most} new vertices would be needed: use fewer constraints, or \
-         move their targets nearer to the order that the vertices have"
-    )]
+    #[error("the targets need more than {most} new vertices: use fewer constraints, or reorder targets")]
     TooManyNewVertices {
-        /// The most that are made.
+        /// Largest number of new vertices.
         most: usize,
     },
 
-    /// Relaxing was asked for where faces overlap.
+    /// Relaxing was requested for an embedding that is not planar.
     #[error("only a planar embedding can be relaxed: make it planar first")]
     NotPlanar,
 
-    /// The virtual boundary has no further vertex to bend.
-    #[error("the whole boundary is on a circle, and no weights give a planar embedding: choose auto or schnyder")]
+    /// No boundary vertex is left for the virtual boundary to bend.
+    #[error("no weights give a planar embedding with the boundary on a circle: choose auto or schnyder")]
     AllBent,
 
     /// No stage of a flattener has a further step.
-    #[error("no rung gives a planar embedding: {reasons}")]
+    #[error("no stage gives a planar embedding: {reasons}")]
     StagesExhausted {
-        /// Which stages failed, and why.
+        /// Failed stages and their reasons.
         reasons: String,
     },
 
-    /// A position that 64-bit numbers cannot hold.
-    #[error("vertex {vertex} comes to lie beyond the range of 64-bit numbers: choose another family or method")]
+    /// Position that 64-bit numbers cannot hold.
+    #[error("vertex {vertex} is beyond the range of 64-bit numbers: choose another family or method")]
     OutOfRange {
-        /// The first such vertex.
+        /// First vertex with such a position.
         vertex: VertexId,
     },
 
     /// The linear solver found the matrix singular.
     #[error("the system is singular at vertex {vertex}: choose other pins or another family")]
     Singular {
-        /// The vertex whose equation depends on the others.
+        /// Vertex whose equation depends on others.
         vertex: VertexId,
     },
 
-    /// The linear solver returned, but its answer does not satisfy the system.
-    #[error(
-        "relative residual {residual:.1e} is above the limit {limit:.1e}, the answer would be wrong: choose another family or \
-         method"
-    )]
+    /// The linear solver returned a solution that does not satisfy the system.
+    #[error("residual {residual:.1e} is above the limit {limit:.1e}: choose another family or method")]
     ResidualTooLarge {
-        /// ‖Ax − b‖ / ‖b‖.
+        /// Relative residual ‖Ax − b‖ / ‖b‖.
         residual: f64,
-        /// The limit in force.
+        /// Limit of the relative residual.
         limit: f64,
     },
 
-    /// The linear solver could not take the system.
-    #[error("the linear solver failed, {reason}: choose another family or method")]
+    /// The linear solver failed.
+    #[error("the linear solver failed ({reason}): choose another family or method")]
     Linear {
-        /// What it said.
+        /// Reason that the solver gave.
         reason: String,
     },
 
-    /// The caller asked the solve to stop.
+    /// The caller cancelled the solve.
     #[error("the solve was cancelled")]
     Cancelled,
 }
 
-/// The side that has to change before a solve can succeed.
+/// Side that has to change before a solve can succeed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
     /// The caller cancelled the solve.
@@ -195,12 +183,12 @@ pub enum Cause {
     Targets,
     /// The method has no result on this mesh. Another method may have one.
     Method,
-    /// A request that contradicts itself or the mesh.
+    /// Request that contradicts itself or the mesh.
     Request,
 }
 
 impl SolveError {
-    /// The side that has to change. Every error is named, so that a new one has to choose.
+    /// Side that has to change. The match lists every error, so that a new error must choose.
     pub const fn cause(&self) -> Cause {
         match self {
             Self::Cancelled => Cause::Cancelled,
@@ -229,7 +217,7 @@ impl SolveError {
         }
     }
 
-    /// A fixed lower-case name, for reports and tests.
+    /// Fixed lower-case name, for reports and tests.
     pub const fn name(&self) -> &'static str {
         match self {
             Self::NotFinite { .. } => "weight-not-finite",
@@ -249,7 +237,7 @@ impl SolveError {
             Self::NotPlanar => "not-planar",
             Self::NoLinearSolve { .. } => "no-linear-solve",
             Self::AllBent => "all-bent",
-            Self::StagesExhausted { .. } => "ladder-exhausted",
+            Self::StagesExhausted { .. } => "stages-exhausted",
             Self::OutOfRange { .. } => "out-of-range",
             Self::Singular { .. } => "singular",
             Self::ResidualTooLarge { .. } => "residual-too-large",
@@ -258,16 +246,16 @@ impl SolveError {
         }
     }
 
-    /// The vertices that it names, which a person may want to see.
+    /// Vertices that the error names, to show to the user.
     pub fn vertices(&self) -> Vec<VertexId> {
-        // One that the mesh does not have cannot be shown.
+        // A vertex that the mesh does not have cannot be shown.
         if matches!(self, Self::NoSuchVertex { .. }) {
             return Vec::new();
         }
         self.clone().named().into_iter().map(|vertex| *vertex).collect()
     }
 
-    /// The same with other numbers for the vertices.
+    /// Error with renumbered vertices.
     #[must_use]
     pub fn renumbered(mut self, number: impl Fn(VertexId) -> VertexId) -> Self {
         for vertex in self.named() {
@@ -276,7 +264,7 @@ impl SolveError {
         self
     }
 
-    /// All vertices that it names.
+    /// All vertices that the error names.
     fn named(&mut self) -> Vec<&mut VertexId> {
         match self {
             Self::CoincidentPins { first, second } | Self::TargetsTooNear { first, second } => vec![first, second],
@@ -304,7 +292,7 @@ impl SolveError {
         }
     }
 
-    /// Whether pins are asked for that cannot be, whatever the method.
+    /// True if pins are invalid for every method.
     pub const fn is_of_pins(&self) -> bool {
         matches!(
             self,
@@ -322,7 +310,7 @@ impl SolveError {
     }
 }
 
-/// An error that belongs to no vertex.
+/// Conversion of an error that names no vertex.
 impl From<LinalgError> for SolveError {
     fn from(error: LinalgError) -> Self {
         match error {

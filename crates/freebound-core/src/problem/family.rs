@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use super::{Labels, Method, NamedOption, SolveError};
 
-/// A family of weights: how the offset d depends on the edge length r.
+/// Family of weights: dependence of the offset d on the edge length r.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Family {
     /// d = r: cotangents.
@@ -18,19 +18,19 @@ pub enum Family {
     Wachspress,
     /// d = rᵖ: from Wachspress (−1) over mean value (0) to conformal (1), and beyond.
     Power(f64),
-    /// All weights equal (Tutte); convex boundary only.
+    /// All weights equal (Tutte 1963); convex boundary only.
     Uniform,
-    /// Floater 1997; convex boundary only.
+    /// Averaged barycentric coordinates (Floater 1997); convex boundary only.
     ShapePreserving,
 }
 
 impl Family {
-    /// d = r.
+    /// Power of [`Family::Conformal`], d = r.
     pub const CONFORMAL_POWER: f64 = 1.0;
-    /// d = 1/r.
+    /// Power of [`Family::Wachspress`], d = 1/r.
     pub const WACHSPRESS_POWER: f64 = -1.0;
 
-    /// The power p of d = rᵖ; `None` for the families that are not three-point.
+    /// Power p of d = rᵖ. `None` for families that are not three-point.
     pub const fn power(self) -> Option<f64> {
         match self {
             Self::Conformal => Some(Self::CONFORMAL_POWER),
@@ -41,16 +41,16 @@ impl Family {
         }
     }
 
-    /// Whether a method can be solved with these weights: those that are not three-point need a convex boundary.
+    /// True if a method can be solved with this family. A family that is not three-point needs a convex boundary.
     pub const fn goes_with(self, method: &Method) -> bool {
         self.power().is_some() || method.takes_any_family()
     }
 
-    /// Whether a method that has a choice of weights can be solved with these.
+    /// Checks that a method with a choice of weights can be solved with this family.
     ///
     /// # Errors
     ///
-    /// [`SolveError::FamilyNotApplicable`] where it cannot.
+    /// [`SolveError::FamilyNotApplicable`] if it cannot.
     pub fn check_for(self, method: &Method) -> Result<(), SolveError> {
         if !method.uses_family() || self.goes_with(method) {
             return Ok(());
@@ -58,12 +58,12 @@ impl Family {
         Err(SolveError::FamilyNotApplicable {
             method: method.name(),
             family: self.to_string(),
-            remedy: "choose convex or lee, which lay a boundary on a convex shape",
+            remedy: "choose convex or lee, which use a convex boundary",
         })
     }
 }
 
-/// How a power is written, in front of its number.
+/// Prefix of a written power, before its number.
 const POWER: &str = "power:";
 
 impl NamedOption for Family {
@@ -73,13 +73,13 @@ impl NamedOption for Family {
     fn labels(&self) -> Labels {
         match self {
             Self::Conformal => Labels::new("conformal", "Conformal")
-                .about("d = r: cotangents, keeps angles; positive where opposite angles sum to less than 180°")
+                .about("d = r: cotangents, keeps angles; positive if opposite angles sum to less than 180°")
                 .source("paper §3.1; Pinkall and Polthier 1993"),
             Self::MeanValue => Labels::new("mean-value", "Mean value")
                 .about("d = 1: always positive")
                 .source("paper §3.1; Floater 2003"),
             Self::Wachspress => Labels::new("wachspress", "Wachspress")
-                .about("d = 1/r; positive where rings of neighbours are convex")
+                .about("d = 1/r; positive if rings of neighbours are convex")
                 .source("paper §3.1; Wachspress 1975"),
             Self::Power(_) => Labels::new("power:P", "Power")
                 .about("d = r^P: Wachspress at −1, mean value at 0, conformal at 1")

@@ -1,42 +1,47 @@
-//! The ways to an embedding: all that is said of them by name stands here.
+//! Methods: their names, descriptions and traits.
 
 use super::{BoundaryShape, Family, Labels, NamedOption, Settings, Stage};
 
-/// A way to an embedding.
+/// Method that computes an embedding.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Method {
-    /// The flattener: natural boundary, mean-value iteration, virtual boundary, until the embedding is proved planar.
+    /// Stages in order of their cost, until the embedding is proved planar and meets the constraints. Begins with the
+    /// natural boundary and the mean-value iteration; later stages include the virtual boundary, Schnyder's grid and
+    /// continuation.
     #[default]
     Auto,
-    /// Natural boundary (paper §3.3): two pins or the user's, one solve.
+    /// Natural boundary (paper §3.3): one solve with two gauge pins or the user's pins.
     Natural,
     /// Natural boundary, then mean-value iteration (paper §4).
     Iterate,
     /// Natural boundary, then a virtual boundary (paper §5).
     VirtualBoundary,
-    /// The boundary on a convex shape, the inside at barycentres (Tutte 1963, Floater 1997).
+    /// Boundary on a convex shape, inner vertices at barycentres (Tutte 1963, Floater 1997).
     Convex(BoundaryShape),
-    /// The same with weights divided by stretch, solve after solve (Yoshizawa et al. 2004).
+    /// Boundary on a convex shape, weights divided by stretch solve after solve (Yoshizawa et al. 2004).
     Stretch(BoundaryShape),
-    /// Layers of virtual triangles around the mesh, the outermost on a convex shape, peeled afterwards (Lee et al. 2002).
+    /// Layers of virtual triangles around the mesh, the outermost on a convex shape, peeled off after the solve (Lee
+    /// et al. 2002).
     Lee(BoundaryShape),
-    /// Least-squares conformal map (Lévy et al. 2002); the same as natural with conformal weights.
+    /// Least-squares conformal map (Lévy et al. 2002). Equal to natural with conformal weights.
     Lscm,
     /// Lévy's triangle equations summed around each vertex (paper §3.2).
     Levy,
-    /// Scalable locally injective mappings (Rabinovich et al. 2017): Tutte's map on a circle, its energy lowered.
+    /// Scalable locally injective mappings (Rabinovich et al. 2017): lowers the energy of Tutte's map on a circle.
     Slim,
-    /// The least conformal energy of all maps with one size of boundary (Mullen et al. 2008): no pins.
+    /// Least conformal energy of all maps with one size of boundary (Mullen et al. 2008). Needs no pins.
     Spectral,
-    /// The angles nearest to those of the surface that make a plane, by a system of all of them (Sheffer, de Sturler 2001).
+    /// Angle-based flattening: the planar angles nearest to the surface's, by a system of all angles (Sheffer, de
+    /// Sturler 2001).
     Abf,
-    /// The same angles by a system of a fifth of the unknowns (Sheffer et al. 2005).
+    /// Angle-based flattening with a reduced system, which has a fifth of the unknowns (Sheffer et al. 2005).
     AbfPlusPlus,
-    /// From a planar embedding without the constraints, one-to-one all the way to their targets.
+    /// Continuation from a planar embedding without constraints to their targets, one-to-one at every step.
     Continuation,
-    /// Paths between the constraints on the mesh, with new vertices where they need room, straightened in the plane.
+    /// Paths between the constraints on the mesh, with new vertices if they lack clearance, straightened in the
+    /// plane.
     Matchmaker,
-    /// Whole numbers on a grid (Schnyder 1990), planar by theorem whatever the mesh; then relaxed.
+    /// Integer coordinates on a grid (Schnyder 1990), planar by theorem for every mesh; then relaxed.
     Schnyder,
 }
 
@@ -108,12 +113,12 @@ impl Method {
     /// Default limit of SLIM's iterations.
     const SLIM_STEPS: usize = 20;
 
-    /// True if the chosen family of weights counts.
+    /// True if the method uses the chosen family of weights.
     pub const fn uses_family(&self) -> bool {
         !matches!(self.traits().families, FamilyChoice::None)
     }
 
-    /// True if families that need a convex boundary can be chosen.
+    /// True if the method accepts families that need a convex boundary.
     pub const fn takes_any_family(&self) -> bool {
         matches!(self.traits().families, FamilyChoice::Any)
     }
@@ -128,12 +133,12 @@ impl Method {
         self.traits().usual_family
     }
 
-    /// True if the method iterates, so that a limit of its steps counts.
+    /// True if the method iterates, so that the step limit applies.
     pub const fn iterates(&self) -> bool {
         self.traits().iterations.is_some()
     }
 
-    /// Default limit of iterations: mean-value ones, solves of less stretch, or those of SLIM.
+    /// Default limit of iterations: mean-value iterations, solves for less stretch, or iterations of SLIM.
     pub const fn usual_steps(&self) -> usize {
         match self.traits().iterations {
             Some(most) => most,
@@ -146,7 +151,7 @@ impl Method {
         self.traits().takes_steps
     }
 
-    /// True if every step on the way to the constraints is one-to-one.
+    /// True if every step towards the constraints is one-to-one.
     pub const fn is_one_to_one(&self) -> bool {
         self.traits().is_one_to_one
     }
@@ -156,22 +161,22 @@ impl Method {
         !matches!(self.traits().layouts, LayoutUse::None)
     }
 
-    /// True if the method can continue from a layout only if that is one-to-one.
+    /// True if the method can continue from one-to-one layouts only.
     pub const fn needs_planar_start(&self) -> bool {
         matches!(self.traits().layouts, LayoutUse::Planar)
     }
 
-    /// True if the method may bend the boundary, so that the growth of the pinned vertices counts.
+    /// True if the method may bend the boundary, so that [`Settings::growth`] applies.
     pub const fn bends_boundary(&self) -> bool {
         self.traits().bends_boundary
     }
 
-    /// True if pins count.
+    /// True if the method uses pins.
     pub const fn uses_pins(&self) -> bool {
         !matches!(self.traits().pins, PinUse::None)
     }
 
-    /// The shape that it lays a boundary on.
+    /// Shape that the boundary is laid on, if the method has one.
     pub const fn boundary_shape(&self) -> Option<&BoundaryShape> {
         match self {
             Self::Convex(shape) | Self::Stretch(shape) | Self::Lee(shape) => Some(shape),
@@ -179,7 +184,7 @@ impl Method {
         }
     }
 
-    /// The same, to be changed.
+    /// Shape that the boundary is laid on, mutable, if the method has one.
     pub const fn boundary_shape_mut(&mut self) -> Option<&mut BoundaryShape> {
         match self {
             Self::Convex(shape) | Self::Stretch(shape) | Self::Lee(shape) => Some(shape),
@@ -187,7 +192,7 @@ impl Method {
         }
     }
 
-    /// The same with this shape, if it lays a boundary on one.
+    /// Method with another shape of the boundary. Unchanged if the method has no shape.
     #[must_use]
     pub fn on_shape(mut self, shape: BoundaryShape) -> Self {
         if let Some(own) = self.boundary_shape_mut() {
@@ -196,7 +201,7 @@ impl Method {
         self
     }
 
-    /// True if pins do not change the shape: they say at most where the embedding lies.
+    /// True if pins do not change the shape of the result. They only place it.
     pub const fn only_places_pins(&self) -> bool {
         matches!(self.traits().pins, PinUse::Placing)
     }
@@ -206,7 +211,7 @@ impl Method {
         self.traits().begins_with_pins_held
     }
 
-    /// True if the method can meet constraints: pins beyond the two exact ones that fix the similarity.
+    /// True if the method can meet constraints: pins beyond the two hard pins that fix the similarity.
     pub const fn takes_constraints(&self) -> bool {
         matches!(self.traits().pins, PinUse::Constraints)
     }
@@ -229,7 +234,7 @@ impl Method {
     }
 }
 
-/// Traits of a method: the options that count for it, and how it starts and ends.
+/// Traits of a method: the options that apply to it, its start and its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "independent traits: a table of them")]
 pub struct MethodTraits {
@@ -237,11 +242,11 @@ pub struct MethodTraits {
     pub families: FamilyChoice,
     /// Default family of weights.
     pub usual_family: Family,
-    /// Default limit of iterations; none for a method that does not iterate.
+    /// Default limit of iterations. Absent if the method does not iterate.
     pub iterations: Option<usize>,
     /// True if the method takes more steps than one linear solve.
     pub takes_steps: bool,
-    /// True if every step on the way to the constraints is one-to-one.
+    /// True if every step towards the constraints is one-to-one.
     pub is_one_to_one: bool,
     /// Layouts that the method can continue from.
     pub layouts: LayoutUse,
@@ -258,7 +263,7 @@ pub struct MethodTraits {
 }
 
 impl MethodTraits {
-    /// Traits that an entry of the table does not name.
+    /// Traits that an entry of the table leaves out.
     const NONE: Self = Self {
         families: FamilyChoice::None,
         usual_family: Family::Conformal,
@@ -277,7 +282,7 @@ impl MethodTraits {
 /// Families of weights that a method can be run with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FamilyChoice {
-    /// None: the weights are the method's own.
+    /// No choice: the weights are the method's own.
     None,
     /// Three-point families, which keep a free boundary.
     ThreePoint,
@@ -288,28 +293,28 @@ pub enum FamilyChoice {
 /// Layouts that a method can continue from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LayoutUse {
-    /// None: the method starts from the surface alone.
+    /// No layout: the method starts from the surface alone.
     None,
-    /// One-to-one layouts only.
+    /// Planar layouts only.
     Planar,
-    /// All layouts, folded ones too.
+    /// All layouts, also folded ones.
     Any,
 }
 
 /// Effect of the user's pins on a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PinUse {
-    /// None: the method places the whole boundary.
+    /// No effect: the method places the whole boundary.
     None,
     /// Position and size of the result, not its shape.
     Placing,
-    /// The similarity, by up to two pins: they shape the first solve, but cannot be constraints.
+    /// Fix the similarity, by up to two pins: they shape the first solve, but cannot be constraints.
     Gauge,
     /// Constraints: any number of pins.
     Constraints,
 }
 
-/// A convex boundary stands for all shapes, as does another method with one, for shapes are a choice of their own.
+/// Each method with a boundary shape is listed once, on a circle: the shape is a separate option.
 impl NamedOption for Method {
     const ALL: &'static [Self] = &[
         Self::Auto,
@@ -330,37 +335,30 @@ impl NamedOption for Method {
         Self::Schnyder,
     ];
 
-    #[expect(clippy::too_many_lines, reason = "a table: an entry for each method")]
     fn labels(&self) -> Labels {
         match self {
-            Self::Auto => Labels::new("auto", "Auto (ladder)")
-                .about(
-                    "one way after another, the least costly first, until the map is proved one-to-one and \
-                     meets the constraints",
-                )
+            Self::Auto => Labels::new("auto", "Auto")
+                .about("stages in order of cost, until the map is proved planar and meets the constraints")
                 .source("paper §3.3, §4, §5, and beyond"),
             Self::Natural => Labels::new("natural", "Natural boundary")
-                .about("free boundary from two pins or yours, one linear solve")
+                .about("free boundary with two pins, chosen or yours; one linear solve")
                 .source("paper §3.3, eq. 2 and 3"),
             Self::Iterate => Labels::new("iterate", "Mean-value iteration")
-                .about("natural boundary, then solved again and again with mean-value weights of its own embedding")
+                .about("natural boundary, then repeated solves with mean-value weights of the latest map")
                 .source("paper §4"),
             Self::VirtualBoundary => Labels::new("virtual-boundary", "Virtual boundary")
-                .about("natural boundary, then mesh and outside embedded together within a convex outline")
+                .about("natural boundary, then mesh and outside solved together within a convex outline")
                 .source("paper §5"),
             Self::Convex(_) => Labels::new("convex", "Convex boundary")
-                .about("boundary on a convex shape (--boundary), inside at barycentres")
+                .about("boundary on a convex shape (--boundary), interior at barycentres")
                 .source("Tutte 1963, Floater 1997"),
             Self::Stretch(_) => Labels::new("stretch", "Stretch minimising")
-                .about(
-                    "convex boundary (--boundary), weights divided by stretch solve after solve, until the L² stretch \
-                     no longer falls",
-                )
+                .about("convex boundary (--boundary), weights divided by stretch until the L² stretch stops falling")
                 .source("Yoshizawa, Belyaev and Seidel 2004"),
             Self::Lee(_) => Labels::new("lee", "Lee's virtual boundary")
                 .about(
-                    "layers of triangles around the mesh (--layers), the outermost on a convex shape (--boundary), peeled \
-                     off after the solve; planar where weights are positive, but not even a flat mesh comes back",
+                    "layers of triangles (--layers) around the mesh, outermost on a convex shape (--boundary), removed \
+                     after the solve; planar if weights are positive, but distorts even a flat mesh",
                 )
                 .source("Lee, Kim and Lee 2002"),
             Self::Lscm => Labels::new("lscm", "Least-squares conformal")
@@ -371,31 +369,27 @@ impl NamedOption for Method {
                 .source("paper §3.2"),
             Self::Slim => Labels::new("slim", "SLIM")
                 .about(
-                    "symmetric Dirichlet energy lowered from Tutte's map on a circle, no face folded; its boundary may \
-                     cross itself",
+                    "lowers the symmetric Dirichlet energy of Tutte's map, no face flipped; the boundary may cross \
+                     itself",
                 )
                 .source("Rabinovich et al. 2017"),
             Self::Spectral => Labels::new("spectral", "Spectral conformal")
-                .about("the least conformal energy of all maps with one size of boundary: no pins, an eigenvector")
+                .about("least conformal energy at a fixed boundary size: an eigenvector, without pins")
                 .source("Mullen et al. 2008"),
             Self::Abf => Labels::new("abf", "Angle based")
-                .about(
-                    "the angles nearest to the surface's that make a plane, by a system of all angles and conditions",
-                )
+                .about("planar angles nearest to those of the surface, from a system of all angles and conditions")
                 .source("Sheffer, de Sturler 2001"),
             Self::AbfPlusPlus => Labels::new("abf++", "Angle based, reduced")
-                .about("the same angles by a system of two unknowns per inner vertex: many times faster")
+                .about("angle-based flattening with two unknowns per inner vertex: many times faster")
                 .source("Sheffer et al. 2005"),
             Self::Continuation => Labels::new("continuation", "Continuation")
-                .about("from a planar map without constraints to their targets, one-to-one all the way")
+                .about("moves a planar map to the targets of the constraints, one-to-one at every step")
                 .source("ours; energy of Garanzha et al. 2021"),
             Self::Matchmaker => Labels::new("matchmaker", "Matchmaker")
-                .about(
-                    "paths between the constraints, with new vertices where they need room, made straight in the plane",
-                )
+                .about("straightens paths between the constraints in the plane, with new vertices if they need space")
                 .source("Eckstein et al. 2001; Kraevoy et al. 2003"),
             Self::Schnyder => Labels::new("schnyder", "Schnyder's grid")
-                .about("whole numbers on a grid, planar by theorem whatever the mesh; then relaxed")
+                .about("integer coordinates on a grid, planar by theorem for every mesh; then relaxed")
                 .source("Schnyder 1990"),
         }
     }

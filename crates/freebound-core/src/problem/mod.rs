@@ -1,10 +1,11 @@
-//! The question and the plain types of its answer.
+//! Types of a problem and of its solution.
 //!
 //! | file | contents |
 //! |---|---|
 //! | `method`, `stage` | the user's choice of a method, with a table of its traits; the stage that made a step |
-//! | `family`, `boundary_shape`, `settings`, `variant` | weights, shapes and all other settings; a method as comparisons name it |
-//! | `named_option`, `by_name` | options with names and labels; serde for these |
+//! | `family`, `boundary_shape` | weights; convex shapes for a boundary |
+//! | `settings`, `variant` | all settings of a solve; a method as comparisons name it |
+//! | `named_option`, `by_name` | options with names and labels; serde by name |
 //! | `pins` | pinned vertices in the plane |
 //! | `units` | units of a solve: near the origin and near size 1 |
 //! | `embedding`, `solution`, `progress` | positions in the plane; the numbers of a linear solve and of an energy |

@@ -1,18 +1,18 @@
-//! Things to choose by name. Each kind has one table, its [`NamedOption::words`], from which the command line, the editor,
-//! reports and project files take names and words.
+//! Options that are chosen by name. Each kind has one table, [`NamedOption::labels`]. The command line, the editor,
+//! reports and project files take names and descriptions from this table.
 
 use std::borrow::Cow;
 
-/// What a choice is called.
+/// Labels of an option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Labels {
-    /// Its name on the command line, in reports and in project files.
+    /// Name on the command line, in reports and in project files.
     pub name: &'static str,
-    /// Its name on the screen.
+    /// Name on the screen.
     pub title: &'static str,
-    /// What it does, in one line.
+    /// Description in one line.
     pub about: &'static str,
-    /// The paper's section, or where else it comes from; empty where there is nothing to name.
+    /// Section of the paper, or another source. Empty if there is none.
     pub source: &'static str,
 }
 
@@ -34,31 +34,31 @@ impl Labels {
         Self { source, ..self }
     }
 
-    /// What it does and where it comes from.
+    /// Description, with the source in brackets.
     pub fn tip(&self) -> String {
         if self.source.is_empty() { self.about.to_owned() } else { format!("{} ({})", self.about, self.source) }
     }
 }
 
-/// One of a few things to choose by name.
+/// Option that is chosen by name from a few values.
 pub trait NamedOption: Clone + Send + Sync + 'static {
-    /// All there are to choose, in the order of menus; those with a number, with a usual one.
+    /// All values, in the order of menus. A value that holds a number is listed with a usual one.
     const ALL: &'static [Self];
 
-    /// What it is called.
+    /// Labels of the value.
     fn labels(&self) -> Labels;
 
-    /// The name, without the number that some have.
+    /// Name, without the number that some values hold.
     fn name(&self) -> &'static str {
         self.labels().name
     }
 
-    /// The name as files have it, with its number.
+    /// Name as written in files, with the number if there is one.
     fn written(&self) -> Cow<'static, str> {
         self.name().into()
     }
 
-    /// The one that is written so.
+    /// Value with this written name.
     fn named(text: &str) -> Option<Self> {
         Self::ALL.iter().find(|choice| choice.name() == text).cloned()
     }

@@ -1,4 +1,4 @@
-//! Pins: what the user prescribes, and the gauge pins that stand in where that is too little (paper §3.3).
+//! Pins that the user prescribes, and gauge pins that stand in if there are too few (paper §3.3).
 
 use std::collections::BTreeMap;
 
@@ -13,41 +13,42 @@ pub type PinPositions = BTreeMap<VertexId, DVec2>;
 /// Pinned vertices with their targets.
 pub type Pins = BTreeMap<VertexId, Pin>;
 
-/// Fewest pins that fix the similarity of a free boundary, and the most that are no constraints.
+/// Least number of pins that fix the similarity of a free boundary. Also the largest number of hard pins that are no
+/// constraints.
 pub(crate) const GAUGE_PINS: usize = 2;
 
-/// A vertex's prescribed position, and how it is held there.
+/// Prescribed position of a vertex, and the kind of its pin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pin {
-    /// Where the vertex is to be.
+    /// Target position.
     pub target: DVec2,
-    /// How it is held.
+    /// Kind of the pin.
     pub kind: PinKind,
 }
 
-/// How a pin holds its vertex.
+/// Kind of a pin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PinKind {
-    /// Exactly; it was fixed where it lay.
+    /// Met exactly: the vertex was fixed where it lay.
     Fixed,
-    /// Exactly; it is a constraint.
+    /// Met exactly: a constraint.
     Hard,
-    /// By a spring: `weight · (z − target)` is one more equation among those of the vertices (paper §6).
+    /// Met by a spring: `weight · (z − target)` is one more equation beside those of the vertices (paper §6).
     Soft(f64),
 }
 
 impl PinKind {
-    /// Whether the target is met to the last bit.
+    /// True if the target is met to the last bit.
     pub const fn is_hard(self) -> bool {
         !matches!(self, Self::Soft(_))
     }
 
-    /// True if a vertex held in this way is held alike in another: both to the last bit, or with the same weight.
+    /// True if both kinds hold a vertex alike: both to the last bit, or with equal weights.
     pub fn is_like(self, other: Self) -> bool {
         self == other || (self.is_hard() && other.is_hard())
     }
 
-    /// The weight, where it is not a positive number.
+    /// Weight of a soft pin, if it is not a positive number.
     pub fn invalid_weight(self) -> Option<f64> {
         match self {
             Self::Soft(weight) if !(weight.is_finite() && weight > 0.0) => Some(weight),
@@ -57,32 +58,32 @@ impl PinKind {
 }
 
 impl Pin {
-    /// The weight of a constraint that nobody weighed: medium, between what the mesh wants and what the pins want.
+    /// Default weight of a soft constraint: a balance between the mesh and the pins.
     pub const DEFAULT_WEIGHT: f64 = 1.0;
 
-    /// The least weight that counts: lighter pins pull as this one does, which hardly moves anything.
+    /// Least weight. Lighter pins are clamped to it, which hardly moves anything.
     pub(crate) const LEAST_WEIGHT: f64 = 1e-12;
 
-    /// The greatest weight that counts: heavier pins pull as this one does, to within rounding of their targets.
+    /// Greatest weight. Heavier pins are clamped to it, which meets their targets to within rounding.
     pub(crate) const GREATEST_WEIGHT: f64 = 1e12;
 
-    /// A constraint that is met exactly.
+    /// Hard pin: a constraint that is met exactly.
     pub const fn hard(target: DVec2) -> Self {
         Self { target, kind: PinKind::Hard }
     }
 
-    /// A vertex that stays where it is.
+    /// Fixed pin: a vertex that stays where it is.
     pub const fn fixed(target: DVec2) -> Self {
         Self { target, kind: PinKind::Fixed }
     }
 
-    /// A constraint that pulls with a weight.
+    /// Soft pin: a constraint that pulls with a weight.
     pub const fn weighted(target: DVec2, weight: f64) -> Self {
         Self { target, kind: PinKind::Soft(weight) }
     }
 }
 
-/// Whether two sets of pins differ in their targets alone: the same vertices, held in the same way.
+/// True if two sets of pins differ at most in targets: equal vertices, held alike.
 pub fn are_held_alike(a: &Pins, b: &Pins) -> bool {
     let alike = |((v, p), (w, q)): ((&VertexId, &Pin), (&VertexId, &Pin))| v == w && p.kind.is_like(q.kind);
     a.len() == b.len() && a.iter().zip(b).all(alike)
@@ -92,34 +93,34 @@ pub(crate) fn targets_of(pins: &Pins) -> PinPositions {
     pins.iter().map(|(&vertex, pin)| (vertex, pin.target)).collect()
 }
 
-/// Pins that hold vertices exactly, as constraints do.
+/// Hard pins on vertices at these positions.
 pub fn hard_pins(places: impl IntoIterator<Item = (VertexId, DVec2)>) -> Pins {
     places.into_iter().map(|(vertex, target)| (vertex, Pin::hard(target))).collect()
 }
 
-/// Pins that hold vertices where they lie.
+/// Fixed pins on vertices at these positions.
 pub fn fixed_pins(places: impl IntoIterator<Item = (VertexId, DVec2)>) -> Pins {
     places.into_iter().map(|(vertex, target)| (vertex, Pin::fixed(target))).collect()
 }
 
-/// Targets of exact pins: no two may have the same.
+/// Targets of hard pins, to find two pins with one target.
 #[derive(Clone, Debug, Default)]
 pub struct TakenTargets(BTreeMap<[u64; 2], VertexId>);
 
 impl TakenTargets {
-    /// Takes a vertex's target, if it is held exactly. Returns the vertex that has it already, if there is one.
+    /// Registers the target of a hard pin. Returns the vertex that already has this target, if there is one.
     pub fn take(&mut self, vertex: VertexId, target: DVec2, kind: PinKind) -> Option<VertexId> {
-        // Adding zero makes one bit pattern of the two zeros.
+        // Adding zero turns −0 into 0.
         let bits = (target + 0.0).to_array().map(f64::to_bits);
         kind.is_hard().then(|| self.0.insert(bits, vertex)).flatten()
     }
 }
 
-/// Checks that every pin can be met and that no two exact ones have one target.
+/// Checks that every pin can be met and that no two hard pins have one target.
 ///
 /// # Errors
 ///
-/// The first pin at fault, by vertex.
+/// Error of the first invalid pin, in the order of vertices.
 pub fn check_pins(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveError> {
     let mut taken = TakenTargets::default();
     for (&vertex, pin) in pins {
@@ -142,16 +143,16 @@ pub fn check_pins(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveError> {
     Ok(())
 }
 
-/// The default gauge: the farthest pair of boundary vertices on the x-axis, the lower id at the origin, at their
-/// distance in space.
+/// The default gauge: the farthest pair of boundary vertices, placed on the x-axis at their distance in space. The
+/// vertex with the lower id is at the origin.
 pub fn gauge_pins(mesh: &DiskMesh) -> PinPositions {
     let [a, b] = farthest_pair(mesh);
     let distance = mesh.position(a).distance(mesh.position(b));
     BTreeMap::from([(a.min(b), DVec2::ZERO), (a.max(b), DVec2::new(distance, 0.0))])
 }
 
-/// The two boundary vertices farthest apart in space. Pairs of boxes are compared, largest bound first, and dropped
-/// where they cannot hold a longer distance than the best one found: near linear even on a circle.
+/// Pair of boundary vertices farthest apart in space. Pairs of boxes are compared, largest bound first. A pair is
+/// dropped if its bound does not exceed the best distance so far: near linear even on a circle.
 pub fn farthest_pair(mesh: &DiskMesh) -> [VertexId; 2] {
     let mut ids: Vec<VertexId> = mesh.boundary_loop().to_vec();
     ids.sort_unstable();
@@ -164,7 +165,7 @@ pub fn farthest_pair(mesh: &DiskMesh) -> [VertexId; 2] {
     [ids[a as usize], ids[b as usize]]
 }
 
-/// Points in a leaf.
+/// Largest number of points in a leaf.
 const LEAF: usize = 8;
 
 /// A binary tree of boxes over a range of `order`.
@@ -193,7 +194,7 @@ impl BoxTree {
         Self { low, high, range, halves: Some(Box::new(halves)) }
     }
 
-    /// No point of this box is farther from a point of the other than this.
+    /// Upper bound of the squared distance between points of two boxes.
     fn farthest_bound(&self, other: &Self) -> f64 {
         (self.high - other.low).abs().max((other.high - self.low).abs()).length_squared()
     }

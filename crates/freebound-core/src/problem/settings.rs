@@ -1,18 +1,18 @@
-//! Everything about a solve but the mesh and the pins.
+//! Settings of a solve: everything but the mesh and the pins.
 
 use super::pins::GAUGE_PINS;
 use super::{Family, Labels, Method, NamedOption, Pin, PinKind, Pins, Spacing, Stage};
 use crate::geom::Bounds;
 
-/// How the equations of pinned vertices are treated.
+/// Treatment of the equations of pinned vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Treatment {
-    /// They are dropped (paper §3.3).
+    /// Equations of pinned vertices are dropped (paper §3.3).
     Eliminate,
-    /// All equations are kept and met as well as can be, the pins exactly (paper §6).
+    /// All equations are kept and met in the least-squares sense, hard pins exactly (paper §6).
     LeastSquares,
-    /// All equations are kept, and pins are further equations: those without a weight of their own have
-    /// [`Pin::DEFAULT_WEIGHT`] (paper §6).
+    /// All equations are kept, and each pin adds another. Pins without a weight have [`Pin::DEFAULT_WEIGHT`] (paper
+    /// §6).
     Weighted,
 }
 
@@ -22,25 +22,25 @@ impl NamedOption for Treatment {
     fn labels(&self) -> Labels {
         match self {
             Self::Eliminate => Labels::new("eliminate", "Eliminate")
-                .about("the equations of pinned vertices are dropped")
+                .about("drops the equations of pinned vertices")
                 .source("paper §3.3"),
             Self::LeastSquares => Labels::new("least-squares", "Least squares")
-                .about("all equations are kept and met as well as can be, the pins exactly")
+                .about("keeps all equations, solved by least squares; hard pins are met exactly")
                 .source("paper §6"),
             Self::Weighted => Labels::new("weighted", "Weighted")
-                .about("all equations are kept, and all pins pull by their weights")
+                .about("keeps all equations; every pin pulls by its weight")
                 .source("paper §6"),
         }
     }
 }
 
-/// How many boundary vertices the virtual boundary pins next where the boundary is not simple.
+/// Growth of the set of pinned boundary vertices in [`Method::VirtualBoundary`], while the boundary is not simple.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Growth {
-    /// Twice as many.
+    /// Doubles the number of pinned vertices.
     #[default]
     Double,
-    /// One more, as the paper's §5 has it.
+    /// Adds one pinned vertex (paper §5).
     One,
 }
 
@@ -49,25 +49,25 @@ impl NamedOption for Growth {
 
     fn labels(&self) -> Labels {
         match self {
-            Self::Double => Labels::new("double", "Twice as many").about("quick: as many again are bent each time"),
-            Self::One => {
-                Labels::new("one", "One more").about("as the paper's §5 has it: the least that is enough, found slowly")
-            }
+            Self::Double => Labels::new("double", "Twice as many")
+                .about("doubles the number of pinned boundary vertices each time: fast"),
+            Self::One => Labels::new("one", "One more")
+                .about("pins one more boundary vertex each time (paper §5): fewest pins, but slow"),
         }
     }
 }
 
-/// How large an embedding is that fewer than two pins of the user's do not fix.
+/// Size of an embedding that has fewer than two of the user's pins.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum GaugeSize {
-    /// As large as the surface.
+    /// Area of the surface.
     #[default]
     TrueArea,
-    /// As large as fits into a box, in its middle: the picture that it is made for.
+    /// Largest size that fits into a box, in its middle: the picture that the map is made for.
     Within(Bounds),
 }
 
-/// What the first step is of methods that can go on from a layout.
+/// First step of a method that can continue from a layout.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -75,7 +75,7 @@ pub enum Start {
     /// A map computed from the surface alone.
     #[default]
     FromScratch,
-    /// The texture coordinates of the mesh file, as they are.
+    /// The texture coordinates of the mesh file, unchanged.
     File,
 }
 
@@ -84,40 +84,43 @@ impl NamedOption for Start {
 
     fn labels(&self) -> Labels {
         match self {
-            Self::FromScratch => Labels::new("afresh", "Afresh").about("the map is computed from the surface alone"),
-            Self::File => Labels::new("file", "File's layout").about(
-                "the texture coordinates of the file are the first step, as they are, and the method goes on from them",
-            ),
+            Self::FromScratch => {
+                Labels::new("from-scratch", "From scratch").about("computes the map from the surface alone")
+            }
+            Self::File => Labels::new("file", "File's layout")
+                .about("starts from the texture coordinates of the file, unchanged; they are the first step"),
         }
     }
 }
 
-/// Everything about a solve but the mesh and the pins.
+/// Settings of a solve: everything but the mesh and the pins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// The way to the embedding.
+    /// Method of the solve.
     pub method: Method,
-    /// The weights, where the method has a choice; where nobody chose, [`Settings::family`] says.
+    /// Family of weights, if the method has a choice. Default: [`Method::usual_family`].
     pub family: Option<Family>,
-    /// How far apart vertices lie on a convex shape, where the method lays a boundary on one.
+    /// Spacing of vertices on a convex shape, if the method lays the boundary on one.
     pub spacing: Spacing,
-    /// Layers of virtual triangles that [`Method::Lee`] puts around the mesh, 1 at least.
+    /// Number of layers of virtual triangles that [`Method::Lee`] puts around the mesh, at least 1.
     pub layers: usize,
-    /// What becomes of pinned vertices' equations; where nobody chose, [`Settings::treatment_on`] says.
+    /// Treatment of the equations of pinned vertices. Default: by stage and number of pins, see
+    /// [`Settings::treatment_on`].
     pub treatment: Option<Treatment>,
-    /// The most iterations after a linear solve; a flattener that starts again counts anew. Where nobody says,
-    /// [`Settings::max_steps`] does.
+    /// Largest number of iterations after a linear solve. A flattener that restarts counts anew. Default:
+    /// [`Method::usual_steps`].
     pub max_steps: Option<usize>,
-    /// How the virtual boundary goes on.
+    /// Growth of the set of pinned boundary vertices in [`Method::VirtualBoundary`].
     pub growth: Growth,
-    /// How large the embedding is where the user's pins do not say.
+    /// Size of the embedding, if the user's pins do not fix it.
     pub size: GaugeSize,
-    /// The most rounds of relaxing after a planar end; where nobody says, as many as `auto` needs until the embedding holds in
-    /// 32 bits at a moderate energy, and a few after stages 4 and 5, the grid, and a boundary that was bent.
+    /// Largest number of relaxing rounds after a planar end. Default: a few rounds after continuation, the
+    /// matchmaker, Schnyder's grid and a bent boundary. `auto` also relaxes until the embedding holds in 32 bits at a
+    /// moderate energy.
     pub relax_rounds: Option<usize>,
-    /// Whether edges may be split where the constraints cannot be met otherwise.
+    /// True if edges may be split when the constraints cannot be met otherwise.
     pub new_vertices: bool,
-    /// What the first step is.
+    /// First step of the method.
     pub start: Start,
 }
 
@@ -140,38 +143,38 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The most iterations after a linear solve, where nobody says; see [`Method::usual_steps`].
+    /// Default limit of iterations after a linear solve; see [`Method::usual_steps`].
     pub const MAX_STEPS: usize = 60;
 
-    /// Layers of virtual triangles, where nobody says.
+    /// Default number of layers of virtual triangles.
     pub const LAYERS: usize = 2;
 
-    /// The most layers that can be asked for.
+    /// Largest number of layers.
     pub const MOST_LAYERS: u16 = 100;
 
-    /// A method and a family, everything else as it is by default for the method.
+    /// Settings of a method and a family. Default for all other settings: [`Settings::default`].
     pub fn new(method: Method, family: Family) -> Self {
         Self { method, family: Some(family), ..Self::default() }
     }
 
-    /// The same by another method. What was asked for stays, but for weights that do not go with it.
+    /// Settings for another method. Requested settings stay, except a family that does not go with the method.
     #[must_use]
     pub fn by(self, method: Method) -> Self {
         let family = self.family.filter(|family| family.goes_with(&method));
         Self { method, family, ..self }
     }
 
-    /// The weights that were asked for, or those that are usual for the method.
+    /// Requested family, or the default of the method.
     pub fn family(&self) -> Family {
         self.family.unwrap_or_else(|| self.method.usual_family())
     }
 
-    /// The most iterations that were asked for, or as many as are usual for the method.
+    /// Requested limit of iterations, or the default of the method.
     pub fn max_steps(&self) -> usize {
         self.max_steps.unwrap_or_else(|| self.method.usual_steps())
     }
 
-    /// Whether both ask for the same, be it in words or as what is usual.
+    /// True if both resolve to the same settings once defaults are filled in.
     pub fn resolves_to(&self, other: &Self) -> bool {
         let in_words = |settings: &Self| Self {
             family: Some(settings.family()),
@@ -181,17 +184,19 @@ impl Settings {
         in_words(self) == in_words(other)
     }
 
-    /// Whether the first step is one linear solve for positions, with the user's pins held: what can follow a pin.
+    /// True if the first step is one linear solve for positions, with the user's pins held. Such a solve can follow a
+    /// moving pin.
     pub fn begin_with_pins_held(&self) -> bool {
         self.start == Start::FromScratch && self.method.begins_with_pins_held()
     }
 
-    /// How a stage treats the equations of the pinned vertices, with so many pins of the user's. A boundary that the solver
-    /// places is always eliminated. Up to two pins only fix the similarity and are eliminated, unless another treatment was
-    /// asked for, so that conformal weights give the least-squares conformal map; more are constraints.
+    /// Treatment of the equations of pinned vertices in a stage, with this number of the user's pins. A boundary that
+    /// the solver places is always eliminated. Up to two pins only fix the similarity and are eliminated by default.
+    /// So conformal weights give the least-squares conformal map. More pins are constraints: their equations are kept
+    /// by default (least squares).
     pub fn treatment_on(&self, stage: &Stage, pin_count: usize) -> Treatment {
         match stage {
-            // By hand after a convex boundary, all of which is pinned.
+            // Iteration on request, after a convex boundary: all boundary vertices are pinned.
             Stage::Iterate if !self.method.uses_pins() => Treatment::Eliminate,
             Stage::Iterate => self.treatment.unwrap_or(Treatment::LeastSquares),
             Stage::VirtualBoundary | Stage::Convex(_) | Stage::Stretch(_) => Treatment::Eliminate,
@@ -201,24 +206,24 @@ impl Settings {
         }
     }
 
-    /// Whether pins are constraints: up to two exact ones only fix the similarity.
+    /// True if pins are constraints. Up to two hard pins only fix the similarity.
     pub fn are_constraints(&self, pins: &Pins) -> bool {
         let is_hard = || pins.values().all(|pin| self.is_hard(pin.kind));
         pins.len() > GAUGE_PINS || (pins.len() == GAUGE_PINS && !is_hard())
     }
 
-    /// Whether the method continues from a one-to-one embedding to the constraints, and these pins are some.
+    /// True if the method continues from a one-to-one embedding to the constraints, and these pins are constraints.
     pub fn continues(&self, pins: &Pins) -> bool {
         matches!(self.method, Method::Auto | Method::Continuation) && self.are_constraints(pins)
     }
 
-    /// Whether this treatment meets the targets of such pins to the last bit.
+    /// True if this treatment meets the targets of this kind of pin to the last bit.
     pub fn is_hard(&self, kind: PinKind) -> bool {
         kind.is_hard() && self.treatment != Some(Treatment::Weighted)
     }
 
-    /// How this treatment holds a pin: it may weigh one that is to be met exactly, and no pin is weighed so lightly or so
-    /// heavily that it makes no difference any more.
+    /// Kind of a pin under this treatment. The treatment may turn a hard pin into a soft pin. Weights are clamped to
+    /// the range in which they make a difference.
     pub fn kind_of(&self, asked: PinKind) -> PinKind {
         match asked {
             PinKind::Soft(weight) if asked.invalid_weight().is_none() => {
@@ -229,7 +234,7 @@ impl Settings {
         }
     }
 
-    /// The user's pins as this treatment holds them.
+    /// The user's pins with their kinds under this treatment.
     pub fn held(&self, pins: &Pins) -> Pins {
         pins.iter().map(|(&vertex, pin)| (vertex, Pin { kind: self.kind_of(pin.kind), ..*pin })).collect()
     }

@@ -1,4 +1,4 @@
-//! What a solve gives back.
+//! Result of a solve.
 
 use super::{Embedding, Pins};
 use crate::linalg::FactorStats;
@@ -6,35 +6,37 @@ use crate::linalg::FactorStats;
 /// An embedding and the numbers of the solve that made it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Solution {
-    /// One position per vertex of the mesh, in the plane.
+    /// Position of each vertex of the mesh, in the plane.
     pub embedding: Embedding,
-    /// The pins in force, as they were held: the user's, the two gauge pins where those were fewer, or all of a convex boundary.
+    /// Pins of the solve: the user's pins, two gauge pins if the user has fewer, or all vertices of a convex
+    /// boundary.
     pub pins: Pins,
-    /// Whether the pins are gauge pins that the solver chose by itself.
+    /// True if the solver chose gauge pins by itself.
     pub gauge_completed: bool,
-    /// The linear solve; none where an energy was minimised.
+    /// Numbers of the linear solve. Absent if an energy was minimised.
     pub linear: Option<LinearSolve>,
-    /// How a method that comes nearer and nearer to its answer within one step ended; none where it does not.
+    /// Convergence of a method that approaches its answer within one step. Absent for all other methods.
     pub convergence: Option<Convergence>,
-    /// Where the time went.
+    /// Seconds by phase.
     pub seconds: PhaseSeconds,
 }
 
-/// The numbers of a linear solve.
+/// Numbers of a linear solve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinearSolve {
-    /// ‖Ax − b‖ / ‖b‖, measured on the original system.
+    /// Relative residual ‖Ax − b‖ / ‖b‖, measured on the original system.
     pub residual: f64,
-    /// ‖A z‖ of all vertex equations, pinned ones included, relative to the sizes of their terms: how far the
-    /// embedding is from satisfying the boundary condition everywhere. Vertices on a convex boundary have no equation.
+    /// Residual ‖A z‖ of all vertex equations, also at pinned vertices, relative to the sizes of their terms.
+    /// Measures how far the embedding is from satisfying the boundary condition everywhere. Vertices on a convex
+    /// boundary have no equation.
     pub equation_residual: f64,
-    /// Pivots too small to divide by that were replaced.
+    /// Number of pivots that were replaced, because they were too small to divide by.
     pub replaced_pivots: usize,
-    /// Corners whose weight hit a bound, being degenerate.
+    /// Number of corners whose weight is clamped, because they are degenerate.
     pub bounded_corners: usize,
-    /// Bytes of the matrix's factors.
+    /// Memory of the matrix's factors, in bytes.
     pub factor_bytes: usize,
-    /// Whether all equations were kept and met as well as can be; otherwise those of pinned vertices were dropped.
+    /// True if all equations were kept (least squares). False if the equations of pinned vertices were dropped.
     pub keeps_equations: bool,
 }
 
@@ -44,33 +46,33 @@ impl From<FactorStats> for LinearSolve {
     }
 }
 
-/// How far a method has come that approaches its answer within one step.
+/// Convergence of a method that approaches its answer within one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Convergence {
-    /// Solves or Newton steps that it took.
+    /// Number of solves or Newton steps.
     pub steps: usize,
-    /// What is left of its conditions: the method says of which, and relative to what.
+    /// Residual of the method's conditions. Each method defines the conditions and the scale.
     pub residual: f64,
-    /// Why it ended.
+    /// Reason of the end.
     pub stop: Stop,
 }
 
-/// Why a method went no further.
+/// Reason why a method stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Stop {
     /// A further step would change nothing but rounding.
     Converged,
-    /// No step led nearer.
+    /// No step improves the result.
     Stalled,
-    /// It took as many steps as it may.
+    /// The step limit was reached.
     Limit,
 }
 
 impl Stop {
-    /// What a report calls it.
+    /// Name in reports.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Converged => "converged",
@@ -79,12 +81,12 @@ impl Stop {
         }
     }
 
-    /// The reason in words, to follow a count of steps.
+    /// Words that follow a count of steps.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Converged => "converged",
-            Self::Stalled => "no step leads nearer",
-            Self::Limit => "as many as it may take",
+            Self::Stalled => "no step improves it",
+            Self::Limit => "step limit reached",
         }
     }
 }
@@ -103,7 +105,7 @@ pub struct PhaseSeconds {
 }
 
 impl PhaseSeconds {
-    /// All phases together.
+    /// Sum of all phases.
     pub fn total(&self) -> f64 {
         self.assemble + self.analyze + self.factor + self.solve
     }

@@ -2,23 +2,23 @@
 
 use super::{BoundaryShape, Method, NoEquation, WeightSource};
 
-/// The stage of a method that made a step.
+/// Stage of a method that made a step.
 ///
-/// A method has one stage or several. Relaxing, cutting and a given layout are stages only: nobody chooses them as methods.
+/// A method has one stage or several. Relaxing, cutting and a given layout are stages only, not methods.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Stage {
-    /// One linear solve with a natural boundary (paper §3.3).
+    /// Single linear solve with a natural boundary (paper §3.3).
     #[default]
     Natural,
     /// A mean-value iteration (paper §4).
     Iterate,
     /// A boundary made simple, or mesh and outside embedded together (paper §5).
     VirtualBoundary,
-    /// One linear solve with the boundary on a convex shape.
+    /// Single linear solve with the boundary on a convex shape.
     Convex(BoundaryShape),
     /// A solve with weights divided by stretch, the boundary on a convex shape.
     Stretch(BoundaryShape),
-    /// One linear solve of the mesh and layers of virtual triangles around it.
+    /// Single linear solve of the mesh and the layers of virtual triangles around it.
     Lee(BoundaryShape),
     /// The least-squares conformal map.
     Lscm,
@@ -34,7 +34,7 @@ pub enum Stage {
     AbfPlusPlus,
     /// A one-to-one step towards the constraints.
     Continuation,
-    /// New vertices that let the constraints be met.
+    /// New vertices, so that the constraints can be met.
     Matchmaker,
     /// Schnyder's drawing on a grid.
     Schnyder,
@@ -42,12 +42,13 @@ pub enum Stage {
     Relax,
     /// Polygons that cannot be convex, cut into triangles.
     Cut,
-    /// The layout that was given to start from, unchanged.
+    /// The given layout, unchanged.
     Given,
 }
 
 impl Stage {
-    /// The stage of the first linear solve of a method: its own for methods of a single solve, otherwise a natural boundary.
+    /// Stage of the first linear solve of a method: its own stage if it has a single solve, otherwise a natural
+    /// boundary.
     pub(crate) fn of_linear_solve(method: &Method) -> Self {
         match method {
             Method::Convex(shape) => Self::Convex(shape.clone()),
@@ -69,7 +70,7 @@ impl Stage {
         }
     }
 
-    /// The fixed lower-case name, for reports, tables and files.
+    /// Fixed lower-case name, for reports, tables and files.
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Natural => "natural",
@@ -102,7 +103,7 @@ impl Stage {
         }
     }
 
-    /// Words that fit a chip of the timeline or the status bar.
+    /// Short words for a chip of the timeline or the status bar.
     pub const fn short_words(&self) -> &'static str {
         match self {
             Self::Iterate => "mean value",
@@ -116,22 +117,22 @@ impl Stage {
         }
     }
 
-    /// True if the step keeps an embedding one-to-one that is so.
+    /// True if the stage keeps a one-to-one embedding one-to-one.
     pub const fn is_one_to_one(&self) -> bool {
         matches!(self, Self::Continuation | Self::Matchmaker | Self::Relax | Self::Cut)
     }
 
-    /// True if the chosen family of weights counts.
+    /// True if the stage uses the chosen family of weights.
     pub const fn uses_family(&self) -> bool {
         matches!(self, Self::Natural | Self::Iterate | Self::VirtualBoundary | Self::Convex(_) | Self::Lee(_))
     }
 
-    /// True if pins do not change the shape: they say at most where the embedding lies.
+    /// True if pins do not change the shape of the result. They only place it.
     pub const fn only_places_pins(&self) -> bool {
         matches!(self, Self::Schnyder | Self::Lee(_) | Self::Slim | Self::Spectral | Self::Abf | Self::AbfPlusPlus)
     }
 
-    /// The shape that the stage lays a boundary on.
+    /// Shape that the stage lays the boundary on, if it has one.
     pub const fn boundary_shape(&self) -> Option<&BoundaryShape> {
         match self {
             Self::Convex(shape) | Self::Stretch(shape) | Self::Lee(shape) => Some(shape),
@@ -143,7 +144,7 @@ impl Stage {
     ///
     /// # Errors
     ///
-    /// The reason why vertices have no equations with a barycentre.
+    /// Reason why vertices have no equations with a barycentre.
     pub const fn weight_source(&self) -> Result<WeightSource, NoEquation> {
         match self {
             Self::Natural | Self::Convex(_) | Self::Lee(_) | Self::Lscm | Self::Spectral => Ok(WeightSource::Surface),
@@ -159,7 +160,7 @@ impl Stage {
     }
 }
 
-/// A stage stands in reports by its name.
+/// Serialised by name.
 #[cfg(feature = "serde")]
 impl serde::Serialize for Stage {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -1,13 +1,15 @@
-//! The units of a solve: what is to be computed lies near the origin and near size 1, wherever the targets are.
+//! Units of a solve: the solve is near the origin and near size 1, wherever the targets are.
 //!
 //! ```text
 //! z = scale · (w + origin)        z in the plane, w in units of the solve
 //! ```
 //!
-//! The scale is a power of two, 1 but for the largest and smallest targets. The origin is 0 but for targets far away, beside
-//! their extent, on one side of 0: then it is the number on a grid as wide as the extent that lies nearest to them towards
-//! 0. Targets and origin are thus multiples of the same step, a target is at least as far from 0, and their
-//! difference has no more digits than the target: it is exact, and so is the way back.
+//! The scale is a power of two. The scale is 1 unless the targets are extremely large or small.
+//!
+//! The origin is 0 unless the targets are far from 0, compared to their extent, and on one side of 0. Then the origin
+//! is the multiple of a grid step of about the extent that is nearest to the targets towards 0. Targets and origin
+//! are multiples of one step, and a target is at least as far from 0 as the origin. So their difference has no more
+//! digits than the target: the subtraction is exact, and so is its inverse.
 
 use glam::DVec2;
 
@@ -15,7 +17,8 @@ use super::{Embedding, GaugeSize, Pin, Pins, Settings};
 use crate::geom::{Bounds, power_of_two_near};
 use crate::mesh::VertexId;
 
-/// Sizes from its reciprocal up to this are left as they are: fourth powers of them are still normal numbers.
+/// Sizes between the reciprocal of this number and the number are not scaled: their fourth powers are still normal
+/// numbers.
 const LARGE: f64 = (1_u128 << 100) as f64;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +27,7 @@ pub(crate) struct Units {
     origin: DVec2,
 }
 
-/// The plane itself.
+/// Units of the plane itself.
 impl Default for Units {
     fn default() -> Self {
         Self { scale: 1.0, origin: DVec2::ZERO }
@@ -32,7 +35,7 @@ impl Default for Units {
 }
 
 impl Units {
-    /// Those of pins; where they leave the size open, those of the box that the embedding is to fill.
+    /// Units for these pins. If the pins leave the size open, units for the box that the embedding fills.
     pub(crate) fn of(pins: &Pins, size: GaugeSize) -> Self {
         let targets = || pins.values().map(|pin| pin.target);
         let scale = match size {
@@ -50,12 +53,12 @@ impl Units {
         Self { scale, origin: (nearest / step).trunc() * step }
     }
 
-    /// The same with the plane's origin.
+    /// Units with the origin of the plane.
     pub(crate) fn about_origin(self) -> Self {
         Self { origin: DVec2::ZERO, ..self }
     }
 
-    /// Whether they change nothing, as for ordinary targets.
+    /// True if the units are those of the plane, as for ordinary targets.
     pub(crate) fn is_plane(&self) -> bool {
         *self == Self::default()
     }
@@ -65,7 +68,7 @@ impl Units {
     }
 
     fn place_in_plane(&self, w: DVec2) -> DVec2 {
-        // Adding nothing would still make a zero of a negative zero.
+        // Adding zero would turn −0 into 0.
         if self.is_plane() { w } else { (w + self.origin) * self.scale }
     }
 
@@ -73,7 +76,7 @@ impl Units {
         pins.iter().map(|(&vertex, pin)| (vertex, Pin { target: self.place(pin.target), ..*pin })).collect()
     }
 
-    /// Settings, whose box keeps its place relative to the origin: only its size matters.
+    /// Settings in these units. The box keeps its position relative to the origin: only its size matters.
     pub(crate) fn settings(&self, settings: Settings) -> Settings {
         let size = match settings.size {
             GaugeSize::Within(Bounds { low, high }) => {
@@ -92,7 +95,7 @@ impl Units {
         length * self.scale
     }
 
-    /// Takes places to the plane.
+    /// Converts positions to the plane.
     pub(crate) fn places_to_plane(&self, places: &mut [DVec2]) {
         if !self.is_plane() {
             for w in places {
@@ -101,8 +104,8 @@ impl Units {
         }
     }
 
-    /// Takes an embedding to the plane, and vertices on their targets to the numbers given: those of the smallest targets
-    /// beside large ones would not come back.
+    /// Converts an embedding to the plane. Vertices at their targets get the exact numbers of `asked`. The conversion
+    /// alone would lose digits of small targets beside large ones.
     pub(crate) fn embedding_to_plane(&self, embedding: &mut Embedding, asked: &Pins) {
         if self.is_plane() {
             return;
@@ -116,7 +119,7 @@ impl Units {
         }
     }
 
-    /// Takes pins in force to the plane: those asked for to the numbers given.
+    /// Converts pins of a solve to the plane. Requested pins get the exact numbers of `asked`.
     pub(crate) fn pins_to_plane(&self, pins: &mut Pins, asked: &Pins) {
         for (vertex, pin) in pins {
             pin.target = match asked.get(vertex) {
@@ -127,7 +130,7 @@ impl Units {
     }
 }
 
-/// The power of two that takes a size to the middle of the range of numbers; 1 where it lies there.
+/// Power of two near an extremely large or small size; 1 for every other size.
 fn middling(size: f64) -> f64 {
     if (LARGE.recip()..=LARGE).contains(&size) { 1.0 } else { power_of_two_near(size) }
 }

@@ -1,18 +1,18 @@
-//! The exact verdict on a layout of several charts: each chart one-to-one, and no two of them over each other.
+//! Exact verdict on a layout of several charts: each chart is one-to-one, and no two charts overlap.
 //!
-//! # Why a chart is one-to-one
+//! # Proof that a chart is one-to-one
 //!
-//! Let all faces of a chart be positive, and each of its boundary loops a simple polygon: the outer one turns +1, all others,
-//! around holes, −1, as the surface's boundary runs. Fill each hole in the plane by a triangulation of its polygon, whose triangles are
-//! positive too. What is filled is a disk: its faces are positive and its boundary is simple, so that it is one-to-one
-//! by the theorem of the module `verdict`, and the chart with it. That it has no handles [`parts`](crate::mesh::parts) has made sure of. In a
-//! mirror all signs change.
+//! Let all faces of a chart be positive, and each of its boundary loops a simple polygon. Along the surface's
+//! boundary, the outer loop turns +1, and all other loops, around holes, turn −1. Fill each hole in the plane by a
+//! triangulation of its polygon, whose triangles are positive too. The filled surface is a disk: its faces are
+//! positive and its boundary is simple. By the theorem of the module `verdict` it is one-to-one, and so is the chart
+//! in it. [`parts`](crate::mesh::parts) has made sure that there are no handles. For a mirror image all signs change.
 //!
-//! # Why charts lie apart
+//! # Proof that charts do not overlap
 //!
-//! Charts that are one-to-one lie apart where no face of one meets the inside of a face of another. Two triangles have
-//! disjoint insides where, and only where, a side of one of them has the other on its outer side or on its line. Both are decided
-//! by exact orientations alone. Charts may touch.
+//! Charts that are one-to-one do not overlap if no face of one meets the inside of a face of another. Two triangles
+//! have disjoint insides if and only if a side of one has the other on its outer side or on its line. Exact
+//! orientations decide this. Charts may touch.
 
 use crate::parallel::prelude::*;
 use glam::DVec2;
@@ -21,54 +21,56 @@ use crate::geom::{Bounds, BoxTree, Orientation, is_simple, orientation, place_al
 use crate::mesh::{FaceId, Part, Polygon, TriMesh};
 use crate::problem::Embedding;
 
-/// The most pairs of overlapping faces that are listed.
+/// Largest number of listed pairs of overlapping faces.
 pub const OVERLAPS_LISTED: usize = 1000;
 
-/// Faces that are compared with the others between two counts of the pairs.
+/// Number of faces that are compared with the others between two checks of the number of pairs.
 const FACES_PER_ROUND: usize = 1 << 14;
 
-/// Whether a chart is one-to-one, and what is at fault. Faces are those of the whole layout.
+/// Verdict on a chart, with its defects. Faces are numbered as in the whole layout.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ChartVerdict {
-    /// Its first face.
+    /// First face of the chart.
     pub first_face: FaceId,
-    /// How many triangles it has.
+    /// Number of triangles.
     pub faces: usize,
-    /// How many boundary loops it has: one more than holes.
+    /// Number of boundary loops: one more than the number of holes.
     pub boundary_loops: usize,
-    /// Proved one-to-one, as it lies or in a mirror, however polygons are cut into triangles.
+    /// True if the chart is proved one-to-one, possibly as a mirror image, for every way to cut its polygons into
+    /// triangles.
     pub planar: bool,
     /// Faces that are turned over, have area zero, or have a corner that is not finite.
     pub flipped_faces: Vec<FaceId>,
-    /// Polygons that other cuts into triangles would fold, by their first faces.
+    /// Polygons that another cut into triangles would fold, by their first faces.
     pub concave_polygons: Vec<FaceId>,
-    /// Boundary loops that meet themselves.
+    /// Number of boundary loops that meet themselves.
     pub crossed_loops: usize,
-    /// Whether one loop, and only one, runs around the outside.
+    /// True if exactly one loop runs around the outside.
     pub is_bounded: bool,
-    /// It lies in a mirror.
+    /// True if the chart is a mirror image.
     pub mirrored: bool,
 }
 
-/// Whether a layout is one-to-one on each chart, and charts lie apart.
+/// Verdict on a layout of charts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct AtlasVerdict {
-    /// Each chart is one-to-one, and no two lie over each other.
+    /// True if each chart is one-to-one and no two charts overlap.
     pub planar: bool,
-    /// The same with all coordinates rounded to 32 bits.
+    /// True if the layout is also planar with all coordinates rounded to 32 bits.
     #[cfg_attr(feature = "serde", serde(rename = "f32"))]
     pub planar_in_f32: bool,
-    /// One for each chart.
+    /// Verdict on each chart.
     pub charts: Vec<ChartVerdict>,
-    /// Pairs of faces of different charts that lie over each other, at most [`OVERLAPS_LISTED`].
+    /// Pairs of overlapping faces of different charts, at most [`OVERLAPS_LISTED`].
     pub overlapping_faces: Vec<[FaceId; 2]>,
-    /// Whether there are more pairs than those listed.
+    /// True if there are more pairs than listed.
     pub more_overlaps: bool,
 }
 
-/// Decides exactly whether charts are one-to-one and lie apart. `embedding` has a place for each vertex of the whole.
+/// Decides exactly if charts are one-to-one and do not overlap. `embedding` has a position for each vertex of the
+/// whole layout.
 ///
 /// # Panics
 ///
@@ -129,7 +131,7 @@ struct Spot {
     bounds: Bounds,
 }
 
-/// Pairs of faces of different charts that lie over each other, the lower face first, ascending; at most `most`.
+/// Pairs of overlapping faces of different charts, the lower face first, ascending; at most `most`.
 fn overlaps(charts: &[Part], embedding: &Embedding, most: usize) -> Vec<[FaceId; 2]> {
     if charts.len() < 2 {
         return Vec::new();
@@ -158,7 +160,7 @@ fn overlaps(charts: &[Part], embedding: &Embedding, most: usize) -> Vec<[FaceId;
     pairs
 }
 
-/// The faces of a chart that have an area.
+/// Faces of a chart that have an area.
 fn spots_of<'a>(number: usize, chart: &'a Part, embedding: &'a Embedding) -> impl Iterator<Item = Spot> + 'a {
     let places = |face: usize| chart.mesh().triangles[face].map(|v| embedding[chart.vertex_of()[v.index()]]);
     (0..chart.mesh().face_count()).filter_map(move |face| {
@@ -173,12 +175,12 @@ fn spots_of<'a>(number: usize, chart: &'a Part, embedding: &'a Embedding) -> imp
 }
 
 impl Spot {
-    /// Whether the insides of two faces meet.
+    /// True if the insides of two faces meet.
     fn lies_over(&self, other: &Self) -> bool {
         !self.has_beside(other) && !other.has_beside(self)
     }
 
-    /// Whether a side has the other face on its outer side, or on its line.
+    /// True if a side has the other face on its outer side or on its line.
     fn has_beside(&self, other: &Self) -> bool {
         let [a, b, c] = self.corners;
         let is_inward =
@@ -188,7 +190,7 @@ impl Spot {
 }
 
 impl ChartVerdict {
-    /// What is at fault, in lower-case words.
+    /// Defects in lower-case words.
     fn fault_words(&self) -> String {
         let counted = |count: usize, one: &str, many: &str| match count {
             0 => None,
@@ -198,15 +200,15 @@ impl ChartVerdict {
         let faults = [
             counted(self.flipped_faces.len(), "flipped face", "flipped faces"),
             counted(self.concave_polygons.len(), "concave polygon", "concave polygons"),
-            counted(self.crossed_loops, "boundary loop that meets itself", "boundary loops that meet themselves"),
-            (!self.is_bounded).then(|| "not one loop around the outside".to_owned()),
+            counted(self.crossed_loops, "self-intersecting boundary loop", "self-intersecting boundary loops"),
+            (!self.is_bounded).then(|| "no single outer boundary loop".to_owned()),
         ];
         faults.into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 }
 
 impl AtlasVerdict {
-    /// The same with faces numbered as the file numbers them: a polygon is at fault where one of its triangles is.
+    /// Verdict with faces numbered as in the file. A polygon has a defect if one of its triangles has it.
     #[must_use]
     pub fn as_in_file(&self, mesh: &TriMesh) -> Self {
         let number = |face: FaceId| FaceId::new(mesh.polygon(face));
@@ -228,7 +230,7 @@ impl AtlasVerdict {
         Self { charts: self.charts.iter().map(chart).collect(), overlapping_faces, ..self.clone() }
     }
 
-    /// The verdict in lower-case words.
+    /// Verdict in lower-case words.
     pub fn summary(&self) -> String {
         let count = self.charts.len();
         let charts = if count == 1 { "1 chart".to_owned() } else { format!("{count} charts") };
@@ -241,7 +243,7 @@ impl AtlasVerdict {
         let first = self.charts.iter().find(|chart| !chart.planar);
         let of_charts = first.map(|chart| {
             format!(
-                "{bad} not planar (the first is that of face {}: {})",
+                "{bad} not planar (first: the chart of face {}: {})",
                 chart.first_face.number(),
                 chart.fault_words()
             )
@@ -253,7 +255,7 @@ impl AtlasVerdict {
                 return format!("1 pair of faces of different charts overlaps ({} and {})", a.number(), b.number());
             }
             format!(
-                "{more}{count} pairs of faces of different charts overlap (the first are {} and {})",
+                "{more}{count} pairs of faces of different charts overlap (first: {} and {})",
                 a.number(),
                 b.number()
             )

@@ -1,7 +1,7 @@
-//! Constraints that cannot all be met on the mesh as it is, named before anything is solved.
+//! Constraints that no embedding of the given mesh can meet together, found before any solve.
 //!
-//! In a planar embedding every face is positive and no two edges meet but at a shared end. Where all ends of such
-//! elements are pinned exactly, the targets alone decide:
+//! In a planar embedding every face is positive, and two edges meet only at a shared end. If all ends of such
+//! elements have hard pins, the targets alone decide:
 //!
 //! ```text
 //! turned face      a face with three pinned corners, its targets not counter-clockwise
@@ -9,13 +9,13 @@
 //! too near         two targets nearer to each other than 10⁻⁹ of the extent of all
 //! ```
 //!
-//! The first two need new vertices: an edge that is split can go around. The third leaves no numbers in between. A set
-//! of constraints without any of them may still need new vertices; only the work itself tells.
+//! Turned faces and crossing edges need new vertices: a split edge can go around. Near targets leave no numbers in
+//! between. Constraints without any of these conflicts may still need new vertices; only a solve decides.
 //!
 //! # Method
 //!
-//! Exact predicates. Pinned edges are found by walking around the pins, crossings among them by a tree of
-//! their boxes, near targets by a grid: near linear in the number of pins.
+//! Exact predicates. Pinned edges are found by walking around the pins, crossings among them by a tree of their
+//! boxes, and near targets by a grid. The cost is near linear in the number of pins.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,36 +26,36 @@ use crate::mesh::{DiskMesh, EdgeId, FaceId, VertexId};
 use crate::problem::units::Units;
 use crate::problem::{GaugeSize, PinPositions, Pins};
 
-/// The greatest number of conflicts of each kind that are listed: more than anybody mends by hand.
+/// Largest number of listed conflicts of each kind: more than a user resolves.
 pub const CONFLICTS_LISTED: usize = 1000;
 
-/// Targets nearer than this part of their extent leave too few numbers in between.
+/// Targets nearer than this share of their extent leave too few numbers in between.
 const TOO_NEAR: f64 = 1e-9;
 
-/// Constraints that cannot be met together by an embedding of the mesh as it is.
+/// Constraints that no embedding of the given mesh can meet together.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Conflict {
-    /// A face whose corners' targets are clockwise or on a line.
+    /// Face whose targets are clockwise or collinear.
     TurnedFace {
-        /// The face.
+        /// Face with three pinned corners.
         face: FaceId,
-        /// Its corners.
+        /// Corners of the face.
         vertices: [VertexId; 3],
     },
     /// Two edges whose targets cross, touch or overlap.
     CrossingEdges {
-        /// Their ends, the lower number first, the lower edge first.
+        /// Ends of both edges, the lower number first, the lower edge first.
         edges: [[VertexId; 2]; 2],
     },
-    /// Two targets between which numbers run out.
+    /// Two targets so near that numbers between them run out.
     NearCoincidentTargets {
-        /// The vertices, the lower number first.
+        /// Vertices, the lower number first.
         vertices: [VertexId; 2],
     },
 }
 
 impl Conflict {
-    /// The constraints that take part, each once.
+    /// Vertices of the constraints in the conflict, each once.
     pub fn vertices(&self) -> Vec<VertexId> {
         match self {
             Self::TurnedFace { vertices, .. } => vertices.to_vec(),
@@ -67,22 +67,22 @@ impl Conflict {
         }
     }
 
-    /// What is the matter, in one line.
+    /// Description in one line.
     pub fn words(&self) -> String {
         match self {
             Self::TurnedFace { vertices: [a, b, c], .. } => {
-                format!("vertices {a}, {b}, {c}: this face would be turned over: needs new vertices")
+                format!("vertices {a}, {b}, {c}: their face would flip: needs new vertices")
             }
             Self::CrossingEdges { edges: [[a, b], [c, d]] } => {
-                format!("vertices {a}–{b} and {c}–{d}: these edges would cross: needs new vertices")
+                format!("edges {a}–{b} and {c}–{d} would cross: needs new vertices")
             }
             Self::NearCoincidentTargets { vertices: [a, b] } => {
-                format!("vertices {a} and {b}: their targets are nearer than {TOO_NEAR:e} of all targets' extent")
+                format!("vertices {a} and {b}: targets closer than {TOO_NEAR:e} of the extent of all: move one of them")
             }
         }
     }
 
-    /// The same with other numbers for the vertices.
+    /// Conflict with renumbered vertices.
     #[must_use]
     pub fn renumbered(self, number: impl Fn(VertexId) -> VertexId) -> Self {
         match self {
@@ -92,17 +92,17 @@ impl Conflict {
         }
     }
 
-    /// Whether new vertices resolve it.
+    /// True if new vertices resolve the conflict.
     pub const fn needs_new_vertices(&self) -> bool {
         !matches!(self, Self::NearCoincidentTargets { .. })
     }
 }
 
-/// Finds the constraints that contradict each other: turned faces by number, then crossing edges, then targets that
-/// are too near, at most [`CONFLICTS_LISTED`] of each. Only exact pins count; those without a vertex or a finite
+/// Finds the constraints that contradict each other: turned faces by number, then crossing edges, then near targets,
+/// at most [`CONFLICTS_LISTED`] of each. Only hard pins count. Pins without a vertex of the mesh or without a finite
 /// target are left out.
 pub fn conflicts(mesh: &DiskMesh, pins: &Pins) -> Vec<Conflict> {
-    // At a size where differences of targets are numbers.
+    // Scaled so that differences of targets neither underflow nor overflow.
     let targets: PinPositions = Units::of(pins, GaugeSize::TrueArea)
         .pins(pins)
         .iter()
@@ -138,7 +138,7 @@ struct PinnedEdge {
 }
 
 impl PinnedEdge {
-    /// Whether two edges have more in common than a shared end.
+    /// True if two edges have more in common than a shared end.
     fn conflicts_with(&self, other: &Self) -> bool {
         let Some(shared) = self.ends.iter().position(|end| other.ends.contains(end)) else {
             return segments_meet(self.segment, other.segment);
@@ -178,7 +178,7 @@ fn crossing_edges(mesh: &DiskMesh, targets: &PinPositions) -> Vec<Conflict> {
 fn near_targets(targets: &PinPositions) -> Vec<Conflict> {
     let bounds = Bounds::of(targets.values().copied());
     let extent = bounds.size().max_element();
-    // In parts of the extent, so that nothing underflows.
+    // In units of the extent, so that nothing underflows.
     let relative = |target: DVec2| if extent > 0.0 { (target - bounds.low) / extent } else { DVec2::ZERO };
     let cell_of = |place: DVec2| (place / TOO_NEAR).floor().as_i64vec2();
     let mut cells: BTreeMap<[i64; 2], Vec<(VertexId, DVec2)>> = BTreeMap::new();

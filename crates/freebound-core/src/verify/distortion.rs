@@ -1,4 +1,4 @@
-//! How far an embedding is from an isometry: angles, areas and stretch, per face and summed up.
+//! Distortion of an embedding: its deviation from an isometry in angles, areas and stretch, per face and summed up.
 //!
 //! # Equations
 //!
@@ -46,7 +46,7 @@ use crate::problem::Embedding;
 pub struct FaceDistortion {
     /// σ₁/σ₂, at least 1.
     pub angle: f64,
-    /// A′/A at equal total areas: below 1 where the face shrank, above where it grew.
+    /// A′/A at equal total areas: below 1 if the face shrank, above 1 if it grew.
     pub area: f64,
     /// Root mean square stretch from the plane to the surface.
     pub stretch_l2: f64,
@@ -66,7 +66,7 @@ impl FaceDistortion {
 /// Distortion of an embedding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distortion {
-    /// One entry per face; those that fill holes have none.
+    /// Distortion of each face, without the faces that fill holes.
     pub faces: Vec<FaceDistortion>,
     /// All faces together.
     pub summary: DistortionSummary,
@@ -76,9 +76,9 @@ pub struct Distortion {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DistortionSummary {
-    /// Of σ₁/σ₂.
+    /// Spread of σ₁/σ₂.
     pub angle: Spread,
-    /// Of max(A′/A, A/A′).
+    /// Spread of max(A′/A, A/A′).
     pub area: Spread,
     /// Root mean square stretch from the plane to the surface.
     pub stretch_l2: f64,
@@ -88,18 +88,18 @@ pub struct DistortionSummary {
     pub symmetric_dirichlet: Mean,
 }
 
-/// Areas that differ by so much call for relaxing: a picture's pixel becomes a patch of ten by ten.
+/// Ratio of areas from which a map needs relaxing: a picture's pixel becomes a patch of ten by ten.
 const BADLY: f64 = 100.0;
 
 impl DistortionSummary {
-    /// The greatest ratio of a face's area in the plane to that on the surface, or the other way round, where it is so
-    /// great that the map wants relaxing.
+    /// Greatest ratio of a face's area in the plane to its area on the surface, or the other way round. `None` if the
+    /// ratio does not call for relaxing.
     pub fn bad_ratio_of_areas(&self) -> Option<f64> {
         Some(self.area.max).filter(|&ratio| ratio >= BADLY)
     }
 }
 
-/// The mean of a quantity over the surface; an infinite one is shown as `null` in JSON.
+/// Mean of a quantity over the surface. JSON shows an infinite mean as `null`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Mean {
@@ -107,15 +107,15 @@ pub struct Mean {
     pub mean: f64,
 }
 
-/// How a quantity is spread over the surface. Infinite values are shown as `null` in JSON.
+/// Spread of a quantity over the surface. JSON shows infinite values as `null`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Spread {
     /// Mean, weighted by area on the surface.
     pub mean: f64,
-    /// The least value that 99 % of the surface does not exceed.
+    /// Least value that 99 % of the surface does not exceed.
     pub p99: f64,
-    /// The greatest value.
+    /// Greatest value.
     pub max: f64,
 }
 
@@ -137,10 +137,10 @@ pub fn distortion(mesh: &DiskMesh, embedding: &Embedding) -> Distortion {
     Distortion { faces, summary }
 }
 
-/// The linear map of one face, in units of the extents of surface and embedding.
+/// Linear map of one face, in units of the extents of surface and embedding.
 #[derive(Clone, Copy)]
 struct FaceMap {
-    /// Twice the area on the surface, 0 where it cannot be told from 0.
+    /// Twice the area on the surface; 0 if it cannot be told from 0.
     double_area: f64,
     /// |det J|.
     determinant: f64,
@@ -148,7 +148,7 @@ struct FaceMap {
     greater: f64,
 }
 
-/// Faces that share the work of one task.
+/// Number of faces in one task.
 const FACES_PER_TASK: usize = 4096;
 
 fn face_maps(disk: &DiskMesh, embedding: &Embedding) -> Vec<FaceMap> {
@@ -169,15 +169,15 @@ fn face_maps(disk: &DiskMesh, embedding: &Embedding) -> Vec<FaceMap> {
     mesh.real_triangles().par_iter().with_min_len(FACES_PER_TASK).map(map).collect()
 }
 
-/// One over an extent, kept finite, so that squares of lengths neither underflow nor overflow.
+/// Reciprocal of an extent, kept finite, so that squares of lengths neither underflow nor overflow.
 fn reciprocal(extent: f64) -> f64 {
-    /// The greatest factor, 1/length: an extent below its reciprocal is as good as zero beside any other.
+    /// Greatest factor, 1/length: an extent below its reciprocal is as good as zero beside any other.
     const GREATEST: f64 = 1e307;
     extent.recip().min(GREATEST)
 }
 
 impl FaceMap {
-    /// The map that takes two edges of a face, from one corner, to two edges in the plane.
+    /// Linear map that takes two edges of a face, from one corner, to two edges in the plane.
     fn new([first, second]: [DVec3; 2], [first_in_plane, second_in_plane]: [DVec2; 2]) -> Self {
         let double_area = first.cross(second).length();
         let length = first.length();
@@ -191,7 +191,7 @@ impl FaceMap {
         Self { double_area, determinant, greater: f64::midpoint(like_turn.length(), like_mirror.length()) }
     }
 
-    /// The measures, squared lengths in the plane multiplied by `scale`.
+    /// Measures of the face. `scale` multiplies squared lengths in the plane.
     fn distortion(self, scale: f64) -> FaceDistortion {
         let Self { double_area, determinant, greater } = self;
         if double_area == 0.0 {
@@ -213,7 +213,7 @@ impl FaceMap {
 }
 
 fn summary(faces: &[FaceDistortion], maps: &[FaceMap]) -> DistortionSummary {
-    // Without a list of them: new memory would cost more time than the numbers.
+    // No list is collected: its memory would cost more time than the numbers.
     fn weighted<'a>(
         faces: &'a [FaceDistortion],
         maps: &'a [FaceMap],
@@ -232,7 +232,7 @@ fn summary(faces: &[FaceDistortion], maps: &[FaceMap]) -> DistortionSummary {
     let means = || {
         crate::parallel::join(
             || mean(weighted(|face| face.stretch_l2.powi(2))).sqrt(),
-            // A quarter is 1 where nothing is distorted, as all other values are.
+            // A quarter of the energy is 1 without distortion, as are all other values.
             || mean(weighted(|face| face.symmetric_dirichlet() / 4.0)),
         )
     };
@@ -241,7 +241,7 @@ fn summary(faces: &[FaceDistortion], maps: &[FaceMap]) -> DistortionSummary {
     DistortionSummary { angle, area, stretch_l2, stretch_linf, symmetric_dirichlet: Mean { mean: 4.0 * quarter } }
 }
 
-/// The mean of values with positive weights; 1 where there are none.
+/// Mean of values with positive weights; 1 if there are none.
 fn mean(weighted: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
     let total: f64 = weighted.clone().map(|(_, weight)| weight).sum();
     if weighted.clone().next().is_none() {
@@ -251,18 +251,20 @@ fn mean(weighted: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
 }
 
 impl Spread {
-    /// The spread of values with positive weights; 1 where there are none.
+    /// Spread of values with positive weights; 1 if there are none.
     fn new(mut weighted: Vec<(f64, f64)>) -> Self {
-        /// The part of the surface that may exceed the percentile.
+        /// Share of the surface that may exceed the percentile.
         const BEYOND: f64 = 0.01;
-        /// Of so many values one is looked at first: on faces of like size the percentile is among them.
+        /// Divisor of the number of values: the first search covers this share of them, the greatest. On faces of
+        /// like size it finds the percentile.
         const FIRST_LOOK: usize = 64;
         if weighted.is_empty() {
             return Self { mean: 1.0, p99: 1.0, max: 1.0 };
         }
         let total: f64 = weighted.iter().map(|&(_, weight)| weight).sum();
         let mean = mean(weighted.iter().copied());
-        // Equal values in the order of their weights, so that sums do not depend on how the greatest are found.
+        // Equal values are ordered by their weights, so that sums do not depend on the selection of the greatest
+        // values.
         let descending =
             |first: &(f64, f64), second: &(f64, f64)| second.0.total_cmp(&first.0).then(second.1.total_cmp(&first.1));
         let mut count = weighted.len() / FIRST_LOOK;

@@ -1,26 +1,28 @@
-//! Indices of discrete one-forms: how often a value on edges changes its sign around vertices and faces.
+//! Indices of discrete one-forms, which count sign changes of values on edges around vertices and faces.
 //!
 //! # Definition
 //!
-//! A *one-form* gives every halfedge a number, and its twin the opposite one. It is used here where none of these is zero: then
+//! A *one-form* assigns a number to every halfedge, and the opposite number to its twin. Here none of the numbers is
+//! zero. Then
 //!
 //! ```text
 //! index = 1 − sc/2
 //! ```
 //!
-//! with `sc` the sign changes of the numbers on the halfedges that leave a vertex, in turn, or on those around a face,
-//! or on those around the outside. A vertex has the index 1 where all are of one sign (a source or a sink, an extreme), 0 where
-//! they change twice (regular), and less at saddles.
+//! with `sc` the number of sign changes on the halfedges that leave a vertex, in turn, or on the halfedges around a
+//! face or around the outside. A vertex has the index 1 if all its numbers have one sign (a source or a sink, an
+//! extreme). The index is 0 if the numbers change sign twice (regular), and less at saddles.
 //!
 //! # Theorem
 //!
-//! The indices of all vertices, faces and the outside add up to 2, the Euler characteristic of the sphere that a disk becomes
-//! with its outside (Poincaré–Hopf). For two halfedges that follow each other around a face share a corner with it:
-//! there either the face's signs change or the vertex' do, never both, so that all changes together are the corners, 2e, and
-//! v + f − e = 2.
+//! The indices of all vertices, faces and the outside sum to 2, the Euler characteristic of the sphere that a disk
+//! and its outside make (Poincaré–Hopf). Proof: two consecutive halfedges of a face share a corner. At this corner
+//! either the signs of the face change or the signs of the vertex, never both. So the number of all changes is the
+//! number of corners, 2e, and v + f − e = 2.
 //!
-//! An embedding gives one for every direction d: the numbers `d·(z_head − z_tail)`. Around a triangle these add up to 0, so that
-//! its index is 0. Around a vertex strictly inside the hull of its neighbours they have both signs: its index is 0 or less.
+//! An embedding defines a one-form for every direction d: the numbers `d·(z_head − z_tail)`. Around a triangle they
+//! sum to 0, so that its index is 0. Around a vertex strictly inside the hull of its neighbours they have both signs:
+//! its index is at most 0.
 //!
 //! Source: S. Gortler, C. Gotsman, D. Thurston, "Discrete one-forms on meshes and applications to 3D mesh
 //! parameterization", 2006.
@@ -34,19 +36,19 @@ use crate::geom::{Orientation, is_down, order_along, orientation};
 use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 use crate::problem::Embedding;
 
-/// The indices of a one-form on a disk.
+/// Indices of a one-form on a disk.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OneFormIndices {
-    /// Of every vertex; 0 of those of no face.
+    /// Index of every vertex; 0 for unreferenced vertices.
     pub vertices: Vec<i64>,
-    /// Of every face.
+    /// Index of every face.
     pub faces: Vec<i64>,
-    /// Of the outside.
+    /// Index of the outside.
     pub outside: i64,
 }
 
 impl OneFormIndices {
-    /// The indices of a one-form without zeros, from its sign on each halfedge: whether it is positive.
+    /// Indices of a one-form without zeros. `is_positive` is its sign on each halfedge.
     pub fn new(mesh: &DiskMesh, is_positive: impl Fn(HalfedgeId) -> bool) -> Self {
         let signs_at = |vertex| mesh.outgoing(vertex).map(&is_positive).collect::<Vec<bool>>();
         let vertices = mesh.vertices().map(|vertex| if mesh.is_used(vertex) { index_of(&signs_at(vertex)) } else { 0 });
@@ -56,8 +58,8 @@ impl OneFormIndices {
         Self { vertices: vertices.collect(), faces: faces.collect(), outside: index_of(&outer.collect::<Vec<bool>>()) }
     }
 
-    /// Those of the one-form of an embedding along a direction, which need have no unit length. Exact; none where an edge
-    /// is at right angles to the direction, or has no length, or is not finite.
+    /// Indices of the one-form of an embedding along a direction, which may have any length. Exact. `None` if an edge
+    /// is perpendicular to the direction, has length zero, or is not finite.
     pub fn along(mesh: &DiskMesh, embedding: &Embedding, direction: DVec2) -> Option<Self> {
         let sign = |h| match order_along(direction, embedding[mesh.tail(h)], embedding[mesh.head(h)])? {
             Ordering::Less => Some(false),
@@ -68,23 +70,24 @@ impl OneFormIndices {
         Some(Self::new(mesh, |h| signs[h.index()]))
     }
 
-    /// All of them together: 2, whatever the one-form.
+    /// Sum of all indices: 2 for every one-form.
     pub fn sum(&self) -> i64 {
         self.vertices.iter().sum::<i64>() + self.faces.iter().sum::<i64>() + self.outside
     }
 }
 
-/// 1 less half of the sign changes, once around.
+/// Index of signs in cyclic order: 1 less half of the sign changes.
 fn index_of(signs: &[bool]) -> i64 {
     let changes = signs.iter().zip(signs.iter().cycle().skip(1)).filter(|(a, b)| a != b).count();
     1 - i64::try_from(changes / 2).expect("a vertex has fewer than 2⁶³ edges")
 }
 
-/// The least and the greatest index of a vertex over all directions that no edge of it is at right angles to. Edges within
-/// what fills a hole do not count: it may fold without harm. Exact; none for a vertex of no real face, and where a neighbour has its place or is not finite.
+/// Least and greatest index of a vertex over all directions that are perpendicular to none of its edges. Edges within
+/// the filling of a hole do not count, because the filling may fold. Exact. `None` for a vertex of no real face, or
+/// if a neighbour coincides with it or is not finite.
 ///
-/// A direction that turns has the sign of an edge change where it comes to be at right angles to it. So the edges are sorted by
-/// their lines, and half a turn is gone through line by line: O(d log d) for d neighbours.
+/// When a turning direction becomes perpendicular to an edge, the sign of the edge changes. So the edges are sorted
+/// by their lines, and half a turn is swept line by line: O(d log d) for d neighbours.
 pub fn index_range(mesh: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> Option<[i64; 2]> {
     let place = embedding.get(vertex.index()).copied()?;
     let mut spokes: Vec<Spoke> = Vec::new();
@@ -92,7 +95,7 @@ pub fn index_range(mesh: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> 
         let end = embedding[neighbour];
         spokes.push(Spoke { end, is_down: is_down(place, end)? });
     }
-    // Just before the angle 0, whatever points up lies to the left.
+    // Just before the angle 0, an edge that points up lies to the left.
     let mut signs: Vec<bool> = spokes.iter().map(|spoke| !spoke.is_down).collect();
     let mut by_line: Vec<usize> = (0..spokes.len()).collect();
     by_line.sort_by(|&a, &b| spokes[a].line_order(&spokes[b], place));
@@ -102,7 +105,7 @@ pub fn index_range(mesh: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> 
         let mut doubled_change = 0;
         for &k in line {
             let beside = [(k + 1) % signs.len(), (k + signs.len() - 1) % signs.len()];
-            // Signs that differ become alike, and the other way round.
+            // Different signs become equal, and equal signs different.
             doubled_change += beside.iter().map(|&other| if signs[other] == signs[k] { -1 } else { 1 }).sum::<i64>();
             signs[k] = !signs[k];
         }
@@ -112,15 +115,15 @@ pub fn index_range(mesh: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> 
     Some(range)
 }
 
-/// A neighbour as seen from a vertex.
+/// Neighbour as seen from a vertex.
 struct Spoke {
     end: DVec2,
-    /// Whether its direction lies in the lower half-turn.
+    /// True if its direction lies in the lower half-turn.
     is_down: bool,
 }
 
 impl Spoke {
-    /// How the lines along two spokes of a vertex follow each other, turning counter-clockwise from the angle 0.
+    /// Order of the lines along two spokes of a vertex, counter-clockwise from the angle 0.
     fn line_order(&self, other: &Self, vertex: DVec2) -> Ordering {
         let order = match orientation(vertex, self.end, other.end) {
             Some(Orientation::CounterClockwise) => Ordering::Less,

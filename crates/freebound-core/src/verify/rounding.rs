@@ -1,9 +1,8 @@
-//! Coordinates rounded to 32 bits, and moved by a few units of the last place where that folds a face.
+//! Coordinates rounded to 32 bits, and moved by a few units in the last place if rounding folds a face.
 //!
-//! Rounding moves each vertex by half a unit at most. Where a face folds by that, its corners are tried at the places
-//! around them, one corner at a time: the first place that leaves fewest faces and corners of polygons wrong around it is
-//! taken. The search is bounded and always takes the same way; it need not come to an end. What comes of it is for the
-//! verdict to say.
+//! Rounding moves each vertex by at most half a unit. If a face folds, positions around its corners are tried, one
+//! corner at a time. The first position with the fewest wrong faces and polygon corners around it is taken. The
+//! search is bounded and deterministic, but need not succeed: the verdict on its result decides.
 
 use std::collections::BTreeSet;
 
@@ -14,23 +13,24 @@ use crate::geom::{Orientation, orientation};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::Embedding;
 
-/// How far, in units of the last place, corners are moved in each sweep over the faces that are wrong.
+/// Largest moves of corners in each sweep over the wrong faces, in units in the last place.
 const REACH: [i32; 7] = [1, 1, 2, 2, 3, 4, 4];
 
-/// Where more triples of corners are wrong, the mesh is too fine for 32 bits, and nothing is tried.
+/// Largest number of wrong triples. With more, the mesh is too fine for 32 bits and no move is tried.
 const MOST_WRONG: usize = 1 << 14;
 
-/// Which numbers of 32 bits coordinates become.
+/// Grid of 32-bit numbers that coordinates are rounded to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RoundingGrid {
-    /// u and v.
+    /// Numbers for u and v.
     Upright,
-    /// u and 1 − v, as in files whose v runs down. `1.0 - v` gives their number without rounding, up to 2⁵².
+    /// Numbers for u and 1 − v, as in files with v down. `1.0 - v` gives the file's number without rounding, up to
+    /// 2⁵².
     TurnedOver,
 }
 
 impl RoundingGrid {
-    /// The nearest point that has such numbers.
+    /// Nearest point on the grid.
     pub fn nearest(self, z: DVec2) -> DVec2 {
         let y = match self {
             Self::Upright => in_32_bits(z.y),
@@ -39,7 +39,7 @@ impl RoundingGrid {
         DVec2::new(in_32_bits(z.x), y)
     }
 
-    /// Units of the last place of its numbers there.
+    /// Units in the last place of the grid's numbers at a point.
     fn units(self, z: DVec2) -> DVec2 {
         let y = if self == Self::Upright { z.y } else { 1.0 - z.y };
         DVec2::new(unit(z.x), unit(y))
@@ -51,24 +51,24 @@ fn in_32_bits(x: f64) -> f64 {
     f64::from(x as f32)
 }
 
-/// How far a 32-bit number lies from the next one away from 0.
+/// Distance of a 32-bit number from the next one away from 0.
 #[expect(clippy::cast_possible_truncation, reason = "to be rounded")]
 fn unit(x: f64) -> f64 {
     let x = x.abs() as f32;
     f64::from(x.next_up()) - f64::from(x)
 }
 
-/// Coordinates in 32 bits.
+/// Coordinates rounded to 32 bits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rounded {
-    /// The coordinates.
+    /// Rounded coordinates.
     pub embedding: Embedding,
-    /// How many of them are not the nearest, because that folds a face.
+    /// Number of vertices that are not at the nearest numbers, because these fold a face.
     pub moved: usize,
 }
 
-/// Rounds an embedding to 32 bits. Where it is planar and the nearest numbers fold it, vertices that are not `held` are moved
-/// by a few units of the last place.
+/// Rounds an embedding to 32 bits. If it is planar and the nearest numbers fold it, vertices that are not `held` move
+/// by a few units in the last place.
 ///
 /// # Panics
 ///
@@ -92,7 +92,8 @@ pub fn rounded(mesh: &DiskMesh, embedding: &Embedding, grid: RoundingGrid, held:
     Rounded { embedding: search.placed, moved }
 }
 
-/// Three vertices that are to turn as all faces do: a face's corners, or a corner of a polygon with its neighbours.
+/// Three vertices that must turn as all faces do: the corners of a face, or a corner of a polygon with its
+/// neighbours.
 type Triple = [VertexId; 3];
 
 struct Search<'a> {
@@ -104,12 +105,12 @@ struct Search<'a> {
     placed: Embedding,
 }
 
-/// A vertex at another place.
+/// Move of a vertex to another position.
 #[derive(Clone, Copy)]
 struct Move {
     vertex: VertexId,
     place: DVec2,
-    /// By how many more triples are right then.
+    /// Number of wrong triples that the move repairs.
     gain: usize,
 }
 
@@ -119,14 +120,14 @@ impl Search<'_> {
         orientation(a, b, c) != Some(self.upright)
     }
 
-    /// All triples that do not turn as they are to.
+    /// All triples that turn the wrong way.
     fn wrong_triples(&self) -> Vec<Triple> {
         let faces = self.mesh.real_faces().map(|face| self.mesh.face(face));
         let ears = self.mesh.polygons().flat_map(|polygon| polygon.convex_ears().collect::<Vec<_>>());
         faces.chain(ears).filter(|triple| self.is_wrong(triple)).collect()
     }
 
-    /// The triples of the faces and polygons around a vertex.
+    /// Triples of faces and polygons that contain a vertex.
     fn triples_at(&self, vertex: VertexId) -> Vec<Triple> {
         let mut found = Vec::new();
         let faces = self.mesh.outgoing(vertex).filter_map(|halfedge| self.mesh.face_of(halfedge));
@@ -141,7 +142,7 @@ impl Search<'_> {
         found
     }
 
-    /// Moves the corner of a triple that mends most, if one mends anything.
+    /// Moves the corner of a wrong triple that repairs most triples, if a move repairs any.
     fn mend(&mut self, triple: &Triple, reach: i32) {
         if !self.is_wrong(triple) {
             return;
@@ -156,8 +157,8 @@ impl Search<'_> {
         }
     }
 
-    /// The place around a vertex's exact one where most triples are right, the nearest of several; none where that is no
-    /// better than it is.
+    /// Position around a vertex's exact position that repairs most triples, the nearest of several. `None` if no
+    /// position is an improvement.
     fn best_move(&mut self, vertex: VertexId, reach: i32) -> Option<Move> {
         let triples = self.triples_at(vertex);
         let count = |search: &Self| triples.iter().filter(|triple| search.is_wrong(triple)).count();
@@ -175,8 +176,8 @@ impl Search<'_> {
         best
     }
 
-    /// Places around a vertex's exact one, the nearest first: so many units away at most. A unit is the largest of those at
-    /// the vertices around.
+    /// Positions around a vertex's exact position, the nearest first, up to `reach` units away. The unit is the
+    /// largest of the units at the vertices of `triples`.
     fn places(&self, vertex: VertexId, triples: &[Triple], reach: i32) -> Vec<DVec2> {
         let around = triples.as_flattened().iter().map(|&other| self.grid.units(self.placed[other]));
         let unit = around.fold(DVec2::ZERO, DVec2::max);

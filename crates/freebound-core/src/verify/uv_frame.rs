@@ -1,7 +1,8 @@
-//! The numbers that are written of an embedding: what a proof is of.
+//! Output coordinates of an embedding: the numbers that are written and proved.
 //!
-//! Texture coordinates of a picture that is not square are not the plane's: x is divided by its aspect, which rounds, and
-//! where v runs down it is turned over. Pins that are met have their own numbers there, not those of the plane.
+//! Texture coordinates of a picture that is not square differ from the plane's coordinates: x is divided by the
+//! aspect, which rounds. If v runs down, y is turned over. Pins that are met have the numbers of their targets, not
+//! of the plane.
 
 use std::borrow::Cow;
 
@@ -12,32 +13,32 @@ use crate::geom::{PictureFrame, VAxis};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::{Embedding, Pin, PinPositions, Pins};
 
-/// How an embedding is written.
+/// Conversion of an embedding to its output coordinates.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UvFrame {
     frame: PictureFrame,
-    /// Texture coordinates of the exact pins, in the frame.
+    /// Texture coordinates of the hard pins, in the frame.
     targets: PinPositions,
 }
 
 impl UvFrame {
-    /// A sheet under a picture, whose exact pins have these texture coordinates.
+    /// Output frame of a picture. `targets` are the texture coordinates of the hard pins.
     pub fn new(frame: PictureFrame, targets: PinPositions) -> Self {
         Self { frame, targets }
     }
 
-    /// The picture.
+    /// Frame of the picture.
     pub(crate) fn frame(&self) -> PictureFrame {
         self.frame
     }
 
-    /// The same sheet without pins.
+    /// Output frame without pins.
     pub(crate) fn without_pins(&self) -> Self {
         Self::new(self.frame, PinPositions::new())
     }
 
-    /// The texture coordinates of an embedding as they are written, v up. Pins that lie on their targets have the numbers
-    /// that they were given.
+    /// Texture coordinates of an embedding as they are written, v up. Pins at their targets have the numbers of the
+    /// targets.
     pub fn written<'a>(&self, embedding: &'a Embedding) -> Cow<'a, Embedding> {
         if self.is_plain() {
             return Cow::Borrowed(embedding);
@@ -54,7 +55,7 @@ impl UvFrame {
         Cow::Owned(coordinates)
     }
 
-    /// The same for a place alone, of a vertex where it is one.
+    /// Output coordinates of a single position. `vertex` is the vertex at the position, if there is one.
     pub(crate) fn written_place(&self, vertex: Option<VertexId>, z: DVec2) -> DVec2 {
         if self.is_plain() {
             return z;
@@ -65,12 +66,12 @@ impl UvFrame {
         if self.frame.v_axis == VAxis::Down { upright(uv) } else { uv }
     }
 
-    /// Whether the plane's numbers are those that are written.
+    /// True if output coordinates equal the plane's coordinates.
     pub(crate) fn is_plain(&self) -> bool {
         self.frame == PictureFrame::default()
     }
 
-    /// Pins where they are to be in what is written.
+    /// Pins with their targets in output coordinates.
     pub(crate) fn written_pins(&self, pins: &Pins) -> Pins {
         let place = |vertex: &VertexId, pin: &Pin| {
             let uv = self.targets.get(vertex).copied().unwrap_or_else(|| self.frame.uv_from_plane(pin.target));
@@ -79,7 +80,7 @@ impl UvFrame {
         pins.iter().map(|(&vertex, pin)| (vertex, Pin { target: place(&vertex, pin), ..*pin })).collect()
     }
 
-    /// The embedding that coordinates are written of, its exact pins on their targets.
+    /// Embedding with these output coordinates, hard pins at their targets.
     pub(crate) fn in_plane(&self, written: &Embedding, pins: &Pins) -> Embedding {
         let in_frame = |uv: DVec2| if self.frame.v_axis == VAxis::Down { upright(uv) } else { uv };
         let mut embedding: Embedding = written.iter().map(|&uv| self.frame.plane_from_uv(in_frame(uv))).collect();
@@ -89,18 +90,18 @@ impl UvFrame {
         embedding
     }
 
-    /// Whether an embedding is one-to-one as it is written.
+    /// True if an embedding is one-to-one in output coordinates.
     pub(crate) fn is_one_to_one(&self, mesh: &DiskMesh, embedding: &Embedding) -> bool {
         is_one_to_one(mesh, &self.written(embedding))
     }
 
-    /// The same, with convex polygons.
+    /// True if an embedding is planar in output coordinates: one-to-one, without concave polygons.
     pub(crate) fn is_planar(&self, mesh: &DiskMesh, embedding: &Embedding) -> bool {
         is_planar(mesh, &self.written(embedding))
     }
 }
 
-/// Texture coordinates with v up of those with v down, and the other way round.
+/// Texture coordinates with v turned over: from down to up, or from up to down.
 fn upright(uv: DVec2) -> DVec2 {
     DVec2::new(uv.x, 1.0 - uv.y)
 }

@@ -9,35 +9,39 @@
 //!
 //! # Holes
 //!
-//! A surface with holes is flattened as a disk: virtual faces fill its inner boundary loops ([`Hole`]). Where these are
-//! positive, too, the theorem holds for the whole disk, and so for the surface in it: faces do not overlap; each loop is
-//! simple, for it is the image of a simple loop; the faces around it lie outside of it, for the filling lies within; and no two loops meet.
+//! A surface with holes is flattened as a disk: virtual faces fill its inner boundary loops ([`Hole`]). Where these
+//! are positive, too, the theorem holds for the whole disk, and so for the surface in it: faces do not overlap; each
+//! loop is simple, as the image of a simple loop; the faces around it lie outside of it, because the filling lies
+//! within; and no two loops meet.
 //!
-//! Where the filling of a hole folds, the hole is *crossed* unless its loop is a simple polygon that turns +1, in the direction in
-//! which the filling runs around. A simple polygon has a triangulation without further vertices, and where it turns +1 its
-//! triangles are positive. With it in the place of the filling that folds, what is filled is a disk again, its faces
-//! positive and its boundary simple, if the real faces and the outer boundary are so: one-to-one by the theorem.
-//! So an embedding of a surface with holes is one-to-one if its real faces are positive, the outer boundary is simple,
-//! and no hole is crossed; and only if, where the outer loop lies outside: then all loops are simple polygons, and the surface
-//! lies outside of those around holes. One that lies inside out, the outer loop innermost, counts as crossed.
+//! If the filling of a hole folds, the hole is *crossed* unless its loop is a simple polygon that turns +1, in the
+//! direction in which the filling runs around. A simple polygon has a triangulation without further vertices, and if
+//! it turns +1, its triangles are positive. With it in the place of the filling that folds, the filled surface is a
+//! disk again, its faces positive and its boundary simple, if the real faces and the outer boundary are so:
+//! one-to-one by the theorem. So an embedding of a surface with holes is one-to-one if its real faces are positive,
+//! the outer boundary is simple, and no hole is crossed; and only if, provided that the outer loop lies outside: then
+//! all loops are simple polygons, and the surface lies outside of the loops around holes. A surface that lies inside
+//! out, the outer loop innermost, counts as crossed.
 //!
 //! # Polygons
 //!
 //! Other programs cut polygons into triangles by rules of their own. So a polygon with more than three corners has to
-//! turn left at every corner that is convex in space (by a clear angle: [`Polygon`]). In an embedding that is one-to-one
-//! over the triangles of our cut it is then strictly convex, if it is so in space, and every way to cut it gives positive
-//! triangles. Where it is concave in space its own concave corners may stay; that our cut has positive triangles proves
-//! that its outline is simple. An embedding is *planar* where it is one-to-one and no polygon is at fault.
+//! turn left at every corner that is convex in space (by a clear angle: [`Polygon`]). In an embedding that is
+//! one-to-one over the triangles of our cut it is then strictly convex, if it is so in space, and every way to cut it
+//! gives positive triangles. Where it is concave in space its own concave corners may stay; that our cut has positive
+//! triangles proves that its outline is simple. An embedding is *planar* where it is one-to-one and no polygon is at
+//! fault.
 //!
 //! # 32 bits
 //!
-//! Most programs read texture coordinates into 32 bits. A planar embedding *holds in 32 bits* where the same proof holds
+//! Most programs read texture coordinates into 32 bits. A planar embedding *holds in 32 bits* if the proof also holds
 //! for every coordinate rounded to the nearest of these numbers.
 //!
 //! # What goes wrong, by kind
 //!
 //! * A *flipped face*: its orientation is negative, or zero, or a corner is not finite.
-//! * A *concave polygon*: all its triangles are positive, but it does not turn left at a corner that is convex in space.
+//! * A *concave polygon*: all its triangles are positive, but it does not turn left at a corner that is convex in
+//!   space.
 //! * A *crossed hole*: its filling folds, and its loop is no simple polygon that has the surface around it.
 //! * A *boundary crossing*: two boundary edges that meet other than at a shared end (see [`crossings()`]).
 //!   Edges with an end that is not finite take no part; their faces are flipped already.
@@ -58,36 +62,38 @@ use crate::geom::{Orientation, crossings, is_simple, orientation, turning_number
 use crate::mesh::{DiskMesh, EdgeId, FaceId, Hole, Polygon, VertexId};
 use crate::problem::{Control, Embedding, SolveError};
 
-/// Whether an embedding is one-to-one, and the elements at fault. All lists ascend.
+/// Exact verdict on an embedding, with its defects. All lists ascend.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[expect(clippy::struct_excessive_bools, reason = "the report's fields")]
 pub struct Verdict {
-    /// Proved one-to-one, as it lies or in a mirror, however polygons are cut into triangles.
+    /// True if the embedding is proved one-to-one, possibly as a mirror image, for every way to cut its polygons into
+    /// triangles.
     pub planar: bool,
     /// Faces that are turned over, have area zero, or have a corner that is not finite.
     pub flipped_faces: Vec<FaceId>,
-    /// Polygons that other cuts into triangles would fold, by their first faces.
+    /// Polygons that another cut into triangles would fold, by their first faces.
     pub concave_polygons: Vec<FaceId>,
     /// Holes that meet themselves or are turned inside out, each by the lowest vertex around it.
     pub crossed_holes: Vec<VertexId>,
-    /// Whether virtual faces fold: stages that keep all faces positive do not go on from there.
+    /// True if virtual faces fold. Stages that keep all faces positive do not continue from such an embedding.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub is_filling_folded: bool,
     /// Pairs of boundary edges that meet other than at a shared end, the lower id first; at most `CROSSINGS_LISTED`.
     pub boundary_crossings: Vec<[EdgeId; 2]>,
-    /// Whether there are more crossings than those listed. The report shows this field only where there are.
+    /// True if there are more crossings than listed. The report omits this field if it is false.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "std::ops::Not::not"))]
     pub more_crossings: bool,
-    /// Interior vertices that their own faces, all positive, wind around twice or more.
+    /// Interior vertices whose faces are all positive and wind around them twice or more.
     pub overwound_vertices: Vec<VertexId>,
-    /// Turning number of the boundary; none where an edge has length zero, turns exactly back or is not finite.
+    /// Turning number of the boundary. Absent if an edge has length zero, turns exactly back or is not finite.
     pub turning_number: Option<i64>,
-    /// How many of the flipped faces have area zero.
+    /// Number of flipped faces with area zero.
     pub zero_area_faces: usize,
-    /// The embedding is a mirror image: some face is negative and none is positive.
+    /// True if the embedding is a mirror image: some face is negative and none is positive.
     pub mirrored: bool,
-    /// Proved planar with its coordinates rounded to 32 bits, too, and mirrored or not as it is in 64.
+    /// True if the embedding is also proved planar with its coordinates rounded to 32 bits, mirrored or not as in 64
+    /// bits.
     #[cfg_attr(feature = "serde", serde(rename = "f32"))]
     pub planar_in_f32: bool,
 }
@@ -101,7 +107,7 @@ pub fn verdict(mesh: &DiskMesh, embedding: &Embedding) -> Verdict {
     verdict_unless(mesh, embedding, Control::unattended()).expect("nobody stops it")
 }
 
-/// The same, unless the caller asks to stop.
+/// [`verdict`] with cancellation.
 pub(crate) fn verdict_unless(
     mesh: &DiskMesh,
     embedding: &Embedding,
@@ -149,8 +155,8 @@ pub(crate) fn verdict_unless(
     })
 }
 
-/// Whether an embedding of a disk is planar, as it lies or in a mirror: what [`verdict`] says, without a list of what is
-/// wrong. What fills holes has to be positive, too.
+/// True if an embedding of a disk is planar, possibly as a mirror image. No defects are listed, as they are by
+/// [`verdict`]. Faces that fill holes must be positive, too.
 ///
 /// # Panics
 ///
@@ -159,8 +165,8 @@ pub fn is_planar(mesh: &DiskMesh, embedding: &Embedding) -> bool {
     planar_sense(mesh, embedding).is_some()
 }
 
-/// Whether an embedding of a disk is one-to-one, as it lies or in a mirror, polygons being cut as the mesh's faces are,
-/// and holes filled as they are.
+/// True if an embedding of a disk is one-to-one, possibly as a mirror image, with polygons cut and holes filled as in
+/// the mesh.
 ///
 /// # Panics
 ///
@@ -169,7 +175,7 @@ pub fn is_one_to_one(mesh: &DiskMesh, embedding: &Embedding) -> bool {
     sense(mesh, embedding).is_some()
 }
 
-/// As [`sense`], where no polygon is at fault either.
+/// [`sense`] of an embedding without concave polygons. `None` if there is a concave polygon.
 pub(crate) fn planar_sense(mesh: &DiskMesh, embedding: &Embedding) -> Option<Orientation> {
     sense(mesh, embedding).filter(|&upright| concave_polygons(mesh, embedding, upright).next().is_none())
 }
@@ -187,7 +193,7 @@ fn concave_polygons<'a>(
     mesh.polygons().filter(move |polygon| !polygon.convex_ears().all(turns))
 }
 
-/// As [`planar_sense`], for the surface without what fills its holes.
+/// [`planar_sense`] of the surface, whose filled holes may fold.
 pub(crate) fn sense_of_surface(mesh: &DiskMesh, embedding: &Embedding) -> Option<Orientation> {
     planar_sense(mesh, embedding).or_else(|| {
         let orientations: Vec<Option<Orientation>> = orientations(mesh, embedding).collect();
@@ -203,7 +209,7 @@ pub(crate) fn sense_of_surface(mesh: &DiskMesh, embedding: &Embedding) -> Option
     })
 }
 
-/// The holes whose filling has faces that are not upright.
+/// Holes whose filling has faces that are not upright.
 fn folded_holes(mesh: &DiskMesh, is_upright: impl Fn(FaceId) -> bool) -> Vec<Hole> {
     let is_folded = |faces: std::ops::Range<usize>| !faces.map(FaceId::from_index).all(&is_upright);
     if !is_folded(mesh.mesh().real_face_count()..mesh.face_count()) {
@@ -212,14 +218,14 @@ fn folded_holes(mesh: &DiskMesh, is_upright: impl Fn(FaceId) -> bool) -> Vec<Hol
     mesh.mesh().holes().into_iter().filter(|hole| is_folded(hole.faces.clone())).collect()
 }
 
-/// Whether the loop around a hole is a simple polygon with the surface outside of it.
+/// True if the loop around a hole is a simple polygon with the surface outside of it.
 fn is_around(hole: &Hole, embedding: &Embedding, upright: Orientation) -> bool {
     let places: Vec<DVec2> = hole.rim.iter().map(|&v| embedding[v]).collect();
     let turns = if upright == Orientation::Clockwise { -1 } else { 1 };
     turning_number(&places) == Some(turns) && is_simple(&places)
 }
 
-/// The orientation that all faces of a one-to-one embedding have; none where it is not one-to-one.
+/// Orientation of all faces of a one-to-one embedding. `None` if it is not one-to-one.
 fn sense(mesh: &DiskMesh, embedding: &Embedding) -> Option<Orientation> {
     assert_eq!(embedding.len(), mesh.vertex_count(), "an embedding has one position per vertex");
     let [a, b, c] = embedding.corners(mesh, mesh.faces().next()?);
@@ -229,7 +235,7 @@ fn sense(mesh: &DiskMesh, embedding: &Embedding) -> Option<Orientation> {
     (are_alike && is_simple()).then_some(of_first)
 }
 
-/// The exact orientation of every face; none where a corner is not finite.
+/// Exact orientation of every face. `None` if a corner is not finite.
 fn orientations<'a>(
     mesh: &'a DiskMesh,
     embedding: &'a Embedding,
@@ -240,15 +246,15 @@ fn orientations<'a>(
     })
 }
 
-/// The embedding as programs read it that keep 32 bits of every coordinate.
+/// Embedding as read by programs that keep 32 bits of every coordinate.
 pub(crate) fn in_f32(embedding: &Embedding) -> Embedding {
     embedding.iter().map(|z| z.as_vec2().as_dvec2()).collect()
 }
 
-/// Faces or vertices that share the work of one task: enough to outweigh the handing out.
+/// Number of faces in one task: enough to outweigh its scheduling.
 const FACES_PER_TASK: usize = 4096;
 
-/// Crossings as pairs of edge ids, and whether there are more.
+/// Crossings as pairs of edge ids, and true if there are more.
 fn boundary_crossings(mesh: &DiskMesh, boundary: &[DVec2]) -> (Vec<[EdgeId; 2]>, bool) {
     let found = crossings(boundary);
     let edge_at = |place: u32| mesh.boundary_edge(place as usize);
@@ -264,7 +270,7 @@ fn boundary_crossings(mesh: &DiskMesh, boundary: &[DVec2]) -> (Vec<[EdgeId; 2]>,
     (pairs, found.has_more)
 }
 
-/// Interior vertices around which all faces are upright and the link winds more than once.
+/// Interior vertices whose faces are all upright and whose link winds around them more than once.
 fn overwound_vertices(
     mesh: &DiskMesh,
     embedding: &Embedding,
@@ -290,30 +296,31 @@ fn overwound_vertices(
 }
 
 impl Verdict {
-    /// Whether the embedding is one-to-one, polygons being cut as the mesh's faces are, and holes filled as they are.
+    /// True if the embedding is one-to-one, with polygons cut and holes filled as in the mesh.
     pub fn is_one_to_one(&self) -> bool {
         self.flipped_faces.is_empty() && !self.is_filling_folded && self.boundary_crossings.is_empty()
     }
 
-    /// The orientation that its faces are judged by.
+    /// Orientation by which the faces are judged.
     pub fn upright(&self) -> Orientation {
         if self.mirrored { Orientation::Clockwise } else { Orientation::CounterClockwise }
     }
 
-    /// How many boundary crossings there are, in words: more than are listed, or just so many.
+    /// Number of boundary crossings in words, with "more than" if not all are listed.
     pub fn crossing_count_in_words(&self) -> String {
         let more = if self.more_crossings { "more than " } else { "" };
         format!("{more}{}", self.boundary_crossings.len())
     }
 
-    /// Flipped faces, concave polygons, crossed holes, boundary crossings as far as they are listed, and overwound vertices together.
+    /// Number of flipped faces, concave polygons, crossed holes, listed boundary crossings and overwound vertices
+    /// together.
     pub fn defect_count(&self) -> usize {
         let crossings = self.boundary_crossings.len();
         let faces = self.flipped_faces.len() + self.concave_polygons.len() + self.crossed_holes.len();
         faces + crossings + self.overwound_vertices.len()
     }
 
-    /// What becomes of a planar embedding in 32 bits, in lower-case words; none where it is not planar in 64.
+    /// Result of rounding a planar embedding to 32 bits, in lower-case words. `None` if it is not planar in 64 bits.
     pub fn summary_in_f32(&self) -> Option<&'static str> {
         let words = if self.planar_in_f32 { "holds in 32 bits" } else { "does not hold in 32 bits" };
         self.planar.then_some(words)

@@ -30,24 +30,24 @@ use glam::DVec3;
 
 use crate::problem::Family;
 
-/// A cotangent, or a tangent of a half angle, larger than this is cut off: such a corner is degenerate in 64 bits.
+/// Bound on cotangents and on tangents of half angles. Corners beyond it are degenerate in 64 bits.
 const BOUND: f64 = 1e12;
 
-/// One triangle corner as the weights see it: no angles, so that nothing cancels near 0 and π.
+/// Triangle corner as input of the weights. No angles are computed, so nothing cancels near 0 and π.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner {
     /// Lengths of the edges to the next and to the previous corner.
     pub radii: [f64; 2],
     /// Length of the edges' cross product, `r₁ r₂ sin α`, twice the triangle's area.
     pub cross: f64,
-    /// The edges' dot product, `r₁ r₂ cos α`.
+    /// Dot product of the two edges, `r₁ r₂ cos α`.
     pub dot: f64,
     /// Dot products of the edges that meet at the next and at the previous corner.
     pub far_dots: [f64; 2],
 }
 
 impl Corner {
-    /// The corner at `x[0]` of a triangle.
+    /// Corner at `x[0]` of a triangle.
     pub fn at(x: [DVec3; 3]) -> Self {
         let (to_next, to_previous, across) = (x[1] - x[0], x[2] - x[0], x[2] - x[1]);
         Self {
@@ -64,29 +64,29 @@ impl Corner {
         if self.dot > 0.0 { self.cross / (product + self.dot) } else { (product - self.dot) / self.cross }
     }
 
-    /// cot α, and whether a bound was hit.
+    /// cot α, and true if it was bounded.
     pub fn cotangent(&self) -> (f64, bool) {
         bounded(self.dot / self.cross)
     }
 }
 
-/// A ratio within the bound, and whether the bound was hit.
+/// Clamps a ratio to the bound. Returns true if the bound was hit.
 pub(crate) fn bounded(ratio: f64) -> (f64, bool) {
-    // `clamp` keeps a NaN, and 0/0 is as degenerate as infinity.
+    // `clamp` keeps a NaN, but 0/0 is as degenerate as infinity.
     let kept = if ratio.is_nan() { BOUND } else { ratio.clamp(-BOUND, BOUND) };
     (kept, kept.to_bits() != ratio.to_bits())
 }
 
-/// What a corner adds to the coefficients of its two edges, and whether a bound was hit on the way.
+/// Contribution of a corner to the coefficients of its two edges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CornerWeights<T = f64> {
     /// Shares of the edges to the next and to the previous corner: k₁ and k₂.
     pub shares: [T; 2],
-    /// True where the corner is degenerate and its weight was bounded.
+    /// True if the corner is degenerate and its weight was bounded.
     pub bounded: bool,
 }
 
-/// The shares k₁, k₂ of a corner for the offset d = rᵖ.
+/// Shares k₁, k₂ of a corner for the offset d = rᵖ.
 pub fn three_point_weights(corner: &Corner, power: f64) -> CornerWeights {
     let Corner { radii: [r1, r2], cross, far_dots, .. } = *corner;
     let mut was_bounded = false;
@@ -96,7 +96,8 @@ pub fn three_point_weights(corner: &Corner, power: f64) -> CornerWeights {
         kept
     };
     let shares = if power == Family::CONFORMAL_POWER {
-        // k₂ = cot of the angle at the next corner, opposite the edge to the previous one; and the other way round.
+        // k₂ is the cotangent at the next corner, opposite the edge to the previous corner; k₁ is the one at the
+        // previous corner.
         [bound(far_dots[1] / cross), bound(far_dots[0] / cross)]
     } else if power == Family::WACHSPRESS_POWER {
         [bound(far_dots[0] / cross) / (r1 * r1), bound(far_dots[1] / cross) / (r2 * r2)]

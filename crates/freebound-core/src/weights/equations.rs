@@ -1,12 +1,12 @@
-//! One equation per vertex, kept as one coefficient per link.
+//! Vertex equations, stored as one coefficient per link.
 //!
-//! The equation of vertex v is `Σ a_h (z_head(h) − z_v) = 0` over the links h that leave it: its halfedges, and diagonals
-//! of polygons. Every method of this project has that form: coefficients are real where the boundary is prescribed and
-//! complex where it is free.
+//! The equation of vertex v is `Σ a_h (z_head(h) − z_v) = 0` over the links h that leave it: its halfedges, and
+//! diagonals of polygons. Every method of this project has that form. Coefficients are real if the boundary is
+//! prescribed, and complex if it is free.
 //!
-//! Where a polygon has more than three corners, all convex, its corners' weights are the mean over the fans that it can be
-//! cut into (see the module `pieces`), so that no choice of a cut shows. Equal weights are those of the cut's graph, for
-//! Tutte's theorem is about a planar graph.
+//! If all corners of a larger polygon are convex, their weights are the mean over the polygon's fans (see the module
+//! `pieces`). So the weights do not depend on its triangulation. Equal weights belong to the graph of the
+//! triangulation, because Tutte's theorem needs a planar graph.
 
 use std::ops::Mul;
 
@@ -24,14 +24,14 @@ use crate::problem::{Control, Embedding, Family, SolveError};
 /// Coefficients of all vertex equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equations<T> {
-    /// For each link of the mesh the coefficient of `z_head − z_tail` in the equation of its tail.
+    /// Coefficient of `z_head − z_tail` for each link of the mesh, in the equation of the link's tail.
     pub coefficients: Vec<T>,
-    /// Degenerate corners whose weight was bounded.
+    /// Number of degenerate corners whose weight was bounded.
     pub bounded_corners: usize,
 }
 
 impl Equations<f64> {
-    /// The same equations with complex coefficients.
+    /// Converts the coefficients to complex numbers.
     pub fn to_complex(&self) -> Equations<Complex<f64>> {
         let coefficients = self.coefficients.par_iter().map(|&a| Complex::new(a, 0.0)).collect();
         Equations { coefficients, bounded_corners: self.bounded_corners }
@@ -53,7 +53,7 @@ where
 }
 
 impl Equations<Complex<f64>> {
-    /// Adds the i-terms of the natural boundary: d/r of every boundary edge, by its inner halfedge.
+    /// Adds the i-terms of the natural boundary: d/r of every boundary edge. `offset_share` takes its inner halfedge.
     pub(crate) fn add_boundary_terms(&mut self, mesh: &DiskMesh, offset_share: impl Fn(HalfedgeId) -> f64) {
         for outer in (3 * mesh.face_count()..mesh.halfedge_count()).map(HalfedgeId::from_index) {
             let inner = mesh.twin(outer);
@@ -64,7 +64,8 @@ impl Equations<Complex<f64>> {
         }
     }
 
-    /// ‖A z‖ over the vertices that `has_equation`, relative to ‖ |A| |z| ‖, the sizes of the terms that should cancel.
+    /// Residual ‖A z‖ over the vertices that `has_equation`, relative to ‖ |A| |z| ‖, the sizes of the terms that
+    /// should cancel.
     ///
     /// # Errors
     ///
@@ -96,7 +97,7 @@ impl Equations<Complex<f64>> {
     }
 }
 
-/// |z|, several times faster than by a hypotenuse where squares neither overflow nor underflow.
+/// |z|, several times faster than by a hypotenuse unless squares overflow or underflow.
 pub(crate) fn modulus(z: Complex<f64>) -> f64 {
     let square = z.norm_sqr();
     if square.is_normal() { square.sqrt() } else { z.norm() }
@@ -106,7 +107,7 @@ pub(crate) fn modulus(z: Complex<f64>) -> f64 {
 ///
 /// # Errors
 ///
-/// [`SolveError::NotFinite`] where a weight overflows; [`SolveError::Cancelled`].
+/// [`SolveError::NotFinite`] if a weight overflows; [`SolveError::Cancelled`].
 pub fn barycentric(mesh: &DiskMesh, power: f64, control: Control<'_>) -> Result<Equations<f64>, SolveError> {
     if power == Family::CONFORMAL_POWER {
         return cotangents(mesh, control);
@@ -119,13 +120,13 @@ pub fn barycentric(mesh: &DiskMesh, power: f64, control: Control<'_>) -> Result<
     sum_corners(mesh, weights, control)
 }
 
-/// The conformal weights, each cotangent computed once for both directions of the link that it faces: the matrix is
-/// Hermitian to the last bit, and so what refinement measures is what Cholesky factored.
+/// Conformal weights. Each cotangent is computed once for both directions of the link it faces. So the matrix is
+/// Hermitian to the last bit, and refinement measures exactly the matrix that Cholesky factored.
 fn cotangents(mesh: &DiskMesh, control: Control<'_>) -> Result<Equations<f64>, SolveError> {
     let scale = length_scale(mesh);
     let of_piece = |piece: &Piece| {
         let corners = mesh.shape(piece.corners).map(|x| x * scale);
-        // That of the corner opposite each side.
+        // Cotangent at the corner opposite each side.
         let cotangents = [2, 0, 1].map(|k| Corner::at(from_corner(corners, k)).cotangent());
         let along = cotangents.map(|(cotangent, _)| cotangent);
         Sides { along, back: along, bounded_corners: cotangents.map(|(_, bounded)| u8::from(bounded)).iter().sum() }
@@ -133,11 +134,11 @@ fn cotangents(mesh: &DiskMesh, control: Control<'_>) -> Result<Equations<f64>, S
     sum_of_sides(mesh, of_piece, control)
 }
 
-/// The natural boundary equations for offset d = rᵖ: paper eq. (2) inside and eq. (3) on the boundary.
+/// Natural boundary equations for offset d = rᵖ: paper eq. (2) inside and eq. (3) on the boundary.
 ///
 /// # Errors
 ///
-/// [`SolveError::NotFinite`] where a weight overflows; [`SolveError::Cancelled`].
+/// [`SolveError::NotFinite`] if a weight overflows; [`SolveError::Cancelled`].
 pub fn natural(mesh: &DiskMesh, power: f64, control: Control<'_>) -> Result<Equations<Complex<f64>>, SolveError> {
     let scale = length_scale(mesh);
     let mut equations = barycentric(mesh, power, control)?.to_complex();
@@ -153,7 +154,7 @@ pub fn natural(mesh: &DiskMesh, power: f64, control: Control<'_>) -> Result<Equa
 ///
 /// # Errors
 ///
-/// [`SolveError::NotFinite`] where an edge has no length; [`SolveError::Cancelled`].
+/// [`SolveError::NotFinite`] if an edge has no length; [`SolveError::Cancelled`].
 pub fn levy(mesh: &DiskMesh, control: Control<'_>) -> Result<Equations<Complex<f64>>, SolveError> {
     let scale = length_scale(mesh);
     let weights = |corner: [DVec3; 3]| {
@@ -166,12 +167,12 @@ pub fn levy(mesh: &DiskMesh, control: Control<'_>) -> Result<Equations<Complex<f
 
 /// Least-squares conformal maps (Lévy et al. 2002, eq. 4): the normal equations of `Σ |W₀z₀ + W₁z₁ + W₂z₂|²/2T`.
 ///
-/// `W₀` is the edge opposite corner 0 as a complex number in the triangle's own plane, and T its area. Written from
-/// that energy, not from cotangents, so that it can serve as a check of [`natural`] with conformal weights.
+/// `W₀` is the edge opposite corner 0 as a complex number in the triangle's own plane, and T its area. Derived from
+/// this energy, not from cotangents, so that it can check [`natural`] with conformal weights.
 ///
 /// # Errors
 ///
-/// [`SolveError::NotFinite`] where a triangle has no area; [`SolveError::Cancelled`].
+/// [`SolveError::NotFinite`] if a triangle has no area; [`SolveError::Cancelled`].
 #[expect(clippy::many_single_char_names, reason = "corners and edges as the equation names them")]
 pub fn lscm(mesh: &DiskMesh, control: Control<'_>) -> Result<Equations<Complex<f64>>, SolveError> {
     let scale = length_scale(mesh);
@@ -181,7 +182,7 @@ pub fn lscm(mesh: &DiskMesh, control: Control<'_>) -> Result<Equations<Complex<f
         let (base, height) = (u.length(), u.cross(w).length() / u.length());
         let local = [Complex::ZERO, Complex::new(base, 0.0), Complex::new(w.dot(u) / base, height)];
         let opposite = [local[2] - local[1], local[0] - local[2], local[1] - local[0]];
-        // The energy's matrix is WᴴW/2T; its rows sum to zero, so off-diagonal entries say everything.
+        // The energy's matrix is WᴴW/2T. Its rows sum to zero, so the off-diagonal entries determine it.
         let share = |j: usize| -opposite[0].conj() * opposite[j] / (base * height);
         CornerWeights { shares: [share(1), share(2)], bounded: false }
     };
@@ -195,7 +196,7 @@ pub fn uniform(mesh: &DiskMesh) -> Equations<f64> {
     Equations { coefficients, bounded_corners: 0 }
 }
 
-/// Adds up what the corners give to the two links that leave their vertex.
+/// Sums the weights of all corners on the two links that leave each corner.
 fn sum_corners<T: Scalar>(
     mesh: &DiskMesh,
     weights: impl Fn([DVec3; 3]) -> CornerWeights<T> + Sync,
@@ -204,7 +205,7 @@ fn sum_corners<T: Scalar>(
     sum_corners_of(mesh, |corners| mesh.shape(corners), weights, control)
 }
 
-/// The same where the triangles of three vertices have other shapes than in space.
+/// Sums the weights of all corners, with `shape` in place of the triangles in space.
 pub(crate) fn sum_corners_of<T: Scalar>(
     mesh: &DiskMesh,
     shape: impl Fn([VertexId; 3]) -> [DVec3; 3] + Sync,
@@ -223,24 +224,24 @@ pub(crate) fn sum_corners_of<T: Scalar>(
     sum_of_sides(mesh, of_piece, control)
 }
 
-/// The corners of a triangle from one of them on.
+/// Corners of a triangle, starting at corner k.
 fn from_corner(x: [DVec3; 3], k: usize) -> [DVec3; 3] {
     [x[k], x[(k + 1) % 3], x[(k + 2) % 3]]
 }
 
-/// What a piece gives to the links of its sides.
+/// Contribution of a piece to the links of its sides.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sides<T> {
-    /// To those from each corner to the next.
+    /// Contributions to the links from each corner to the next.
     pub(crate) along: [T; 3],
-    /// To those that lead back.
+    /// Contributions to the links in the reverse direction.
     pub(crate) back: [T; 3],
-    /// Corners whose weight was bounded.
+    /// Number of corners whose weight was bounded.
     pub(crate) bounded_corners: u8,
 }
 
 impl<T: Scalar> Sides<T> {
-    /// Of a face that is no piece.
+    /// Contribution of a face that is not a piece.
     const NONE: Self = Self { along: [T::ZERO; 3], back: [T::ZERO; 3], bounded_corners: 0 };
 
     fn are_finite(&self) -> bool {
@@ -248,12 +249,14 @@ impl<T: Scalar> Sides<T> {
     }
 }
 
-/// Adds up what the pieces give to every link. A link is a side of two faces at most: its sum is gathered from them, not scattered
-/// by them, and so all are found side by side. What the fans of averaged polygons give comes on top, in their order.
+/// Sums the contributions of all pieces to every link.
+///
+/// A link is a side of at most two faces. Its sum is gathered from them instead of scattered by them, so all links are
+/// computed in parallel. The fans of averaged polygons are then added in their order.
 ///
 /// # Errors
 ///
-/// [`SolveError::NotFinite`] for the first piece that gives what is no number; [`SolveError::Cancelled`].
+/// [`SolveError::NotFinite`] for the first piece with a contribution that is not finite; [`SolveError::Cancelled`].
 pub(crate) fn sum_of_sides<T: Scalar>(
     mesh: &DiskMesh,
     of_piece: impl Fn(&Piece) -> Sides<T> + Sync,
@@ -295,8 +298,8 @@ pub(crate) fn sum_of_sides<T: Scalar>(
     Ok(Equations { coefficients, bounded_corners })
 }
 
-/// A factor that brings the mesh to edges of a length near 1, so that no power of a length overflows: a power of two, so
-/// that multiplying rounds nothing, and differences of neighbouring positions stay exact.
+/// Factor that scales the mesh to edges of length about 1, so that no power of a length overflows. A power of two:
+/// scaling rounds nothing, and differences of neighbouring positions stay exact.
 pub(crate) fn length_scale(mesh: &DiskMesh) -> f64 {
     let positions = &mesh.mesh().positions;
     let extent = positions.iter().fold(0.0_f64, |m, x| m.max((*x - positions[0]).abs().max_element()));
@@ -304,13 +307,13 @@ pub(crate) fn length_scale(mesh: &DiskMesh) -> f64 {
     power_of_two_near(per_edge).recip()
 }
 
-/// Mean length of the edges at the size that [`length_scale`] brings the mesh to.
+/// Mean length of the edges after scaling by [`length_scale`].
 pub(crate) fn mean_edge_length(mesh: &DiskMesh) -> f64 {
     let scale = length_scale(mesh);
     mean_length(mesh, |[a, b]| (mesh.position(a) * scale).distance(mesh.position(b) * scale))
 }
 
-/// Mean length of the halfedges, from tail to head.
+/// Mean of `length` over all halfedges, from tail to head.
 pub(crate) fn mean_length(mesh: &DiskMesh, length: impl Fn([VertexId; 2]) -> f64 + Sync) -> f64 {
     let of = |h: usize| length([mesh.tail(HalfedgeId::from_index(h)), mesh.head(HalfedgeId::from_index(h))]);
     let lengths: Vec<f64> = (0..mesh.halfedge_count()).into_par_iter().map(of).collect();

@@ -1,23 +1,24 @@
-//! Triangles that weights are summed over: the faces; of averaged polygons all their fans.
+//! Pieces: the triangles that weights are summed over. Pieces are the faces and, for averaged polygons, the triangles
+//! of all their fans.
 //!
-//! A polygon with n corners is cut in another way by the fan of each corner, n − 2 triangles that count by 1/n. So no
-//! choice of a cut shows in the weights. The triangle at a corner belongs to the fans of its two neighbours; any other
-//! triangle of a fan has one side on the outline and belongs to that fan alone. A quad has four triangles, those of its
-//! two diagonals, by half each.
+//! A polygon with n corners has n fans, one per corner, each with n − 2 triangles that count by 1/n. So the weights do
+//! not depend on a choice of triangulation. The triangle at a corner belongs to the fans of its two neighbours. Any
+//! other triangle of a fan has one side on the outline and belongs to that fan alone. A quad has four triangles, the
+//! ones of its two diagonals, which count by half each.
 
 use crate::parallel::prelude::*;
 
 use crate::mesh::{DiskMesh, FaceId, HalfedgeId, Polygon, VertexId};
 
-/// A triangle, and how much it counts.
+/// A triangle with its share.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Piece {
     pub(crate) corners: [VertexId; 3],
-    /// The links from each corner to the next.
+    /// Links from each corner to the next.
     pub(crate) links: [HalfedgeId; 3],
-    /// 1 for a face; those of a polygon with n corners sum to n − 2.
+    /// Factor of the triangle's weights: 1 for a face. The shares of a polygon with n corners sum to n − 2.
     pub(crate) share: f64,
-    /// The face, or the first one of the polygon.
+    /// Face of the piece, or first face of its polygon.
     pub(crate) face: FaceId,
 }
 
@@ -28,13 +29,13 @@ impl Piece {
     }
 }
 
-/// Faces, or averaged polygons, whose pieces are handed over at one time.
+/// Number of faces, or of averaged polygons, whose pieces are processed at one time.
 const AT_ONCE: usize = 1 << 15;
 
-/// The averaged polygons of a mesh.
+/// Averaged polygons of a mesh.
 pub(crate) struct Fans<'a> {
     polygons: Vec<Polygon<'a>>,
-    /// For each face whether it belongs to one of them; empty where there are none.
+    /// True for each face of an averaged polygon; empty if there are no averaged polygons.
     has_face: Vec<bool>,
 }
 
@@ -48,12 +49,12 @@ impl<'a> Fans<'a> {
         Self { polygons, has_face }
     }
 
-    /// Whether a face belongs to an averaged polygon: then it is no piece.
+    /// True if a face belongs to an averaged polygon and so is not a piece.
     pub(crate) fn has_face(&self, face: usize) -> bool {
         self.has_face.get(face) == Some(&true)
     }
 
-    /// Hands over the pieces of all fans, some at a time.
+    /// Passes the pieces of all fans to `take`, in blocks.
     pub(crate) fn in_pieces<E>(
         &self,
         mesh: &DiskMesh,
@@ -69,8 +70,8 @@ impl<'a> Fans<'a> {
     }
 }
 
-/// Hands over all pieces, some at a time: the faces in their order, but for those of averaged polygons; then the fans of
-/// these.
+/// Passes all pieces to `take`, in blocks: first the faces in their order, except faces of averaged polygons; then the
+/// fans of these polygons.
 pub(crate) fn in_pieces<E>(mesh: &DiskMesh, mut take: impl FnMut(&[Piece]) -> Result<(), E>) -> Result<(), E> {
     let of = Fans::of(mesh);
     let mut pieces: Vec<Piece> = Vec::new();
@@ -84,7 +85,7 @@ pub(crate) fn in_pieces<E>(mesh: &DiskMesh, mut take: impl FnMut(&[Piece]) -> Re
     of.in_pieces(mesh, take)
 }
 
-/// The pieces with a corner at a vertex; where it has no averaged polygon, its faces counter-clockwise.
+/// Pieces with a corner at a vertex. Without averaged polygons there, they are its faces counter-clockwise.
 pub(crate) fn pieces_at(mesh: &DiskMesh, vertex: VertexId) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
     for face in mesh.outgoing(vertex).filter_map(|side| mesh.face_of(side)) {
@@ -97,7 +98,7 @@ pub(crate) fn pieces_at(mesh: &DiskMesh, vertex: VertexId) -> Vec<Piece> {
     pieces
 }
 
-/// The triangles of a polygon's fans, each once.
+/// Triangles of a polygon's fans, each once.
 fn fans<'a>(mesh: &'a DiskMesh, polygon: &Polygon<'a>) -> impl Iterator<Item = Piece> + use<'a> {
     let (corners, count, face) = (polygon.corners, polygon.corners.len(), polygon.first_face);
     let piece = move |places: [usize; 3], fans: f64| {

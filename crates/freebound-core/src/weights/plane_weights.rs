@@ -3,21 +3,21 @@
 //!
 //! # Equation
 //!
-//! Every corner with the angle α between edges of the lengths r₁, r₂ gives `tan(α/2)/r` to both. Angles are unsigned, as
-//! the paper asks: a flipped face counts like its mirror image, and so all weights are positive. A planar embedding
-//! satisfies the equations that it gives (2D reproduction), and only planar ones do (Theorem 1).
+//! Every corner with the angle α between edges of the lengths r₁, r₂ adds `tan(α/2)/r` to both. Angles are unsigned,
+//! as the paper requires: a flipped face counts like its mirror image, so all weights are positive. A planar embedding
+//! satisfies its own equations (2D reproduction), and only planar embeddings do (Theorem 1).
 //!
 //! # Residuals of an embedding
 //!
 //! At a corner of a positive face eq. (1) holds, and its share of A(x) x is zero. At a corner of a flipped face the
-//! unsigned angle turns the sign of one side around: its share is `2i(û₂ − û₁)`, with û₁, û₂ the directions of its edges.
-//! So A(x) x is a sum over the flipped faces alone, and exactly zero for a planar embedding: see [`residuals_in_plane`].
-//! Where weights are the mean over a polygon's fans, its triangles in all of them are meant.
+//! unsigned angle reverses the sign of one side: its share is `2i(û₂ − û₁)`, with û₁, û₂ the directions of its edges.
+//! So A(x) x is a sum over the flipped faces alone, and exactly zero for a planar embedding: see
+//! [`residuals_in_plane`]. For averaged polygons, faces here include the triangles of all their fans.
 //!
 //! # Degenerate faces
 //!
-//! A face without area has a corner of 0 or π, or an edge of length 0, whose weight would be infinite and would hold
-//! the face as it is. It counts as a thin face instead, a thousandth of its longest edge high, and its corners are
+//! A face without area has a corner of 0 or π, or an edge of length 0. Its weight would be infinite and would freeze
+//! the face. So it is treated as a thin face, with a height of a thousandth of its longest edge, and its corners are
 //! counted.
 
 use crate::parallel::prelude::*;
@@ -31,19 +31,20 @@ use crate::geom::{Orientation, orientation, power_of_two_near};
 use crate::mesh::{DiskMesh, FaceId};
 use crate::problem::{Control, Embedding, SolveError};
 
-/// Height of a degenerate face, and least length of its edges, relative to its longest edge. Thin enough to leave its
-/// surroundings alone, thick enough that the next solve can open it.
+/// Height of a degenerate face, and smallest length of its edges, relative to its longest edge. Thin enough to leave
+/// its surroundings unaffected, thick enough that the next solve can open it.
 const THIN: f64 = 1e-3;
 
-/// Shares of a face's edges: `at_corner[k]` are those of the edges from corner k to the next and the previous corner.
+/// Shares of a face's edges: `at_corner[k]` has the shares of the edges from corner k to the next and to the previous
+/// corner.
 struct FaceWeights {
     at_corner: [[f64; 2]; 3],
     degenerate: bool,
-    /// Corners whose weight is not what the geometry gives.
+    /// Number of corners whose weight differs from the geometry.
     bounded_corners: u8,
 }
 
-/// The lengths of a face's edges, `radii[k]` from corner k to the next, made positive.
+/// Positive lengths of a face's edges, `radii[k]` from corner k to the next, and true if an edge had length 0.
 fn radii_of(edges: [DVec2; 3], mean_length: f64) -> ([f64; 3], bool) {
     let lengths = edges.map(DVec2::length);
     let longest = lengths[0].max(lengths[1]).max(lengths[2]);
@@ -54,7 +55,7 @@ fn radii_of(edges: [DVec2; 3], mean_length: f64) -> ([f64; 3], bool) {
     (lengths.map(|r| if r > 0.0 { r } else { THIN * longest }), shortest == 0.0)
 }
 
-/// A face's edges from each corner to the next.
+/// Edges of a face, from each corner to the next.
 fn edges_of([a, b, c]: [DVec2; 3]) -> [DVec2; 3] {
     [b - a, c - b, a - c]
 }
@@ -71,7 +72,7 @@ fn face_weights(corners: [DVec2; 3], mean_length: f64) -> FaceWeights {
         let (to_next, to_previous) = (radii[k], radii[(k + 2) % 3]);
         let product = to_next * to_previous;
         let dot = -edges[k].dot(edges[(k + 2) % 3]);
-        // The form that does not cancel.
+        // Form of tan(α/2) without cancellation.
         let tan_half = if dot > 0.0 { cross / (product + dot) } else { (product - dot) / cross };
         let (tan_half, is_bounded) = bounded(tan_half);
         bounded_corners += u8::from(is_bounded || degenerate);
@@ -80,17 +81,18 @@ fn face_weights(corners: [DVec2; 3], mean_length: f64) -> FaceWeights {
     FaceWeights { at_corner, degenerate, bounded_corners }
 }
 
-/// What the first corner of a face gives to its edges to the next and to the previous one, in units of the embedding.
+/// Contribution of the first corner of a face to its edges to the next and to the previous corner, in units of the
+/// embedding.
 pub(crate) fn corner_weights(corners: [DVec2; 3]) -> [f64; 2] {
     face_weights(corners, 1.0).at_corner[0]
 }
 
-/// The length of a face's edge from corner k on as the weights take it: positive.
+/// Length of a face's edge from corner k to the next as used by the weights: always positive.
 pub(crate) fn edge_radius(corners: [DVec2; 3], k: usize) -> f64 {
     radii_of(edges_of(corners), 1.0).0[k]
 }
 
-/// A power of two, so that multiplying rounds nothing, that brings an embedding to edges of a length near 1.
+/// Factor that scales an embedding to edges of length about 1. A power of two: scaling rounds nothing.
 fn scale_of(embedding: &Embedding, face_count: usize) -> f64 {
     let first = embedding.first().copied().unwrap_or_default();
     let extent = embedding.iter().fold(0.0_f64, |m, z| m.max((*z - first).abs().max_element()));
@@ -98,14 +100,14 @@ fn scale_of(embedding: &Embedding, face_count: usize) -> f64 {
     power_of_two_near(mean_length).recip()
 }
 
-/// Mean length of the edges of an embedding at the size that its equations are those of.
+/// Mean length of the edges of an embedding, scaled like its equations.
 pub(crate) fn mean_edge_length_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let scale = scale_of(embedding, mesh.face_count());
     mean_length(mesh, |[a, b]| (embedding[a] * scale).distance(embedding[b] * scale))
 }
 
-/// A(x) x: the residual of every vertex's equation, the natural boundary's i-terms included, found without rounding
-/// where faces are positive.
+/// A(x) x: residual of every vertex's equation, the natural boundary's i-terms included. Positive faces contribute
+/// exactly 0, without rounding.
 ///
 /// # Errors
 ///
@@ -135,7 +137,7 @@ pub fn residuals_in_plane(
     Ok(residuals)
 }
 
-/// Shares of a face that is not positive in the residuals of its corners.
+/// Shares of a flipped or degenerate face in the residuals of its corners.
 fn residual_shares(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
     let edges = edges_of(corners);
     let (radii, _) = radii_of(edges, 1.0);
@@ -150,11 +152,11 @@ fn residual_shares(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
     })
 }
 
-/// The mean-value equations of an embedding without the boundary's i-terms: paper eq. (2) with d = 1.
+/// Mean-value equations of an embedding without the boundary's i-terms: paper eq. (2) with d = 1.
 ///
 /// # Errors
 ///
-/// [`SolveError::NotFinite`] where the embedding is not; [`SolveError::Cancelled`].
+/// [`SolveError::NotFinite`] if the embedding is not finite; [`SolveError::Cancelled`].
 pub fn mean_value_in_plane(
     mesh: &DiskMesh,
     embedding: &Embedding,
@@ -172,11 +174,11 @@ pub fn mean_value_in_plane(
     sum_of_sides(mesh, of_piece, control)
 }
 
-/// The mean-value equations of an embedding with its natural boundary: paper eq. (2) and (3) with d = 1.
+/// Mean-value equations of an embedding with its natural boundary: paper eq. (2) and (3) with d = 1.
 ///
 /// # Errors
 ///
-/// [`SolveError::NotFinite`] where the embedding is not; [`SolveError::Cancelled`].
+/// [`SolveError::NotFinite`] if the embedding is not finite; [`SolveError::Cancelled`].
 pub fn natural_in_plane(
     mesh: &DiskMesh,
     embedding: &Embedding,

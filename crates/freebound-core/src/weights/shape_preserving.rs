@@ -1,9 +1,9 @@
 //! Floater's shape-preserving weights (Floater 1997, "Parametrization and smooth approximation of surface
 //! triangulations", §6), for a convex boundary.
 //!
-//! The one-ring of an interior vertex is flattened by the geodesic polar map: radii kept, angles scaled to sum to 2π.
-//! For each neighbour the ray through the centre leaves the ring between two others; the barycentric coordinates of
-//! the centre in that triangle are averaged over all neighbours. The weights are positive and sum to 1.
+//! The one-ring of an interior vertex is flattened by the geodesic polar map: radii are kept, angles are scaled to sum
+//! to 2π. For each neighbour, the ray through the centre leaves the ring between two other neighbours. The barycentric
+//! coordinates of the centre in that triangle are averaged over all neighbours. The weights are positive and sum to 1.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,7 +17,7 @@ pub fn shape_preserving(mesh: &DiskMesh) -> Equations<f64> {
     shape_preserving_of(mesh, &|corners| mesh.shape(corners))
 }
 
-/// The same where the triangles of three vertices have other shapes than in space.
+/// Shape-preserving coefficients, with `shape` in place of the triangles in space.
 pub(crate) fn shape_preserving_of(mesh: &DiskMesh, shape: Shape<'_>) -> Equations<f64> {
     let mut coefficients = vec![0.0; mesh.link_count()];
     let mut bounded_corners = 0;
@@ -33,12 +33,12 @@ pub(crate) fn shape_preserving_of(mesh: &DiskMesh, shape: Shape<'_>) -> Equation
     Equations { coefficients, bounded_corners }
 }
 
-/// The triangle of three vertices.
+/// Shape of the triangle of three vertices.
 pub(crate) type Shape<'a> = &'a dyn Fn([VertexId; 3]) -> [DVec3; 3];
 
 /// Angle and radius of each neighbour in the flattened ring.
 fn polar_map(shape: Shape<'_>, centre: VertexId, neighbours: &[VertexId]) -> Vec<(f64, f64)> {
-    // The angle to the neighbour that follows, and the radius.
+    // Angle to the next neighbour, and the radius.
     let gap = |(&next, &previous): (&VertexId, &VertexId)| {
         let [at, a, b] = shape([centre, next, previous]);
         ((a - at).angle_between(b - at), at.distance(a))
@@ -55,7 +55,8 @@ fn polar_map(shape: Shape<'_>, centre: VertexId, neighbours: &[VertexId]) -> Vec
         .collect()
 }
 
-/// Weights of an interior vertex's ring, given by its neighbours in order, and whether a degenerate ring made them equal.
+/// Weights of an interior vertex's ring, given by its neighbours in order. Returns true with equal weights if the ring
+/// is degenerate.
 pub(crate) fn ring_weights(shape: Shape<'_>, centre: VertexId, neighbours: &[VertexId]) -> (Vec<f64>, bool) {
     let ring = polar_map(shape, centre, neighbours);
     let count = ring.len();
@@ -63,7 +64,7 @@ pub(crate) fn ring_weights(shape: Shape<'_>, centre: VertexId, neighbours: &[Ver
     let mut weights = vec![0.0; count];
     for own in 0..count {
         let opposite = (ring[own].0 + PI).rem_euclid(TAU);
-        // The last neighbour at or before the opposite direction; the next one lies behind it.
+        // The last neighbour at or before the opposite direction; the next neighbour lies behind that direction.
         let before = ring.partition_point(|&(angle, _)| angle <= opposite).saturating_sub(1);
         let after = (before + 1) % count;
         let [a, b, c] = [point(own), point(before), point(after)];

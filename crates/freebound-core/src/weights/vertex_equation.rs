@@ -1,4 +1,4 @@
-//! The equation of one vertex, to be looked at: its neighbours with their weights, and how well an embedding meets it.
+//! Equation of one vertex for inspection: its neighbours with their weights, and its residual in an embedding.
 //!
 //! # Equation
 //!
@@ -7,11 +7,11 @@
 //! z₀ = Σ wᵢ zᵢ + o        wᵢ = kᵢ / Σ kⱼ        o = i·( … ) / Σ kⱼ
 //! ```
 //!
-//! Neighbours 1 and 2 are the first and the last of a boundary vertex's fan, which runs counter-clockwise; inside there
-//! is no i-term. So a vertex lies at the barycentre of its neighbours, and on the boundary at an *offset* o from it. Only
-//! what is around the vertex is computed. The sums are those of [`equations`](super::equations) and
-//! [`plane_weights`](super::plane_weights), in the units of the mesh and of the embedding; shares and residual have no
-//! unit.
+//! Neighbours 1 and 2 are the first and the last of a boundary vertex's fan, which is counter-clockwise; interior
+//! vertices have no i-term. So an interior vertex lies at the barycentre of its neighbours, and a boundary vertex at
+//! an *offset* o from it. Only the surroundings of the vertex are computed. The sums are those of
+//! [`equations`](super::equations) and [`plane_weights`](super::plane_weights), in the units of the mesh and of the
+//! embedding; shares and residual have no unit.
 //!
 //! # Symbols
 //!
@@ -31,30 +31,30 @@ use super::shape_preserving::ring_weights;
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::{Embedding, Family};
 
-/// A neighbour in the equation of a vertex.
+/// Neighbour in the equation of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EquationTerm {
-    /// The neighbour. Beyond the mesh's vertices it is a virtual one.
+    /// The neighbour; a virtual vertex if its number is beyond the mesh's vertices.
     pub neighbour: VertexId,
-    /// Its weight k, not normalised.
+    /// Weight k of the neighbour, not normalised.
     pub weight: f64,
-    /// The offset d of its edge.
+    /// Offset d of the neighbour's edge.
     pub offset: f64,
-    /// Its weight over the sum of all.
+    /// Weight of the neighbour over the sum of all weights.
     pub share: f64,
 }
 
-/// The equation of a vertex, and an embedding put into it.
+/// Equation of a vertex, evaluated in an embedding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VertexEquation {
-    /// The neighbours, counter-clockwise, on the boundary from one boundary edge to the other; then those along diagonals
-    /// of polygons.
+    /// Neighbours, counter-clockwise; at a boundary vertex from one boundary edge to the other. Neighbours along
+    /// diagonals of polygons follow.
     pub terms: Vec<EquationTerm>,
     /// Sum of the weights.
     pub weight_sum: f64,
-    /// The neighbours' barycentre in the embedding.
+    /// Barycentre of the neighbours in the embedding.
     pub barycentre: DVec2,
-    /// From the barycentre to where eq. (3) wants the vertex; none inside.
+    /// Vector from the barycentre to the vertex position that solves eq. (3); `None` inside.
     pub offset_vector: Option<DVec2>,
     /// Residual of the equation, relative to the sizes of its terms.
     pub residual: f64,
@@ -63,22 +63,22 @@ pub struct VertexEquation {
 /// Triangles and neighbours around a vertex.
 pub(crate) struct Fan {
     vertex: VertexId,
-    /// The other two corners of each triangle, and how much it counts.
+    /// Other two corners of each triangle, and its share.
     corners: Vec<([VertexId; 2], f64)>,
-    /// The neighbours along edges, counter-clockwise; then those along diagonals of polygons.
+    /// Neighbours along edges, counter-clockwise; then neighbours along diagonals of polygons.
     neighbours: Vec<VertexId>,
-    /// The first and the last of the neighbours along edges at a boundary vertex, by their places.
+    /// Positions in `neighbours` of the first and last neighbour along edges; `None` if the fan is closed.
     ends: Option<[usize; 2]>,
 }
 
 impl Fan {
-    /// With the faces alone: as polygons are cut.
+    /// Fan of the faces alone, after triangulation of the polygons.
     fn of_faces(mesh: &DiskMesh, vertex: VertexId) -> Self {
         let inner = mesh.outgoing(vertex).filter(|&h| !mesh.is_outer(h));
         Self::new(vertex, inner.map(|h| ([mesh.head(h), mesh.tail(mesh.previous(h))], 1.0)).collect())
     }
 
-    /// With the mean over the fans of polygons, as weights are summed.
+    /// Fan of the pieces, the mean over the fans of polygons, over which weights are summed.
     pub(crate) fn of_mesh(mesh: &DiskMesh, vertex: VertexId) -> Self {
         let faces = Self::of_faces(mesh, vertex);
         let around = |piece: Piece| {
@@ -89,7 +89,8 @@ impl Fan {
         Self { corners: pieces_at(mesh, vertex).into_iter().map(around).collect(), neighbours, ..faces }
     }
 
-    /// With the faces of the outside, which close the fan of a boundary vertex that is not on the hull.
+    /// Fan of the faces and the `pockets` outside, which close the fan of a boundary vertex unless it lies on the
+    /// hull.
     pub(crate) fn of_extended(mesh: &DiskMesh, pockets: &[[VertexId; 3]], vertex: VertexId) -> Self {
         let Self { mut corners, .. } = Self::of_faces(mesh, vertex);
         let from_pocket = |&[a, b, c]: &[VertexId; 3]| match vertex {
@@ -107,7 +108,7 @@ impl Fan {
         Self::new(vertex, corners)
     }
 
-    /// Of triangles in turn.
+    /// Fan of consecutive triangles.
     fn new(vertex: VertexId, corners: Vec<([VertexId; 2], f64)>) -> Self {
         let is_closed = matches!((corners.first(), corners.last()), (Some(([a, _], _)), Some(([_, b], _))) if a == b);
         let last = corners.last().filter(|_| !is_closed).map(|&([_, last], _)| last);
@@ -116,7 +117,7 @@ impl Fan {
         Self { vertex, corners, neighbours, ends }
     }
 
-    /// Adds up what each corner gives to its two edges.
+    /// Sums the contributions of each corner to its two edges.
     fn sums(&self, shares: impl Fn(VertexId, VertexId) -> [f64; 2]) -> Vec<f64> {
         let mut sums = vec![0.0; self.neighbours.len()];
         for &(ends, part) in &self.corners {
@@ -130,7 +131,7 @@ impl Fan {
     }
 }
 
-/// Weights computed in space.
+/// Equation with weights computed on the surface.
 pub(crate) fn on_surface(mesh: &DiskMesh, family: Family, embedding: &Embedding, vertex: VertexId) -> VertexEquation {
     let power = family.power();
     let fan = if power.is_some() { Fan::of_mesh(mesh, vertex) } else { Fan::of_faces(mesh, vertex) };
@@ -153,13 +154,13 @@ pub(crate) fn on_surface(mesh: &DiskMesh, family: Family, embedding: &Embedding,
     put_together(&fan, embedding, Coefficients { weights: fan.sums(shares), offsets, radii })
 }
 
-/// Mean-value weights of one embedding, another one put into them.
+/// Equation with the mean-value weights of `weights_from`, evaluated in `embedding`.
 pub(crate) fn in_plane(mesh: &DiskMesh, fan: &Fan, weights_from: &Embedding, embedding: &Embedding) -> VertexEquation {
     let at = |v: VertexId| weights_from[v];
     let shares = |next, previous| corner_weights([fan.vertex, next, previous].map(at));
     let weights = fan.sums(shares);
     let mut radii: Vec<f64> = fan.neighbours.iter().map(|&v| at(v).distance(at(fan.vertex))).collect();
-    // The edges of the i-term are as long as their faces say.
+    // The i-term takes the edge lengths of its faces.
     if let Some([first, last]) = fan.ends {
         let faces = Fan::of_faces(mesh, fan.vertex).corners;
         let corners = |face: &([VertexId; 2], f64)| [fan.vertex, face.0[0], face.0[1]].map(at);
@@ -170,17 +171,17 @@ pub(crate) fn in_plane(mesh: &DiskMesh, fan: &Fan, weights_from: &Embedding, emb
     put_together(fan, embedding, Coefficients { weights, offsets, radii })
 }
 
-/// Coefficients of the equation, one of each kind per neighbour.
+/// Coefficients of the equation, of each kind one per neighbour.
 struct Coefficients {
-    /// k.
+    /// Weights k.
     weights: Vec<f64>,
-    /// d.
+    /// Offsets d.
     offsets: Vec<f64>,
-    /// r.
+    /// Lengths r.
     radii: Vec<f64>,
 }
 
-/// Makes the equation from its coefficients.
+/// Builds the equation from its coefficients.
 fn put_together(fan: &Fan, embedding: &Embedding, coefficients: Coefficients) -> VertexEquation {
     let Coefficients { weights, offsets, radii } = coefficients;
     let neighbours = &fan.neighbours;
@@ -194,7 +195,7 @@ fn put_together(fan: &Fan, embedding: &Embedding, coefficients: Coefficients) ->
     let sum: DVec2 = weights.iter().zip(&arms).map(|(&k, &arm)| k * arm).sum();
     let turned = |place: usize| (offsets[place] / radii[place] * arms[place]).perp();
     let boundary_term = fan.ends.map(|[first, last]| turned(last) - turned(first));
-    // An entry of the matrix is k, on the boundary's edges k ± i d/r.
+    // A matrix entry is k; on boundary edges it is k ± i d/r.
     let size = |place: usize| {
         let is_end = fan.ends.is_some_and(|ends| ends.contains(&place));
         let turned = if is_end { offsets[place] / radii[place] } else { 0.0 };

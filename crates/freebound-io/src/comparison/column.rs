@@ -1,4 +1,4 @@
-//! The columns of a comparison's table, for terminals, files and the window.
+//! Columns of a comparison's table, for terminals, files and the window.
 
 use std::borrow::Cow;
 use std::cmp::Ordering;
@@ -6,12 +6,12 @@ use std::cmp::Ordering;
 use super::{MethodReport, ResultReport, VerdictCounts};
 use freebound_core::problem::{Labels, NamedOption};
 
-/// A column of the table.
+/// Column of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Column {
-    /// What the method is called.
+    /// Name of the method.
     Method,
-    /// Why it came to its end.
+    /// Reason for the end of the method.
     Ending,
     /// Flipped faces.
     Flips,
@@ -21,7 +21,7 @@ pub enum Column {
     Turning,
     /// Mean angle distortion.
     Angle,
-    /// Its 99th percentile.
+    /// 99th percentile of the angle distortion.
     AngleP99,
     /// Mean area distortion.
     Area,
@@ -31,42 +31,42 @@ pub enum Column {
     StretchLinf,
     /// Mean symmetric Dirichlet energy.
     Energy,
-    /// Steps.
+    /// Number of steps.
     Steps,
-    /// Seconds of the solves.
+    /// Seconds of all solves.
     Solve,
-    /// Seconds of the proofs.
+    /// Seconds of all verdicts.
     Verify,
-    /// Bytes of factors.
+    /// Bytes of the largest factors of a linear solve.
     Memory,
 }
 
-/// The order of methods by a column.
+/// Sort order of the methods by a column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direction {
-    /// Less comes first.
+    /// Smallest value first.
     #[default]
     Up,
-    /// More comes first.
+    /// Largest value first.
     Down,
 }
 
-/// What stands in a column for a method.
+/// Value of a column for a method.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell<'a> {
-    /// Words.
+    /// Text.
     Words(Cow<'a, str>),
-    /// A count.
+    /// Count.
     Count(usize),
-    /// A whole number that may be negative.
+    /// Integer that may be negative.
     Whole(i64),
-    /// A measure; infinite where a face has no area.
+    /// Measure; infinite if a face has no area.
     Measure(f64),
     /// Seconds.
     Seconds(f64),
     /// Bytes.
     Bytes(usize),
-    /// There is none.
+    /// No value.
     Nothing,
 }
 
@@ -91,23 +91,21 @@ impl NamedOption for Column {
 
     fn labels(&self) -> Labels {
         let (name, title, about) = match self {
-            Self::Method => ("method", "Method", "what the method is called"),
-            Self::Ending => ("ending", "Ending", "why the method came to its end"),
+            Self::Method => ("method", "Method", "name of the method"),
+            Self::Ending => ("ending", "Ending", "reason why the method ended"),
             Self::Flips => ("flips", "Flips", "flipped faces"),
             Self::Crossings => ("crossings", "Crossings", "pairs of boundary edges that meet"),
-            Self::Turning => ("turning", "Turning", "turning number of the boundary: 1 where it is simple"),
+            Self::Turning => ("turning", "Turning", "turning number of the boundary: 1 if it is simple"),
             Self::Angle => ("angle", "Angle", "mean over the surface of σ₁/σ₂: 1 keeps angles"),
             Self::AngleP99 => ("angle-p99", "Angle p99", "σ₁/σ₂ that 99 % of the surface does not exceed"),
-            Self::Area => {
-                ("area", "Area", "mean over the surface of how many times an area grows or shrinks: 1 keeps areas")
-            }
+            Self::Area => ("area", "Area", "mean factor by which areas grow or shrink: 1 keeps areas"),
             Self::StretchL2 => {
                 ("l2", "L²", "root mean square stretch from the plane to the surface, at equal total areas")
             }
             Self::StretchLinf => ("linf", "L∞", "greatest stretch from the plane to the surface, at equal total areas"),
-            Self::Energy => ("energy", "Energy", "mean symmetric Dirichlet energy: 4 where nothing is distorted"),
-            Self::Steps => ("steps", "Steps", "how many steps the method took"),
-            Self::Solve => ("solve", "Solve", "seconds of all steps, their proofs aside"),
+            Self::Energy => ("energy", "Energy", "mean symmetric Dirichlet energy: 4 without distortion"),
+            Self::Steps => ("steps", "Steps", "number of steps of the method"),
+            Self::Solve => ("solve", "Solve", "seconds of all steps, without their proofs"),
             Self::Verify => ("verify", "Verify", "seconds of the proofs"),
             Self::Memory => ("memory", "Memory", "memory of the largest factors of a linear solve"),
         };
@@ -116,7 +114,7 @@ impl NamedOption for Column {
 }
 
 impl Column {
-    /// The head of the column in a file, where its numbers are in seconds or bytes with their unit.
+    /// Head of the column in a file. Columns of seconds or bytes name their unit.
     pub fn head(self) -> &'static str {
         match self {
             Self::AngleP99 => "angle_p99",
@@ -130,12 +128,12 @@ impl Column {
         }
     }
 
-    /// Whether words stand in it, which begin at the left.
+    /// True if the column holds text, which is aligned at the left.
     pub const fn is_of_words(self) -> bool {
         matches!(self, Self::Method | Self::Ending)
     }
 
-    /// What stands in it for a method.
+    /// Value of the column for a method.
     pub fn cell(self, of: &MethodReport) -> Cell<'_> {
         let result = of.result.as_ref();
         let count =
@@ -160,7 +158,7 @@ impl Column {
         }
     }
 
-    /// How two methods stand to each other by the column. One that has nothing in it comes last either way.
+    /// Order of two methods by the column. A method without a value comes last in both directions.
     pub fn compare(self, direction: Direction, methods: [&MethodReport; 2]) -> Ordering {
         let [first, second] = methods.map(|of| self.cell(of));
         let ordering = match (&first, &second) {
@@ -178,7 +176,7 @@ impl Column {
 }
 
 impl Cell<'_> {
-    /// The number, where it is one.
+    /// Value as a number; NaN if it is none.
     fn number(&self) -> f64 {
         match self {
             Self::Count(count) | Self::Bytes(count) => *count as f64,
@@ -188,7 +186,7 @@ impl Cell<'_> {
         }
     }
 
-    /// For a person, with the digits that mean something.
+    /// Text for display, rounded to significant digits.
     pub fn words(&self) -> String {
         match self {
             Self::Words(words) => words.clone().into_owned(),
@@ -201,7 +199,7 @@ impl Cell<'_> {
         }
     }
 
-    /// For a file: in full, an infinite number as `inf`; empty where there is none.
+    /// Text for a file: all digits, `inf` for an infinite number, and empty without a value.
     pub fn exact(&self) -> String {
         match self {
             Self::Words(words) => words.clone().into_owned(),
@@ -213,12 +211,12 @@ impl Cell<'_> {
     }
 }
 
-/// A number for a file, in full; empty where it is not a number.
+/// Number for a file, with all digits; empty for NaN.
 pub(super) fn exact_number(number: f64) -> String {
     if number.is_nan() { String::new() } else { format!("{number:?}") }
 }
 
-/// Four or five digits; what is larger by its power of ten.
+/// Text with three decimals; one decimal for larger numbers, scientific notation for the largest.
 fn measure_words(number: f64) -> String {
     if !number.is_finite() {
         return "∞".to_owned();

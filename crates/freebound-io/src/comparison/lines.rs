@@ -1,12 +1,12 @@
-//! The numbers of a method in a few short lines, to stand below its embedding.
+//! Numbers of a method in a few short lines, shown below its embedding.
 
 use super::{Column, MethodReport};
 
-/// Between two numbers that have little to do with each other.
+/// Separator between unrelated numbers.
 const DOT: &str = " · ";
 
 impl MethodReport {
-    /// How it came out: proved planar, not planar, or failed, with the counts or the reason.
+    /// Result of the method: proved planar, not planar, or failed, with the counts or the reason.
     pub fn verdict_line(&self) -> String {
         let Some(result) = &self.result else {
             return self.error.as_ref().map_or_else(String::new, |error| format!("failed: {}", error.kind));
@@ -34,12 +34,12 @@ impl MethodReport {
         parts.join(DOT)
     }
 
-    /// Why there is no embedding, in words; empty where there is one.
+    /// Error message if there is no embedding; empty otherwise.
     pub fn error_words(&self) -> String {
         self.error.as_ref().filter(|_| self.result.is_none()).map(|error| error.message.clone()).unwrap_or_default()
     }
 
-    /// The numbers below that: distortion, work.
+    /// Lines below [`verdict_line`](Self::verdict_line): distortion, work, unmet constraints and new vertices.
     pub fn number_lines(&self) -> Vec<String> {
         let words = |column: Column| column.cell(self).words();
         let steps = counted(self.steps.len(), "step");
@@ -67,7 +67,7 @@ impl MethodReport {
     }
 }
 
-/// A count with its noun.
+/// Count with its noun.
 fn counted(count: usize, noun: &str) -> String {
     match (count, noun.strip_suffix("ex")) {
         (1, _) => format!("1 {noun}"),

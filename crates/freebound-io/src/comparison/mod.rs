@@ -1,12 +1,12 @@
-//! What is reported of a comparison: several methods on one mesh, each with its steps, its end and its numbers.
+//! Report of a comparison: several methods on one mesh, each with its steps, its end and its numbers.
 //!
-//! | file     | what it holds                                                              |
+//! | file     | contents                                                                   |
 //! |----------|----------------------------------------------------------------------------|
 //! | `mod`    | the report (JSON)                                                          |
-//! | `column` | the columns of the table: their heads, their cells, and the order by them  |
-//! | `lines`  | the numbers of a method in a few short lines                               |
-//! | `morph`  | planar morphs between what the methods have come to                        |
-//! | `table`  | the table for a person and as a file; every step of every method as a file |
+//! | `column` | columns of the table: heads, cells, and sorting by them                    |
+//! | `lines`  | numbers of a method in a few short lines                                   |
+//! | `morph`  | planar morphs between the maps of the methods                              |
+//! | `table`  | the table as text and as a file; every step of every method as a file      |
 
 mod column;
 mod lines;
@@ -24,37 +24,37 @@ use freebound_core::verify::{DistortionSummary, Verdict};
 pub use column::{Cell, Column, Direction};
 pub use morph::{LeftOutReport, LegReport, MorphReport};
 
-/// Everything that is reported of a comparison. Field names are part of the interface.
+/// Report of a comparison. Field names are part of the interface.
 #[derive(Debug, Serialize)]
 pub struct ComparisonReport {
-    /// Version of the report's form.
+    /// Version of the report format.
     pub schema: u32,
     /// Version of the program.
     pub freebound: &'static str,
-    /// The input: one chart of it, where it has several.
+    /// Input mesh, or the compared chart of it.
     pub mesh: MeshReport,
-    /// Which chart that is, of how many; absent where there is one.
+    /// Number of the compared chart; absent if the mesh has one chart.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chart: Option<ChartNumber>,
-    /// Width over height of the picture that the pins are on; 1 where there is none.
+    /// Width over height of the picture that holds the pins; 1 without a picture.
     pub aspect: f64,
-    /// The methods.
+    /// Methods in the order of the comparison.
     pub methods: Vec<MethodReport>,
-    /// Planar morphs through their maps; absent where none were asked for.
+    /// Planar morphs through the maps of the methods; absent if none were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub morph: Option<MorphReport>,
-    /// Where the time went, that of the methods aside.
+    /// Time of the comparison, without the methods.
     pub seconds: ComparisonSeconds,
-    /// Most memory that the process held, where the system tells.
+    /// Peak memory of the process, if the system tells.
     pub peak_memory_bytes: Option<u64>,
 }
 
-/// One chart of several.
+/// Number of a chart in a mesh of several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ChartNumber {
-    /// Its number, from 0.
+    /// Number of the chart, from 0.
     pub number: usize,
-    /// How many there are.
+    /// Number of charts.
     pub of: usize,
 }
 
@@ -63,48 +63,48 @@ pub struct ChartNumber {
 pub struct ComparisonSeconds {
     /// Reading and diagnosing the mesh.
     pub read: f64,
-    /// From the start to the report.
+    /// Time from the start of the run to the report.
     pub total: f64,
 }
 
-/// One method of a comparison.
+/// Method of a comparison.
 #[derive(Clone, Debug, Serialize)]
 pub struct MethodReport {
-    /// What it is called here: method, weights and boundary, as they are typed.
+    /// Name of the method: method, weights and boundary, in the form of the command line.
     pub name: String,
-    /// The same for the screen.
+    /// Name of the method on the screen.
     #[serde(skip)]
     pub title: String,
     /// The method.
     pub method: Method,
-    /// The weights, where the method has a choice.
+    /// Weights, if the method has a choice.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub family: Option<Family>,
-    /// The shape that the boundary is laid on, where the method lays it on one.
+    /// Shape of the boundary, if the method lays it on one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<BoundaryShape>,
-    /// Why it came to its end: the name of an ending, or `failed`.
+    /// Reason for the end: the name of an ending, or `failed`.
     pub ending: &'static str,
-    /// Why it failed; absent where it did not. Steps before that are good.
+    /// Error of a method that failed; absent otherwise. Steps before the error are valid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<MethodError>,
-    /// Each step of each stage.
+    /// Steps of all stages.
     pub steps: Vec<TimedStep>,
-    /// What came of it; absent where there is no embedding.
+    /// Result; absent if there is no embedding.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub result: Option<ResultReport>,
-    /// Where the time went.
+    /// Time of the method.
     pub seconds: MethodSeconds,
-    /// Bytes of the largest factors that a linear solve of it kept; null where it solved no linear system.
+    /// Bytes of the largest factors that a linear solve kept; null if no linear system was solved.
     pub factor_bytes: Option<usize>,
 }
 
-/// Why a method failed.
+/// Error of a method.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct MethodError {
-    /// A fixed name of it.
+    /// Fixed name of the error.
     pub kind: &'static str,
-    /// In words.
+    /// Message of the error.
     pub message: String,
 }
 
@@ -114,45 +114,45 @@ impl From<&SolveError> for MethodError {
     }
 }
 
-/// The embedding that a method came to.
+/// Embedding that a method computed.
 #[derive(Clone, Debug, Serialize)]
 pub struct ResultReport {
-    /// The exact verdict on it where it lies.
+    /// Counts of the exact verdict on the embedding.
     pub verdict: VerdictCounts,
-    /// Whether the boundary is free, or convex: laid on a convex shape, or bent to one to make it simple.
+    /// Kind of the boundary: `free`, or `convex` if it was laid on a convex shape or bent to one to make it simple.
     pub boundary: &'static str,
-    /// What became of the pins. Vertices are those of the file.
+    /// Pins and their errors. Vertices are numbered by the file.
     pub pins: PinsSummary,
-    /// Its distortion at equal total areas.
+    /// Distortion of the embedding at equal total areas.
     pub distortion: DistortionSummary,
-    /// Vertices that the mesh did not have before.
+    /// Number of vertices added to the mesh.
     pub new_vertices: usize,
 }
 
-/// A verdict, its lists counted.
+/// Verdict with counts instead of lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[expect(clippy::struct_excessive_bools, reason = "the report's fields")]
 pub struct VerdictCounts {
-    /// Proved one-to-one.
+    /// True if the map is proved one-to-one.
     pub planar: bool,
-    /// The same with all coordinates rounded to 32 bits.
+    /// True if the map is proved one-to-one with all coordinates rounded to 32 bits.
     #[serde(rename = "f32")]
     pub planar_in_f32: bool,
-    /// It is a mirror image.
+    /// True if the map is a mirror image.
     pub mirrored: bool,
     /// Flipped faces.
     pub flipped_faces: usize,
-    /// Polygons that other cuts into triangles would fold.
+    /// Polygons that another triangulation would fold.
     pub concave_polygons: usize,
-    /// Holes that meet themselves or are turned inside out.
+    /// Holes that intersect themselves or are turned inside out.
     pub crossed_holes: usize,
-    /// Boundary crossings, those that a verdict lists.
+    /// Boundary crossings that the verdict lists.
     pub boundary_crossings: usize,
-    /// There are more of them.
+    /// True if there are more boundary crossings than the verdict lists.
     pub more_crossings: bool,
     /// Overwound vertices.
     pub overwound_vertices: usize,
-    /// Turning number of the boundary; null where an edge has no direction or turns back.
+    /// Turning number of the boundary; null if an edge has no direction or turns back.
     pub turning_number: Option<i64>,
 }
 
@@ -173,40 +173,40 @@ impl From<&Verdict> for VerdictCounts {
     }
 }
 
-/// A step with what it has come to by then: points of curves over time.
+/// Step with the quality of its embedding: a point of curves over time.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct TimedStep {
     /// The step.
     pub step: StepReport,
-    /// Seconds from the method's beginning to the end of the step's proof. What is measured for this report does not count.
+    /// Seconds from the start of the method to the end of the step's verdict. Measurements for this report are
+    /// excluded.
     pub elapsed: f64,
-    /// Mean symmetric Dirichlet energy of its embedding at equal total areas, 4 at best; null where it is infinite, as the next
-    /// are.
+    /// Mean symmetric Dirichlet energy of the embedding at equal total areas, at least 4; null if infinite.
     pub energy: f64,
-    /// Root mean square stretch.
+    /// Root mean square stretch; null if infinite.
     pub stretch_l2: f64,
-    /// Greatest stretch.
+    /// Largest stretch; null if infinite.
     pub stretch_linf: f64,
 }
 
 /// Seconds of a method.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct MethodSeconds {
-    /// All steps without their proofs.
+    /// All steps without their verdicts.
     pub solve: f64,
-    /// Their proofs.
+    /// Verdicts of all steps.
     pub verify: f64,
 }
 
 impl MethodSeconds {
-    /// Both together.
+    /// Sum of solve and verify seconds.
     pub fn total(self) -> f64 {
         self.solve + self.verify
     }
 }
 
 impl ComparisonReport {
-    /// A report on a mesh that is yet without methods.
+    /// Report on a mesh, without methods yet.
     pub fn new(mesh: MeshReport, chart: Option<ChartNumber>, aspect: f64) -> Self {
         Self {
             schema: REPORT_SCHEMA,

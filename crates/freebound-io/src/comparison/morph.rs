@@ -1,46 +1,46 @@
-//! What is reported of planar morphs through what methods have come to.
+//! Report of planar morphs between the maps of a comparison.
 
 use serde::Serialize;
 
 /// Morphs from each planar map of a comparison to the next one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MorphReport {
-    /// Each of them, in their order.
+    /// Morphs in their order.
     pub legs: Vec<LegReport>,
-    /// Methods that take no part.
+    /// Methods that are left out.
     pub left_out: Vec<LeftOutReport>,
 }
 
-/// One morph.
+/// Morph between two maps.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LegReport {
-    /// The method whose map it begins with.
+    /// Method of the first map.
     pub from: String,
-    /// The method whose map it ends with.
+    /// Method of the last map.
     pub to: String,
-    /// By what way it goes.
+    /// Name of the route that the morph takes.
     pub route: &'static str,
-    /// How many frames it has, both maps included.
+    /// Number of frames, both maps included.
     pub frames: usize,
-    /// How many of them are proved one-to-one.
+    /// Number of frames proved one-to-one.
     pub proved: usize,
     /// Smallest determinant of a face's map from the surface in any frame, at equal total areas.
     pub least_determinant: f64,
-    /// Seconds that it took to find and to prove.
+    /// Seconds to compute and verify the morph.
     pub seconds: f64,
 }
 
-/// A method that takes no part in a morph.
+/// Method that is left out of the morphs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct LeftOutReport {
-    /// The method, as it is typed.
+    /// Name of the method, in the form of the command line.
     pub name: String,
-    /// Why, in a few lower-case words.
+    /// Reason, in a few lower-case words.
     pub why: &'static str,
 }
 
 impl MorphReport {
-    /// A line for each morph, and one for each method that takes no part.
+    /// Text with a line for each morph and for each method that is left out.
     pub fn lines(&self) -> Vec<String> {
         let leg = |leg: &LegReport| {
             let LegReport { from, to, route, frames, proved, least_determinant, seconds } = leg;

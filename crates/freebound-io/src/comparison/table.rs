@@ -1,4 +1,4 @@
-//! The table of a comparison, and the steps of its methods.
+//! Table of a comparison, and the steps of its methods.
 
 use std::io::{self, Write};
 
@@ -10,7 +10,7 @@ use freebound_core::problem::NamedOption as _;
 const GAP: &str = "  ";
 
 impl ComparisonReport {
-    /// The methods in the order of a column, those that are equal in it, and all where there is none, as they were.
+    /// Methods sorted by a column; equal methods keep their order. Without a column: in the order of the comparison.
     pub fn sorted(&self, by: Option<Column>) -> Vec<&MethodReport> {
         let mut methods: Vec<&MethodReport> = self.methods.iter().collect();
         if let Some(column) = by {
@@ -19,7 +19,8 @@ impl ComparisonReport {
         methods
     }
 
-    /// The table in columns, for a person: words at the left, numbers at the right; behind the method's name its weights.
+    /// Table as text: words aligned at the left, numbers at the right. The column after the method's name holds its
+    /// weights.
     pub fn table(&self, by: Option<Column>) -> String {
         let row = |of: &MethodReport| {
             let mut cells: Vec<String> = Column::ALL.iter().map(|column| column.cell(of).words()).collect();
@@ -42,11 +43,11 @@ impl ComparisonReport {
         rows.iter().map(line).collect::<Vec<_>>().join("\n")
     }
 
-    /// Writes the table as a file (CSV): a line for each method, numbers in full.
+    /// Writes the table as a file (CSV): one line per method, with all digits.
     ///
     /// # Errors
     ///
-    /// What `out` says.
+    /// If `out` cannot be written.
     pub fn write_csv(&self, by: Option<Column>, out: impl Write) -> io::Result<()> {
         let mut table = csv::Writer::from_writer(out);
         table.write_record(Column::ALL.iter().map(|column| column.head()).chain(["planar", "error", "family"]))?;
@@ -60,11 +61,11 @@ impl ComparisonReport {
         table.flush()
     }
 
-    /// Writes every step of every method (CSV), with what it has come to by then: curves over time.
+    /// Writes every step of every method (CSV) with the quality of its embedding: curves over time.
     ///
     /// # Errors
     ///
-    /// What `out` says.
+    /// If `out` cannot be written.
     pub fn write_steps(&self, out: impl Write) -> io::Result<()> {
         let mut table = csv::Writer::from_writer(out);
         let heads = TimedStep::default().row();
@@ -81,7 +82,7 @@ impl ComparisonReport {
 }
 
 impl TimedStep {
-    /// The fields of the step as a row of a table, behind those of its curve.
+    /// Fields of the step as a row of a table, after those of its curve.
     fn row(&self) -> Vec<(&'static str, String)> {
         let of_curve = [
             ("elapsed", self.elapsed),
@@ -90,7 +91,7 @@ impl TimedStep {
             ("stretch_linf", self.stretch_linf),
         ];
         let of_curve = of_curve.map(|(head, number)| (head, exact_number(number)));
-        // The step has its energy only where it was asked for; that of the curve is always there.
+        // The energy of the step exists only if its stage measures it. The energy of the curve always exists.
         let of_step = self.step.row().into_iter().filter(|(head, _)| *head != "energy");
         of_curve.into_iter().chain(of_step).collect()
     }

@@ -6,12 +6,12 @@ use super::{Anchor, Ink, Page, colours};
 use crate::raster::Colour;
 use freebound_core::geom::Bounds;
 
-/// Room for the numbers at the left, and for those below with the name of the axis.
+/// Space for the numbers at the left, and for those below with the name of the axis.
 const LEFT: f64 = 34.0;
 const BELOW: f64 = 26.0;
-/// Room for the name of the upright axis.
+/// Space for the name of the vertical axis.
 const ABOVE: f64 = 18.0;
-/// Free space at the right.
+/// Margin at the right.
 const RIGHT: f64 = 8.0;
 
 /// Size of the words.
@@ -21,28 +21,28 @@ const WORDS: f64 = 8.0;
 const CURVE: f64 = 1.2;
 const STEP: f64 = 1.2;
 
-/// From one line of the key to the next.
+/// Distance between lines of the legend.
 const LINE: f64 = 11.0;
 
-/// One curve.
+/// Curve with its name.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// What it is called.
+    /// Name of the curve.
     pub name: String,
-    /// Time and quantity, both positive; others are left out.
+    /// Time and quantity. Only positive values are drawn.
     pub points: Vec<DVec2>,
 }
 
-/// Curves over one time axis.
+/// Curves over a shared time axis.
 #[derive(Clone, Debug)]
 pub struct Curves {
-    /// What the two axes are.
+    /// Names of the axes: time, quantity.
     pub axes: [String; 2],
     /// The curves.
     pub curves: Vec<Curve>,
 }
 
-/// Colours of curves, one after the other; then they begin again.
+/// Colours of the curves, in order, repeated if there are more curves.
 const COLOURS: [Colour; 8] = [
     [0x2f, 0x5b, 0xd8],
     [0xd9, 0x2d, 0x3a],
@@ -55,7 +55,7 @@ const COLOURS: [Colour; 8] = [
 ];
 
 impl Curves {
-    /// Draws into an area.
+    /// Draws the curves into an area.
     pub(super) fn draw(&self, page: &mut Page, area: Bounds) {
         let low = area.low + DVec2::new(LEFT, ABOVE);
         let plot = Bounds { low, high: area.high - DVec2::new(RIGHT, BELOW) };
@@ -83,7 +83,7 @@ impl Curves {
         self.draw_key(page, plot);
     }
 
-    /// Lines at the powers of ten, with their numbers.
+    /// Draws lines at the powers of ten, with their numbers.
     fn draw_axes(&self, page: &mut Page, plot: Bounds, span: Bounds) {
         let grid = Ink::stroke(colours::GRID, 0.5);
         let step = DVec2::ONE / span.size() * plot.size();
@@ -102,7 +102,7 @@ impl Curves {
         page.words(plot.low - DVec2::new(LEFT - 3.0, 0.7 * WORDS), Anchor::Start, WORDS, quantity);
     }
 
-    /// The names of the curves, at the upper right.
+    /// Draws the legend at the upper right.
     fn draw_key(&self, page: &mut Page, plot: Bounds) {
         for (number, curve) in self.curves.iter().enumerate() {
             let at = DVec2::new(plot.middle().x, plot.low.y + LINE * (number as f64 + 1.0));
@@ -118,19 +118,19 @@ impl Curves {
     }
 }
 
-/// The logarithms to base 10 of the points that have any.
+/// Logarithms to base 10 of the points with positive coordinates.
 fn logarithms(points: &[DVec2]) -> Vec<DVec2> {
     let logarithm = |p: &DVec2| DVec2::new(p.x.log10(), p.y.log10());
     points.iter().map(logarithm).filter(|p| p.is_finite()).collect()
 }
 
-/// The powers of ten around a box of logarithms, at least one decade each way.
+/// Bounds at powers of ten around a box of logarithms, at least one decade in each direction.
 fn whole_decades(bounds: Bounds) -> Bounds {
     let low = bounds.low.floor();
     Bounds { low, high: bounds.high.ceil().max(low + 1.0) }
 }
 
-/// The powers of ten from one exponent to another, in words.
+/// Powers of ten from one exponent to another, as text.
 fn decades(low: f64, high: f64) -> Vec<String> {
     let mut words = Vec::new();
     let mut exponent = low;

@@ -1,24 +1,25 @@
-//! Letters made of strokes, for pictures: no font file is needed, and the same pixels come out everywhere.
+//! Letters made of strokes, for pictures. No font file is needed, and the pixels are equal on every system.
 //!
-//! A glyph is a width and a path on a grid whose y runs up from the baseline: capitals are 7 high, small letters 5. `M`
-//! moves, `L` draws a line, `Q` a quadratic curve, `A` an arc of an ellipse (centre, radii, first and last angle in
-//! degrees, clockwise where they fall), joined to what comes before unless a move does, `O` a whole ellipse.
+//! A glyph is a width and a path on a grid with y up from the baseline: capitals are 7 high, small letters 5. `M`
+//! moves, `L` draws a line, `Q` a quadratic curve, `O` a whole ellipse. `A` draws an arc of an ellipse (centre,
+//! radii, first and last angle in degrees, clockwise if decreasing). An arc is joined to the previous point unless it
+//! begins the path or follows `O`.
 
 use glam::DVec2;
 
-/// Points of type size per unit of the grid, as its inverse.
+/// Type size in units of the grid.
 const UNITS_PER_SIZE: f64 = 10.0;
 
-/// Free space after each glyph, units.
+/// Space after each glyph, units.
 const SPACING: f64 = 1.5;
 
 /// Width of a space, units.
 const SPACE: f64 = 2.2;
 
-/// Degrees from one point of an arc to the next.
+/// Degrees between two points of an arc.
 const ARC_STEP: f64 = 15.0;
 
-/// Pieces of a quadratic curve.
+/// Number of segments of a quadratic curve.
 const CURVE_STEPS: u32 = 6;
 
 /// Character, width, path.
@@ -113,7 +114,7 @@ const GLYPHS: &[(char, f64, &str)] = &[
     ('!', 0.8, "M0.4 7L0.4 2.2M0.4 0.1L0.4 0.2"),
 ];
 
-/// Whether a character can be drawn.
+/// True if a character can be drawn.
 pub fn has_glyph(c: char) -> bool {
     c == ' ' || glyph(c).is_some()
 }
@@ -128,12 +129,12 @@ pub(super) fn width_of(text: &str, size: f64) -> f64 {
     (units - SPACING).max(0.0) * size / UNITS_PER_SIZE
 }
 
-/// From one character to the next, units.
+/// Distance to the next character, units.
 fn advance(c: char) -> f64 {
     glyph(c).map_or(SPACE, |(width, _)| width) + SPACING
 }
 
-/// The strokes of a text whose baseline begins at `at`.
+/// Strokes of a text with its baseline starting at `at`.
 pub(super) fn strokes_of(text: &str, at: DVec2, size: f64) -> Vec<Vec<DVec2>> {
     let scale = size / UNITS_PER_SIZE;
     let mut lines = Vec::new();
@@ -148,7 +149,7 @@ pub(super) fn strokes_of(text: &str, at: DVec2, size: f64) -> Vec<Vec<DVec2>> {
     lines
 }
 
-/// The lines of a path on the grid.
+/// Lines of a path on the grid.
 fn lines_of(path: &str) -> Vec<Vec<DVec2>> {
     let mut lines: Vec<Vec<DVec2>> = vec![Vec::new()];
     for (letter, n) in commands(path) {
@@ -168,7 +169,7 @@ fn lines_of(path: &str) -> Vec<Vec<DVec2>> {
             'A' => line.extend(arc(at(0), at(2), [n[4], n[5]])),
             _ => {
                 line.extend(arc(at(0), at(2), [0.0, 360.0]));
-                // What follows begins anew.
+                // The next command starts a new line.
                 lines.push(Vec::new());
             }
         }
@@ -190,7 +191,7 @@ fn arc(centre: DVec2, radii: DVec2, [from, to]: [f64; 2]) -> Vec<DVec2> {
     points
 }
 
-/// Letters of a path's commands with their numbers.
+/// Commands of a path: letters with their numbers.
 fn commands(path: &str) -> Vec<(char, Vec<f64>)> {
     let mut found: Vec<(char, String)> = Vec::new();
     for c in path.chars() {

@@ -1,5 +1,5 @@
-//! Cells laid out on a grid, each a drawing with a title and lines of numbers; a bar of colours with its numbers below them, and a
-//! caption.
+//! Cells laid out on a grid, each a drawing with a title and lines of numbers. Below them are a colour bar with its
+//! numbers, and a caption.
 
 use glam::DVec2;
 
@@ -8,42 +8,42 @@ use super::{Anchor, Curves, Ink, Item, Page, TintedDrawing, colours};
 use crate::raster::Colour;
 use freebound_core::geom::{Bounds, Picture};
 
-/// Free space around everything, points.
+/// Margin around the page, points.
 const MARGIN: f64 = 16.0;
 
-/// Free space between cells.
+/// Space between cells.
 const GAP: f64 = 18.0;
 
 /// Side of a cell's drawing.
 const SIDE: f64 = 230.0;
 
-/// Size of a title, and of the lines of numbers.
+/// Sizes of a title, and of the lines of numbers.
 const TITLE: f64 = 12.0;
 const WORDS: f64 = 10.0;
 
-/// From one line to the next.
+/// Distances to the next line, of a title and of numbers.
 const TITLE_LINE: f64 = 17.0;
 const LINE: f64 = 14.0;
 
-/// Length and height of the bar of colours, and the room that it takes with its numbers.
+/// Length and height of the colour bar, and the height with its numbers.
 const BAR: DVec2 = DVec2::new(230.0, 9.0);
 const BAR_ROOM: f64 = 44.0;
 
-/// What a cell shows.
+/// Content of a cell.
 #[derive(Clone, Debug)]
 pub enum CellContent {
-    /// An embedding.
+    /// Embedding.
     Plane(TintedDrawing),
-    /// A picture.
+    /// Picture.
     Photo(Picture),
     /// Curves.
     Curves(Curves),
-    /// Why there is nothing.
+    /// Reason that there is no drawing.
     Words(String),
 }
 
 impl CellContent {
-    /// Draws into a square area, with a line around it.
+    /// Draws the content into a square area, with a line around it.
     pub(super) fn draw(&self, page: &mut Page, area: Bounds) {
         match self {
             Self::Plane(drawing) => drawing.draw(page, area),
@@ -59,53 +59,54 @@ impl CellContent {
     }
 }
 
-/// One cell of a grid.
+/// Cell of a grid.
 #[derive(Clone, Debug)]
 pub struct GridCell {
-    /// The line right below the drawing.
+    /// Line directly below the drawing.
     pub title: String,
-    /// The lines below that.
+    /// Lines below the title.
     pub lines: Vec<String>,
-    /// What it shows.
+    /// Content of the drawing.
     pub content: CellContent,
 }
 
-/// Colours and what they stand for.
+/// Colour bar: colours and their meaning.
 #[derive(Clone, Debug)]
 pub struct ColourBar {
-    /// What is coloured.
+    /// Name of the coloured quantity.
     pub title: String,
-    /// From the low end to the high one.
+    /// Colours from the low end to the high end.
     pub colours: Vec<Colour>,
-    /// Numbers along it: the place, from 0 to 1, and the words there.
+    /// Labels along the bar: position from 0 to 1, and text.
     pub ticks: Vec<(f64, String)>,
 }
 
-/// Cells in rows.
+/// Grid of cells in rows.
 #[derive(Clone, Debug)]
 pub struct PanelGrid {
-    /// Row by row.
+    /// Cells, row by row.
     pub cells: Vec<GridCell>,
-    /// The colours of all cells.
+    /// Colour bar of all cells.
     pub bar: Option<ColourBar>,
-    /// What it shows.
+    /// Caption of the grid.
     pub caption: String,
 }
 
 impl PanelGrid {
-    /// Cells in a row of a grid of so many: as few rows as four in a row need, all of them about equally long.
+    /// Number of cells in a row of a grid of `count` cells. There are as few rows as with four cells per row, of
+    /// about equal length.
     pub fn columns(count: usize) -> usize {
         let rows = count.div_ceil(4).max(1);
         count.div_ceil(rows).max(1)
     }
 
-    /// Lays everything out.
+    /// Page with the cells, the bar and the caption.
     pub fn page(&self) -> Page {
         let columns = Self::columns(self.cells.len());
         let rows = self.cells.len().div_ceil(columns);
         let line_count = self.cells.iter().map(|cell| cell.lines.len()).max().unwrap_or(0);
         let cell = DVec2::new(SIDE, SIDE + TITLE_LINE + LINE * line_count as f64);
-        // One cell alone is still as wide as the bar and a line of words.
+        // A single cell still leaves space for the bar and a line of words.
         let width = 2.0 * MARGIN + columns.max(2) as f64 * (SIDE + GAP) - GAP;
         let caption = wrapped(&self.caption, WORDS, width - 2.0 * MARGIN);
         let below_cells = MARGIN + rows as f64 * (cell.y + GAP);
@@ -139,10 +140,10 @@ impl GridCell {
 }
 
 impl ColourBar {
-    /// The height that it takes, with its numbers.
+    /// Height of the bar, including its numbers.
     pub(super) const ROOM: f64 = BAR_ROOM;
 
-    /// Draws it from a place on, which is its upper left corner.
+    /// Draws the bar with its upper left corner at a position.
     pub(super) fn draw(&self, page: &mut Page, at: DVec2) {
         page.words(at + DVec2::new(0.0, 0.7 * LINE), Anchor::Start, WORDS, &self.title);
         let bar = Bounds::at(at + DVec2::new(0.0, LINE), BAR);

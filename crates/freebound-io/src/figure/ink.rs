@@ -1,4 +1,4 @@
-//! A page as a picture: fills by exact cover along scan lines, strokes by their distance.
+//! Page as a picture: fills by exact coverage along scan lines, strokes by distance.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -13,14 +13,14 @@ use super::{Anchor, Ink, Item, Page, Path, Words, colours};
 use crate::raster::Colour;
 use freebound_core::geom::{Bounds, Picture};
 
-/// Scan lines per row of pixels.
+/// Number of scan lines per row of pixels.
 const SCAN_LINES: u32 = 4;
 
 /// Width of the strokes of letters, relative to their size.
 const LETTER_STROKE: f64 = 0.085;
 
 impl Page {
-    /// Draws the page with so many pixels per point.
+    /// Draws the page with `scale` pixels per point.
     pub fn picture(&self, scale: f64) -> Picture {
         let [width, height] = (self.size * scale).ceil().to_array().map(|length| length as u32);
         let [r, g, b] = colours::PAPER;
@@ -36,7 +36,7 @@ impl Page {
     }
 }
 
-/// Copies a picture into an area, each pixel as it is at its centre.
+/// Copies a picture into an area, sampled at the centre of each pixel.
 fn paste(page: &mut Picture, area: Bounds, source: &Picture, scale: f64) {
     let (low, size) = (area.low * scale, area.size() * scale);
     let end = |high: f64, limit: u32| (high.round().max(0.0) as u32).min(limit);
@@ -50,7 +50,7 @@ fn paste(page: &mut Picture, area: Bounds, source: &Picture, scale: f64) {
     }
 }
 
-/// Words as the strokes of their letters.
+/// Strokes of the letters of words.
 fn strokes(words: &Words) -> Path {
     let shift = match words.anchor {
         Anchor::Start => 0.0,
@@ -74,7 +74,7 @@ fn draw(picture: &mut Picture, path: &Path, scale: f64) {
     if let Some((colour, width)) = path.ink.stroke {
         let half = (width * scale / 2.0).max(0.5);
         let Some(mut mask) = Mask::over(picture, &lines, half + 1.0) else { return };
-        // A line thinner than a pixel is a pixel wide, and fainter.
+        // A line thinner than a pixel is drawn one pixel wide, and fainter.
         let opacity = (width * scale).min(1.0) as f32;
         for line in &lines {
             for pair in line.windows(2) {
@@ -88,7 +88,7 @@ fn draw(picture: &mut Picture, path: &Path, scale: f64) {
     }
 }
 
-/// How much of each pixel of a box is covered.
+/// Coverage of the pixels of a box.
 struct Mask {
     left: usize,
     top: usize,
@@ -98,7 +98,7 @@ struct Mask {
 }
 
 impl Mask {
-    /// The pixels of a picture around some lines. None where there are none.
+    /// Mask of the pixels around lines. `None` if there are none.
     fn over(picture: &Picture, lines: &[Vec<DVec2>], margin: f64) -> Option<Self> {
         let bounds = Bounds::of(lines.iter().flatten().copied());
         let page = DVec2::new(f64::from(picture.width), f64::from(picture.height));
@@ -111,7 +111,7 @@ impl Mask {
         Some(Self { left, top, width, height, cover: vec![0.0; width * height] })
     }
 
-    /// Covers the inside of a closed line by the nonzero rule.
+    /// Covers the interior of a closed line by the nonzero rule.
     fn fill(&mut self, line: &[DVec2]) {
         let bounds = Bounds::of(line.iter().copied());
         let (low, high) = (bounds.low.y - self.top as f64, bounds.high.y - self.top as f64);
@@ -134,7 +134,7 @@ impl Mask {
         }
     }
 
-    /// Covers a line with round ends.
+    /// Covers a line segment with round ends.
     fn stroke(&mut self, [a, b]: [DVec2; 2], half: f64, opacity: f32) {
         let origin = DVec2::new(self.left as f64, self.top as f64);
         let (a, b) = (a - origin, b - origin);
@@ -142,7 +142,7 @@ impl Mask {
         let range = |low: f64, high: f64, limit: usize| low.max(0.0) as usize..(high.max(0.0) as usize + 1).min(limit);
         let (along, length_squared) = (b - a, (b - a).length_squared().max(f64::MIN_POSITIVE));
         for y in range(low.y, high.y, self.height) {
-            // The part of the line that this row is near to: no pixel beyond it is covered.
+            // The part of the segment near this row; no pixel beyond it is covered.
             let near = [-1.5 - half, 2.5 + half].map(|off| ((y as f64 + off - a.y) / along.y).clamp(0.0, 1.0));
             let ends = if along.y == 0.0 { [a.x, b.x] } else { near.map(|share| a.x + share * along.x) };
             let (from, to) = (ends[0].min(ends[1]) - half - 1.5, ends[0].max(ends[1]) + half + 1.5);
@@ -156,7 +156,7 @@ impl Mask {
         }
     }
 
-    /// Lays a colour over the picture where it is covered.
+    /// Blends a colour over the picture, by coverage.
     fn blend(&self, picture: &mut Picture, colour: Colour) {
         for row in 0..self.height {
             let at = 4 * ((self.top + row) * picture.width as usize + self.left);
@@ -171,7 +171,7 @@ impl Mask {
     }
 }
 
-/// Stretches of a scan line inside a closed line.
+/// Intervals of a scan line inside a closed line, by the nonzero rule.
 fn spans(line: &[DVec2], y: f64) -> Vec<[f64; 2]> {
     let mut crossings: Vec<(f64, i32)> = Vec::new();
     for (k, a) in line.iter().enumerate() {
@@ -192,7 +192,7 @@ fn spans(line: &[DVec2], y: f64) -> Vec<[f64; 2]> {
     found
 }
 
-/// Adds a stretch of one scan line to the cover of a row.
+/// Adds an interval of a single scan line to the coverage of a row.
 fn add_span(row: &mut [f32], [from, to]: [f64; 2]) {
     let (from, to) = (from.max(0.0), to.min(row.len() as f64));
     let mut x = from.floor();

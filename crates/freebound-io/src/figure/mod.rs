@@ -1,14 +1,14 @@
-//! Figures: panels of meshes and embeddings, laid out on a sheet, as a drawing (SVG) and as a picture (PNG).
+//! Figures: panels of meshes and embeddings, laid out on a page, as a drawing (SVG) and as a picture (PNG).
 //!
-//! Both come from one list of fills, strokes and words on a [`Page`], so that they show the same. Lengths on a page are
-//! points; x runs right, y down.
+//! Both are made from one list of fills, strokes and words on a [`Page`], so their contents agree. Lengths on a page
+//! are points; x points right, y down.
 //!
-//! | file    | what it holds                                                          |
+//! | file    | contents                                                               |
 //! |---------|------------------------------------------------------------------------|
-//! | `mod`   | the page and what is drawn on it                                       |
+//! | `mod`   | the page and its items                                                 |
 //! | `sheet` | panels with their words, in rows, and the caption                      |
-//! | `grid`  | cells with lines of numbers, in rows, and one bar of colours           |
-//! | `still` | one large drawing with lines of words: a frame of an animation           |
+//! | `grid`  | cells with lines of numbers, in rows, and a shared colour bar          |
+//! | `still` | one large drawing with lines of words: a frame of an animation         |
 //! | `panel` | an embedding in a panel: faces, hull and pockets, pins, insets         |
 //! | `tinted`| an embedding with a colour on each face                                |
 //! | `curves`| a quantity over time                                                   |
@@ -53,37 +53,37 @@ pub use tinted::TintedDrawing;
 pub mod colours {
     use crate::raster::Colour;
 
-    /// Behind everything.
+    /// Background.
     pub const PAPER: Colour = [0xff, 0xff, 0xff];
-    /// Words, and lines that must be read.
+    /// Words, and lines that must be legible.
     pub const INK: Colour = [0x22, 0x22, 0x22];
     /// Faces.
     pub const FACE: Colour = [0xf1, 0xee, 0xe8];
     /// Edges of faces.
     pub const EDGE: Colour = [0x8a, 0x86, 0x80];
-    /// A flipped face.
+    /// Flipped face.
     pub const FLIPPED: Colour = [0xe5, 0x39, 0x35];
     /// Edges of flipped faces.
     pub const FLIPPED_EDGE: Colour = [0x8e, 0x12, 0x18];
-    /// A face that was flipped before.
+    /// Face that was flipped before.
     pub const MENDED: Colour = [0xf5, 0xdd, 0x92];
-    /// The convex hull.
+    /// Convex hull.
     pub const HULL: Colour = [0xd3, 0x2f, 0x2f];
-    /// The pockets between boundary and hull.
+    /// Pockets between boundary and hull.
     pub const POCKET: Colour = [0x9f, 0xd8, 0xa8];
     /// Edges of the pockets' triangles.
     pub const POCKET_EDGE: Colour = [0x2e, 0x86, 0x3c];
-    /// A pinned vertex.
+    /// Pinned vertex.
     pub const PIN: Colour = [0x2f, 0x5b, 0xd8];
-    /// A constraint.
+    /// Constraint.
     pub const CONSTRAINT: Colour = [0x00, 0x8f, 0xa3];
-    /// A boundary crossing.
+    /// Boundary crossing.
     pub const CROSSING: Colour = [0xe8, 0x70, 0x0a];
-    /// Lines behind curves.
+    /// Grid lines behind curves.
     pub const GRID: Colour = [0xdd, 0xdb, 0xd7];
-    /// The frame around what an inset shows.
+    /// Frame around the part that an inset shows.
     pub const FRAME: Colour = [0x2f, 0x5b, 0xd8];
-    /// Bars and curves, one after another: told apart by people who are colour-blind (Okabe and Ito 2008).
+    /// Colours of bars and curves, in order; distinguishable with colour blindness (Okabe and Ito 2008).
     pub const SERIES: [Colour; 6] = [
         [0x00, 0x72, 0xb2],
         [0xe6, 0x9f, 0x00],
@@ -94,42 +94,42 @@ pub mod colours {
     ];
 }
 
-/// What a line or an outline is drawn with.
+/// Style of a line or an outline.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Ink {
-    /// Colour of the inside.
+    /// Colour of the interior.
     pub fill: Option<Colour>,
     /// Colour and width of the line.
     pub stroke: Option<(Colour, f64)>,
 }
 
 impl Ink {
-    /// The inside alone.
+    /// Interior only.
     const fn fill(colour: Colour) -> Self {
         Self { fill: Some(colour), stroke: None }
     }
 
-    /// The line alone.
+    /// Line only.
     const fn stroke(colour: Colour, width: f64) -> Self {
         Self { fill: None, stroke: Some((colour, width)) }
     }
 
-    /// Inside and line.
+    /// Interior and line.
     const fn both(fill: Colour, stroke: Colour, width: f64) -> Self {
         Self { fill: Some(fill), stroke: Some((stroke, width)) }
     }
 }
 
-/// Where words stand beside their place.
+/// Alignment of words at their position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Anchor {
-    /// They begin at it.
+    /// The words begin at the position.
     Start,
-    /// They are centred on it.
+    /// The words are centred on the position.
     Middle,
 }
 
-/// Lines of one ink.
+/// Lines in a single ink.
 #[derive(Clone, Debug, PartialEq)]
 struct Path {
     lines: Vec<Vec<DVec2>>,
@@ -153,7 +153,7 @@ enum Item {
     Picture(Bounds, Picture),
 }
 
-/// A page of paths, pictures and words, later ones over earlier ones.
+/// Page of paths, pictures and words; later items cover earlier ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Page {
     size: DVec2,
@@ -161,12 +161,12 @@ pub struct Page {
 }
 
 impl Page {
-    /// An empty page.
+    /// Empty page.
     fn new(size: DVec2) -> Self {
         Self { size, items: Vec::new() }
     }
 
-    /// Draws closed outlines, or their parts within an area.
+    /// Draws closed outlines, clipped to an area if there is one.
     fn outlines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, within: Option<Bounds>) {
         let Some(area) = within else { return self.path(lines, true, ink) };
         if let Some(fill) = ink.fill {
@@ -180,7 +180,7 @@ impl Page {
         self.lines(closed.collect(), Ink { fill: None, ..ink }, within);
     }
 
-    /// Draws open lines, or their parts within an area.
+    /// Draws open lines, clipped to an area if there is one.
     fn lines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, within: Option<Bounds>) {
         let Some(area) = within else { return self.path(lines, false, ink) };
         self.path(lines.iter().flat_map(|line| parts_within(line, area)).collect(), false, ink);
@@ -201,7 +201,7 @@ impl Page {
     }
 }
 
-/// The parts of an open line within an area, in its order.
+/// Parts of an open line within an area, in order.
 fn parts_within(line: &[DVec2], area: Bounds) -> Vec<Vec<DVec2>> {
     let mut parts: Vec<Vec<DVec2>> = Vec::new();
     for pair in line.windows(2) {

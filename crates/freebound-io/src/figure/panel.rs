@@ -1,4 +1,4 @@
-//! An embedding drawn into an area: faces, what is wrong with them, hull and pockets, pins.
+//! Embedding drawn into an area: faces, flipped faces, hull and pockets, pins.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use freebound_core::problem::Embedding;
 /// Half the side of a pin's square, points.
 const PIN: f64 = 3.2;
 
-/// Least half side of a frame around what is magnified, points.
+/// Least half side of a frame around a magnified part, points.
 const LEAST_FRAME: f64 = 8.0;
 
 /// Width of the lines of an embedding that is shown whole, points.
@@ -22,43 +22,43 @@ const EDGE: f64 = 0.4;
 /// Width of the hull, points.
 const HULL: f64 = 1.6;
 
-/// How many times wider lines are in a magnified window.
+/// Factor of the line widths in a magnified window.
 const MAGNIFIED: f64 = 2.2;
 
-/// Free space around an embedding, relative to its extent.
+/// Margin around an embedding, relative to its extent.
 const MARGIN: f64 = 0.03;
 
-/// Free space around the faces that a window shows, relative to their extent.
+/// Margin around the faces that a window shows, relative to their extent.
 const WINDOW_MARGIN: f64 = 0.45;
 
-/// The same around the triangles of a pocket.
+/// Margin around the triangles of a pocket, relative to their extent.
 const TRIANGLES_MARGIN: f64 = 0.08;
 
-/// Faces nearer to each other than this share of the embedding's extent are shown in one window.
+/// Faces nearer to each other than this fraction of the embedding's extent share a window.
 const ZONE: f64 = 0.1;
 
-/// A square of the plane.
+/// Square of the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    /// The middle.
+    /// Centre of the square.
     pub centre: DVec2,
-    /// Half the side.
+    /// Half the side of the square.
     pub half: f64,
 }
 
 impl Window {
-    /// The square around a box with a share of its extent left free on each side.
+    /// Square around a box, with a margin on each side relative to the box's extent.
     fn around(bounds: Bounds, margin: f64) -> Self {
         Self { centre: bounds.middle(), half: bounds.size().max_element() * (0.5 + margin) }
     }
 
-    /// The square around some faces of an embedding.
+    /// Square around some faces of an embedding.
     pub fn on_faces(mesh: &DiskMesh, embedding: &Embedding, faces: &[FaceId]) -> Self {
         let corners = faces.iter().flat_map(|&face| mesh.face(face));
         Self::around(Bounds::of(corners.map(|v| embedding[v])), WINDOW_MARGIN)
     }
 
-    /// The square around some triangles of an embedding, moved to where a panel of the whole shows it.
+    /// Square around some triangles of an embedding, moved into the part that a panel of the whole embedding shows.
     pub fn on_triangles(embedding: &Embedding, triangles: &[[VertexId; 3]]) -> Self {
         let whole = Self::around(embedding.bounds(), MARGIN);
         let window = Self::around(Bounds::of(triangles.iter().flatten().map(|&v| embedding[v])), TRIANGLES_MARGIN);
@@ -67,7 +67,7 @@ impl Window {
     }
 }
 
-/// Groups faces that lie near each other in an embedding, the largest group first.
+/// Groups faces that are near each other in an embedding, the largest group first.
 pub fn zones_of(mesh: &DiskMesh, embedding: &Embedding, faces: &[FaceId]) -> Vec<Vec<FaceId>> {
     let reach = ZONE * 2.0 * Window::around(embedding.bounds(), 0.0).half;
     let centre = |face: FaceId| mesh.face(face).iter().map(|v| embedding[v]).sum::<DVec2>() / 3.0;
@@ -85,51 +85,51 @@ pub fn zones_of(mesh: &DiskMesh, embedding: &Embedding, faces: &[FaceId]) -> Vec
     zones
 }
 
-/// How pockets are drawn.
+/// Style of the pockets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pockets {
-    /// As areas.
+    /// Filled areas.
     Filled,
-    /// As triangles.
+    /// Triangles with their edges.
     Triangulated,
 }
 
 /// Hull and pockets of a virtual boundary.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutsideShade {
-    /// The convex outline.
+    /// Convex outline.
     pub hull: Vec<VertexId>,
-    /// The faces between boundary and hull.
+    /// Triangles between boundary and hull.
     pub pockets: Vec<[VertexId; 3]>,
-    /// How they are drawn.
+    /// Style of the pockets.
     pub style: Pockets,
 }
 
-/// An embedding as a panel shows it.
+/// Embedding in a panel.
 #[derive(Clone, Debug)]
 pub struct PlaneDrawing {
     /// The mesh.
     pub mesh: Arc<DiskMesh>,
-    /// Of its vertices, and virtual vertices after them.
+    /// Embedding of the mesh's vertices, followed by the virtual vertices.
     pub embedding: Embedding,
     /// Faces drawn red.
     pub flipped: Vec<FaceId>,
-    /// Faces tinted: those that were flipped before.
+    /// Tinted faces, which were flipped before.
     pub with_all_repairs: Vec<FaceId>,
     /// Hull and pockets.
     pub outside: Option<OutsideShade>,
     /// Pinned vertices, marked by squares.
     pub pins: Vec<VertexId>,
-    /// The part that is shown, if not all.
+    /// Window that is shown. Default: the whole embedding.
     pub window: Option<Window>,
-    /// What is framed, because another panel magnifies it.
+    /// Framed window, which another panel magnifies.
     pub framed: Option<Window>,
-    /// What insets beside it magnify.
+    /// Windows that insets beside the drawing magnify.
     pub insets: Vec<Window>,
 }
 
 impl PlaneDrawing {
-    /// An embedding without anything special.
+    /// Plain drawing of an embedding.
     pub fn new(mesh: &Arc<DiskMesh>, embedding: Embedding) -> Self {
         Self {
             mesh: Arc::clone(mesh),
@@ -144,7 +144,7 @@ impl PlaneDrawing {
         }
     }
 
-    /// A step with its flipped faces and pins.
+    /// Drawing of a step with its flipped faces and pins.
     pub fn of_step(mesh: &Arc<DiskMesh>, step: &Step) -> Self {
         Self {
             flipped: step.verdict.flipped_faces.clone(),
@@ -153,7 +153,7 @@ impl PlaneDrawing {
         }
     }
 
-    /// The same with insets that magnify flipped faces, at most so many.
+    /// Adds insets that magnify flipped faces, at most `most`.
     #[must_use]
     pub fn with_insets(self, most: usize) -> Self {
         let zones = zones_of(&self.mesh, &self.embedding, &self.flipped);
@@ -162,7 +162,7 @@ impl PlaneDrawing {
         Self { insets, ..self }
     }
 
-    /// Draws into an area.
+    /// Draws the embedding into an area.
     pub(super) fn draw(&self, page: &mut Page, area: Bounds) {
         let shown = self.window.unwrap_or_else(|| Window::around(self.embedding.bounds(), MARGIN));
         self.draw_window(page, area, shown);
@@ -173,7 +173,7 @@ impl PlaneDrawing {
             let place = placing(area, shown);
             let half = DVec2::new(window.half, -window.half);
             let [low, high] = [place(window.centre - half), place(window.centre + half)];
-            // A frame that a pin's square would hide is drawn larger than what it frames.
+            // A frame that a pin's square would hide is drawn larger than its window.
             let (centre, half) = (low.midpoint(high), ((high - low) / 2.0).max(DVec2::splat(LEAST_FRAME)));
             Bounds { low: centre - half, high: centre + half }
         };
@@ -189,7 +189,7 @@ impl PlaneDrawing {
         }
     }
 
-    /// Draws a magnified part, in a frame with its number.
+    /// Draws a magnified window, in a frame with its number.
     pub(super) fn draw_inset(&self, page: &mut Page, area: Bounds, number: usize) {
         self.draw_window(page, area, self.insets[number]);
         page.outlines(vec![area.corners().to_vec()], Ink::stroke(colours::FRAME, 0.9), None);
@@ -245,7 +245,7 @@ impl PlaneDrawing {
     }
 }
 
-/// From the plane to an area of the page, as large as fits.
+/// Map from the plane to an area of the page, as large as fits.
 pub(super) fn placing(area: Bounds, shown: Window) -> impl Fn(DVec2) -> DVec2 {
     let scale = area.size().min_element() / (2.0 * shown.half);
     move |z| area.middle() + scale * DVec2::new(z.x - shown.centre.x, shown.centre.y - z.y)

@@ -1,4 +1,4 @@
-//! A picture drawn into an area, with numbered marks.
+//! Picture drawn into an area, with numbered marks.
 
 use glam::DVec2;
 
@@ -11,17 +11,17 @@ const MARK: f64 = 3.6;
 /// Size of the marks' numbers.
 const WORDS: f64 = 8.0;
 
-/// A picture as a panel shows it, as large as fits.
+/// Picture in a panel, as large as fits.
 #[derive(Clone, Debug)]
 pub struct PhotoDrawing {
     /// The picture.
     pub picture: Picture,
-    /// Places that are marked and numbered from 1: shares of its width and height, from its lower left corner.
+    /// Positions of marks, numbered from 1: fractions of the picture's width and height, from its lower left corner.
     pub marks: Vec<DVec2>,
 }
 
 impl PhotoDrawing {
-    /// Draws into an area.
+    /// Draws the picture into an area.
     pub(super) fn draw(&self, page: &mut Page, area: Bounds) {
         let pixels = DVec2::new(f64::from(self.picture.width), f64::from(self.picture.height));
         let size = pixels * (area.size() / pixels).min_element();
@@ -33,7 +33,7 @@ impl PhotoDrawing {
         page.outlines(outlines, Ink::both(colours::CONSTRAINT, colours::PAPER, 1.0), None);
         for (number, mark) in (1..).zip(&self.marks) {
             let text = format!("{number}");
-            // Beside the mark, on the side away from the middle, where fewer other marks are.
+            // The number is beside its mark, on the side away from the middle, which has fewer other marks.
             let beside = if mark.x < 0.5 { -2.6 * MARK } else { 1.3 * MARK };
             page.words(place(mark) + DVec2::new(beside, -0.6 * MARK), Anchor::Start, WORDS, &text);
         }

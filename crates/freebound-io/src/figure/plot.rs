@@ -9,60 +9,60 @@ use super::{Anchor, Ink, Page, colours};
 use crate::raster::Colour;
 use freebound_core::geom::Bounds;
 
-/// Free space around everything, points.
+/// Margin around the page, points.
 const MARGIN: f64 = 18.0;
 
-/// A panel with its words.
+/// Size of a panel with its words.
 const PANEL: DVec2 = DVec2::new(400.0, 270.0);
 
-/// Free space between panels.
+/// Space between panels.
 const GAP: f64 = 22.0;
 
-/// Panels in a row.
+/// Number of panels in a row.
 const COLUMNS: usize = 2;
 
-/// Size of a panel's title, of words, and of small ones.
+/// Sizes of a panel's title, of words, and of small words.
 const TITLE: f64 = 13.0;
 const WORDS: f64 = 11.0;
 const SMALL: f64 = 9.5;
 
-/// Names in a row.
+/// Number of names in a row of the legend.
 const IN_A_ROW: usize = 3;
 
-/// From the panel's sides to its axes: left, top, right, bottom.
+/// Space between the panel's sides and its axes: left, top, right, bottom.
 const AROUND: [f64; 4] = [38.0, 52.0, 8.0, 58.0];
 
-/// A bar of stacked parts, from below.
+/// Bar of stacked parts, from the bottom up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bar {
-    /// What it stands for, in one or two lines.
+    /// Name of the bar, in one or two lines.
     pub name: String,
-    /// How many runs it is of; said above it.
+    /// Number of runs, shown above the bar.
     pub count: usize,
-    /// Shares, which add up to 1 at most.
+    /// Shares, with a sum of at most 1.
     pub parts: Vec<f64>,
 }
 
-/// A curve of shares.
+/// Curve of shares.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shares {
-    /// What it stands for.
+    /// Name of the curve.
     pub name: String,
     /// Shares at 0, 1, 2 and so on.
     pub shares: Vec<f64>,
 }
 
-/// What a plot shows.
+/// Content of a plot.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Marks {
     /// Bars side by side, with the names of their parts.
     Bars(Vec<Bar>, Vec<String>),
-    /// Curves over each other.
+    /// Curves in shared axes.
     Curves(Vec<Shares>),
 }
 
 impl Marks {
-    /// The end of the scale, per cent: bars always have the whole, curves what they need.
+    /// End of the scale, per cent: 100 for bars, for curves as large as needed.
     fn scale(&self) -> u32 {
         let Self::Curves(curves) = self else { return 100 };
         let greatest = curves.iter().flat_map(|curve| &curve.shares).copied().fold(0.0, f64::max);
@@ -71,18 +71,18 @@ impl Marks {
     }
 }
 
-/// A panel of a page.
+/// Plot in a panel of a page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
-    /// What it shows.
+    /// Title of the plot.
     pub title: String,
-    /// What runs to the right.
+    /// Name of the horizontal axis.
     pub along: String,
-    /// The marks.
+    /// Bars or curves.
     pub marks: Marks,
 }
 
-/// Lays plots out in rows, a caption below.
+/// Page with plots in rows, and a caption below.
 pub fn plots(panels: &[Plot], caption: &str) -> Page {
     let rows = panels.len().div_ceil(COLUMNS) as f64;
     let columns = COLUMNS as f64;
@@ -130,7 +130,7 @@ impl Plot {
     }
 }
 
-/// How high a share lies on the page.
+/// Height of a share on the page.
 fn at_share(area: Bounds, share: f64) -> f64 {
     area.high.y - share * area.size().y
 }
@@ -139,7 +139,7 @@ fn colour(number: usize) -> Colour {
     colours::SERIES[number % colours::SERIES.len()]
 }
 
-/// Names of parts or curves below the title, in columns as wide as the widest.
+/// Draws the names of parts or curves below the title, in columns as wide as the widest name.
 fn legend(page: &mut Page, corner: DVec2, names: &[String]) {
     let begin = corner + DVec2::new(AROUND[0], TITLE + 10.0);
     let widest = names.iter().map(|name| width_of(name, SMALL)).fold(0.0, f64::max);
@@ -173,7 +173,7 @@ fn draw_bars(page: &mut Page, area: Bounds, bars: &[Bar]) {
     }
 }
 
-/// Curves whose shares reach from 0 to `top`.
+/// Draws curves on a scale of shares from 0 to `top`.
 fn draw_curves(page: &mut Page, area: Bounds, curves: &[Shares], top: f64) {
     let last = curves.iter().map(|curve| curve.shares.len()).max().unwrap_or(0).saturating_sub(1).max(1);
     let at = |number: usize| area.low.x + area.size().x * number as f64 / last as f64;

@@ -1,4 +1,5 @@
-//! Panels laid out on a sheet: rows of drawings with letters and captions, insets beside, the figure's caption below.
+//! Panels laid out on a page: rows of drawings with letters and captions, insets beside them, the figure's caption
+//! below.
 
 use glam::DVec2;
 
@@ -6,41 +7,41 @@ use super::font::width_of;
 use super::{Anchor, Page, PhotoDrawing, PlaneDrawing, SpaceDrawing};
 use freebound_core::geom::Bounds;
 
-/// Free space around everything, points.
+/// Margin around the page, points.
 const MARGIN: f64 = 16.0;
 
-/// Free space between panels.
+/// Space between panels.
 const GAP: f64 = 22.0;
 
 /// Side of a panel's drawing.
 const PANEL: f64 = 290.0;
 
-/// Free space between a drawing and its insets, and between insets.
+/// Space between a drawing and its insets, and between insets.
 const INSET_GAP: f64 = 8.0;
 
 /// Size of the words below a panel.
 const WORDS: f64 = 12.0;
 
-/// From one line of words to the next.
+/// Distance between lines of words.
 const LINE: f64 = 17.0;
 
-/// What a panel shows.
+/// Drawing in a panel.
 #[derive(Clone, Debug)]
 pub enum Drawing {
-    /// An embedding.
+    /// Embedding.
     Plane(PlaneDrawing),
-    /// A mesh in space.
+    /// Mesh in space.
     Space(SpaceDrawing),
-    /// A picture.
+    /// Picture.
     Photo(PhotoDrawing),
 }
 
-/// One drawing of a figure with its words.
+/// Drawing of a figure with its words.
 #[derive(Clone, Debug)]
 pub struct Panel {
-    /// The line below it, which begins with its letter.
+    /// Line below the drawing, which begins with its letter.
     pub words: String,
-    /// What it shows.
+    /// Drawing of the panel.
     pub drawing: Drawing,
 }
 
@@ -50,7 +51,7 @@ impl Panel {
     }
 
     fn draw(&self, page: &mut Page, cell: Bounds, inset: f64) {
-        // Without insets of its own the drawing stands in the middle of its cell.
+        // A drawing without insets is centred in its cell.
         let count = self.inset_count();
         let shift = if count > 0 { 0.0 } else { (cell.size().x - PANEL) / 2.0 };
         let area = Bounds::at(cell.low + DVec2::new(shift, 0.0), DVec2::splat(PANEL));
@@ -71,19 +72,19 @@ impl Panel {
     }
 }
 
-/// A figure: panels in rows, and a caption.
+/// Figure with panels in rows, and a caption.
 #[derive(Clone, Debug)]
 pub struct PrintedSheet {
-    /// Panels in a row.
+    /// Number of panels in a row.
     pub columns: usize,
-    /// Row by row.
+    /// Panels, row by row.
     pub panels: Vec<Panel>,
-    /// What the figure shows.
+    /// Caption of the figure.
     pub caption: String,
 }
 
 impl PrintedSheet {
-    /// Lays everything out.
+    /// Page with the panels and the caption.
     pub fn page(&self) -> Page {
         let inset_count = self.panels.iter().map(Panel::inset_count).max().unwrap_or(0);
         let inset = (PANEL - INSET_GAP) / 2.0;
@@ -107,7 +108,7 @@ impl PrintedSheet {
     }
 }
 
-/// A text in lines no wider than a width.
+/// Text broken into lines that fit a width, except for longer words.
 pub(super) fn wrapped(text: &str, size: f64, width: f64) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {

@@ -1,4 +1,4 @@
-//! A mesh in space drawn into an area: lit faces, the farther ones first, and the boundary.
+//! Mesh in space drawn into an area: lit faces, far ones first, and the boundary.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::raster::{Colour, View};
 use freebound_core::geom::Bounds;
 use freebound_core::mesh::DiskMesh;
 
-/// Free space around the mesh, relative to the area.
+/// Margin around the mesh, relative to the area.
 const MARGIN: f64 = 0.04;
 
 /// Width of the edges of faces, points.
@@ -18,20 +18,20 @@ const EDGE: f64 = 0.35;
 /// Width of the boundary, points.
 const BOUNDARY: f64 = 2.0;
 
-/// From the mesh towards the light, in the axes of the view: from the upper left.
+/// Direction from the mesh to the light, in the axes of the view: from the upper left.
 const LIGHT: DVec3 = DVec3::new(-0.4, 0.6, 0.7);
 
-/// A mesh in space as a panel shows it.
+/// Mesh in space in a panel.
 #[derive(Clone, Debug)]
 pub struct SpaceDrawing {
     /// The mesh.
     pub mesh: Arc<DiskMesh>,
-    /// Where it is seen from.
+    /// Direction of the view.
     pub view: View,
 }
 
 impl SpaceDrawing {
-    /// Draws into an area.
+    /// Draws the mesh into an area.
     pub(super) fn draw(&self, page: &mut Page, area: Bounds) {
         let seen = self.view.see(&self.mesh.mesh().positions);
         let low = seen.iter().copied().fold(DVec3::INFINITY, DVec3::min);
@@ -58,7 +58,7 @@ impl SpaceDrawing {
         }
     }
 
-    /// Whether the side of a face from one corner to the next lies on the boundary.
+    /// True if the side of a face from one corner to the next is on the boundary.
     fn is_boundary(&self, tail: freebound_core::mesh::VertexId, head: freebound_core::mesh::VertexId) -> bool {
         let count = self.mesh.boundary_loop().len();
         let places = [tail, head].map(|v| self.mesh.boundary_place(v));
@@ -66,7 +66,7 @@ impl SpaceDrawing {
     }
 }
 
-/// The colour of a face whose corners are given in the axes of the view.
+/// Colour of a face, with its corners in the axes of the view.
 fn lit([a, b, c]: [DVec3; 3]) -> Colour {
     let normal = (b - a).cross(c - a).try_normalize().unwrap_or(DVec3::Z);
     let is_front = normal.z > 0.0;

@@ -1,5 +1,6 @@
-//! One large drawing with a title, lines of words and a bar of colours below it. Those with as many lines and with or without a bar
-//! alike have one size, so that they can be frames of an animation: a title has two lines, be it long or short.
+//! Large drawing with a title, lines of words and a colour bar below it. A title always takes two lines. So drawings
+//! with equal numbers of lines, all with a bar or all without one, have equal sizes: they can be frames of an
+//! animation.
 
 use glam::DVec2;
 
@@ -8,41 +9,41 @@ use super::sheet::wrapped;
 use super::{Anchor, CellContent, ColourBar, Page};
 use freebound_core::geom::Bounds;
 
-/// Free space around everything, points.
+/// Margin around the page, points.
 const MARGIN: f64 = 14.0;
 
 /// Side of the drawing.
 const SIDE: f64 = 320.0;
 
-/// Size of the title, and of the words.
+/// Sizes of the title and of the words.
 const TITLE: f64 = 13.0;
 const WORDS: f64 = 10.0;
 
-/// From one line to the next.
+/// Distances between lines of the title, and of words.
 const TITLE_LINE: f64 = 20.0;
 const LINE: f64 = 15.0;
 
-/// Lines of a title.
+/// Number of lines of a title.
 const TITLE_LINES: usize = 2;
 
-/// What stands for the rest of a title that is too long for them.
+/// Ellipsis at the end of a title that is too long.
 const REST: &str = "...";
 
-/// One large drawing.
+/// Large drawing with words below it.
 #[derive(Clone, Debug)]
 pub struct Still {
-    /// What is drawn.
+    /// Content of the drawing.
     pub content: CellContent,
-    /// What stands right below it, in two lines where it is long.
+    /// Title below the drawing, in two lines if it is long.
     pub title: String,
-    /// The lines below that.
+    /// Lines below the title.
     pub lines: Vec<String>,
-    /// The colours.
+    /// Colour bar.
     pub bar: Option<ColourBar>,
 }
 
 impl Still {
-    /// Lays everything out.
+    /// Page with the drawing and its words.
     pub fn page(&self) -> Page {
         let area = Bounds::at(DVec2::splat(MARGIN), DVec2::splat(SIDE));
         let below_lines = area.high.y + TITLE_LINE * TITLE_LINES as f64 + LINE * self.lines.len() as f64 + 0.5 * MARGIN;
@@ -55,7 +56,7 @@ impl Still {
             page.words(DVec2::new(MARGIN, first + TITLE_LINE * k as f64), Anchor::Start, TITLE, line);
         }
         for (k, line) in self.lines.iter().enumerate() {
-            // Letters are smaller where a line would be too long.
+            // Letters are smaller if a line would be too long.
             let size = WORDS * (SIDE / width_of(line, WORDS)).min(1.0);
             page.words(DVec2::new(MARGIN, last + LINE * (k as f64 + 1.0)), Anchor::Start, size, line);
         }
@@ -66,7 +67,7 @@ impl Still {
     }
 }
 
-/// A title in its lines, none wider than the drawing; what is too long for them is cut off.
+/// Lines of a title, none wider than the drawing; a title that is too long is cut off.
 fn title_lines(title: &str) -> Vec<String> {
     let mut lines = wrapped(title, TITLE, SIDE);
     let has_rest = lines.len() > TITLE_LINES;

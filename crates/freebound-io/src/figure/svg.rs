@@ -1,4 +1,4 @@
-//! A page as a drawing (SVG).
+//! Page as a drawing (SVG).
 
 use std::io::{self, Write};
 

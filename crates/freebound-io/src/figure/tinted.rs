@@ -1,4 +1,4 @@
-//! An embedding drawn into an area with a colour on each face.
+//! Embedding drawn into an area with a colour on each face.
 
 use std::collections::BTreeMap;
 
@@ -14,10 +14,10 @@ use freebound_core::problem::Embedding;
 /// Width of the edges of faces, points.
 const EDGE: f64 = 0.3;
 
-/// Edges show where they are at least so long in the mean, points: shorter ones would only blacken the faces.
+/// Least mean length of edges that are drawn, points: shorter ones would only blacken the faces.
 const LEAST_EDGE: f64 = 6.0;
 
-/// Width of the line around a face in its own colour, points: without it the paper shines through between faces.
+/// Width of the line around a face in the face's colour, points. It hides the gaps between faces.
 const SEAL: f64 = 0.5;
 
 /// Width of the boundary, points.
@@ -29,31 +29,31 @@ const PIN: f64 = 2.4;
 /// Radius of the ring around a crossing, points.
 const RING: f64 = 4.0;
 
-/// Corners of a ring.
+/// Number of corners of a ring.
 const RING_CORNERS: u32 = 16;
 
-/// An embedding with a colour on each face.
+/// Embedding with a colour on each face.
 #[derive(Clone, Debug)]
 pub struct TintedDrawing {
     faces: Vec<[DVec2; 3]>,
-    /// One for each face.
+    /// Colour of each face.
     colours: Vec<Colour>,
     flipped: Vec<FaceId>,
-    /// The boundary, and the loops around holes.
+    /// Boundary loop, and the loops around holes.
     boundary: Vec<Vec<DVec2>>,
     crossings: Vec<DVec2>,
     pins: Vec<DVec2>,
-    /// What is shown.
+    /// Window that is shown.
     window: Window,
 }
 
 impl TintedDrawing {
-    /// A step on its mesh, `given` being the mesh as given: what is wrong with it, its pins, and a colour for each real face. Seen
-    /// through a window.
+    /// Drawing of a step: its defects, its pins, and a colour for each real face, in a window. `given` is the mesh
+    /// before new vertices.
     ///
     /// # Panics
     ///
-    /// If there is not one colour for each real face.
+    /// If the number of colours is not the number of real faces.
     pub fn of_step(given: &DiskMesh, step: &Step, colours: Vec<Colour>, window: Window) -> Self {
         let (mesh, embedding) = (step.candidate.mesh(given), &step.candidate.solution.embedding);
         let triangles = mesh.mesh().real_triangles();
@@ -70,11 +70,11 @@ impl TintedDrawing {
         }
     }
 
-    /// A planar embedding of a mesh, with a colour for each real face. Seen through a window.
+    /// Drawing of a planar embedding of a mesh, with a colour for each real face, in a window.
     ///
     /// # Panics
     ///
-    /// If there is not one colour for each real face.
+    /// If the number of colours is not the number of real faces.
     pub fn of_planar(mesh: &DiskMesh, embedding: &Embedding, colours: Vec<Colour>, window: Window) -> Self {
         let triangles = mesh.mesh().real_triangles();
         assert_eq!(colours.len(), triangles.len(), "every face has a colour");
@@ -89,7 +89,7 @@ impl TintedDrawing {
         }
     }
 
-    /// Draws into an area.
+    /// Draws the embedding into an area.
     pub(super) fn draw(&self, page: &mut Page, area: Bounds) {
         let place = placing(area, self.window);
         let clip = Some(area);
@@ -126,14 +126,14 @@ impl TintedDrawing {
     }
 }
 
-/// The boundary, and the loops around holes.
+/// Boundary loop, and the loops around holes.
 fn loops_of(mesh: &DiskMesh, embedding: &Embedding) -> Vec<Vec<DVec2>> {
     let places = |vertices: &[VertexId]| vertices.iter().map(|&v| embedding[v]).collect();
     let holes = mesh.mesh().holes();
     std::iter::once(mesh.boundary_loop()).chain(holes.iter().map(|hole| &hole.rim[..])).map(places).collect()
 }
 
-/// Where the boundary crosses itself: in the middle between the middles of the two edges.
+/// Marks of the boundary crossings: the midpoint of the midpoints of both edges.
 fn crossings(mesh: &DiskMesh, embedding: &Embedding, step: &Step) -> Vec<DVec2> {
     let middle = |edge| {
         let [a, b] = mesh.ends(edge).map(|v| embedding[v]);

@@ -4,7 +4,7 @@ use super::container::Buffers;
 use super::document::{Accessor, Document, Part};
 use crate::mesh_file::{ParseFaultKind, ReadError, fault_in};
 
-/// A kind of number.
+/// Type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Component {
     I8,
@@ -22,7 +22,7 @@ impl Component {
         Self::ALL.into_iter().find(|kind| kind.code() == code)
     }
 
-    /// Its code in the JSON.
+    /// Code in the JSON.
     pub(super) const fn code(self) -> u32 {
         match self {
             Self::I8 => 5120,
@@ -42,7 +42,7 @@ impl Component {
         }
     }
 
-    /// The largest integer, which stands for 1 where numbers are normalized.
+    /// Largest integer, which represents 1 in normalized numbers.
     pub(super) const fn largest(self) -> f32 {
         match self {
             Self::I8 => 127.0,
@@ -53,7 +53,7 @@ impl Component {
         }
     }
 
-    /// The number that begins here, as it is written.
+    /// First number in these bytes, not normalized.
     pub(super) fn number(self, bytes: &[u8]) -> f64 {
         let mut four = [0; 4];
         four[..self.size()].copy_from_slice(&bytes[..self.size()]);
@@ -69,7 +69,7 @@ impl Component {
     }
 }
 
-/// Writes a number, rounded to what the kind can hold.
+/// Appends a number, rounded and clamped to the type.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "to be rounded, and cut off at the ends")]
 pub(super) fn push_number(bytes: &mut Vec<u8>, kind: Component, number: f64) {
     let whole = number.round();
@@ -83,26 +83,26 @@ pub(super) fn push_number(bytes: &mut Vec<u8>, kind: Component, number: f64) {
     }
 }
 
-/// Bytes of the largest element, which stand for one that is nowhere: all are 0.
+/// Bytes of the largest possible element, for elements that are not stored: all are 0.
 const ZEROS: [u8; 64] = [0; 64];
 
-/// The elements of an accessor, all of which are there.
+/// Elements of an accessor, checked to be complete.
 #[derive(Debug)]
 pub(super) struct Elements<'a> {
-    /// Of the first element and those behind it; none where all are 0.
+    /// Bytes from the first element on; `None` if all elements are 0.
     bytes: Option<&'a [u8]>,
     stride: usize,
     pub(super) count: usize,
     pub(super) component: Component,
-    /// Numbers of an element.
+    /// Numbers per element.
     pub(super) width: usize,
     is_normalized: bool,
-    /// Elements that are others, by their places, ascending.
+    /// Replaced elements of a sparse accessor, by their indices, ascending.
     sparse: Vec<(usize, &'a [u8])>,
 }
 
 impl<'a> Elements<'a> {
-    /// Those of an accessor.
+    /// Elements of an accessor.
     pub(super) fn of(document: &Document, buffers: &'a Buffers, index: usize) -> Result<Self, ReadError> {
         let fault = |kind| fault_in("accessor", index, kind);
         let accessor = document.accessors.get(index).ok_or_else(|| out_of(index, document.accessors.len()))?;
@@ -133,7 +133,7 @@ impl<'a> Elements<'a> {
         Ok(Self { bytes, stride, count, component, width, is_normalized: accessor.normalized, sparse })
     }
 
-    /// The bytes of an element.
+    /// Bytes of an element.
     pub(super) fn raw(&self, place: usize) -> &'a [u8] {
         let size = self.width * self.component.size();
         if let Ok(found) = self.sparse.binary_search_by_key(&place, |&(place, _)| place) {
@@ -142,7 +142,7 @@ impl<'a> Elements<'a> {
         self.bytes.map_or(&ZEROS[..size], |bytes| &bytes[place * self.stride..][..size])
     }
 
-    /// A number of an element: normalized ones as fractions of the largest, in 32 bits.
+    /// Number of an element. Normalized integers become fractions of the largest, in 32 bits.
     #[expect(clippy::cast_possible_truncation, reason = "integers of 16 bits are exact")]
     pub(super) fn number(&self, place: usize, at: usize) -> f64 {
         let number = self.component.number(&self.raw(place)[at * self.component.size()..]);
@@ -153,19 +153,19 @@ impl<'a> Elements<'a> {
         }
     }
 
-    /// An element that is an index.
+    /// Element as an index.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be unsigned integers")]
     pub(super) fn index(&self, place: usize) -> usize {
         self.component.number(self.raw(place)) as usize
     }
 
-    /// Whether its elements can be indices.
+    /// True if the elements can be indices.
     pub(super) fn are_indices(&self) -> bool {
         self.width == 1 && matches!(self.component, Component::U8 | Component::U16 | Component::U32)
     }
 }
 
-/// How many elements an accessor has. More than there are bytes are absurd, even where all of them are 0.
+/// Number of elements of an accessor. Fails if it exceeds the number of bytes, even if all elements are 0.
 pub(super) fn count(document: &Document, buffers: &Buffers, index: usize) -> Result<usize, ReadError> {
     let accessor = document.accessors.get(index).ok_or_else(|| out_of(index, document.accessors.len()))?;
     let count = usize::try_from(accessor.count).ok().filter(|&count| count <= buffers.bytes.len());
@@ -186,7 +186,7 @@ pub(super) fn no_such(element: &'static str, index: usize, count: usize) -> Pars
     ParseFaultKind::IndexOutOfRange { element, index: i64::try_from(index).unwrap_or(i64::MAX), count }
 }
 
-/// Elements of a size that lie in a view from an offset on.
+/// Elements of `size` bytes in a view, from an offset on.
 struct Window {
     offset: u64,
     count: usize,
@@ -194,7 +194,7 @@ struct Window {
 }
 
 impl Window {
-    /// Their bytes, and how far they lie apart.
+    /// Bytes of the elements, and their stride.
     fn within<'a>(
         &self,
         document: &Document,
@@ -227,7 +227,7 @@ impl Window {
     }
 }
 
-/// The elements of a sparse accessor that differ.
+/// Replaced elements of a sparse accessor.
 fn sparse<'a>(
     document: &Document,
     buffers: &'a Buffers,

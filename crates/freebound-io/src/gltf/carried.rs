@@ -1,9 +1,9 @@
-//! The glTF file that a mesh was read from, as one binary file, with other texture coordinates.
+//! The glTF file that a mesh was read from, written as a single binary file with other texture coordinates.
 //!
-//! All of its JSON and of its buffers is kept, and what is new is added. Vertices whose corners have different texture
-//! coordinates are there several times, with everything else that they have; where there are none, indices and all
-//! attributes but texture coordinates stay what they were. A mesh that several nodes show is there once for each of them.
-//! Pictures beside the file come along.
+//! All of its JSON and of its buffers is kept, and new data are appended. Vertices whose corners have different
+//! texture coordinates are duplicated with all their attributes. Without such vertices, indices and all attributes
+//! except texture coordinates stay unchanged. A mesh that several nodes show is duplicated for each of them. Pictures
+//! beside the file are embedded.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -22,16 +22,16 @@ use super::placed::{Placed, PlacedSet};
 use super::scene::Scene;
 use crate::mesh_file::{MeshFile, Source, Texture};
 
-/// Triangles that are listed one by one.
+/// Mode of a primitive with separate triangles.
 const TRIANGLES: u32 = 4;
 
-/// An extension that holds a primitive's numbers a second time.
+/// Extension that stores a primitive's numbers a second time.
 const DRACO: &str = "KHR_draco_mesh_compression";
 
-/// Extensions that hold the bytes of a view a second time, in another buffer.
+/// Extensions that store the bytes of a view a second time, in another buffer.
 const COMPRESSED_VIEWS: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
-/// The first bytes of pictures, and what such files are.
+/// First bytes of pictures, with the media type of such files.
 const PICTURES: [(&[u8], &str); 2] = [(b"\x89PNG", "image/png"), (b"\xFF\xD8\xFF", "image/jpeg")];
 
 /// Writes a mesh as the file that it was read from.
@@ -74,7 +74,7 @@ pub(super) fn write_carried(
     carried.file.write(out)
 }
 
-/// A file on its way.
+/// File under construction.
 struct Carried<'a> {
     document: &'a Document,
     buffers: &'a Buffers,
@@ -82,7 +82,7 @@ struct Carried<'a> {
     file: Growing<'a>,
 }
 
-/// The accessors of a set of vertices.
+/// Accessors of a set of vertices.
 struct SetAccessors {
     attributes: Attributes,
     targets: Vec<Attributes>,
@@ -98,7 +98,7 @@ impl SetAccessors {
 }
 
 impl Carried<'_> {
-    /// Makes all buffers one.
+    /// Joins all buffers into one.
     fn join_buffers(&mut self) {
         let starts = &self.scene.starts;
         for view in self.file.json.get_mut("bufferViews").and_then(Value::as_array_mut).into_iter().flatten() {
@@ -114,7 +114,7 @@ impl Carried<'_> {
         }
     }
 
-    /// Gives each node a mesh of its own; says which one each instance has.
+    /// Gives each node its own mesh; returns the mesh of each instance.
     fn part_meshes(&mut self) -> Vec<usize> {
         let mut is_taken = vec![false; self.document.meshes.len()];
         let mut own = Vec::with_capacity(self.scene.shown.instances.len());
@@ -122,7 +122,7 @@ impl Carried<'_> {
             let is_shared = std::mem::replace(&mut is_taken[instance.mesh], true);
             own.push(match instance.node.filter(|_| is_shared) {
                 Some(node) => {
-                    // A copy, and not yet changed: primitives change when all have theirs.
+                    // Primitives are changed only after all meshes are copied, so this copy is still unchanged.
                     let copy = self.file.json["meshes"][instance.mesh].clone();
                     let mesh = self.file.push("meshes", copy);
                     self.file.json["nodes"][node]["mesh"] = json!(mesh);
@@ -134,7 +134,7 @@ impl Carried<'_> {
         own
     }
 
-    /// The accessors of a set, with texture coordinates, and with all its vertices.
+    /// Accessors of a set, with texture coordinates and all added vertices.
     fn attributes(&mut self, number: usize, placed: &PlacedSet) -> io::Result<SetAccessors> {
         let set = &self.scene.shown.sets[number];
         let mut own = SetAccessors { attributes: set.attributes.clone(), targets: set.targets.clone() };
@@ -155,11 +155,11 @@ impl Carried<'_> {
         Ok(own)
     }
 
-    /// An accessor with the elements of another, and more.
+    /// Accessor with the elements of another, and added ones.
     fn grown(&mut self, accessor: usize, name: &str, count: usize, added: &[Origin]) -> io::Result<usize> {
         let elements = Elements::of(self.document, self.buffers, accessor).map_err(io::Error::other)?;
         if elements.count != count {
-            let text = format!("accessor {accessor} has {} elements, and there are {count} positions", elements.count);
+            let text = format!("accessor {accessor} has {} elements, but there are {count} positions", elements.count);
             return Err(io::Error::new(io::ErrorKind::InvalidData, text));
         }
         let (bytes, stride) = grown(&elements, name, added);
@@ -175,8 +175,7 @@ impl Carried<'_> {
         Ok(self.file.push("accessors", own))
     }
 
-    /// Puts the pictures into the file that lie beside the one that was read; those that are not there stay where they
-    /// are said to be.
+    /// Embeds the pictures beside the file that was read. Missing pictures keep their address.
     fn embed_pictures(&mut self, folder: &Path) {
         for number in 0..self.file.json["images"].as_array().map_or(0, Vec::len) {
             let uri = self.file.json["images"][number]["uri"].as_str();

@@ -1,4 +1,4 @@
-//! A glTF file taken apart: its JSON, and the bytes of all its buffers, one behind another.
+//! Container of a glTF file: its JSON, and the concatenated bytes of all its buffers.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -15,42 +15,42 @@ use super::document::{Buffer, Document};
 use crate::mesh_file::{FaultPlace, ParseFaultKind, ReadError, fault_at, fault_in};
 use crate::obj::split_mark;
 
-/// The first bytes of a GLB file, and of its chunks behind their lengths.
+/// First bytes of a GLB file, and types of its chunks.
 pub(super) const MAGIC: &[u8; 4] = b"glTF";
 pub(super) const JSON: &[u8; 4] = b"JSON";
 pub(super) const BINARY: &[u8; 4] = b"BIN\0";
 
-/// Bytes of the header of a file, and of a chunk.
+/// Size of the header of a file and of a chunk, bytes.
 pub(super) const FILE_HEAD: usize = 12;
 pub(super) const CHUNK_HEAD: usize = 8;
 
-/// Buffers begin at multiples of so many bytes.
+/// Alignment of buffers, bytes.
 pub(super) const ALIGNMENT: usize = 8;
 
-/// The most buffers that one file is read for.
+/// Maximum number of buffers that may name one file.
 const NAMED: usize = 16;
 
-/// Takes what base64 there is, with its last signs or without.
+/// Decoder for base64, with or without padding.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
     &STANDARD,
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
-/// Where the JSON stands in a file, and the binary chunk, where there is one.
+/// Ranges of the JSON and of the binary chunk, if there is one.
 pub(super) struct Chunks {
     pub(super) json: Range<usize>,
     pub(super) binary: Option<Range<usize>>,
 }
 
 impl Chunks {
-    /// Finds them.
+    /// Finds the chunks of a file.
     pub(super) fn of(bytes: &[u8]) -> Result<Self, ReadError> {
         if !bytes.starts_with(MAGIC) {
             let (mark, _) = split_mark(bytes);
             return Ok(Self { json: mark.len()..bytes.len(), binary: None });
         }
         if number(bytes, 4)? != 2 {
-            return Err(ReadError::NotReadYet("glTF of another version than 2"));
+            return Err(ReadError::NotReadYet("glTF of a version other than 2"));
         }
         let length = number(bytes, 8)?;
         if length > bytes.len() {
@@ -59,7 +59,7 @@ impl Chunks {
         }
         let mut at = FILE_HEAD;
         let json = chunk(&bytes[..length], at, *JSON)?.ok_or_else(|| {
-            let expected = "the chunk of JSON";
+            let expected = "a JSON chunk";
             fault_at(
                 FaultPlace::Byte(FILE_HEAD as u64),
                 ParseFaultKind::Unexpected { found: "a chunk".to_owned(), expected },
@@ -71,7 +71,7 @@ impl Chunks {
     }
 }
 
-/// The content of the chunk that begins at a place, if it is of a kind.
+/// Content of the chunk at an offset; `None` if it has another type.
 fn chunk(bytes: &[u8], at: usize, kind: [u8; 4]) -> Result<Option<Range<usize>>, ReadError> {
     let length = number(bytes, at)?;
     let begin = at + CHUNK_HEAD;
@@ -82,7 +82,8 @@ fn chunk(bytes: &[u8], at: usize, kind: [u8; 4]) -> Result<Option<Range<usize>>,
     Ok((bytes[at + 4..begin] == kind).then_some(begin..end))
 }
 
-/// The 32-bit number at a place, where the head of a chunk has room for it and the next one.
+/// 32-bit number at an offset. Fails unless the 8 bytes of a chunk header fit there; at offset 8 of the file, 4
+/// suffice.
 fn number(bytes: &[u8], at: usize) -> Result<usize, ReadError> {
     let end = || fault_at(FaultPlace::Byte(bytes.len() as u64), ParseFaultKind::EndsEarly);
     let four = bytes.get(at..at + CHUNK_HEAD).or_else(|| bytes.get(at..at + 4).filter(|_| at == 8)).ok_or_else(end)?;
@@ -90,7 +91,7 @@ fn number(bytes: &[u8], at: usize) -> Result<usize, ReadError> {
     Ok(u32::from_le_bytes(four) as usize)
 }
 
-/// The bytes of all buffers, and where each begins.
+/// Concatenated bytes of all buffers, and the offset of each.
 #[derive(Debug)]
 pub(super) struct Buffers {
     pub(super) bytes: Arc<Vec<u8>>,
@@ -98,14 +99,14 @@ pub(super) struct Buffers {
 }
 
 impl Buffers {
-    /// Gathers them: from the binary chunk, from the JSON, from files in the folder.
+    /// Collects the buffers: from the binary chunk, from the JSON, from files in the folder.
     pub(super) fn of(document: &Document, binary: Vec<u8>, folder: Option<&Path>) -> Result<Self, ReadError> {
         let (mut bytes, mut starts) = (Vec::new(), Vec::new());
         let mut binary = Some(binary);
         let mut names: HashMap<&str, usize> = HashMap::new();
         for (index, buffer) in document.buffers.iter().enumerate() {
             let found = match &buffer.uri {
-                // The first buffer without a name is the chunk.
+                // The binary chunk is the first buffer, if it has no address.
                 None => binary.take().filter(|chunk| index == 0 && !chunk.is_empty()),
                 Some(uri) => {
                     let times = names.entry(uri).or_default();
@@ -151,22 +152,23 @@ fn of_uri(uri: &str, buffer: &Buffer, index: usize, folder: Option<&Path>) -> Re
     let fault = |source: Error| beside_fault(uri, index, source);
     if let Some(data) = uri.strip_prefix("data:") {
         let text = data.split_once(";base64,").map(|(_, text)| text);
-        let text = text.ok_or_else(|| fault(Error::new(ErrorKind::InvalidData, "no base64")))?;
+        let text = text.ok_or_else(|| fault(Error::new(ErrorKind::InvalidData, "not base64")))?;
         return BASE64.decode(text).map_err(|error| fault(Error::new(ErrorKind::InvalidData, error)));
     }
-    let folder = folder.ok_or_else(|| fault(Error::new(ErrorKind::NotFound, "a stream has no folder")))?;
-    let path = beside(uri, folder).ok_or_else(|| fault(Error::new(ErrorKind::NotFound, "no file beside this one")))?;
+    let folder = folder.ok_or_else(|| fault(Error::new(ErrorKind::NotFound, "standard input has no folder")))?;
+    let path =
+        beside(uri, folder).ok_or_else(|| fault(Error::new(ErrorKind::NotFound, "not a file beside this one")))?;
     read_at_most(&path, buffer.byte_length).map_err(fault)
 }
 
-/// The file that a relative address names; none where it is absolute.
+/// Path of the file at a relative address; `None` for an absolute one.
 pub(super) fn beside(uri: &str, folder: &Path) -> Option<PathBuf> {
     let path = PathBuf::from(unescaped(uri)?);
     let is_elsewhere = uri.contains(':') || path.is_absolute() || uri.starts_with(['/', '\\']);
     (!is_elsewhere).then(|| folder.join(path))
 }
 
-/// An address without its `%20`.
+/// Decodes percent escapes, such as `%20`.
 fn unescaped(uri: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
@@ -179,12 +181,12 @@ fn unescaped(uri: &str) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
-/// The first so many bytes of a file, which has to be one with so many.
+/// First `length` bytes of a file. Fails if it is shorter or not a regular file.
 fn read_at_most(path: &Path, length: u64) -> Result<Vec<u8>, Error> {
     let file = File::open(path)?;
     let data = file.metadata()?;
     if !data.is_file() {
-        return Err(Error::new(ErrorKind::InvalidData, "this is no file"));
+        return Err(Error::new(ErrorKind::InvalidData, "not a regular file"));
     }
     if data.len() < length {
         return Err(Error::new(ErrorKind::UnexpectedEof, format!("it has {} bytes, not {length}", data.len())));

@@ -1,4 +1,4 @@
-//! The JSON of a glTF file, as far as meshes need it.
+//! JSON of a glTF file, as far as meshes need it.
 
 use std::collections::BTreeMap;
 
@@ -9,10 +9,10 @@ use serde_json::Value;
 
 use crate::mesh_file::ReadError;
 
-/// Extensions without which there are no numbers to be read.
+/// Extensions that compress the numbers of a file, so that they cannot be read.
 const COMPRESSIONS: [&str; 3] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"];
 
-/// A glTF file.
+/// Document of a glTF file.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Document {
@@ -55,7 +55,7 @@ pub(super) struct Mesh {
     pub(super) primitives: Vec<Primitive>,
 }
 
-/// Accessors by the names of attributes.
+/// Accessors by the name of their attribute.
 pub(super) type Attributes = BTreeMap<String, usize>;
 
 #[derive(Debug, Deserialize)]
@@ -82,7 +82,7 @@ pub(super) struct Accessor {
     pub(super) sparse: Option<Sparse>,
 }
 
-/// Elements that differ from those in the view.
+/// Elements that replace those in the view.
 #[derive(Debug, Deserialize)]
 pub(super) struct Sparse {
     pub(super) count: u64,
@@ -90,7 +90,7 @@ pub(super) struct Sparse {
     pub(super) values: Part,
 }
 
-/// Where the indices or the values of a sparse accessor begin.
+/// Position of the indices or the values of a sparse accessor.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Part {
@@ -118,7 +118,7 @@ pub(super) struct Buffer {
 }
 
 impl Document {
-    /// Reads it from JSON.
+    /// Parses the document from JSON.
     pub(super) fn of(json: &[u8]) -> Result<Self, ReadError> {
         check_objects(json)?;
         let mut text = serde_json::Deserializer::from_slice(json);
@@ -127,7 +127,7 @@ impl Document {
             reason: error.inner().to_string(),
         })?;
         if !document.asset.version.starts_with("2.") {
-            return Err(ReadError::NotReadYet("glTF of another version than 2"));
+            return Err(ReadError::NotReadYet("glTF of a version other than 2"));
         }
         let missing = document.extensions_required.iter().find(|name| COMPRESSIONS.contains(&name.as_str()));
         missing.map_or(Ok(()), |name| Err(ReadError::NeedsExtension(name.clone())))?;
@@ -135,10 +135,10 @@ impl Document {
     }
 }
 
-/// Refuses lists where glTF has objects: structures would be read from them, which no file means.
+/// Fails if a list stands in place of an object: serde would read a struct from it, which no file intends.
 fn check_objects(json: &[u8]) -> Result<(), ReadError> {
     let Ok(root) = serde_json::from_slice::<Value>(json) else { return Ok(()) };
-    let refused = |field: &str| ReadError::Json { field: field.to_owned(), reason: "no object".to_owned() };
+    let refused = |field: &str| ReadError::Json { field: field.to_owned(), reason: "not an object".to_owned() };
     if !root.is_object() {
         return Err(refused("JSON"));
     }
@@ -169,7 +169,7 @@ impl Default for Document {
 }
 
 impl Node {
-    /// Its transform from its own space to its parent's; `None` where it is none.
+    /// Transform from the node's space to its parent's; `None` for the identity.
     pub(super) fn transform(&self) -> Option<DAffine3> {
         let transform = if let Some(matrix) = self.matrix {
             let columns = DMat4::from_cols_array(&matrix);
@@ -183,7 +183,7 @@ impl Node {
         (transform != DAffine3::IDENTITY).then_some(transform)
     }
 
-    /// Whether joints place it, not its own transform.
+    /// True if joints place the node instead of its own transform.
     pub(super) fn is_skinned(&self) -> bool {
         self.skin.is_some()
     }
@@ -195,7 +195,7 @@ fn without_last_row(columns: DMat4) -> DMat4 {
 }
 
 impl Primitive {
-    /// How triangles are made of its vertices; `None` where it is points or lines.
+    /// Topology of the triangles; `None` for points or lines.
     pub(super) fn topology(&self) -> Option<Topology> {
         match self.mode.unwrap_or(4) {
             4 => Some(Topology::Triangles),
@@ -206,7 +206,7 @@ impl Primitive {
     }
 }
 
-/// How triangles are made of a list of vertices.
+/// Arrangement of triangles in a list of vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Topology {
     Triangles,
@@ -215,12 +215,12 @@ pub(super) enum Topology {
 }
 
 impl Topology {
-    /// How many triangles are made of so many vertices.
+    /// Number of triangles for a number of vertices.
     pub(super) fn count(self, vertices: u64) -> u64 {
         if self == Self::Triangles { vertices / 3 } else { vertices.saturating_sub(2) }
     }
 
-    /// Which vertices a triangle has, by their places in the list.
+    /// Indices of a triangle's corners in the list of vertices.
     pub(super) fn triangle(self, number: usize) -> [usize; 3] {
         match self {
             Self::Triangles => [3 * number, 3 * number + 1, 3 * number + 2],

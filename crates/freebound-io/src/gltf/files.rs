@@ -1,4 +1,4 @@
-//! The files that belong to a glTF file.
+//! Files that belong to a glTF file.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::container::beside;
 use crate::mesh_file::{MeshFile, SourceFormat};
 
-/// What names files.
+/// Parts of the JSON that name files.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct Named {
@@ -20,7 +20,7 @@ struct Thing {
     uri: Option<String>,
 }
 
-/// The buffers and pictures beside the glTF file that a mesh was read from, whether or not they are there.
+/// Paths of the buffers and pictures beside the glTF file that a mesh was read from. The files may be missing.
 pub(crate) fn files_beside(mesh: &MeshFile) -> Vec<PathBuf> {
     let Some(SourceFormat::Gltf(scene)) = mesh.source.as_ref().map(|source| &source.format) else { return Vec::new() };
     let Some(folder) = &scene.folder else { return Vec::new() };

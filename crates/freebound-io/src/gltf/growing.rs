@@ -1,4 +1,4 @@
-//! A binary glTF file that is being made: its JSON, and bytes behind those that it had.
+//! Binary glTF file under construction: its JSON, its old bytes, and added bytes.
 
 use std::io::{self, Write};
 
@@ -7,20 +7,20 @@ use serde_json::{Value, json};
 use super::accessor::Component;
 use super::container::{BINARY, CHUNK_HEAD, FILE_HEAD, JSON, MAGIC};
 
-/// What a view is for: vertices, indices.
+/// Target of a view: vertices or indices.
 pub(super) const VERTICES: u32 = 34_962;
 pub(super) const INDICES: u32 = 34_963;
 
-/// Views and chunks begin at multiples of so many bytes.
+/// Alignment of views and chunks, bytes.
 pub(super) const ALIGNMENT: usize = 4;
 
-/// The largest index of 16 bits; the next one is not used, for it restarts strips.
+/// Largest usable index of 16 bits; 65,535 restarts strips.
 const MAX_U16: usize = 65_534;
 
-/// The file so far.
+/// File under construction.
 pub(super) struct Growing<'a> {
     pub(super) json: Value,
-    /// The bytes that it had.
+    /// Bytes of the original file.
     old: &'a [u8],
     added: Vec<u8>,
 }
@@ -30,7 +30,7 @@ impl<'a> Growing<'a> {
         Self { json, old, added: vec![0; old.len().next_multiple_of(ALIGNMENT) - old.len()] }
     }
 
-    /// Adds a thing to a list of the JSON, which may not be there yet; says which it is.
+    /// Appends an entry to a list of the JSON, which is created if missing, and returns its index.
     pub(super) fn push(&mut self, list: &str, thing: Value) -> usize {
         let list = &mut self.json[list];
         if !list.is_array() {
@@ -41,7 +41,7 @@ impl<'a> Growing<'a> {
         list.len() - 1
     }
 
-    /// Adds bytes, as a view of them.
+    /// Appends bytes with a view of them, and returns the index of the view.
     pub(super) fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
         let begin = self.old.len() + self.added.len();
         self.added.extend_from_slice(bytes);
@@ -53,7 +53,7 @@ impl<'a> Growing<'a> {
         self.push("bufferViews", view)
     }
 
-    /// Adds an accessor of vectors of so many 32-bit numbers.
+    /// Appends an accessor of vectors of `N` 32-bit numbers.
     pub(super) fn vectors<const N: usize>(&mut self, vectors: impl Iterator<Item = [f32; N]>) -> usize {
         let mut bytes = Vec::new();
         let mut count = 0;
@@ -68,7 +68,7 @@ impl<'a> Growing<'a> {
         )
     }
 
-    /// Adds an accessor of the indices of triangles, in 16 bits where these do.
+    /// Appends an accessor of triangle indices, in 16 bits if they fit.
     pub(super) fn indices(&mut self, triangles: &[[u32; 3]]) -> usize {
         let all = triangles.as_flattened();
         let largest = all.iter().max().map_or(0, |&index| index as usize);
@@ -81,7 +81,7 @@ impl<'a> Growing<'a> {
         )
     }
 
-    /// Writes it.
+    /// Writes the file.
     pub(super) fn write(mut self, out: &mut impl Write) -> io::Result<()> {
         let binary = self.old.len() + self.added.len();
         let before = self.json.pointer_mut("/buffers/0").map(Value::take).filter(Value::is_object);
@@ -104,6 +104,6 @@ impl<'a> Growing<'a> {
 }
 
 fn length(bytes: usize) -> io::Result<[u8; 4]> {
-    let too_large = |_| io::Error::new(io::ErrorKind::FileTooLarge, "a GLB file holds less than 4 GiB: write PLY");
+    let too_large = |_| io::Error::new(io::ErrorKind::FileTooLarge, "a GLB file is limited to 4 GiB: write PLY");
     Ok(u32::try_from(bytes).map_err(too_large)?.to_le_bytes())
 }

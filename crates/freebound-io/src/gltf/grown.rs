@@ -1,20 +1,20 @@
-//! The elements of an accessor, followed by those of vertices that the file does not have.
+//! Elements of an accessor, followed by those of vertices that the file does not have.
 
 use glam::DVec3;
 
 use super::accessor::{Elements, push_number};
 use super::growing::ALIGNMENT;
 
-/// What a vertex that the file does not have is made of: vertices of its set.
+/// Origin of a vertex that the file does not have, in vertices of its set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Origin {
-    /// The same, with other texture coordinates.
+    /// Copy of a vertex with other texture coordinates.
     Copy(usize),
-    /// It lies at a share of the way from one to the other.
+    /// Vertex on an edge: its ends, and the fraction of the way from the first to the second.
     Between([usize; 2], f64),
 }
 
-/// The bytes of all elements, each from a multiple of four bytes on, and how far they lie apart.
+/// Bytes of all elements, each aligned to four bytes, and their stride.
 pub(super) fn grown(elements: &Elements<'_>, name: &str, added: &[Origin]) -> (Vec<u8>, usize) {
     let stride = (elements.width * elements.component.size()).next_multiple_of(ALIGNMENT);
     let mut bytes = Vec::with_capacity(stride * (elements.count + added.len()));
@@ -32,8 +32,8 @@ pub(super) fn grown(elements: &Elements<'_>, name: &str, added: &[Origin]) -> (V
     (bytes, stride)
 }
 
-/// An element between those of two vertices: directions are of length 1 again, and joints with their weights those of
-/// the nearer one.
+/// Element interpolated between two vertices. Directions keep their length; joints and their weights are those of the
+/// nearer vertex.
 fn between(elements: &Elements<'_>, name: &str, ends: [usize; 2], share: f64) -> Vec<u8> {
     if name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") {
         return elements.raw(ends[usize::from(share >= 0.5)]).to_vec();

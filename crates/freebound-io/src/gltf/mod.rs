@@ -1,27 +1,29 @@
 //! glTF 2.0 files, as text (`.gltf`) and binary (`.glb`).
 //!
-//! | file        | what it holds                                                                    |
+//! | file        | contents                                                                         |
 //! |-------------|----------------------------------------------------------------------------------|
-//! | `document`  | the JSON of a file, as far as meshes need it                                     |
-//! | `container` | a file taken apart into its JSON and the bytes of its buffers                    |
+//! | `document`  | JSON of a file, as far as meshes need it                                         |
+//! | `container` | a file split into its JSON and the bytes of its buffers                          |
 //! | `accessor`  | arrays of elements in these bytes                                                |
-//! | `scene`     | which meshes a file shows, where, and the corners of their triangles             |
-//! | `read`      | a mesh of them                                                                   |
-//! | `write`     | a mesh written as a binary file: the one that it was read from, or a new one     |
+//! | `scene`     | meshes that a file shows, their transforms, and the corners of their triangles   |
+//! | `read`      | a mesh from the scene                                                            |
+//! | `write`     | writer of a binary file: the one that the mesh was read from, or a new one       |
 //! | `carried`   | the file that a mesh was read from, with other texture coordinates               |
-//! | `placed`    | which vertices of the file its corners get, and which of them twice              |
-//! | `grown`     | accessors with more elements                                                     |
-//! | `files`     | the files that belong to a file                                                  |
-//! | `growing`   | a binary file that is being made                                                 |
+//! | `placed`    | vertices of the file for the corners of the mesh, duplicated if needed           |
+//! | `grown`     | accessors with added elements                                                    |
+//! | `files`     | files that belong to a glTF file                                                 |
+//! | `growing`   | a binary file under construction                                                 |
 //!
-//! What is shown are the meshes of all nodes of the file's scene, or of all nodes where it names none, with their
-//! transforms, from the first root down, a node before its children, and its primitives in order. Within a node's mesh,
-//! vertices at one place are one vertex, because programs part them where normals or texture coordinates differ; vertices
-//! of different nodes never are. Points and lines, skins and shapes to morph to are kept and not looked at.
+//! Read are the meshes of all nodes of the file's scene, with their transforms; or of all nodes if the file names no
+//! scene. Order: from the first root down, a node before its children, its primitives in order.
 //!
-//! glTF counts v downwards. It is turned over as `1 − v`, which is exact but for numbers below 2⁻³⁰.
+//! Within the mesh of a node, vertices at equal positions are joined, because programs duplicate vertices with
+//! several normals or texture coordinates. Vertices of different nodes are never joined. Points and lines, skins and
+//! morph targets are kept and otherwise ignored.
 //!
-//! The crate `gltf` is not used for it: it keeps no part of the JSON that it does not know, and all of it is to be written
+//! In glTF v points down. It is converted by `1 − v`, which is exact except for numbers below 2⁻³⁰.
+//!
+//! The crate `gltf` is not used for reading: it drops JSON that it does not know, and all of it must be written
 //! again. The tests read with it.
 //!
 //! Source: "glTF 2.0 Specification", Khronos Group, 2021.
@@ -43,6 +45,6 @@ pub(crate) use read::parse_gltf;
 pub(crate) use scene::Scene;
 pub use write::write_glb;
 
-/// The names of attributes.
+/// Names of attributes.
 const POSITION: &str = "POSITION";
 const TEXTURE: &str = "TEXCOORD_0";

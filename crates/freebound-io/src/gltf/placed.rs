@@ -1,5 +1,5 @@
-//! Which vertices of the file the corners of a mesh get: the one that a corner had, another with its own texture
-//! coordinates where the corners there have several, or a new one on an edge.
+//! Vertices of the file for the corners of a mesh. A corner keeps its vertex or gets a new one on an edge. Vertices
+//! with several texture coordinates are copied.
 
 use std::collections::HashMap;
 use std::io;
@@ -13,33 +13,33 @@ use super::scene::Scene;
 use crate::mesh_file::{MeshFile, NO_TEXTURE, Source, Texture};
 use freebound_core::mesh::VertexId;
 
-/// Where all corners are placed.
+/// Vertices of all corners.
 pub(super) struct Placed {
     pub(super) sets: Vec<PlacedSet>,
-    /// The triangles of each part, as vertices of its set.
+    /// Triangles of each part, as vertices of its set.
     pub(super) triangles: Vec<Vec<[u32; 3]>>,
-    /// Whether a part has other triangles than in the file.
+    /// True for a part whose triangles differ from the file.
     pub(super) has_changed: Vec<bool>,
 }
 
-/// The vertices of a set.
+/// Vertices of a set.
 #[derive(Default)]
 pub(super) struct PlacedSet {
-    /// Texture coordinates of all, v down.
+    /// Texture coordinates of all vertices, v down.
     pub(super) texture: Vec<[f32; 2]>,
-    /// Whether a corner of the mesh has it, for those that the file has.
+    /// True for a vertex of the file that a corner of the mesh has.
     is_taken: Vec<bool>,
-    /// What those are made of that the file does not have; they follow the others.
+    /// Origins of the added vertices, which follow those of the file.
     pub(super) added: Vec<Origin>,
-    /// Their numbers.
+    /// Numbers of the added vertices.
     number_of: HashMap<Key, u32>,
 }
 
-/// What two corners with one vertex have in common: origin, and texture coordinates.
+/// Key of an added vertex: the bits of its origin and of its texture coordinates.
 type Key = ([usize; 2], u64, [u32; 2]);
 
 impl PlacedSet {
-    /// The vertex of a corner.
+    /// Vertex of a corner, added if necessary.
     fn number(&mut self, origin: Origin, uv: [f32; 2]) -> u32 {
         let bits = uv.map(f32::to_bits);
         let key = match origin {
@@ -64,7 +64,7 @@ impl PlacedSet {
 }
 
 impl Placed {
-    /// Places the corners of a mesh that was read from the scene.
+    /// Assigns vertices to the corners of a mesh that was read from the scene.
     pub(super) fn of(
         mesh: &MeshFile,
         source: &Source,
@@ -92,7 +92,7 @@ impl Placed {
                     Origin::Between(..) => [0.0; 2],
                 };
                 let uv = match wanted {
-                    // What has not changed keeps its bits.
+                    // Unchanged coordinates keep their bits.
                     Some(uv) if uv != upright(old.map(f64::from)) => turned_over(uv),
                     _ => old,
                 };
@@ -107,7 +107,7 @@ impl Placed {
         Ok(own)
     }
 
-    /// Finds the parts that have other triangles than in the file.
+    /// Finds the parts whose triangles differ from the file.
     fn compare(&mut self, scene: &Scene) {
         for (number, part) in scene.shown.parts.iter().enumerate() {
             let end = scene.shown.parts.get(number + 1).map_or(scene.corners.len(), |next| 3 * next.first_face);
@@ -124,7 +124,7 @@ impl Placed {
 }
 
 impl PlacedSet {
-    /// The vertices of all sets as the file has them.
+    /// Vertices of all sets, as the file has them.
     pub(super) fn all(document: &Document, buffers: &Buffers, scene: &Scene) -> io::Result<Vec<Self>> {
         let mut sets = Vec::with_capacity(scene.shown.sets.len());
         for set in &scene.shown.sets {
@@ -145,7 +145,7 @@ impl PlacedSet {
     }
 }
 
-/// The corners of a mesh and those of the file.
+/// Corners of a mesh and of its file.
 struct Corners<'a> {
     mesh: &'a MeshFile,
     source: &'a Source,
@@ -153,7 +153,7 @@ struct Corners<'a> {
 }
 
 impl Corners<'_> {
-    /// What the vertex at a corner of a face is made of, where the face is, or is a part of, a face of the file.
+    /// Origin of the vertex at a corner of a face. The face equals, or is a part of, `face` of the file.
     fn origin(&self, face: usize, at: usize, vertex: VertexId, begin: usize) -> io::Result<Origin> {
         let of_face = &self.scene.corners[3 * face..3 * face + 3];
         let is_at = |k: usize, vertex: VertexId| self.scene.vertex_of[of_face[k] as usize] == vertex.number();
@@ -168,7 +168,7 @@ impl Corners<'_> {
         let ends = new.and_then(|new| Some(([corner_at(new.edge[0])?, corner_at(new.edge[1])?], new.at)));
         let (ends, share) = ends.ok_or_else(|| {
             let count = self.mesh.polygons.positions.len();
-            io::Error::other(format!("vertex {vertex} of {count} lies on no edge of face {face}: write PLY or OBJ"))
+            io::Error::other(format!("vertex {vertex} of {count} is not on an edge of face {face}: write PLY or OBJ"))
         })?;
         Ok(Origin::Between(ends.map(local), share))
     }

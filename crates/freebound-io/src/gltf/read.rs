@@ -1,4 +1,4 @@
-//! Puts a mesh together from a glTF file.
+//! Reader of glTF files.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -14,10 +14,10 @@ use super::{POSITION, TEXTURE};
 use crate::mesh_file::{MeshFile, NO_TEXTURE, ParseFaultKind, ReadError, Source, SourceFormat, Texture, fault_in};
 use freebound_core::mesh::{PolygonMesh, VertexId};
 
-/// Stands for the vertex of a mesh that a vertex of the file is, where no triangle has it.
+/// Value in `vertex_of` for a vertex of the file that no triangle has.
 pub(super) const UNUSED: u32 = u32::MAX;
 
-/// Reads a file's bytes, as text or binary; files that belong to it lie in the folder.
+/// Parses a file, as text or binary; files that belong to it are in `folder`.
 pub(crate) fn parse_gltf(mut bytes: Vec<u8>, folder: Option<&Path>) -> Result<MeshFile, ReadError> {
     let chunks = Chunks::of(&bytes)?;
     let json = bytes[chunks.json].to_vec();
@@ -51,14 +51,14 @@ pub(crate) fn parse_gltf(mut bytes: Vec<u8>, folder: Option<&Path>) -> Result<Me
     Ok(MeshFile { polygons, texture, statements: Vec::new(), source: Some(source) })
 }
 
-/// A mesh that grows.
+/// Mesh under construction.
 struct Builder<'a> {
     document: &'a Document,
     buffers: &'a Buffers,
     shown: Shown,
-    /// The file's vertex at each corner.
+    /// Vertex of the file at each corner.
     corners: Vec<u32>,
-    /// The mesh's vertex that each of the file's is.
+    /// Vertex of the mesh for each vertex of the file.
     vertex_of: Vec<u32>,
     positions: Vec<DVec3>,
 }
@@ -70,7 +70,7 @@ impl<'a> Builder<'a> {
         Self { document, buffers, shown, corners: Vec::new(), vertex_of, positions: Vec::new() }
     }
 
-    /// Takes all triangles, and marks the vertices that they have.
+    /// Collects all triangles, and marks their vertices.
     fn faces(&mut self) -> Result<(), ReadError> {
         for number in 0..self.shown.parts.len() {
             self.shown.parts[number].first_face = self.corners.len() / 3;
@@ -84,8 +84,8 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// Makes one vertex of those of an instance that lie at one place: where the bits of their coordinates are the same,
-    /// except that −0 equals 0. They are numbered as the file has them.
+    /// Joins the vertices of an instance that have equal positions: equal bits, except that −0 equals 0. They are
+    /// numbered in the order of the file.
     fn vertices(&mut self) -> Result<(), ReadError> {
         let mut vertex_at: HashMap<[u64; 3], u32> = HashMap::new();
         for (number, set) in self.shown.sets.iter().enumerate() {
@@ -116,7 +116,7 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// The texture coordinates of all vertices of the file, v up; none where none has one.
+    /// Texture coordinates of all vertices of the file, v up; `None` if there are none.
     fn texture(&self) -> Result<Option<Texture>, ReadError> {
         if !self.shown.sets.iter().any(|set| set.attributes.contains_key(TEXTURE)) {
             return Ok(None);
@@ -140,18 +140,18 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// The texture coordinate with v up of one with v down.
+/// Converts a texture coordinate with v down to v up.
 pub(super) fn upright(uv: [f64; 2]) -> DVec2 {
     DVec2::new(uv[0], 1.0 - uv[1])
 }
 
-/// The texture coordinate of a file, in its 32 bits and with v down, of one with v up.
+/// Converts a texture coordinate with v up to 32 bits and v down.
 #[expect(clippy::cast_possible_truncation, reason = "that is what the format holds")]
 pub(super) fn turned_over(uv: DVec2) -> [f32; 2] {
     [uv.x as f32, (1.0 - uv.y) as f32]
 }
 
-/// An attribute of a set, of so many numbers for each vertex.
+/// Attribute of a set, with `width` numbers for each vertex.
 pub(super) fn elements<'a>(
     document: &Document,
     buffers: &'a Buffers,
@@ -165,6 +165,6 @@ pub(super) fn elements<'a>(
         return Ok(elements);
     }
     let found = format!("{} elements of {} numbers", elements.count, elements.width);
-    let expected = "as many elements as there are positions, of 3 numbers, and 2 for texture coordinates,";
+    let expected = "one element per position, with 3 numbers, or 2 for texture coordinates";
     Err(fault_in("accessor", accessor, ParseFaultKind::Unexpected { found, expected }))
 }

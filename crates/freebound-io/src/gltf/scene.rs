@@ -1,4 +1,4 @@
-//! Which meshes a file shows, where, and how their vertices are numbered.
+//! Meshes that a file shows, their transforms, and the numbers of their vertices.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -12,63 +12,63 @@ use super::container::Buffers;
 use super::document::{Attributes, Document, Topology};
 use crate::mesh_file::{ParseFaultKind, ReadError, fault_in};
 
-/// A few bytes may be shown as so many parts, corners and vertices, times the bytes of the file, or as `FEW` at least.
+/// Limit on the parts, corners and vertices shown, per byte of the buffers. At least `FEW` are always allowed.
 const COPIES: u64 = 16;
 const FEW: u64 = 1 << 24;
 
-/// What is kept of a file to write it again.
+/// Contents of a file that are kept for writing it again.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Scene {
     pub(super) json: Vec<u8>,
-    /// Where the bytes of each buffer begin.
+    /// Offset of each buffer in the bytes.
     pub(super) starts: Vec<usize>,
-    /// The folder of the file, where it has one.
+    /// Folder of the file, if it has one.
     pub(super) folder: Option<PathBuf>,
     pub(super) shown: Shown,
-    /// The vertex of the mesh that each of the file's vertices is.
+    /// Vertex of the mesh for each vertex of the file.
     pub(super) vertex_of: Vec<u32>,
-    /// The file's vertex at each corner of the mesh as read.
+    /// Vertex of the file at each corner of the mesh as read.
     pub(super) corners: Vec<u32>,
 }
 
-/// Meshes where they are shown, in order.
+/// Shown meshes, in order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Shown {
     pub(super) instances: Vec<Instance>,
-    /// Primitives that are triangles, of the first instance, the second, and so on.
+    /// Primitives made of triangles, ordered by instance.
     pub(super) parts: Vec<Part>,
-    /// Sets of vertices, in the same order.
+    /// Sets of vertices, ordered by instance.
     pub(super) sets: Vec<VertexSet>,
 }
 
-/// A mesh at a place.
+/// Mesh with a transform.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Instance {
-    /// The node; none where the file has no nodes.
+    /// Node of the instance; `None` if the file has no nodes.
     pub(super) node: Option<usize>,
     pub(super) mesh: usize,
-    /// From the mesh's space to the scene's; none where they are one.
+    /// Transform from the mesh's space to the scene's; `None` for the identity.
     pub(super) transform: Option<DAffine3>,
 }
 
 impl Instance {
-    /// Whether it is a mirror image of its mesh: its triangles are turned.
+    /// True if the instance is a mirror image of its mesh: its triangles are reversed.
     pub(super) fn is_mirrored(&self) -> bool {
         self.transform.is_some_and(|transform| transform.matrix3.determinant() < 0.0)
     }
 }
 
-/// A primitive of an instance.
+/// Primitive of an instance.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Part {
     pub(super) instance: usize,
     pub(super) primitive: usize,
     pub(super) set: usize,
-    /// The first of its faces; those up to the next part's are its own.
+    /// First face of the part. Its faces end at the next part's first face.
     pub(super) first_face: usize,
 }
 
-/// Vertices of an instance: all that have the same accessors.
+/// Vertices of an instance that share their accessors.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct VertexSet {
     pub(super) instance: usize,
@@ -79,7 +79,7 @@ pub(super) struct VertexSet {
 }
 
 impl Scene {
-    /// A label for each of so many faces, the same where they have the same material; none where no primitive has one.
+    /// Label for each face, equal for faces of one material; `None` if no primitive has a material.
     pub(crate) fn material_labels(&self, face_count: usize) -> Option<Vec<u32>> {
         let json: serde_json::Value = serde_json::from_slice(&self.json).ok()?;
         let material = |part: &Part| {
@@ -94,7 +94,7 @@ impl Scene {
         materials.iter().any(Option::is_some).then(|| self.labels(face_count, label))
     }
 
-    /// A label for each of so many faces, the same where one node shows them.
+    /// Label for each face, equal for faces of one instance, which belongs to one node.
     pub(crate) fn node_labels(&self, face_count: usize) -> Vec<u32> {
         self.labels(face_count, |part| self.shown.parts[part].instance)
     }
@@ -106,7 +106,7 @@ impl Scene {
 }
 
 impl Shown {
-    /// Finds what a file shows.
+    /// Collects the shown meshes of a file.
     pub(super) fn of(document: &Document, buffers: &Buffers) -> Result<Self, ReadError> {
         let mut own = Self { instances: instances(document)?, ..Self::default() };
         let most = (COPIES * buffers.bytes.len() as u64).max(FEW).min(u64::from(u32::MAX));
@@ -144,13 +144,13 @@ impl Shown {
         Ok(own)
     }
 
-    /// The part that has a face.
+    /// Part that contains a face.
     pub(super) fn part_of(&self, face: usize) -> usize {
         self.parts.partition_point(|part| part.first_face <= face) - 1
     }
 }
 
-/// Meshes of the nodes of the scene, or of all nodes; all meshes, where there are no nodes.
+/// Meshes of the nodes of the scene, or of all nodes; all meshes if there are no nodes.
 fn instances(document: &Document) -> Result<Vec<Instance>, ReadError> {
     let mut found = Vec::new();
     if document.nodes.is_empty() {
@@ -174,7 +174,7 @@ fn instances(document: &Document) -> Result<Vec<Instance>, ReadError> {
             if mesh >= count {
                 return Err(fault_in("node", index, no_such("mesh", mesh, count)));
             }
-            // Joints place a skinned mesh.
+            // Joints place a skinned mesh, so its node's transform is ignored.
             let transform = transform.filter(|_| !node.is_skinned());
             found.push(Instance { node: Some(index), mesh, transform });
         }
@@ -189,7 +189,7 @@ fn instances(document: &Document) -> Result<Vec<Instance>, ReadError> {
     }
 }
 
-/// The roots of the scene that the file names; all nodes without a parent, where it names none.
+/// Roots of the scene that the file names; all nodes without a parent if it names none.
 fn roots(document: &Document) -> Result<Vec<usize>, ReadError> {
     if let Some(scene) = document.scene {
         let scenes = &document.scenes;
@@ -208,7 +208,7 @@ fn no_node(index: usize, document: &Document) -> ReadError {
     fault_in("node", index, no_such("node", index, document.nodes.len()))
 }
 
-/// The triangles of a part of what is shown: vertices of its set, in the order of the scene.
+/// Triangles of a part, as vertices of its set, in the order and orientation of the scene.
 pub(super) fn triangles(
     document: &Document,
     buffers: &Buffers,

@@ -1,7 +1,7 @@
-//! Writes binary glTF files: the one that a mesh was read from with other texture coordinates, or one of its own.
+//! Writer of binary glTF files: the file that a mesh was read from with other texture coordinates, or a new one.
 //!
-//! The format holds 32 bits of every number: coordinates are rounded to the nearest. Those that are given as they were
-//! read come back bit for bit.
+//! The format holds 32-bit numbers, so coordinates are rounded to the nearest. Coordinates that are unchanged since
+//! they were read come back bit for bit.
 
 use std::collections::HashMap;
 use std::io::{self, Write};
@@ -17,13 +17,14 @@ use crate::finite::check_finite;
 use crate::mesh_file::{MeshFile, NO_TEXTURE, SourceFormat, Texture};
 use freebound_core::mesh::VertexId;
 
-/// Writes a mesh with these texture coordinates as a binary glTF file (GLB). Where it was read from glTF, all of that file
-/// is kept. Otherwise the file holds triangles and texture coordinates alone. Corners without texture coordinates keep
-/// those of the file, or have 0, 0.
+/// Writes a mesh with these texture coordinates as a binary glTF file (GLB). If the mesh was read from glTF, all of
+/// that file is kept. Otherwise the file holds only triangles and texture coordinates. Corners without new texture
+/// coordinates keep those of the file, or have 0, 0.
 ///
 /// # Errors
 ///
-/// What `out` says; texture coordinates that are infinite or not numbers; positions beyond 32-bit numbers; more than 4 GiB.
+/// If `out` cannot be written, a texture coordinate is infinite or not a number, a position is beyond 32-bit numbers,
+/// or the file would exceed 4 GiB.
 pub fn write_glb(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::Result<()> {
     check_finite(&texture.coordinates)?;
     if let Some(source) = &mesh.source

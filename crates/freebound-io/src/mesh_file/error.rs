@@ -1,51 +1,51 @@
-//! Everything that can keep a mesh file from being read.
+//! Errors of reading a mesh file.
 
-/// How many parse faults of a file are kept; the others are only counted.
+/// Number of parse faults of a file that are kept; further ones are only counted.
 pub const MAX_PARSE_FAULTS: usize = 20;
 
-/// Why a file did not become a mesh. Its name is for the caller to say, who has it.
+/// Failure to read a mesh. Messages do not name the file; the caller knows its name.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
-    /// The file cannot be opened, or reading it broke off.
+    /// The file cannot be opened or read.
     #[error("cannot be read: {0}")]
     Unreadable(#[from] std::io::Error),
-    /// The file has a format that is known but not read.
-    #[error("format not read yet: {0}")]
+    /// The format of the file is known but not supported.
+    #[error("unsupported format: {0}")]
     NotReadYet(&'static str),
-    /// The file holds a zero byte, which no text does.
-    #[error("this is no text, and no binary format that is read")]
+    /// The file contains a zero byte, which no text does.
+    #[error("neither text nor a supported binary format")]
     NotText,
-    /// One line is longer than any reader should hold.
+    /// A line is longer than a reader should hold.
     #[error("line {line}: longer than {} MiB", limit >> 20)]
     LineTooLong {
-        /// Where it begins, counted from 1.
+        /// Line, counted from 1.
         line: u64,
-        /// The limit, bytes.
+        /// Limit, bytes.
         limit: usize,
     },
-    /// Lines that cannot be understood.
+    /// Lines that cannot be parsed.
     #[error("{}", listed(faults, *total))]
     Parse {
-        /// The first of them, at most [`MAX_PARSE_FAULTS`], by line.
+        /// First faults by line, at most [`MAX_PARSE_FAULTS`].
         faults: Vec<ParseFault>,
-        /// How many there are in all.
+        /// Number of all faults.
         total: usize,
     },
-    /// Bytes of a binary file that cannot be understood.
+    /// Bytes of a binary file that cannot be parsed.
     #[error("byte {byte}: {kind}")]
     Bytes {
-        /// Where they begin, counted from 0.
+        /// Offset of the first faulty byte, counted from 0.
         byte: u64,
-        /// What is wrong with them.
+        /// Fault of the bytes.
         kind: ParseFaultKind,
     },
-    /// A part of a glTF file that cannot be understood.
+    /// A part of a glTF file is invalid.
     #[error("{element}: {kind}")]
     Element {
-        /// Which one, such as `accessor 3`; all are counted from 0.
+        /// Name of the part, such as `accessor 3`; counted from 0.
         element: String,
-        /// What is wrong with it.
+        /// Fault of the part.
         kind: ParseFaultKind,
     },
     /// The JSON of a glTF file does not have the form of glTF.
@@ -53,50 +53,50 @@ pub enum ReadError {
     Json {
         /// The field, such as `accessors[3].count`.
         field: String,
-        /// What is wrong with it.
+        /// Fault of the field.
         reason: String,
     },
-    /// The file needs an extension of glTF that is not read.
-    #[error("the file needs the extension {0}, which is not read")]
+    /// The file needs an unsupported extension of glTF.
+    #[error("the file needs the unsupported extension {0}")]
     NeedsExtension(String),
-    /// A file that belongs to a glTF file.
+    /// A file that belongs to a glTF file cannot be read.
     #[error("buffer {buffer}: {uri} cannot be read: {source}")]
     Beside {
-        /// Which buffer it holds.
+        /// Number of the buffer in that file.
         buffer: usize,
-        /// Its name, as the file gives it.
+        /// Name of that file, as the glTF file gives it.
         uri: String,
-        /// What the operating system says.
+        /// Error of the operating system.
         source: std::io::Error,
     },
-    /// Few bytes that are shown as many triangles.
-    #[error("its nodes and meshes show {shown} corners of triangles, or parts, many times what the file holds")]
+    /// A few bytes expand to too many triangles.
+    #[error("nodes repeat meshes to {shown} corners or parts, many times the content of the file")]
     TooManyCopies {
-        /// How many corners or parts.
+        /// Number of corners or parts.
         shown: u64,
     },
     /// The file has no face.
     #[error("the file has no faces{}", if *vertices == 0 { String::new() } else { format!(", only {vertices} vertices") })]
     NoFaces {
-        /// How many vertices it has.
+        /// Number of vertices in the file.
         vertices: usize,
     },
-    /// More elements than 32-bit indices can name.
+    /// The file has more elements than 32-bit indices can name.
     #[error("the mesh is too large: more than 2^32 corners")]
     TooLarge,
-    /// The caller asked to stop.
+    /// The caller cancelled.
     #[error("reading was cancelled")]
     Cancelled,
 }
 
 impl ReadError {
-    /// What to do about it.
+    /// Remedy for the error.
     pub fn remedy(&self) -> &'static str {
         match self {
             Self::Unreadable(_) => "check the path and the permissions",
             Self::NotReadYet(_) => "export the mesh as OBJ or PLY from the program that wrote it",
             Self::NotText | Self::LineTooLong { .. } => "export the mesh as OBJ or PLY, and choose that file",
-            Self::Parse { .. } => "mend these lines, or export the file again",
+            Self::Parse { .. } => "correct these lines, or export the file again",
             Self::Bytes { .. } => "export the file again, or copy it again if it was cut short",
             Self::Element { .. } | Self::Json { .. } => "export the file again",
             Self::NeedsExtension(_) => "export it again without compression",
@@ -109,16 +109,16 @@ impl ReadError {
     }
 }
 
-/// Where a fault is.
+/// Position of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FaultPlace {
-    /// Counted from 1.
+    /// Line, counted from 1.
     Line(u64),
-    /// Counted from 0.
+    /// Byte, counted from 0.
     Byte(u64),
 }
 
-/// The only fault of a file.
+/// Error of a file with a single fault.
 pub(crate) fn fault_at(place: FaultPlace, kind: ParseFaultKind) -> ReadError {
     match place {
         FaultPlace::Line(line) => ReadError::Parse { faults: vec![ParseFault { line, kind }], total: 1 },
@@ -126,7 +126,7 @@ pub(crate) fn fault_at(place: FaultPlace, kind: ParseFaultKind) -> ReadError {
     }
 }
 
-/// The only fault of a glTF file, in this element.
+/// Error of a glTF file with a single fault, in this element.
 pub(crate) fn fault_in(element: &str, index: usize, kind: ParseFaultKind) -> ReadError {
     ReadError::Element { element: format!("{element} {index}"), kind }
 }
@@ -134,92 +134,92 @@ pub(crate) fn fault_in(element: &str, index: usize, kind: ParseFaultKind) -> Rea
 fn listed(faults: &[ParseFault], total: usize) -> String {
     let mut lines: Vec<String> = faults.iter().map(ParseFault::to_string).collect();
     if total > faults.len() {
-        lines.push(format!("and {} more faults like these", total - faults.len()));
+        lines.push(format!("and {} more faults", total - faults.len()));
     }
     lines.join("\n")
 }
 
-/// A line that cannot be understood.
+/// Line that cannot be parsed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {kind}")]
 pub struct ParseFault {
-    /// Line in the file, counted from 1, as editors do.
+    /// Line in the file, counted from 1.
     pub line: u64,
-    /// What is wrong with it.
+    /// Fault of the line.
     pub kind: ParseFaultKind,
 }
 
-/// What is wrong with a line or with bytes. Indices are quoted as the file writes them.
+/// Fault of a line or of bytes. Indices are quoted as the file writes them.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ParseFaultKind {
-    /// A word in the place of a number.
+    /// A word that should be a number is none.
     #[error("\"{0}\" is not a number")]
     BadNumber(String),
-    /// A vertex or texture coordinate with too few numbers.
-    #[error("{found} numbers where {needed} are needed")]
+    /// A vertex or texture coordinate has too few numbers.
+    #[error("{found} numbers, but {needed} are needed")]
     TooFewNumbers {
-        /// How many there are.
+        /// Number of numbers found.
         found: usize,
-        /// How many it needs.
+        /// Number of numbers needed.
         needed: usize,
     },
-    /// A corner that is not of the form `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+    /// A corner does not have the form `v`, `v/vt`, `v//vn` or `v/vt/vn`.
     #[error("\"{0}\" is not a corner of a face")]
     BadCorner(String),
-    /// An index that no element can have.
+    /// An index is 0, which no element has.
     #[error("index 0: OBJ files count from 1")]
     IndexZero,
-    /// The file ends where more is to come.
-    #[error("the file ends here, and more is to come")]
+    /// The file ends too early.
+    #[error("the file ends too early")]
     EndsEarly,
-    /// The file says that it has more elements than it has room for.
-    #[error("the file says that it has {count} of \"{element}\", and ends before")]
+    /// The file declares more elements than it has room for.
+    #[error("the file declares {count} of \"{element}\", but ends earlier")]
     TooMany {
-        /// What the elements are.
+        /// Name of the elements.
         element: String,
-        /// How many there should be.
+        /// Declared number of elements.
         count: u64,
     },
-    /// A position that is infinite or not a number.
+    /// A position is infinite or not a number.
     #[error("a position that is infinite or not a number")]
     NotFinite,
-    /// A line of a header, or a word in the place of another.
-    #[error("\"{found}\" where {expected} should stand")]
+    /// A header line or a word is not as expected.
+    #[error("found \"{found}\", expected {expected}")]
     Unexpected {
-        /// What the file has.
+        /// Text in the file.
         found: String,
-        /// What it should have.
+        /// Expected text.
         expected: &'static str,
     },
-    /// An index that names an element which the file does not have.
+    /// An index names an element that does not exist.
     #[error("{element} {index} is out of range: there are {count}")]
     IndexOutOfRange {
-        /// `"vertex"` or `"texture coordinate"`.
+        /// Kind of the element, such as `"vertex"` or `"texture coordinate"`.
         element: &'static str,
-        /// The index as written.
+        /// Index as written.
         index: i64,
-        /// How many such elements there are.
+        /// Number of such elements.
         count: usize,
     },
-    /// Bytes beyond the end of what holds them.
-    #[error("it reaches beyond the end of what holds it")]
+    /// Data lie beyond the end of their container.
+    #[error("the data reach beyond the end of their container")]
     BeyondEnd,
-    /// A node that more than one node holds, or itself.
-    #[error("it is the child of two nodes, or of itself")]
+    /// A node has two parents, or is its own child.
+    #[error("the node is the child of two nodes, or of itself")]
     SecondParent,
-    /// A face with so many corners, fewer than three.
-    #[error("a face with {} {}, three are needed", .0, if *.0 == 1 { "corner" } else { "corners" })]
+    /// A face has this number of corners, fewer than three.
+    #[error("a face has {} {}, but three are needed", .0, if *.0 == 1 { "corner" } else { "corners" })]
     TooFewCorners(usize),
 }
 
-/// Why texture coordinates do not make a mesh.
+/// Reasons that texture coordinates do not make a mesh.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TextureError {
     /// The file has no texture coordinates on its faces.
     #[error("the file has no texture coordinates")]
     None,
-    /// These faces, by the file's numbers from 0, have corners without texture coordinates.
+    /// These faces, numbered by the file from 0, have corners without texture coordinates.
     #[error("{} faces have corners without texture coordinates, the first is face {}", .0.len(), .0[0])]
     Missing(Vec<u32>),
 }

@@ -1,10 +1,10 @@
-//! The formats of mesh files, told by a file's beginning, and by its name where that says nothing.
+//! Formats of mesh files, recognised by a file's first bytes, or else by its extension.
 
 use super::ReadError;
 use super::stl::is_binary_stl;
 use crate::obj::{Lines, split_mark, words};
 
-/// A format that is read.
+/// Supported format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Format {
     Gltf,
@@ -16,11 +16,11 @@ pub(super) enum Format {
 }
 
 impl Format {
-    /// The format of a file that begins so, and ends its name so.
+    /// Format of a file with these first bytes and this extension.
     ///
     /// # Errors
     ///
-    /// A format that is known and not read, and what is no text and of no known format.
+    /// If the format is known but not supported, or unknown and not text.
     pub(super) fn of(head: &[u8], extension: Option<&str>) -> Result<Self, ReadError> {
         if let Some(format) = Self::of_beginning(head)? {
             return Ok(format);
@@ -39,7 +39,7 @@ impl Format {
         }
     }
 
-    /// What has no other sign is OBJ text, if it is text.
+    /// Format of a file without any other sign: OBJ, if it is text.
     fn obj(head: &[u8]) -> Result<Self, ReadError> {
         if head.contains(&0) { Err(ReadError::NotText) } else { Ok(Self::Obj) }
     }
@@ -66,7 +66,7 @@ impl Format {
     }
 }
 
-/// The first bytes of files that are not read.
+/// First bytes of unsupported files.
 const MARKS: [(&[u8], &str); 5] = [
     (b"Kaydara FBX Binary", "FBX"),
     (b"BLENDER", "Blender"),
@@ -75,14 +75,14 @@ const MARKS: [(&[u8], &str); 5] = [
     (b"\xFE\xFF", "UTF-16 text"),
 ];
 
-/// Whether a word begins an OFF file: `OFF`, with letters before it for what else vertices have; some programs write the
-/// first count right behind it.
+/// True if a word begins an OFF file: `OFF`, with prefix letters for further vertex data. Some programs write the
+/// first count directly after it.
 fn is_off(word: &[u8]) -> bool {
     let Some(at) = word.windows(3).position(|three| three == b"OFF") else { return false };
     word[..at].iter().all(|byte| b"STCNn4".contains(byte)) && word[at + 3..].iter().all(u8::is_ascii_digit)
 }
 
-/// The format of a file that is not read, by its extension in lower case.
+/// Name of an unsupported format, by its extension in lower case.
 fn format_not_read(extension: &str) -> Option<&'static str> {
     Some(match extension {
         "3ds" | "max" => "3ds Max",
@@ -103,7 +103,7 @@ fn format_not_read(extension: &str) -> Option<&'static str> {
     })
 }
 
-/// What the first word of a text says about a format that is not read.
+/// Name of an unsupported format, by the first word of a text.
 fn word_of_format(word: &[u8]) -> Option<&'static str> {
     Some(match word {
         b";" => "FBX",

@@ -1,28 +1,28 @@
-//! What tells the faces of a file apart: their materials, and the groups that they are in.
+//! Labels of the faces of a file: by material, and by group.
 
 use std::collections::HashMap;
 
 use super::{MeshFile, SourceFormat};
 
-/// Why faces of a file are not told apart.
+/// Reasons that a file has no labels of its faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LabelError {
-    /// No material is named in it.
-    #[error("the file gives its faces no materials")]
+    /// The file names no material.
+    #[error("the file assigns no materials to its faces")]
     NoMaterials,
-    /// No group and no object is named in it.
-    #[error("the file has no groups and no objects")]
+    /// The file names no group and no object.
+    #[error("the file has neither groups nor objects")]
     NoGroups,
 }
 
 impl MeshFile {
-    /// A label for each face, the same where faces have the same material: of an OBJ file as `usemtl` names it, of a glTF file as
-    /// its primitives do.
+    /// Label for each face, equal for faces of one material: `usemtl` in an OBJ file, the material of a primitive in
+    /// glTF.
     ///
     /// # Errors
     ///
-    /// Where no face has one.
+    /// If no face has a material.
     pub fn material_labels(&self) -> Result<Vec<u32>, LabelError> {
         let labels = match self.source.as_ref().map(|source| &source.format) {
             Some(SourceFormat::Gltf(scene)) => scene.material_labels(self.polygons.face_count()),
@@ -31,12 +31,12 @@ impl MeshFile {
         labels.ok_or(LabelError::NoMaterials)
     }
 
-    /// A label for each face, the same where faces are in the same groups of the same object: of an OBJ file by its `g` and `o`, of
-    /// a glTF file by the nodes that show its meshes.
+    /// Label for each face, equal for faces with one group and object: `g` and `o` in an OBJ file, the node in a glTF
+    /// file.
     ///
     /// # Errors
     ///
-    /// Where there are none.
+    /// If there are no groups and no objects.
     pub fn group_labels(&self) -> Result<Vec<u32>, LabelError> {
         let labels = match self.source.as_ref().map(|source| &source.format) {
             Some(SourceFormat::Gltf(scene)) => Some(scene.node_labels(self.polygons.face_count())),
@@ -45,7 +45,8 @@ impl MeshFile {
         labels.ok_or(LabelError::NoGroups)
     }
 
-    /// A label for each face: the same where these statements before it say the same. None where there are no such statements.
+    /// Label for each face, equal for faces with equal arguments in these statements before them. `None` without such
+    /// statements.
     fn labels_by(&self, keywords: &[&[u8]]) -> Option<Vec<u32>> {
         let mut state: Vec<&[u8]> = vec![b""; keywords.len()];
         let mut numbers: HashMap<Vec<&[u8]>, u32> = HashMap::from([(state.clone(), 0)]);

@@ -1,4 +1,4 @@
-//! The layout of a file: its texture coordinates, or those of another file, as an embedding of the mesh, to go on from.
+//! Layout of a file: its texture coordinates, or those of another file, as an embedding of the mesh to continue from.
 
 use glam::DVec2;
 
@@ -7,44 +7,46 @@ use super::{MeshFile, NO_TEXTURE, Texture, TextureError};
 use freebound_core::mesh::{Repaired, TriMesh, VertexId};
 use freebound_core::problem::Embedding;
 
-/// Why the texture coordinates of a file are no embedding of its mesh.
+/// Reasons that the texture coordinates of a file are not an embedding of its mesh.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LayoutError {
-    /// They are not all there.
+    /// Texture coordinates are missing.
     #[error(transparent)]
     Texture(#[from] TextureError),
-    /// They are cut where the surface is not.
-    #[error("vertex {vertex} has several texture coordinates, where the surface is not cut")]
+    /// The texture coordinates are cut along an edge that is not cut on the surface.
+    #[error("vertex {vertex} has several texture coordinates, but the surface is not cut there")]
     Torn {
-        /// The first vertex that has several, as the file numbers it.
+        /// First vertex with several coordinates, as numbered in the file.
         vertex: VertexId,
     },
-    /// The layout is that of another file, which has none for a vertex of the mesh.
-    #[error("it has no texture coordinates for vertex {vertex} of the mesh")]
+    /// The layout of another file has no coordinate for a vertex of the mesh.
+    #[error("the layout has no texture coordinates for vertex {vertex} of the mesh")]
     NoVertex {
-        /// The first vertex that has none, as the file of the mesh numbers it.
+        /// First vertex without a coordinate, as numbered in the file of the mesh.
         vertex: VertexId,
     },
 }
 
 impl MeshFile {
-    /// The texture coordinates, one per vertex of `mesh`, which are the file's triangles, or those of its repaired mesh or chart
-    /// `repaired`. Vertices of no face lie at the origin, and what fills a hole around a vertex of its own has that in the middle
-    /// of the loop.
+    /// Texture coordinates, one per vertex of `mesh`. `mesh` holds the file's triangles, or those of the repaired
+    /// mesh or chart `repaired`. Unreferenced vertices are at the origin. The additional vertex of a hole filling is
+    /// at the mean of the hole's boundary loop.
     ///
     /// # Errors
     ///
-    /// [`LayoutError`] where there are no texture coordinates, not at all corners, or several at a vertex.
+    /// [`LayoutError`] if texture coordinates are missing, or a vertex has several.
     pub fn layout(&self, repaired: Option<&Repaired>, mesh: &TriMesh) -> Result<Embedding, LayoutError> {
         self.layout_by(self.texture.as_ref().ok_or(TextureError::None)?, repaired, mesh)
     }
 
-    /// The texture coordinates of another file for the corners of this one: corner by corner where both have the same faces;
-    /// otherwise by the numbers of vertices, each of which has one, as in a file of the same mesh with split edges.
+    /// Texture coordinates of another file for the corners of this one. If both files have equal faces, they are
+    /// copied corner by corner. Otherwise they are assigned by vertex number, which needs one coordinate per vertex.
+    /// An example is a file of this mesh with split edges.
     ///
     /// # Errors
     ///
-    /// [`LayoutError`] where the other file has none, not at all corners, or several or none for a vertex.
+    /// [`LayoutError`] if the other file has no texture coordinates, some corners have none, or a vertex has several
+    /// or none.
     pub fn texture_of(&self, other: &Self) -> Result<Texture, LayoutError> {
         let [own, theirs] = [&self.polygons, &other.polygons];
         if own.corners == theirs.corners && own.starts == theirs.starts {
@@ -71,11 +73,11 @@ impl MeshFile {
         })
     }
 
-    /// As [`layout`](Self::layout), by texture coordinates that are those of another file for the corners of this one.
+    /// Layout for given texture coordinates, such as those of another file; otherwise like [`layout`](Self::layout).
     ///
     /// # Errors
     ///
-    /// As [`layout`](Self::layout).
+    /// [`LayoutError`], like [`layout`](Self::layout).
     pub fn layout_by(
         &self,
         texture: &Texture,

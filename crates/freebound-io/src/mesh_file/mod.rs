@@ -1,23 +1,24 @@
-//! Mesh files of any format: what is kept of one, and the way in.
+//! Mesh files of any format: reading, and the contents kept of a file.
 //!
-//! | file      | what it holds                                                                        |
+//! | file      | contents                                                                             |
 //! |-----------|--------------------------------------------------------------------------------------|
-//! | `mod`     | what is kept of a file                                                               |
-//! | `read`    | reads a file of any format, with progress                                            |
-//! | `format`  | the formats, told by a file's beginning and by its name                              |
-//! | `memory`  | the memory that it takes to read a file, before it is read                            |
-//! | `source`  | the bytes that a mesh was read from, and how the mesh has changed since              |
-//! | `error`   | what can be wrong with a file, with line or byte, fault and remedy                   |
-//! | `labels` | what tells faces apart: materials and groups                                      |
-//! | `texture` | the mesh of the texture coordinates: the surface cut in the plane                    |
-//! | `layout`  | the texture coordinates as an embedding of the mesh, to go on from                     |
-//! | `refined` | a file's mesh with new vertices                                                      |
-//! | `words`   | the words of a text, with their lines                                                |
+//! | `mod`     | contents kept of a file                                                              |
+//! | `read`    | reader of files of any format, with progress                                         |
+//! | `format`  | formats, recognised by a file's beginning and by its name                            |
+//! | `memory`  | estimate of the memory for reading a file                                            |
+//! | `source`  | the bytes that a mesh was read from, and changes of the mesh since then              |
+//! | `error`   | errors of reading, with line or byte, fault and remedy                               |
+//! | `labels`  | labels of faces: materials and groups                                                |
+//! | `texture` | mesh over the texture coordinates: the surface as it is cut in the plane             |
+//! | `layout`  | texture coordinates as an embedding of the mesh, to continue from                    |
+//! | `refined` | mesh of a file with new vertices                                                     |
+//! | `words`   | words of a text, with their lines                                                    |
 //! | `off`     | OFF files                                                                            |
-//! | `stl`     | STL files, their triangles joined where they meet                                    |
+//! | `stl`     | STL files, with equal corners joined to vertices                                     |
 //!
-//! A file is kept as its bytes, which OBJ and PLY files are written back from with other texture coordinates and not
-//! another byte changed; and as what they say: positions, polygons, texture coordinates and the statements among the faces.
+//! A file is kept in two forms. Its bytes are the basis for writing OBJ, PLY and glTF files with other texture
+//! coordinates and nothing else changed. Its contents are positions, polygons, texture coordinates, and the
+//! statements between the faces.
 
 mod error;
 mod format;
@@ -51,34 +52,34 @@ pub(crate) use source::SourceFormat;
 pub use texture::TextureMesh;
 pub(crate) use words::TokenWords;
 
-/// Stands in [`Texture::corners`] where a corner has no texture coordinate.
+/// Value in [`Texture::corners`] for a corner without a texture coordinate.
 pub const NO_TEXTURE: u32 = u32::MAX;
 
-/// A mesh with what else is kept of its file.
+/// Mesh with the other contents kept of its file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshFile {
     /// Positions and faces.
     pub polygons: PolygonMesh,
-    /// Texture coordinates, where at least one corner has one.
+    /// Texture coordinates, if at least one corner has one.
     pub texture: Option<Texture>,
     /// Names, groups, smoothing and materials of an OBJ file, in file order.
     pub statements: Vec<Statement>,
-    /// What it was read from. Where it is written in the same format, this is written, with no other statements than its
-    /// own.
+    /// Origin of the mesh. A writer of its format starts from it, and writes its own statements instead of
+    /// `statements`.
     pub source: Option<Source>,
 }
 
-/// Texture coordinates, and which of them each corner has.
+/// Texture coordinates, and their assignment to corners.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Texture {
-    /// As the file lists them.
+    /// Coordinates in the order of the file.
     pub coordinates: Vec<DVec2>,
-    /// One index into `coordinates` for each corner of `polygons.corners`, or [`NO_TEXTURE`].
+    /// Index into `coordinates` for each corner of `polygons.corners`, or [`NO_TEXTURE`].
     pub corners: Vec<u32>,
 }
 
 impl Texture {
-    /// One coordinate per vertex, at all corners there; none where there are no coordinates.
+    /// Texture with one coordinate per vertex, at all its corners. Empty if there are no coordinates.
     pub fn per_vertex(polygons: &PolygonMesh, coordinates: &Embedding) -> Self {
         if coordinates.is_empty() {
             return Self::default();
@@ -87,12 +88,12 @@ impl Texture {
         Self { coordinates: coordinates.to_vec(), corners }
     }
 
-    /// One coordinate per vertex of a repaired mesh, at the corners of the mesh as given. Faces that were left out have
-    /// none.
+    /// Texture with one coordinate per vertex of a repaired mesh, at the corners of the mesh before the repair. Faces
+    /// that were left out have none.
     pub fn of_repaired(repaired: &Repaired, source: &PolygonMesh, coordinates: &Embedding) -> Self {
         let number = |vertex: Option<VertexId>| vertex.map_or(NO_TEXTURE, VertexId::number);
         let corners = repaired.vertices_at_corners(source).into_iter().map(number).collect();
-        // What fills holes stands behind.
+        // Coordinates of hole fillings come after those of the vertices.
         Self { coordinates: coordinates[..repaired.polygons().positions.len()].to_vec(), corners }
     }
 }
@@ -100,19 +101,19 @@ impl Texture {
 /// An `o`, `g`, `s`, `usemtl` or `mtllib` line of an OBJ file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Statement {
-    /// It stands before this face.
+    /// Face that the statement precedes.
     pub before_face: u32,
-    /// The line without blanks around it; any encoding.
+    /// Line without surrounding blanks; any encoding.
     pub text: Vec<u8>,
 }
 
 impl Statement {
-    /// The first word.
+    /// First word of the line.
     pub fn keyword(&self) -> &[u8] {
         self.split().0
     }
 
-    /// What follows the first word, as far as it is UTF-8.
+    /// Rest of the line after the first word. Invalid UTF-8 is replaced.
     pub fn argument(&self) -> Cow<'_, str> {
         String::from_utf8_lossy(self.split().1.trim_ascii())
     }
@@ -123,12 +124,12 @@ impl Statement {
 }
 
 impl MeshFile {
-    /// Whether the numbers in its file have 32 bits, of 1 − v in place of v.
+    /// True if the mesh was read from glTF, which stores 32-bit numbers, and 1 − v instead of v.
     pub fn is_turned_over(&self) -> bool {
         self.source.as_ref().is_some_and(|source| matches!(source.format, SourceFormat::Gltf(_)))
     }
 
-    /// The same mesh with every polygon run around the other way, from the same first corner.
+    /// Mesh with every polygon reversed, starting from its first corner.
     #[must_use = "the mesh itself stays as it is"]
     pub fn turned(&self) -> Self {
         let mut turned = Self { polygons: self.polygons.turned(), ..self.clone() };

@@ -1,6 +1,8 @@
-//! OFF files: a line a vertex, a line a face. What else a line holds (colours, normals, texture coordinates) is read over.
+//! OFF files: a line per vertex and a line per face. Further contents of a line (colours, normals, texture
+//! coordinates) are ignored.
 //!
-//! Source: Geomview's manual, "OFF". Files of four or of any number of coordinates and binary ones are not read.
+//! Source: Geomview's manual, "OFF". Binary files, and files with four or any number of coordinates, are not
+//! supported.
 
 use glam::DVec3;
 
@@ -8,10 +10,10 @@ use super::{FaultPlace, MeshFile, ParseFaultKind, ReadError, fault_at};
 use crate::obj::{Lines, number, quoted, split_mark, words};
 use freebound_core::mesh::{PolygonMesh, VertexId};
 
-/// Least bytes of a line.
+/// Least number of bytes of a line.
 const LEAST_LINE: u64 = 2;
 
-/// Puts a mesh together from OFF text.
+/// Parses a mesh from OFF text.
 pub(super) fn parse_off(text: &[u8]) -> Result<MeshFile, ReadError> {
     let mut rows = Rows::of(split_mark(text).1);
     let [vertices, faces] = rows.counts(text.len())?;
@@ -36,10 +38,10 @@ pub(super) fn parse_off(text: &[u8]) -> Result<MeshFile, ReadError> {
     Ok(MeshFile { polygons: mesh, ..MeshFile::default() })
 }
 
-/// The lines that hold words.
+/// Iterator over the lines with words.
 struct Rows<'a> {
     lines: Lines<'a>,
-    /// Number of the present line.
+    /// Number of the current line.
     line: u64,
     next_line: u64,
 }
@@ -49,7 +51,7 @@ impl<'a> Rows<'a> {
         Self { lines: Lines::of(text), line: 0, next_line: 1 }
     }
 
-    /// The next line that has words.
+    /// Next line with words.
     fn row(&mut self) -> Result<&'a [u8], ReadError> {
         loop {
             self.line = self.next_line;
@@ -62,12 +64,12 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// How many vertices and faces there are, which a text of so many bytes has room for.
+    /// Numbers of vertices and faces. Fails if a text of `size` bytes is too short for them.
     fn counts(&mut self, size: usize) -> Result<[u64; 2], ReadError> {
         let mut row = self.row()?;
         if let Some(at) = row.windows(3).position(|three| three == b"OFF") {
             if row[..at].iter().any(|byte| b"4n".contains(byte)) {
-                return Err(ReadError::NotReadYet("OFF of other than three coordinates"));
+                return Err(ReadError::NotReadYet("OFF without exactly three coordinates"));
             }
             row = &row[at + 3..];
             if words(row).next() == Some(b"BINARY") {

@@ -1,4 +1,5 @@
-//! Reads mesh files: all bytes first, which are kept where the file is to be written again, then what they say.
+//! Reader of mesh files. All bytes are read first, and are kept if the file can be written again; then they are
+//! parsed.
 
 use std::fs::File;
 use std::io::Read;
@@ -15,18 +16,18 @@ use crate::gltf::parse_gltf;
 use crate::obj::{Lines, parse as parse_obj};
 use crate::ply::parse_ply;
 
-/// Bytes read at once.
+/// Number of bytes read at once.
 const CHUNK: u64 = 256 << 10;
 
-/// Longest line, bytes: a polygon with a million corners fits.
+/// Maximum length of a line, bytes: a polygon with a million corners fits.
 const MAX_LINE: usize = 16 << 20;
 
-/// How far the reading of a file is.
+/// Progress of reading a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReadProgress {
     /// Bytes read so far.
     pub bytes: u64,
-    /// Bytes in all, where that is known.
+    /// Size of the file in bytes, if known.
     pub total: Option<u64>,
 }
 
@@ -34,16 +35,16 @@ pub struct ReadProgress {
 ///
 /// # Errors
 ///
-/// [`ReadError`] says what is wrong with the file.
+/// [`ReadError`] for the fault of the file.
 pub fn read_mesh(path: &Path) -> Result<MeshFile, ReadError> {
     read_mesh_with(path, &mut |_| ControlFlow::Continue(()))
 }
 
-/// Reads a mesh from a file, reporting progress; `watch` stops the reading by breaking.
+/// Reads a mesh from a file and reports progress; `watch` cancels the reading by breaking.
 ///
 /// # Errors
 ///
-/// [`ReadError`] says what is wrong with the file.
+/// [`ReadError`] for the fault of the file.
 pub fn read_mesh_with(
     path: &Path,
     watch: &mut dyn FnMut(ReadProgress) -> ControlFlow<()>,
@@ -53,20 +54,20 @@ pub fn read_mesh_with(
     read(file, Some(path), &mut |bytes| watch(ReadProgress { bytes, total }))
 }
 
-/// Reads a mesh from a stream; its beginning tells the format.
+/// Reads a mesh from a stream; its first bytes determine the format.
 ///
 /// # Errors
 ///
-/// [`ReadError`] says what is wrong with it.
+/// [`ReadError`] for the fault of the stream.
 pub fn read_stream(reader: impl Read) -> Result<MeshFile, ReadError> {
     read_stream_with(reader, &mut |_| ControlFlow::Continue(()))
 }
 
-/// Reads a mesh from a stream, reporting the bytes read so far; `watch` stops the reading by breaking.
+/// Reads a mesh from a stream and reports the bytes read so far; `watch` cancels the reading by breaking.
 ///
 /// # Errors
 ///
-/// [`ReadError`] says what is wrong with it.
+/// [`ReadError`] for the fault of the stream.
 pub fn read_stream_with(
     reader: impl Read,
     watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
@@ -99,8 +100,8 @@ fn read(
     Ok(mesh)
 }
 
-/// Reads all that follows the first chunk. What is no text, or has lines that no reader should hold, is refused as soon
-/// as it is seen.
+/// Reads everything after the first chunk. Binary data in a text format and overlong lines fail as soon as they are
+/// seen.
 fn read_rest(
     reader: &mut impl Read,
     bytes: &mut Vec<u8>,
@@ -122,7 +123,7 @@ fn read_rest(
     Ok(())
 }
 
-/// Refuses new bytes with a zero, and lines that are too long.
+/// Fails for new bytes that contain a zero, and for overlong lines.
 fn check_text(bytes: &[u8], fresh: usize, line_begin: &mut usize) -> Result<(), ReadError> {
     if memchr(0, &bytes[fresh..]).is_some() {
         return Err(ReadError::NotText);

@@ -1,4 +1,4 @@
-//! A file's mesh with new vertices, or with polygons cut into triangles: everything else as it was.
+//! Mesh of a file with new vertices, or with polygons split into triangles; everything else is unchanged.
 
 use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
@@ -7,38 +7,38 @@ use super::{MeshFile, NO_TEXTURE, Statement, Texture};
 use freebound_core::mesh::{DiskMesh, FaceId, NewVertex, PolygonMesh, Refinement, Repaired, VertexId};
 use freebound_core::problem::Embedding;
 
-/// The mesh of a file with the new vertices of refinements of it.
+/// Mesh of a file with the new vertices of its refinements.
 #[derive(Debug)]
 pub struct Refined {
-    /// Vertices of the file keep their numbers, new ones follow. Polygons that are whole in a refinement stay as they are; any
-    /// other is replaced by its triangles, in its place. Statements stay before the faces that they stood before. Texture
-    /// coordinates are left out: they belong to the mesh as it was.
+    /// Refined mesh. Vertices of the file keep their numbers; new ones follow. Polygons that are whole in a
+    /// refinement stay unchanged; any other is replaced by its triangles, in place. Statements stay before their
+    /// faces. Texture coordinates are dropped: they belong to the unrefined mesh.
     pub mesh: MeshFile,
-    /// For each corner its vertex among those of all charts, one chart behind the other, or [`NO_TEXTURE`].
+    /// Vertex of each corner in the concatenated list of the charts' vertices, or [`NO_TEXTURE`].
     corners: Vec<u32>,
-    /// For each face the file's face that it is, or is a part of.
+    /// Face of the file that each face equals or is a part of.
     pub(crate) face_of: Vec<u32>,
 }
 
-/// A chart of a mesh, refined or as it was.
+/// Chart of a mesh, refined or unchanged.
 #[derive(Clone, Copy, Debug)]
 pub struct RefinedChart<'a> {
-    /// The mesh that coordinates are of: the refinement's, where there is one.
+    /// Mesh of the coordinates: that of the refinement, if there is one.
     pub mesh: &'a DiskMesh,
-    /// Its refinement.
+    /// Refinement, if there is one.
     pub refinement: Option<&'a Refinement>,
-    /// The vertex of the repaired mesh that each of its own is; none where they are the same.
+    /// Vertex of the repaired mesh for each vertex of the chart; `None` if the numbers are equal.
     pub vertex_of: Option<&'a [VertexId]>,
 }
 
 impl Refined {
-    /// The mesh of a file, `source`, by a refinement of it, or of its repairs.
+    /// Mesh of the file `source`, from a refinement of it or of its repaired mesh.
     pub fn new(source: &MeshFile, repaired: Option<&Repaired>, refinement: &Refinement) -> Self {
         let only = RefinedChart { mesh: refinement.disk(), refinement: Some(refinement), vertex_of: None };
         Self::of_charts(source, repaired, &[only])
     }
 
-    /// The mesh of a file, `source`, by its charts, or by those of its repairs.
+    /// Mesh of the file `source`, from the charts of it or of its repaired mesh.
     pub fn of_charts(source: &MeshFile, repaired: Option<&Repaired>, charts: &[RefinedChart<'_>]) -> Self {
         let old = Old::of(&source.polygons, repaired, charts);
         let cuts = cuts(&source.polygons, charts);
@@ -81,7 +81,8 @@ impl Refined {
         }
     }
 
-    /// The coordinates of the charts' vertices, one each, at the corners of the mesh. Those of no corner are left out.
+    /// Assigns coordinates of the charts' vertices, one each, to the corners of the mesh. Coordinates of no corner
+    /// are dropped.
     pub fn texture(&self, coordinates: &Embedding) -> Texture {
         let mut number_of = vec![NO_TEXTURE; coordinates.len()];
         let used = || self.corners.iter().filter(|&&slot| slot != NO_TEXTURE);
@@ -96,7 +97,7 @@ impl Refined {
     }
 }
 
-/// A polygon of the file that is written as triangles.
+/// Polygon of the file that is written as triangles.
 struct Cut {
     chart: usize,
     /// Numbers of its triangles in the chart.
@@ -109,8 +110,8 @@ impl Cut {
     }
 }
 
-/// The polygons of the file that are cut, by their numbers: those with new vertices, and those of which a refinement has but
-/// the triangles. Faces beyond the file's fill holes.
+/// Polygons of the file that are split, by number: those with new vertices, and those that a refinement has only as
+/// triangles. Faces with numbers beyond the file's belong to hole fillings and are skipped.
 fn cuts(file: &PolygonMesh, charts: &[RefinedChart<'_>]) -> BTreeMap<u32, Cut> {
     let mut cuts = BTreeMap::new();
     for (chart, RefinedChart { mesh, refinement, .. }) in charts.iter().enumerate() {
@@ -131,14 +132,14 @@ fn cuts(file: &PolygonMesh, charts: &[RefinedChart<'_>]) -> BTreeMap<u32, Cut> {
     cuts
 }
 
-/// The corners of the file, and which vertices of charts they are.
+/// Corners of the file, with their vertices in the charts.
 struct Old<'a> {
     file: &'a PolygonMesh,
-    /// The vertex of the repaired mesh at each corner, where it was repaired.
+    /// Vertex of the repaired mesh at each corner, if the mesh was repaired.
     repaired: Option<Vec<Option<VertexId>>>,
-    /// For each chart the place of its first vertex among those of all.
+    /// Index of the first vertex of each chart in the concatenated list.
     first: Vec<u32>,
-    /// The place of each vertex of the repaired mesh there, or [`NO_TEXTURE`].
+    /// Index of each vertex of the repaired mesh in the concatenated list, or [`NO_TEXTURE`].
     slot_of: Vec<u32>,
 }
 
@@ -158,22 +159,23 @@ impl<'a> Old<'a> {
         Self { file, repaired: repaired.map(|repaired| repaired.vertices_at_corners(file)), first, slot_of }
     }
 
-    /// The vertex of the repaired mesh at a corner of the file.
+    /// Vertex of the repaired mesh at a corner of the file.
     fn at(&self, corner: usize) -> Option<VertexId> {
         self.repaired.as_ref().map_or(Some(self.file.corners[corner]), |vertices| vertices[corner])
     }
 
-    /// The place of a corner's vertex among those of all charts.
+    /// Index of a corner's vertex in the concatenated list of the charts' vertices.
     fn slot(&self, corner: usize) -> u32 {
         self.at(corner).map_or(NO_TEXTURE, |vertex| self.slot_of[vertex.index()])
     }
 
-    /// The vertex of the repaired mesh that an old one of a chart is.
+    /// Vertex of the repaired mesh for a vertex of a chart that is not new.
     fn whole(charts: &[RefinedChart<'_>], chart: usize, vertex: VertexId) -> VertexId {
         charts[chart].vertex_of.map_or(vertex, |vertex_of| vertex_of[vertex.index()])
     }
 
-    /// The edge of the file that a new vertex of a chart lies on, as a polygon names its ends; none where the vertex is old.
+    /// Edge of the file that a new vertex of a chart lies on, with the ends that a polygon has; `None` for an old
+    /// vertex.
     fn edge_of_new(
         &self,
         polygon: usize,
@@ -188,7 +190,7 @@ impl<'a> Old<'a> {
         Some(NewVertex { edge, at })
     }
 
-    /// The file's vertex at the corner of a polygon where the repaired mesh has this one.
+    /// Vertex of the file at the corner of a polygon that has this vertex in the repaired mesh.
     fn vertex_in(&self, polygon: usize, vertex: VertexId) -> VertexId {
         let mut corners = self.file.corner_range(polygon);
         let corner = corners.find(|&corner| self.at(corner) == Some(vertex)).expect("a corner of this polygon");
@@ -196,15 +198,15 @@ impl<'a> Old<'a> {
     }
 }
 
-/// What tells a new vertex of the file from others: its chart, the chart's own vertex, and the file's vertices at the ends of
-/// its edge. Where vertices were joined, the faces at an edge may have different ones there: each has a new one of its own.
+/// Identity of a new vertex: its chart, its number in the chart, and the ends of its edge in the file. If vertices
+/// were joined, the faces at an edge may have different ends in the file: each face then has its own new vertex.
 type Key = (usize, VertexId, [VertexId; 2]);
 
 fn key(chart: usize, vertex: VertexId, NewVertex { edge: [a, b], .. }: &NewVertex) -> Key {
     (chart, vertex, [*a.min(b), *a.max(b)])
 }
 
-/// The new vertices, as the file numbers them: those of the first chart come first.
+/// New vertices, as numbered in the output: those of the first chart come first.
 struct New {
     number_of: BTreeMap<Key, VertexId>,
     vertices: Vec<NewVertex>,
@@ -227,7 +229,7 @@ impl New {
             let [a, b] = edge.map(|end| old.file.positions[end.index()]);
             a.lerp(b, at)
         };
-        // The lower number first.
+        // The end with the lower number comes first.
         let ascending = |NewVertex { edge: [a, b], at }| {
             if a <= b { NewVertex { edge: [a, b], at } } else { NewVertex { edge: [b, a], at: 1.0 - at } }
         };
@@ -236,13 +238,13 @@ impl New {
     }
 }
 
-/// Faces as they are put together.
+/// Faces of the refined mesh.
 #[derive(Default)]
 struct Faces {
     corners: Vec<VertexId>,
     slots: Vec<u32>,
     starts: Vec<u32>,
-    /// For each face the file's face that it is or is a part of.
+    /// Face of the file that each face equals or is a part of.
     face_of: Vec<u32>,
 }
 
@@ -251,7 +253,7 @@ impl Faces {
         u32::try_from(self.face_of.len()).expect("a mesh has fewer than 2^32 faces")
     }
 
-    /// A face that is, or is a part of, a face of the file.
+    /// Adds a face that equals, or is a part of, a face of the file.
     fn push(&mut self, corners: impl Iterator<Item = (VertexId, u32)>, of: u32) {
         for (vertex, slot) in corners {
             self.corners.push(vertex);

@@ -1,10 +1,10 @@
-//! STL files, as text and binary: triangles that share no vertices, so that corners at one place become one vertex.
+//! STL files, as text and binary. Their triangles share no vertices, so equal corners are joined to one vertex.
 //!
-//! Two corners are at one place where the bits of their coordinates are the same, except that −0 equals 0. Vertices are
-//! numbered by first use. Normals and attributes are read over.
+//! Two corners are equal if the bits of their coordinates are, except that −0 equals 0. Vertices are numbered by
+//! first use. Normals and attributes are ignored.
 //!
-//! A binary file is 80 bytes of any content, the number of triangles, and for each a normal, three corners, and two bytes:
-//! 32-bit numbers, the last byte of each the highest.
+//! A binary file has a header of 80 arbitrary bytes and the number of triangles. Each triangle is a normal, three
+//! corners, and two bytes. Numbers have 32 bits, in little-endian order.
 
 use std::collections::HashMap;
 
@@ -14,15 +14,15 @@ use super::{FaultPlace, MeshFile, ParseFaultKind, ReadError, TokenWords, fault_a
 use crate::obj::quoted;
 use freebound_core::mesh::{PolygonMesh, VertexId};
 
-/// Bytes before the first triangle.
+/// Offset of the first triangle, bytes.
 const HEAD: usize = 84;
 
-/// Bytes of a triangle, and where its corners begin.
+/// Size of a triangle, and offset of its corners, bytes.
 const TRIANGLE: usize = 50;
 const CORNERS: usize = 12;
 
-/// Whether a file that begins so is a binary STL file: its length is right, or so many triangles have finite corners as
-/// are there.
+/// True if a file that begins with `head` is a binary STL file: all its triangles (or at least 1000) are there, with
+/// finite corners.
 pub(super) fn is_binary_stl(head: &[u8]) -> bool {
     let Some(count) = triangle_count(head) else { return false };
     let triangles = head[HEAD..].chunks_exact(TRIANGLE).take(count);
@@ -30,7 +30,7 @@ pub(super) fn is_binary_stl(head: &[u8]) -> bool {
     count > 0 && are_there && triangles.into_iter().all(|triangle| corners_of(triangle).iter().all(|p| p.is_finite()))
 }
 
-/// Puts a mesh together from a binary STL file.
+/// Parses a mesh from a binary STL file.
 pub(super) fn parse_stl_binary(bytes: &[u8]) -> Result<MeshFile, ReadError> {
     let end = FaultPlace::Byte(bytes.len() as u64);
     let count = triangle_count(bytes).ok_or_else(|| fault_at(end, ParseFaultKind::EndsEarly))?;
@@ -48,7 +48,7 @@ pub(super) fn parse_stl_binary(bytes: &[u8]) -> Result<MeshFile, ReadError> {
     welded.finish()
 }
 
-/// Puts a mesh together from an STL text.
+/// Parses a mesh from an STL text.
 pub(super) fn parse_stl_text(text: &[u8]) -> Result<MeshFile, ReadError> {
     let mut words = TokenWords::of(text, 1);
     let mut welded = Welded::default();
@@ -92,7 +92,7 @@ fn corners_of(triangle: &[u8]) -> [DVec3; 3] {
     [0, 3, 6].map(|at| DVec3::new(number(at), number(at + 1), number(at + 2)))
 }
 
-/// Triangles whose corners at one place are one vertex.
+/// Triangles whose equal corners are joined to one vertex.
 #[derive(Default)]
 struct Welded {
     mesh: PolygonMesh,
@@ -100,7 +100,7 @@ struct Welded {
 }
 
 impl Welded {
-    /// Takes the next corner; says where it is if it is nowhere.
+    /// Adds the next corner; `place` is its position in the file, for an error.
     fn push(&mut self, position: DVec3, place: impl Fn() -> FaultPlace) -> Result<(), ReadError> {
         if !position.is_finite() {
             return Err(fault_at(place(), ParseFaultKind::NotFinite));

@@ -1,4 +1,4 @@
-//! The mesh of a file's texture coordinates: the surface as it is cut in the plane.
+//! Mesh over a file's texture coordinates: the surface as it is cut in the plane.
 
 use std::collections::HashMap;
 
@@ -8,31 +8,31 @@ use super::{MeshFile, NO_TEXTURE, Texture, TextureError};
 use freebound_core::mesh::{FaceId, TriMesh, VertexId};
 use freebound_core::problem::Embedding;
 
-/// A mesh over texture vertices, with the embedding that the file gives.
+/// Mesh over texture vertices, with the embedding in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureMesh {
-    /// The triangles over texture vertices, at their positions in space.
+    /// Triangles over texture vertices, at their positions in space.
     pub mesh: TriMesh,
-    /// The texture coordinates, one per texture vertex.
+    /// Texture coordinates, one per texture vertex.
     pub embedding: Embedding,
-    /// The file's vertex of each texture vertex.
+    /// Vertex of the file for each texture vertex.
     pub vertex_of: Vec<VertexId>,
 }
 
 impl MeshFile {
-    /// Makes one vertex of all corners that share a vertex and a texture coordinate.
+    /// Merges all corners that share a vertex and a texture coordinate into one texture vertex.
     ///
-    /// Coordinates are the same where their bits are, except that −0 equals 0. So charts are cut along seams, and copies
-    /// of one coordinate are joined. Texture vertices are ordered by the file's vertices, those of one vertex by first
-    /// use: without seams their numbers are those of the file.
+    /// Coordinates are equal if their bits are, except that −0 equals 0. So charts are cut along seams, and copies of
+    /// a coordinate are joined. Texture vertices are ordered by the file's vertices, and at one vertex by first use.
+    /// Without seams, vertices thus keep their numbers.
     ///
     /// # Errors
     ///
-    /// [`TextureError`] where there are no texture coordinates, or not at all corners.
+    /// [`TextureError`] if there are no texture coordinates, or some corners have none.
     ///
     /// # Panics
     ///
-    /// If an index of the mesh is out of range, which the reader never lets through.
+    /// If an index of the mesh is out of range, which the readers exclude.
     pub fn texture_mesh(&self) -> Result<TextureMesh, TextureError> {
         let texture = self.complete_texture()?;
         let corners = &self.polygons.corners;
@@ -41,13 +41,13 @@ impl MeshFile {
         let mut texture_vertex = vec![0_u32; corners.len()];
         let (mut positions, mut vertex_of, mut embedding) = (Vec::new(), Vec::new(), Vec::new());
         let mut first_places: Vec<u32> = Vec::new();
-        // Places of the corners of each vertex; vertices without corners have none.
+        // Corners of each vertex; vertices without corners have none.
         let mut places_of = vec![Vec::new(); self.polygons.positions.len()];
         for (place, vertex) in (0_u32..).zip(corners) {
             places_of[vertex.index()].push(place);
         }
         for places in &mut places_of {
-            // Equal coordinates side by side, then the groups by their first corner.
+            // Sort by coordinate first, so that equal ones are adjacent, then order the groups by their first corner.
             places.sort_unstable_by_key(|&place| (bits(place), place));
             first_places.clear();
             first_places.extend(places.chunk_by(|&a, &b| bits(a) == bits(b)).map(|group| group[0]));
@@ -71,12 +71,12 @@ impl MeshFile {
         Ok(TextureMesh { mesh: TriMesh { positions, triangles, polygon_of }, embedding: embedding.into(), vertex_of })
     }
 
-    /// A label for each corner, the same where texture coordinates are the same: the place of the first of them in the
+    /// Label for each corner, equal for equal texture coordinates: the index of the first such coordinate in the
     /// file's list.
     ///
     /// # Errors
     ///
-    /// As [`texture_mesh`](Self::texture_mesh).
+    /// [`TextureError`], like [`texture_mesh`](Self::texture_mesh).
     pub fn texture_labels(&self) -> Result<Vec<u32>, TextureError> {
         let texture = self.complete_texture()?;
         let mut first: HashMap<[u64; 2], u32> = HashMap::new();
@@ -85,11 +85,11 @@ impl MeshFile {
         Ok(texture.corners.iter().map(|&corner| labels[corner as usize]).collect())
     }
 
-    /// Whether some vertex has several texture coordinates.
+    /// True if some vertex has several texture coordinates.
     ///
     /// # Errors
     ///
-    /// As [`texture_mesh`](Self::texture_mesh).
+    /// [`TextureError`], like [`texture_mesh`](Self::texture_mesh).
     pub fn has_texture_seams(&self) -> Result<bool, TextureError> {
         let mut first = vec![None; self.polygons.positions.len()];
         let labels = self.texture_labels()?;
@@ -97,7 +97,7 @@ impl MeshFile {
         Ok(corners.any(|(vertex, label)| *first[vertex.index()].get_or_insert(label) != label))
     }
 
-    /// The texture coordinates, where all corners have one.
+    /// Texture coordinates, if all corners have one.
     pub(super) fn complete_texture(&self) -> Result<&Texture, TextureError> {
         let texture = self.texture.as_ref().ok_or(TextureError::None)?;
         let lacks = |&face: &u32| {
@@ -110,14 +110,14 @@ impl MeshFile {
     }
 }
 
-/// What tells coordinates apart: their bits, except that −0 equals 0.
+/// Key for the equality of coordinates: their bits, except that −0 equals 0.
 pub(super) fn bits(coordinate: DVec2) -> [u64; 2] {
     (coordinate + DVec2::ZERO).to_array().map(f64::to_bits)
 }
 
 impl TextureMesh {
-    /// Leaves out triangles with two corners in one place, in space as in the plane, to the bit: where a polygon names a place
-    /// twice by vertices of different numbers. They cover nothing in either.
+    /// Removes triangles with two corners at exactly one point, both in space and in the plane. Such triangles arise
+    /// if a polygon names a point twice by different vertices. They have no area in space or in the plane.
     pub fn drop_collapsed_faces(&mut self) {
         let TextureMesh { mesh, embedding, .. } = self;
         let is_one_place = |a: VertexId, b: VertexId| {

@@ -1,41 +1,41 @@
-//! The words of a text, with the lines that they stand on.
+//! Words of a text, with their lines.
 
 use std::ops::Range;
 
 use super::{FaultPlace, ParseFaultKind, ReadError, fault_at};
 use crate::obj::{number, quoted};
 
-/// Goes through the words of a text, between blanks and line ends.
+/// Iterator over the words of a text, separated by blanks and line ends.
 #[derive(Clone)]
 pub(crate) struct TokenWords<'a> {
     text: &'a [u8],
     at: usize,
-    /// Counted from 1.
+    /// Current line, counted from 1.
     line: u64,
 }
 
 impl<'a> TokenWords<'a> {
-    /// The words of a text whose first line has this number.
+    /// Words of a text whose first line has this number.
     pub(crate) fn of(text: &'a [u8], line: u64) -> Self {
         Self { text, at: 0, line }
     }
 
-    /// The line of the word that came last, or of the one that is next where it is not behind a line end.
+    /// Current line: that of the last word, and of the next word unless a line end comes before it.
     pub(crate) fn place(&self) -> FaultPlace {
         FaultPlace::Line(self.line)
     }
 
-    /// How many bytes have been passed.
+    /// Number of bytes passed.
     pub(crate) fn passed(&self) -> usize {
         self.at
     }
 
-    /// How many bytes are left.
+    /// Number of bytes left.
     pub(crate) fn left(&self) -> usize {
         self.text.len() - self.at
     }
 
-    /// Where the next word stands.
+    /// Byte range of the next word.
     pub(crate) fn next_range(&mut self) -> Option<Range<usize>> {
         loop {
             match *self.text.get(self.at)? {
@@ -52,7 +52,7 @@ impl<'a> TokenWords<'a> {
         Some(self.at - length..self.at)
     }
 
-    /// The next word as a number; the end of the text is a fault, too.
+    /// Next word as a number. Fails at the end of the text, too.
     pub(crate) fn number(&mut self) -> Result<f64, ReadError> {
         let word = self.next().ok_or_else(|| fault_at(self.place(), ParseFaultKind::EndsEarly))?;
         number(word).ok_or_else(|| fault_at(self.place(), ParseFaultKind::BadNumber(quoted(word))))

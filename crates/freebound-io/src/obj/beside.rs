@@ -1,4 +1,4 @@
-//! Files that belong to a mesh and lie beside it. Files of others are never written over.
+//! Files that belong to a mesh, in the mesh's folder. Unrelated files are never overwritten.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -7,45 +7,46 @@ use std::path::{Path, PathBuf};
 
 use crate::{WriteError, write_atomically};
 
-/// The place beside a mesh, for copies of other files.
+/// Folder of a mesh, as the target for copies of other files.
 pub(super) struct Beside<'a> {
     pub(super) mesh: &'a Path,
-    /// Copies that are only planned, with their contents; none where they are written at once.
+    /// Contents of the planned copies; `None` if copies are written at once.
     planned: Option<BTreeMap<PathBuf, Vec<u8>>>,
     /// Copies that were written.
     written: Vec<PathBuf>,
 }
 
 impl<'a> Beside<'a> {
-    /// Copies are written.
+    /// Target that writes the copies.
     pub(super) fn writing(mesh: &'a Path) -> Self {
         Self { mesh, planned: None, written: Vec::new() }
     }
 
-    /// Nothing is written: [`planned`](Self::planned) tells what would be.
+    /// Target that writes nothing: [`planned`](Self::planned) returns the files that would be written.
     pub(super) fn planning(mesh: &'a Path) -> Self {
         Self { mesh, planned: Some(BTreeMap::new()), written: Vec::new() }
     }
 
-    /// The files that would lie beside the mesh.
+    /// Files that would be in the mesh's folder.
     pub(super) fn planned(self) -> Vec<PathBuf> {
         self.planned.unwrap_or_default().into_keys().collect()
     }
 
-    /// The files that were written beside the mesh, in their order.
+    /// Files that were written, in order.
     pub(super) fn written(self) -> Vec<PathBuf> {
         self.written
     }
 
-    /// Puts a file beside the mesh, unless it is there, and returns its name. Names are without blanks, which not all
-    /// readers take. Another file of the same name stays: the copy is told apart by the mesh's name.
+    /// Puts a file into the mesh's folder, unless it is there already, and returns its name. Blanks in names are
+    /// replaced, because some readers do not accept them. An unrelated file of that name stays: the copy then gets
+    /// the mesh's name as a prefix.
     pub(super) fn put(&mut self, name: &str, bytes: &[u8]) -> Result<String, WriteError> {
         let name = without_blanks(name);
         let second = format!("{}-{name}", stem_of(self.mesh));
         self.put_under(&[name, second], bytes)
     }
 
-    /// Puts a file under the first of these names that may be used, unless it is there, and returns that name.
+    /// Puts a file under the first usable of these names, unless it is there already, and returns that name.
     pub(super) fn put_under(&mut self, names: &[String], bytes: &[u8]) -> Result<String, WriteError> {
         let place = place_for(self.mesh, names, |place| self.may_take(place, bytes));
         if let Some(planned) = &mut self.planned {
@@ -65,8 +66,8 @@ impl<'a> Beside<'a> {
     }
 }
 
-/// Where a file that belongs to a mesh may lie without harm to files of others: beside it, under the first of these
-/// names that may be taken; after the last of them with a number, from 2 on.
+/// Path in the mesh's folder that does not overwrite an unrelated file: the first of these names that may be taken.
+/// If none may be, the last name with a number, from 2 on.
 pub(super) fn place_for(mesh: &Path, names: &[String], may_take: impl Fn(&Path) -> bool) -> PathBuf {
     let last = names.last().map_or("", String::as_str);
     let further = (2_u64..).map(|number| numbered(last, number));
@@ -74,12 +75,12 @@ pub(super) fn place_for(mesh: &Path, names: &[String], may_take: impl Fn(&Path) 
     places.find(|place| place != mesh && may_take(place)).expect("a folder has fewer files than there are numbers")
 }
 
-/// Whether no file is seen there. Where permission to look is missing, writing fails and says so.
+/// True if no file is visible there. Without permission to look, the later write fails and reports it.
 pub(super) fn is_free(place: &Path) -> bool {
     fs::symlink_metadata(place).is_err()
 }
 
-/// Whether a file begins so. Something that is no regular file, such as a pipe, is not opened: nothing may ever come.
+/// True if a file begins with `head`. Only regular files are opened: reading a pipe could block for ever.
 pub(super) fn begins_with(place: &Path, head: &[u8]) -> bool {
     if !place.is_file() {
         return false;
@@ -89,12 +90,12 @@ pub(super) fn begins_with(place: &Path, head: &[u8]) -> bool {
     file.take(head.len() as u64).read_to_end(&mut found).is_ok() && found == head
 }
 
-/// Whether a file has exactly these contents. It is only read where its length is the same.
+/// True if a file has exactly these contents. It is read only if the lengths are equal.
 fn holds(place: &Path, bytes: &[u8]) -> bool {
     fs::metadata(place).is_ok_and(|data| data.len() == bytes.len() as u64) && begins_with(place, bytes)
 }
 
-/// A file name with a number before its extension.
+/// File name with a number before its extension.
 fn numbered(name: &str, number: u64) -> String {
     match name.rsplit_once('.') {
         Some((stem, extension)) => format!("{stem}-{number}.{extension}"),
@@ -102,7 +103,7 @@ fn numbered(name: &str, number: u64) -> String {
     }
 }
 
-/// A mesh's name without its extension, for the names of the files beside it.
+/// File name of a mesh without its extension, for the names of the files beside it.
 pub(super) fn stem_of(mesh: &Path) -> String {
     without_blanks(&mesh.file_stem().unwrap_or_default().to_string_lossy())
 }

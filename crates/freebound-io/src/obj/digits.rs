@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-/// Writes a line but for its end.
+/// Writes a line without its line end.
 pub(crate) fn write_numbers<'a>(
     out: &mut impl Write,
     keyword: &[u8],
@@ -15,7 +15,7 @@ pub(crate) fn write_numbers<'a>(
     Ok(())
 }
 
-/// Appends decimal digits: several times faster than `write!`, and most of a file is indices.
+/// Appends decimal digits. Several times faster than `write!`, which matters because most of a file is indices.
 pub(crate) fn push_index(line: &mut Vec<u8>, index: u64) {
     let begin = line.len();
     let mut rest = index;

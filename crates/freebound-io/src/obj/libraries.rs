@@ -1,4 +1,4 @@
-//! Material libraries of a mesh that is written into another folder: named from there, or copied along.
+//! Material libraries of a mesh that is written into another folder: referenced from there, or copied.
 
 use std::convert::Infallible;
 use std::fs;
@@ -11,18 +11,18 @@ use crate::mesh_file::MeshFile;
 use crate::paths::{named_in_files, relative, whole_folder_of};
 use crate::{WriteError, is_same_file};
 
-/// What becomes of material libraries where a mesh is written into another folder.
+/// Treatment of material libraries if a mesh is written into another folder.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Materials {
-    /// They stay, and the mesh names them where they are.
+    /// The libraries stay, and the mesh refers to them at their old place.
     #[default]
     Stay,
-    /// They are copied beside the mesh, with the pictures that they name.
+    /// The libraries are copied into the mesh's folder, with the pictures that they name.
     Copied,
 }
 
-/// What becomes of the statements of the mesh that was read at `from`, in a file at `to`: material libraries that are
-/// there are named from the new place, all else stays as it is.
+/// Edits of the statements of a mesh that was read at `from`, for a file at `to`. Existing material libraries are
+/// named relative to the new folder; everything else stays unchanged.
 pub(crate) fn relocated(mesh: &MeshFile, from: &Path, to: &Path) -> Edits {
     let (old, new) = (whole_folder_of(from), whole_folder_of(to));
     if old == new {
@@ -40,8 +40,9 @@ pub(crate) fn relocated(mesh: &MeshFile, from: &Path, to: &Path) -> Edits {
     edits
 }
 
-/// As [`relocated`], and the libraries with their pictures are copied beside `to`, under other names where files of
-/// others have theirs. What is there already with the same contents is left as it is. Returns the files written as well.
+/// Copies the libraries and their pictures into the folder of `to`, and returns the edits that refer to the copies,
+/// with the files written. If an unrelated file has a name already, the copy gets another name. Existing files with
+/// equal contents are reused.
 ///
 /// # Errors
 ///
@@ -52,8 +53,8 @@ pub(crate) fn copy_materials(mesh: &MeshFile, from: &Path, to: &Path) -> Result<
     Ok((edits, beside.written()))
 }
 
-/// Where the copies of the material libraries and their pictures are to lie beside `to`, if nothing else comes there.
-/// Nothing is written.
+/// Paths of the future copies of the material libraries and their pictures in the folder of `to`. They change if
+/// other files appear there in the meantime. Nothing is written.
 ///
 /// # Errors
 ///
@@ -82,20 +83,20 @@ fn copy(mesh: &MeshFile, from: &Path, beside: &mut Beside<'_>) -> Result<Edits, 
     })
 }
 
-/// A line of a library that names a picture, with the name of the copy; none where it names no picture that is there.
+/// Line of a library with the name of the copied picture; `None` if the line names no existing picture.
 fn with_copied_picture(line: &[u8], library: &Path, beside: &mut Beside<'_>) -> Result<Option<String>, WriteError> {
     let Ok(text) = std::str::from_utf8(line) else { return Ok(None) };
     let Some(argument) = picture_argument(text) else { return Ok(None) };
     let Some(found) = picture_within(argument, library.parent().unwrap_or(Path::new(""))) else { return Ok(None) };
     let name = found.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let name = if is_beside(&found.path, beside.mesh) { name } else { beside.put(&name, &read(&found.path)?)? };
-    // The argument is the end of the line, but for blanks.
+    // The argument is the end of the line, except for trailing blanks.
     let (line, blanks) = text.split_at(text.trim_end().len());
     let before = &line[..line.len() - argument.len() + found.begin];
     Ok(Some(format!("{before}{name}{blanks}")))
 }
 
-/// Other names for the libraries that are there; where there is none, the name stays.
+/// New names for the libraries that exist; missing libraries keep their names.
 fn with_libraries<E>(
     mesh: &MeshFile,
     folder: &Path,
@@ -107,7 +108,7 @@ fn with_libraries<E>(
             b"mtllib" => libraries_of(statement, folder),
             _ => Vec::new(),
         };
-        // Each on a line of its own, for a name may hold blanks.
+        // Each library gets its own line, because a name may contain blanks.
         let (mut lines, mut is_changed) = (Vec::new(), false);
         for library in libraries {
             let renamed = if library.path.is_file() { name_of(&library)? } else { None };

@@ -1,4 +1,4 @@
-//! The words of one OBJ line: numbers and corners.
+//! Words of a single OBJ line: numbers and corners.
 
 use std::ops::Range;
 
@@ -7,15 +7,15 @@ use crate::mesh_file::ParseFaultKind;
 /// Next line, line separator and paragraph separator in UTF-8.
 const UNICODE_LINE_ENDS: [&[u8]; 3] = ["\u{85}".as_bytes(), "\u{2028}".as_bytes(), "\u{2029}".as_bytes()];
 
-/// Longest piece of a bad word that a message quotes, characters.
+/// Maximum length of a bad word in a message, in characters.
 const QUOTED: usize = 40;
 
-/// Words of a line between blanks, up to a comment.
+/// Words of a line, separated by blanks, up to a comment.
 pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     all_words(line).take_while(|word| word[0] != b'#')
 }
 
-/// Where the [`words`] of a line stand in it.
+/// Byte ranges of the [`words`] of a line.
 pub(super) fn word_ranges(line: &[u8]) -> impl Iterator<Item = Range<usize>> {
     words(line).map(|word| {
         let begin = word.as_ptr().addr() - line.as_ptr().addr();
@@ -23,7 +23,7 @@ pub(super) fn word_ranges(line: &[u8]) -> impl Iterator<Item = Range<usize>> {
     })
 }
 
-/// Whether a comment stands on a line.
+/// True if the line contains a comment.
 pub(super) fn has_comment(line: &[u8]) -> bool {
     all_words(line).any(|word| word[0] == b'#')
 }
@@ -33,8 +33,9 @@ fn all_words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     line.split(is_blank).filter(|word| !word.is_empty())
 }
 
-/// A statement as it is kept and written: one line to every reader. Its keyword stands before a blank, bytes that some
-/// readers take for the end of a line are blanks, and it does not end with a `\`, behind which a line goes on.
+/// Statement in the form that is kept and written: a single line for every reader. Its keyword is followed by a
+/// blank. Bytes that some readers take for a line end become blanks. It does not end with `\`, which would continue
+/// the line.
 pub(super) fn statement(line: &[u8]) -> Vec<u8> {
     let mut text: Vec<u8> = line.iter().map(|&byte| if byte < b' ' { b' ' } else { byte }).collect();
     for end in UNICODE_LINE_ENDS {
@@ -48,7 +49,7 @@ pub(super) fn statement(line: &[u8]) -> Vec<u8> {
     text.trim_ascii_start().to_vec()
 }
 
-/// The first `N` words as numbers; words behind them are ignored.
+/// Parses the first `N` words as numbers; further words are ignored.
 pub(super) fn numbers<'a, const N: usize>(
     mut words: impl Iterator<Item = &'a [u8]>,
 ) -> Result<[f64; N], ParseFaultKind> {
@@ -60,13 +61,13 @@ pub(super) fn numbers<'a, const N: usize>(
     Ok(values)
 }
 
-/// A number, rounded correctly. Infinities and NaNs are numbers here, in the spellings that C libraries write.
+/// Parses a number, correctly rounded. Infinities and NaNs are accepted, in the spellings that C libraries write.
 pub(crate) fn number(word: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(word).ok()?;
     text.parse().ok().or_else(|| special_number(text))
 }
 
-/// `-nan(ind)`, `1.#INF`, `-1.#IND` and the like.
+/// Parses `-nan(ind)`, `1.#INF`, `-1.#IND` and the like.
 fn special_number(text: &str) -> Option<f64> {
     let lower = text.to_ascii_lowercase();
     let (sign, amount) = match lower.strip_prefix('-') {
@@ -81,7 +82,7 @@ fn special_number(text: &str) -> Option<f64> {
     nan.then_some(f64::NAN)
 }
 
-/// One corner of a face as written: indices of the position and of the texture coordinate, if it has one.
+/// Parses a corner of a face: indices of the position and of the texture coordinate, if it has one.
 pub(super) fn corner(word: &[u8]) -> Result<(i64, Option<i64>), ParseFaultKind> {
     let bad = || ParseFaultKind::BadCorner(quoted(word));
     let (vertex, mut rest) = index(word).ok_or_else(bad)?;
@@ -93,14 +94,14 @@ pub(super) fn corner(word: &[u8]) -> Result<(i64, Option<i64>), ParseFaultKind> 
             (texture, rest) = (Some(value), after);
         }
         if let [b'/', after @ ..] = rest {
-            // The normal: only its form matters.
+            // The normal: only its syntax is checked.
             rest = if after.is_empty() { after } else { index(after).ok_or_else(bad)?.1 };
         }
     }
     if rest.is_empty() { Ok((vertex, texture)) } else { Err(bad()) }
 }
 
-/// A leading integer and what follows it. Amounts too large for any mesh are cut off, not wrapped around.
+/// Splits off a leading integer. Values too large for any mesh saturate instead of wrapping around.
 fn index(word: &[u8]) -> Option<(i64, &[u8])> {
     let (negative, digits) = match word {
         [b'-', rest @ ..] => (true, rest),
@@ -116,7 +117,7 @@ fn index(word: &[u8]) -> Option<(i64, &[u8])> {
     (length > 0).then(|| (if negative { -value } else { value }, &digits[length..]))
 }
 
-/// A word for a message: readable, and not too long.
+/// Word for a message: printable, and shortened to [`QUOTED`] characters.
 pub(crate) fn quoted(word: &[u8]) -> String {
     let text = String::from_utf8_lossy(&word[..word.len().min(4 * QUOTED)]);
     let mut shown: String = text.chars().take(QUOTED).map(|c| if c.is_control() { '\u{FFFD}' } else { c }).collect();

@@ -1,35 +1,35 @@
-//! The lines of OBJ text as pieces of its bytes, so that reader and writer see the same ones.
+//! Lines of OBJ text as slices of its bytes, so that reader and writer see identical lines.
 //!
-//! A line ends with LF, with CR LF, or with CR alone, as other programs read it. It goes on in the next where it ends
-//! with a `\` that stands in no comment, where a path may end so.
+//! A line ends with LF, with CR LF, or with CR alone, as other programs read it. A `\` at its end continues it in the
+//! next line, unless the `\` is in a comment, in which a path may end with it.
 
 use memchr::{memchr, memchr2};
 
 use super::line::has_comment;
 
-/// What some programs put before a text in UTF-8.
+/// Byte-order mark that some programs put before UTF-8 text.
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
-/// A text's byte order mark, if it has one, and its lines.
+/// Splits a text into its byte-order mark, if it has one, and its lines.
 pub(crate) fn split_mark(text: &[u8]) -> (&[u8], &[u8]) {
     text.split_at(if text.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 })
 }
 
-/// All lines of a text without its byte order mark.
+/// Iterator over the lines of a text without its byte-order mark.
 pub(crate) struct Lines<'a> {
     rest: &'a [u8],
 }
 
-/// A line, put together from continued ones if it was.
+/// Line, possibly continued over several lines of the file.
 #[derive(Clone, Copy)]
 pub(crate) struct Line<'a> {
-    /// All its bytes, its end among them.
+    /// Bytes of the line, including its end.
     pub(crate) whole: &'a [u8],
-    /// How many bytes stand before its end.
+    /// Number of bytes before its end.
     pub(crate) length: usize,
-    /// How many lines of the file it is.
+    /// Number of lines of the file that it covers.
     pub(crate) count: u64,
-    /// Whether one of them goes on in the next.
+    /// True if it is continued over several lines of the file.
     pub(super) is_continued: bool,
 }
 
@@ -65,8 +65,8 @@ impl<'a> Iterator for Lines<'a> {
 }
 
 impl Line<'_> {
-    /// The line as one, of as many bytes as it has before its end: blanks stand for each `\` where it goes on, and for
-    /// the line end behind that.
+    /// Content as a single line, without its end and of unchanged length. Each continuing `\` and the line end after
+    /// it become blanks.
     pub(super) fn as_one<'b>(&'b self, joined: &'b mut Vec<u8>) -> &'b [u8] {
         let content = &self.whole[..self.length];
         if !self.is_continued {
@@ -82,14 +82,14 @@ impl Line<'_> {
         joined
     }
 
-    /// What ends it; empty in the last line of some files.
+    /// Line end; empty in the last line of some files.
     pub(crate) fn end(&self) -> &[u8] {
         &self.whole[self.length..]
     }
 }
 
-/// Cuts a text into pieces of about so many bytes where a line ends that does not go on, so that the lines of the pieces are
-/// those of the text. A text without LF is one piece.
+/// Splits a text into pieces of about `size` bytes, at line ends that are not continued. The lines of the pieces are
+/// the lines of the text. A text without LF is a single piece.
 pub(crate) fn pieces(text: &[u8], size: usize) -> Vec<&[u8]> {
     let (mut pieces, mut rest) = (Vec::new(), text);
     while !rest.is_empty() {
@@ -100,8 +100,8 @@ pub(crate) fn pieces(text: &[u8], size: usize) -> Vec<&[u8]> {
     pieces
 }
 
-/// The end of the first line that ends with LF behind so many bytes and surely does not go on, or that of the text. A `\`
-/// that stands in a comment is taken for one that goes on.
+/// End of the first line after `bytes` bytes that ends with LF and certainly is not continued, or the end of the
+/// text. A `\` in a comment counts as a continuation here.
 fn end_of_line_after(text: &[u8], bytes: usize) -> usize {
     let mut at = bytes;
     while let Some(length) = text.get(at..).and_then(|rest| memchr(b'\n', rest)) {
@@ -114,7 +114,7 @@ fn end_of_line_after(text: &[u8], bytes: usize) -> usize {
     text.len()
 }
 
-/// Where the line that begins there ends, without and with its end.
+/// End of the line that begins at `begin`: without and with its line end.
 fn first_end(text: &[u8], begin: usize) -> (usize, usize) {
     match memchr2(b'\n', b'\r', &text[begin..]).map(|length| begin + length) {
         Some(at) if text[at..].starts_with(b"\r\n") => (at, at + 2),

@@ -1,4 +1,4 @@
-//! The picture that a mesh's materials name.
+//! Picture that a mesh's materials name.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 use crate::gltf::files_beside;
 use crate::mesh_file::{MeshFile, Statement};
 
-/// Keywords of lines that name pictures, beside those that begin with `map_`.
+/// Keywords of lines that name pictures, in addition to those that begin with `map_`.
 const PICTURE_KEYWORDS: [&str; 5] = ["bump", "decal", "disp", "norm", "refl"];
 
-/// The picture on most faces, as the materials of an OBJ file at `path` say. `None` where no material that is in use
-/// names a picture. The picture itself need not be there.
+/// Picture on most faces, according to the materials of an OBJ file at `path`. `None` if no material in use names a
+/// picture. The picture file itself may be missing.
 ///
-/// Where one material library is missing or broken, the others still count.
+/// A missing or broken material library does not affect the others.
 pub fn material_picture(mesh: &MeshFile, path: &Path) -> Option<PathBuf> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut pictures: BTreeMap<String, PathBuf> = BTreeMap::new();
@@ -32,17 +32,17 @@ pub fn material_picture(mesh: &MeshFile, path: &Path) -> Option<PathBuf> {
             *faces_with.entry(picture).or_default() += faces;
         }
     }
-    // The first of equals, going by their names.
+    // The picture with the first name wins a tie.
     faces_with.into_iter().rev().max_by_key(|&(_, faces)| faces).map(|(picture, _)| picture.to_owned())
 }
 
-/// The material libraries of an OBJ file at `path`, and the pictures that they name; buffers and pictures of a glTF file. As far
-/// as they are there.
+/// Existing files that a mesh file at `path` refers to: for OBJ, its material libraries and the pictures that they
+/// name; for glTF, its buffers and pictures.
 pub fn material_files(mesh: &MeshFile, path: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for library in libraries(mesh, path.parent().unwrap_or(Path::new(""))) {
         let folder = library.parent().unwrap_or(Path::new(""));
-        // Something that is no regular file, such as a pipe, is not opened: nothing may ever come.
+        // Only regular files are opened: reading a pipe could block for ever.
         let text = if library.is_file() { fs::read(&library).unwrap_or_default() } else { Vec::new() };
         let pictures = String::from_utf8_lossy(&text)
             .lines()
@@ -57,7 +57,7 @@ pub fn material_files(mesh: &MeshFile, path: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// What follows the keyword on a line of a material library that names a picture.
+/// Argument of a line of a material library that names a picture; `None` for other lines.
 pub(super) fn picture_argument(line: &str) -> Option<&str> {
     let (keyword, argument) = line.trim().split_once(char::is_whitespace)?;
     let keyword = keyword.to_ascii_lowercase();
@@ -65,24 +65,24 @@ pub(super) fn picture_argument(line: &str) -> Option<&str> {
     is_picture.then(|| argument.trim())
 }
 
-/// A material library as a mesh names it, which need not be there.
+/// Material library that a mesh names; the file may be missing.
 #[derive(Debug)]
 pub(super) struct Library {
     pub(super) name: String,
     pub(super) path: PathBuf,
 }
 
-/// The material libraries.
+/// Paths of all material libraries of a mesh.
 fn libraries(mesh: &MeshFile, folder: &Path) -> Vec<PathBuf> {
     let statements = mesh.statements.iter().filter(|statement| statement.keyword() == b"mtllib");
     statements.flat_map(|statement| libraries_of(statement, folder)).map(|library| library.path).collect()
 }
 
-/// The material libraries of a line. It may name several, but a name may also hold blanks.
+/// Material libraries of a line. A line may name several libraries, but a name may also contain blanks.
 pub(super) fn libraries_of(statement: &Statement, folder: &Path) -> Vec<Library> {
     let library = |name: &str| Library { name: name.to_owned(), path: place_of(name, folder) };
     let argument = statement.argument();
-    // A comment may follow, but a name may also hold its sign.
+    // A comment may follow, but a name may also contain `#`.
     let names = if library(&argument).path.is_file() { &argument } else { before_comment(&argument) };
     let whole = library(names);
     if whole.path.is_file() { vec![whole] } else { names.split_whitespace().map(library).collect() }
@@ -92,7 +92,7 @@ fn before_comment(argument: &str) -> &str {
     argument.split_once(" #").map_or(argument, |(names, _)| names.trim_end())
 }
 
-/// How many faces each material is on. A material may come more than once.
+/// Number of faces of each material. A material may be listed more than once.
 fn faces_by_material(mesh: &MeshFile) -> Vec<(String, usize)> {
     let uses: Vec<_> = mesh.statements.iter().filter(|statement| statement.keyword() == b"usemtl").collect();
     let end = mesh.polygons.face_count();
@@ -104,15 +104,15 @@ fn faces_by_material(mesh: &MeshFile) -> Vec<(String, usize)> {
     counted.collect()
 }
 
-/// A picture that a line of a library names.
+/// Picture that a line of a library names.
 #[derive(Debug)]
 pub(super) struct NamedPicture {
-    /// Where its name begins in the argument of the line, bytes.
+    /// Start of its name in the argument of the line, bytes.
     pub(super) begin: usize,
     pub(super) path: PathBuf,
 }
 
-/// The picture of an argument without blanks around it: its longest end that is the name of a file.
+/// Picture in an argument without surrounding blanks: its longest suffix that is the name of a file.
 pub(super) fn picture_within(argument: &str, folder: &Path) -> Option<NamedPicture> {
     let after_blank = |(at, blank): (usize, &str)| at + blank.len();
     let begins = std::iter::once(0).chain(argument.match_indices(char::is_whitespace).map(after_blank));
@@ -120,20 +120,20 @@ pub(super) fn picture_within(argument: &str, folder: &Path) -> Option<NamedPictu
     found.find(|named| named.path.is_file())
 }
 
-/// The file of a `map_Kd` line. Options such as `-s 1 1 1` may stand before its name, which may hold blanks: the
-/// longest end of the line that is the name of a file.
+/// File of a `map_Kd` line. Options such as `-s 1 1 1` may precede its name, and the name may contain blanks. So the
+/// longest suffix of the line that is the name of a file counts.
 fn picture_of(texture: &str, folder: &Path) -> PathBuf {
     let texture = texture.trim();
     let nowhere = || {
-        // Nothing is there: for a message, the last word of a line with options, the whole line of one without.
+        // No such file: use the last word of a line with options, or else the whole line, for the message.
         let name = if texture.starts_with('-') { texture.rsplit(char::is_whitespace).next() } else { None };
         place_of(name.unwrap_or(texture), folder)
     };
     picture_within(texture, folder).map_or_else(nowhere, |found| found.path)
 }
 
-/// A file named in another file of this folder. Backslashes divide folders where no file's name holds them, and a
-/// whole path of another machine is given up for a file of that name in this folder.
+/// Path of a file that another file in this folder names. Backslashes separate folders, unless a file has exactly
+/// this name. An absolute path of another machine is replaced by the file name in this folder.
 fn place_of(name: &str, folder: &Path) -> PathBuf {
     let name = name.trim().trim_matches('"');
     let verbatim = folder.join(name);

@@ -1,17 +1,17 @@
 //! OBJ files.
 //!
-//! | file           | what it holds                                                           |
+//! | file           | contents                                                                |
 //! |----------------|-------------------------------------------------------------------------|
-//! | `lines`        | the lines of a text as pieces of its bytes                              |
+//! | `lines`        | lines of a text, as slices of its bytes                                 |
 //! | `line`         | words of a line: numbers and corners                                    |
-//! | `parse`        | lines put together to a mesh                                            |
-//! | `material`     | the files that the materials name                                       |
+//! | `parse`        | a mesh from its lines                                                   |
+//! | `material`     | files that the materials name                                           |
 //! | `libraries`    | material libraries of a mesh that is written into another folder        |
-//! | `beside`       | files that belong to a mesh and lie beside it                           |
-//! | `write`        | writes a file that reads back bit for bit                               |
+//! | `beside`       | files that belong to a mesh, in its folder                              |
+//! | `write`        | writer of files that read back bit for bit                              |
 //! | `digits`       | numbers as text                                                         |
-//! | `carried`      | a mesh written as the text that it was read from                        |
-//! | `with_picture` | writes a file, its material and its picture side by side                |
+//! | `carried`      | writer of a mesh as the text that it was read from                      |
+//! | `with_picture` | writer of a mesh with its material and its picture                      |
 
 mod beside;
 mod carried;

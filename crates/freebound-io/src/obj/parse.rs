@@ -1,11 +1,11 @@
-//! Takes OBJ lines one by one and puts a mesh together.
+//! Parser of OBJ text.
 //!
-//! Every fault is noted and the reading goes on, so that all of them are known at the end. Pieces of the text are read side
-//! by side and put together in their order, unless an index counts backwards or there is a fault.
+//! Parsing continues after a fault, so that all faults are known at the end. Pieces of the text are parsed in
+//! parallel and joined in order, unless an index counts backwards or there is a fault.
 //!
-//! Understood: `v` (words behind the third number are ignored), `vt`, `f` in all its forms with positive and negative
-//! indices, `o`, `g`, `s`, `usemtl`, `mtllib`, comments, lines that go on behind a `\`. Anything else is skipped. A
-//! positive index may name an element that comes later in the file. A line ends with LF, with CR LF, or with CR alone.
+//! Supported: `v` (words after the third number are ignored), `vt`, `f` in all its forms with positive and negative
+//! indices, `o`, `g`, `s`, `usemtl`, `mtllib`, comments, lines continued by `\`. Anything else is skipped. A positive
+//! index may name an element that comes later in the file. A line ends with LF, with CR LF, or with CR alone.
 
 use std::ops::ControlFlow;
 
@@ -19,13 +19,13 @@ use crate::mesh_file::{
 };
 use freebound_core::mesh::VertexId;
 
-/// Bytes of a piece of the text: enough to outweigh the handing out.
+/// Size of a piece of the text, bytes: large enough to outweigh the cost of scheduling it.
 const PIECE: usize = 256 << 10;
 
-/// Pieces read between two looks whether to go on: some hundredths of a second.
+/// Number of pieces parsed between two checks for cancellation: some hundredths of a second.
 const PIECES_AT_ONCE: usize = 16;
 
-/// Puts a mesh together from text, looking now and then whether to go on; the text itself is not kept.
+/// Parses a mesh. `watch` is called now and then and may cancel; the text itself is not kept.
 pub(crate) fn parse(text: &[u8], watch: &mut dyn FnMut() -> ControlFlow<()>) -> Result<MeshFile, ReadError> {
     let pieces = pieces(split_mark(text).1, PIECE);
     let whole = match side_by_side(&pieces, watch)? {
@@ -35,8 +35,8 @@ pub(crate) fn parse(text: &[u8], watch: &mut dyn FnMut() -> ControlFlow<()>) -> 
     whole.finish()
 }
 
-/// Reads pieces on all threads; nothing where an index counts backwards or there is a fault: what is said of either depends
-/// on all before it.
+/// Parses pieces on all threads. `None` if an index counts backwards or there is a fault, because either depends on
+/// all the text before it.
 fn side_by_side(pieces: &[&[u8]], watch: &mut dyn FnMut() -> ControlFlow<()>) -> Result<Option<Parser>, ReadError> {
     let mut whole = Parser::default();
     for batch in pieces.chunks(PIECES_AT_ONCE) {
@@ -66,28 +66,28 @@ fn one_after_another(pieces: &[&[u8]], watch: &mut dyn FnMut() -> ControlFlow<()
     Ok(whole)
 }
 
-/// The mesh as far as it is read.
+/// Mesh as far as it is parsed.
 #[derive(Debug, Default)]
 struct Parser {
     mesh: MeshFile,
     coordinates: Vec<DVec2>,
-    /// Empty until a corner has a texture coordinate.
+    /// Empty until the first corner with a texture coordinate.
     texture_corners: Vec<u32>,
     face_count: u32,
     /// Runs of faces on consecutive lines: number of the first face and its line.
     line_runs: Vec<(u32, u64)>,
-    /// Complete lines before the present one.
+    /// Number of complete lines before the current one.
     line: u64,
     faults: Vec<ParseFault>,
     fault_count: usize,
-    /// Whether an index counts backwards.
+    /// True if an index counts backwards.
     counts_backwards: bool,
-    /// A line put together from continued ones.
+    /// Buffer for a line joined from continued ones.
     joined: Vec<u8>,
 }
 
 impl Parser {
-    /// What a piece of a text says by itself.
+    /// Parses a piece of a text on its own.
     fn of(piece: &[u8]) -> Result<Self, ReadError> {
         let mut parser = Self::default();
         parser.take_all(piece)?;
@@ -98,7 +98,7 @@ impl Parser {
         Lines::of(piece).try_for_each(|line| self.take(&line))
     }
 
-    /// Puts the piece behind, read by itself and free of faults, to what is there.
+    /// Appends the next piece, which was parsed on its own and has no faults.
     fn append(&mut self, piece: Self) -> Result<(), ReadError> {
         let (faces, corners) = (self.face_count, self.mesh.polygons.corners.len());
         let polygons = &mut self.mesh.polygons;
@@ -129,7 +129,7 @@ impl Parser {
         Ok(())
     }
 
-    /// Takes one line.
+    /// Parses a line.
     fn take(&mut self, line: &Line<'_>) -> Result<(), ReadError> {
         let mut joined = std::mem::take(&mut self.joined);
         let taken = self.take_line(line.as_one(&mut joined));
@@ -146,7 +146,7 @@ impl Parser {
                 Ok(position) => self.mesh.polygons.positions.push(DVec3::from(position)),
                 Err(kind) => {
                     self.fault(kind);
-                    // Keeps the numbers of the vertices behind it.
+                    // A placeholder keeps the numbers of the vertices after it.
                     self.mesh.polygons.positions.push(DVec3::NAN);
                 }
             },
@@ -163,7 +163,7 @@ impl Parser {
         Ok(())
     }
 
-    /// A second number that is missing is 0, as the format says.
+    /// Parses a texture coordinate. A missing second number is 0, as the format defines.
     fn texture_coordinate<'a>(&mut self, words: impl Iterator<Item = &'a [u8]> + Clone) -> DVec2 {
         let parsed = match words.clone().count() {
             1 => numbers(words).map(|[u]| DVec2::new(u, 0.0)),
@@ -198,14 +198,14 @@ impl Parser {
         Ok(())
     }
 
-    /// Refuses what 32 bits do not count.
+    /// Fails if 32 bits cannot number the corners or vertices.
     fn check_size(&self) -> Result<(), ReadError> {
         let polygons = &self.mesh.polygons;
         let is_too_large = polygons.corners.len().max(polygons.positions.len()) >= u32::MAX as usize;
         if is_too_large { Err(ReadError::TooLarge) } else { Ok(()) }
     }
 
-    /// Notes the line of a face, and by it those of faces that follow on lines of their own.
+    /// Records the line of a face. Consecutive faces on consecutive lines share one entry.
     fn note_line(&mut self, face: u32, line: u64) {
         if self.line_of_face(face) != Some(line) {
             self.line_runs.push((face, line));
@@ -230,7 +230,7 @@ impl Parser {
         if found < 3 { Err(ParseFaultKind::TooFewCorners(found)) } else { Ok(()) }
     }
 
-    /// The line that a face stands on.
+    /// Line of a face.
     fn line_of_face(&self, face: u32) -> Option<u64> {
         let after = self.line_runs.partition_point(|&(first, _)| first <= face);
         let &(first, line) = self.line_runs.get(after.checked_sub(1)?)?;
@@ -248,7 +248,7 @@ impl Parser {
         }
     }
 
-    /// Checks what can be checked only at the end.
+    /// Runs the checks that need the whole file.
     fn finish(mut self) -> Result<MeshFile, ReadError> {
         if !self.texture_corners.is_empty() {
             self.texture_corners.resize(self.mesh.polygons.corners.len(), NO_TEXTURE);
@@ -268,7 +268,7 @@ impl Parser {
         Ok(self.mesh)
     }
 
-    /// Looks for corners that name elements which never came.
+    /// Reports corners that name missing elements.
     fn check_ranges(&mut self) {
         let vertex_count = self.mesh.polygons.positions.len();
         let coordinate_count = self.coordinates.len();
@@ -278,7 +278,7 @@ impl Parser {
         if !vertex_misses && !texture_misses {
             return;
         }
-        // Faults of single lines may have filled the list; those found here can stand on earlier lines.
+        // Faults of single lines may have filled the list; the faults found here may be on earlier lines.
         let mut earlier = std::mem::take(&mut self.faults);
         for face in 0..self.face_count {
             let line = self.line_of_face(face).expect("every face has a line");
@@ -297,7 +297,7 @@ impl Parser {
     }
 }
 
-/// Where the corners of so many triangles begin, and the end of the last.
+/// Offsets of the corners of `count` triangles, and the end of the last.
 fn starts_of_triangles(count: u32) -> Vec<u32> {
     (0..=count).map(|face| 3 * face).collect()
 }
@@ -306,14 +306,14 @@ fn out_of_range(element: &'static str, resolved: u32, count: usize) -> ParseFaul
     ParseFaultKind::IndexOutOfRange { element, index: i64::from(resolved) + 1, count }
 }
 
-/// From an index as written to one from 0. Positive ones are checked when the file is read.
+/// Converts an index as written to one from 0. Positive indices are checked at the end of the file.
 pub(super) fn resolve(element: &'static str, index: i64, count: usize) -> Result<u32, ParseFaultKind> {
     let from_zero = match index {
         1.. => Some(index - 1),
         0 => return Err(ParseFaultKind::IndexZero),
         _ => i64::try_from(count).ok().map(|count| count + index),
     };
-    // The highest number is kept free to say "none".
+    // The largest number is reserved for [`NO_TEXTURE`].
     from_zero
         .and_then(|value| u32::try_from(value).ok())
         .filter(|&value| value != NO_TEXTURE)

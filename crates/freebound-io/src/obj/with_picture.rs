@@ -1,4 +1,4 @@
-//! An OBJ file with a picture: the mesh, a material library that names the picture, and the picture, side by side.
+//! OBJ file with a picture: the mesh, a material library that names the picture, and the picture, in one folder.
 
 use std::fs;
 use std::io::Write as _;
@@ -13,12 +13,12 @@ use crate::{PictureFile, WriteError, is_same_file, write_atomically};
 /// Name of the material.
 const MATERIAL: &str = "picture";
 
-/// How the material libraries written here begin, by which they are known again.
+/// Beginning of the material libraries written here, which identifies them later.
 const HEAD: &str = "# Freebound: the picture of ";
 
 impl PictureFile {
-    /// Path of the material library of an OBJ file with a picture: beside it, of the same name, or another where that
-    /// file is not ours.
+    /// Path of the material library of an OBJ file with a picture, in its folder. It has its name, or another one if
+    /// an unrelated file has that name.
     pub fn library_beside(path: &Path) -> PathBuf {
         let stem = stem_of(path);
         let head = head_for(path);
@@ -27,12 +27,12 @@ impl PictureFile {
         })
     }
 
-    /// Where the copy of the picture is to lie beside an OBJ file, if nothing else comes there; nowhere where it needs
-    /// none. Nothing is written.
+    /// Path that the copy of the picture will have in the folder of an OBJ file, unless another file appears there in
+    /// the meantime. Empty if no copy is needed. Nothing is written.
     ///
     /// # Errors
     ///
-    /// The picture's file, where it cannot be read.
+    /// The picture's file, if it cannot be read.
     pub fn copies_beside(&self, path: &Path) -> Result<Vec<PathBuf>, WriteError> {
         let mut beside = Beside::planning(path);
         put_picture(self, &mut beside)?;
@@ -41,14 +41,14 @@ impl PictureFile {
 
     /// Writes a mesh with texture coordinates, v up, whose only material shows this picture.
     ///
-    /// Names in the files are relative and without blanks, which not all readers take. A picture that lies in the same
-    /// folder already is named where it is; another one is copied byte for byte, and one that came from no file is written
-    /// as a PNG. Files of others are never written over. The mesh comes last, so that what it names is there. Returns the
-    /// files written, the mesh first.
+    /// Names in the files are relative and without blanks, which some readers do not accept. A picture in the mesh's
+    /// folder is referenced directly; any other is copied byte for byte. A picture without a file is written as a
+    /// PNG. Unrelated files are never overwritten. The mesh is written last, so that every file it names exists.
+    /// Returns the files written, the mesh first.
     ///
     /// # Errors
     ///
-    /// The file that cannot be written or, of the picture, read.
+    /// The file that cannot be written, or the picture file that cannot be read.
     pub(crate) fn write_beside(
         &self,
         path: &Path,
@@ -71,24 +71,25 @@ impl PictureFile {
     }
 }
 
-/// What makes this material that of all faces, and the only one.
+/// Edits that give this material to all faces and drop every other.
 fn with_material(mesh: &MeshFile, library: &str) -> Edits {
     let of_material = |statement: &Statement| matches!(statement.keyword(), b"mtllib" | b"usemtl");
     let dropped = mesh.statements.iter().enumerate().filter(|(_, statement)| of_material(statement));
     Edits {
         statements: dropped.map(|(place, _)| (place, Vec::new())).collect(),
-        // A library is named before anything else, a material within the object that it is on.
+        // A library is named before anything else, a material inside the object that uses it.
         first: Some(format!("mtllib {library}").into_bytes()),
         before_faces: Some(format!("usemtl {MATERIAL}").into_bytes()),
     }
 }
 
-/// First line of the material library of an OBJ file. One of another mesh's begins otherwise: it may be in use.
+/// First line of the material library of an OBJ file. A library with another first line belongs to another mesh and
+/// may be in use.
 fn head_for(path: &Path) -> String {
     format!("{HEAD}{}\n", name_of(path))
 }
 
-/// Puts a picture beside a mesh where it is not there yet, and returns its name.
+/// Puts a picture into the mesh's folder, unless it is there already, and returns its name.
 fn put_picture(picture: &PictureFile, beside: &mut Beside<'_>) -> Result<String, WriteError> {
     let mesh = beside.mesh;
     let Some(source) = &picture.path else {

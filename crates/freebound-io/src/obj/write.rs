@@ -1,4 +1,4 @@
-//! Writes OBJ files that read back bit for bit.
+//! Writer of OBJ files that read back bit for bit.
 
 use std::io::{self, Write};
 
@@ -9,23 +9,23 @@ use crate::mesh_file::{MeshFile, NO_TEXTURE, SourceFormat, Texture};
 
 /// Writes a mesh with these texture coordinates, or with none if they are empty.
 ///
-/// A mesh that was read from OBJ text is written as that text: byte for byte, but for its texture coordinates, the
-/// indices of corners into them, and faces that have been cut. Any other has its vertices, polygons and statements in
-/// their order. Numbers have the fewest digits that read back as the same number. A face with a corner that is
-/// [`NO_TEXTURE`] is written without texture coordinates.
+/// A mesh that was read from OBJ text is written as that text, byte for byte. Only its texture coordinates, the
+/// corners' indices into them, and split faces change. Any other mesh is written with its vertices, polygons and
+/// statements in order. Numbers have the fewest digits that read back exactly. A face with a [`NO_TEXTURE`] corner is
+/// written without texture coordinates.
 ///
 /// # Errors
 ///
-/// What `out` says, and texture coordinates that are infinite or not numbers.
+/// If `out` cannot be written, or a texture coordinate is infinite or not a number.
 ///
 /// # Panics
 ///
-/// If the texture's corners are neither none nor as many as the mesh's, or name coordinates that it does not have.
+/// If the number of texture corners is neither 0 nor that of the mesh's corners, or one names a missing coordinate.
 pub fn write_obj(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::Result<()> {
     write_obj_with(out, mesh, &Edits::default(), texture)
 }
 
-/// As [`write_obj`], with changes to the mesh's statements.
+/// Writes a mesh like [`write_obj`], with changes to the mesh's statements.
 pub(crate) fn write_obj_with(
     out: &mut impl Write,
     mesh: &MeshFile,
@@ -44,7 +44,7 @@ pub(crate) fn write_obj_with(
     }
 }
 
-/// Writes a mesh that has no text.
+/// Writes a mesh that was not read from OBJ text.
 fn write_new(out: &mut impl Write, mesh: &MeshFile, edits: &Edits, texture: &Texture) -> io::Result<()> {
     let polygons = &mesh.polygons;
     write_lines(out, &edits.first)?;

@@ -1,20 +1,20 @@
-//! The header of a PLY file: which elements follow, how many, and the properties of each.
+//! Header of a PLY file: its elements, their numbers, and the properties of each.
 
 use crate::mesh_file::{FaultPlace, ParseFaultKind, ReadError, fault_at};
 use crate::obj::{Lines, quoted};
 
-/// What a PLY file holds and how.
+/// Layout of a PLY file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
-    /// Its length, bytes.
+    /// Length of the header, bytes.
     pub(super) length: usize,
-    /// Its lines.
+    /// Number of lines of the header.
     pub(super) lines: u64,
 }
 
-/// How numbers are written.
+/// Encoding of the numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
     Text,
@@ -22,7 +22,7 @@ pub(super) enum Encoding {
     BigEndian,
 }
 
-/// A list of things of one kind.
+/// List of items of one kind.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Element {
     pub(super) name: String,
@@ -30,16 +30,16 @@ pub(super) struct Element {
     pub(super) properties: Vec<Property>,
 }
 
-/// A number or a list of numbers that each thing has.
+/// Number or list of numbers that each item has.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Property {
     pub(super) name: String,
-    /// Kind of the number of items; `None` where it is a single number.
+    /// Type of the length of a list; `None` for a single number.
     pub(super) count: Option<Scalar>,
     pub(super) item: Scalar,
 }
 
-/// A kind of number.
+/// Type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scalar {
     I8,
@@ -80,7 +80,7 @@ impl Scalar {
         }
     }
 
-    /// Whether it is a kind of integers that has numbers for so many elements.
+    /// True for an integer type that can number `count` elements.
     pub(super) fn holds(self, count: usize) -> bool {
         let bits = match self {
             Self::I8 => 7,
@@ -94,7 +94,7 @@ impl Scalar {
         count as u64 <= 1 << bits
     }
 
-    /// Bytes in a binary file.
+    /// Size in a binary file, bytes.
     pub(super) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -110,16 +110,16 @@ impl Scalar {
 }
 
 impl Element {
-    /// The property of the first of these names that there is.
+    /// Property with the first of these names that exists.
     pub(super) fn property(&self, names: &[&str]) -> Option<usize> {
         names.iter().find_map(|name| self.properties.iter().position(|property| property.name == *name))
     }
 
-    /// The fewest bytes that one thing takes.
+    /// Least number of bytes of an item.
     pub(super) fn least_size(&self, encoding: Encoding) -> usize {
         let of = |property: &Property| property.count.unwrap_or(property.item).size();
         match encoding {
-            // A digit and what ends it.
+            // A digit and the character that ends it.
             Encoding::Text => 2 * self.properties.len(),
             _ => self.properties.iter().map(of).sum(),
         }
@@ -127,7 +127,7 @@ impl Element {
 }
 
 impl Header {
-    /// Takes the header at the beginning of a file apart.
+    /// Parses the header at the beginning of a file.
     pub(super) fn of(bytes: &[u8]) -> Result<Self, ReadError> {
         let mut header = Self { encoding: Encoding::Text, elements: Vec::new(), length: 0, lines: 0 };
         for line in Lines::of(bytes) {
@@ -172,12 +172,12 @@ impl Header {
         }
     }
 
-    /// Takes a property in, by the words for the types of a list's count, where it is one, and of its items.
+    /// Adds a property. `count` is the type of a list's length, for a list, and `item` that of its items.
     fn property(&mut self, name: &[u8], count: Option<&[u8]>, item: &[u8]) -> Result<(), ReadError> {
         let is_list = count.is_some();
         let count = count.and_then(Scalar::of).filter(|kind| kind.is_integer());
         let Some(item) = Scalar::of(item).filter(|_| count.is_some() == is_list) else {
-            return Err(self.unexpected(name, "a property of a type that PLY has"));
+            return Err(self.unexpected(name, "a property of a PLY type"));
         };
         let name = String::from_utf8_lossy(name).into_owned();
         match self.elements.last_mut() {

@@ -1,4 +1,4 @@
-//! The numbers of a PLY file behind its header, in any encoding.
+//! Numbers of a PLY file after its header, in any encoding.
 
 use std::ops::Range;
 
@@ -6,14 +6,14 @@ use super::header::{Element, Encoding, Header, Property, Scalar};
 use crate::mesh_file::{FaultPlace, ParseFaultKind, ReadError, TokenWords, fault_at};
 use crate::obj::quoted;
 
-/// Goes through the numbers of a file.
+/// Reader of the numbers of a file.
 pub(super) enum Numbers<'a> {
     Text { words: TokenWords<'a>, begin: usize },
     Binary { bytes: &'a [u8], at: usize, is_big_endian: bool },
 }
 
 impl<'a> Numbers<'a> {
-    /// The numbers behind the header.
+    /// Reader that begins after the header.
     pub(super) fn of(bytes: &'a [u8], header: &Header) -> Self {
         match header.encoding {
             Encoding::Text => {
@@ -24,7 +24,7 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// Where the next number is, or, in text, the line of the last one.
+    /// Position of the next number; in text, the line of the last one.
     pub(super) fn place(&self) -> FaultPlace {
         match self {
             Self::Text { words, .. } => words.place(),
@@ -32,7 +32,7 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// How many bytes are left.
+    /// Number of bytes left.
     fn left(&self) -> usize {
         match self {
             Self::Text { words, .. } => words.left(),
@@ -40,10 +40,10 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// Refuses more things than the rest of the file has room for.
+    /// Fails if the rest of the file is too short for the items of an element.
     pub(super) fn check_room(&self, element: &Element, encoding: Encoding) -> Result<(), ReadError> {
         let least = (element.least_size(encoding) as u64).checked_mul(element.count);
-        // The last number of a text needs no blank behind it.
+        // The last number of a text needs no blank after it.
         if least.is_some_and(|least| least <= self.left() as u64 + 1) {
             return Ok(());
         }
@@ -65,7 +65,7 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// The number of items of a list, which the rest of the file has room for.
+    /// Reads the length of a list. Fails if the rest of the file is too short for the list.
     pub(super) fn count(&mut self, kind: Scalar, item: Scalar) -> Result<usize, ReadError> {
         let before = self.place();
         let count = self.integer(kind)?;
@@ -79,7 +79,7 @@ impl<'a> Numbers<'a> {
         })
     }
 
-    /// A number without a fraction.
+    /// Reads an integer.
     pub(super) fn integer(&mut self, kind: Scalar) -> Result<i64, ReadError> {
         let place = self.place();
         if let Self::Text { words, .. } = self {
@@ -87,15 +87,15 @@ impl<'a> Numbers<'a> {
             let parsed = std::str::from_utf8(word).ok().and_then(|text| text.parse().ok());
             return parsed.ok_or_else(|| fault_at(words.place(), ParseFaultKind::BadNumber(quoted(word))));
         }
-        // Integers of all kinds have at most 32 bits, so that this is exact.
+        // Integers of all types have at most 32 bits, so this is exact.
         #[expect(clippy::cast_possible_truncation, reason = "integers have at most 32 bits")]
         self.next(kind).map(|number| number as i64)
     }
 
-    /// Where the bytes of the next property stand in the file.
+    /// Passes over the next property and returns its byte range in the file.
     pub(super) fn span(&mut self, property: &Property) -> Result<Range<usize>, ReadError> {
         let begin = match self {
-            // The blanks before a word are none of it.
+            // Leading blanks are not part of the property.
             Self::Text { words, begin } => {
                 let mut ahead = words.clone();
                 ahead.next_range().map_or(*begin, |range| *begin + range.start)
@@ -114,7 +114,7 @@ impl<'a> Numbers<'a> {
         Ok(begin..end)
     }
 
-    /// The number that these bytes are, in the encoding of this file.
+    /// Value of these bytes as a number, in the encoding of this file.
     pub(super) fn at(&self, bytes: &[u8], kind: Scalar) -> Result<f64, ReadError> {
         match self {
             Self::Text { .. } => TokenWords::of(bytes, 1).number(),
@@ -122,7 +122,7 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// Passes over numbers of one kind.
+    /// Skips numbers of one type.
     pub(super) fn skip(&mut self, kind: Scalar, count: usize) -> Result<(), ReadError> {
         match self {
             Self::Text { words, .. } => {

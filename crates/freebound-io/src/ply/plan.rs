@@ -1,4 +1,4 @@
-//! Where texture coordinates stand in a PLY file, and the header that says so.
+//! Position of texture coordinates in a PLY file, and the header for it.
 
 use std::io::{self, Write};
 
@@ -8,20 +8,20 @@ use crate::mesh_file::{NO_TEXTURE, Texture};
 use crate::obj::Lines;
 use freebound_core::mesh::PolygonMesh;
 
-/// The names of texture coordinates of vertices that had none.
+/// Names of texture coordinates for vertices that had none.
 const NEW_NAMES: [&str; 2] = ["s", "t"];
 
-/// Where texture coordinates are written.
+/// Layout of the written texture coordinates.
 pub(super) struct Plan {
-    /// Names of those of vertices, and whether the file has them already.
+    /// Property names for texture coordinates of vertices; `has_names` is true if the file has them already.
     pub(super) names: [&'static str; 2],
     pub(super) has_names: bool,
-    /// For each vertex its coordinate; `None` where vertices get none.
+    /// Coordinate of each vertex; `None` if vertices get none.
     pub(super) at_vertices: Option<Vec<u32>>,
-    /// Whether corners get theirs, in which kind of count, and whether the file has the lists already.
+    /// Type of the list length if corners get coordinates; `has_lists` is true if the file has the lists already.
     pub(super) at_corners: Option<Scalar>,
     pub(super) has_lists: bool,
-    /// The kind of the indices of vertices.
+    /// Type of the vertex indices.
     pub(super) index: Scalar,
 }
 
@@ -43,7 +43,7 @@ impl Plan {
         Self { names, has_names: own.is_some(), at_vertices, at_corners, has_lists, index }
     }
 
-    /// Writes the header of the file with other properties and counts of vertices and faces.
+    /// Writes the header of the file with the new properties and the numbers of vertices and faces.
     pub(super) fn write_header(&self, out: &mut impl Write, head: &[u8], counts: [usize; 2]) -> io::Result<()> {
         let mut element = String::new();
         for line in Lines::of(head) {
@@ -76,12 +76,12 @@ impl Plan {
         Ok(())
     }
 
-    /// Whether a property of vertices is one of the file's own texture coordinates.
+    /// True if a property of vertices is one of the file's own texture coordinates.
     pub(super) fn is_texture(&self, name: &str) -> bool {
         self.has_names && self.names.contains(&name)
     }
 
-    /// The properties that an element gets behind its own.
+    /// Properties that an element gets after its own.
     fn added(&self, element: &str, end: &str) -> String {
         let [u, v] = self.names;
         match element {
@@ -99,7 +99,7 @@ impl Plan {
     }
 }
 
-/// The coordinate of each vertex, where all its corners have the same one and no corner has none.
+/// Coordinate of each vertex; `None` if a vertex has different ones at its corners, or a corner has none.
 fn one_per_vertex(mesh: &PolygonMesh, texture: &Texture) -> Option<Vec<u32>> {
     if texture.coordinates.is_empty() || texture.corners.contains(&NO_TEXTURE) {
         return None;

@@ -1,5 +1,5 @@
-//! A mesh from a PLY file: positions, faces, and texture coordinates of vertices (`u` and `v`, or `s` and `t`) or of
-//! corners (`texcoord`). All else is passed over.
+//! Mesh from a PLY file: positions, faces, and texture coordinates of vertices (`u` and `v`, or `s` and `t`) or of
+//! corners (`texcoord`). Everything else is skipped.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::mesh_file::{
 use freebound_core::mesh::{PolygonMesh, VertexId};
 use freebound_core::problem::Embedding;
 
-/// Puts a mesh together from a PLY file, and keeps the file.
+/// Parses a mesh from a PLY file, and keeps the file.
 pub(crate) fn parse_ply(bytes: Vec<u8>) -> Result<MeshFile, ReadError> {
     let header = Header::of(&bytes)?;
     let mut reader = Reader { vertex_count: header.count_of("vertex"), ..Reader::of(Numbers::of(&bytes, &header)) };
@@ -23,7 +23,7 @@ pub(crate) fn parse_ply(bytes: Vec<u8>) -> Result<MeshFile, ReadError> {
         match element.name.as_str() {
             "vertex" => reader.vertices(element, header.lines)?,
             "face" => reader.faces(element, header.lines)?,
-            // Things that have no properties take no room, however many there are.
+            // Items without properties take no bytes, whatever their number.
             _ if element.properties.is_empty() => {}
             _ => (0..element.count).try_for_each(|_| reader.skip_all(&element.properties))?,
         }
@@ -35,20 +35,20 @@ pub(crate) fn parse_ply(bytes: Vec<u8>) -> Result<MeshFile, ReadError> {
 }
 
 impl Header {
-    /// How many things of this name there are.
+    /// Number of items of this name.
     fn count_of(&self, name: &str) -> u64 {
         self.elements.iter().filter(|element| element.name == name).map(|element| element.count).sum()
     }
 }
 
-/// A mesh as far as it is read.
+/// Mesh as far as it is read.
 struct Reader<'a> {
     numbers: Numbers<'a>,
     vertex_count: u64,
     mesh: PolygonMesh,
-    /// Empty where vertices have none.
+    /// Texture coordinates of vertices; empty if they have none.
     at_vertices: Vec<DVec2>,
-    /// One per corner, where faces have them.
+    /// Texture coordinates of corners, if faces have them.
     at_corners: Texture,
 }
 
@@ -61,7 +61,10 @@ impl<'a> Reader<'a> {
     fn vertices(&mut self, element: &Element, header_lines: u64) -> Result<(), ReadError> {
         let single = |names: &[&str]| element.property(names).filter(|&at| element.properties[at].count.is_none());
         let [Some(x), Some(y), Some(z)] = ["x", "y", "z"].map(|name| single(&[name])) else {
-            let kind = ParseFaultKind::Unexpected { found: "element vertex".to_owned(), expected: "x, y and z of it" };
+            let kind = ParseFaultKind::Unexpected {
+                found: "element vertex".to_owned(),
+                expected: "its properties x, y and z",
+            };
             return Err(fault_at(FaultPlace::Line(header_lines), kind));
         };
         let texture = TEXTURE_NAMES.iter().find_map(|[u, v]| Some([single(&[u])?, single(&[v])?]));
@@ -88,7 +91,7 @@ impl<'a> Reader<'a> {
     fn faces(&mut self, element: &Element, header_lines: u64) -> Result<(), ReadError> {
         let list = |names: &[&str]| element.property(names).filter(|&at| element.properties[at].count.is_some());
         let Some(corners) = list(&CORNER_NAMES).filter(|&at| element.properties[at].item.is_integer()) else {
-            let expected = "a list vertex_indices of it";
+            let expected = "its list vertex_indices";
             let kind = ParseFaultKind::Unexpected { found: "element face".to_owned(), expected };
             return Err(fault_at(FaultPlace::Line(header_lines), kind));
         };
@@ -133,7 +136,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Closes a face, with the texture coordinates of its corners.
+    /// Ends a face, with the texture coordinates of its corners.
     fn end_face(&mut self, coordinates: &[f64]) -> Result<(), ReadError> {
         let end = u32::try_from(self.mesh.corners.len()).map_err(|_| ReadError::TooLarge)?;
         let starts = self.mesh.starts.as_mut().expect("it is made with them");

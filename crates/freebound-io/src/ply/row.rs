@@ -1,11 +1,11 @@
-//! A row of a PLY file that is being written.
+//! Row of a PLY file that is being written.
 
 use std::io::{self, Write};
 
 use super::header::{Encoding, Scalar};
 use freebound_core::mesh::VertexId;
 
-/// The properties of one thing, so far.
+/// Properties of an item, so far.
 pub(super) struct Row {
     encoding: Encoding,
     pub(super) bytes: Vec<u8>,
@@ -16,7 +16,7 @@ impl Row {
         Self { encoding, bytes: Vec::new() }
     }
 
-    /// A property as another file has it, of the same encoding.
+    /// Appends a property in the form of another file with this encoding.
     pub(super) fn raw(&mut self, property: &[u8]) {
         self.bytes.extend_from_slice(property);
         if self.encoding == Encoding::Text {
@@ -24,7 +24,7 @@ impl Row {
         }
     }
 
-    /// A number that the kind can hold, rounded if it is of 32 bits.
+    /// Appends a number that the type can hold; 32-bit floats are rounded.
     pub(super) fn number(&mut self, kind: Scalar, x: f64) {
         if self.encoding == Encoding::Text {
             let text = if kind.is_integer() { format!("{x:.0}") } else { format!("{x:?}") };
@@ -42,7 +42,7 @@ impl Row {
         }
     }
 
-    /// A list of vertices, in these kinds of count and index.
+    /// Appends a list of vertices; `kinds` are the types of its length and its indices.
     pub(super) fn indices(&mut self, kinds: [Scalar; 2], vertices: &[VertexId]) {
         self.number(kinds[0], vertices.len() as f64);
         for vertex in vertices {

@@ -1,9 +1,10 @@
-//! Writes PLY files: the one that a mesh was read from with other texture coordinates, or one of its own.
+//! Writer of PLY files: the file that a mesh was read from with other texture coordinates, or a new one.
 //!
-//! Texture coordinates are 64-bit numbers, so that the file holds what was proved. They stand at vertices where each
-//! vertex has one only: under the names that the file has for them, or as `s` and `t`. Where seams divide a vertex, or
-//! the file has such lists, they stand at corners, as `texcoord`. Everything else that a file has is kept: comments,
-//! elements and properties in their order. New vertices lie between the ends of their edge in all their numbers.
+//! Texture coordinates are 64-bit numbers, so that the file holds exactly the map that was proved. They are
+//! properties of vertices if each vertex has only one: under the names in the file, or as `s` and `t`. If seams
+//! divide a vertex, or the file has such lists, they are lists of corners, `texcoord`. Everything else in a file is
+//! kept: comments, elements and properties in their order. The properties of a new vertex are interpolated between
+//! the ends of its edge; lists are copied from its first end.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
@@ -19,12 +20,12 @@ use crate::finite::check_finite;
 use crate::mesh_file::{MeshFile, NO_TEXTURE, ReadError, Source, SourceFormat, Texture};
 use freebound_core::mesh::{PolygonMesh, VertexId};
 
-/// Writes a mesh with these texture coordinates, or with none if they are empty, as a PLY file: in the encoding that it
-/// was read in, or a binary one.
+/// Writes a mesh with these texture coordinates, or with none if they are empty, as a PLY file. A mesh read from PLY
+/// keeps its encoding; others are written as binary.
 ///
 /// # Errors
 ///
-/// What `out` says, and texture coordinates that are infinite or not numbers.
+/// If `out` cannot be written, or a texture coordinate is infinite or not a number.
 pub fn write_ply(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::Result<()> {
     check_finite(&texture.coordinates)?;
     let of_ply = mesh.source.as_ref().filter(|source| matches!(source.format, SourceFormat::Ply(_)));
@@ -34,7 +35,7 @@ pub fn write_ply(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io
     }
 }
 
-/// A file that holds positions and faces only.
+/// File with positions and faces only.
 fn plain(mesh: &PolygonMesh) -> Result<Source, ReadError> {
     let most = (0..mesh.face_count()).map(|face| mesh.corner_range(face).len()).max().unwrap_or(0);
     let count = if u8::try_from(most).is_ok() { Scalar::U8 } else { Scalar::I32 };
@@ -82,7 +83,7 @@ fn write_carried(out: &mut impl Write, mesh: &PolygonMesh, source: &Source, text
     Ok(())
 }
 
-/// A file was read before, so that it can be read again.
+/// Error for a file that cannot be parsed, although it was parsed before.
 fn broken(error: ReadError) -> io::Error {
     io::Error::other(error)
 }
@@ -95,7 +96,7 @@ struct Writer<'a, W> {
     plan: Plan,
     numbers: Numbers<'a>,
     row: Row,
-    /// Where the properties of the present thing stand in the file.
+    /// Byte ranges of the properties of the current item in the file.
     spans: Vec<Range<usize>>,
 }
 
@@ -146,7 +147,7 @@ impl<W: Write> Writer<'_, W> {
         Ok(())
     }
 
-    /// A property of a new vertex: what lies at `share` between the numbers of its edge's ends, which stand in `spans`.
+    /// Property of a new vertex: the value at `share` between the ends of its edge, whose values are at `spans`.
     fn between(&mut self, property: &Property, spans: [Option<Range<usize>>; 2], share: f64) -> io::Result<()> {
         let [Some(a), Some(b)] = spans else {
             self.row.number(property.count.unwrap_or(property.item), 0.0);
@@ -163,7 +164,7 @@ impl<W: Write> Writer<'_, W> {
         Ok(())
     }
 
-    /// A texture coordinate under the file's own name.
+    /// Texture coordinate under the file's own name.
     fn own_texture(&mut self, vertex: VertexId, name: &str) {
         let [u, v] = self.coordinate(vertex);
         if self.plan.at_vertices.is_some() {
@@ -215,7 +216,7 @@ impl<W: Write> Writer<'_, W> {
         self.row.end(self.out)
     }
 
-    /// The texture coordinates of a face's corners; an empty list where one has none.
+    /// Texture coordinates of a face's corners; an empty list if a corner has none.
     fn corner_texture(&mut self, face: usize) {
         let Some(count) = self.plan.at_corners else { return };
         let corners = &self.texture.corners[self.mesh.corner_range(face)];

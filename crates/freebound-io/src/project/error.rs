@@ -1,11 +1,11 @@
-//! Why a file did not become a project.
+//! Errors of reading a project file.
 
 use std::io;
 use std::path::PathBuf;
 
 use super::PROJECT_VERSION;
 
-/// Why a file did not become a project.
+/// Failure to read a project file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProjectError {
@@ -14,48 +14,48 @@ pub enum ProjectError {
     File {
         /// The file.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// The file is something else.
-    #[error("{}: this is no Freebound project", path.display())]
+    /// The file is not a project.
+    #[error("{}: not a Freebound project", path.display())]
     NotAProject {
         /// The file.
         path: PathBuf,
     },
-    /// The file has a later format.
+    /// The file has a newer format.
     #[error(
-        "{}: a newer Freebound wrote this project: its format is {version}, this one reads up to {PROJECT_VERSION}",
+        "{}: project format {version} is too new: formats up to {PROJECT_VERSION} are supported",
         path.display()
     )]
     Newer {
         /// The file.
         path: PathBuf,
-        /// Its format.
+        /// Version of its format.
         version: u64,
     },
-    /// A field that cannot be.
+    /// A field is invalid.
     #[error("{}: line {line}, {field}: {reason}", path.display())]
     Malformed {
         /// The file.
         path: PathBuf,
-        /// The line, counted from 1.
+        /// Line, counted from 1.
         line: usize,
-        /// The field, such as `pins[3].hold`.
+        /// Field, such as `pins[3].hold`.
         field: String,
-        /// What is wrong with it.
+        /// Fault of the field.
         reason: String,
     },
 }
 
 impl ProjectError {
-    /// What to do about it.
+    /// Remedy for the error.
     pub const fn remedy(&self) -> &'static str {
         match self {
             Self::File { .. } => "check the path and the permissions",
-            Self::NotAProject { .. } => "choose a file that Freebound has saved as a project",
+            Self::NotAProject { .. } => "choose a project file that Freebound has saved",
             Self::Newer { .. } => "open it with a newer version of Freebound",
-            Self::Malformed { .. } => "mend this line in a text editor",
+            Self::Malformed { .. } => "correct this line in a text editor",
         }
     }
 }

@@ -1,4 +1,4 @@
-//! How sources, seams and pins stand in a project file.
+//! Form of sources, seams and pins in a project file.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ use freebound_core::mesh::{Seams, VertexId};
 use freebound_core::pipeline::Target;
 use freebound_core::problem::{Pin, PinKind};
 
-/// A mesh or a picture: of an example or of a file, perhaps with its stamp.
+/// Mesh or picture: an example or a file, possibly with its stamp.
 #[derive(Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(super) struct SourceFields {
@@ -99,7 +99,7 @@ struct SeamFields {
     edges: Vec<EdgeText>,
 }
 
-/// An edge as the numbers of its vertices, so that each takes one line.
+/// Edge as the numbers of its two vertices in one string, so that each edge takes one line.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 struct EdgeText([VertexId; 2]);
@@ -111,7 +111,7 @@ impl TryFrom<String> for EdgeText {
         let ends = text.split_once(' ').and_then(|(a, b)| Some([a.parse().ok()?, b.parse().ok()?]));
         match ends {
             Some([a, b]) if a != b => Ok(Self([a, b].map(VertexId::new))),
-            _ => Err(format!("\"{text}\" is no edge: write the numbers of two vertices, for example \"3 17\"")),
+            _ => Err(format!("\"{text}\" is not an edge: write the numbers of two vertices, for example \"3 17\"")),
         }
     }
 }
@@ -122,7 +122,7 @@ impl From<EdgeText> for String {
     }
 }
 
-/// Seams: whether they are those of texture coordinates, and the edges as a list.
+/// Seams: a flag for the seams of the texture coordinates, and a list of edges.
 pub(super) mod seam_list {
     use super::{Deserialize, Deserializer, EdgeText, SeamFields, Seams, Serialize as _, Serializer};
 
@@ -160,7 +160,7 @@ pub(super) mod pin_list {
     }
 }
 
-/// Reads a weight. It is checked while it is read, so that a fault is told with the line of its field.
+/// Reads a weight. Validating it during parsing lets an error name the line of its field.
 fn weight<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
     deserializer.deserialize_any(WeightVisitor)
 }

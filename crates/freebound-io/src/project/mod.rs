@@ -1,13 +1,14 @@
-//! Project files: what a person has made of a mesh, as JSON that a person can read.
+//! Project files: the user's edits of a mesh, as readable JSON.
 //!
-//! | file     | what it holds                                    |
+//! | file     | contents                                         |
 //! |----------|--------------------------------------------------|
 //! | `mod`    | a project, read and written; paths in it         |
-//! | `error`  | why a file did not become a project              |
-//! | `fields` | how sources, seams and pins stand in the file    |
+//! | `error`  | errors of reading a project file                 |
+//! | `fields` | form of sources, seams and pins in the file      |
 //!
-//! A project names mesh and picture and holds everything else. Fields that this version does not know are ignored, so
-//! that a later version can add some; one that changes what fields mean takes the next [`PROJECT_VERSION`].
+//! A project refers to its mesh and picture and contains everything else. Fields that this version does not know are
+//! ignored, so that a later version can add fields. A version that changes the meaning of a field increments
+//! [`PROJECT_VERSION`].
 
 mod error;
 mod fields;
@@ -29,48 +30,48 @@ use freebound_core::mesh::{HoleTreatment, Preparation, Repairs, Seams, WeldDista
 use freebound_core::pipeline::Targets;
 use freebound_core::problem::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Spacing, Start, Treatment};
 
-/// The version of the format that this program writes, and the newest that it reads.
+/// Version of the format that this program writes, and the newest that it reads.
 pub const PROJECT_VERSION: u64 = 1;
 
-/// Extension of a project file's name.
+/// Extension of the name of a project file.
 pub const PROJECT_EXTENSION: &str = "freebound";
 
-/// A project as a file holds it, field by field in the file's order. Paths are whole; the file has them relative to
-/// itself.
+/// Contents of a project file, in the order of the file's fields. Paths are absolute here, and relative to the
+/// project in the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProjectFile {
     /// Version of the format.
     freebound_project: u64,
     /// The mesh.
     pub mesh: ProjectSource,
-    /// Whether the mesh's faces are turned around.
+    /// True if the mesh's faces are reversed.
     #[serde(default)]
     pub faces_turned: bool,
-    /// What may be repaired of it.
+    /// Repairs that may be applied to the mesh.
     #[serde(default)]
     pub repair: Repairs,
-    /// The distance within which vertices of it are joined.
+    /// Distance within which vertices are welded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weld_distance: Option<WeldDistance>,
-    /// What becomes of its holes; of older projects they are cut where the mesh is.
+    /// Treatment of holes. Default (older projects): cut if `cut` is set, filled otherwise.
     #[serde(default)]
     pub holes: Option<HoleTreatment>,
-    /// Whether it is cut open where it is no disk.
+    /// True if the mesh is cut open unless it is a disk.
     #[serde(default)]
     pub cut: bool,
-    /// Where it is cut before that.
+    /// Seams along which the mesh is cut first.
     #[serde(default, skip_serializing_if = "Seams::is_empty", with = "seam_list")]
     pub seams: Seams,
-    /// Parts of it that are left out, by the numbers of their first faces.
+    /// Parts that are left out, by the number of their first face.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_out_parts: Vec<u32>,
     /// The picture.
     #[serde(default)]
     pub picture: Option<ProjectSource>,
-    /// Where v = 0 is on the picture.
+    /// Position of v = 0 on the picture.
     #[serde(default)]
     pub v_axis: VAxis,
-    /// Of one with a shape the default; its shape stands in the next field.
+    /// Method. A method with a boundary shape is stored with the default shape; `boundary` holds the shape.
     #[serde(default)]
     method: Method,
     #[serde(default)]
@@ -79,7 +80,7 @@ pub struct ProjectFile {
     spacing: Spacing,
     #[serde(default = "default_layers")]
     layers: usize,
-    /// Where nobody chose, missing, as is the limit of steps.
+    /// Weight family. Missing if the user chose none, like `max_steps`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     family: Option<Family>,
     #[serde(default)]
@@ -90,33 +91,33 @@ pub struct ProjectFile {
     max_steps: Option<usize>,
     #[serde(default)]
     relax_rounds: Option<usize>,
-    /// Rounds of relaxing that a person has asked for beside those of the settings.
+    /// Rounds of relaxation that the user requested in addition to those of the settings.
     #[serde(default)]
     pub relaxed: usize,
     #[serde(default = "default_new_vertices")]
     new_vertices: bool,
-    /// What the first step is.
+    /// Origin of the first step.
     #[serde(default)]
     start: Start,
-    /// The chart on the screen, where the mesh has several; the largest without it.
+    /// Number of the chart on the screen, if the mesh has several. Default: the largest chart.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chart: Option<usize>,
-    /// As `relaxed`, of charts that are not on the screen.
+    /// Rounds of relaxation, like `relaxed`, of the charts that are not on the screen.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub relaxed_elsewhere: BTreeMap<usize, usize>,
-    /// How charts are packed.
+    /// Packing of the charts.
     #[serde(default)]
     pub packing: PackingOptions,
-    /// How many times as large as the others charts are packed, by their first faces in the file.
+    /// Relative size of charts in the packing, by the number of their first face in the file. Default: 1.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub sizes: BTreeMap<u32, f64>,
-    /// The targets of the user's pins.
+    /// Targets of the user's pins.
     #[serde(default, rename = "pins", with = "pin_list")]
     pub targets: Targets,
-    /// How the person looked at it.
+    /// View of the project on the screen.
     #[serde(default)]
     pub view: ProjectView,
-    /// What only a copy for recovery has.
+    /// Origin of a recovery copy; only recovery copies have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recovery: Option<RecoveryNote>,
 }
@@ -129,22 +130,22 @@ fn default_new_vertices() -> bool {
     Settings::default().new_vertices
 }
 
-/// Where a mesh or a picture is.
+/// Origin of a mesh or a picture.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "SourceFields", into = "SourceFields")]
 pub enum ProjectSource {
-    /// In a file.
+    /// File.
     File {
-        /// Its path.
+        /// Path of the file.
         path: PathBuf,
-        /// The state that it had, where that is known.
+        /// State of the file when it was used, if known.
         stamp: Option<FileStamp>,
     },
-    /// In the program: the name of an example.
+    /// Built-in example, by its name.
     Example(String),
 }
 
-/// How a person looked at a project. Only the screen knows what the words and numbers mean; each may be missing.
+/// View of a project on the screen. Only the screen knows the meaning of the words and numbers; each may be missing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ProjectView {
@@ -152,43 +153,43 @@ pub struct ProjectView {
     pub mesh_shading: Option<String>,
     /// Name of the shading of the embedding.
     pub plane_shading: Option<String>,
-    /// The camera before the mesh.
+    /// Camera of the mesh view.
     pub mesh_camera: Option<Vec<f64>>,
-    /// The camera over the plane.
+    /// Camera of the plane view.
     pub plane_camera: Option<Vec<f64>>,
-    /// Numbers of the selected vertices.
+    /// Selected vertices, by number.
     pub selection: Vec<u32>,
-    /// Name of the tool.
+    /// Name of the current tool.
     pub tool: Option<String>,
 }
 
-/// What a copy for recovery says about the work that it is a copy of.
+/// Origin of a recovery copy.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RecoveryNote {
-    /// What the work was called.
+    /// Name of the original work.
     pub name: String,
-    /// The project that it was last saved to.
+    /// Project file that the work was last saved to.
     pub project: Option<PathBuf>,
 }
 
-/// How a project names files.
+/// Style of the paths in a project file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathStyle {
-    /// From the project's folder, so that a folder can be moved as a whole.
+    /// Relative to the project's folder, so that a folder can be moved as a whole.
     Relative,
-    /// From the root, for a project that lies anywhere.
+    /// Absolute, for a project file in an arbitrary folder.
     Absolute,
 }
 
-/// All that is read of a file before its version is known.
+/// Fields that are read before the version is known.
 #[derive(Deserialize)]
 struct Head {
     freebound_project: u64,
 }
 
 impl ProjectFile {
-    /// What is made of the mesh's faces.
+    /// Preparation of the mesh: reversed faces, repairs, holes, cuts, seams, and left-out parts.
     pub fn form(&self) -> Preparation {
         let holes = self.holes.unwrap_or(if self.cut { HoleTreatment::Cut } else { HoleTreatment::Fill });
         Preparation {
@@ -201,7 +202,7 @@ impl ProjectFile {
         }
     }
 
-    /// A project of a mesh, with nothing but settings made of it yet.
+    /// Project of a mesh with these settings and without edits.
     pub fn new(mesh: ProjectSource, settings: &Settings) -> Self {
         let boundary = settings.method.boundary_shape().cloned().unwrap_or_default();
         let method = settings.method.clone().on_shape(BoundaryShape::default());
@@ -239,7 +240,7 @@ impl ProjectFile {
         }
     }
 
-    /// Method and weights. Their size follows from the picture, so that it is not in the file.
+    /// Method and weights. Their size follows from the picture, so it is not stored in the file.
     pub fn settings(&self) -> Settings {
         Settings {
             method: self.method.clone().on_shape(self.boundary.clone()),
@@ -256,11 +257,11 @@ impl ProjectFile {
         }
     }
 
-    /// Reads a project file.
+    /// Reads a project file. Faulty values are never guessed.
     ///
     /// # Errors
     ///
-    /// A file that cannot be read, that is none, or that has a fault; nothing of it is guessed.
+    /// If the file cannot be read, is no project, has a newer format, or has an invalid field.
     pub fn read(path: &Path) -> Result<Self, ProjectError> {
         let bytes = std::fs::read(path).map_err(|source| ProjectError::File { path: path.to_owned(), source })?;
         let not_a_project = || ProjectError::NotAProject { path: path.to_owned() };
@@ -284,11 +285,11 @@ impl ProjectFile {
         Ok(project)
     }
 
-    /// Writes the project whole or not at all; what is written survives a loss of power.
+    /// Writes the project whole or not at all; the written file survives a loss of power.
     ///
     /// # Errors
     ///
-    /// [`WriteError`] names the path and says what went wrong.
+    /// [`WriteError`] with the path and the cause.
     pub fn write(&self, path: &Path, style: PathStyle) -> Result<(), WriteError> {
         let failed = |source| WriteError::writing(path, source);
         check_finite(self.targets.values().map(|target| &target.uv)).map_err(failed)?;
@@ -306,7 +307,7 @@ impl ProjectFile {
     }
 }
 
-/// Reads the text of a file; a fault is told with its line and its field.
+/// Parses the text of a project file; an error names its line and field.
 fn parse<'de, T: Deserialize<'de>>(path: &Path, text: &'de str) -> Result<T, ProjectError> {
     let mut source = serde_json::Deserializer::from_str(text);
     let malformed = |field: String, error: &serde_json::Error| {
@@ -321,16 +322,17 @@ fn parse<'de, T: Deserialize<'de>>(path: &Path, text: &'de str) -> Result<T, Pro
     Ok(found)
 }
 
-/// A file's name in a project that is in `folder`. Folders are divided by slashes on every system.
+/// Name of a file in a project in `folder`. Folders are separated by slashes on every system.
 fn named(path: &Path, folder: &Path, style: PathStyle) -> io::Result<PathBuf> {
-    let own = path.file_name().ok_or_else(|| io::Error::other(format!("{} names no file", path.display())))?;
+    let own =
+        path.file_name().ok_or_else(|| io::Error::other(format!("{} is not the name of a file", path.display())))?;
     let whole = whole_folder_of(path).join(own);
     let found = match style {
         PathStyle::Absolute => whole,
         PathStyle::Relative => relative(&whole, folder).unwrap_or(whole),
     };
     named_in_files(&found).map(PathBuf::from).ok_or_else(|| {
-        let text = format!("the name {} is not Unicode, which a project cannot hold", found.display());
+        let text = format!("the name {} is not Unicode: rename the file to use it in a project", found.display());
         io::Error::new(io::ErrorKind::InvalidData, text)
     })
 }

@@ -4,7 +4,7 @@
 //! Triangles are drawn in horizontal bands, one per task, each band in file order: the picture does not depend on the
 //! number of threads. Several samples per pixel are averaged.
 //!
-//! | file    | what it holds                                                          |
+//! | file    | contents                                                               |
 //! |---------|------------------------------------------------------------------------|
 //! | `mod`   | view, canvas and paint; pictures of meshes and of embeddings           |
 //! | `scene` | triangles in samples, drawn band by band into a z-buffer; light        |
@@ -22,53 +22,53 @@ use freebound_core::geom::Picture;
 use freebound_core::mesh::{EdgeTable, VertexId};
 use freebound_core::problem::Embedding;
 
-/// A colour without opacity, sRGB.
+/// Colour without opacity, sRGB.
 pub type Colour = [u8; 3];
 
 /// Colours of the light theme.
 pub mod colours {
     use super::Colour;
 
-    /// The outer side of the surface.
+    /// Outer side of the surface.
     pub const CLAY: Colour = [0xd8, 0xd4, 0xcc];
-    /// The inner side of the surface.
+    /// Inner side of the surface.
     pub const CLAY_BACK: Colour = [0xa9, 0xa3, 0x9a];
-    /// Behind everything.
+    /// Background.
     pub const BACKGROUND: Colour = [0xf4, 0xf4, 0xf2];
-    /// A flipped face.
+    /// Flipped face.
     pub const FLIPPED: Colour = [0xd9, 0x2d, 0x3a];
     /// Edges of faces.
     pub const WIRE: Colour = [0x6e, 0x6b, 0x66];
-    /// The boundary loop.
+    /// Boundary loop.
     pub const BOUNDARY: Colour = [0x2c, 0x2b, 0x29];
-    /// The dark fields of the checker.
+    /// Dark fields of the checker.
     pub const CHECKER: Colour = [0x6f, 0x8f, 0xb8];
 }
 
-/// Share of their lengths below which what is left of vectors that cancel out is taken for rounding: far above that, which is
-/// some 1e-13 for a million of them, and far below what gives a surface a side.
+/// Relative length below which a sum of vectors counts as zero. Rounding leaves about 1e-13 for a million vectors; a
+/// surface that faces some side leaves far more.
 const CANCELLED: f64 = 1e-6;
 
-/// Where a mesh is seen from. Parallel projection; the mesh is framed by itself.
+/// Direction of view. The projection is parallel and fits the mesh into the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// From the mesh towards the eye; need not be of unit length.
+    /// Direction from the mesh to the eye, of any length.
     pub eye: DVec3,
-    /// What is up in the picture, roughly.
+    /// Approximate upward direction of the picture.
     pub up: DVec3,
 }
 
 impl View {
-    /// From the front (+z), y up.
+    /// View from the front (+z), y up.
     pub const FRONT: Self = Self { eye: DVec3::Z, up: DVec3::Y };
 
-    /// Turned around y by an angle, radians: positive shows more of the +x side.
+    /// View rotated around y by an angle, radians: positive shows more of the +x side.
     pub fn turned(angle: f64) -> Self {
         Self { eye: DVec3::new(angle.sin(), 0.0, angle.cos()), up: DVec3::Y }
     }
 
-    /// From the side that most of a surface looks to, given the area vectors of its faces; y up, or z where that is towards the
-    /// eye. From the front where they cancel out, as those of a closed surface do.
+    /// View from the side that most of a surface faces, given the area vectors of its faces. Up is y, or z if the eye
+    /// is along y. View from the front if the vectors cancel out, as those of a closed surface do.
     pub fn facing(areas: impl IntoIterator<Item = DVec3>) -> Self {
         let add = |(sum, total): (DVec3, f64), area: DVec3| (sum + area, total + area.length());
         let (eye, total) = areas.into_iter().fold((DVec3::ZERO, 0.0), add);
@@ -81,13 +81,13 @@ impl View {
         }
     }
 
-    /// Points in the axes of the view: right, up and towards the eye.
+    /// Coordinates of points in the axes of the view: right, up and towards the eye.
     pub(super) fn see(&self, positions: &[DVec3]) -> Vec<DVec3> {
         let [right, up, towards] = self.axes();
         positions.par_iter().map(|p| DVec3::new(p.dot(right), p.dot(up), p.dot(towards))).collect()
     }
 
-    /// Right, up and towards the eye, orthonormal for any input.
+    /// Axes of the view: right, up and towards the eye; orthonormal for any input.
     fn axes(&self) -> [DVec3; 3] {
         let towards = self.eye.try_normalize().unwrap_or(DVec3::Z);
         let right = self.up.cross(towards).try_normalize().unwrap_or_else(|| towards.any_orthonormal_vector());
@@ -95,29 +95,29 @@ impl View {
     }
 }
 
-/// How faces are shaded.
+/// Shading of faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RasterShading {
-    /// As if the surface were round between the vertices.
+    /// By normals interpolated between the vertices.
     Smooth,
-    /// Each face by its own normal.
+    /// By the normal of each face.
     Faceted,
-    /// No light at all.
+    /// Without light.
     Unlit,
 }
 
-/// Size and manner of a picture.
+/// Size and style of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Canvas {
-    /// Pixels in a row.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
     /// Samples per pixel in each direction.
     pub samples: u32,
-    /// How faces are shaded.
+    /// Shading of faces.
     pub shading: RasterShading,
-    /// How strongly edges are drawn, from 0 (not at all) to 1.
+    /// Opacity of edges, from 0 (invisible) to 1.
     pub wire: f32,
 }
 
@@ -133,30 +133,30 @@ impl Canvas {
     }
 }
 
-/// What colour the faces are.
+/// Colour of the faces.
 #[derive(Clone, Copy, Debug)]
 pub enum RasterPaint<'a> {
-    /// Clay, with its own tone for the side that looks away.
+    /// Clay, with its own tone for faces seen from behind.
     Clay,
-    /// One colour per face.
+    /// Colour of each face.
     Faces(&'a [Colour]),
-    /// A checker in coordinates given per vertex.
+    /// Checker in coordinates given per vertex.
     Checker {
-        /// One per vertex.
+        /// Coordinates, one per vertex.
         coordinates: &'a Embedding,
         /// Width of a field.
         size: f64,
     },
-    /// A picture at texture coordinates given per vertex, v up; beyond its edges the nearest colour.
+    /// Picture at texture coordinates given per vertex, v up; beyond its edges the nearest colour.
     Picture {
-        /// One per vertex.
+        /// Texture coordinates, one per vertex.
         coordinates: &'a Embedding,
-        /// What is at them.
+        /// Picture to show.
         picture: &'a Picture,
     },
 }
 
-/// A picture of a mesh in space.
+/// Picture of a mesh in space.
 pub fn mesh_picture(
     positions: &[DVec3],
     triangles: &[[VertexId; 3]],
@@ -170,7 +170,7 @@ pub fn mesh_picture(
     scene.picture(&[])
 }
 
-/// Where points of a mesh lie in [`mesh_picture`]: shares of its width and height, from its lower left corner.
+/// Positions of points of a mesh in [`mesh_picture`]: fractions of its width and height, from its lower left corner.
 pub fn mesh_places(positions: &[DVec3], view: &View, canvas: &Canvas) -> Vec<DVec2> {
     let seen = view.see(positions);
     let samples = f64::from(canvas.samples.max(1));
@@ -183,8 +183,8 @@ pub fn mesh_places(positions: &[DVec3], view: &View, canvas: &Canvas) -> Vec<DVe
     scene.points.iter().map(place).collect()
 }
 
-/// A picture of an embedding: thin edges, the boundary as a darker line. The caller paints the faces that its verdict
-/// calls flipped.
+/// Picture of an embedding: thin edges, the boundary as a darker line. The caller paints the faces that its verdict
+/// lists as flipped.
 pub fn plane_picture(
     embedding: &Embedding,
     triangles: &[[VertexId; 3]],
@@ -204,7 +204,7 @@ pub fn plane_picture(
 ///
 /// # Errors
 ///
-/// What the writer or the encoder reports.
+/// If `writer` or the encoder fails.
 pub fn write_png(picture: &Picture, writer: impl Write) -> io::Result<()> {
     let encoder = image::codecs::png::PngEncoder::new(writer);
     let Picture { width, height, pixels } = picture;

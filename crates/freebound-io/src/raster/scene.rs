@@ -15,16 +15,16 @@ use freebound_core::geom::Picture;
 use freebound_core::mesh::VertexId;
 use freebound_core::problem::Embedding;
 
-/// The share of the picture that is left free around the mesh, on each side.
+/// Margin around the mesh on each side, as a fraction of the picture.
 const MARGIN: f32 = 0.04;
 
-/// Bands are this high, in samples: enough of them for any number of threads, few enough to sort triangles into.
+/// Height of a band in samples: enough bands for any number of threads, few enough to sort triangles into.
 const BAND: usize = 64;
 
-/// Edges of triangles smaller than this many samples across fade out, since they would only blacken the picture.
+/// Size in samples below which the edges of a triangle fade out, because they would only blacken the picture.
 const FAINT: f32 = 8.0;
 
-/// Sums of the faces' area vectors at each vertex, to length 1.
+/// Normals of the vertices: sums of the faces' area vectors, scaled to length 1.
 pub(super) fn vertex_normals(seen: &[DVec3], triangles: &[[VertexId; 3]]) -> Vec<Vec3> {
     let mut sums = vec![DVec3::ZERO; seen.len()];
     for t in triangles {
@@ -37,10 +37,10 @@ pub(super) fn vertex_normals(seen: &[DVec3], triangles: &[[VertexId; 3]]) -> Vec
     sums.into_iter().map(|n| n.try_normalize().unwrap_or(DVec3::Z).as_vec3()).collect()
 }
 
-/// Everything projected to samples, ready to be drawn band by band.
+/// Points projected to samples, ready to be drawn band by band.
 pub(super) struct Scene<'a> {
     canvas: Canvas,
-    /// x to the right, y down, z towards the eye, all in samples.
+    /// Projected points: x right, y down, z towards the eye, all in samples.
     pub(super) points: Vec<Vec3>,
     triangles: &'a [[VertexId; 3]],
     paint: RasterPaint<'a>,
@@ -81,7 +81,7 @@ impl<'a> Scene<'a> {
 
     pub(super) fn picture(&self, boundary: &[[VertexId; 2]]) -> Picture {
         let samples = self.canvas.samples.max(1) as usize;
-        // Whole pixels per band.
+        // A band holds whole pixels.
         let rows = BAND.div_ceil(samples) * samples;
         let lists = self.sort_into_bands(rows);
         let strips: Vec<Vec<u8>> = lists
@@ -102,7 +102,7 @@ impl<'a> Scene<'a> {
         Picture { width: self.canvas.width, height: self.canvas.height, pixels: strips.concat() }
     }
 
-    /// The faces that may touch each band, in file order.
+    /// Faces that may touch each band, in file order.
     fn sort_into_bands(&self, rows: usize) -> Vec<Vec<u32>> {
         let mut lists = vec![Vec::new(); self.height.div_ceil(rows)];
         let last = lists.len().saturating_sub(1);
@@ -149,7 +149,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Draws a line of the boundary over what is there.
+    /// Draws a segment of the boundary over the faces.
     fn stroke(&self, band: &mut Band, [a, b]: [Vec2; 2]) {
         let half = 0.9 * self.canvas.samples.max(1) as f32;
         let (low, high) = (a.min(b) - half, a.max(b) + half);
@@ -177,7 +177,7 @@ impl Band {
         Self { top, rows, depth: vec![f32::NEG_INFINITY; count], colour: vec![colours::BACKGROUND; count] }
     }
 
-    /// The band's pixels: means of their samples.
+    /// Pixels of the band: means of their samples.
     fn average(&self, width: usize, samples: usize) -> Vec<u8> {
         let count = u32::try_from(samples * samples).expect("few samples per pixel");
         let mut pixels = Vec::with_capacity(4 * self.colour.len() / (samples * samples).max(1));
@@ -199,7 +199,7 @@ impl Band {
     }
 }
 
-/// What a face looks like.
+/// Appearance of a face.
 struct Brush {
     corners: [VertexId; 3],
     base: Colour,
@@ -210,11 +210,11 @@ struct Brush {
 }
 
 impl Brush {
-    /// Prepares a face of a scene; the area is twice its own in the picture, y down.
+    /// Prepares a face of a scene; `double_area` is twice its signed area in the picture, y down.
     fn new(scene: &Scene, f: usize, double_area: f32) -> Self {
         let corners = scene.triangles[f];
         let [a, b, c] = corners.map(|v| scene.points[v.index()]);
-        // y points down in the picture, so that a face seen from outside has a negative area there.
+        // y points down in the picture, so a face seen from outside has a negative area there.
         let is_front = double_area < 0.0;
         let base = match scene.paint {
             RasterPaint::Faces(colours) => colours[f],
@@ -242,7 +242,7 @@ impl Brush {
         }
     }
 
-    /// The colour of a place, given by its shares of the corners.
+    /// Colour at a point, given by its barycentric coordinates.
     fn colour(&self, scene: &Scene, shares: Vec3) -> Colour {
         let mut colour = match scene.paint {
             RasterPaint::Clay | RasterPaint::Faces(_) => self.base,
@@ -266,7 +266,7 @@ impl Brush {
         colour
     }
 
-    /// The mean of what the corners have, by shares.
+    /// Interpolated coordinate at barycentric coordinates.
     fn mean(&self, coordinates: &Embedding, shares: Vec3) -> DVec2 {
         let [a, b, c] = self.corners.map(|v| coordinates[v.index()]);
         a * f64::from(shares.x) + b * f64::from(shares.y) + c * f64::from(shares.z)
@@ -277,14 +277,14 @@ fn mix(a: Colour, b: Colour, share: f32) -> Colour {
     [0, 1, 2].map(|k| (f32::from(a[k]) + (f32::from(b[k]) - f32::from(a[k])) * share).round() as u8)
 }
 
-/// A colour in the fixed light, for a normal in camera axes.
+/// Colour in the fixed light, for a normal in camera axes.
 fn lit(colour: Colour, normal: Vec3) -> Colour {
     const KEY: Vec3 = Vec3::new(-0.41, 0.55, 0.73);
     const FILL: Vec3 = Vec3::new(0.80, -0.10, 0.59);
     let key = normal.dot(KEY).max(0.0);
     let fill = normal.dot(FILL).max(0.0);
     let sky = 0.5 + 0.5 * normal.y;
-    // Light adds up linearly; the square root is near enough to the sRGB curve.
+    // Light adds up linearly; the square root approximates the sRGB curve.
     let light = (0.07 + 0.12 * sky + 0.90 * key * key + 0.22 * fill).sqrt();
     colour.map(|c| (f32::from(c) * light).min(255.0).round() as u8)
 }

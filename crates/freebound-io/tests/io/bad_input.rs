@@ -1,27 +1,27 @@
-//! Every file of `corpus/bad`: what is said about it. Numbers are those of the corpus's manifest where it has any.
+//! Every file of `corpus/bad` and its reported faults. Numbers are those of the corpus's manifest if it has any.
 
 use freebound_core::mesh::{Fault, diagnose};
 use freebound_io::{ReadError, read_mesh};
 
 use freebound_testkit::{corpus_test, manifest};
 
-/// File, expected faults with the number of their elements; empty: the file is usable as it stands.
+/// File, and expected faults with the number of their elements; empty if the file is usable.
 const EXPECTED: [(&str, &[(&str, usize)]); 14] = [
     ("closed_fish.obj", &[("closed", 1)]),
     ("nonmanifold_ArtDemo.obj", &[("non-manifold-edges", 99), ("several-boundary-loops", 10)]),
-    // Of the six components two are closed, two have one loop and two have two.
+    // Two of the six components are closed, two have one loop and two have two.
     ("multicomp.obj", &[("several-components", 6), ("closed", 2), ("several-boundary-loops", 4), ("handles", 3)]),
     ("holes_plane.obj", &[("several-boundary-loops", 27)]),
     ("degenerate_capsule.obj", &[("zero-area", 200)]),
     ("moebius.obj", &[("non-orientable", 4)]),
     ("torus_one_hole.obj", &[("handles", 1)]),
-    // The colours are NaN, the positions are not.
+    // The colours are NaN; the positions are not.
     ("raw_nancolor.obj", &[("closed", 1)]),
     ("raw_negative_indices.obj", &[("closed", 1)]),
     ("raw_empty.obj", &[("the file has no faces", 0)]),
-    ("raw_notenoughindices.obj", &[("line 9: a face with 2 corners, three are needed", 1)]),
+    ("raw_notenoughindices.obj", &[("line 9: a face has 2 corners, but three are needed", 1)]),
     ("raw_polygonfaces.obj", &[]),
-    // The triangle between the two tetrahedra is there twice, once from either side.
+    // The triangle between the two tetrahedra is listed twice, once from either side.
     ("raw_joined_tetrahedra.obj", &[("duplicate-faces", 1), ("non-manifold-edges", 3), ("closed", 1)]),
     ("raw_corrupted_invalid_double.off", &[("line 4: \"X0.425325\" is not a number", 1)]),
 ];

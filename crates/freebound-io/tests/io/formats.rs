@@ -1,4 +1,4 @@
-//! Reading OFF, STL and PLY files: the same mesh from each, and a named fault for what is wrong.
+//! Reading OFF, STL and PLY files: each gives an equal mesh, and each fault is named.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -23,7 +23,7 @@ fn fault(bytes: &[u8]) -> String {
     error
 }
 
-/// Quads and triangles at places that need all digits of 64-bit numbers.
+/// Quads and triangles at positions that need all digits of 64-bit numbers.
 fn quads() -> PolygonMesh {
     let mut mesh = quad_sheet(4, 3, 0.2, &mut Random(5));
     let [a, b] = [0, 1].map(VertexId::new);
@@ -65,7 +65,7 @@ fn off_files_are_read_whatever_else_stands_on_their_lines() {
         let text = off_text(&mesh, head, behind_vertex, behind_face);
         assert_eq!(read(text.as_bytes()).polygons, mesh, "{head}");
     }
-    // As some collections have it.
+    // Form in some collections.
     let attached = off_text(&mesh, "OFF", "", "").replace("OFF\n# counts\n", "OFF");
     assert_eq!(read(attached.as_bytes()).polygons, mesh);
     let folder = tempfile::tempdir().expect("a folder");
@@ -79,15 +79,15 @@ fn faults_of_off_files_are_named_with_their_lines() {
     for (text, message) in [
         ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "line 6: vertex 3 is out of range: there are 3"),
         ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "line 6: vertex -1 is out of range: there are 3"),
-        ("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "line 4: 2 numbers where 3 are needed"),
+        ("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "line 4: 2 numbers, but 3 are needed"),
         ("OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "line 4: a position that is infinite or not a number"),
-        ("OFF\n3 1 0\n0 0 0\n1 1 0\n0 1 0\n3 0 1\n", "line 6: 2 numbers where 3 are needed"),
-        ("OFF\n3 1 0\n0 0 0\n1 1 0\n0 1 0\n2 0 1\n", "line 6: a face with 2 corners, three are needed"),
-        ("OFF\n3 1 0\n0 0 0\n1 1 0\n", "line 5: the file ends here, and more is to come"),
-        ("OFF\n3000000000 1 0\n0 0 0\n", "line 2: the file says that it has 3000000000 of \"vertex\", and ends before"),
+        ("OFF\n3 1 0\n0 0 0\n1 1 0\n0 1 0\n3 0 1\n", "line 6: 2 numbers, but 3 are needed"),
+        ("OFF\n3 1 0\n0 0 0\n1 1 0\n0 1 0\n2 0 1\n", "line 6: a face has 2 corners, but three are needed"),
+        ("OFF\n3 1 0\n0 0 0\n1 1 0\n", "line 5: the file ends too early"),
+        ("OFF\n3000000000 1 0\n0 0 0\n", "line 2: the file declares 3000000000 of \"vertex\", but ends earlier"),
         ("OFF\n3 18446744073709551615 0\n", "line 2: \"1844674407370955161"),
         ("OFF\n3 -4 0\n", "line 2: \"-4\" is not a number"),
-        ("OFF\n", "line 2: the file ends here, and more is to come"),
+        ("OFF\n", "line 2: the file ends too early"),
         ("OFF\n0 0 0\n", "the file has no faces"),
     ] {
         let found = fault(text.as_bytes());
@@ -95,7 +95,7 @@ fn faults_of_off_files_are_named_with_their_lines() {
     }
 }
 
-/// A binary STL file of triangles.
+/// Binary STL file of triangles.
 fn stl_bytes(triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
     let mut bytes = b"solid, as some begin that are none".to_vec();
     bytes.resize(80, 0);
@@ -120,7 +120,7 @@ fn stl_text(triangles: &[[[f64; 3]; 3]]) -> String {
     text + "endsolid of words\n"
 }
 
-/// The corners of a mesh's triangles.
+/// Corners of a mesh's triangles.
 fn triangles(mesh: &PolygonMesh) -> Vec<[[f64; 3]; 3]> {
     let corner = |v: &VertexId| mesh.positions[v.index()].to_array();
     mesh.corners.chunks_exact(3).map(|t| [0, 1, 2].map(|k| corner(&t[k]))).collect()
@@ -170,17 +170,20 @@ fn faults_of_stl_files_are_named_with_line_or_byte() {
         fs::write(&path, bytes).expect("written");
         read_mesh(&path).expect_err("it is wrong").to_string()
     };
-    let too_many = |count| format!("byte 80: the file says that it has {count} of \"triangle\", and ends before");
+    let too_many = |count| format!("byte 80: the file declares {count} of \"triangle\", but ends earlier");
     assert_eq!(of_file(&bytes[..bytes.len() - 1]), too_many(2));
     assert_eq!(of_file(&many), too_many(u32::MAX));
     assert_eq!(of_file(&nowhere), "byte 146: a position that is infinite or not a number");
-    assert_eq!(of_file(&bytes[..60]), "byte 60: the file ends here, and more is to come");
+    assert_eq!(of_file(&bytes[..60]), "byte 60: the file ends too early");
     for (text, message) in [
         (text.replace("1.0 0e0", "x 0e0"), "line 5: \"x\" is not a number"),
         (text.replace("1.0 0e0", "inf 0e0"), "line 5: a position that is infinite or not a number"),
-        (text.replacen("   vertex 0.0 1e0 0.0\n", "", 1), "line 6: \"endloop (2 corners)\" where a triangle's third"),
-        (text.replace("endsolid of words\n", ""), "line 16: the file ends here, and more is to come"),
-        (text[..120].to_owned(), "line 7: the file ends here"),
+        (
+            text.replacen("   vertex 0.0 1e0 0.0\n", "", 1),
+            "line 6: found \"endloop (2 corners)\", expected a triangle's third",
+        ),
+        (text.replace("endsolid of words\n", ""), "line 16: the file ends too early"),
+        (text[..120].to_owned(), "line 7: the file ends too early"),
         ("solid nothing\nendsolid nothing\n".to_owned(), "the file has no faces"),
     ] {
         let found = fault(text.as_bytes());
@@ -247,28 +250,28 @@ fn what_a_ply_header_says_is_not_believed_without_the_bytes() {
     for (text, message) in [
         (
             head("ascii", &format!("{}{face}", vertex.replace('3', "4000000000"))) + triangle,
-            "line 10: the file says that it has 4000000000 of \"vertex\"",
+            "line 10: the file declares 4000000000 of \"vertex\"",
         ),
         (
             head("ascii", &format!("{}{face}", vertex.replace('3', "18446744073709551615"))),
-            "line 10: the file says that",
+            "line 10: the file declares",
         ),
         (
             head("binary_little_endian", &format!("{}{face}", vertex.replace('3', "4000000000"))),
-            "byte 178: the file says that",
+            "byte 178: the file declares",
         ),
         (
             head("ascii", &format!("{vertex}{face}")) + triangle + "4000000000 0 1 2",
-            "line 13: the file says that it has 4000000000 of \"list item\"",
+            "line 13: the file declares 4000000000 of \"list item\"",
         ),
-        (head("ascii", &format!("{vertex}{face}")) + triangle + "3 0 1", "line 13: the file ends here"),
+        (head("ascii", &format!("{vertex}{face}")) + triangle + "3 0 1", "line 13: the file ends too early"),
         (
             head("ascii", &format!("{vertex}{face}")) + triangle + "3 0 1 3",
             "line 13: vertex 3 is out of range: there are 3",
         ),
         (head("ascii", &format!("{vertex}{face}")) + triangle + "3 0 1 -1", "line 13: vertex -1 is out of range"),
         (head("ascii", &format!("{vertex}{face}")) + triangle + "3 0 1 1.5", "line 13: \"1.5\" is not a number"),
-        (head("ascii", &format!("{vertex}{face}")) + triangle + "2 0 1", "line 13: a face with 2 corners"),
+        (head("ascii", &format!("{vertex}{face}")) + triangle + "2 0 1", "line 13: a face has 2 corners"),
         (
             head("ascii", &format!("{vertex}{face}")) + &triangle.replace("1 0 0", "1 inf 0") + "3 0 1 2",
             "line 11: a position that",
@@ -279,18 +282,21 @@ fn what_a_ply_header_says_is_not_believed_without_the_bytes() {
         ),
         (
             head("ascii", &vertex.replace("float z", "float w")) + triangle,
-            "line 7: \"element vertex\" where x, y and z",
+            "line 7: found \"element vertex\", expected its properties x",
         ),
         (
             head("ascii", &format!("{vertex}{}", face.replace("int v", "float v"))) + triangle,
-            "line 9: \"element face\" where a list",
+            "line 9: found \"element face\", expected its list",
         ),
         (head("ascii", "element odd 18446744073709551615\n"), "the file has no faces"),
-        (head("middle_endian", vertex), "line 2: \"middle_endian\" where ascii or"),
-        (head("ascii", "property float x\n"), "line 3: \"x\" where an element"),
+        (head("middle_endian", vertex), "line 2: found \"middle_endian\", expected ascii or"),
+        (head("ascii", "property float x\n"), "line 3: found \"x\", expected an element"),
         (head("ascii", "element vertex many\n"), "line 3: \"many\" is not a number"),
-        (head("ascii", "element vertex 3\nproperty list float int x\n"), "line 4: \"x\" where a property of a type"),
-        (head("ascii", vertex).replace("end_header\n", ""), "line 6: the file ends here"),
+        (
+            head("ascii", "element vertex 3\nproperty list float int x\n"),
+            "line 4: found \"x\", expected a property of a PLY",
+        ),
+        (head("ascii", vertex).replace("end_header\n", ""), "line 6: the file ends too early"),
     ] {
         let found = fault(text.as_bytes());
         assert!(found.starts_with(message), "{text}: {found}");
@@ -302,7 +308,7 @@ fn a_file_that_is_cut_short_anywhere_is_refused() {
     let mesh = quads();
     for encoding in Encoding::ALL {
         let bytes = PlyMaker { encoding, at_corners: Some(usize::MAX), ..PlyMaker::rich(&mesh) }.bytes();
-        // The last number of a text may be shorter, and its end may lack.
+        // The last number of a text may be shorter, and its line end may be missing.
         let last = if encoding == Encoding::Text { bytes.len() - 4 } else { bytes.len() };
         for length in 4..last {
             let error = read_stream(&bytes[..length]).expect_err("it is cut short");

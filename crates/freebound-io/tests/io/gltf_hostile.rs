@@ -1,4 +1,4 @@
-//! glTF files that are wrong: each is refused by name, at once, and takes no memory.
+//! Faulty glTF files: each is rejected with a named fault, at once, and without taking memory.
 
 use std::time::{Duration, Instant};
 
@@ -16,7 +16,7 @@ fn fault(bytes: &[u8]) -> ReadError {
     error
 }
 
-/// A right file, changed.
+/// Correct file with a change.
 fn changed(change: impl Fn(&mut Value)) -> Vec<u8> {
     let mut maker = plain(2, U16);
     change(&mut maker.json);
@@ -27,32 +27,38 @@ fn changed(change: impl Fn(&mut Value)) -> Vec<u8> {
 fn faults_of_the_json_are_named_by_their_elements() {
     type Case<'a> = (&'a dyn Fn(&mut Value), &'a str);
     let cases: [Case<'_>; 24] = [
-        (&|j| j["asset"]["version"] = json!("1.0"), "format not read yet: glTF of another version than 2"),
+        (&|j| j["asset"]["version"] = json!("1.0"), "unsupported format: glTF of a version other than 2"),
         (&|j| j["asset"] = json!(3), "asset: invalid type: integer `3`"),
         (&|j| j["accessors"][0]["count"] = json!(-1), "accessors[0].count: invalid value: integer `-1`"),
+        (&|j| j["accessors"][0]["count"] = json!(1_u64 << 60), "accessor 0: the file declares 1152921504606846976"),
+        (&|j| j["accessors"][0]["count"] = json!(10), "accessor 0: the data reach beyond the end of their container"),
+        (&|j| j["accessors"][0]["byteOffset"] = json!(u64::MAX), "accessor 0: the data reach beyond the end"),
         (
-            &|j| j["accessors"][0]["count"] = json!(1_u64 << 60),
-            "accessor 0: the file says that it has 1152921504606846976",
+            &|j| j["accessors"][0]["componentType"] = json!(5130),
+            "accessor 0: found \"5130\", expected a type of numbers",
         ),
-        (&|j| j["accessors"][0]["count"] = json!(10), "accessor 0: it reaches beyond the end of what holds it"),
-        (&|j| j["accessors"][0]["byteOffset"] = json!(u64::MAX), "accessor 0: it reaches beyond the end"),
-        (&|j| j["accessors"][0]["componentType"] = json!(5130), "accessor 0: \"5130\" where a type of numbers"),
-        (&|j| j["accessors"][0]["type"] = json!("VEC9"), "accessor 0: \"VEC9\" where a type of elements"),
-        (&|j| j["accessors"][0]["type"] = json!("VEC2"), "accessor 0: \"9 elements of 2 numbers\" where as many"),
-        (&|j| j["accessors"][1]["count"] = json!(8), "accessor 1: \"8 elements of 2 numbers\" where as many"),
+        (&|j| j["accessors"][0]["type"] = json!("VEC9"), "accessor 0: found \"VEC9\", expected a type of elements"),
+        (
+            &|j| j["accessors"][0]["type"] = json!("VEC2"),
+            "accessor 0: found \"9 elements of 2 numbers\", expected one element",
+        ),
+        (
+            &|j| j["accessors"][1]["count"] = json!(8),
+            "accessor 1: found \"8 elements of 2 numbers\", expected one element",
+        ),
         (&|j| j["accessors"][0]["bufferView"] = json!(99), "accessor 0: view 99 is out of range: there are 3"),
         (&|j| j["bufferViews"][0]["buffer"] = json!(7), "accessor 0: buffer 7 is out of range: there are 1"),
-        (&|j| j["bufferViews"][0]["byteLength"] = json!(u64::MAX), "accessor 0: it reaches beyond"),
-        (&|j| j["bufferViews"][0]["byteStride"] = json!(4), "accessor 0: \"4\" where a stride of at least"),
-        (&|j| j["bufferViews"][0]["byteStride"] = json!(u64::MAX), "accessor 0: it reaches beyond"),
-        (&|j| j["accessors"][2]["componentType"] = json!(5126), "accessor 2: it reaches beyond"),
-        (&|j| j["meshes"][0]["primitives"][0]["indices"] = json!(0), "accessor 0: \"numbers\" where indices"),
+        (&|j| j["bufferViews"][0]["byteLength"] = json!(u64::MAX), "accessor 0: the data reach beyond"),
+        (&|j| j["bufferViews"][0]["byteStride"] = json!(4), "accessor 0: found \"4\", expected a stride of at least"),
+        (&|j| j["bufferViews"][0]["byteStride"] = json!(u64::MAX), "accessor 0: the data reach beyond"),
+        (&|j| j["accessors"][2]["componentType"] = json!(5126), "accessor 2: the data reach beyond"),
+        (&|j| j["meshes"][0]["primitives"][0]["indices"] = json!(0), "accessor 0: found \"numbers\", expected indices"),
         (
             &|j| j["meshes"][0]["primitives"][0]["indices"] = json!(9),
             "accessor 9: accessor 9 is out of range: there are 3",
         ),
         (&|j| j["nodes"][0]["mesh"] = json!(3), "node 0: mesh 3 is out of range: there are 1"),
-        (&|j| j["nodes"][0]["children"] = json!([0]), "node 0: it is the child of two nodes, or of itself"),
+        (&|j| j["nodes"][0]["children"] = json!([0]), "node 0: the node is the child of two nodes, or of itself"),
         (&|j| j["nodes"][0]["children"] = json!([5]), "node 5: node 5 is out of range: there are 1"),
         (&|j| j["scene"] = json!(2), "scene 2: scene 2 is out of range: there are 0"),
         (
@@ -61,7 +67,7 @@ fn faults_of_the_json_are_named_by_their_elements() {
         ),
         (
             &|j| j["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]),
-            "the file needs the extension KHR_draco",
+            "the file needs the unsupported extension KHR_draco",
         ),
     ];
     for (change, message) in cases {
@@ -81,7 +87,7 @@ fn nodes_in_a_ring_and_nodes_with_two_parents_are_refused() {
         json!([{"mesh": 0}, {"children": [2]}, {"children": [1]}]),
     ] {
         let found = fault(&changed(|j| j["nodes"] = nodes.clone())).to_string();
-        assert!(found.ends_with("it is the child of two nodes, or of itself"), "{nodes}: {found}");
+        assert!(found.ends_with("the node is the child of two nodes, or of itself"), "{nodes}: {found}");
     }
 }
 
@@ -100,10 +106,10 @@ fn numbers_that_are_none_and_indices_of_no_vertex_are_refused() {
 #[test]
 fn sparse_elements_out_of_order_or_out_of_range_are_refused() {
     for (places, count, message) in [
-        ([3, 0, 3, 0], 2, "\"3\" where a place beyond"),
-        ([9, 0, 10, 0], 2, "\"9\" where a place beyond"),
-        ([1, 0, 2, 0], 3, "it reaches beyond"),
-        ([1, 0, 2, 0], 1_u64 << 40, "the file says that it has 1099511627776"),
+        ([3, 0, 3, 0], 2, "found \"3\", expected a place beyond"),
+        ([9, 0, 10, 0], 2, "found \"9\", expected a place beyond"),
+        ([1, 0, 2, 0], 3, "the data reach beyond"),
+        ([1, 0, 2, 0], 1_u64 << 40, "the file declares 1099511627776"),
     ] {
         let mut maker = plain(2, U16);
         let (places, values) = (maker.view(&places, None), maker.view(&bytes_of(&[0.5; 6]), None));
@@ -120,13 +126,13 @@ fn what_a_binary_header_says_is_not_believed_without_the_bytes() {
     let glb = plain(2, U16).glb();
     let with = |at: usize, bytes: &[u8]| [&glb[..at], bytes, &glb[at + bytes.len()..]].concat();
     for (bytes, message) in [
-        (with(4, &[1]), "format not read yet: glTF of another version than 2"),
-        (with(8, &[255; 4]), "byte 8: the file says that it has 4294967295 of \"byte\", and ends before"),
-        (with(12, &[255; 4]), "byte 12: the file says that it has 4294967295 of \"byte\", and ends before"),
-        (with(16, b"XXXX"), "byte 12: \"a chunk\" where the chunk of JSON should stand"),
+        (with(4, &[1]), "unsupported format: glTF of a version other than 2"),
+        (with(8, &[255; 4]), "byte 8: the file declares 4294967295 of \"byte\", but ends earlier"),
+        (with(12, &[255; 4]), "byte 12: the file declares 4294967295 of \"byte\", but ends earlier"),
+        (with(16, b"XXXX"), "byte 12: found \"a chunk\", expected a JSON chunk"),
         (with(20, b"]"), "JSON: expected value at line 1 column 1"),
-        (glb[..9].to_vec(), "byte 9: the file ends here, and more is to come"),
-        (glb[..12].to_vec(), "byte 8: the file says that it has"),
+        (glb[..9].to_vec(), "byte 9: the file ends too early"),
+        (glb[..12].to_vec(), "byte 8: the file declares"),
     ] {
         let found = fault(&bytes).to_string();
         assert!(found.starts_with(message), "{found}, not {message}");
@@ -142,8 +148,8 @@ fn buffers_that_are_nowhere_or_elsewhere_are_refused() {
         ("https://example.org/a.bin", "buffer 0: https://example.org/a.bin cannot be read: "),
         ("/dev/zero", "buffer 0: /dev/zero cannot be read: "),
         ("data:application/octet-stream;base64,!!", "buffer 0: data:application/octet-stream;base64,!! cannot be"),
-        ("data:application/octet-stream,abc", "buffer 0: data:application/octet-stream,abc cannot be read: no base64"),
-        ("data:;base64,AAAA", "buffer 0: the file says that it has"),
+        ("data:application/octet-stream,abc", "buffer 0: data:application/octet-stream,abc cannot be read: not base64"),
+        ("data:;base64,AAAA", "buffer 0: the file declares"),
     ] {
         let text = plain(2, U16).finished(Some(uri.to_owned())).to_string();
         let found = fault(text.as_bytes()).to_string();
@@ -192,7 +198,7 @@ fn one_file_is_not_read_for_any_number_of_buffers() {
     assert!(error.starts_with("buffer 16: a.bin cannot be read: more than 16 buffers have it"), "{error}");
 }
 
-/// A path through JSON to one of its values, chosen by numbers.
+/// Value in a JSON tree, on a path chosen by numbers.
 fn value_at<'a>(json: &'a mut Value, choices: &[usize]) -> &'a mut Value {
     let Some((&choice, rest)) = choices.split_first() else { return json };
     let is_inner = match json {

@@ -1,4 +1,4 @@
-//! Reading glTF files: the same triangles as another reader's, welded within a mesh, and every bit of the numbers.
+//! Reading glTF files: the triangles of another reader, welded within a mesh, with every bit of the numbers.
 
 use freebound_testkit::glb::{plain, sheet};
 use std::fs;
@@ -13,7 +13,7 @@ fn read(bytes: &[u8]) -> MeshFile {
     read_stream(bytes).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The triangles of a mesh with their texture coordinates, v turned down again.
+/// Triangles of a mesh with their texture coordinates, v pointing down again.
 fn triangles(file: &MeshFile) -> Vec<Seen> {
     let mesh = &file.polygons;
     (0..mesh.face_count())
@@ -74,7 +74,7 @@ fn interleaved_and_sparse_and_normalized_elements_are_those_that_another_reader_
     let (positions, texture, indices) = sheet(4);
     for (kind, largest, size) in [(U8, 255.0, 1), (U16, 65535.0, 2)] {
         let mut maker = GlbMaker::new();
-        // Four bytes of something else, a position, texture coordinates of small integers, and room.
+        // Rows of four unrelated bytes, a position, texture coordinates of small integers, and padding.
         let mut rows = Vec::new();
         for (place, uv) in positions.chunks_exact(3).zip(texture.chunks_exact(2)) {
             rows.extend([0xAA; 4]);
@@ -97,7 +97,7 @@ fn interleaved_and_sparse_and_normalized_elements_are_those_that_another_reader_
         maker.push("accessors", json!({
             "bufferView": view, "byteOffset": 16, "componentType": kind, "normalized": true, "count": count, "type": "VEC2",
         }));
-        // Positions that are nowhere but where the file says so.
+        // Sparse positions: all are 0 except those that the file lists.
         maker.push("accessors", json!({
             "componentType": F32, "count": 18, "type": "VEC3", "min": [-1, -2, -3], "max": [1, 1, 3],
             "sparse": {"count": 2, "indices": {"bufferView": places, "componentType": U16}, "values": {"bufferView": moved}},
@@ -179,7 +179,7 @@ fn a_skinned_mesh_lies_where_its_joints_put_it_not_its_node() {
 fn vertices_at_one_place_are_one_within_a_node_and_never_between_nodes() {
     let mut maker = GlbMaker::new();
     let (positions, texture, indices) = sheet(3);
-    // Every corner has a vertex of its own, and −0 for 0; half of the faces are of another primitive.
+    // Every corner has its own vertex, and −0 for 0; half of the faces belong to another primitive.
     let pick = |all: &[f32], width: usize, from: &[u32]| -> Vec<f32> {
         let numbers = from.iter().flat_map(|&v| all[v as usize * width..][..width].to_vec());
         numbers.enumerate().map(|(k, x)| if x == 0.0 && k % 2 == 0 { -0.0 } else { x }).collect()
@@ -200,7 +200,7 @@ fn vertices_at_one_place_are_one_within_a_node_and_never_between_nodes() {
     let mut first_uses = own.clone();
     first_uses.dedup();
     assert!(own.iter().all(|&v| v < 16));
-    // Vertices that lie apart, all of which are used, are numbered as the file has them.
+    // Distinct vertices that are all used are numbered in the order of the file.
     let own: Vec<u32> = whole.polygons.corners.iter().map(|v| v.number()).collect();
     assert_eq!(own, indices);
 }
@@ -241,7 +241,7 @@ fn buffers_beside_a_file_are_read_from_there() {
     assert!(cut_short.ends_with(&format!("it has {} bytes, not {}", maker.binary.len() - 1, maker.binary.len())));
 }
 
-/// `FREEBOUND_MESH=file cargo test … time_of_reading -- --ignored --nocapture`
+/// Measures reading: `FREEBOUND_MESH=file cargo test … time_of_reading -- --ignored --nocapture`
 #[test]
 #[ignore = "a measurement"]
 fn time_of_reading() {

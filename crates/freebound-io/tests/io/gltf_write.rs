@@ -1,4 +1,4 @@
-//! glTF files come back with other texture coordinates and all else as it was, as another reader sees.
+//! Written glTF files have other texture coordinates and nothing else changed, according to another reader.
 
 use freebound_testkit::glb::{json_of, read, written};
 use std::collections::BTreeMap;
@@ -11,8 +11,8 @@ use serde_json::{Value, json};
 use freebound_testkit::glb::{GlbMaker, U8, U16, plain, seen, sheet};
 use freebound_testkit::{Random, quad_sheet};
 
-/// A file with everything: two meshes in three nodes, materials, a picture, attributes of many kinds, shapes to morph to,
-/// a skin, lines, an unknown extension, and numbers that no other program knows.
+/// File with everything: two meshes in three nodes, materials, a picture, attributes of many kinds, morph targets, a
+/// skin, lines, an unknown extension, and numbers that no other program knows.
 fn rich() -> GlbMaker {
     let mut maker = plain(3, U16);
     let (positions, ..) = sheet(3);
@@ -71,7 +71,7 @@ fn rich() -> GlbMaker {
     maker
 }
 
-/// All attributes at each corner of each triangle, but the first texture coordinates; targets by their number.
+/// Attributes at each corner of each triangle, except the first texture coordinates; morph targets by their number.
 fn attributes(glb: &[u8]) -> Vec<BTreeMap<String, Vec<u8>>> {
     let file = gltf::Gltf::from_slice(glb).expect("another reader takes it");
     let blob = file.blob.as_deref().expect("a binary chunk");
@@ -109,7 +109,7 @@ fn attributes(glb: &[u8]) -> Vec<BTreeMap<String, Vec<u8>>> {
     found
 }
 
-/// Asserts that all of the JSON is there that was there before, but for what texture coordinates change.
+/// Asserts that all of the old JSON is kept, except for changes due to texture coordinates.
 fn assert_json_is_kept(before: &Value, after: &Value) {
     for (key, value) in before.as_object().unwrap() {
         match key.as_str() {
@@ -137,7 +137,7 @@ fn assert_json_is_kept(before: &Value, after: &Value) {
                     }
                 }
             }
-            // What is new stands behind what was there.
+            // New entries come after the old ones.
             "accessors" | "bufferViews" => {
                 let old = value.as_array().unwrap();
                 assert_eq!(old[..], after[key].as_array().unwrap()[..old.len()]);
@@ -147,7 +147,7 @@ fn assert_json_is_kept(before: &Value, after: &Value) {
     }
 }
 
-/// The texture coordinates that a file is to hold, in 32 bits and with v down, for each triangle.
+/// Texture coordinates that a file should hold, in 32 bits and with v down, for each triangle.
 fn wanted(mesh: &MeshFile, texture: &Texture) -> Vec<[DVec2; 3]> {
     #[expect(clippy::cast_possible_truncation, reason = "that is what is asked")]
     let down = |uv: DVec2| DVec2::new(f64::from(uv.x as f32), f64::from((1.0 - uv.y) as f32));
@@ -192,7 +192,7 @@ fn seams_double_vertices_with_all_that_they_have_and_nodes_get_meshes_of_their_o
     let before = rich().glb();
     let file = read(&before);
     let count = u32::try_from(file.polygons.corners.len()).unwrap();
-    // Every corner its own, but two that have the same.
+    // Every corner has its own coordinate, except for two that share one.
     let corners: Vec<u32> = (0..count).map(|k| if k == 3 { 0 } else { k }).collect();
     let coordinates = (0..count).map(|k| DVec2::new(f64::from(k) / 7.0, f64::from(k % 5) * 0.3)).collect();
     let texture = Texture { coordinates, corners };
@@ -232,7 +232,7 @@ fn texture_coordinates_that_are_given_as_they_were_read_come_back_bit_for_bit() 
         all.map(|uv| uv.map(f32::to_bits)).collect::<Vec<_>>()
     };
     assert_eq!(bits(&maker.glb()), bits(&after));
-    // Corners without any keep theirs, too.
+    // Corners without new coordinates keep their old ones, too.
     let none = Texture { corners: vec![NO_TEXTURE; texture.corners.len()], ..texture };
     assert_eq!(bits(&maker.glb()), bits(&written(&file, &none)));
 }

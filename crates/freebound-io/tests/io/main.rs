@@ -1,4 +1,4 @@
-//! Tests of files in and out.
+//! Tests of reading and writing files.
 #![allow(clippy::unwrap_used, reason = "a helper that fails fails its test")]
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 

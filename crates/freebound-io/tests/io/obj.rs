@@ -15,7 +15,7 @@ use freebound_testkit::{Random, corpus_test, manifest};
 /// Four vertices, three texture coordinates and two normals to refer to.
 pub(crate) const ELEMENTS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\n";
 
-/// Corners of the faces of `ELEMENTS` with more lines behind it.
+/// Corners of the faces of `ELEMENTS` with more lines after it.
 fn faces(lines: &str) -> Vec<Vec<u32>> {
     let mesh = read(&format!("{ELEMENTS}{lines}"));
     (0..mesh.polygons.face_count()).map(|f| mesh.polygons.face(f).iter().map(|v| v.number()).collect()).collect()
@@ -116,7 +116,7 @@ fn statements_are_kept_with_the_face_they_stand_before() {
     assert_eq!(found, expected.map(|(face, keyword, rest)| (face, keyword.to_owned(), rest.to_owned())));
 }
 
-/// The parse faults of a text, as messages.
+/// Parse faults of a text, as messages.
 fn faults(text: &str) -> Vec<String> {
     match read_stream(text.as_bytes()) {
         Err(ReadError::Parse { faults, total }) => {
@@ -137,17 +137,17 @@ fn faces_that_name_what_never_comes_know_their_lines() {
 #[test]
 fn malformed_lines_are_named_with_their_numbers() {
     for (line, message) in [
-        ("v 1 2", "2 numbers where 3 are needed"),
-        ("v", "0 numbers where 3 are needed"),
+        ("v 1 2", "2 numbers, but 3 are needed"),
+        ("v", "0 numbers, but 3 are needed"),
         ("v 1 X0.5 3", "\"X0.5\" is not a number"),
         ("v 1,5 2 3", "\"1,5\" is not a number"),
         ("v 1 2 0x10", "\"0x10\" is not a number"),
-        ("vt", "0 numbers where 2 are needed"),
+        ("vt", "0 numbers, but 2 are needed"),
         ("vt u v", "\"u\" is not a number"),
-        ("f", "a face with 0 corners, three are needed"),
-        ("f 1", "a face with 1 corner, three are needed"),
-        ("f 1 2", "a face with 2 corners, three are needed"),
-        ("f 1 2 #3", "a face with 2 corners, three are needed"),
+        ("f", "a face has 0 corners, but three are needed"),
+        ("f 1", "a face has 1 corner, but three are needed"),
+        ("f 1 2", "a face has 2 corners, but three are needed"),
+        ("f 1 2 #3", "a face has 2 corners, but three are needed"),
         ("f 0 1 2", "index 0: OBJ files count from 1"),
         ("f 1 2 5", "vertex 5 is out of range: there are 4"),
         ("f 1 2 99999999999999999999", "vertex 9223372036854775807 is out of range: there are 4"),
@@ -163,7 +163,7 @@ fn malformed_lines_are_named_with_their_numbers() {
         ("f 1 2 3//x", "\"3//x\" is not a corner of a face"),
         ("f 1 2 -", "\"-\" is not a corner of a face"),
     ] {
-        // The first faulty line ends the file, the second does not.
+        // The first faulty line ends the file; the second does not.
         assert_eq!(faults(&format!("{ELEMENTS}f 1 2 3\n{line}")), [format!("line 11: {message}")], "{line}");
         assert_eq!(faults(&format!("{ELEMENTS}{line}\nf 1 2 3\n")), [format!("line 10: {message}")], "{line}");
     }
@@ -174,7 +174,7 @@ fn all_faults_are_collected_by_line() {
     let text = format!("f 1 2 7\n{ELEMENTS}f 1 2\nf 1 2 \\\n3 x\nv 1 2 z\nf 6 1 2");
     let expected = [
         "line 1: vertex 7 is out of range: there are 5",
-        "line 11: a face with 2 corners, three are needed",
+        "line 11: a face has 2 corners, but three are needed",
         "line 12: \"x\" is not a corner of a face",
         "line 14: \"z\" is not a number",
         "line 15: vertex 6 is out of range: there are 5",
@@ -188,7 +188,7 @@ fn faults_beyond_the_limit_are_counted() {
     let Err(error) = read_stream(text.as_bytes()) else { panic!("it is wrong") };
     let message = error.to_string();
     assert_eq!(message.lines().count(), MAX_PARSE_FAULTS + 1);
-    assert!(message.ends_with("and 35 more faults like these"), "{message}");
+    assert!(message.ends_with("and 35 more faults"), "{message}");
     assert!(message.starts_with("line 10: vertex 9"), "{message}");
 }
 
@@ -209,16 +209,16 @@ fn other_formats_are_named_by_extension_and_by_content() {
         let path = folder.path().join(format!("mesh.{extension}"));
         std::fs::write(&path, "whatever").expect("written");
         let error = read_mesh(&path).expect_err("it is not read yet");
-        assert_eq!(error.to_string(), format!("format not read yet: {format}"));
+        assert_eq!(error.to_string(), format!("unsupported format: {format}"));
     }
     for (content, format) in [
-        (&b"4OFF\n3 1 0\n"[..], "OFF of other than three coordinates"),
+        (&b"4OFF\n3 1 0\n"[..], "OFF without exactly three coordinates"),
         (b"# comment\nOFF BINARY\n", "binary OFF"),
         (b"<?xml version=\"1.0\"?>\n", "XML"),
-        (b"glTF\x01\0\0\0\0\0\0\0", "glTF of another version than 2"),
+        (b"glTF\x01\0\0\0\0\0\0\0", "glTF of a version other than 2"),
     ] {
         let error = read_stream(content).expect_err("not read");
-        assert_eq!(error.to_string(), format!("format not read yet: {format}"));
+        assert_eq!(error.to_string(), format!("unsupported format: {format}"));
     }
 }
 
@@ -232,7 +232,7 @@ fn a_folder_and_a_missing_file_are_errors() {
     }
 }
 
-/// Gives bytes in pieces of the sizes given, over and over; then breaks if it is told to.
+/// Reader of bytes in pieces of the given sizes, repeated; at the end it fails if told to.
 struct Pieces<'a> {
     bytes: &'a [u8],
     sizes: Vec<usize>,
@@ -247,7 +247,7 @@ impl Read for Pieces<'_> {
         if let Some(kind) = self.breaks.filter(|_| self.bytes.is_empty()) {
             return Err(kind.into());
         }
-        // Every third answer is an interruption, which means nothing.
+        // Every third call is interrupted, which the reader must ignore.
         if self.next.is_multiple_of(3) {
             return Err(io::ErrorKind::Interrupted.into());
         }
@@ -258,7 +258,7 @@ impl Read for Pieces<'_> {
     }
 }
 
-/// Words and line ends that make trouble when they are torn apart.
+/// Words and line ends that are fragile when split between reads.
 const TORN: &str = "\u{feff}# start\\\r\nmtllib x.mtl\r\nv 0.125 -1e-7 3\r\nv 1 0 \\\r\n 0\nv 1 1 0\nvt 0.5 0.25\r\n\
     usemtl a\nf 1/1 2/1 \\\n3/1\r\nf -1 -2 -3 1\n\n# end\\\nf 1 2 3 \\";
 
@@ -311,7 +311,7 @@ fn a_stream_that_breaks_off_is_an_error() {
 
 #[test]
 fn a_hundred_megabytes_of_garbage_are_refused() {
-    /// 100 MB of random bytes, as `map` makes them.
+    /// 100 MB of random bytes, mapped by the function.
     struct Garbage(Random, usize, fn(u8) -> u8);
     impl Read for Garbage {
         fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
@@ -354,8 +354,8 @@ corpus_test! {
         for entry in manifest().iter().filter(|entry| Path::new(&entry.file).extension().is_some_and(|e| e == "obj")) {
             let Ok(ours) = read_mesh(&entry.path) else { continue };
             let (models, _) = tobj::load_obj(&entry.path, &tobj::LoadOptions::default()).expect("tobj reads it");
-            // It renumbers vertices and splits groups, so corners are compared by position, in file order; in single
-            // precision, rounded once from text, where ours are rounded twice.
+            // tobj renumbers vertices and splits groups, so corners are compared by position, in file order. Its
+            // numbers are rounded from text to single precision at once, ours twice.
             let mut theirs = models.iter().flat_map(|model| {
                 let point = |&v: &u32| [0, 1, 2].map(|k| model.mesh.positions[3 * v as usize + k]);
                 model.mesh.indices.iter().map(point)
@@ -377,7 +377,7 @@ corpus_test! {
             assert!(theirs.next().is_none() && sizes.next().is_none(), "{}", entry.file);
             compared += 1;
         }
-        // All 33 OBJ files but the one without faces and the one with a face of two corners.
+        // All 33 OBJ files except one without faces and one with a face of two corners.
         assert!(compared == 31, "{compared}");
     }
 }

@@ -1,4 +1,4 @@
-//! OBJ texts that are read and written in many pieces: the same as in one, and the same on any number of threads.
+//! OBJ texts that are read and written in many pieces: equal to a single piece, on any number of threads.
 
 use std::fmt::Write as _;
 
@@ -6,18 +6,18 @@ use freebound_io::{MeshFile, NO_TEXTURE, ReadError, Texture, read_stream, write_
 use glam::{DVec2, DVec3};
 use rayon::ThreadPoolBuilder;
 
-/// Vertices of the text; as many faces again have texture coordinates.
+/// Number of vertices. The text has twice this number of faces; half of them have texture coordinates.
 const COUNT: usize = 9000;
 
-/// A text of some 700 kB with lines of every kind, made line by line beside what it says.
+/// Text of some 700 kB with lines of every kind, built line by line together with its expected contents.
 #[derive(Default)]
 struct Large {
     text: String,
     positions: Vec<DVec3>,
     faces: Vec<Vec<u32>>,
-    /// Of each corner.
+    /// Texture coordinate of each corner.
     texture: Vec<u32>,
-    /// Statements with the face that they stand before.
+    /// Statements with the face that they precede.
     statements: Vec<(u32, String)>,
 }
 
@@ -37,7 +37,7 @@ impl Large {
         this
     }
 
-    /// Triangles without texture coordinates, and behind them triangles and quads with some.
+    /// Adds a face: first triangles without texture coordinates, then triangles and quads with some.
     fn add_face(&mut self, k: usize) {
         if k.is_multiple_of(1000) {
             write!(self.text, "g part {k}\r\n").expect("memory takes all");
@@ -103,7 +103,7 @@ fn a_text_of_many_pieces_reads_and_writes_alike_on_any_number_of_threads() {
         })
     });
     assert!(results.windows(2).all(|pair| pair[0] == pair[1]), "threads made a difference");
-    // What the writer is to make of each line, said again line by line.
+    // Expected output, derived line by line from the input.
     let mut expected = String::new();
     let (mut is_first_coordinate, mut is_face) = (true, false);
     for line in large.text.split_inclusive('\n') {
@@ -124,7 +124,7 @@ fn a_text_of_many_pieces_reads_and_writes_alike_on_any_number_of_threads() {
     assert!(String::from_utf8_lossy(&results[0].1) == expected, "what is written is not what was expected");
 }
 
-/// A line of a face, the corner at vertex k with coordinate k.
+/// Line of a face, with coordinate k at the corner of vertex k.
 fn with_coordinate_of_vertex(line: &str) -> String {
     let word = |word: &str| {
         let mut parts = word.split('/');

@@ -1,4 +1,4 @@
-//! The mesh of a file's texture coordinates.
+//! Mesh over a file's texture coordinates.
 
 use freebound_core::mesh::VertexId;
 use freebound_io::{NO_TEXTURE, TextureError};
@@ -22,7 +22,7 @@ fn texture_vertices_are_cut_at_seams_and_joined_elsewhere() {
 
 #[test]
 fn copies_of_coordinates_per_corner_make_no_seams() {
-    // As many programs write: a `vt` line for every corner, in any order.
+    // Many programs write a `vt` line for every corner, in any order.
     let mut text = ELEMENTS.replace("vt 0 0\nvt 1 0\nvt 1 1\n", "");
     text.push_str("vt 0 0\nvt 1 0\nvt 1 1\nvt 0 0\nvt 1 1\nvt 0 1\n");
     let mesh = read(&format!("{text}f 1/1 2/2 3/3\nf 1/4 3/5 4/6\n"));

@@ -1,4 +1,4 @@
-//! Writing OBJ files, whole and bit for bit.
+//! Writing OBJ files, atomically and bit for bit.
 
 use std::fs;
 use std::io::{self, Write};
@@ -21,7 +21,7 @@ fn bits(positions: &[DVec3]) -> Vec<[u64; 3]> {
     positions.iter().map(|p| p.to_array().map(f64::to_bits)).collect()
 }
 
-/// Any number but NaN, all exponents alike, −0, subnormal and huge ones among them.
+/// Any number except NaN, with all exponents equally likely, including −0, subnormal and huge numbers.
 fn any_number() -> impl Strategy<Value = f64> {
     prop_oneof![
         any::<u64>().prop_map(f64::from_bits).prop_filter("NaN has many spellings", |x| !x.is_nan()),
@@ -43,7 +43,7 @@ fn any_number() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Meshes of polygons with any positions, texture coordinates and statements.
+/// Meshes of polygons with arbitrary positions, texture coordinates and statements.
 fn any_mesh() -> impl Strategy<Value = (MeshFile, Embedding)> {
     let points = prop::collection::vec((any_number(), any_number(), any_number(), any_number(), any_number()), 3..20);
     let polygons = prop::collection::vec(prop::collection::vec(any::<prop::sample::Index>(), 3..6), 1..12);
@@ -137,7 +137,7 @@ fn a_mesh_looks_as_any_program_expects() {
     assert_eq!(String::from_utf8(written(&mesh, &texture)).expect("it is text"), expected);
 }
 
-/// Names in a folder.
+/// File names in a folder.
 fn listing(folder: &std::path::Path) -> Vec<String> {
     let entries = fs::read_dir(folder).expect("a folder");
     entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect()

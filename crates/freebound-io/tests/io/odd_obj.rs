@@ -1,8 +1,8 @@
-//! Files that are odd and legal, flattened and read back by another reader, corner by corner.
+//! Unusual but legal files, flattened and read back by another reader, corner by corner.
 //!
-//! What is written has the same faces as what was read, for whoever reads both. Readers differ in where a line ends (LF,
-//! CR LF, CR alone, form feed, line separators of Unicode), in what a `\` at its end means, and in which blanks divide
-//! words. All such bytes are kept.
+//! A written file has the faces of the file that was read, for any reader of both. Readers differ in the line ends
+//! they know (LF, CR LF, CR alone, form feed, line separators of Unicode). They also differ in the meaning of a
+//! trailing `\`, and in the blanks that separate words. All such bytes are kept.
 
 use std::cell::Cell;
 use std::fmt::Write as _;
@@ -16,18 +16,18 @@ use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};
 
 use freebound_testkit::grid;
 
-/// Columns and rows of the mesh that is written in odd ways.
+/// Columns and rows of the mesh that is written in unusual forms.
 const SIZE: [u32; 2] = [3, 2];
 
-/// The mesh of every odd file: quads, some cut in two.
+/// Mesh of every unusual file: a grid of triangles.
 fn polygons() -> PolygonMesh {
     PolygonMesh::from(&grid(SIZE[0], SIZE[1]))
 }
 
-/// How a file is odd.
+/// Unusual features of a file.
 #[derive(Clone, Debug)]
 struct Oddity {
-    /// What ends each line, in turn.
+    /// Line ends, in turn.
     line_ends: Vec<&'static str>,
     /// Blanks between words, in turn.
     blanks: Vec<&'static str>,
@@ -62,7 +62,7 @@ fn corner_text(corner: Corner, vertex: usize, count: usize) -> String {
     }
 }
 
-/// What may stand between the elements: one line to us, perhaps several to others.
+/// Lines between the elements: a single line to this reader, perhaps several to others.
 fn lines() -> impl Strategy<Value = String> {
     let keywords = prop::sample::select(vec!["g", "o", "s", "usemtl", "mtllib", "#", "vp", "l 1 2", "p 1", "cstype"]);
     let pieces = prop::sample::select(vec![
@@ -102,7 +102,7 @@ fn oddities() -> impl Strategy<Value = Oddity> {
         })
 }
 
-/// The mesh, written in an odd way.
+/// Text of the mesh with unusual features.
 fn odd_text(polygons: &PolygonMesh, odd: &Oddity) -> String {
     let mut text = String::from(if odd.has_mark { "\u{feff}" } else { "" });
     let (mut ends, mut blanks) = (odd.line_ends.iter().cycle(), odd.blanks.iter().cycle());
@@ -111,7 +111,7 @@ fn odd_text(polygons: &PolygonMesh, odd: &Oddity) -> String {
         for word in words {
             write!(text, "{word}{}", blanks.next().unwrap()).unwrap();
         }
-        // A blank that goes on in the next line is not the last of a line.
+        // A blank that continues a line is not allowed at the end of an element.
         while text.ends_with(['\n', '\\', '\r']) {
             text.pop();
         }
@@ -134,7 +134,7 @@ fn odd_text(polygons: &PolygonMesh, odd: &Oddity) -> String {
     text
 }
 
-/// Corners as `tobj` reads them: vertex position and texture coordinate. `None` where a corner has none.
+/// Corners read by `tobj`: vertex position and texture coordinate. Fails if some vertices have no texture coordinate.
 fn corners_by_tobj(text: &[u8]) -> Result<Vec<[[f32; 2]; 2]>, String> {
     let no_materials = |_: &std::path::Path| tobj::MTLLoadResult::Err(tobj::LoadError::OpenFileFailed);
     let options = tobj::LoadOptions::default();
@@ -156,7 +156,7 @@ fn corners_by_tobj(text: &[u8]) -> Result<Vec<[[f32; 2]; 2]>, String> {
     Ok(found)
 }
 
-/// The elements of a text, each on a line of its own, without comments, continued lines and normals.
+/// Elements of a text, one per line, without comments, continued lines and normals.
 fn plain(text: &str) -> String {
     let one_end = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
     let words_of = |line: &str| -> Vec<String> {
@@ -186,10 +186,10 @@ fn plain(text: &str) -> String {
     lines.iter().filter_map(element).map(|line| line + "\n").collect()
 }
 
-/// What some readers take for the end of a line.
+/// Characters that some readers take for line ends.
 const BREAKS: [char; 8] = ['\u{b}', '\u{c}', '\u{1c}', '\u{1d}', '\u{1e}', '\u{85}', '\u{2028}', '\u{2029}'];
 
-/// A text as a reader sees it to whom these, too, end a line, and who joins lines behind a `\`.
+/// Text for a reader that takes [`BREAKS`] for line ends, too, and joins lines after a `\`.
 fn as_read_elsewhere(text: &str) -> String {
     let ended = text.replace('\r', "\n").replace(BREAKS, "\n");
     ended
@@ -200,7 +200,7 @@ fn as_read_elsewhere(text: &str) -> String {
         .collect()
 }
 
-/// The mesh as it is written with its own x and y as texture coordinates.
+/// Text of the mesh, written with x and y of its vertices as texture coordinates.
 fn written(mesh: &MeshFile) -> String {
     let flat: Embedding = mesh.polygons.positions.iter().map(|p| DVec2::new(p.x, p.y)).collect();
     let mut text = Vec::new();
@@ -208,12 +208,12 @@ fn written(mesh: &MeshFile) -> String {
     String::from_utf8(text).expect("the odd texts are UTF-8")
 }
 
-/// Writes a mesh and reads it back: as it is, as others see its lines, and with another reader.
+/// Writes a mesh and reads it back: directly, with the line ends of other readers, and with another reader.
 fn assert_same_corners(text: &str, mesh: &MeshFile) -> Result<(), TestCaseError> {
     let out = written(mesh);
     let again = read_stream(out.as_bytes()).expect("what was written is read");
     prop_assert_eq!(&again.polygons.corners, &mesh.polygons.corners, "{}", out);
-    // Who reads the text as we do reads what is written as we do.
+    // If another reader reads the input as this one does, it must also read the output as this one does.
     let elsewhere = |text: &str| read_stream(as_read_elsewhere(text).as_bytes()).ok().map(|mesh| mesh.polygons);
     if elsewhere(text).is_some_and(|polygons| polygons == mesh.polygons) {
         let again = elsewhere(&out).map(|polygons| polygons.corners);
@@ -234,7 +234,7 @@ fn what_is_written_of_an_odd_file_has_the_same_corners_for_every_reader() {
     let accepted = Cell::new(0);
     let same_each_time = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
     let tried = TestRunner::new_with_rng(config, same_each_time).run(&oddities(), |odd| {
-        // Pieces that other readers take for lines of their own may be faults: then the file is refused, not misread.
+        // Text that other readers take for separate lines may be faulty: the file is then rejected, not misread.
         let text = odd_text(&polygons(), &odd);
         let Ok(mesh) = read_stream(text.as_bytes()) else { return Ok(()) };
         accepted.set(accepted.get() + 1);

@@ -27,7 +27,7 @@ fn disk(points: &[DVec2], triangles: &[[VertexId; 3]]) -> DiskMesh {
 fn a_picture_is_as_red_as_the_verdict_says() {
     let points = [SQUARE[0], SQUARE[1], SQUARE[2], SQUARE[3], DVec2::new(0.5, 0.5)];
     let mesh = disk(&points, &faces([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]));
-    // In a mirror every face is turned over, and the map is one-to-one all the same.
+    // A mirror image reverses every face, and the map is still one-to-one.
     let mirrored = points.iter().map(|p| DVec2::new(-p.x, p.y)).collect();
     let verdict = verdict(&mesh, &mirrored);
     assert!(verdict.planar && verdict.mirrored);
@@ -89,7 +89,7 @@ fn the_nearer_face_hides_the_farther_one_from_either_side_and_in_either_order() 
 
 #[test]
 fn what_is_up_and_right_stays_up_and_right() {
-    // One triangle in the upper right corner, seen from the front; from behind it is on the left.
+    // A triangle in the lower right half, seen from the front; seen from behind it is on the left.
     let positions = flat(&[DVec2::ZERO, DVec2::new(1.0, 0.0), DVec2::new(1.0, 1.0)]);
     let seen = |view: &View| mesh_picture(&positions, &faces([[0, 1, 2]]), view, &unlit(40, 40), RasterPaint::Clay);
     let background = Some([0xf4, 0xf4, 0xf2, 255]);
@@ -97,7 +97,7 @@ fn what_is_up_and_right_stays_up_and_right() {
     assert!(front.pixel(35, 8) != background && front.pixel(8, 8) == background);
     let behind = seen(&View { eye: DVec3::NEG_Z, up: DVec3::Y });
     assert!(behind.pixel(4, 8) != background && behind.pixel(35, 8) == background);
-    // The back side has its own clay.
+    // The back side has another clay colour.
     assert_eq!(front.pixel(30, 25), Some([0xd8, 0xd4, 0xcc, 255]));
     assert_eq!(behind.pixel(10, 25), Some([0xa9, 0xa3, 0x9a, 255]));
 }
@@ -131,7 +131,7 @@ fn a_flipped_face_is_red_and_the_boundary_dark() {
     };
     let sound = picture_of(&points);
     assert!(share_of(&sound, colours::FLIPPED) == 0.0);
-    // Beyond the lower side, the centre turns the triangle over that side around.
+    // Moved below the lower side, the centre flips the triangle over that side.
     let folded = [points[0], points[1], points[2], points[3], DVec2::new(0.5, -0.4)];
     let picture = picture_of(&folded);
     assert!(share_of(&picture, colours::FLIPPED) > 0.05);
@@ -191,7 +191,7 @@ fn the_picture_does_not_depend_on_the_number_of_threads() {
     assert_eq!(alone, three);
 }
 
-/// Twice the area vectors of a box's triangles, turned; without those of the side towards x where it is open.
+/// Twice the area vectors of a rotated box's triangles, without the sides that `is_open` selects.
 fn box_areas(turn: DQuat, is_open: impl Fn(DVec3) -> bool) -> (DVec3, Vec<DVec3>) {
     let corner = |k: usize| turn * DVec3::new([0.1, 0.7][k & 1], [0.2, 0.9][k >> 1 & 1], [0.3, 1.4][k >> 2]);
     let sides = [[1, 3, 7, 5], [0, 4, 6, 2], [2, 6, 7, 3], [0, 1, 5, 4], [4, 5, 7, 6], [0, 2, 3, 1]];

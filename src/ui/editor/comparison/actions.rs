@@ -1,4 +1,4 @@
-//! Requests to the comparison of methods, carried out; files written of it.
+//! Actions of the method comparison, and its export to files.
 
 use std::io;
 use std::path::PathBuf;
@@ -11,11 +11,11 @@ use crate::ui::state::{ComparisonExport, Pane, ShadingMode};
 use crate::view::{CellShading, ComparisonPicture, MorphPicture, Quantity};
 use freebound_core::problem::{Method, NamedOption as _, Variant};
 
-/// Pixels per point of a picture that is written.
+/// Pixels per point in exported pictures.
 const PIXELS: f64 = 2.0;
 
 impl Editor {
-    /// Shows methods side by side in the place of the embedding, or the embedding again.
+    /// Shows the comparison of methods in place of the embedding, or the embedding again.
     pub(in crate::ui::editor) fn toggle_comparison(&mut self) {
         let view = &mut self.plane.comparison;
         view.is_shown = !view.is_shown;
@@ -36,7 +36,7 @@ impl Editor {
         }
     }
 
-    /// Leaves the comparison. Returns whether there was one.
+    /// Closes the comparison. Returns true if it was open.
     pub(in crate::ui::editor) fn leave_comparison(&mut self) -> bool {
         let is_shown = self.plane.comparison.is_shown;
         if is_shown {
@@ -45,12 +45,12 @@ impl Editor {
         is_shown
     }
 
-    /// True if the methods side by side are all that the panes show.
+    /// True if the panes show only the comparison.
     pub(in crate::ui) fn shows_comparison_alone(&self) -> bool {
         self.plane.comparison.is_shown && self.layout.full() == Some(Pane::Plane)
     }
 
-    /// Has a method take part in the comparison, or no more.
+    /// Adds a method to the comparison, or removes it. Keeps the number of methods within [`COUNTS`].
     pub(in crate::ui::editor) fn toggle_contender(&mut self, variant: Variant) {
         let chosen = &mut self.plane.comparison.chosen;
         let [least, most] = COUNTS;
@@ -63,12 +63,13 @@ impl Editor {
         self.session.handle(Action::CompareMethods(chosen));
     }
 
-    /// Takes a method as that of the document.
+    /// Action that sets the document's settings to those of a method.
     pub(in crate::ui::editor) fn take_contender(&self, variant: &Variant) -> Action {
         Action::SetSettings(variant.settings(&self.session.document().settings))
     }
 
-    /// Colours the cells as a shading says, where they show and can be coloured so. Returns whether they were.
+    /// Colours the cells by the quantity of a shading. Returns false if the comparison does not show or the shading
+    /// has no quantity.
     pub(in crate::ui::editor) fn shade_comparison(&mut self, shading: ShadingMode) -> bool {
         let view = &mut self.plane.comparison;
         let quantity = match shading {
@@ -83,12 +84,12 @@ impl Editor {
         true
     }
 
-    /// Results of the methods that have one, for files: in the order of the table.
+    /// Results of the methods that have one, in the order of the table, for files.
     pub(in crate::ui) fn compared(&self) -> Vec<Arc<Compared>> {
         self.contenders_sorted().into_iter().filter_map(|contender| contender.found().cloned()).collect()
     }
 
-    /// Writes what the methods have come to that have.
+    /// Writes the results of the methods that have one.
     pub(in crate::ui::editor) fn export_comparison(&mut self, what: ComparisonExport, path: PathBuf) {
         let Some(model) = self.session.model().cloned() else { return };
         let methods = self.compared();
@@ -105,13 +106,13 @@ impl Editor {
                 ComparisonExport::Steps => comparison_report(&model, &methods).write_steps(&mut out),
                 ComparisonExport::Morph => match (model.disk(), &morph) {
                     (Some(mesh), MorphState::Done(tour)) => MorphPicture::new(mesh, tour, shading).write(out),
-                    _ => Err(io::Error::other("the morph has gone: the maps have changed")),
+                    _ => Err(io::Error::other("the morph no longer exists, because the maps have changed")),
                 },
             }
         });
     }
 
-    /// The methods in the order of the table; those without numbers last.
+    /// Methods in the order of the table. A sorted table has methods without a result last.
     pub(in crate::ui) fn contenders_sorted(&self) -> Vec<&Contender> {
         let mut all: Vec<&Contender> = self.session.contenders().iter().collect();
         if let Some((column, direction)) = self.plane.comparison.sort {
@@ -124,8 +125,8 @@ impl Editor {
     }
 }
 
-/// The methods to begin with, in the order of menus: the document's, and those that have something to do there. Methods that go on
-/// from a map of another's come after those with a map of their own, which they often end with.
+/// Initial methods of the comparison, in menu order: the document's method, and methods that suit the problem.
+/// Methods that continue from a layout are chosen last, because they often reproduce the map of another method.
 fn usual_contenders(session: &Session) -> Vec<Variant> {
     let problem = session.document().problem();
     let own = Variant::of(&problem.settings);

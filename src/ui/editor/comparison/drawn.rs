@@ -1,4 +1,4 @@
-//! What is drawn of methods side by side: their scenes, faces coloured on one scale, and one camera.
+//! Drawn data of the method comparison: scenes, face colours on one scale, and one camera.
 
 use std::sync::Arc;
 
@@ -12,16 +12,16 @@ use crate::view::{CellFrame, CellFrames, FacePaint, PlaneCamera, Quantity};
 use freebound_core::mesh::DiskMesh;
 use freebound_core::pipeline::Outcome;
 
-/// What is drawn of the methods.
+/// Scenes and face colours of the compared methods.
 #[derive(Debug)]
 pub(super) struct Drawn {
     scenes: Vec<Arc<PlaneScene>>,
-    /// By the place of an outcome in memory.
+    /// Background job that makes a scene. Key: address of the outcome in memory.
     job: AsyncScene<usize, PlaneScene>,
     paints: Option<Paints>,
 }
 
-/// Faces coloured on one scale.
+/// Face colours on one scale.
 #[derive(Clone, Debug)]
 struct Paints {
     key: (Option<Quantity>, Vec<usize>),
@@ -29,18 +29,18 @@ struct Paints {
     legend: Option<Legend>,
 }
 
-/// How the cells are looked at.
+/// Layout and camera of the cells.
 #[derive(Debug, Default)]
 pub(super) struct Sight {
     frames: Option<(Vec<usize>, CellFrames)>,
-    /// Of a cell, points; all are alike.
+    /// Size of every cell, points.
     size: DVec2,
     camera: Option<PlaneCamera>,
-    /// The camera as the window chose it by itself.
+    /// Last camera that the window chose, not the user.
     framed: Option<PlaneCamera>,
 }
 
-/// What a cell draws.
+/// Drawn data of a cell.
 #[derive(Clone)]
 pub(in crate::ui) struct CellScene {
     pub(in crate::ui) plane: Arc<PlaneScene>,
@@ -48,12 +48,12 @@ pub(in crate::ui) struct CellScene {
     pub(in crate::ui) frame: CellFrame,
 }
 
-/// The place of an outcome in memory: two that are there at the same time have two places.
+/// Address of an outcome in memory, unique among live outcomes.
 fn place_of(outcome: &Arc<Outcome>) -> usize {
     Arc::as_ptr(outcome).addr()
 }
 
-/// The embedding that a method came to last.
+/// Latest embedding of a method.
 pub(super) fn outcome_of(contender: &Contender) -> Option<&Arc<Outcome>> {
     contender.found()?.outcome.as_ref()
 }
@@ -71,8 +71,8 @@ impl Drawn {
         self.job.take_failure()
     }
 
-    /// Takes in a scene that was made, has one made that is missing, and lets go of what is not wanted any more. `given` is the mesh
-    /// as given.
+    /// Adds a finished scene, starts a job for a missing one, and drops scenes of outcomes that are no longer wanted.
+    /// `given` is the mesh as given.
     pub(super) fn refresh(&mut self, wanted: &[Arc<Outcome>], given: Option<&Arc<MeshScene>>) {
         if let Some((_, scene)) = self.job.poll() {
             self.scenes.push(Arc::new(scene));
@@ -88,7 +88,7 @@ impl Drawn {
         }
     }
 
-    /// What the cell of an embedding draws, once that is made and has its place.
+    /// Drawn data of the cell of an embedding, once it is made and laid out.
     pub(super) fn cell(&self, outcome: &Arc<Outcome>, sight: &Sight) -> Option<CellScene> {
         let index = self.place_of_scene(outcome)?;
         Some(CellScene {
@@ -110,7 +110,7 @@ impl Drawn {
         self.scenes.iter().map(|scene| place_of(&scene.outcome)).collect()
     }
 
-    /// Colours the faces of all scenes on one scale, where that is not done yet.
+    /// Colours the faces of all scenes on one scale, unless that is done.
     pub(super) fn paint(&mut self, quantity: Option<Quantity>) {
         let key = (quantity, self.places());
         if self.paints.as_ref().is_some_and(|paints| paints.key == key) {
@@ -134,7 +134,7 @@ impl Drawn {
 }
 
 impl Sight {
-    /// Lays out the scenes that there are, where they are others than before.
+    /// Lays out the scenes if they have changed.
     pub(super) fn refresh(&mut self, mesh: &DiskMesh, drawn: &Drawn) {
         let places = drawn.places();
         if self.frames.as_ref().is_none_or(|(of, _)| *of != places) {
@@ -143,7 +143,7 @@ impl Sight {
         }
     }
 
-    /// The camera of all cells, which are so large.
+    /// Camera of all cells, for cells of this size.
     pub(super) fn camera_in(&mut self, cell: DVec2) -> Option<PlaneCamera> {
         self.frame_in(cell);
         self.camera
@@ -162,7 +162,7 @@ impl Sight {
         frames.frames.get(index).filter(|_| places.get(index) == Some(&place_of(outcome))).copied()
     }
 
-    /// Takes another layout of the cells. A camera that nobody has moved goes along.
+    /// Sets another layout of the cells. Reframes a camera that the user has not moved.
     fn take(&mut self, places: Vec<usize>, frames: CellFrames) {
         let is_first = self.frames.as_ref().is_none_or(|(before, _)| before.is_empty());
         let is_other = self.frames.as_ref().is_none_or(|(_, before)| before.bounds != frames.bounds);
@@ -176,7 +176,7 @@ impl Sight {
         self.camera == self.framed
     }
 
-    /// Chooses a camera for cells of a size, where nobody has chosen another.
+    /// Frames the scenes for cells of this size, unless the user has moved the camera.
     fn frame_in(&mut self, cell: DVec2) {
         let has_other_size = std::mem::replace(&mut self.size, cell) != cell;
         let Some((_, frames)) = self.frames.as_ref().filter(|(_, frames)| !frames.frames.is_empty()) else { return };

@@ -1,12 +1,12 @@
-//! Methods side by side in the embedding's pane: which ones, one camera and one scale of colours for all, and the order of their
-//! table. They run in the session; what is drawn of them is made here.
+//! Method comparison in the embedding pane: choice of methods, common camera and colour scale, and order of the
+//! table. The methods run in the session; their scenes are made here.
 //!
 //! | file | what |
 //! |---|---|
-//! | `mod.rs` | what is chosen |
-//! | `actions.rs`, `morph_actions.rs` | requests, carried out |
-//! | `morph.rs` | the morph between two of them: which frame shows, and how |
-//! | `drawn.rs` | scenes, faces coloured on one scale, one camera |
+//! | `mod.rs` | the choice of methods and the options of the view |
+//! | `actions.rs`, `morph_actions.rs` | actions of comparison and morph |
+//! | `morph.rs` | the morph between two methods: its frame on the screen, its camera |
+//! | `drawn.rs` | scenes, face colours on one scale, one camera |
 
 mod actions;
 mod drawn;
@@ -29,28 +29,28 @@ use freebound_io::{Column, Direction};
 pub(in crate::ui) use morph::MorphFrame;
 pub use morph::MorphView;
 
-/// The least and the most methods that are compared.
+/// Least and greatest number of compared methods.
 pub(in crate::ui) const COUNTS: [usize; 2] = [2, 6];
 
-/// Methods side by side.
+/// State of the method comparison.
 #[derive(Debug)]
 pub struct ComparisonView {
-    /// Those chosen last; they stay while the comparison does not show.
+    /// Methods chosen last, kept while the comparison is closed.
     chosen: Vec<Variant>,
     is_shown: bool,
-    /// What faces are coloured by; plain without it.
+    /// Quantity that colours the faces; `None` for plain faces.
     quantity: Option<Quantity>,
-    /// The column that the table is sorted by, and whether the greatest comes first.
+    /// Sort column and direction of the table.
     sort: Option<(Column, Direction)>,
-    /// Whether the table shows, where a person said so.
+    /// The user's choice to show or hide the table, if made.
     table: Option<bool>,
-    /// Whether there is room for cells and table.
+    /// True if there is room for cells and table.
     is_roomy: bool,
-    /// Whether the embedding's pane was not in full size before.
+    /// True if both panes showed before the comparison opened.
     was_beside: bool,
     drawn: Drawn,
     sight: Sight,
-    /// The morph between two methods, in the place of the cells.
+    /// Morph between two methods, in place of the cells.
     pub morph: MorphView,
 }
 
@@ -70,12 +70,12 @@ impl ComparisonView {
         }
     }
 
-    /// Whether it is on the screen, in the place of the embedding.
+    /// True if the comparison is on the screen, in place of the embedding.
     pub fn is_shown(&self) -> bool {
         self.is_shown
     }
 
-    /// What faces are coloured by.
+    /// Quantity that colours the faces.
     pub fn quantity(&self) -> Option<Quantity> {
         self.quantity
     }
@@ -84,7 +84,7 @@ impl ComparisonView {
         self.sort
     }
 
-    /// Whether the table shows; where nobody said, where there is room for it beside the cells.
+    /// True if the table shows. Default: if there is room for the table beside the cells.
     pub(in crate::ui) fn has_table(&self) -> bool {
         self.table.unwrap_or(self.is_roomy)
     }
@@ -93,17 +93,17 @@ impl ComparisonView {
         self.table = Some(!self.has_table());
     }
 
-    /// Takes in whether there is room for cells and table.
+    /// Sets whether there is room for cells and table.
     pub(in crate::ui) fn set_roomy(&mut self, is_roomy: bool) {
         self.is_roomy = is_roomy;
     }
 
-    /// Colours faces by another quantity.
+    /// Colours the faces by another quantity.
     pub(in crate::ui) fn colour_by(&mut self, quantity: Option<Quantity>) {
         self.quantity = quantity;
     }
 
-    /// Sorts the table by a column; again, the other way around; a third time, not at all.
+    /// Cycles the sorting by a column: ascending, descending, unsorted.
     pub(in crate::ui) fn sort_by(&mut self, column: Column) {
         self.sort = match self.sort {
             Some((before, Direction::Up)) if before == column => Some((column, Direction::Down)),
@@ -112,7 +112,7 @@ impl ComparisonView {
         };
     }
 
-    /// Whether all embeddings that the methods have come to are drawn.
+    /// True if the latest embeddings of all methods are drawn.
     pub fn is_drawn(&self, session: &Session) -> bool {
         session
             .contenders()
@@ -121,12 +121,12 @@ impl ComparisonView {
             .all(|of| self.cell(of).is_some())
     }
 
-    /// The camera of all cells, once there is something to see.
+    /// Camera of all cells, once there is one.
     pub fn camera_now(&self) -> Option<PlaneCamera> {
         self.sight.camera()
     }
 
-    /// Whether what is drawn is still being made.
+    /// True while scenes are being made.
     pub fn is_making(&self) -> bool {
         self.drawn.is_making()
     }
@@ -135,7 +135,7 @@ impl ComparisonView {
         self.drawn.take_failure()
     }
 
-    /// Has made what is missing, and lets go of what is not shown any more. Call once per frame.
+    /// Starts jobs for missing scenes and drops old ones. Call once per frame.
     pub(in crate::ui::editor) fn refresh(&mut self, session: &Session, given: Option<&Arc<MeshScene>>) {
         let wanted: Vec<Arc<Outcome>> = session.contenders().iter().filter_map(outcome_of).cloned().collect();
         let given = given.filter(|given| given.model_revision == session.model_revision());
@@ -146,17 +146,17 @@ impl ComparisonView {
         }
     }
 
-    /// What the cell of a method draws, once that is made.
+    /// Drawn data of the cell of a method, once it is made.
     pub(in crate::ui) fn cell(&self, contender: &Contender) -> Option<CellScene> {
         self.drawn.cell(outcome_of(contender)?, &self.sight)
     }
 
-    /// The scale of the colours.
+    /// Colour scale of the faces.
     pub(in crate::ui) fn legend(&self) -> Option<(Quantity, &Legend)> {
         self.quantity.zip(self.drawn.legend())
     }
 
-    /// The camera of all cells, which are so large.
+    /// Camera of all cells, for cells of this size.
     pub(in crate::ui) fn camera(&mut self, cell: DVec2) -> Option<PlaneCamera> {
         self.sight.camera_in(cell)
     }
@@ -165,7 +165,7 @@ impl ComparisonView {
         self.sight.set_camera(Some(camera));
     }
 
-    /// Shows all embeddings whole.
+    /// Frames all embeddings.
     pub(in crate::ui::editor) fn frame(&mut self) {
         self.morph.frame();
         self.sight.set_camera(None);

@@ -1,5 +1,5 @@
-//! The morph between two methods that are compared: which frame shows, from which camera, and how it is played. Only frames that
-//! are proved are shown, none between two of them.
+//! Morph between two compared methods: its frame on the screen, its camera, and its playback. Only proved frames are
+//! shown, never an interpolation of two.
 
 use std::sync::Arc;
 
@@ -15,29 +15,29 @@ use freebound_core::problem::Embedding;
 use freebound_core::verify::distortion;
 use freebound_io::figure::Window;
 
-/// The morph as the window has it.
+/// State of the morph in the window.
 #[derive(Debug, Default)]
 pub struct MorphView {
     pub(super) is_shown: bool,
-    /// Of its time, 0 to 1.
+    /// Time in the morph, 0 to 1.
     pub(super) share: f64,
-    /// When it would have been at its beginning, while it is played; seconds of the window's clock.
+    /// Clock time at which the morph was at 0, or would have been, while it is played; seconds of the window's clock.
     pub(super) playing_since: Option<f64>,
     pub(super) drawn: Option<DrawnTour>,
     camera: Option<PlaneCamera>,
-    /// The camera as the window chose it, and for what size of the view.
+    /// Last camera that the window chose, and the size of the view at that time.
     framed: Option<(PlaneCamera, DVec2)>,
 }
 
-/// Which frame, and what its faces are coloured by.
+/// Index of a frame, and the quantity that colours its faces.
 type FrameKey = (usize, Option<Quantity>);
 
-/// A tour as it is drawn: what all of its frames have in common, found once, and the frame that was drawn last.
+/// Morph prepared for drawing: data common to all frames, computed once, and the last drawn frame.
 #[derive(Debug)]
 pub(super) struct DrawnTour {
     tour: Arc<MorphTour>,
     sight: MorphSight,
-    /// The range of the quantity that was asked for last.
+    /// Last requested quantity, and its range.
     range: Option<(Quantity, Option<Range>)>,
     frame: Option<(FrameKey, MorphFrame)>,
 }
@@ -47,7 +47,7 @@ impl DrawnTour {
         Self { tour: Arc::clone(tour), sight: MorphSight::new(tour), range: None, frame: None }
     }
 
-    /// The range of colours of all frames: that of the maps.
+    /// Colour range of all frames: the common range of the maps at the stops.
     fn range_of(&mut self, quantity: Quantity) -> Option<Range> {
         if let Some((_, range)) = self.range.filter(|(of, _)| *of == quantity) {
             return range;
@@ -58,7 +58,7 @@ impl DrawnTour {
         range
     }
 
-    /// A frame, made where it is not the one that was drawn last.
+    /// Drawn frame, cached for the last key.
     fn frame(&mut self, mesh: Option<&Arc<MeshScene>>, key: FrameKey) -> Option<MorphFrame> {
         if self.frame.as_ref().is_none_or(|(of, _)| *of != key) {
             let (number, quantity) = key;
@@ -70,14 +70,14 @@ impl DrawnTour {
     }
 }
 
-/// What is drawn of a frame.
+/// Drawn data of a frame.
 #[derive(Clone, Debug)]
 pub(in crate::ui) struct MorphFrame {
     pub(in crate::ui) mesh: Arc<MeshScene>,
     pub(in crate::ui) arrays: Arc<PlaneArrays>,
     pub(in crate::ui) faces: Arc<FacePaint>,
     pub(in crate::ui) legend: Option<Legend>,
-    /// What of the plane is seen where the common camera sees the square from −1 to 1.
+    /// Centre and half side of the square that this frame maps to the square [−1, 1]² of the common camera.
     middle: DVec2,
     half: f64,
 }
@@ -108,39 +108,39 @@ impl MorphFrame {
         })
     }
 
-    /// The camera that shows of this frame what `common` shows of the square.
+    /// Camera that shows this frame as `common` shows the square [−1, 1]².
     pub(in crate::ui) fn camera(&self, common: &PlaneCamera) -> PlaneCamera {
         common.over_similar(self.middle, self.half)
     }
 }
 
 impl MorphView {
-    /// A morph in the place of the cells, at its beginning.
+    /// Open morph at its start.
     pub(super) fn shown() -> Self {
         Self { is_shown: true, ..Self::default() }
     }
 
-    /// Whether it stands in the place of the cells.
+    /// True if the morph shows in place of the cells.
     pub fn is_shown(&self) -> bool {
         self.is_shown
     }
 
-    /// Where it stands, of its time, 0 to 1.
+    /// Time in the morph, 0 to 1.
     pub fn share(&self) -> f64 {
         self.share
     }
 
-    /// The box around the frame that was drawn last, in its plane; none where the morph has gone.
+    /// Bounding box of the last drawn frame in the plane; `None` without a drawn frame.
     pub fn bounds_drawn(&self) -> Option<Bounds> {
         self.drawn.as_ref()?.frame.as_ref().map(|(_, frame)| frame.arrays.bounds)
     }
 
-    /// Whether it is being played.
+    /// True while the morph is played.
     pub fn is_playing(&self) -> bool {
         self.playing_since.is_some()
     }
 
-    /// The number of the frame that shows, of so many: the nearest.
+    /// Index of the frame at the current time, rounded to the nearest of `count` frames.
     pub fn frame_of(&self, count: usize) -> usize {
         let last = count.saturating_sub(1);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of a small count")]
@@ -148,7 +148,7 @@ impl MorphView {
         nearest.min(last)
     }
 
-    /// What is drawn of the frame that shows, made where it is not yet.
+    /// Drawn data of the current frame, made if it is missing.
     pub(in crate::ui) fn drawn(
         &mut self,
         mesh: Option<&Arc<MeshScene>>,
@@ -162,7 +162,8 @@ impl MorphView {
         self.drawn.as_mut()?.frame(mesh, key)
     }
 
-    /// The camera of all frames, in a view of a size; it goes along with the size where nobody has moved it.
+    /// Camera of all frames, for a view of this size. Reframes when the size changes, unless the user has moved the
+    /// camera.
     pub(in crate::ui) fn camera_in(&mut self, size: DVec2) -> PlaneCamera {
         let is_framed = self.framed.is_some_and(|(camera, of)| self.camera == Some(camera) && of != size);
         if let Some(camera) = self.camera.filter(|_| !is_framed) {
@@ -178,7 +179,7 @@ impl MorphView {
         self.camera = Some(camera);
     }
 
-    /// Shows all of it.
+    /// Frames the whole morph.
     pub(super) fn frame(&mut self) {
         self.camera = None;
     }

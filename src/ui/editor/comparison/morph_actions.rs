@@ -1,4 +1,4 @@
-//! Requests to the morph between two methods, carried out.
+//! Actions of the morph between two methods.
 
 use super::morph::MorphView;
 use crate::session::{Action, Compared, MorphState};
@@ -10,7 +10,7 @@ use freebound_core::problem::Variant;
 const SECONDS: f64 = 3.0;
 
 impl Editor {
-    /// Carries out what is asked of the morph.
+    /// Carries out a request to the morph.
     pub(in crate::ui::editor) fn morph(&mut self, request: MorphRequest) {
         let now = self.gpu.now();
         let between = self.session.morph_between();
@@ -32,7 +32,7 @@ impl Editor {
         }
     }
 
-    /// Takes another method for one end. One that is the other end already changes places with it.
+    /// Changes the method at one end. Choosing the method of the other end swaps the two.
     fn morph_between(&mut self, before: Option<[Variant; 2]>, chosen: [Option<Variant>; 2]) {
         let Some([from, to]) = before else { return };
         let between = match chosen {
@@ -45,13 +45,13 @@ impl Editor {
         self.session.handle(Action::Morph(Some(between)));
     }
 
-    /// Shows the cells again, and wants no morph any more.
+    /// Closes the morph, shows the cells again, and drops the morph in the session.
     pub(in crate::ui::editor) fn close_morph(&mut self) {
         self.plane.comparison.morph = MorphView::default();
         self.session.handle(Action::Morph(None));
     }
 
-    /// Leaves the morph. Returns whether it showed.
+    /// Closes the morph. Returns true if it was open.
     pub(in crate::ui::editor) fn leave_morph(&mut self) -> bool {
         let is_shown = self.plane.comparison.morph.is_shown;
         if is_shown {
@@ -60,7 +60,8 @@ impl Editor {
         is_shown
     }
 
-    /// Chooses its ends where none are chosen or one takes no part any more, and plays it on. Call once per frame.
+    /// Chooses the ends if none are chosen or a chosen method has left the comparison, and advances the playback.
+    /// Call once per frame.
     pub(in crate::ui::editor) fn go_on_with_morph(&mut self) {
         if !self.plane.comparison.morph.is_shown {
             return;
@@ -77,7 +78,7 @@ impl Editor {
         let now = self.gpu.now();
         let view = &mut self.plane.comparison.morph;
         view.playing_since = view.playing_since.filter(|_| is_there);
-        // What has gone is not kept in memory.
+        // Free the memory of a morph that no longer exists.
         view.drawn = view.drawn.take().filter(|_| is_there);
         if let Some(since) = view.playing_since {
             view.share = ((now - since) / SECONDS).clamp(0.0, 1.0);
@@ -86,13 +87,13 @@ impl Editor {
         }
     }
 
-    /// From the map of the document's method, where it is planar, to the first other one.
+    /// Default ends: the document's method, if its map can be an end, and the first method with another map.
     fn usual_morph(&self) -> Option<[Variant; 2]> {
         let ends = self.session.morph_ends();
         let own = Variant::of(&self.session.document().settings);
         let (first, of_first) = ends.iter().find(|(variant, _)| *variant == own).or(ends.first())?;
         let others = || ends.iter().filter(|(variant, _)| variant != first);
-        // Methods often end with one and the same map: nothing would move.
+        // Methods often share one map, and a morph between equal maps would not move.
         let is_other = |end: &Compared| match (&end.outcome, &of_first.outcome) {
             (Some(end), Some(first)) => {
                 end.step.candidate.solution.embedding != first.step.candidate.solution.embedding

@@ -1,14 +1,14 @@
-//! Hull and pockets: each stage of the virtual boundary in the embedding's pane (paper §5).
+//! Hull and pockets: the stages of the virtual boundary in the embedding pane (paper §5).
 //!
 //! ```text
-//! before    the embedding before, in its hull
-//! pockets   the outside triangulated up to the hull
-//! solved    mesh and outside embedded together, the hull where it was
-//! peeled    the outside taken away: the step's result
+//! before    embedding before the virtual boundary, in its hull
+//! pockets   outside triangulated up to the hull
+//! solved    mesh and outside embedded together, the hull fixed
+//! peeled    outside removed: the result of the step
 //! ```
 //!
-//! The result of a step is moved by a similarity after the solve. All stages are shown moved by the same one, so that
-//! the hull and what is solved stay at their places on the screen.
+//! The result of a step is moved by a similarity after the solve. All stages are shown moved by that similarity, so
+//! that the hull and the solved embedding stay in place on the screen.
 
 use std::sync::Arc;
 
@@ -33,20 +33,20 @@ use freebound_core::problem::{Embedding, NamedOption, Stage};
 pub(super) struct HullView {
     shown: bool,
     stage: HullStage,
-    /// With the outcome's revision and the stage.
+    /// Scene with its key: revision of the outcome, and stage.
     scene: Option<((u64, HullStage), HullScene)>,
-    /// The stage that is being made, with the outcome's revision.
+    /// Background job that makes the scene. Key: revision of the outcome, and stage.
     job: AsyncScene<(u64, HullStage), HullScene>,
-    /// The camera from before they showed, and the one that frames them.
+    /// Camera before hull and pockets showed, and the camera that frames them.
     cameras: Option<[PlaneCamera; 2]>,
 }
 
-/// A stage, ready to be drawn.
+/// Stage of the virtual boundary, prepared for drawing.
 #[derive(Debug)]
 pub struct HullScene {
-    /// The mesh at this stage, or with its outside; none where it is the result alone.
+    /// Mesh at this stage, or with its outside; `None` for the result alone.
     plane: Option<Arc<PlaneScene>>,
-    /// The faces' colours, where they are not the result's.
+    /// Face colours, if they differ from those of the result.
     paint: Option<Arc<FacePaint>>,
     hull: Arc<EdgeList>,
     pocket_edges: Arc<EdgeList>,
@@ -64,7 +64,7 @@ impl HullScene {
         }
     }
 
-    /// A hull with pockets, and the mesh as in the result.
+    /// Hull with pockets, and the mesh as in the result.
     fn of_hull(corners: &[VertexId], pockets: &[[VertexId; 3]], caption: String) -> Self {
         Self {
             plane: None,
@@ -96,24 +96,24 @@ impl HullScene {
         Self { plane: Some(Arc::new(result.of_part(Part::Stage, moved))), paint: Some(Arc::new(paint)), ..scene }
     }
 
-    /// A step that was made with the outside triangulated up to a frame: the result within it.
+    /// Scene of a step solved with the outside triangulated up to a frame: the result within the outside.
     fn of_outside(result: &PlaneScene, outside: &Scaffold) -> Self {
         let embedding = result.positions();
         let points: Embedding = embedding.iter().chain(&outside.frame).copied().collect();
         let (count, step) = (outside.triangles.len(), &result.outcome.step);
         let (outermost, caption) = if matches!(step.candidate.stage, Stage::Lee(_)) {
             let ring = result.mesh.disk().map_or(0, |disk| disk.boundary_loop().len());
-            (ring, format!("{count} virtual triangles around the mesh, embedded with it and peeled off"))
+            (ring, format!("{count} virtual triangles around the mesh, solved with it, then removed"))
         } else {
-            let why = "while none turns over, the boundary stays simple";
-            (outside.frame.len(), format!("{count} triangles around the mesh, up to a frame: {why}"))
+            let why = "while none of them flips, the boundary stays simple";
+            (outside.frame.len(), format!("{count} triangles between mesh and frame: {why}"))
         };
         let around: Vec<VertexId> = (points.len() - outermost..points.len()).map(VertexId::from_index).collect();
         let plane = Some(Arc::new(result.of_part(Part::WithOutside, points)));
         Self { plane, ..Self::of_hull(&around, &outside.triangles, caption) }
     }
 
-    /// A step that bent no boundary still has a hull.
+    /// Scene of a step without a virtual boundary: the hull of its free boundary.
     fn of_free_boundary(result: &PlaneScene) -> Self {
         let disk = result.mesh.disk().expect("only a disk is solved");
         let boundary = disk.boundary_loop();
@@ -124,12 +124,12 @@ impl HullScene {
                 let count = boundary.len();
                 format!("{count} of {count} boundary vertices pinned on {}", shape.labels().about)
             }
-            _ => "This step has no virtual boundary; the line is the hull of the free one".to_owned(),
+            _ => "This step has no virtual boundary. The line is the hull of the free boundary".to_owned(),
         };
         Self::of_hull(&corners, &[], caption)
     }
 
-    /// Faces of the mesh that are turned over at a stage before the result.
+    /// Number of faces flipped at a stage before the result.
     pub fn flipped_count(&self) -> usize {
         self.paint.as_ref().map_or(0, |paint| paint.flipped.len())
     }
@@ -138,7 +138,7 @@ impl HullScene {
         self.plane.as_ref()
     }
 
-    /// The faces' colours at a stage before the result, whose distortion says nothing there.
+    /// Face colours at a stage before the result. The distortion of the outcome does not apply to a stage.
     pub(in crate::ui) fn paint(&self) -> Option<&Arc<FacePaint>> {
         self.paint.as_ref()
     }
@@ -154,7 +154,8 @@ impl HullScene {
     }
 }
 
-/// What a stage shows. Where vertices of the boundary were pinned on a circle, which nobody asked for, it says so.
+/// Caption of a stage. States the number of boundary vertices pinned on a circle if there are more than two, because
+/// the user did not ask for these pins.
 fn caption(stage: HullStage, stages: &VirtualBoundary, boundary: usize) -> String {
     let outline = match stages.outline {
         Outline::Hull => "hull",
@@ -165,14 +166,14 @@ fn caption(stage: HullStage, stages: &VirtualBoundary, boundary: usize) -> Strin
         _ => String::new(),
     };
     match stage {
-        HullStage::Before => format!("{circle}The step before, {outline} of {} corners", stages.hull.len()),
+        HullStage::Before => format!("{circle}Previous step; {outline} with {} corners", stages.hull.len()),
         HullStage::Pockets => format!("{circle}{} triangles up to the {outline}", stages.pockets.len()),
-        HullStage::Solved => format!("Mesh and outside together, {outline} fixed"),
+        HullStage::Solved => format!("Mesh and outside solved together, {outline} fixed"),
         HullStage::Peeled => stage.words()[1].to_owned(),
     }
 }
 
-/// Each side of the faces once.
+/// Sides of the faces, each once.
 fn sides_of(faces: &[[VertexId; 3]]) -> Vec<[VertexId; 2]> {
     let sides = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     let mut sides: Vec<[VertexId; 2]> = sides.map(|[a, b]| [a.min(b), a.max(b)]).collect();
@@ -189,8 +190,8 @@ fn flipped_faces(disk: &DiskMesh, embedding: &Embedding) -> Vec<FaceId> {
     disk.real_faces().filter(is_flipped).collect()
 }
 
-/// An embedding moved as the boundary is from one embedding to another that differs from it by a similarity; where there is
-/// none, it stays.
+/// Moves an embedding by the similarity that maps the boundary of one embedding to another. Returns it unchanged if
+/// no similarity fits.
 fn moved_along(embedding: &Embedding, disk: &DiskMesh, [before, after]: [&Embedding; 2]) -> Embedding {
     let pairs: Vec<[DVec2; 2]> = disk.boundary_loop().iter().map(|v| [before[v], after[v]]).collect();
     match Similarity::fitting(&pairs) {
@@ -227,7 +228,7 @@ impl PlaneView {
         self.hull.stage = stage;
     }
 
-    /// Hull and pockets of the shown step, where they are wanted and made, and nothing follows a drag in its place.
+    /// Hull and pockets of the step on the screen, if shown and made. A drag preview hides them.
     pub fn hull_scene(&self) -> Option<&HullScene> {
         self.hull_made().map(|(_, scene)| scene)
     }
@@ -238,13 +239,13 @@ impl PlaneView {
         self.hull.scene.as_ref().filter(|(key, _)| is_wanted && key.0 == revision)
     }
 
-    /// Whether hull and pockets are drawn as they were asked for.
+    /// True if hull and pockets are drawn as requested.
     pub fn hull_is_drawn(&self) -> bool {
         let shown = self.hull_made().map(|(key, _)| key.1);
         !self.hull.shown || self.scene.is_none() || self.preview.is_some() || shown == Some(self.hull.stage)
     }
 
-    /// Makes the chosen stage in the background where it is not there yet.
+    /// Makes the chosen stage in the background if it is missing.
     pub(super) fn poll_hull(&mut self) {
         if let Some((key, scene)) = self.hull.job.poll() {
             self.hull.scene = Some((key, scene));
@@ -264,7 +265,7 @@ impl PlaneView {
         }
     }
 
-    /// Shows or hides hull and pockets. The camera comes back where nobody has moved it since.
+    /// Shows or hides hull and pockets. Restores the earlier camera, unless the user has moved the camera since.
     pub(in crate::ui::editor) fn toggle_hull(&mut self) {
         self.hull.shown = !self.hull.shown;
         if let Some([before, framing]) = self.hull.cameras.take()
@@ -274,7 +275,7 @@ impl PlaneView {
         }
     }
 
-    /// Shows all of the hull, once it is there for the first time.
+    /// Frames the whole hull when it first appears.
     fn frame_hull(&mut self) {
         let (Some(plane), Some(before)) = (self.drawn(), self.pane.camera()) else { return };
         let bounds = plane.arrays.bounds;

@@ -1,9 +1,9 @@
-//! The embedding's pane as the window has it: where it lies, its camera, and what it draws.
+//! State of the embedding pane: its place, its camera, and its drawn data.
 //!
 //! | file | what |
 //! |---|---|
-//! | `mod.rs` | camera, the scene of the step on the screen, the embedding that follows a dragged pin |
-//! | `steps.rs` | the way between two steps, the outline of the compared one |
+//! | `mod.rs` | camera, scene of the step on the screen, preview of a dragged pin |
+//! | `steps.rs` | transition between two steps, outline of the compared step |
 //! | `hull.rs` | hull and pockets of the virtual boundary |
 
 mod hull;
@@ -35,52 +35,52 @@ use steps::{Ghost, Way};
 
 #[derive(Debug)]
 pub struct PlaneView {
-    /// Its place and its camera.
+    /// Place and camera of the pane.
     pub pane: PaneView<PlaneCamera>,
-    /// The camera as the window chose it by itself.
+    /// Last camera that the window chose, not the user.
     framed: Option<PlaneCamera>,
-    /// The camera that the document was saved with, until there is an embedding to look at.
+    /// Camera saved with the document, until there is an embedding to show.
     saved: Option<Vec<f64>>,
     scene: Option<Arc<PlaneScene>>,
-    /// The scene that is being made, by the step's revision.
+    /// Background job that makes the scene. Key: revision of the step.
     job: AsyncScene<u64, PlaneScene>,
     way: Option<Way>,
     preview: Option<PreviewScene>,
     hull: HullView,
     ghost: Option<Ghost>,
-    /// Methods side by side, in the place of all this.
+    /// Method comparison, which replaces all other contents of the pane.
     pub comparison: ComparisonView,
 }
 
-/// What follows a pin that is dragged: the first solve's embedding, drawn at once. It is not repaired, and what is wrong
-/// with it shows only once a verdict on this very embedding is there.
+/// Preview of a dragged pin: the embedding of the first solve, drawn at once. The preview is not repaired. Its
+/// defects show only once a verdict on this very embedding exists.
 #[derive(Debug)]
 struct PreviewScene {
-    /// The mesh, and the session's count of moves.
+    /// Revision of the mesh, and the session's count of moves.
     key: (u64, u64),
     scene: Arc<PlaneScene>,
-    /// The embedding that the drag began with, if the scene's vertices are its own and move in place.
+    /// Embedding at the start of the drag, if the scene owns its vertices and moves them in place.
     begin: Option<Arc<Embedding>>,
-    /// The faces with those flipped that the verdict names; none where there is none yet.
+    /// Face colours, with the flipped faces of the verdict marked; none before there is a verdict.
     faces: Arc<FacePaint>,
     verdict: Option<Arc<Verdict>>,
 }
 
-/// What the pane is told of the rest of the window in each frame.
+/// Inputs that the pane needs from the rest of the window, in each frame.
 #[derive(Clone, Copy)]
 pub(super) struct Surroundings<'a> {
     pub(super) session: &'a Session,
     pub(super) gpu: &'a Gpu,
-    /// The mesh as given.
+    /// Scene of the mesh as given.
     pub(super) mesh: Option<&'a Arc<MeshScene>>,
-    /// How long sheets glide, seconds; none where they do not.
+    /// Duration of a transition between steps, seconds; `None` if transitions are off.
     pub(super) glide: Option<f64>,
     pub(super) is_dragging: bool,
 }
 
 impl Surroundings<'_> {
-    /// What the window shows of the plane by itself: the picture where there is one, so that it stays where it is while
-    /// the embedding changes; else the embedding.
+    /// Box that the window frames by default: the picture if there is one, else the embedding. Thus a picture stays
+    /// in place while the embedding changes.
     fn framed_box(&self, embedding: Bounds) -> Bounds {
         let document = self.session.document();
         if document.picture.is_some() { picture_box(document) } else { embedding }
@@ -103,24 +103,24 @@ impl PlaneView {
         }
     }
 
-    /// Takes a camera that the window chose by itself.
+    /// Sets a camera that the window chose.
     pub(super) fn set_framed(&mut self, camera: PlaneCamera) {
         self.pane.set_camera(camera);
         self.framed = Some(camera);
     }
 
-    /// Whether nobody has moved the camera since the window chose it.
+    /// True if the user has not moved the camera since the window chose it.
     pub(super) fn is_framed(&self) -> bool {
         self.framed.is_some() && self.pane.camera() == self.framed
     }
 
-    /// Whether a camera shows all of a box.
+    /// True if a camera shows all of a box.
     fn shows(&self, camera: PlaneCamera, bounds: Bounds) -> bool {
         let seen = camera.visible(self.pane.size());
         seen.low.cmple(bounds.low).all() && seen.high.cmpge(bounds.high).all()
     }
 
-    /// Shows a box in full size.
+    /// Frames a box.
     pub(super) fn frame(&mut self, bounds: Bounds) {
         let size = self.pane.size();
         if let Some(camera) = self.pane.camera_mut() {
@@ -128,7 +128,7 @@ impl PlaneView {
         }
     }
 
-    /// Goes along with a move of all that the pane shows.
+    /// Moves the cameras along with a move of the whole content.
     pub(super) fn go_along(&mut self, by: DVec2) {
         let moved = |camera: PlaneCamera| camera.moved(by);
         self.framed = self.framed.map(moved);
@@ -137,8 +137,8 @@ impl PlaneView {
         }
     }
 
-    /// The camera's numbers, or those that the document was saved with, while there is no embedding to look at. None
-    /// where the window chose the camera by itself, as it will again.
+    /// Numbers of the camera, or the saved ones while there is no embedding to show. `None` if the window chose the
+    /// camera, because it will choose the camera again.
     pub(super) fn camera_numbers(&self) -> Option<Vec<f64>> {
         let chosen = || Some(self.pane.camera().filter(|_| !self.is_framed())?.numbers(self.pane.size()).to_vec());
         self.saved.clone().or_else(chosen)
@@ -148,23 +148,23 @@ impl PlaneView {
         self.saved = numbers;
     }
 
-    /// The embedding of the step on the screen; while vertices are on their way to another one, that which they left.
+    /// Scene of the step on the screen. During a transition, the step before it.
     pub fn scene(&self) -> Option<&Arc<PlaneScene>> {
         self.scene.as_ref()
     }
 
-    /// The embedding on the screen, or where vertices are on their way to it.
+    /// Embedding on the screen: the preview, the transition, or the step.
     pub fn result(&self) -> Option<&Arc<PlaneScene>> {
         let preview = self.preview.as_ref().map(|preview| &preview.scene);
         preview.or(self.way.as_ref().map(|way| &way.drawn)).or(self.scene.as_ref())
     }
 
-    /// What the pane draws and picks in: the shown step's embedding, or a stage on the way to it.
+    /// Scene for drawing and picking: the embedding on the screen, or a stage of its virtual boundary.
     pub fn drawn(&self) -> Option<&Arc<PlaneScene>> {
         self.hull_scene().and_then(HullScene::plane).or(self.result())
     }
 
-    /// The verdict on what is drawn, where there is one.
+    /// Verdict on the drawn embedding, if there is one.
     pub(in crate::ui) fn verdict(&self) -> Option<&Verdict> {
         match (&self.preview, &self.way) {
             (Some(preview), _) => preview.verdict.as_deref(),
@@ -175,7 +175,7 @@ impl PlaneView {
 }
 
 impl PlaneView {
-    /// Forgets the embedding of a mesh that is gone.
+    /// Drops the embedding of a mesh that no longer exists.
     pub(super) fn forget(&mut self) {
         (self.scene, self.way, self.preview) = (None, None, None);
         self.pane.forget_camera();
@@ -186,16 +186,16 @@ impl PlaneView {
         self.job.is_busy() || self.hull.is_making_scene() || self.comparison.is_making()
     }
 
-    /// Why what is drawn could not be made; each failure once.
+    /// Failure to make drawn data, returned once.
     pub(super) fn take_failure(&mut self) -> Option<JobFailure> {
         self.job.take_failure().or_else(|| self.hull.take_failure()).or_else(|| self.comparison.take_failure())
     }
 
-    /// Takes in what was made in the background, and has made what is missing. Returns a scene that is new on the screen.
-    /// Call once per frame.
+    /// Adopts finished background jobs, and starts jobs for missing data. Returns the scene if it is new on the
+    /// screen. Call once per frame.
     pub(super) fn refresh(&mut self, around: Surroundings) -> Option<Arc<PlaneScene>> {
         let before = self.scene.clone();
-        // First, so that a step that waited for the end of a way goes on in the same frame.
+        // First, so that a step that waited for the end of a transition continues in the same frame.
         self.go_on_easing(around);
         self.poll_scene(around);
         self.refresh_preview(around);
@@ -206,7 +206,7 @@ impl PlaneView {
         self.scene.clone().filter(is_new)
     }
 
-    /// Puts the session's step on the screen. A sheet that is on its way arrives first.
+    /// Puts the session's step on the screen, after the end of a running transition.
     fn poll_scene(&mut self, around: Surroundings) {
         if self.way.is_some() {
             return;
@@ -234,7 +234,7 @@ impl PlaneView {
         }
     }
 
-    /// Shows all of the first embedding, or what the document was saved with.
+    /// Frames the first embedding, or restores the camera saved with the document.
     fn frame_first(&mut self, scene: &PlaneScene, around: Surroundings) {
         let camera = PlaneCamera::framing(around.framed_box(scene.arrays.bounds), self.pane.size());
         self.set_framed(camera);
@@ -243,7 +243,7 @@ impl PlaneView {
         }
     }
 
-    /// Takes another size of the pane, and keeps the whole embedding in it where nobody chose another camera.
+    /// Resizes the pane. Keeps the whole embedding in view, unless the user has moved the camera.
     pub(super) fn set_rect(&mut self, rect: egui::Rect, around: Surroundings) {
         if !self.pane.set_rect(rect) {
             return;
@@ -258,19 +258,19 @@ impl PlaneView {
 }
 
 impl PlaneView {
-    /// Whether what is drawn followed a pin, and no step at rest has taken its place.
+    /// True if the drawn embedding is a drag preview, or glides from one to its step.
     pub(in crate::ui) fn shows_preview(&self) -> bool {
         self.preview_paint().is_some()
     }
 
-    /// The faces' flags on what follows a dragged pin, or did until it was let go.
+    /// Face colours of the drag preview, also while it glides to its step.
     pub(in crate::ui) fn preview_paint(&self) -> Option<&Arc<FacePaint>> {
         let left = || self.way.as_ref().and_then(|way| way.faces.as_ref());
         self.preview.as_ref().map(|preview| &preview.faces).or_else(left)
     }
 
-    /// Once a pin is let go the sheet stays where it followed to, until the step that takes its place can be drawn; where
-    /// there is none to come, it goes back.
+    /// Ends the preview after its pin is dropped. The preview stays until the next step can be drawn. If no step
+    /// follows, the step before returns.
     fn leave_preview(&mut self, around: Surroundings) {
         if self.preview.is_none() || self.is_behind(around.session) {
             return;
@@ -281,12 +281,12 @@ impl PlaneView {
         }
     }
 
-    /// Makes what is drawn where the session's preview has moved on. Call once per frame.
+    /// Updates the preview to the session's preview. Call once per frame.
     fn refresh_preview(&mut self, around: Surroundings) {
         let Some(preview) = around.session.preview() else { return self.leave_preview(around) };
         let before = self.preview.take();
         let (Some(base), Some(mesh)) = (&self.scene, around.mesh) else { return };
-        // What follows the pointer is of the mesh as given, whatever the step on the screen is of.
+        // A preview is of the mesh as given, even if the step on the screen has new vertices.
         let triangles = mesh.mesh();
         if preview.embedding.len() != triangles.vertex_count() {
             return;
@@ -295,7 +295,7 @@ impl PlaneView {
         let verdict = preview.verdict().cloned();
         let mut before = before.filter(|before| before.key.0 == key.0);
         let begin = preview.moved().map(|moved| Arc::clone(moved.begin()));
-        // A frame of a drag changes the session's embedding in place: the scene has one of its own.
+        // A frame of a drag changes the session's embedding in place, so the scene needs a copy.
         let positions = || match begin {
             Some(_) => Arc::new(Embedding::clone(&preview.embedding)),
             None => Arc::clone(&preview.embedding),

@@ -1,11 +1,11 @@
-//! Two steps: the way from one to the next, and the outline of the compared one over the one on the screen.
+//! Transition from one step to the next, and outline of the compared step over the step on the screen.
 //!
-//! The way is shown: vertices glide to their new places when another step of a run is put on the
-//! screen, or when a pin that they followed is let go. Connectivity never changes, so only positions are interpolated.
-//! Both panes draw from the same arrays. The next step waits until the way has ended.
+//! A transition moves vertices gradually to their new positions. It runs when another step of a run is put on the
+//! screen, or when a dragged pin is dropped. Connectivity never changes, so only positions are interpolated. Both
+//! panes draw from one set of arrays. The next step waits for the end of the transition.
 //!
-//! Where nobody has moved the camera since the window framed the embedding, it goes along with an embedding that would
-//! leave the pane, or become small in it. A pin that is dragged has the plane stand still under it.
+//! The camera follows an embedding that would leave the pane or become small in it, unless the user has moved the
+//! camera since it was framed. While a pin is dragged, the camera stays fixed.
 
 use std::sync::Arc;
 
@@ -21,38 +21,38 @@ use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::Embedding;
 
-/// How long the way takes, seconds, where steps are not played faster.
+/// Duration of a transition, seconds, unless steps are played faster.
 pub(in crate::ui::editor) const SECONDS: f64 = 0.25;
 
-/// A way with fewer frames than this is no glide but a stutter: then the sheet is where it goes at once.
+/// Least number of frames of a transition. Fewer frames would stutter, so the embedding jumps instead.
 const LEAST_FRAMES: f64 = 5.0;
 
-/// An embedding that could be shown so many times as large is small in its pane.
+/// An embedding is small in its pane if it could be shown larger by this factor.
 const SMALL: f64 = 2.0;
 
-/// The way to another step, while it is shown. The step that it comes from stays the one on the screen until it ends.
+/// Transition to another step. The step before stays the step on the screen until the end.
 #[derive(Debug)]
 pub(super) struct Way {
     from: Embedding,
     target: Arc<PlaneScene>,
-    /// Seconds of the window's clock.
+    /// Start of the transition, seconds of the window's clock.
     began: f64,
-    /// How long it takes, seconds.
+    /// Duration of the transition, seconds.
     seconds: f64,
-    /// What is drawn in this frame.
+    /// Scene drawn in this frame.
     pub(super) drawn: Arc<PlaneScene>,
-    /// The faces' colours where it comes from a preview.
+    /// Face colours, if the transition starts from a preview.
     pub(super) faces: Option<Arc<FacePaint>>,
-    /// From where and to where the camera goes.
+    /// Cameras at the start and at the end.
     cameras: Option<[PlaneCamera; 2]>,
 }
 
-/// The boundary of the compared step, ready to be drawn over the one on the screen.
+/// Boundary of the compared step, prepared for drawing over the step on the screen.
 #[derive(Debug)]
 pub(super) struct Ghost {
-    /// The revision of the outcome on the screen, and the compared step.
+    /// Revision of the outcome on the screen, and index of the compared step.
     key: (u64, usize),
-    /// The boundary's vertices only, in the unit space of the outcome on the screen.
+    /// Boundary vertices alone, in the unit space of the outcome on the screen.
     arrays: Arc<PlaneArrays>,
     edges: Arc<EdgeList>,
 }
@@ -62,23 +62,23 @@ impl PlaneView {
         self.way.is_some()
     }
 
-    /// Whether the sheet on the screen is not that of the session's step, or not yet where it belongs.
+    /// True if the drawn embedding is not the session's step, or a transition or dropped preview has not ended.
     pub fn is_moving(&self, session: &Session) -> bool {
         self.way.is_some() || self.is_behind(session) || (self.preview.is_some() && session.preview().is_none())
     }
 
-    /// Whether the session shows another step than this pane, which is to come.
+    /// True if the session's step is not on this pane yet.
     pub(super) fn is_behind(&self, session: &Session) -> bool {
         let drawn = self.scene.as_ref().map(|scene| scene.outcome_revision);
         let wanted = session.outcome_revision();
         session.outcome().is_some() && drawn != Some(wanted) && !self.job.has_failed(&wanted)
     }
 
-    /// Puts a step on the screen: from where vertices are drawn now, if it is one of the same run, or if they followed a
-    /// pin that was let go.
+    /// Puts a step on the screen. Starts a transition from the drawn positions if the step belongs to the current
+    /// run, or if a drag preview ends.
     pub(super) fn take(&mut self, target: Arc<PlaneScene>, around: Surroundings) {
         let before = self.result().cloned();
-        // What follows a pin that is still in the hand stays over it.
+        // A preview of a pin that is still dragged stays.
         let left = if around.session.preview().is_some() { None } else { self.preview.take() };
         self.way = None;
         let Some(before) = before.filter(|_| self.preview.is_none()) else {
@@ -103,7 +103,7 @@ impl PlaneView {
         }
     }
 
-    /// How long a glide from one sheet to another takes; none where there is none, as while something follows a pin.
+    /// Duration of a transition between two scenes; `None` if there is none, as during a drag.
     fn glide_to(&self, target: &PlaneScene, before: &PlaneScene, around: Surroundings) -> Option<f64> {
         let is_same_mesh = Arc::ptr_eq(&before.mesh, &target.mesh);
         let shows_stage = self.hull_scene().is_some_and(|hull| hull.plane().is_some());
@@ -112,7 +112,7 @@ impl PlaneView {
         around.glide.filter(is_smooth).filter(|_| is_same_mesh && !shows_stage && !follows_pin)
     }
 
-    /// A step is on the screen, at rest.
+    /// Shows a step without transition, or at its end.
     fn arrive(&mut self, target: Arc<PlaneScene>, cameras: Option<[PlaneCamera; 2]>) {
         self.scene = Some(target);
         if let Some([_, goal]) = cameras.filter(|_| self.is_framed()) {
@@ -120,7 +120,7 @@ impl PlaneView {
         }
     }
 
-    /// The camera now, and the one that shows all of an embedding: where that is wanted.
+    /// Current camera, and the camera that frames an embedding, if a change is wanted.
     fn camera_along(&self, target: &PlaneScene, around: Surroundings) -> Option<[PlaneCamera; 2]> {
         let stays = self.hull_shown() || around.is_dragging;
         let now = self.pane.camera().filter(|_| self.is_framed() && !stays)?;
@@ -131,7 +131,7 @@ impl PlaneView {
         (!self.shows(now, bounds) || is_small).then_some([now, goal])
     }
 
-    /// Moves vertices on. Call once per frame.
+    /// Advances the transition. Call once per frame.
     pub(super) fn go_on_easing(&mut self, around: Surroundings) {
         let Some(way) = &mut self.way else { return };
         let share = (around.gpu.now() - way.began) / way.seconds;
@@ -140,13 +140,13 @@ impl PlaneView {
             self.finish_ease();
             return;
         }
-        // Slow at both ends.
+        // Ease in and out.
         let eased = share * share * (3.0 - 2.0 * share);
         let positions =
             way.from.iter().zip(way.target.positions()).map(|(a, b)| a.lerp(*b, eased)).collect::<Embedding>();
         way.drawn = Arc::new(way.target.with_positions(&way.target.mesh, Arc::new(positions)));
         if way.cameras.is_some() && self.pane.camera() != self.framed {
-            // Somebody has taken the camera.
+            // The user has moved the camera.
             way.cameras = None;
         }
         if let Some([from, to]) = &way.cameras {
@@ -157,26 +157,26 @@ impl PlaneView {
         around.gpu.context().request_repaint();
     }
 
-    /// Puts everything where it was going.
+    /// Ends the transition at its target.
     fn finish_ease(&mut self) {
         if let Some(Way { target, cameras, .. }) = self.way.take() {
             self.arrive(target, cameras);
         }
     }
 
-    /// The outline, as the pane draws it.
+    /// Layer that draws the outline of the compared step.
     pub(in crate::ui) fn ghost_layer(&self, theme: &Theme) -> Option<GhostLayer> {
         let ghost = self.ghost.as_ref()?;
         let line = LineLayer { edges: Arc::clone(&ghost.edges), colour: theme.ghost, width_in_points: 2.0 };
         Some(GhostLayer { plane: Arc::clone(&ghost.arrays), line })
     }
 
-    /// The step whose outline shows.
+    /// Index of the step whose outline shows.
     pub fn ghost_step(&self) -> Option<usize> {
         self.ghost.as_ref().map(|ghost| ghost.key.1)
     }
 
-    /// The step that moves are measured from: the compared one, or else the one before, as far as it is kept.
+    /// Step that moves are measured from: the compared step, or else the step before, if it is kept.
     pub fn moved_from<'a>(&self, session: &'a Session) -> Option<&'a Arc<Outcome>> {
         let timeline = session.timeline();
         let shown = timeline.index_of(&self.scene.as_ref()?.outcome)?;
@@ -184,7 +184,7 @@ impl PlaneView {
         timeline.outcome(compared.or_else(|| shown.checked_sub(1))?)
     }
 
-    /// Makes the outline of the compared step where another one is wanted. Call once per frame.
+    /// Makes the outline of the compared step if it has changed. Call once per frame.
     pub(super) fn refresh_ghost(&mut self, session: &Session) {
         let before = self.ghost.take();
         let (Some(plane), Some(step)) = (&self.scene, session.timeline().compared()) else { return };

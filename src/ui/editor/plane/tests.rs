@@ -1,4 +1,4 @@
-//! A sheet that cannot be drawn.
+//! Test of an embedding whose scene cannot be made.
 
 use std::time::Duration;
 

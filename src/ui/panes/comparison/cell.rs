@@ -1,4 +1,4 @@
-//! One method of a comparison: its embedding, its name, its verdict and its numbers.
+//! Cell of a compared method: its embedding, name, verdict and numbers.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ use freebound_core::mesh::VertexId;
 use freebound_core::problem::Variant;
 use freebound_io::MethodReport;
 
-/// Names of the drawing surfaces.
+/// Identifiers of the drawing surfaces.
 const PANES: [PaneId; 6] = [
     PaneId("comparison 1"),
     PaneId("comparison 2"),
@@ -37,16 +37,16 @@ const LINE: f32 = 14.0;
 /// Free space below the last line, points.
 const BELOW: f32 = 4.0;
 
-/// The most lines below the name.
+/// Greatest number of lines below the name.
 const LINES: usize = 4;
 
-/// A cell lower than this has its verdict below its name and no further numbers, points: the table has them.
+/// Least height of a cell with more than its verdict below the name, points. The table has the other numbers.
 const ROOM_FOR_NUMBERS: f32 = 190.0;
 
-/// Crossings marked at most.
+/// Greatest number of marked crossings.
 const MARKS: usize = 200;
 
-/// Where the embedding shows in a cell of a size.
+/// Rectangle of the embedding in a cell of a size.
 pub(super) fn view_of(cell: Rect, size: Vec2) -> Rect {
     let words = NAME + LINE * lines_in(size) as f32 + BELOW;
     Rect::from_min_max(cell.min, cell.max - Vec2::new(0.0, words.min(cell.height() - 1.0)))
@@ -56,13 +56,13 @@ fn lines_in(size: Vec2) -> usize {
     if size.y < ROOM_FOR_NUMBERS { 1 } else { LINES }
 }
 
-/// What a cell says of its method.
+/// Texts of a cell.
 struct CellWords {
     sign: Sign,
     title: String,
-    /// Lines below it.
+    /// Lines below the title.
     lines: Vec<String>,
-    /// What stands over the drawing, where it is not up to date.
+    /// Text over the drawing, if the drawing is not up to date.
     over: Option<String>,
 }
 
@@ -72,8 +72,8 @@ impl CellWords {
         let found = contender.found().map(|found| &found.report);
         let working = |words: &str| if found.is_some() { format!("{words} again…") } else { format!("{words}…") };
         let over = match state {
-            // Methods run while nothing else does.
-            ContenderState::Waiting if session.is_running() => Some("waits until the document is solved".to_owned()),
+            // Methods run only while nothing else does.
+            ContenderState::Waiting if session.is_running() => Some("waiting until the document is solved".to_owned()),
             ContenderState::Waiting => Some(if found.is_some() { "to be solved again" } else { "waiting…" }.to_owned()),
             ContenderState::Running(None, _) => Some(working("solving")),
             ContenderState::Running(Some(phase), 0) => Some(working(phase.words())),
@@ -95,7 +95,7 @@ impl CellWords {
         Self { sign, title: contender.variant().title(), lines, over }
     }
 
-    /// All of it for those who do not see the cell.
+    /// All texts of the cell, for screen readers.
     fn name(&self) -> String {
         let over = self.over.iter().map(String::as_str);
         let all: Vec<&str> = over.chain(self.lines.iter().map(String::as_str)).collect();
@@ -103,7 +103,7 @@ impl CellWords {
     }
 }
 
-/// Shows the method of a number.
+/// Shows the method with this index.
 pub(super) fn cell(ui: &mut egui::Ui, rect: Rect, editor: &mut Editor, number: usize, requests: &mut Vec<Request>) {
     let contender = &editor.session.contenders()[number];
     let variant = contender.variant();
@@ -129,14 +129,14 @@ pub(super) fn cell(ui: &mut egui::Ui, rect: Rect, editor: &mut Editor, number: u
     }
     name_and_numbers(ui, Rect::from_min_max(egui::pos2(rect.left(), view.bottom()), rect.max), &words);
     outline(ui, rect, &response, is_own);
-    let tip = if is_own { "The method of the document" } else { "Click to take this method for the document" };
+    let tip = if is_own { "The method of the document" } else { "Click to use this method for the document" };
     let response = response.named(Role::Button, &words.name()).on_hover_text_at_pointer(tip);
     if !is_own {
         response.asks(Request::TakeContender(variant), requests);
     }
 }
 
-/// Moves the camera of all cells by what is done in one of them.
+/// Moves the camera of all cells after input over this cell.
 fn move_camera(ui: &egui::Ui, response: &Response, view: Rect, editor: &mut Editor, camera: PlaneCamera) {
     let mut moved = camera;
     navigate(ui, &response.clone().with_new_rect(view), &mut moved);
@@ -171,7 +171,8 @@ fn frame_of(editor: &Editor, scene: &CellScene, camera: PlaneCamera, theme: &The
     }
 }
 
-/// Without the grid, which lies elsewhere in each cell; and without the picture's outline, where nothing is held on it.
+/// Palette without the grid, whose position differs from cell to cell. Also hides the outline of the picture unless
+/// the embedding is held on the picture.
 pub(super) fn quiet(palette: Palette, is_on_picture: bool) -> Palette {
     let unit_square = if is_on_picture { palette.unit_square } else { palette.background };
     Palette { grid: palette.background, unit_square, ..palette }
@@ -193,14 +194,14 @@ fn marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, scene: &CellScene) {
     }
 }
 
-/// Says over the drawing, which stands back, why it is not up to date, or not there.
+/// Dims the drawing and shows the reason why it is missing or out of date.
 fn veil(ui: &egui::Ui, view: Rect, words: &str) {
     let theme = theme_of(ui);
     ui.painter_at(view).rect_filled(view, 0.0, theme.background.gamma_multiply(0.75));
     pane::small_state(ui, view, words);
 }
 
-/// The line around a cell: strong around the method of the document.
+/// Outline of a cell, strong for the method of the document.
 fn outline(ui: &egui::Ui, rect: Rect, response: &Response, is_own: bool) {
     let theme = theme_of(ui);
     let (width, colour) = match (is_own, response.hovered() || response.has_focus()) {
@@ -211,7 +212,7 @@ fn outline(ui: &egui::Ui, rect: Rect, response: &Response, is_own: bool) {
     ui.painter().rect_stroke(rect, 3.0, Stroke::new(width, colour), egui::StrokeKind::Inside);
 }
 
-/// Sign and name in one line, and the numbers below.
+/// Sign and name in a line, with the numbers below.
 fn name_and_numbers(ui: &mut egui::Ui, room: Rect, words: &CellWords) {
     let theme = theme_of(ui);
     let room = room.shrink2(Vec2::new(6.0, 0.0));

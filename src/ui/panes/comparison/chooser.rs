@@ -1,4 +1,4 @@
-//! Which methods take part in a comparison.
+//! Choice of the compared methods.
 
 use eframe::egui::{self, Role};
 
@@ -6,7 +6,7 @@ use crate::ui::editor::comparison::COUNTS;
 use crate::ui::{Control, Editor, Request, remark, sentence};
 use freebound_core::problem::{BoundaryShape, Family, Method, NamedOption as _, Variant};
 
-/// A button that opens the list of methods.
+/// Button that opens the list of methods.
 pub(super) fn chooser(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let count = editor.session.contenders().len();
     let [_, most] = COUNTS;
@@ -17,10 +17,10 @@ pub(super) fn chooser(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Req
         let height = (ui.ctx().content_rect().height() - 120.0).clamp(120.0, 560.0);
         egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             ui.set_min_width(230.0);
-            // A long list: rows lie closer than elsewhere.
+            // Narrower row spacing, because the list is long.
             ui.spacing_mut().item_spacing.y = 2.0;
             ui.spacing_mut().interact_size.y = 19.0;
-            remark(ui, format!("Two to {most}, with the pins and settings of the document"));
+            remark(ui, format!("Two to {most} methods, with the pins and settings of the document"));
             for variant in usual(editor) {
                 entry(ui, editor, variant, requests);
             }
@@ -34,14 +34,14 @@ pub(super) fn chooser(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Req
     response.named(Role::Button, "Methods that are compared").on_hover_text("Choose the methods that are compared");
 }
 
-/// Every method, with the weights of the document where it has a choice.
+/// Every method, with the weights of the document if the method uses weights.
 fn usual(editor: &Editor) -> Vec<Variant> {
     let settings = &editor.session.document().settings;
     let usual = |method: &Method| Variant::of(&Variant { method: method.clone(), family: None }.settings(settings));
     Method::ALL.iter().map(usual).collect()
 }
 
-/// Every method that has a choice, with all other weights and on all other shapes.
+/// Every method that uses weights, with all other weights and boundary shapes.
 fn others(editor: &Editor) -> Vec<Variant> {
     let usual = usual(editor);
     let mut all = Vec::new();
@@ -59,16 +59,16 @@ fn others(editor: &Editor) -> Vec<Variant> {
     all
 }
 
-/// A method to be checked.
+/// Checkbox of a method.
 fn entry(ui: &mut egui::Ui, editor: &Editor, variant: Variant, requests: &mut Vec<Request>) {
     let chosen = editor.session.contenders();
     let mut is_chosen = chosen.iter().any(|contender| contender.variant() == variant);
     let [least, most] = COUNTS;
     let suits = editor.session.document().problem().suits(&variant.method);
     let why_not = match (is_chosen, suits) {
-        (true, _) if chosen.len() <= least => Some("A comparison has two methods or more"),
-        (false, _) if chosen.len() >= most => Some("Six at most: leave another one out first"),
-        (false, false) => Some("It has nothing of its own to do with the pins that there are"),
+        (true, _) if chosen.len() <= least => Some("A comparison needs at least two methods"),
+        (false, _) if chosen.len() >= most => Some("At most six methods: remove another one first"),
+        (false, false) => Some("This method does not apply to the current pins"),
         _ => None,
     };
     let tip = sentence(&variant.method.labels().tip());

@@ -1,12 +1,13 @@
-//! Methods side by side, in the place of the embedding: a cell for each, one camera, one scale of colours, and their numbers.
+//! Method comparison in place of the embedding: a cell for each method, a common camera and colour scale, and a
+//! table.
 //!
 //! | file | what |
 //! |---|---|
-//! | `mod.rs` | the bar over it, and how cells and table share the room |
-//! | `chooser.rs` | which methods take part |
-//! | `cell.rs` | one method: its embedding, and the numbers below it |
-//! | `morph.rs` | the morph between two methods, in the place of the cells |
-//! | `table.rs` | the numbers of all, sorted by any column |
+//! | `mod.rs` | the bar above, and the division of the room between cells and table |
+//! | `chooser.rs` | choice of the compared methods |
+//! | `cell.rs` | cell of a method: its embedding, and numbers below |
+//! | `morph.rs` | the morph between two methods, in place of the cells |
+//! | `table.rs` | the numbers of all methods, sorted by any column |
 
 mod cell;
 mod chooser;
@@ -23,7 +24,7 @@ use crate::ui::{
 use crate::view::Quantity;
 use freebound_core::pipeline::Surface;
 
-/// Free space between cells, points.
+/// Gap between cells, points.
 const GAP: f32 = 6.0;
 
 /// Height of the bar, points.
@@ -32,10 +33,10 @@ const BAR: f32 = 26.0;
 /// Height of the strip with the legend, points.
 const LEGEND: f32 = 30.0;
 
-/// A pane lower than this has no table beside its cells until it is asked for, and then no cells, points.
+/// Least height of a pane for cells and table together, points. A lower pane shows cells, or on request the table.
 const ROOM_FOR_BOTH: f32 = 480.0;
 
-/// A pane narrower than this has short words in its bar, points.
+/// Least width of a pane with a title in its bar, points.
 const ROOM_FOR_WORDS: f32 = 640.0;
 
 pub(in crate::ui) fn comparison_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
@@ -70,19 +71,19 @@ pub(in crate::ui) fn comparison_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     }
 }
 
-/// What there is to say where no method can run.
+/// Message if no method can run.
 fn nothing_to_compare(editor: &Editor) -> Option<Vec<&'static str>> {
     match editor.session.model().map(|model| &model.prepared.surface) {
         None => Some(vec!["Nothing to compare", "Open a mesh: the methods run on it one after the other"]),
         Some(Surface::Faulty(..)) => Some(vec![
-            "This mesh cannot be flattened as it is",
-            "The bars over the mesh and the tab Defects say what is wrong",
+            "This mesh has faults that prevent flattening",
+            "The bars above the mesh and the Defects tab list the faults",
         ]),
         Some(Surface::Disk(_)) => None,
     }
 }
 
-/// Title, methods, colours, table, exports, and the way back.
+/// Bar with title, methods, colours, table, exports, and the button to close.
 fn bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let is_roomy = ui.available_width() >= ROOM_FOR_WORDS;
     ui.horizontal(|ui| {
@@ -114,23 +115,23 @@ fn bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     });
 }
 
-/// Whether the table shows.
+/// Switch of the table.
 fn numbers_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let switch = ui.selectable_label(editor.plane.comparison.has_table(), "Table");
     let switch = switch.on_hover_text("Show or hide the table of all numbers");
     switch.asks(Request::ToggleComparisonTable, requests);
 }
 
-/// Whether the morph shows.
+/// Switch of the morph.
 fn morph_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let switch = ui.selectable_label(editor.plane.comparison.morph.is_shown(), "Morph");
     let switch = switch.on_hover_text(
-        "Glide from one method's map to another's, every frame proved one-to-one, or show all methods again",
+        "Morph from one method's map to another's, with every frame proved planar; or show all methods again",
     );
     switch.asks(Request::Morph(MorphRequest::Toggle), requests);
 }
 
-/// What faces are coloured by.
+/// List of the quantities that colour the faces.
 fn colours(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let now = editor.plane.comparison.quantity();
     let title = |quantity: Option<Quantity>| quantity.map_or("Plain", Quantity::title);
@@ -141,10 +142,10 @@ fn colours(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
             entry.asks(Request::ColourComparison(quantity), requests);
         }
     });
-    menu.on_hover_text("What faces are coloured by, on one scale in all cells");
+    menu.on_hover_text("Quantity that colours the faces, on one scale in all cells");
 }
 
-/// What can be written.
+/// Menu of the exports.
 fn exports(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let is_there = editor.session.contenders().iter().any(|contender| contender.found().is_some());
     ui.add_enabled_ui(is_there, |ui| {
@@ -163,7 +164,7 @@ fn exports(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     });
 }
 
-/// The cells.
+/// Grid of the cells.
 fn grid(ui: &mut egui::Ui, room: Rect, editor: &mut Editor, requests: &mut Vec<Request>) {
     let count = editor.session.contenders().len();
     if count == 0 || room.width() < 1.0 || room.height() < 1.0 {
@@ -182,7 +183,7 @@ fn grid(ui: &mut egui::Ui, room: Rect, editor: &mut Editor, requests: &mut Vec<R
     }
 }
 
-/// How many cells stand in a row: so many that embeddings are as large as they can be.
+/// Number of columns that makes the embeddings largest.
 fn columns(room: Vec2, count: usize) -> usize {
     let side = |columns: usize| {
         let size = room / Vec2::new(columns as f32, count.div_ceil(columns) as f32);

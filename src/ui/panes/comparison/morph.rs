@@ -1,5 +1,5 @@
-//! The morph between two methods, in the place of the cells: its ends, one large view, a slider over its time, and the verdict on
-//! the frame that shows.
+//! Morph between two methods, in place of the cells. Shows its ends, a large view of a frame with its verdict, and a
+//! slider over the frames.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::ui::{Control, Editor, MorphRequest, Request, list, theme_of};
 use crate::view::PlaneCamera;
 use freebound_core::problem::{Phase, Variant};
 
-/// Height of the row with its ends, and of the row with the slider, points.
+/// Height of the row of the ends, and of the row of the slider, points.
 const ROW: f32 = 30.0;
 
 /// Height of the line with the verdict, points.
@@ -36,7 +36,7 @@ pub(super) fn morph_ui(ui: &mut egui::Ui, room: Rect, editor: &mut Editor, reque
     }
 }
 
-/// Controls side by side in a part of the pane.
+/// Row of controls in a part of the pane.
 fn row(ui: &mut egui::Ui, part: Rect, add: impl FnOnce(&mut egui::Ui)) {
     let layout = egui::Layout::left_to_right(egui::Align::Center);
     let part = part.shrink2(Vec2::new(8.0, 0.0));
@@ -46,7 +46,7 @@ fn row(ui: &mut egui::Ui, part: Rect, add: impl FnOnce(&mut egui::Ui)) {
     });
 }
 
-/// From which method to which: those with planar maps.
+/// Lists to choose the methods at both ends, among methods with planar maps.
 fn ends_row(ui: &mut egui::Ui, editor: &Editor, ends: &[(Variant, Arc<Compared>)], requests: &mut Vec<Request>) {
     let Some(between) = editor.session.morph_between() else { return };
     let width = ((ui.available_width() - 130.0) / 2.0).clamp(60.0, 240.0);
@@ -60,30 +60,30 @@ fn ends_row(ui: &mut egui::Ui, editor: &Editor, ends: &[(Variant, Arc<Compared>)
                 entry.asks(Request::Morph(request(variant.clone())), requests);
             }
         });
-        menu.on_hover_text("Methods with planar maps; the other one is chosen by itself where both would be the same");
+        menu.on_hover_text("Methods with planar maps. If both ends are the same, the other end changes");
     }
 }
 
-/// What there is to say where there is no morph, or not yet.
+/// Message while there is no morph.
 fn nothing_yet(ui: &mut egui::Ui, room: Rect, editor: &Editor, state: &MorphState) {
     let (first, second) = match state {
         MorphState::Running(phase, frames) => {
             let phase = phase.map_or("preparing", Phase::words);
-            (format!("Finding the morph: {phase}, {frames} frames looked at"), "Esc stops it".to_owned())
+            (format!("Finding the morph: {phase}, {frames} frames tested"), "Esc cancels".to_owned())
         }
         MorphState::Failed(why) => (format!("No morph: {why}"), "Choose other methods above".to_owned()),
         MorphState::TooLarge(shortage) => (
             format!("No morph: {shortage}"),
-            "With fewer frames the command line finds it: freebound compare --morph --frames".to_owned(),
+            "Use fewer frames on the command line: freebound compare --morph --frames".to_owned(),
         ),
         _ if awaits_change(editor) => ("The morph waits until the change is finished".to_owned(), String::new()),
         _ if editor.session.is_comparing() => {
-            ("The methods are still running".to_owned(), "The morph is found once they have".to_owned())
+            ("The methods are still running".to_owned(), "The morph follows when they have finished".to_owned())
         }
         _ if editor.session.is_morphing() => ("The morph waits until the document is solved".to_owned(), String::new()),
         _ => (
             "A morph needs two planar maps".to_owned(),
-            "Take part methods that give one, such as Convex boundary or Auto: under Methods".to_owned(),
+            "Choose methods with planar maps under Methods, such as Convex boundary or Auto".to_owned(),
         ),
     };
     let lines: Vec<&str> = [first.as_str(), second.as_str()].into_iter().filter(|line| !line.is_empty()).collect();
@@ -92,18 +92,18 @@ fn nothing_yet(ui: &mut egui::Ui, room: Rect, editor: &Editor, state: &MorphStat
     region.named(Role::Label, &lines.join(". "));
 }
 
-/// Whether both methods still take part, but what they have come to is of a document that is being changed.
+/// True if both methods still take part, but their maps wait for a change of the document to finish.
 fn awaits_change(editor: &Editor) -> bool {
     let session = &editor.session;
     let Some(between) = session.morph_between() else { return false };
     let ends = between.map(|variant| session.contenders().iter().find(|of| of.variant() == variant));
     let [Some(first), Some(second)] = ends else { return false };
-    // Without a method that is yet to run, one waits for the mesh to have the form that is wanted.
+    // If no method is left to run, a waiting method waits for the requested preparation of the mesh.
     let waits = |of: &Contender| session.contender_state(of) == ContenderState::Waiting;
     session.is_in_gesture() || (!session.is_comparing() && (waits(first) || waits(second)))
 }
 
-/// The frame that shows, the slider, and the verdict on that frame.
+/// Frame on the screen, the slider, and the verdict on the frame.
 fn found(ui: &mut egui::Ui, room: Rect, editor: &mut Editor, tour: &Arc<MorphTour>, requests: &mut Vec<Request>) {
     let Some(leg) = tour.legs.first() else { return };
     let quantity = editor.plane.comparison.quantity();
@@ -128,7 +128,7 @@ fn found(ui: &mut egui::Ui, room: Rect, editor: &mut Editor, tour: &Arc<MorphTou
     row(ui, controls, |ui| controls_row(ui, editor, leg.frames.len(), requests));
 }
 
-/// The embedding of a frame.
+/// Embedding of a frame.
 fn large_view(ui: &egui::Ui, view: Rect, editor: &mut Editor, frame: Option<&MorphFrame>, words: &str) {
     let response = ui.interact(view, ui.scope_id().with("morph"), egui::Sense::click_and_drag());
     let before = editor.plane.comparison.morph.camera_in(size_of(view));
@@ -166,17 +166,17 @@ fn drawing(ui: &egui::Ui, editor: &Editor, frame: &MorphFrame, camera: PlaneCame
     }
 }
 
-/// Plays it, and the slider over its frames, of which there are so many.
+/// Play button, and slider over `count` frames.
 fn controls_row(ui: &mut egui::Ui, editor: &Editor, count: usize, requests: &mut Vec<Request>) {
     let morph = &editor.plane.comparison.morph;
     let (words, name) = if morph.is_playing() { ("Pause", "Pause the morph") } else { ("Play", "Play the morph") };
     let play = ui.add(egui::Button::new(words).min_size(Vec2::new(56.0, 0.0)));
-    let play = play.on_hover_text("Play it from where it stands to its end, or stop there");
+    let play = play.on_hover_text("Play from this frame to the end, or pause");
     play.named(Role::Button, name).asks(Request::Morph(MorphRequest::Play), requests);
     let mut number = morph.frame_of(count) + 1;
     ui.spacing_mut().slider_width = (ui.available_width() - 70.0).max(40.0);
     let slider = ui.add(egui::Slider::new(&mut number, 1..=count));
-    let slider = slider.on_hover_text("From the one map, the first frame, to the other, the last: each is proved");
+    let slider = slider.on_hover_text("From the first map to the last. Every frame is proved");
     if slider.changed() {
         let share = number.saturating_sub(1) as f64 / count.saturating_sub(1).max(1) as f64;
         requests.push(Request::Morph(MorphRequest::Seek(share)));

@@ -1,4 +1,4 @@
-//! The numbers of all methods that are compared, sorted by any column.
+//! Table of the numbers of all compared methods, sorted by any column.
 
 use eframe::egui::{self, FontId, Rect, RichText, Role, Vec2, WidgetInfo};
 
@@ -10,19 +10,19 @@ use freebound_io::{Column, Direction};
 /// Height of a row, points.
 const ROW: f32 = 21.0;
 
-/// Size of the numbers, points.
+/// Font size of the numbers, points.
 const FIGURES: f32 = 11.0;
 
-/// Free space between columns, points.
+/// Gap between columns, points.
 const GAP: f32 = 6.0;
 
-/// The largest share of the pane that the table takes beside the cells.
+/// Largest share of the pane for the table beside the cells.
 const MOST: f32 = 0.45;
 
-/// Height of the table, as far as there is room.
+/// Height of the table, limited to its share of the room.
 pub(super) fn height(editor: &Editor, room: Rect) -> f32 {
     let rows = editor.session.contenders().len() as f32 + 1.0;
-    // With the bar to scroll it sideways.
+    // Includes the horizontal scroll bar.
     (rows * (ROW + 2.0) + 20.0).min(MOST * room.height())
 }
 
@@ -37,7 +37,7 @@ pub(super) fn table(ui: &mut egui::Ui, room: Rect, editor: &Editor, requests: &m
                 for &column in Column::ALL {
                     head(ui, editor, column, requests);
                 }
-                // What room is left belongs to no column.
+                // Empty column that takes the remaining width.
                 ui.label("");
                 ui.end_row();
                 for contender in editor.contenders_sorted() {
@@ -49,7 +49,7 @@ pub(super) fn table(ui: &mut egui::Ui, room: Rect, editor: &Editor, requests: &m
     });
 }
 
-/// The head of a column: a click sorts by it, a second one the other way around, a third not at all.
+/// Head of a column. Clicks sort by the column: ascending, descending, unsorted.
 fn head(ui: &mut egui::Ui, editor: &Editor, column: Column, requests: &mut Vec<Request>) {
     let sort = editor.plane.comparison.sort().filter(|(by, _)| *by == column).map(|(_, direction)| direction);
     let order = match sort {
@@ -59,7 +59,7 @@ fn head(ui: &mut egui::Ui, editor: &Editor, column: Column, requests: &mut Vec<R
     };
     let title = column.labels().title;
     let mut add = |ui: &mut egui::Ui| {
-        // With room for the arrow.
+        // Room for the arrow.
         let room = if sort.is_some() { "\u{a0}\u{a0}\u{a0}\u{a0}" } else { "" };
         let label = ui.selectable_label(sort.is_some(), RichText::new(format!("{title}{room}")).small());
         if let Some(direction) = sort {
@@ -79,14 +79,14 @@ fn at_right(ui: &mut egui::Ui, add: impl FnOnce(&mut egui::Ui)) {
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), add);
 }
 
-/// The numbers of a method; a click on its name takes it for the document.
+/// Row of a method. A click on its name sets the document's settings to those of the method.
 fn row(ui: &mut egui::Ui, editor: &Editor, contender: &Contender, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     let variant = contender.variant();
     let title = variant.title();
     let is_own = Variant::of(&editor.session.document().settings) == variant;
-    let label = ui.selectable_label(is_own, &title).on_hover_text("Take this method for the document");
-    let label = label.named(Role::Button, &format!("Take {title}"));
+    let label = ui.selectable_label(is_own, &title).on_hover_text("Use this method for the document");
+    let label = label.named(Role::Button, &format!("Use {title}"));
     if !is_own {
         label.asks(Request::TakeContender(variant), requests);
     }
@@ -94,7 +94,7 @@ fn row(ui: &mut egui::Ui, editor: &Editor, contender: &Contender, requests: &mut
     for &column in Column::ALL.iter().skip(1) {
         let cell = contender.found().map(|found| column.cell(&found.report));
         let words = cell.map_or_else(|| "…".to_owned(), |cell| cell.words());
-        // What is being solved again stands back.
+        // Dim numbers that are being computed again.
         let colour = if is_done { theme.text } else { theme.weak_text };
         let name = format!("{title}, {}: {words}", column.labels().title);
         let text = RichText::new(words).color(colour);

@@ -1,4 +1,5 @@
-//! The way of a disk with fewer vertices: it goes to the targets first, and the other vertices are put back.
+//! Continuation of a disk with fewer vertices: its pins move to the targets first, and the other vertices are put
+//! back.
 
 use std::sync::Arc;
 
@@ -9,26 +10,29 @@ use super::Continuation;
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::{Control, Embedding, Pins, SolveError};
 
-/// Meshes with fewer vertices go by themselves.
+/// Least number of vertices for the coarse disk; smaller meshes move directly.
 const FROM_VERTICES: usize = 4000;
 
-/// About how many vertices the coarsest disk has, and so many more for each pin.
+/// Approximate number of vertices of the coarsest disk without pins.
 const COARSE_VERTICES: usize = 1000;
+/// Additional vertices of the coarsest disk for each pin.
 const VERTICES_A_PIN: usize = 20;
 
-/// The least distance of a pin from its target that is worth it, by the size of the embedding: shorter ways are a jump.
+/// Least distance of a pin from its target for the coarse disk, relative to the size of the embedding. A jump covers
+/// less.
 const FAR: f64 = 0.02;
 
-/// The most steps of the coarse disk.
+/// Most steps of the coarse disk.
 const MOST_STEPS: usize = 60;
 
-/// Rounds of relaxing of the coarsest disk, and of those on the way.
+/// Rounds of relaxing of the coarsest disk.
 const COARSE_ROUNDS: usize = 20;
+/// Rounds of relaxing of each level between the coarsest disk and the mesh.
 const LEVEL_ROUNDS: usize = 3;
 
 impl Continuation {
-    /// Meets the exact targets by the way of a disk with fewer vertices. `None` where that leads nowhere, or the way is
-    /// short: nothing has changed then.
+    /// Meets the hard targets on a disk with fewer vertices first. Returns `None`, with nothing changed, if that fails
+    /// or the pins are close to their targets.
     pub(crate) fn by_way_of_coarse(
         &mut self,
         mesh: &DiskMesh,
@@ -68,7 +72,7 @@ impl Continuation {
         self.sound = (self.embedding.clone(), progress.energy);
         self.distances.push(progress.distance_left);
         let note = format!(
-            "by way of {} of the {} vertices",
+            "solved first on {} of the {} vertices",
             hierarchy.coarsest().disk.vertex_count(),
             mesh.used_vertex_count()
         );
@@ -76,7 +80,7 @@ impl Continuation {
     }
 }
 
-/// The embedding of the coarsest disk with its exact pins on their targets; `None` where it does not come there.
+/// Embedding of the coarsest disk with its hard pins on their targets. `None` if it does not reach them.
 fn arrived(
     level: &Level,
     start: &Embedding,

@@ -1,4 +1,4 @@
-//! Springs instead of pins, where the response is narrow: pins pass around each other.
+//! Springs in place of hard pins if the response is narrow, so that pins can pass around each other.
 
 use std::sync::Arc;
 
@@ -10,13 +10,14 @@ use crate::mesh::DiskMesh;
 use crate::nonlinear::energy_problem::Planning;
 use crate::problem::{Control, Embedding, Pin, PinKind, SolveError};
 
-/// Where less of the response than this folds no face, pins are let loose: springs draw them to their
-/// targets, by a greater weight each time, and they pass around each other.
+/// Share of the response without a folded face below which springs replace the pins, drawing them to their targets.
 const NARROW: f64 = 0.25;
+/// Weights of the springs at successive uses, increasing.
 const LOOSE_WEIGHTS: [f64; 5] = [30.0, 100.0, 300.0, 1000.0, 3000.0];
+/// Newton steps at each use of springs.
 const LOOSE_STEPS: usize = 10;
 
-/// Weights of the springs, one after another, by which a second try begins.
+/// Weights of the springs, in this order, at the restart from the initial embedding.
 const TIGHTENING: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 
 impl Continuation {
@@ -28,7 +29,7 @@ impl Continuation {
             if let Err(error) = self.loosen(mesh, weight, control) {
                 let start = std::mem::replace(&mut self.embedding, stopped_at);
                 if error == SolveError::Cancelled {
-                    // As if nothing had been tried: the steps before are forgotten only when it has begun.
+                    // A cancelled restart can be tried again: earlier distances are discarded only when it succeeds.
                     self.start = Some(start);
                 }
                 return Err(error);
@@ -40,7 +41,7 @@ impl Continuation {
         Ok(self.accepted(progress, Arc::new(outside)))
     }
 
-    /// Goes on along the response, or lets the pins loose where it is narrow.
+    /// Advances along the response, or replaces the pins by springs if the response is narrow.
     pub(super) fn loosen_or_advance(
         &mut self,
         mesh: &DiskMesh,
@@ -58,7 +59,8 @@ impl Continuation {
         Ok(self.is_loose || self.advance(mesh, settled, moves, control)?)
     }
 
-    /// Lowers the energy with springs in the place of exact pins. Returns whether that is planar.
+    /// Minimises the energy with springs in place of hard pins. Returns true if the result is one-to-one and was
+    /// accepted.
     fn loosen(&mut self, mesh: &DiskMesh, weight: f64, control: Control<'_>) -> Result<bool, SolveError> {
         let loose = self.pins.iter().map(|(&v, pin)| match pin.kind {
             PinKind::Soft(_) => (v, *pin),

@@ -1,26 +1,26 @@
-//! Bijective continuation: from a planar embedding without the constraints to one that meets them, one-to-one at every
-//! step (stage 4 of the flattener).
+//! Bijective continuation: moves a planar embedding to the constraints, one-to-one at every step (stage 4 of the
+//! flattener).
 //!
 //! ```text
-//! response: how all points follow, to first order of the energy, where the pins go to their targets
-//! jump:     the whole response at once; what folds is unfolded with the pins held        tried once
-//! advance:  as far along the response as no face folds and the boundary stays simple    then again and again
-//! loosen:   where that is a small share, springs instead of pins: they pass around each other
-//! settle:   outside triangulated anew, a few Newton steps down the energy
+//! response: moves of all points, to first order of the energy, when the pins move to their targets
+//! jump:     the whole response at once; folded faces are unfolded with the pins held     tried once
+//! advance:  along the response while no face folds and the boundary stays simple         repeated
+//! loosen:   if that is a small share, springs instead of pins, which pass around each other
+//! settle:   outside triangulated again, a few Newton steps on the energy
 //! ```
 //!
-//! The mesh lies in an outside that is triangulated up to a frame (see the module `outside`), so that the boundary
-//! keeps its distance from itself. Every step is accepted by the exact verdict alone.
+//! The mesh lies in an outside that is triangulated up to a frame (see `nonlinear::scaffold`), so that the boundary
+//! keeps its distance from itself. The exact verdict alone accepts a step.
 //!
-//! Jumps that are halved until they unfold, with Newton's method, stall on three of the nine constrained sets of real
-//! meshes and take over 40 s on three more: where triangles are thin, a soft barrier unfolds one by folding others. The
-//! response behind the exact barrier arrives on all nine.
+//! Rejected alternative: jumps that are halved until Newton's method unfolds them. These stall on three of the nine
+//! constrained sets of real meshes and take over 40 s on three more. At thin triangles, a soft barrier unfolds some by
+//! folding others. The response behind the exact barrier reaches the targets on all nine.
 //!
-//! | file | holds |
+//! | file | contents |
 //! |---|---|
 //! | `mod.rs` | [`Continuation`]: step by step along the response |
-//! | `loose.rs` | springs instead of pins, where the response is narrow |
-//! | `coarse.rs` | the way of a disk with fewer vertices, which the others follow |
+//! | `loose.rs` | springs instead of pins, if the response is narrow |
+//! | `coarse.rs` | continuation of a disk with fewer vertices, followed by prolongation |
 
 mod coarse;
 mod loose;
@@ -40,53 +40,57 @@ use crate::nonlinear::scaffold::{FRAME_POINTS, outside_of};
 use crate::problem::{Control, Embedding, PinPositions, Pins, Progress, SolveError};
 use crate::verify::UvFrame;
 
-/// Weight of the whole outside, that of the mesh being 1.
+/// Weight of the whole outside, relative to that of the mesh.
 const OUTSIDE_WEIGHT: f64 = 0.02;
 
-/// The share of the longest step that folds no face that is taken at once.
+/// Share of the longest step without a fold that is taken at once.
 const ADVANCE_SHARE: f64 = 0.8;
 
-/// The smallest advance, as a share of the response.
+/// Smallest advance, as a share of the response.
 const SMALLEST_ADVANCE: f64 = 1e-4;
 
-/// Newton steps to unfold a jump, and to settle.
+/// Newton steps to unfold a jump.
 const UNFOLD_STEPS: usize = 6;
+/// Newton steps to settle.
 const SETTLE_STEPS: usize = 4;
 
-/// The least share of the energy that a Newton step must gain to be followed by another.
+/// Least relative gain of a Newton step that is followed by another.
 const TOLERANCE: f64 = 1e-3;
 
-/// It is stuck where so many steps shorten the largest distance by less than this factor, after so many steps in all, and
-/// where it is so small a share of the first one and yet not zero.
+/// Number of steps over which [`SHORTER`] is tested.
 const PATIENCE: usize = 10;
+/// Stop if the largest pin distance is still more than this share of its value [`PATIENCE`] steps ago.
 const SHORTER: f64 = 0.9;
+/// Most steps in all.
 const MOST_STEPS: usize = 200;
+/// Stop if the largest pin distance is at most this share of the first one, but not zero.
 const HARDLY_ANY: f64 = 1e-6;
 
-/// An embedding whose energy is more than so many times the lowest is crushed: no step continues from it.
+/// Ratio of energy to lowest energy above which an embedding counts as crushed: no step continues from it.
 const CRUSHED: f64 = 10.0;
 
 #[derive(Debug)]
 pub(crate) struct Continuation {
     rest: RestShape,
     pins: Pins,
-    /// Where exact pins are to go.
+    /// Targets of the hard pins.
     targets: PinPositions,
     pub(crate) embedding: Embedding,
-    /// The largest distance of an exact pin from its target after each step.
+    /// Largest distance of a hard pin from its target after each step.
     distances: Vec<f64>,
-    /// Mesh and outside after the latest step, all points, and the outside.
+    /// Energy of mesh and outside after the latest step, with all points and the outside.
     settled: Option<Settled>,
-    /// Whether to try the whole response at once.
+    /// True if the next step tries the whole response at once.
     jumps: bool,
-    /// How often pins were let loose, and whether by the latest step.
+    /// Number of times that springs replaced the pins.
     loosened: usize,
+    /// True if springs replaced the pins in the latest step.
     is_loose: bool,
-    /// Where a second try begins, until it does.
+    /// Initial embedding, until the restart uses it.
     start: Option<Embedding>,
-    /// The latest embedding that was not crushed, and the lowest energy so far.
+    /// Latest embedding that was not crushed, and the lowest energy so far.
     sound: (Embedding, f64),
-    /// How embeddings are written: what is proved.
+    /// Output frame in which embeddings are proved.
     sheet: Arc<UvFrame>,
 }
 
@@ -98,7 +102,7 @@ struct Settled {
 }
 
 impl Continuation {
-    /// Begins at a planar embedding, wherever it lies.
+    /// Starts from a planar embedding, at any position.
     pub(crate) fn new(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Self {
         let (rest, pins) = (RestShape::new(mesh), pins.clone());
         let exact = pins.iter().filter(|(_, pin)| pin.kind.is_hard());
@@ -121,12 +125,12 @@ impl Continuation {
         }
     }
 
-    /// The same with embeddings proved as they are written on a sheet.
+    /// Proves embeddings as they are written in an output frame.
     pub(crate) fn with_output_frame(self, sheet: Arc<UvFrame>) -> Self {
         Self { sheet, ..self }
     }
 
-    /// Goes back to the latest embedding that is not crushed, where the present one is. Returns whether it is.
+    /// Restores the latest embedding that is not crushed. Returns true if the present one was crushed.
     pub(crate) fn go_back_to_sound(&mut self) -> bool {
         let is_crushed = self.embedding != self.sound.0;
         (self.embedding, self.settled) = (self.sound.0.clone(), None);
@@ -137,7 +141,7 @@ impl Continuation {
         outside_of(mesh, embedding, self.targets.values().copied(), FRAME_POINTS)
     }
 
-    /// The points moved by a share of the moves; those with targets exactly onto them by all of it.
+    /// Points moved by `share` times `moves`. A share of 1 puts the points with targets exactly onto them.
     fn moved(&self, points: &[DVec2], moves: &[DVec2], share: f64) -> Vec<DVec2> {
         let mut z: Vec<DVec2> = points.iter().zip(moves).map(|(z, by)| *z + share * *by).collect();
         if share >= 1.0 {
@@ -153,7 +157,8 @@ impl Continuation {
         self.rest.progress(mesh, &self.embedding, distances.fold(0.0, f64::max))
     }
 
-    /// Advances as far as possible; where it is stuck, once more from the start with springs, tightened step by step.
+    /// Advances as far as possible. If stuck for the first time, restarts from the initial embedding with springs of
+    /// growing weight.
     pub(crate) fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Advance, SolveError> {
         match (self.go_on(mesh, control), &self.start) {
             (Ok(advance), _) => Ok(advance),
@@ -188,12 +193,12 @@ impl Continuation {
         if self.is_stuck() { Err(SolveError::Unmet) } else { Ok(self.accepted(progress, outside)) }
     }
 
-    /// The present embedding, accepted by the verdict.
+    /// Result with the present embedding, accepted by the verdict.
     fn accepted(&self, progress: Progress, scaffold: Arc<Scaffold>) -> Advance {
         Advance { embedding: self.embedding.clone(), progress, scaffold, note: None }
     }
 
-    /// Whether a step has brought all exact pins onto their targets: there is no further way.
+    /// True if a step has brought all hard pins onto their targets.
     pub(crate) fn is_at_its_end(&self) -> bool {
         !self.distances.is_empty() && !self.targets.is_empty() && self.has_arrived()
     }
@@ -202,7 +207,7 @@ impl Continuation {
         self.targets.iter().all(|(v, target)| self.embedding[v] == *target)
     }
 
-    /// Whether further steps are of no use.
+    /// True if further steps are useless.
     fn is_stuck(&self) -> bool {
         let (all, count) = (&self.distances, self.distances.len());
         let has_arrived = self.has_arrived();
@@ -211,7 +216,7 @@ impl Continuation {
         !has_arrived && (count >= MOST_STEPS || is_almost_there() || is_slow())
     }
 
-    /// An embedding with its outside, and the energy of both with these pins; `None` where its boundary is not simple.
+    /// Embedding with its outside, and the energy of both with these pins. `None` if its boundary is not simple.
     fn surround(
         &self,
         mesh: &DiskMesh,
@@ -226,7 +231,8 @@ impl Continuation {
         Ok(Some(Settled { problem, points, outside: Arc::new(outside) }))
     }
 
-    /// Moves the pins to their targets at once, and unfolds what folds. Returns whether that is planar.
+    /// Moves the pins to their targets at once and unfolds the faces. Returns true if the result is one-to-one and was
+    /// accepted.
     fn jump(
         &mut self,
         mesh: &DiskMesh,
@@ -242,7 +248,7 @@ impl Continuation {
         Ok(is_unfolded && self.sheet.is_one_to_one(mesh, &z) && self.settle(mesh, z, problem, control)?)
     }
 
-    /// Moves the pins as far as no face folds and the boundary stays simple. Returns whether they moved.
+    /// Moves the pins while no face folds and the boundary stays simple. Returns true if they moved.
     fn advance(
         &mut self,
         mesh: &DiskMesh,
@@ -252,7 +258,7 @@ impl Continuation {
     ) -> Result<bool, SolveError> {
         let longest = problem.longest_step(points, moves, mesh.face_count());
         let first = (ADVANCE_SHARE * longest).min(1.0);
-        // Where the whole way is free it is taken at once.
+        // The whole response is tried first if no face folds on it.
         let whole = (longest > 1.0 && first < 1.0).then_some(1.0);
         let halved = successors(Some(first), |share| Some(0.5 * share)).take_while(|share| *share > SMALLEST_ADVANCE);
         for share in whole.into_iter().chain(halved) {
@@ -265,7 +271,8 @@ impl Continuation {
         Ok(false)
     }
 
-    /// Takes in a planar embedding, at a lower energy where that is planar too.
+    /// Accepts a one-to-one embedding, and lowers its energy if that stays one-to-one. Returns false if the outside
+    /// cannot be triangulated.
     fn settle(
         &mut self,
         mesh: &DiskMesh,
@@ -296,7 +303,7 @@ impl Continuation {
     }
 }
 
-/// Newton steps that fold nothing.
+/// Limits of Newton steps that fold nothing.
 fn downhill(steps: usize) -> Limits {
     Limits { unfolded: Energy::Foldover(0.0), steps, unfolding: Unfolding::Freely, tolerance: TOLERANCE }
 }

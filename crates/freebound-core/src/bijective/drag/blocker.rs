@@ -1,23 +1,23 @@
-//! What is in the way of a dragged pin.
+//! Blocker of a dragged pin.
 
 use glam::DVec2;
 
 use super::DragSolver;
 use crate::mesh::{DiskMesh, VertexId};
 
-/// What is in the way of a dragged pin: what is crushed on its way lies next to that.
+/// Object in the way of a dragged pin: the one next to the triangle that would be crushed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Blocker {
     /// Another pin.
     Pin(VertexId),
-    /// The sheet's own boundary, from outside, at this vertex.
+    /// The boundary of the embedding, from outside, at this vertex.
     Boundary(VertexId),
-    /// The part of the sheet that does not move along while the pin is held.
+    /// The part of the embedding that does not move while the pin is held.
     Surroundings,
 }
 
 impl DragSolver {
-    /// What lies next to a triangle that is crushed.
+    /// Object next to a triangle that would be crushed.
     pub(super) fn obstacle(&self, mesh: &DiskMesh, end: usize) -> Option<Blocker> {
         let patch = self.patch.as_ref()?;
         let corners = patch.corners_of(end)?;
@@ -42,8 +42,8 @@ impl DragSolver {
         }
     }
 
-    /// The pin that boundary vertices are squeezed against where all of them lie between a dragged pin and that one, along the
-    /// boundary: then it is no other part of the boundary that is in the way.
+    /// Pin against which boundary vertices are squeezed: all of them lie between a dragged pin and that pin along the
+    /// boundary. Then no other part of the boundary is in the way.
     fn pin_along_boundary(&self, mesh: &DiskMesh, corners: &[VertexId]) -> Option<VertexId> {
         let place = |v: VertexId| mesh.boundary_place(v);
         let mut pins: Vec<(usize, VertexId)> =

@@ -1,4 +1,4 @@
-//! The neighbourhood of dragged pins, made as large as their way wants it.
+//! Growth of the neighbourhood of dragged pins with the distance that they move.
 
 use glam::DVec2;
 
@@ -10,22 +10,23 @@ use crate::mesh::DiskMesh;
 use crate::nonlinear::rest_shape::mean_edge_length;
 use crate::problem::{Embedding, Pins};
 
-/// The pins' way is at most such a share of the neighbourhood's radius; otherwise it grows.
+/// Largest distance of a pin from its start, relative to the radius of the neighbourhood; beyond it the neighbourhood
+/// grows.
 const WAY_SHARE: f64 = 0.25;
 
-/// Sizes of the sheet when the drag began.
+/// Sizes of the embedding at the start of the drag.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale {
     /// Twice the area of the faces.
     pub(super) double_area: f64,
-    /// The side of regular triangles of the same area as the mean face.
+    /// Edge of an equilateral triangle with the area of the mean face.
     pub(super) mean_edge: f64,
-    /// The stiffness of a spring of weight 1.
+    /// Stiffness of a spring of weight 1.
     pub(super) spring_unit: f64,
 }
 
 impl DragSolver {
-    /// Makes the neighbourhood as large as it is to be. Returns whether there is one.
+    /// Grows the neighbourhood to its required size. Returns true if the drag can move vertices.
     pub(super) fn prepare(&mut self, mesh: &DiskMesh, aim: &DragTarget) -> bool {
         let targets = || self.dragged.iter().filter_map(|v| Some((*v, aim.pins.get(v)?.target)));
         if !targets().all(|(_, target)| target.is_finite()) {
@@ -56,14 +57,15 @@ impl DragSolver {
         self.patch.is_some()
     }
 
-    /// Triangulates the outside as it lies now, with room for the targets. Where it cannot be, it stays as it is.
+    /// Triangulates the present outside again, with clearance for the targets. If that fails, an existing outside is
+    /// kept.
     pub(super) fn triangulate_around(&mut self, mesh: &DiskMesh, aim: &DragTarget) {
         let targets = self.dragged.iter().filter_map(|v| Some(aim.pins.get(v)?.target));
         let around = LocalScaffold::new(mesh, &self.embedding, targets, &self.sheet);
         if around.is_none() && self.patch.is_some() {
             return;
         }
-        // With the outside as without it, the same vertices are free: their order of elimination is kept.
+        // The free vertices are equal if there was an outside before: the elimination order is reused.
         let similar = self.patch.take().filter(|_| self.around.is_some());
         self.around = around.or(self.around.take());
         self.make_patch(mesh, similar.as_ref());
@@ -87,7 +89,7 @@ impl DragSolver {
 }
 
 impl Scale {
-    /// `None` where numbers are too large or too small to tell.
+    /// Sizes of an embedding. `None` if a number is zero, subnormal or not finite.
     pub(super) fn of(mesh: &DiskMesh, embedding: &Embedding, pins: &Pins) -> Option<Self> {
         let double_area: f64 = mesh.real_faces().map(|face| double_area(embedding.corners(mesh, face))).sum();
         let mean_edge = (2.0 * double_area / (3.0_f64.sqrt() * mesh.mesh().real_face_count() as f64)).sqrt();

@@ -1,31 +1,34 @@
-//! A planar embedding under dragged pins: it follows them as far as it stays planar, proved at every frame.
+//! Planar embedding under dragged pins: vertices follow the pins as far as the embedding stays planar, proved at every
+//! frame.
 //!
 //! ```text
-//! response: how the part of the sheet around the pins follows them, to first order of the energy; at once a Newton step
-//! advance:  0.8 of the way to where a first triangle would be crushed; where all of it is free, all of it
-//! settle:   where only a part was free, a Newton step with the pins held; then once more
-//! prove:    what moved, exactly; a step without proof is halved, or not taken
+//! response: moves of the neighbourhood to first order of the energy, which include a Newton step
+//! advance:  0.8 of the way to the first crushed triangle; the whole way if all of it is free
+//! settle:   after a partial advance, a Newton step with the pins held; then a second advance
+//! prove:    exact proof of the region that moved; a step without proof is halved, then rejected
 //! ```
 //!
-//! The sheet is *at rest where it lay when the drag began*: a triangle's energy measures how it is deformed since then. So
-//! nothing moves but for the pins' sake, however much the sheet is distorted against the surface, and a pin that comes
-//! back brings back what it began with (nearly, where the outside was triangulated anew on the way). What the surface
-//! wants is for the flattener, which goes on when the pins are let go.
+//! The *rest shape* is the embedding at the start of the drag: the energy of a triangle measures its deformation since
+//! then. Nothing moves except because of the pins, however distorted the embedding is. A pin dragged back restores the
+//! initial embedding (only approximately if the outside was triangulated again meanwhile). Lowering the distortion
+//! against the surface is left to the flattener, which continues when the pins are released.
 //!
-//! Only a *neighbourhood* of the pins moves; the rest is held. It grows with the pins' way, and wherever the sheet is
-//! deformed at its rim, and never shrinks during a drag. It is at most [`MOST_VERTICES`] large, so that a frame takes as long on
-//! any mesh. Weighted pins pull with springs that hang slack where the drag begins; dragged, they pull by how far their target
-//! has moved.
+//! Only a *neighbourhood* of the pins moves; all other vertices are held. The neighbourhood grows with the distance of
+//! the pins from their start, and with the strain at its rim. During a drag the neighbourhood never shrinks. Its size
+//! is at most [`MOST_VERTICES`], so that a frame takes equally long on any mesh.
 //!
-//! | file | holds |
+//! Soft pins pull with springs, which are slack at the start of the drag. The spring of a dragged soft pin is
+//! displaced by the move of its target.
+//!
+//! | file | contents |
 //! |---|---|
 //! | `mod.rs` | [`DragSolver`]: the drag, frame by frame |
-//! | `reach.rs` | which vertices are near |
-//! | `grow.rs` | the neighbourhood as large as the pins' way wants it |
-//! | `patch.rs` | what moves: its energy, and how far it can go |
-//! | `around.rs` | the outside, where what moves reaches the boundary |
-//! | `obstacle.rs` | what is in a pin's way |
-//! | `proof.rs` | the proof of a frame, from that of the one before |
+//! | `reach.rs` | nearest vertices |
+//! | `grow.rs` | size of the neighbourhood |
+//! | `patch.rs` | the region that moves: its energy, and the longest step |
+//! | `scaffold.rs` | the outside, if the region reaches the boundary |
+//! | `blocker.rs` | blocker of a pin |
+//! | `proof.rs` | proof of a frame, from that of the previous frame |
 
 mod blocker;
 mod grow;
@@ -51,85 +54,91 @@ use crate::nonlinear::foldover_energy::Energy;
 use crate::problem::{Control, Embedding, Pins, SolveError};
 use crate::verify::{UvFrame, Verdict};
 
-/// Vertices that move at first, and at most: a frame of these takes some 3 and some 20 milliseconds on two cores.
+/// Number of vertices that move at the start. A frame takes about 3 ms on two cores.
 const FIRST_VERTICES: usize = 1500;
+/// Largest number of vertices that move. A frame takes about 20 ms on two cores.
 const MOST_VERTICES: usize = 10_000;
 
-/// The neighbourhood grows by so much at once.
+/// Growth factor of the neighbourhood.
 const GROWTH: usize = 2;
 
-/// The neighbourhood grows where the mean deformation at its rim is larger.
+/// Largest mean deformation at the rim; above it the neighbourhood grows.
 const STRAIN: f64 = 0.02;
 
-/// How often a frame goes on where only a part of the way was free.
+/// Most advances per frame, if only a part of the way is free.
 const ADVANCES: usize = 2;
 
-/// Halvings of a step that is not proved, before it is none.
+/// Halvings of a step without proof before it is rejected.
 const HALVINGS: usize = 4;
 
-/// A sheet is at rest where nothing moves by more than such a share of its mean edge.
+/// Largest move of a point in a frame that counts as no move, relative to the mean edge.
 const REST: f64 = 1e-3;
 
-/// A pin that goes a smaller share of its way in a frame has something in its way.
+/// Share of its remaining way below which a pin counts as blocked in a frame.
 const LITTLE: f64 = 0.1;
 
-/// Where pins are to be, as they are held, and how embeddings are written with them there.
+/// Targets of all pins, with the output frame in which embeddings are proved.
 #[derive(Clone, Debug)]
 pub struct DragTarget {
-    /// All pins, in the plane.
+    /// All pins, with targets in the plane.
     pub pins: Pins,
-    /// How embeddings are written: what is proved.
+    /// Output frame in which embeddings are proved.
     pub sheet: Arc<UvFrame>,
 }
 
-/// A planar embedding under pins that are dragged.
+/// Planar embedding under dragged pins.
 #[derive(Debug)]
 pub struct DragSolver {
-    /// Where pins were to be when the drag began.
+    /// Pins with their targets at the start of the drag.
     pins: Pins,
-    /// The pins that are dragged, ascending.
+    /// Dragged pins, ascending.
     dragged: Vec<VertexId>,
     begin: Embedding,
     embedding: Embedding,
-    /// How the embedding is written.
+    /// Output frame of the embedding.
     sheet: Arc<UvFrame>,
     in_f32: InF32,
     scale: Scale,
     reach: Reach,
-    /// How many vertices the neighbourhood is to have.
+    /// Number of vertices that the neighbourhood is to have.
     wanted: usize,
     around: Option<LocalScaffold>,
     patch: Option<Patch>,
 }
 
-/// What a frame has come to.
+/// Result of one frame.
 #[derive(Clone, Debug)]
 pub struct DragFrame {
-    /// The share of their remaining way that the dragged exact pins have gone, 0 to 1.
+    /// Share of their remaining way that the dragged hard pins have covered, 0 to 1.
     pub reached: f64,
-    /// What is in the way of a pin that has gone next to nothing of it.
+    /// Blocker of a pin that covered next to nothing of its way.
     pub obstacle: Option<Blocker>,
-    /// Whether nothing moves any more as long as the pins' targets stay.
+    /// True if nothing moves any more while the pins' targets stay.
     pub is_at_rest: bool,
-    /// The verdict on the embedding as it is written: that of [`verdict`](crate::verify::verdict), proved of what moved.
+    /// Verdict on the embedding as written, equal to [`verdict`](crate::verify::verdict) but proved from the moved
+    /// region.
     pub verdict: Verdict,
 }
 
-/// An advance along the response.
+/// Advance along the response.
 #[derive(Clone, Copy, Debug, Default)]
 struct Advance {
-    /// The share of it that was taken.
+    /// Share of the response that was taken.
     share: f64,
-    /// The largest move of a point.
+    /// Largest move of a point.
     largest: f64,
-    /// The triangle that ended it, and what lies next to that.
+    /// Triangle that limited the advance.
     end: Option<usize>,
+    /// Object next to that triangle.
     obstacle: Option<Blocker>,
 }
 
 impl DragSolver {
-    /// Begins a drag of some pins at an embedding, which was made for `aim`. `None` where that is not planar as it lies,
-    /// holes included, in the numbers that are written.
+    /// Starts a drag of some pins from an embedding made for `aim`.
+    ///
+    /// The embedding as written must be planar, with positive orientation, including the filling of holes. `None`
+    /// otherwise. `None` also if `embedding` does not have one position per vertex, a dragged vertex has no pin, or a
+    /// size of the embedding overflows or vanishes.
     pub fn new(mesh: &DiskMesh, embedding: Embedding, dragged: &[VertexId], aim: DragTarget) -> Option<Self> {
         if embedding.len() != mesh.vertex_count() || dragged.iter().any(|v| !aim.pins.contains_key(v)) {
             return None;
@@ -146,28 +155,28 @@ impl DragSolver {
         Some(Self { pins, dragged, begin, embedding, sheet, in_f32, scale, reach, wanted, around, patch })
     }
 
-    /// The embedding of the latest frame.
+    /// Embedding of the latest frame.
     pub fn embedding(&self) -> &Embedding {
         &self.embedding
     }
 
-    /// The pins that are dragged, ascending.
+    /// Dragged pins, ascending.
     pub fn dragged(&self) -> &[VertexId] {
         &self.dragged
     }
 
-    /// How embeddings are written since the latest frame.
+    /// Output frame since the latest accepted step.
     pub fn sheet(&self) -> &Arc<UvFrame> {
         &self.sheet
     }
 
-    /// The vertices that may have moved since the drag began; all others lie where they did.
+    /// Vertices that may have moved since the drag began. All other vertices are where they were.
     pub fn moving(&self) -> &[VertexId] {
         self.patch.as_ref().map_or(&[], |patch| patch.moving())
     }
 
-    /// One frame: the dragged pins go on towards their targets in `aim`, in which no other pin differs from where the drag
-    /// began. Stopped, the embedding is that of the last step which was proved.
+    /// Computes one frame: moves the dragged pins towards their targets in `aim`. The targets of all other pins in
+    /// `aim` must be those of the start of the drag. If cancelled, the embedding is that of the last proved step.
     ///
     /// # Errors
     ///
@@ -181,7 +190,7 @@ impl DragSolver {
         let mut may_triangulate = true;
         for _ in 0..ADVANCES {
             last = self.advance(mesh, aim, control)?;
-            // Triangles are numbered anew where the outside is triangulated anew.
+            // The blocker is found first: triangulating the outside again renumbers its triangles.
             last.obstacle = last.end.and_then(|end| self.obstacle(mesh, end));
             let is_before_outside = |end| self.patch.as_ref().is_some_and(|patch| patch.is_outside(end));
             if last.share < 1.0 && may_triangulate && last.end.is_some_and(is_before_outside) {
@@ -199,8 +208,8 @@ impl DragSolver {
         Ok(self.moved(aim, before, Advance { largest, ..last }))
     }
 
-    /// What a frame has come to, before which pins had so far to go. The neighbourhood of the next one is larger where
-    /// the sheet is deformed at the rim of this one.
+    /// Result of a frame; `before` is the distance left before the frame. Enlarges the neighbourhood of the next frame
+    /// if the rim is strained.
     fn moved(&mut self, aim: &DragTarget, before: f64, last: Advance) -> DragFrame {
         let left = self.distance_left(&aim.pins);
         let reached = if before > 0.0 { (1.0 - left / before).max(0.0) } else { 1.0 };
@@ -216,7 +225,7 @@ impl DragSolver {
         DragFrame { reached, obstacle, is_at_rest, verdict: verdict_of_planar(self.in_f32 != InF32::Folded) }
     }
 
-    /// The largest distance of a dragged exact pin from its target.
+    /// Largest distance of a dragged hard pin from its target.
     fn distance_left(&self, pins: &Pins) -> f64 {
         let exact = self.dragged.iter().filter(|v| self.is_hard(**v));
         let distance = |v: &VertexId| pins.get(v).map_or(0.0, |pin| self.embedding[v].distance(pin.target));
@@ -227,7 +236,7 @@ impl DragSolver {
         self.pins.get(&vertex).is_some_and(|pin| pin.kind.is_hard())
     }
 
-    /// Goes along the response as far as nothing is crushed and the proof holds.
+    /// Advances along the response while nothing is crushed and the proof holds.
     fn advance(&mut self, mesh: &DiskMesh, aim: &DragTarget, control: Control<'_>) -> Result<Advance, SolveError> {
         let Some(patch) = &mut self.patch else { return Ok(Advance::default()) };
         let moved_by = |v: VertexId| Some(aim.pins.get(&v)?.target - self.pins.get(&v)?.target);
@@ -237,7 +246,7 @@ impl DragSolver {
         let moves = match patch.problem().response(patch.z(), &shift, control) {
             Ok(moves) => moves,
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
-            // Rounding has left no direction: this frame shows what the last one did.
+            // Rounding leaves no direction: this frame repeats the previous one.
             Err(_) => return Ok(Advance::default()),
         };
         let room = patch.room(&moves);
@@ -257,7 +266,7 @@ impl DragSolver {
         Ok(Advance { end: Some(room.end), ..Advance::default() })
     }
 
-    /// Lowers the energy by a Newton step, the dragged pins held where they are.
+    /// Takes a Newton step on the energy with the dragged pins held.
     fn settle(&mut self, mesh: &DiskMesh, aim: &DragTarget, control: Control<'_>) -> Result<(), SolveError> {
         let Some(patch) = &self.patch else { return Ok(()) };
         let mut z = patch.z().to_vec();
@@ -273,7 +282,7 @@ impl DragSolver {
         Ok(())
     }
 
-    /// Takes over places of the patch where that is proved planar. Returns whether it is.
+    /// Accepts positions of the patch if the embedding is proved planar with them. Returns true if accepted.
     fn take(&mut self, mesh: &DiskMesh, z: Vec<DVec2>, sheet: &Arc<UvFrame>) -> bool {
         let Some(patch) = &mut self.patch else { return false };
         let put = |embedding: &mut Embedding, z: &[DVec2]| {

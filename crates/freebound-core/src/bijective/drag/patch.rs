@@ -1,4 +1,4 @@
-//! The part of the sheet that moves with dragged pins: its energy, and how far it can go.
+//! Region that moves with dragged pins: its energy, and the longest step.
 
 use std::collections::HashMap;
 
@@ -17,68 +17,69 @@ use crate::nonlinear::scaffold::THINNEST as THINNEST_OUTSIDE;
 use crate::problem::{Control, Embedding, PinKind, Pins, SolveError};
 use crate::verify::UvFrame;
 
-/// Weight of the whole outside, that of the sheet being 1.
+/// Weight of the whole outside, relative to that of the mesh.
 const OUTSIDE_WEIGHT: f64 = 0.02;
 
-/// Triangles thinner than this, height to longest side, are measured as if they were so thick.
+/// Least thickness, height to longest side. Thinner triangles are measured as if they had it.
 const LEAST_THICKNESS: f64 = 1e-12;
 
-/// The share of its area at rest that every triangle keeps: what is crushed more is the flattener's to make room in.
+/// Share of its rest area that every triangle keeps. Making more room is left to the flattener.
 const LEAST_AREA: f64 = 0.01;
 
-/// The share of the longest step that is taken at once.
+/// Share of the longest step that is taken at once.
 const ADVANCE_SHARE: f64 = 0.8;
 
 /// Triangles that share the work of one task.
 const TRIANGLES_PER_TASK: usize = 1024;
 
-/// The sheet on which a part is to move.
+/// Embedding in which a region is to move.
 #[derive(Clone, Copy)]
 pub(super) struct Ground<'a> {
     pub(super) mesh: &'a DiskMesh,
-    /// Where it lay when the drag began: there it is at rest.
+    /// Embedding at the start of the drag: the rest shape.
     pub(super) begin: &'a Embedding,
     pub(super) embedding: &'a Embedding,
     pub(super) pins: &'a Pins,
     pub(super) dragged: &'a [VertexId],
     pub(super) around: Option<&'a LocalScaffold>,
-    /// Twice the area of the faces, and the stiffness of a spring of weight 1.
+    /// Twice the area of the faces.
     pub(super) double_area: f64,
+    /// Stiffness of a spring of weight 1.
     pub(super) spring_unit: f64,
 }
 
-/// Vertices that move with dragged pins, and all triangles at them.
+/// Vertices that move with dragged pins, and all their triangles.
 #[derive(Debug)]
 pub(super) struct Patch {
-    /// Free vertices first, then dragged exact pins, then what is held around them; numbers beyond the mesh's vertices
-    /// are points of the frame.
+    /// Free vertices first, then dragged hard pins, then the held points around them. Numbers beyond the mesh's
+    /// vertices are points of the frame.
     points: Vec<VertexId>,
     free_count: usize,
     moving_count: usize,
-    /// How large the neighbourhood is, held pins included.
+    /// Size of the neighbourhood, held pins included.
     nearest_count: usize,
-    /// Corners by places in `points`: faces and ears of polygons, what fills holes, and outside.
+    /// Corners as places in `points`: faces and ears of polygons, then fillings of holes, then the outside.
     triangles: Vec<[u32; 3]>,
     face_count: usize,
     inside_count: usize,
-    /// Twice the area that each is to keep.
+    /// Twice the area that each triangle is to keep.
     floors: Vec<f64>,
     problem: EnergyProblem,
-    /// Where the points are.
+    /// Positions of the points.
     z: Vec<DVec2>,
     has_boundary: bool,
 }
 
-/// How far a step can go.
+/// Longest admissible step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Room {
-    /// The share of it that is taken.
+    /// Share of the step that is taken.
     pub(super) share: f64,
-    /// The triangle that ends it.
+    /// Triangle that limits the step.
     pub(super) end: usize,
 }
 
-/// Triangles under way to a patch.
+/// Triangles of a patch, with their numbers by kind.
 #[derive(Default)]
 struct Gathered {
     corners: Vec<[VertexId; 3]>,
@@ -91,12 +92,12 @@ impl Ground<'_> {
         self.pins.get(&vertex).is_some_and(|pin| pin.kind.is_hard())
     }
 
-    /// Whether a vertex can move at all: one of the boundary only with the outside.
+    /// True if a vertex can move at all. Boundary vertices can move only if there is an outside.
     fn is_movable(&self, vertex: VertexId) -> bool {
         self.mesh.is_used(vertex) && (self.around.is_some() || self.mesh.boundary_place(vertex).is_none())
     }
 
-    /// Where a point was at rest: the mesh's when the drag began.
+    /// Rest position of a point: its position at the start of the drag, or at the triangulation of the outside.
     fn at_rest(&self, corner: VertexId, is_outside: bool) -> DVec2 {
         match self.around {
             Some(around) if is_outside => around.at_rest(self.mesh, corner),
@@ -118,7 +119,7 @@ impl Ground<'_> {
         faces.dedup();
         let filling = faces.split_off(faces.partition_point(|&face| !mesh.is_virtual(face)));
         let mut corners: Vec<[VertexId; 3]> = faces.iter().map(|&face| mesh.face(face)).collect();
-        // Faces of one polygon follow each other.
+        // Faces of one polygon are consecutive.
         let mut last = None;
         for polygon in faces.iter().filter_map(|&face| mesh.polygon_of(face)) {
             if last != Some(polygon.first_face) {
@@ -140,8 +141,8 @@ impl Ground<'_> {
 }
 
 impl Patch {
-    /// The vertices of a neighbourhood and the dragged ones. `similar` is one of the same neighbourhood, with another
-    /// outside: its order of elimination is kept.
+    /// Builds the patch of the vertices nearest to the dragged pins. `similar` is a patch of an equal neighbourhood
+    /// with another outside; its elimination order is reused.
     pub(super) fn new(ground: &Ground<'_>, nearest: &[VertexId], similar: Option<&Self>) -> Result<Self, SolveError> {
         let is_free = |v: &VertexId| ground.is_movable(*v) && !ground.is_hard(*v);
         let mut points: Vec<VertexId> = nearest.iter().copied().filter(is_free).collect();
@@ -160,7 +161,7 @@ impl Patch {
         let (elements, floors) = elements(ground, &gathered, &triangles);
         let springs = springs(ground, &points[..free_count]);
         let is_held = |point: u32| point as usize >= free_count;
-        // A neighbourhood is small: nobody waits for it.
+        // A neighbourhood is small, so its analysis needs no cancellation.
         let order = similar.and_then(|similar| similar.problem.order());
         let planning = Planning { order: order.as_ref(), control: Control::unattended() };
         let problem = EnergyProblem::new(points.len(), elements, springs, is_held, planning)?;
@@ -182,12 +183,12 @@ impl Patch {
         })
     }
 
-    /// The vertices that move.
+    /// Vertices that move.
     pub(super) fn moving(&self) -> &[VertexId] {
         &self.points[..self.moving_count]
     }
 
-    /// How large the neighbourhood is, held pins included.
+    /// Size of the neighbourhood, held pins included.
     pub(super) fn nearest_count(&self) -> usize {
         self.nearest_count
     }
@@ -200,18 +201,18 @@ impl Patch {
         &self.z
     }
 
-    /// Takes over places that are proved.
+    /// Accepts positions that are proved.
     pub(super) fn take(&mut self, z: Vec<DVec2>) {
         self.z = z;
     }
 
-    /// Gives springs the targets that pins have come to.
+    /// Sets the targets of the springs.
     pub(super) fn aim_springs(&mut self, target_of: impl Fn(VertexId) -> DVec2) {
         let points = &self.points;
         self.problem.aim_springs(|point| target_of(points[point as usize]));
     }
 
-    /// What moves by how much, of vertices that move by themselves.
+    /// Prescribed moves of the dragged hard pins; zero for all other points.
     pub(super) fn shift(&self, of: impl Fn(VertexId, DVec2) -> DVec2) -> Vec<DVec2> {
         let mut shift = vec![DVec2::ZERO; self.points.len()];
         let own = self.free_count..self.moving_count;
@@ -223,7 +224,7 @@ impl Patch {
         shift
     }
 
-    /// Puts the vertices that move by themselves on their targets.
+    /// Puts the dragged hard pins on their targets.
     pub(super) fn put_on(&self, z: &mut [DVec2], target: impl Fn(VertexId) -> Option<DVec2>) {
         let own = self.free_count..self.moving_count;
         for (z, &point) in z[own.clone()].iter_mut().zip(&self.points[own]) {
@@ -231,7 +232,7 @@ impl Patch {
         }
     }
 
-    /// The share of moves that is taken at once: all, where no triangle is crushed on the way there, nor soon after.
+    /// Share of `moves` that is taken at once: 1 if no triangle is crushed within 1.25 times the moves.
     pub(super) fn room(&self, moves: &[DVec2]) -> Room {
         let of = |(at, triangle): (usize, &[u32; 3])| {
             let [z, by] = [&self.z, moves].map(|all| triangle.map(|corner| all[corner as usize]));
@@ -244,23 +245,23 @@ impl Patch {
         Room { share: (ADVANCE_SHARE * longest).min(1.0), end }
     }
 
-    /// Whether a triangle lies outside.
+    /// True if a triangle belongs to the outside.
     pub(super) fn is_outside(&self, triangle: usize) -> bool {
         triangle >= self.inside_count
     }
 
-    /// The corners of a triangle, where they are.
+    /// Corners of a triangle with their positions.
     pub(super) fn corners_of(&self, triangle: usize) -> Option<[(VertexId, DVec2); 3]> {
         let corners = self.triangles.get(triangle)?;
         Some(corners.map(|corner| (self.points[corner as usize], self.z[corner as usize])))
     }
 
-    /// The points that are held around what moves.
+    /// Points that are held around the patch, with their positions.
     pub(super) fn held(&self) -> impl Iterator<Item = (VertexId, DVec2)> + '_ {
         self.points.iter().copied().zip(self.z.iter().copied()).skip(self.moving_count)
     }
 
-    /// What moves where the points are there, for its proof.
+    /// Moved region with the points at `z`, for its proof.
     pub(super) fn moved(&self, mesh: &DiskMesh, z: &[DVec2], sheet: &UvFrame) -> MovedRegion<'_> {
         let written =
             |(&v, &z): (&VertexId, &DVec2)| sheet.written_place((v.index() < mesh.vertex_count()).then_some(v), z);
@@ -274,8 +275,8 @@ impl Patch {
         }
     }
 
-    /// How much the faces are deformed at what is held around the patch, as a mean: 0 where they are as at rest. The held
-    /// points that count are those that would move in a larger patch.
+    /// Mean deformation of the faces at the rim of the patch; 0 for rest shapes. Only held points that a larger patch
+    /// would move count as rim (`is_rim`).
     pub(super) fn strain_at_rim(&self, is_rim: impl Fn(VertexId) -> bool) -> f64 {
         let (mut sum, mut weight) = (0.0, 0.0);
         for (element, corners) in self.problem.elements().iter().zip(&self.triangles[..self.face_count]) {
@@ -291,7 +292,7 @@ impl Patch {
     }
 }
 
-/// The energies of triangles, at rest as they lay, and twice the area that each is to keep.
+/// Elements of the triangles with their rest shapes, and twice the area that each triangle is to keep.
 fn elements(ground: &Ground<'_>, gathered: &Gathered, triangles: &[[u32; 3]]) -> (Vec<Element>, Vec<f64>) {
     let outside = ground.around.map_or(0.0, |around| OUTSIDE_WEIGHT / around.double_area);
     let kinds = [
@@ -310,14 +311,14 @@ fn elements(ground: &Ground<'_>, gathered: &Gathered, triangles: &[[u32; 3]]) ->
     gathered.corners.iter().zip(triangles).enumerate().map(of).unzip()
 }
 
-/// By what factor a triangle is softer that is thinner than others are measured, height to longest side: as soft as if it
-/// were so thick, and yet at rest as it lies.
+/// Factor that softens a triangle thinner than `thinnest`, height to longest side. The triangle is as soft as if it
+/// had that thickness, but keeps its rest shape.
 fn softness([a, b, c]: [DVec2; 3], thinnest: f64) -> f64 {
     let longest = [b - a, c - b, a - c].iter().map(|side| side.length_squared()).fold(0.0, f64::max);
     (double_area([a, b, c]) / (thinnest * longest)).min(1.0).powi(2)
 }
 
-/// The springs of pins among free vertices, at rest.
+/// Springs of the soft pins among free vertices, slack at the start of the drag.
 fn springs(ground: &Ground<'_>, free: &[VertexId]) -> Vec<Spring> {
     let spring = |(point, vertex): (u32, &VertexId)| match ground.pins.get(vertex)?.kind {
         PinKind::Soft(weight) => {

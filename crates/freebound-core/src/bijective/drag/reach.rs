@@ -1,4 +1,4 @@
-//! Which vertices move with a dragged pin: the nearest ones on the sheet.
+//! Neighbourhood of dragged pins: the nearest vertices of the embedding.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -6,10 +6,10 @@ use std::collections::BinaryHeap;
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::Embedding;
 
-/// What an edge counts beside its length, in mean edges: where a sheet is crushed, many edges make a way.
+/// Cost of an edge beside its length, in mean edges. In crushed regions a path of many edges is therefore long.
 const HOP: f64 = 0.25;
 
-/// The vertices of a sheet by their distance from some of them, along edges; found as far as they are asked for.
+/// Vertices by distance from some sources along edges, found on demand (Dijkstra).
 #[derive(Debug)]
 pub(super) struct Reach {
     hop: f64,
@@ -18,7 +18,7 @@ pub(super) struct Reach {
     reached: Vec<VertexId>,
 }
 
-/// A vertex with a distance that it has at most. Bits of numbers that are not negative have the numbers' order.
+/// Vertex with an upper bound of its distance. The bits of non-negative numbers are ordered like the numbers.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Ahead {
     distance: u64,
@@ -26,7 +26,7 @@ struct Ahead {
 }
 
 impl Reach {
-    /// Around these vertices, on a sheet with edges of such a mean length.
+    /// Starts from the sources `from`, in an embedding with this mean edge length.
     pub(super) fn new(mesh: &DiskMesh, from: &[VertexId], mean_edge: f64) -> Self {
         let begin = |&vertex: &VertexId| Reverse(Ahead { distance: 0, vertex });
         Self {
@@ -37,7 +37,7 @@ impl Reach {
         }
     }
 
-    /// The nearest vertices, so many or all.
+    /// Nearest `count` vertices, or all.
     pub(super) fn nearest(&mut self, mesh: &DiskMesh, sheet: &Embedding, count: usize) -> &[VertexId] {
         while self.reached.len() < count
             && let Some(Reverse(Ahead { distance, vertex })) = self.ahead.pop()

@@ -1,4 +1,4 @@
-//! The outside of the sheet while pins are dragged: its triangles by the boundary vertices at their corners.
+//! Outside of the embedding during a drag, with its triangles indexed by boundary vertex.
 
 use glam::DVec2;
 
@@ -9,28 +9,29 @@ use crate::nonlinear::scaffold::{FRAME_POINTS, outside_of};
 use crate::problem::Embedding;
 use crate::verify::UvFrame;
 
-/// The share of the way from the frame's middle to its side within which targets are.
+/// Share of the distance from the middle of the frame to its side within which targets must lie.
 const WITHIN: f64 = 0.9;
 
-/// The outside up to a frame, as it was triangulated.
+/// Outside up to a frame, as it was triangulated.
 #[derive(Debug)]
 pub(super) struct LocalScaffold {
     pub(super) frame: Vec<DVec2>,
     pub(super) triangles: Vec<[VertexId; 3]>,
-    /// Positions of the boundary loop when it was triangulated.
+    /// Positions of the boundary loop at the triangulation.
     boundary: Vec<DVec2>,
-    /// The triangles at each place of the boundary loop: where they begin in `list`, and the end of the last.
+    /// Start in `list` of the triangles at each place of the boundary loop; at the end, the length of `list`.
     starts: Vec<u32>,
     list: Vec<u32>,
-    /// Twice the area of all of it.
+    /// Twice the area of all triangles.
     pub(super) double_area: f64,
-    /// Whether all of it is positive in the numbers that are written, and in 32 bits of them.
+    /// True if all triangles are positive as written.
     pub(super) is_positive: bool,
+    /// True if all triangles are positive as written in 32 bits.
     pub(super) is_positive_in_f32: bool,
 }
 
 impl LocalScaffold {
-    /// The outside of an embedding, with room for targets; `None` where it cannot be triangulated.
+    /// Triangulates the outside of an embedding, with clearance for targets. `None` if it cannot be triangulated.
     pub(super) fn new(
         mesh: &DiskMesh,
         embedding: &Embedding,
@@ -69,7 +70,7 @@ impl LocalScaffold {
         Some(around)
     }
 
-    /// Its area, and whether it is positive as it is written.
+    /// Computes the area, and tests if all triangles are positive as written.
     fn measure(&mut self, mesh: &DiskMesh, sheet: &UvFrame) {
         let rest = |t: &[VertexId; 3]| t.map(|v| self.at_rest(mesh, v));
         self.double_area = self.triangles.iter().map(|t| double_area(rest(t))).sum();
@@ -80,13 +81,13 @@ impl LocalScaffold {
         (self.is_positive, self.is_positive_in_f32) = (are_upright(&written), are_upright(&in_f32));
     }
 
-    /// The numbers of the triangles at a boundary vertex.
+    /// Numbers of the triangles at a boundary vertex.
     pub(super) fn at(&self, mesh: &DiskMesh, vertex: VertexId) -> &[u32] {
         let Some(place) = mesh.boundary_place(vertex) else { return &[] };
         &self.list[self.starts[place] as usize..self.starts[place + 1] as usize]
     }
 
-    /// Where a corner of a triangle was when it was triangulated.
+    /// Position of a corner at the triangulation.
     pub(super) fn at_rest(&self, mesh: &DiskMesh, corner: VertexId) -> DVec2 {
         match mesh_place(mesh, corner) {
             Some(place) => self.boundary[place],
@@ -94,7 +95,7 @@ impl LocalScaffold {
         }
     }
 
-    /// Whether a target has room within the frame.
+    /// True if a target lies well within the frame.
     pub(super) fn has_room_for(&self, target: DVec2) -> bool {
         let bounds = Bounds::of(self.frame.iter().copied());
         (target - bounds.middle()).abs().max_element() < WITHIN * 0.5 * bounds.size().min_element()

@@ -1,10 +1,12 @@
-//! New vertices for whose removal room is made.
+//! Removal of new vertices with clearance: neighbours move so that a new vertex can be removed.
 //!
-//! Where a new vertex cannot be taken out as the map lies, its neighbours may lie so that it can. What it leaves is cut
-//! into triangles as on the surface, some of which fold in the plane; a patch around is unfolded by the foldover energy,
-//! with a barrier for all that is not folded ("Foldover-free maps in 50 lines of code", 2021), while all beyond stays.
-//! The idea of taking out vertices and moving those around is that of H. Shen, Z. Jiang, D. Zorin, D. Panozzo,
-//! "Progressive embedding", 2019.
+//! If a new vertex cannot be removed in the present map, another position of its neighbours may permit it. The hole
+//! that it leaves is triangulated as on the surface, and some of these triangles fold in the plane. A patch around the
+//! hole is then unfolded by the foldover energy, with a barrier for all triangles that are not folded ("Foldover-free
+//! maps in 50 lines of code", 2021). All vertices outside the patch stay.
+//!
+//! Removing vertices and moving those around them is an idea of H. Shen, Z. Jiang, D. Zorin, D. Panozzo, "Progressive
+//! embedding", 2019.
 
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_3;
@@ -24,24 +26,26 @@ use crate::nonlinear::rest_shape::{THINNEST, laid_flat};
 use crate::nonlinear::scaffold::{FRAME_POINTS, THINNEST as THINNEST_OUTSIDE, outside_of};
 use crate::problem::{Control, Phase, Pins, SolveError};
 
-/// Rings of triangles around a new vertex that are moved with it: few, and where that is not enough, more.
+/// Rings of triangles around a new vertex that move with it: a small patch first, then a larger one if that is not
+/// enough.
 const RINGS: [usize; 2] = [1, 2];
 
-/// Newton steps to unfold a patch and to lower its energy, and the share of the energy that each must gain.
+/// Newton steps to unfold a patch and lower its energy.
 const STEPS: usize = 12;
+/// Least relative gain of a Newton step that is followed by another.
 const TOLERANCE: f64 = 1e-2;
 
-/// The energy of a patch may become so many times as high.
+/// Largest factor by which the energy of a patch may grow.
 const HIGHER: f64 = 2.0;
 
-/// The weight of a triangle outside, where one of the mesh of mean size weighs 1.
+/// Weight of an outside triangle, relative to a mesh triangle of mean size.
 const OUTSIDE_WEIGHT: f64 = 0.02;
 
-/// Takes out new vertices, and makes room for that. Pins stay where they lie, and the map stays one-to-one.
+/// Removes new vertices, moving their neighbours if necessary. Pins stay fixed, and the map stays one-to-one.
 ///
 /// # Errors
 ///
-/// The caller's wish to stop.
+/// If a linear solve fails, or the caller cancels.
 pub fn with_clearance(
     mesh: &DiskMesh,
     matched: Matched,
@@ -60,25 +64,26 @@ pub fn with_clearance(
     room.into_matched(control)
 }
 
-/// The refined mesh and its outside on the way.
+/// Present state of the refined mesh with its outside.
 struct Room<'a> {
     mesh: &'a DiskMesh,
     matched: &'a Matched,
     patchwork: Patchwork,
-    /// Which vertices stay where they are: pins and the frame.
+    /// Per vertex, true if it is fixed: pins and the frame.
     is_held: Vec<bool>,
-    /// Lengths in space times this are those of the plane, on the whole.
+    /// Length in the plane per length in space, as a mean.
     scale: f64,
     /// Mean area of a triangle in the plane.
     mean_area: f64,
     removed: BTreeSet<VertexId>,
 }
 
-/// What is moved at once.
+/// Region that moves at once.
 struct Patch {
     triangles: Vec<Triangle>,
-    /// The corners of the triangles, ascending, and which of them move.
+    /// Corners of the triangles, ascending.
     points: Vec<u32>,
+    /// Per point, true if it moves.
     is_free: Vec<bool>,
 }
 
@@ -111,7 +116,7 @@ impl<'a> Room<'a> {
         (self.mesh.vertex_count()..self.matched.embedding.len()).contains(&(vertex as usize))
     }
 
-    /// Takes out a new vertex if that can be. Returns its neighbours, for which more may be possible now.
+    /// Removes a new vertex if possible. Returns its neighbours, some of which may have become removable.
     fn remove(&mut self, vertex: u32, control: Control<'_>) -> Result<Option<Vec<u32>>, SolveError> {
         let holes = self.patchwork.holes(vertex);
         let around: Vec<u32> = holes.iter().flat_map(|hole| hole.corners.iter().copied()).collect();
@@ -142,7 +147,7 @@ impl<'a> Room<'a> {
         orientation(a, b, c) == Some(Orientation::CounterClockwise)
     }
 
-    /// Triangles that cover a hole, none of them flat on the surface: positive ones if there are such.
+    /// Triangles that cover a hole, none of them degenerate on the surface. All positive in the plane, if possible.
     fn filled(&self, hole: &Hole) -> Option<Vec<Triangle>> {
         self.filled_with(hole, |t| self.is_positive(t)).or_else(|| self.filled_with(hole, |_| true))
     }
@@ -173,7 +178,7 @@ impl<'a> Room<'a> {
         self.patchwork.places[vertex as usize]
     }
 
-    /// So many rings of triangles around vertices that move.
+    /// Patch of `rings` rings of triangles around vertices that move.
     fn patch(&self, around: &[u32], rings: usize) -> Patch {
         let is_free = |v: &u32| !self.is_held[*v as usize];
         let mut free: BTreeSet<u32> = around.iter().copied().filter(is_free).collect();
@@ -193,8 +198,8 @@ impl<'a> Room<'a> {
         vertices.iter().flat_map(|&v| self.patchwork.at(v).iter().copied()).collect()
     }
 
-    /// The energy of each triangle of a patch. What lies outside, or fills holes, is at rest as it lies; where it is folded,
-    /// as a triangle of its size with equal sides.
+    /// Element of each triangle of a patch. The rest shape of an outside or hole-filling triangle is its present
+    /// shape; if it is folded, an equilateral triangle of its size.
     fn elements(&self, patch: &Patch) -> Vec<Element> {
         let disk = self.matched.refinement.disk();
         let element = |t: &Triangle| {
@@ -224,8 +229,8 @@ impl<'a> Room<'a> {
         energy_of(&self.elements(patch), &self.places(patch), Energy::SymmetricDirichlet)
     }
 
-    /// Moves the points of a patch so that no triangle is folded, if that can be and its energy stays moderate beside
-    /// what it was before.
+    /// Moves the points of a patch so that no triangle is folded. Returns true if that succeeds and the energy is at
+    /// most [`HIGHER`] times `before`; otherwise nothing moves.
     fn unfolds(&mut self, patch: &Patch, before: f64, control: Control<'_>) -> Result<bool, SolveError> {
         let (elements, mut z) = (self.elements(patch), self.places(patch));
         let is_held = |point: u32| !patch.is_free[point as usize];
@@ -235,7 +240,7 @@ impl<'a> Room<'a> {
         let limits = Limits { unfolded: Energy::SymmetricDirichlet, steps: STEPS, unfolding, tolerance: TOLERANCE };
         match problem.descend(&mut z, limits, control) {
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
-            // No direction leads down but for rounding.
+            // No descent direction except for rounding.
             Err(_) => return Ok(false),
             Ok(_) => {}
         }
@@ -253,7 +258,7 @@ impl<'a> Room<'a> {
         Ok(is_sound)
     }
 
-    /// The mesh without the removed vertices.
+    /// Result without the removed vertices.
     fn into_matched(self, control: Control<'_>) -> Result<Matched, SolveError> {
         let Self { mesh, matched, patchwork, removed, .. } = self;
         let mut parts = Parts::new();
@@ -268,7 +273,7 @@ impl<'a> Room<'a> {
 }
 
 impl Patch {
-    /// The place of a vertex among the points.
+    /// Place of a vertex among the points.
     fn number_of(&self, vertex: u32) -> u32 {
         let place = self.points.binary_search(&vertex).expect("a corner of the patch");
         u32::try_from(place).expect("points fit")

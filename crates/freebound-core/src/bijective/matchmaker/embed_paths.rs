@@ -1,7 +1,7 @@
-//! The paths straightened: an embedding in which each is a straight line between its targets.
+//! Embedding in which each path is a straight line between its targets.
 //!
-//! The regions between the paths are mapped into triangles, so every one of them has a convex outline, and positive
-//! weights give positive faces (Tutte 1963; Floater 2003 where vertices of the outline lie on one line).
+//! Each region between the paths is mapped to a triangle, so its outline is convex, and positive weights give positive
+//! faces (Tutte 1963; Floater 2003 if vertices of the outline are collinear).
 
 use super::subdivision::{Role, Subdivision};
 use super::target_graph::TargetGraph;
@@ -14,17 +14,17 @@ use crate::problem::{Control, Embedding, PinPositions, SolveError};
 use crate::weights::equations::uniform;
 use crate::weights::plane_weights::mean_value_in_plane;
 
-/// What the free vertices are drawn by.
+/// Weights that determine the free vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Weights {
-    /// Mean values of the cells as they lay before: the angles of the start, as far as can be.
+    /// Mean-value weights of the cells at their present positions, which preserve their angles as far as possible.
     MeanValue,
-    /// All the same.
+    /// Equal weights.
     Uniform,
 }
 
-/// Places of all vertices that are not free: path vertices share their line in proportion to the lengths that the parts
-/// had, made a little more equal, so that none is too small.
+/// Positions of all vertices that are not free. Path vertices divide their line in proportion to the previous lengths
+/// of its parts, made more equal so that no part is too small.
 pub(super) fn held_places(cells: &Subdivision, graph: &TargetGraph, lines: &[Vec<u32>]) -> PinPositions {
     let place = |v: u32| cells.places[v as usize];
     let mut held = PinPositions::new();
@@ -39,7 +39,7 @@ pub(super) fn held_places(cells: &Subdivision, graph: &TargetGraph, lines: &[Vec
             held.insert(VertexId::new(v), from.lerp(to, length / total));
         }
     }
-    // The ends last, so that they are where they are to be to the last bit.
+    // Ends come last, so that they have the exact bits of their targets.
     for (line, ends) in lines.iter().zip(&graph.edges) {
         for (v, end) in [(line[0], ends[0]), (line[line.len() - 1], ends[1])] {
             held.insert(VertexId::new(v), graph.points[end as usize]);
@@ -48,7 +48,7 @@ pub(super) fn held_places(cells: &Subdivision, graph: &TargetGraph, lines: &[Vec
     held
 }
 
-/// Places all vertices of the triangulated cells, which are `mesh`.
+/// Solves for all vertices of the triangulated cells. `mesh` is the mesh of these triangles.
 pub(super) fn straightened(
     mesh: &DiskMesh,
     cells: &Subdivision,

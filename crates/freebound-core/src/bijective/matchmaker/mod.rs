@@ -1,24 +1,24 @@
-//! New vertices (stage 5 of the flattener): an embedding that meets any distinct targets, on a mesh whose edges are split
-//! where the paths between the targets need room.
+//! Matchmaker (stage 5 of the flattener): an embedding that meets any distinct targets, on a mesh with edges split to
+//! make room for paths between the targets.
 //!
-//! The mesh lies in an outside up to a frame. Paths on it, which do not cross, match the edges of a triangulation of
-//! targets and frame. What a path cuts is triangulated again with new vertices on the old edges; then all paths are
-//! straightened, and each region between three of them is a triangle in the plane. It always ends, because a region in
-//! one piece always has a way through.
+//! The mesh lies in an outside up to a frame. Paths on the mesh, which do not cross, match the edges of a
+//! triangulation of targets and frame. Faces that a path cuts are triangulated again, with new vertices on the old
+//! edges. Then all paths are straightened, and each region between three of them becomes a triangle in the plane. The
+//! method always terminates, because a connected region always contains a path between its ends.
 //!
 //! Sources: I. Eckstein, V. Surazhsky, C. Gotsman, "Texture mapping with hard constraints", 2001; V. Kraevoy,
-//! A. Sheffer, C. Gotsman, "Matchmaker: constructing constrained texture maps", 2003. Theirs route on the edges of the
-//! mesh; here ways lead through the faces too, so that new vertices are on old edges only.
+//! A. Sheffer, C. Gotsman, "Matchmaker: constructing constrained texture maps", 2003. Their paths run on the edges of
+//! the mesh. Here paths cross faces too, so that new vertices lie on old edges only.
 //!
-//! | file | what |
+//! | file | contents |
 //! |---|---|
-//! | `target_graph.rs` | what the paths are to match: a triangulation of targets and frame |
-//! | `paths.rs` | the paths on the mesh, one after another |
-//! | `router.rs` | the shortest way between two ends that crosses no path |
+//! | `target_graph.rs` | graph that the paths match: a triangulation of targets and frame |
+//! | `paths.rs` | paths on the mesh, one after another |
+//! | `path_router.rs` | shortest path between two ends that crosses no other path |
 //! | `subdivision.rs`, `triangulate.rs` | faces cut into cells by paths; cells cut into triangles |
-//! | `straighten.rs` | the embedding in which every path is straight |
-//! | `needless.rs` | new vertices that are not needed, taken out again |
-//! | `room.rs`, `patchwork.rs` | new vertices for whose removal room is made; triangles that are exchanged for that |
+//! | `embed_paths.rs` | embedding in which every path is straight |
+//! | `simplify.rs` | removal of new vertices that are not needed |
+//! | `clearance.rs`, `retriangulate.rs` | removal that moves the neighbours; exchange of triangles for it |
 
 mod clearance;
 mod embed_paths;
@@ -52,30 +52,33 @@ use crate::nonlinear::scaffold::{disk_in_plane_apart, outside_of};
 use crate::problem::{Control, Embedding, Phase, Pins, SolveError};
 use crate::verify::is_one_to_one;
 
-/// Length that a new vertex counts for, in mean lengths of an edge.
+/// Length charged for a new vertex, in mean edge lengths.
 const CROSSING: f64 = 0.5;
 
-/// The most new vertices for each vertex of the mesh, and on small meshes: paths that wind around each other need ever more.
+/// Most new vertices per vertex of the mesh. Paths that wind around each other need ever more.
 const NEW_VERTICES_PER_VERTEX: usize = 16;
+/// Most new vertices on a small mesh, if that allows more.
 const NEW_VERTICES_OF_SMALL: usize = 10_000;
 
-/// Trees whose lengths are by chance up to so many times as long, and how many of each; the mesh's vertices in all trees
-/// that are tried, and the fewest trees.
+/// Largest random factors of the path lengths, for trees that vary at random.
 const LUCK: [f64; 2] = [1.3, 2.0];
+/// Random trees for each factor in [`LUCK`].
 const SEEDS: u64 = 4;
+/// Bound for the number of mesh vertices times the number of trees tried.
 const VERTICES_OF_ALL_TREES: usize = 200_000;
+/// Fewest trees tried on any mesh.
 const FEWEST_TREES: usize = 2;
 
-/// How many trees are tried side by side, where there are more than the fewest; and the new vertices in all, after which
-/// no further ones are tried.
+/// Trees tried in parallel, if more than [`FEWEST_TREES`] are tried.
 const TREES_AT_ONCE: usize = 2;
+/// Number of new vertices in all trees so far after which no further tree is tried.
 const POINTS_OF_ALL_TREES: usize = 800_000;
 
-/// A tree after the first replaces it if it needs at most 4 of 5 as many new vertices. A smaller difference says nothing
-/// about the map.
+/// Largest ratio of new vertices at which a later tree replaces the first. A smaller saving says nothing about the
+/// quality of the map.
 const WORTHWHILE: Fraction = Fraction { numerator: 4, denominator: 5 };
 
-/// A fraction of whole numbers.
+/// Fraction of whole numbers.
 #[derive(Clone, Copy)]
 struct Fraction {
     numerator: usize,
@@ -83,46 +86,46 @@ struct Fraction {
 }
 
 impl Fraction {
-    /// The fraction of a count, rounded down.
+    /// Fraction of a count, rounded down.
     fn of(self, count: usize) -> usize {
         self.numerator * count / self.denominator
     }
 }
 
-/// A planar embedding of a refined mesh that meets all exact pins to the last bit.
+/// Planar embedding of a refined mesh that meets all hard pins to the last bit.
 #[derive(Clone, Debug)]
 pub struct Matched {
-    /// The mesh with its new vertices.
+    /// Mesh with its new vertices.
     pub refinement: Arc<Refinement>,
-    /// An embedding of it.
+    /// Embedding of the refined mesh.
     pub embedding: Embedding,
 }
 
-/// The mesh within its outside, as it lies at the start.
+/// Mesh within its outside, at the start.
 struct Surroundings {
-    /// Faces of the mesh first, then those of the outside; the frame's corners last.
+    /// Disk with the faces of the mesh first, then those of the outside. The frame's corners are the last vertices.
     disk: DiskMesh,
     places: Vec<DVec2>,
     frame: Vec<DVec2>,
 }
 
-/// What ways are searched for, and how.
+/// Parameters of the search for paths.
 struct Search<'a> {
     ends: Ends,
-    /// Length that a new vertex counts for.
+    /// Length charged for a new vertex.
     crossing: f64,
     control: Control<'a>,
 }
 
-/// Finds new vertices and an embedding with which all exact pins are met, from a planar embedding near to the targets.
+/// Finds new vertices and an embedding that meets all hard pins, from a planar embedding near the targets.
 ///
-/// The tree of the first paths decides how those of all others wind: several are tried, and the one that takes the
-/// fewest new vertices is taken.
+/// The tree of the first paths determines how all others wind. Several trees are tried, and the one with the fewest
+/// new vertices is used.
 ///
 /// # Errors
 ///
-/// Targets that coincide, a start that is not planar, faces too fine for 64-bit numbers, paths that need too many new
-/// vertices, or the caller's wish to stop.
+/// If targets coincide, the start is not planar, faces are too fine for 64-bit numbers ([`SolveError::TooFine`]),
+/// paths need too many new vertices ([`SolveError::TooManyNewVertices`]), or the caller cancels.
 pub fn matched(mesh: &DiskMesh, start: &Embedding, pins: &Pins, control: Control<'_>) -> Result<Matched, SolveError> {
     let exact = || pins.iter().filter(|(_, pin)| pin.kind.is_hard());
     let targets: Vec<DVec2> = exact().map(|(_, pin)| pin.target).collect();
@@ -145,7 +148,7 @@ pub fn matched(mesh: &DiskMesh, start: &Embedding, pins: &Pins, control: Control
     }
 }
 
-/// Trees that are tried. On large meshes a few only.
+/// Options of the trees to try. Fewer on large meshes.
 fn manners(mesh: &DiskMesh) -> Vec<SearchOptions> {
     use Growth::{Anywhere, FromFrame};
     use PathStart::{NearOnMesh, NearTargets};
@@ -174,8 +177,8 @@ impl Surroundings {
         Ok(Self { disk, places, frame })
     }
 
-    /// Paths by the manner that takes the fewest new points, and its place in the list: the same as if all were tried one
-    /// after another.
+    /// Paths with the fewest new points, and the place of their options in the list. The result equals that of a
+    /// sequential search.
     fn with_fewest_points(
         &self,
         mesh: &DiskMesh,
@@ -203,7 +206,7 @@ impl Surroundings {
                         fewest = Some((number, paths));
                     }
                     Ok(()) | Err(SolveError::TooManyNewVertices { .. }) => {}
-                    // Another tree may lie where numbers are coarser.
+                    // Another tree may avoid the regions of coarse rounding.
                     Err(SolveError::TooFine) => why = SolveError::TooFine,
                     Err(error) => return Err(error),
                 }
@@ -213,7 +216,7 @@ impl Surroundings {
         fewest.ok_or(why)
     }
 
-    /// Paths by some manner with at most so many new points, or as far as they go; and how that ended.
+    /// Paths for some options with at most `at_most` new points, or as far as they were laid, with the outcome.
     fn laid(&self, search: &Search<'_>, manner: SearchOptions, at_most: usize) -> (Paths, Result<(), SolveError>) {
         let mut router = PathRouter::new(search.crossing, search.control);
         let mut paths = Paths::new(Subdivision::new(&self.disk, &self.places), search.ends.clone(), manner);
@@ -221,7 +224,7 @@ impl Surroundings {
         (paths, end)
     }
 
-    /// The embedding in which all paths are straight.
+    /// Embedding in which all paths are straight.
     fn straightened(&self, mesh: &DiskMesh, paths: Paths, control: Control<'_>) -> Result<Matched, SolveError> {
         let Paths { mut cells, graph, lines, .. } = paths;
         split_collapsing_edges(&mut cells, &graph);
@@ -259,15 +262,15 @@ impl Surroundings {
     }
 }
 
-/// Mesh and outside, and how they are cut.
+/// Mesh and outside, with their cut.
 struct Cut<'a> {
     whole: &'a DiskMesh,
     cells: &'a Subdivision,
     parts: &'a Parts,
 }
 
-/// Takes the mesh with its new vertices out of the subdivision of mesh and outside. Returns also which vertex of that
-/// each of its vertices is.
+/// Extracts the refined mesh from the subdivision of mesh and outside. Also returns the subdivision's vertex of each
+/// vertex.
 fn refined(
     mesh: &DiskMesh,
     &Cut { whole, cells, parts }: &Cut<'_>,
@@ -297,7 +300,7 @@ fn refined(
     Ok((refinement(mesh, new_vertices, &parts, control)?, vertices))
 }
 
-/// A mesh with new vertices and its faces in such parts.
+/// Mesh with new vertices and with its faces cut into parts.
 fn refinement(
     mesh: &DiskMesh,
     new_vertices: Vec<NewVertex>,

@@ -1,8 +1,8 @@
-//! The shortest way between two ends that crosses no path.
+//! Shortest path between two ends that crosses no other path.
 //!
-//! A way goes along old edges through free old vertices, and through cells from one piece of an edge, at its middle, to
-//! another. It is found by A* (Hart, Nilsson, Raphael 1968): all lengths are those in the plane, and more. Since a way
-//! straight through a cell is never longer than one around, no cell is crossed twice.
+//! A path runs along old edges through free old vertices. It also crosses cells, from the middle of one piece of an
+//! edge to that of another. The search is A* (Hart, Nilsson, Raphael 1968): all costs are lengths in the plane plus
+//! charges. A straight line through a cell is never longer than a detour, so no cell is crossed twice.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -12,26 +12,26 @@ use glam::DVec2;
 use super::subdivision::{NONE, Role, Subdivision};
 use crate::problem::{Control, Phase, SolveError};
 
-/// Nodes that are gone on from between two looks at whether the caller wants to stop.
+/// Nodes expanded between two checks for cancellation.
 const NODES_BETWEEN_LOOKS: usize = 4096;
 
-/// One part of a way.
+/// Part of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Move {
-    /// Out of a cell through this halfedge of it.
+    /// Out of a cell through this halfedge.
     Cross(u32),
-    /// Through a cell to the tail of this halfedge of it.
+    /// Through a cell to the tail of this halfedge.
     Reach(u32),
     /// Along a halfedge.
     Along(u32),
 }
 
-/// Where a way may leave one of its ends, or come to it.
+/// Directions in which a path may leave one of its ends, or reach it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Sector {
-    /// Halfedges that leave the end, and whose cells may be entered there.
+    /// Halfedges from the end whose cells may be entered there.
     pub(super) corners: Vec<u32>,
-    /// Halfedges that leave the end, and that a way may run along.
+    /// Halfedges from the end along which a path may run.
     pub(super) edges: Vec<u32>,
 }
 
@@ -41,7 +41,7 @@ impl Sector {
         Self { corners: all.clone(), edges: all }
     }
 
-    /// From one halfedge counter-clockwise to another; all around where they are the same.
+    /// Sector from one halfedge counter-clockwise to another. The whole circle if both are equal.
     pub(super) fn between(cells: &Subdivision, begin: u32, end: u32) -> Self {
         let mut corners = vec![begin];
         let mut h = cells.rotated(begin);
@@ -54,7 +54,7 @@ impl Sector {
     }
 }
 
-/// An end of a way: a vertex, and where it may be left.
+/// End of a path: a vertex and the sector in which a path may leave it.
 #[derive(Clone, Debug)]
 pub(super) struct Terminal {
     pub(super) vertex: u32,
@@ -67,7 +67,7 @@ pub(super) struct Way {
     pub(super) moves: Vec<Move>,
 }
 
-/// A length that can be compared.
+/// Length with a total order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Length(pub(super) f64);
 
@@ -85,16 +85,16 @@ impl PartialOrd for Length {
     }
 }
 
-/// A node to go on from, the least first.
+/// Open node of the search; the least bound comes first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Reached {
-    /// Length so far and at least to the goal.
+    /// Length so far plus a lower bound of the length to the goal.
     bound: Length,
     node: u32,
     length: Length,
 }
 
-/// What is known of a node: the run that knows it, its length, where it is reached from and by which move.
+/// Label of a node: run in which it was set, length, predecessor, and last move.
 #[derive(Clone, Copy, Debug)]
 struct Known {
     run: u32,
@@ -110,28 +110,29 @@ struct Link {
     by: Move,
 }
 
-/// Searches ways. Nodes are crossings (twice the halfedge) and vertices (twice the vertex and one).
+/// Search for paths. Nodes are crossings (twice the halfedge) and vertices (twice the vertex plus one).
 #[derive(Debug)]
 pub(super) struct PathRouter<'a> {
     control: Control<'a>,
     known: Vec<Known>,
     run: u32,
     heap: BinaryHeap<Reverse<Reached>>,
-    /// Length that a crossing counts for on an edge that no path crosses yet.
+    /// Length charged for a crossing of an edge that no path crosses yet.
     crossing: f64,
 }
 
 impl<'a> PathRouter<'a> {
-    /// A router to which a new point is worth so much length.
+    /// Router that charges this length for a new point.
     pub(super) fn new(crossing: f64, control: Control<'a>) -> Self {
         Self { control, known: Vec::new(), run: 0, heap: BinaryHeap::new(), crossing }
     }
 
-    /// The shortest way between two ends of one region, which are always joined within it.
+    /// Shortest path between two ends of one region, which is connected.
     ///
     /// # Errors
     ///
-    /// The caller's wish to stop; targets so near to a line, beside their distances, that rounding parts a region.
+    /// If the caller cancels. [`SolveError::TooFine`] if targets are so nearly collinear, relative to their distances,
+    /// that rounding disconnects a region.
     pub(super) fn way(&mut self, cells: &Subdivision, start: &Terminal, goal: &Terminal) -> Result<Way, SolveError> {
         self.run += 1;
         self.heap.clear();
@@ -164,7 +165,7 @@ impl<'a> PathRouter<'a> {
         unreachable!("the count has no end")
     }
 
-    /// Goes on from a vertex along edges that leave it.
+    /// Continues from a vertex along edges that leave it.
     fn run_along(&mut self, cells: &Subdivision, node: u32, edges: impl Iterator<Item = u32>, goal: &Terminal) {
         for h in edges.filter(|&h| cells.path(h).is_none()) {
             let head = cells.head(h);
@@ -179,7 +180,7 @@ impl<'a> PathRouter<'a> {
         }
     }
 
-    /// Goes on from a vertex through the cells at halfedges that leave it.
+    /// Continues from a vertex through the cells at halfedges that leave it.
     fn enter_cells(&mut self, cells: &Subdivision, node: u32, corners: impl Iterator<Item = u32>, goal: &Terminal) {
         for corner in corners {
             let across = cells.cell(cells[corner].next).take_while(|&h| h != cells[corner].previous);
@@ -189,7 +190,7 @@ impl<'a> PathRouter<'a> {
         }
     }
 
-    /// Goes on from the far side of a halfedge.
+    /// Continues from the far side of a crossed halfedge.
     fn leave_crossing(&mut self, cells: &Subdivision, crossed: u32, goal: &Terminal) {
         let (node, entry) = (2 * crossed, cells[crossed].twin);
         for h in cells.cell(entry).skip(1) {
@@ -202,14 +203,14 @@ impl<'a> PathRouter<'a> {
             } else {
                 cells.roles[tail as usize] == Role::Free
             };
-            // The ends of the entry lie on one line with it.
+            // The ends of the entry are collinear with it.
             if is_open && h != cells[entry].next {
                 self.reach(cells, goal, Link { node: 2 * tail + 1, from: node, by: Move::Reach(h) });
             }
         }
     }
 
-    /// Takes note of a node, reached from another.
+    /// Labels a node reached from another, if that is shorter.
     fn reach(&mut self, cells: &Subdivision, goal: &Terminal, link: Link) {
         let Link { node, from, by } = link;
         let (here, there) = (position(cells, node), position(cells, from));
@@ -237,7 +238,7 @@ impl<'a> PathRouter<'a> {
     }
 }
 
-/// Where a node lies: a vertex, or the middle of a piece of an edge.
+/// Position of a node: a vertex, or the middle of a piece of an edge.
 fn position(cells: &Subdivision, node: u32) -> DVec2 {
     let (at, half) = (|v: u32| cells.places[v as usize], node / 2);
     if node.is_multiple_of(2) { at(cells[half].tail).midpoint(at(cells.head(half))) } else { at(half) }

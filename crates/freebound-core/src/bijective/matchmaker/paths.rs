@@ -1,8 +1,9 @@
-//! Paths on the mesh, one for each edge of the target graph, in its order around each vertex.
+//! Paths on the mesh, one for each edge of the target graph, in equal cyclic order around each vertex.
 //!
-//! First a tree: a path joins two ends that are not connected yet, so that the rest stays in one piece and there always
-//! is a way. Then all others: each joins two corners of a region without holes, and cuts it in two. Either time the
-//! shortest comes first (Kraevoy, Sheffer, Gotsman 2003, "Matchmaker: constructing constrained texture maps").
+//! A tree comes first: each path joins two ends that are not connected yet, so that the complement stays connected and
+//! a path always exists. All other paths follow: each joins two corners of a region without holes, and cuts it in two.
+//! In both phases the shortest path comes first (Kraevoy, Sheffer, Gotsman 2003, "Matchmaker: constructing constrained
+//! texture maps").
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
@@ -13,32 +14,32 @@ use super::target_graph::{TargetGraph, near_pairs};
 use crate::geom::Random;
 use crate::problem::SolveError;
 
-/// Which paths make the tree.
+/// Choice of the paths that form the tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SearchOptions {
     pub(super) growth: Growth,
     pub(super) beginning: PathStart,
-    /// The part of the distance between targets in what counts as short.
+    /// Weight of the distance between targets in the cost of a path.
     pub(super) target_share: f64,
-    /// What lengths are multiplied by at most, and the seed of the chance that decides.
+    /// Largest random factor of a cost, and the seed of the random numbers.
     pub(super) luck: (f64, u64),
 }
 
-/// Where the tree grows.
+/// Growth of the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Growth {
     /// From the frame (Prim).
     FromFrame,
-    /// Wherever the next shortest path is (Kruskal).
+    /// By the next shortest path anywhere (Kruskal).
     Anywhere,
 }
 
-/// Which edges the tree begins with.
+/// First candidates for edges of the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PathStart {
-    /// Those of a triangulation of the targets.
+    /// Edges of a triangulation of the targets.
     NearTargets,
-    /// Those whose ends are near to each other on the mesh.
+    /// Edges between ends that are close on the mesh.
     NearOnMesh,
 }
 
@@ -46,29 +47,29 @@ pub(super) enum PathStart {
 pub(super) struct Paths {
     pub(super) cells: Subdivision,
     pub(super) graph: TargetGraph,
-    /// The vertex of the subdivision for each vertex of the graph.
+    /// Vertex of the subdivision for each vertex of the graph.
     vertices: Vec<u32>,
-    /// For each directed edge of the graph the halfedge by which its path leaves.
+    /// First halfedge of the path of each directed edge of the graph.
     departures: BTreeMap<[u32; 2], u32>,
-    /// For each edge the vertices of its path, from the first end to the second.
+    /// Vertices of the path of each edge, from its first end to its second.
     pub(super) lines: Vec<Vec<u32>>,
-    /// For each vertex of the graph a number of the piece that paths make it a part of.
+    /// Number of the connected component, by paths, of each vertex of the graph.
     piece: Vec<u32>,
     manner: SearchOptions,
 }
 
-/// What paths join.
+/// Ends of the paths.
 #[derive(Clone, Debug)]
 pub(super) struct Ends {
-    /// Targets and frame, with no edge.
+    /// Targets and frame, without edges.
     pub(super) graph: TargetGraph,
-    /// The vertex of the subdivision for each of them.
+    /// Vertex of the subdivision for each vertex of the graph.
     pub(super) vertices: Vec<u32>,
-    /// How many are the frame's corners.
+    /// Number of corners of the frame.
     pub(super) frame: usize,
 }
 
-/// A pair of ends that waits for its path, by a bound of the path's length.
+/// Pair of ends that waits for its path, ordered by a lower bound of the path's cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Waiting {
     bound: Length,
@@ -76,7 +77,7 @@ struct Waiting {
 }
 
 impl Paths {
-    /// The frame's sides, which are edges of the subdivision, and no other path.
+    /// Starts with the frame's sides, which are edges of the subdivision, as the only paths.
     pub(super) fn new(mut cells: Subdivision, Ends { graph, vertices, frame }: Ends, manner: SearchOptions) -> Self {
         for (end, &vertex) in (0..).zip(&vertices) {
             cells.roles[vertex as usize] = Role::End(end);
@@ -95,7 +96,7 @@ impl Paths {
         paths
     }
 
-    /// Lays the paths of all edges of a triangulation, with at most so many new points.
+    /// Lays the paths of all edges of a triangulation, with at most `most` new points.
     pub(super) fn lay_all(&mut self, router: &mut PathRouter<'_>, most: usize) -> Result<(), SolveError> {
         if self.manner.beginning == PathStart::NearOnMesh {
             let places: Vec<_> = self.vertices.iter().map(|&v| self.cells.places[v as usize]).collect();
@@ -115,7 +116,7 @@ impl Paths {
         Ok(())
     }
 
-    /// Lays paths between pairs of ends that are not connected yet, as far as no edges cross.
+    /// Lays paths between pairs of ends that are not connected yet, unless edges of the graph would cross.
     fn lay_tree(&mut self, pairs: &[[u32; 2]], router: &mut PathRouter<'_>, most: usize) -> Result<(), SolveError> {
         let growth = self.manner.growth;
         let frame = self.piece[self.piece.len() - 1];
@@ -152,13 +153,13 @@ impl Paths {
         if self.cells.point_count() > most { Err(SolveError::TooManyNewVertices { most }) } else { Ok(()) }
     }
 
-    /// A pair of which nothing is known but how far its ends are from each other.
+    /// Pair with the distance of its ends as the bound.
     fn waiting(&self, pair: [u32; 2]) -> Waiting {
         let [a, b] = pair.map(|end| self.cells.places[self.vertices[end as usize] as usize]);
         Waiting { bound: Length(self.counted(a.distance(b), pair)), pair }
     }
 
-    /// What a path of some length counts for.
+    /// Cost of a path of some length.
     fn counted(&self, length: f64, [a, b]: [u32; 2]) -> f64 {
         let [from, to] = [a, b].map(|end| self.graph.points[end as usize]);
         let SearchOptions { target_share, luck: (most, seed), .. } = self.manner;
@@ -167,7 +168,7 @@ impl Paths {
         (length + target_share * from.distance(to)) * (1.0 + (most - 1.0) * chance)
     }
 
-    /// Lays a path, if no longer than the next may be: paths in its way only add to it.
+    /// Lays a path unless another may be shorter. Costs only grow as further paths are laid.
     fn lay_or_wait(
         &mut self,
         pair: [u32; 2],
@@ -186,7 +187,7 @@ impl Paths {
         Ok(is_shortest)
     }
 
-    /// Where a path from one end to another may leave it: between its neighbours in the order of the graph.
+    /// Start of a path from one end to another: the sector between its neighbours in the order of the graph.
     fn terminal(&self, from: u32, to: u32) -> Terminal {
         let vertex = self.vertices[from as usize];
         let departure = |other: u32| self.departures[&[from, other]];
@@ -197,13 +198,14 @@ impl Paths {
         Terminal { vertex, sector }
     }
 
-    /// Lays a path: splits what it crosses.
+    /// Lays a path and splits the edges and cells that it crosses.
     fn lay(&mut self, [from, to]: [u32; 2], moves: &[Move]) {
         let edge = self.graph.add([from, to]);
         let role = Role::Within(edge);
         let mut vertex = self.vertices[from as usize];
         let mut line = vec![vertex];
-        // The corner of the present cell from which the path goes on; none at a vertex, where the next move says.
+        // Corner of the present cell from which the path continues. None at a vertex: the next move determines the
+        // cell.
         let mut corner: Option<u32> = None;
         let mut pieces = Vec::with_capacity(moves.len());
         for &step in moves {

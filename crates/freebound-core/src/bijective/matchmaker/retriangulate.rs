@@ -6,29 +6,29 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-/// The source of a triangle that lies outside.
+/// Source of a triangle of the outside.
 pub(super) const OUTSIDE: u32 = u32::MAX;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Triangle {
-    /// Counter-clockwise.
+    /// Corners, counter-clockwise.
     pub(super) corners: [u32; 3],
-    /// The old face that it is a part of, or [`OUTSIDE`].
+    /// Old face that contains the triangle, or [`OUTSIDE`].
     pub(super) source: u32,
 }
 
 #[derive(Debug)]
 pub(super) struct Patchwork {
-    /// Those that were exchanged remain, at no vertex.
+    /// All triangles ever added. Exchanged ones remain here, but no vertex lists them.
     triangles: Vec<Triangle>,
-    /// For each vertex the triangles there, ascending.
+    /// Triangles at each vertex, ascending.
     at: Vec<Vec<u32>>,
-    /// Where each vertex lies.
+    /// Position of each vertex.
     pub(super) places: Vec<DVec2>,
 }
 
-/// What the triangles at a vertex cover of one old face, or of the outside: corners counter-clockwise, without the vertex
-/// itself, beginning after it on its edge and ending before it.
+/// Region of one old face, or of the outside, that the triangles at a vertex cover. Corners are counter-clockwise,
+/// without the vertex itself, starting after it on its edge and ending before it.
 #[derive(Clone, Debug)]
 pub(super) struct Hole {
     pub(super) source: u32,
@@ -49,18 +49,18 @@ impl Patchwork {
         self.triangles[number as usize]
     }
 
-    /// The triangles at a vertex, ascending.
+    /// Triangles at a vertex, ascending.
     pub(super) fn at(&self, vertex: u32) -> &[u32] {
         &self.at[vertex as usize]
     }
 
-    /// All triangles.
+    /// All present triangles.
     pub(super) fn all(&self) -> impl Iterator<Item = Triangle> + '_ {
         let lives = |(number, triangle): &(u32, &Triangle)| self.at(triangle.corners[0]).contains(number);
         (0..).zip(&self.triangles).filter(lives).map(|(_, triangle)| *triangle)
     }
 
-    /// What the triangles at a vertex cover, by source.
+    /// Regions that the triangles at a vertex cover, by source.
     pub(super) fn holes(&self, vertex: u32) -> Vec<Hole> {
         let mut of_source: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for &number in self.at(vertex) {
@@ -73,7 +73,7 @@ impl Patchwork {
         of_source.into_iter().map(hole).collect()
     }
 
-    /// The vertices around a fan of triangles at a vertex, counter-clockwise.
+    /// Vertices around a fan of triangles at a vertex, counter-clockwise.
     fn link(&self, vertex: u32, triangles: &[u32]) -> Vec<u32> {
         let side = |&number: &u32| {
             let t = self.triangle(number).corners;
@@ -84,7 +84,7 @@ impl Patchwork {
         std::iter::successors(first, |v| sides.get(v).copied()).take(sides.len() + 1).collect()
     }
 
-    /// Puts triangles in the place of others. Returns the numbers of the new ones.
+    /// Replaces triangles by others. Returns the numbers of the new ones.
     pub(super) fn exchange(&mut self, old: &[u32], new: impl IntoIterator<Item = Triangle>) -> Vec<u32> {
         for &number in old {
             for v in self.triangle(number).corners {

@@ -1,8 +1,9 @@
-//! New vertices that are not needed, taken out again.
+//! Removal of new vertices that are not needed.
 //!
-//! A new vertex goes where the one or two old faces beside it can do without: what its triangles cover there is cut into
-//! triangles without it, all of them positive in the plane and none of them flat on the surface. The rest of the map
-//! stays, so the map stays one-to-one; on the boundary the new edge must meet no other. All tests are exact.
+//! A new vertex is removed if the one or two old faces beside it can be triangulated without it. The region of its
+//! triangles is then cut into other triangles, all positive in the plane and none degenerate on the surface. The other
+//! faces stay, so the map stays one-to-one. On the boundary, the new edge must meet no other edge. All tests are
+//! exact.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,11 +12,12 @@ use super::{Control, Embedding, Matched, SolveError, refinement};
 use crate::geom::{Orientation, orientation, segments_meet};
 use crate::mesh::{DiskMesh, FaceId, HalfedgeId, NewVertex, VertexId};
 
-/// Takes out new vertices without which every face stays positive and the boundary simple.
+/// Removes new vertices without which every face stays positive and the boundary simple. All other vertices stay
+/// fixed.
 ///
 /// # Errors
 ///
-/// The caller's wish to stop.
+/// If the caller cancels.
 pub fn simplified(mesh: &DiskMesh, matched: Matched, control: Control<'_>) -> Result<Matched, SolveError> {
     let mut removal = Removal::new(mesh, &matched);
     let old = matched.refinement.old_vertex_count();
@@ -30,26 +32,26 @@ pub fn simplified(mesh: &DiskMesh, matched: Matched, control: Control<'_>) -> Re
     if removed.is_empty() { Ok(matched) } else { without(mesh, &matched, &removed, parts, control) }
 }
 
-/// Triangles by the old face that they are parts of.
+/// Triangles by the old face that contains them.
 pub(super) type Parts = BTreeMap<FaceId, Vec<[VertexId; 3]>>;
 
-/// The refined mesh on the way.
+/// Present state of the refined mesh.
 struct Removal<'a> {
     mesh: &'a DiskMesh,
     refined: &'a DiskMesh,
     new_vertices: &'a [NewVertex],
     embedding: &'a Embedding,
-    /// Triangles of each old face that has new vertices, or had.
+    /// Triangles of each old face that has, or had, new vertices.
     parts: Parts,
-    /// An inner halfedge of each split old edge.
+    /// Inner halfedge of each split old edge.
     sides: BTreeMap<[VertexId; 2], HalfedgeId>,
-    /// The vertex after each boundary vertex.
+    /// Next boundary vertex after each boundary vertex.
     after: BTreeMap<VertexId, VertexId>,
     removed: BTreeSet<VertexId>,
 }
 
-/// What the triangles at a new vertex cover of one old face: corners counter-clockwise, without the vertex itself,
-/// beginning after it on its edge and ending before it.
+/// Region of one old face that the triangles at a new vertex cover. Corners are counter-clockwise, without the vertex
+/// itself, starting after it on its edge and ending before it.
 struct Hole {
     face: FaceId,
     corners: Vec<VertexId>,
@@ -83,7 +85,7 @@ impl<'a> Removal<'a> {
         }
     }
 
-    /// Takes out a new vertex if that can be. Returns its neighbours, for which more may be possible now.
+    /// Removes a new vertex if possible. Returns its neighbours, some of which may have become removable.
     fn remove(&mut self, vertex: VertexId) -> Option<Vec<VertexId>> {
         let side = self.sides[&self.new_vertices[vertex.index() - self.mesh.vertex_count()].edge];
         let faces = [side, self.mesh.twin(side)].map(|h| self.mesh.face_of(h));
@@ -108,7 +110,7 @@ impl<'a> Removal<'a> {
         Some(holes.into_iter().flat_map(|hole| hole.corners).collect())
     }
 
-    /// What the triangles at a vertex cover of a face.
+    /// Region of a face that the triangles at a vertex cover.
     fn hole(&self, vertex: VertexId, face: FaceId) -> Hole {
         let sides: BTreeMap<VertexId, VertexId> = self.parts[&face]
             .iter()
@@ -119,7 +121,7 @@ impl<'a> Removal<'a> {
         Hole { face, corners }
     }
 
-    /// Triangles without the vertex, if there are such.
+    /// Triangles without the vertex, if possible.
     fn fill(&self, hole: &Hole) -> Option<Vec<[VertexId; 3]>> {
         let Hole { face, corners } = hole;
         let on: Vec<u8> = corners.iter().map(|&v| sides_of(self.mesh, self.new_vertices, *face, v)).collect();
@@ -133,14 +135,14 @@ impl<'a> Removal<'a> {
         Some(triangles.into_iter().map(|t| t.map(|i| corners[i])).collect())
     }
 
-    /// Whether the boundary may go straight past a vertex: the line meets no edge but the two beside it, at its ends.
+    /// True if the boundary may bypass a vertex: the line meets no edges except the two beside it, at its ends.
     fn is_clear(&self, before: VertexId, vertex: VertexId, after: VertexId) -> bool {
         let line = [before, after].map(|v| self.embedding[v]);
         self.after.iter().filter(|(from, _)| **from != before && **from != vertex).all(|(&from, &to)| {
             let edge = [from, to].map(|v| self.embedding[v]);
             match (to == before, from == after) {
                 (false, false) => !segments_meet(line, edge),
-                // They share an end; more only where the other end of either lies on the other.
+                // Both share an end. They share more only if the other end of either lies on the other.
                 (true, _) => !segments_meet(line, [edge[0]; 2]) && !segments_meet(edge, [line[1]; 2]),
                 (_, true) => !segments_meet(line, [edge[1]; 2]) && !segments_meet(edge, [line[0]; 2]),
             }
@@ -148,7 +150,7 @@ impl<'a> Removal<'a> {
     }
 }
 
-/// The sides of an old face that a vertex lies on, as bits.
+/// Sides of an old face that a vertex lies on, as bits.
 pub(super) fn sides_of(mesh: &DiskMesh, new_vertices: &[NewVertex], face: FaceId, vertex: VertexId) -> u8 {
     let corners = mesh.face(face);
     let is_on = |k: usize| {
@@ -161,11 +163,11 @@ pub(super) fn sides_of(mesh: &DiskMesh, new_vertices: &[NewVertex], face: FaceId
     (0..3).map(|k| u8::from(is_on(k)) << k).sum()
 }
 
-/// The mesh without the removed new vertices.
+/// Result without the removed new vertices.
 ///
 /// # Errors
 ///
-/// The caller's wish to stop.
+/// If the caller cancels.
 pub(super) fn without(
     mesh: &DiskMesh,
     matched: &Matched,

@@ -1,10 +1,11 @@
-//! The faces of a mesh, cut into cells by paths.
+//! Faces of a mesh, cut into cells by paths.
 //!
 //! A path runs along edges of the mesh, its *old* edges, or crosses them at new points and the faces between them in
-//! straight *chords*. A new point has one chord on either side of its edge, so no cell has more than one piece of an old
-//! edge: it is a convex polygon of six corners at most, and every triangulation of it has positive triangles.
+//! straight *chords*. A new point has one chord on either side of its edge, so no cell has more than one piece of an
+//! old edge. Each cell is a convex polygon of at most six corners, and every triangulation of it has positive
+//! triangles.
 //!
-//! Halfedges as in [`DiskMesh`]; the outer face is a cell as well.
+//! Halfedges are those of [`DiskMesh`]; the outer face is a cell as well.
 
 use std::ops::{Index, IndexMut};
 
@@ -12,17 +13,17 @@ use glam::DVec2;
 
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 
-/// No path, no old edge, no face.
+/// Marks the absence of a path, an old edge or a face.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// What a vertex is to the paths.
+/// Role of a vertex for the paths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     /// On no path.
     Free,
-    /// An end of paths: a vertex of the target graph.
+    /// End of paths: a vertex of the target graph.
     End(u32),
-    /// In the middle of a path: an edge of the target graph.
+    /// Interior of a path: an edge of the target graph.
     Within(u32),
 }
 
@@ -32,24 +33,24 @@ pub(super) struct Halfedge {
     pub(super) previous: u32,
     pub(super) twin: u32,
     pub(super) tail: u32,
-    /// The old edge that it is a piece of; none for a chord.
+    /// Old edge that contains the halfedge; [`NONE`] for a chord.
     old_edge: u32,
-    /// The old face that it lies in or at; none outside.
+    /// Old face in which, or at which, the halfedge lies; [`NONE`] outside.
     pub(super) face: u32,
-    /// The path that runs along it.
+    /// Path along the halfedge, or [`NONE`].
     pub(super) path: u32,
 }
 
 #[derive(Debug)]
 pub(super) struct Subdivision {
     halfedges: Vec<Halfedge>,
-    /// For each vertex a halfedge that leaves it.
+    /// Halfedge that leaves each vertex.
     outgoing: Vec<u32>,
-    /// For each vertex what it is to the paths.
+    /// Role of each vertex.
     pub(super) roles: Vec<Role>,
-    /// Where each vertex lies in the plane. Points on an edge are spread evenly.
+    /// Position of each vertex in the plane. Points on an edge are spread evenly.
     pub(super) places: Vec<DVec2>,
-    /// For each vertex beyond the old ones the old edge that it lies on.
+    /// Old edge of each vertex beyond the old ones.
     edge_of_point: Vec<u32>,
     /// Ends of the old edges.
     ends: Vec<[u32; 2]>,
@@ -72,7 +73,7 @@ impl IndexMut<u32> for Subdivision {
 }
 
 impl Subdivision {
-    /// The faces of a mesh as they lie in the plane, with no path.
+    /// Faces of a mesh in the plane, without paths.
     pub(super) fn new(mesh: &DiskMesh, places: &[DVec2]) -> Self {
         let mut outgoing = vec![NONE; mesh.vertex_count()];
         for h in mesh.halfedges() {
@@ -110,7 +111,7 @@ impl Subdivision {
         self.vertex_count() - self.edge_of_point.len()
     }
 
-    /// How many points the paths have put on old edges.
+    /// Number of points that the paths added to old edges.
     pub(super) fn point_count(&self) -> usize {
         self.edge_of_point.len()
     }
@@ -124,12 +125,12 @@ impl Subdivision {
         (path != NONE).then_some(path)
     }
 
-    /// The old edge that a point lies on, and none for an old vertex.
+    /// Old edge of a new point; `None` for an old vertex.
     pub(super) fn edge_of_point(&self, vertex: u32) -> Option<u32> {
         (vertex as usize).checked_sub(self.old_vertex_count()).map(|point| self.edge_of_point[point])
     }
 
-    /// How many new points lie on the old edge that a halfedge is a piece of.
+    /// Number of new points on the old edge that contains a halfedge.
     pub(super) fn crowd(&self, h: u32) -> usize {
         match self[h].old_edge {
             NONE => 0,
@@ -137,7 +138,7 @@ impl Subdivision {
         }
     }
 
-    /// The next halfedge around a tail, counter-clockwise.
+    /// Next halfedge around the tail, counter-clockwise.
     pub(super) fn rotated(&self, h: u32) -> u32 {
         self[self[h].previous].twin
     }
@@ -153,7 +154,7 @@ impl Subdivision {
         })
     }
 
-    /// The halfedges of a cell, from one of them.
+    /// Halfedges of a cell, starting with one of them.
     pub(super) fn cell(&self, h: u32) -> impl Iterator<Item = u32> + '_ {
         let mut at = Some(h);
         std::iter::from_fn(move || {
@@ -196,13 +197,13 @@ impl Subdivision {
         point
     }
 
-    /// A new point between the ends of a piece, and all points of its old edge spread evenly.
+    /// Adds a point between the ends of a piece, and spreads all points of its old edge evenly.
     fn add_point(&mut self, h: u32, old_edge: u32, role: Role) -> u32 {
         let point = number(self.vertex_count());
         let [low, high] = self.ends[old_edge as usize];
         let ends = [self[h].tail, self.head(h)];
         let points = &mut self.points[old_edge as usize];
-        // The point before the new one is an end of the piece, or the piece begins at the first end.
+        // The point before the new one is an end of the piece, or the piece starts at the first end.
         let before = points.iter().position(|p| ends.contains(p));
         let at = match before {
             _ if ends.contains(&low) => 0,
@@ -221,7 +222,8 @@ impl Subdivision {
         point
     }
 
-    /// Cuts a cell by a chord between the tails of two of its halfedges. Returns the chord from the first to the second.
+    /// Cuts a cell by a chord between the tails of two of its halfedges. Returns the chord from the first to the
+    /// second.
     pub(super) fn split_cell(&mut self, from: u32, to: u32) -> u32 {
         let (chord, back) =
             (self.add_halfedge(self[from].tail, from, NONE), self.add_halfedge(self[to].tail, from, NONE));

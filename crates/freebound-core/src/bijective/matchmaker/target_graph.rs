@@ -1,6 +1,7 @@
-//! What the paths are to match: a triangulation of the targets and of the frame's corners around them.
+//! Graph that the paths match: a triangulation of the targets and of the frame's corners around them.
 //!
-//! It grows with the paths: edges whose paths are short come first, and the triangulation has them all.
+//! The graph grows with the paths. Edges with short paths come first, and the final triangulation contains all of
+//! them.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -9,19 +10,19 @@ use glam::DVec2;
 
 use crate::geom::{Orientation, constrained_triangles, delaunay_triangles, folds_back, orientation, segments_meet};
 
-/// A graph in the plane, of straight edges, whose vertices are the targets, followed by the corners of the frame.
+/// Plane graph of straight edges. Its vertices are the targets, followed by the corners of the frame.
 #[derive(Clone, Debug)]
 pub(super) struct TargetGraph {
     pub(super) points: Vec<DVec2>,
     /// Ends of each edge.
     pub(super) edges: Vec<[u32; 2]>,
     number_of_edge: BTreeMap<[u32; 2], u32>,
-    /// The other ends of the edges at each vertex, counter-clockwise.
+    /// Other ends of the edges at each vertex, counter-clockwise.
     neighbours: Vec<Vec<u32>>,
 }
 
 impl TargetGraph {
-    /// Targets and frame with no edge yet.
+    /// Targets and frame without edges.
     pub(super) fn new(targets: &[DVec2], frame: &[DVec2]) -> Self {
         let points: Vec<DVec2> = targets.iter().chain(frame).copied().collect();
         let neighbours = vec![Vec::new(); points.len()];
@@ -32,7 +33,7 @@ impl TargetGraph {
         self.number_of_edge.get(&[a.min(b), a.max(b)]).copied()
     }
 
-    /// Adds an edge, and returns its number.
+    /// Adds an edge. Returns its number.
     pub(super) fn add(&mut self, [a, b]: [u32; 2]) -> u32 {
         let number = u32::try_from(self.edges.len()).expect("edges fit");
         self.edges.push([a, b]);
@@ -44,7 +45,8 @@ impl TargetGraph {
         number
     }
 
-    /// The neighbours of a vertex before and after the direction to another vertex, counter-clockwise.
+    /// Neighbours of a vertex before and after the direction to another vertex, counter-clockwise. `None` without
+    /// neighbours.
     pub(super) fn beside(&self, from: u32, to: u32) -> Option<[u32; 2]> {
         let (around, place) = (&self.neighbours[from as usize], self.place_around(from, to));
         let before = around.get(place.wrapping_sub(1)).or_else(|| around.last())?;
@@ -57,7 +59,7 @@ impl TargetGraph {
         self.neighbours[from as usize].partition_point(|&other| by_turn(at(from), at(other), at(to)) == Ordering::Less)
     }
 
-    /// Whether a further edge would cross one that there is, or go through a vertex.
+    /// True if a further edge would cross an existing one, or pass through a vertex.
     pub(super) fn bars(&self, [a, b]: [u32; 2]) -> bool {
         let at = |v: u32| self.points[v as usize];
         let line = [at(a), at(b)];
@@ -69,7 +71,7 @@ impl TargetGraph {
         self.edges.iter().any(meets) || (0..).take(self.points.len()).any(is_on_line)
     }
 
-    /// The edges that are still missing to a triangulation; `None` where targets coincide, or lie too near for one.
+    /// Edges missing for a triangulation. `None` if targets coincide or are too close for one.
     pub(super) fn missing_edges(&self) -> Option<Vec<[u32; 2]>> {
         let triangles = constrained_triangles(&self.points, &self.edges)?;
         let is_positive = |t: &[u32; 3]| {
@@ -83,12 +85,12 @@ impl TargetGraph {
     }
 }
 
-/// Edges between points that are near to each other: those of their Delaunay triangulation.
+/// Edges between points that are close to each other: those of their Delaunay triangulation.
 pub(super) fn near_pairs(points: &[DVec2]) -> Vec<[u32; 2]> {
     delaunay_triangles(points).map_or_else(Vec::new, |triangles| sides(&triangles).collect())
 }
 
-/// The sides of triangles, each once, the lower number first; ascending.
+/// Sides of triangles, each once, the lower number first; ascending.
 fn sides(triangles: &[[u32; 3]]) -> impl Iterator<Item = [u32; 2]> + use<> {
     let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     let mut sides: Vec<[u32; 2]> = sides.map(|[a, b]| [a.min(b), a.max(b)]).collect();
@@ -97,7 +99,7 @@ fn sides(triangles: &[[u32; 3]]) -> impl Iterator<Item = [u32; 2]> + use<> {
     sides.into_iter()
 }
 
-/// Which of two directions from a centre comes first counter-clockwise, beginning with that along x.
+/// Order of two directions from a centre, counter-clockwise from the x axis.
 fn by_turn(centre: DVec2, a: DVec2, b: DVec2) -> Ordering {
     let is_below = |z: DVec2| z.y.total_cmp(&centre.y).then(z.x.total_cmp(&centre.x)).is_lt();
     is_below(a).cmp(&is_below(b)).then_with(|| match orientation(centre, a, b) {

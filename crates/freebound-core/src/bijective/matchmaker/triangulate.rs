@@ -1,9 +1,9 @@
-//! The cells, cut into triangles so that straightened paths collapse none.
+//! Triangulation of the cells such that straightened paths collapse no triangle.
 //!
-//! Paths become straight. So no edge within a region between paths may join two vertices of one path: it would lie on
-//! that path (Floater 2003, "One-to-one piecewise linear mappings over triangulations"). A piece of an old edge that
-//! does gets one more vertex in its middle, on no path; a cell is cut so that no diagonal does, and where that cannot
-//! be, one more vertex helps as well.
+//! No edge within a region between paths may join two vertices of one path: once the path is straight, the edge would
+//! lie on it (Floater 2003, "One-to-one piecewise linear mappings over triangulations"). A piece of an old edge that
+//! does so gets one more vertex in its middle, on no path. A cell is cut such that no diagonal does so. If that is
+//! impossible, one more vertex helps as well.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,10 @@ use super::subdivision::{NONE, Role, Subdivision};
 use super::target_graph::TargetGraph;
 use crate::mesh::{DiskMesh, FaceId, HalfedgeId};
 
-/// Triangles by the old face that they are parts of. Faces that are whole are left out.
+/// Triangles by the old face that contains them. Uncut faces have no entry.
 pub(super) type Parts = BTreeMap<FaceId, Vec<[u32; 3]>>;
 
-/// Whether a straight line would take an edge between two vertices into a path.
+/// True if an edge between two vertices would lie on a path once the path is straight.
 fn joins_one_path(graph: &TargetGraph, [a, b]: [Role; 2]) -> bool {
     match (a, b) {
         (Role::Within(one), Role::Within(other)) => one == other,
@@ -26,7 +26,7 @@ fn joins_one_path(graph: &TargetGraph, [a, b]: [Role; 2]) -> bool {
     }
 }
 
-/// Puts a vertex in the middle of every piece of an edge that joins two vertices of one path and is no part of it.
+/// Splits, in the middle, every piece of an edge that joins two vertices of one path but does not belong to the path.
 pub(super) fn split_collapsing_edges(cells: &mut Subdivision, graph: &TargetGraph) {
     let first_of_each: Vec<u32> = (0..).take(cells.halfedge_count()).filter(|&h| h < cells[h].twin).collect();
     for h in first_of_each {
@@ -39,7 +39,7 @@ pub(super) fn split_collapsing_edges(cells: &mut Subdivision, graph: &TargetGrap
 
 pub(super) fn triangulate(cells: &mut Subdivision, graph: &TargetGraph, mesh: &DiskMesh) -> Parts {
     let mut of_cell: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
-    // The first halfedge of every cell within the frame.
+    // First halfedge of every cell within the frame.
     let is_first = |h: &u32| cells[*h].face != NONE && cells.cell(*h).all(|other| other >= *h);
     let mut waiting: Vec<u32> = (0..).take(cells.halfedge_count()).filter(is_first).collect();
     while let Some(h) = waiting.pop() {
@@ -64,7 +64,7 @@ pub(super) fn triangulate(cells: &mut Subdivision, graph: &TargetGraph, mesh: &D
     parts
 }
 
-/// Triangles of a cell without a collapsing diagonal: those whose diagonals are shortest.
+/// Triangulation of a cell with the shortest diagonals, none of them collapsing. `None` if there is none.
 fn cut(cells: &Subdivision, graph: &TargetGraph, mesh: &DiskMesh, first: u32) -> Option<Vec<[u32; 3]>> {
     let corners: Vec<u32> = cells.cell(first).map(|h| cells[h].tail).collect();
     if let &[a, b, c] = corners.as_slice() {
@@ -84,7 +84,7 @@ fn cut(cells: &Subdivision, graph: &TargetGraph, mesh: &DiskMesh, first: u32) ->
         .map(|triangles| triangles.into_iter().map(|t| t.map(|i| corners[i])).collect())
 }
 
-/// For each corner of a cell the sides of its face that it lies on, as bits.
+/// Sides of the face that each corner of a cell lies on, as bits.
 fn sides_of_corners(cells: &Subdivision, mesh: &DiskMesh, face: FaceId, corners: &[u32]) -> Vec<u8> {
     let sides = [0, 1, 2].map(|k| HalfedgeId::from_index(3 * face.index() + k));
     let is_on = |v: u32, k: usize| match cells.edge_of_point(v) {
@@ -94,7 +94,7 @@ fn sides_of_corners(cells: &Subdivision, mesh: &DiskMesh, face: FaceId, corners:
     corners.iter().map(|&v| (0..3).map(|k| u8::from(is_on(v, k)) << k).sum()).collect()
 }
 
-/// The triangulation of a convex polygon with the least finite sum of lengths, no triangle bad (dynamic programming).
+/// Triangulation of a convex polygon with the least finite sum of lengths and no bad triangle, by dynamic programming.
 pub(super) fn shortest_triangulation(
     count: usize,
     length: impl Fn(usize, usize) -> f64,

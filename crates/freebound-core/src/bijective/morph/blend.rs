@@ -1,4 +1,4 @@
-//! Weights between the mean-value weights of two embeddings, and the systems that they make.
+//! Weights between the mean-value weights of two embeddings, and their linear systems.
 
 use glam::DVec2;
 use num_complex::Complex;
@@ -14,7 +14,7 @@ use crate::problem::{Control, Embedding, Phase, SolveError};
 use crate::weights::equations::Equations;
 use crate::weights::plane_weights::mean_value_in_plane;
 
-/// The mean-value equations of an embedding, each divided by the sum of its weights.
+/// Mean-value equations of an embedding, each divided by the sum of its weights.
 pub(super) fn normalized(disk: &DiskMesh, embedding: &Embedding) -> Equations<f64> {
     let mut equations = mean_value_in_plane(disk, embedding, Control::unattended())
         .expect("nobody stops it, and a planar embedding is finite");
@@ -28,14 +28,14 @@ pub(super) fn normalized(disk: &DiskMesh, embedding: &Embedding) -> Equations<f6
     equations
 }
 
-/// Equations at a share of the way from some to others.
+/// Equations between two sets, linear in `share` from 0 to 1.
 pub(super) fn between([from, to]: [&Equations<f64>; 2], share: f64) -> Equations<f64> {
     let mix = |(a, b): (&f64, &f64)| (1.0 - share) * a + share * b;
     let coefficients = from.coefficients.iter().zip(&to.coefficients).map(mix).collect();
     Equations { coefficients, bounded_corners: from.bounded_corners.max(to.bounded_corners) }
 }
 
-/// Which points are held, and the analysis of the system of the others.
+/// Free and held points, with the analysis of the system of the free ones.
 pub(super) struct Held {
     system: FreeSystem,
     analysis: Analysis,
@@ -53,8 +53,8 @@ impl Held {
         Ok(Self { system, analysis })
     }
 
-    /// Moves the free points of a start to where the equations want them. It is the move that is solved for, so that the
-    /// rounding is its own, not that of the coordinates.
+    /// Solves for the free points, starting from `start`. The unknown is the move, so that rounding is relative to the
+    /// move and not to the coordinates.
     pub(super) fn solve(
         &self,
         disk: &DiskMesh,
@@ -78,7 +78,7 @@ impl Held {
     }
 }
 
-/// Weights between those of two embeddings of one disk, whose boundary goes straight.
+/// Weights between those of two embeddings of one disk, whose boundary moves straight.
 pub(super) struct Blend {
     disk: DiskMesh,
     equations: [Equations<f64>; 2],
@@ -87,14 +87,14 @@ pub(super) struct Blend {
 }
 
 impl Blend {
-    /// Of two embeddings of a disk, its boundary convex in both.
+    /// Blend of two embeddings of a disk whose boundary is convex in both.
     pub(super) fn new(disk: DiskMesh, ends: [Embedding; 2], control: Control<'_>) -> Result<Self, SolveError> {
         let equations = [0, 1].map(|k| normalized(&disk, &ends[k]));
         let held = Held::new(&disk, |v| disk.boundary_place(v).is_some(), control)?;
         Ok(Self { disk, equations, ends, held })
     }
 
-    /// Of the mesh alone; none where its boundary is not convex at both ends.
+    /// Blend of the mesh alone. `None` unless its boundary is convex at both ends.
     pub(super) fn within_boundary(
         mesh: &DiskMesh,
         ends: [&Embedding; 2],
@@ -107,12 +107,12 @@ impl Blend {
         Some(Self::new(disk, ends.map(Embedding::clone), control))
     }
 
-    /// All points at the beginning: those of the mesh, then those of the frame.
+    /// All points at the start: those of the mesh, then those of the frame.
     pub(super) fn points_at_start(&self) -> Embedding {
         self.ends[0].clone()
     }
 
-    /// All points at time t, found from those a little before: the boundary goes straight.
+    /// All points at time t, computed from those at a slightly earlier time. The boundary moves straight.
     pub(super) fn at(&self, t: f64, before: &Embedding, control: Control<'_>) -> Result<Embedding, SolveError> {
         let mut start = before.clone();
         for v in self.disk.boundary_loop() {
@@ -121,14 +121,14 @@ impl Blend {
         self.solve(t, &start, control)
     }
 
-    /// All points at time t, with the boundary where it is at the start.
+    /// All points at time t, with the boundary as in `start`.
     pub(super) fn solve(&self, t: f64, start: &Embedding, control: Control<'_>) -> Result<Embedding, SolveError> {
         let [from, to] = &self.equations;
         self.held.solve(&self.disk, between([from, to], t), start, control)
     }
 }
 
-/// Whether a simple polygon turns right nowhere.
+/// True if a simple polygon nowhere turns right.
 fn is_convex(polygon: &[DVec2]) -> bool {
     let count = polygon.len();
     let turn = |k: usize| orientation(polygon[k], polygon[(k + 1) % count], polygon[(k + 2) % count]);

@@ -1,29 +1,32 @@
-//! The way through a circle: pockets are opened until the boundary is one, weights change there, and pockets close again.
+//! Route through a circle: pockets open until the boundary is a circle, weights change there, and pockets close again.
 //!
 //! # Method
 //!
-//! At each end mesh and pockets make a disk with a convex outline, the hull, and the end is the solution of its mean-value
-//! weights. They stay as they are on this half of the way; what changes is what is held:
+//! At each end, mesh and pockets form a disk with a convex outline, the hull. The end is the solution of its
+//! mean-value weights. On one half of the route the weights are constant; the set of held points and their positions
+//! change:
 //!
 //! ```text
-//! round     the hull's corners go straight to places on a circle, each in the cone of its outer normals
-//! turn      they go along the circle to where they are at both ends
-//! bulge     what lies within the hull's sides goes straight out to the circle
-//! release   apexes of the next layer are drawn to the sides of the outline before them: k → (1 − τ) k + τ (1 − f, f)
-//! push      they go straight on to the circle; their triangles are no longer there
+//! round     the hull's corners move straight to places on a circle, each in the cone of its outer normals
+//! turn      they move along the circle to places common to both ends
+//! bulge     boundary vertices within the hull's sides move straight out to the circle
+//! release   weights k of the apexes in the next layer shift to the ends of their sides: k → (1 − τ) k + τ (1 − f, f)
+//! push      these apexes move straight on to the circle; their triangles are no longer there
 //!    … until the whole boundary lies on the circle
-//! blend     weights of the mesh go from those of the one end to those of the other
+//! blend     weights of the mesh change from those of one end to those of the other
 //! ```
 //!
-//! and from there on all of it backwards with the weights and pockets of the other end.
+//! The second half is the reverse, with the weights and pockets of the other end.
 //!
-//! # Why it is planar
+//! # Planarity
 //!
-//! The outline is convex all the time. For points `(1 − s) p + s u` with u the point of the unit circle in a direction of the
-//! cone of normals at p lie on the rim of the Minkowski sum of hull and disk, in their order. A place that leaves a chord
-//! for its arc keeps its ends' angles between those of chord and arc. And weights are positive, but where an apex
-//! has reached its side and depends on its ends alone: then it is one of the outline itself, and its triangle, without area, is
-//! none of the mesh's. So Tutte's theorem holds throughout.
+//! The outline is convex at every time. Let u be the point of the unit circle in a direction of the cone of normals at
+//! p. The points `(1 − s) p + s u` lie in order on the rim of the Minkowski sum of hull and disk. A vertex that leaves
+//! a chord for its arc keeps the angles at its ends between those of chord and arc.
+//!
+//! All weights are positive, except those of an apex that has reached its side and depends on its ends alone. Such an
+//! apex belongs to the outline, and its degenerate triangle does not belong to the mesh. Tutte's theorem therefore
+//! holds throughout.
 
 use std::f64::consts::TAU;
 
@@ -36,20 +39,20 @@ use crate::problem::{Control, Embedding, SolveError};
 /// Least share of the circle between neighbours, relative to an even share.
 const LEAST_SHARE: f64 = 0.3;
 
-/// How long it takes to change the weights, in the units of the halves' stages.
+/// Duration of the change of weights, in the units of the halves' stages.
 const BLEND: f64 = 1.5;
 
-/// The whole way.
+/// The whole route.
 pub(super) struct Circle {
     halves: [Half; 2],
     blend: Blend,
     latest: Embedding,
-    /// What was held last: in which half, and from which stage on.
+    /// Number of the half, number of held layers, and system of the latest solve, for reuse.
     held: Option<(usize, usize, Held)>,
 }
 
 impl Circle {
-    /// None where the outside of an end cannot be triangulated.
+    /// `None` if the outside of an end cannot be triangulated.
     pub(super) fn new(
         mesh: &DiskMesh,
         ends: [&Embedding; 2],
@@ -62,7 +65,7 @@ impl Circle {
         Some(blend.map(|blend| Self { halves, blend, latest: ends[0].clone(), held: None }))
     }
 
-    /// The embedding at time t, found from the one asked for before.
+    /// Embedding at time t, computed from the previous one.
     pub(super) fn at(&mut self, t: f64, control: Control<'_>) -> Result<Embedding, SolveError> {
         let [first, second] = [0, 1].map(|k| self.halves[k].lasts());
         let time = t * (first + BLEND + second);
@@ -77,7 +80,7 @@ impl Circle {
         Ok(self.latest.clone())
     }
 
-    /// On one half, so long after its end of the way.
+    /// Embedding on one half, `time` after its end of the route.
     fn on_half(&mut self, which: usize, time: f64, control: Control<'_>) -> Result<Embedding, SolveError> {
         let half = &self.halves[which];
         let moment = half.moment(time);
@@ -96,7 +99,7 @@ impl Circle {
         Ok(found)
     }
 
-    /// On the circle, so far from the weights of the one end to those of the other.
+    /// Embedding with the boundary on the circle, at a share of the change of weights.
     fn on_circle(&self, share: f64, control: Control<'_>) -> Result<Embedding, SolveError> {
         let [from, to] = [0, 1].map(|k| &self.halves[k]);
         let round = Round::between([&from.round, &to.round], share);
@@ -108,8 +111,8 @@ impl Circle {
     }
 }
 
-/// Directions of the boundary's vertices on the circle, ascending within one turn: in proportion to the surface's edges, but not too
-/// near to each other.
+/// Directions of the boundary's vertices on the circle, ascending within one turn. Gaps are proportional to the
+/// surface's edges, with a lower bound.
 fn spaced(mesh: &DiskMesh) -> Vec<f64> {
     let boundary = mesh.boundary_loop();
     let length = |k: usize| mesh.length([boundary[k], boundary[(k + 1) % boundary.len()]]);

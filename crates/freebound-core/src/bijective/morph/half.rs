@@ -1,4 +1,5 @@
-//! One half of the way through a circle: from an end of the morph to its boundary on the circle. See the module `circle`.
+//! Half of the route through a circle: from an end of the morph to its boundary on the circle. See the module
+//! `circle`.
 
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
@@ -13,19 +14,22 @@ use crate::nonlinear::scaffold::disk_in_plane;
 use crate::problem::{Embedding, PinPositions};
 use crate::weights::equations::Equations;
 
-/// How long the parts take, in proportion: those of the layers all together.
+/// Duration of rounding, in proportion to the other stages.
 const ROUND: f64 = 1.5;
+/// Duration of turning.
 const TURN: f64 = 0.75;
+/// Duration of bulging.
 const BULGE: f64 = 0.5;
+/// Duration of the release and push of all layers together.
 const LAYERS: f64 = 2.0;
 
-/// The stages before the layers. Layer k is released in stage 3 + 2 k, and pushed in the next one.
+/// Stages before the layers. Layer k is released in stage 3 + 2 k, and pushed in stage 4 + 2 k.
 const ROUNDING: usize = 0;
 const TURNING: usize = 1;
 const BULGING: usize = 2;
 const FIRST_RELEASE: usize = 3;
 
-/// A moment of one half: a stage, and the share of it that is over.
+/// Moment of one half: a stage, and the elapsed share of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moment {
     stage: usize,
@@ -33,13 +37,13 @@ pub(super) struct Moment {
 }
 
 impl Moment {
-    /// How many layers are held then: each from the stage on in which it is pushed.
+    /// Number of held layers. A layer is held from its push on.
     pub(super) fn layers_held(self) -> usize {
         (self.stage + 1).saturating_sub(FIRST_RELEASE) / 2
     }
 }
 
-/// The circle, and how directions on it are turned.
+/// Circle, with the turn of the directions on it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Round {
     middle: DVec2,
@@ -48,12 +52,12 @@ pub(super) struct Round {
 }
 
 impl Round {
-    /// Where a direction shows.
+    /// Point of the circle in a direction, before the turn.
     pub(super) fn point(&self, angle: f64) -> DVec2 {
         self.middle + self.radius * DVec2::from_angle(angle + self.turned)
     }
 
-    /// A circle at a share of the way from one to another, turned the shorter way.
+    /// Circle between two circles, linear in `share`, turned the shorter way.
     pub(super) fn between([from, to]: [&Self; 2], share: f64) -> Self {
         let apart = to.turned - from.turned;
         let shortest = apart - (apart / TAU).round() * TAU;
@@ -65,18 +69,18 @@ impl Round {
     }
 }
 
-/// What a place of the boundary does.
+/// Role of a place of the boundary.
 #[derive(Clone, Copy, Debug)]
 enum Role {
-    /// A corner of the hull: by how much its direction on the circle, where it arrives, is ahead of where it stays.
+    /// Corner of the hull. After rounding its direction on the circle leads the final one by the angle `ahead`.
     Corner { ahead: f64 },
-    /// Within a side of the hull, at a share of it: held from the beginning.
+    /// Vertex within a side of the hull, at a share of the side. Held from the beginning.
     Within { apex: Apex, share: f64 },
-    /// In a pocket, in a layer: held once it is released.
+    /// Vertex in a layer of a pocket. Held from its push on.
     Pocket { apex: Apex, layer: usize },
 }
 
-/// From an end to the circle.
+/// Half of the route, from an end to the circle.
 pub(super) struct Half {
     /// Mesh and pockets.
     pub(super) disk: DiskMesh,
@@ -84,7 +88,7 @@ pub(super) struct Half {
     end: Vec<DVec2>,
     places: Vec<VertexId>,
     roles: Vec<Role>,
-    /// Directions of all places where they stay, ascending.
+    /// Final directions of all places, ascending.
     pub(super) angles: Vec<f64>,
     pub(super) round: Round,
     layers: Vec<Vec<Apex>>,
@@ -92,7 +96,7 @@ pub(super) struct Half {
 }
 
 impl Half {
-    /// None where the outside cannot be triangulated.
+    /// `None` if the outside cannot be triangulated.
     pub(super) fn new(mesh: &DiskMesh, end: &Embedding, angles: &[f64]) -> Option<Self> {
         let polygon = end.boundary(mesh);
         let Pockets { corners, within_sides, layers, triangles } = Pockets::of(&polygon)?;
@@ -130,12 +134,12 @@ impl Half {
         })
     }
 
-    /// The boundary loop of the mesh, by places.
+    /// Boundary loop of the mesh, by places.
     pub(super) fn boundary(&self) -> &[VertexId] {
         &self.places
     }
 
-    /// How long each stage takes.
+    /// Duration of each stage.
     fn stages(&self) -> Vec<f64> {
         let bulge = if self.has_bulge { BULGE } else { 0.0 };
         let each = LAYERS / (2.0 * self.layers.len() as f64);
@@ -143,12 +147,12 @@ impl Half {
         [ROUND, TURN, bulge].into_iter().chain(layers).collect()
     }
 
-    /// How long all of it takes.
+    /// Total duration.
     pub(super) fn lasts(&self) -> f64 {
         self.stages().iter().sum()
     }
 
-    /// The moment at a time.
+    /// Moment at a time.
     pub(super) fn moment(&self, time: f64) -> Moment {
         let mut left = time;
         let stages = self.stages();
@@ -161,13 +165,13 @@ impl Half {
         Moment { stage: stages.len(), share: 0.0 }
     }
 
-    /// The places of all that is held at a moment: the outline.
+    /// Positions of all held points at a moment: the outline.
     pub(super) fn outline(&self, moment: Moment) -> PinPositions {
         let held = |place: usize| Some((self.places[place], self.point_at(place, moment)?));
         (0..self.places.len()).filter_map(held).collect()
     }
 
-    /// Where a place of the boundary is held; none where it is not.
+    /// Position of a place of the boundary if it is held.
     fn point_at(&self, place: usize, moment: Moment) -> Option<DVec2> {
         let Moment { stage, share } = moment;
         let arrived = self.round.point(self.angles[place]);
@@ -201,13 +205,14 @@ impl Half {
         }
     }
 
-    /// Where a place stays on the arc between its ends, as a share of it.
+    /// Final position of a place on the arc between its ends, as a share of the arc.
     fn share_of_arc(&self, apex: Apex) -> f64 {
         let [a, b] = apex.ends.map(|end| self.angles[end]);
         (self.angles[apex.place] - a).rem_euclid(TAU) / (b - a).rem_euclid(TAU)
     }
 
-    /// The weights at a moment: while a layer is released, its apexes come to depend on the ends of their sides alone.
+    /// Weights at a moment. During the release of a layer, its apexes shift to depend on the ends of their sides
+    /// alone.
     pub(super) fn equations_at(&self, moment: Moment) -> Equations<f64> {
         let mut equations = self.equations.clone();
         let Some(since) = moment.stage.checked_sub(FIRST_RELEASE).filter(|since| since % 2 == 0) else {
@@ -233,7 +238,7 @@ impl Half {
     }
 }
 
-/// By how much the direction of each corner's outer normals is ahead of its direction on the circle.
+/// Angle by which the direction of each corner's outer normals leads its direction on the circle.
 fn ahead_of(corners: &[usize], polygon: &[DVec2], angles: &[f64]) -> Vec<f64> {
     let count = corners.len();
     let outward = |k: usize| {
@@ -244,7 +249,7 @@ fn ahead_of(corners: &[usize], polygon: &[DVec2], angles: &[f64]) -> Vec<f64> {
     (0..count)
         .map(|k| {
             let found = (outward(k + count - 1) + outward(k)).to_angle();
-            // Directions ascend once around, as those on the circle do.
+            // Directions ascend once around, as on the circle.
             let ascended = direction.map_or(found, |before: f64| before + (found - before).rem_euclid(TAU));
             direction = Some(ascended);
             ascended - angles[corners[k]]

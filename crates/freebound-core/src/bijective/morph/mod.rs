@@ -1,39 +1,42 @@
-//! Planar morphs: from one planar embedding of a mesh to another in frames, every frame proved one-to-one. What lies between two
-//! frames is not proved. Half way, where what is turned half around falls together, is always looked at.
+//! Planar morphs: from one planar embedding of a mesh to another in frames, every frame proved one-to-one. The motion
+//! between two frames is not proved. The middle is always tested, because anything that turns by half a turn collapses
+//! there.
 //!
 //! # Method
 //!
-//! C. Gotsman, V. Surazhsky, "Guaranteed intersection-free polygon morphing", 2001, after M. Floater, C. Gotsman, "How to
-//! morph tilings injectively", 1999. Within a fixed convex frame a planar embedding is the solution of a system with positive
-//! weights, its own mean-value weights: each row of λ₀ and λ₁ adds up to 1. Rows between them are positive, too:
+//! C. Gotsman, V. Surazhsky, "Guaranteed intersection-free polygon morphing", 2001, after M. Floater, C. Gotsman, "How
+//! to morph tilings injectively", 1999. Within a fixed convex frame, a planar embedding solves a system with positive
+//! weights: its own mean-value weights, scaled such that each row of λ₀ and λ₁ adds up to 1. Rows between them are
+//! positive, too:
 //!
 //! ```text
-//! λ(t) = (1 − t) λ₀ + t λ₁        A(λ(t)) z(t) = 0,  the frame where it is
+//! λ(t) = (1 − t) λ₀ + t λ₁        A(λ(t)) z(t) = 0,  with the frame fixed
 //! ```
 //!
-//! and so, by Tutte's and Floater's theorem, z(t) is planar for each t between 0 and 1: in exact arithmetic. In numbers of 64 bits
-//! each frame is proved by itself, and a way with a frame that is not is none.
+//! By the theorem of Tutte and Floater, z(t) is planar for each t between 0 and 1, in exact arithmetic. In 64-bit
+//! numbers each frame is proved by itself. A route with an unproved frame is rejected.
 //!
-//! # Ways
+//! # Routes
 //!
-//! They are tried in this order. The first that is proved at every frame is taken: where straight lines serve, nothing moves
-//! that need not (V. Surazhsky, C. Gotsman, "Controllable morphing of compatible planar triangulations", 2001).
+//! Routes are tried in this order. The first route whose frames are all proved is returned. Straight lines come first,
+//! so that nothing moves without need (V. Surazhsky, C. Gotsman, "Controllable morphing of compatible planar
+//! triangulations", 2001).
 //!
-//! | way | what moves | where it serves |
+//! | route | motion | works if |
 //! |---|---|---|
-//! | [`Route::Straight`] | vertices along straight lines | where no frame folds |
-//! | [`Route::Turned`] | the same, turned and scaled along | where no frame folds |
-//! | [`Route::Boundary`] | weights, within a boundary that moves straight | boundaries that are convex throughout |
-//! | [`Route::Outside`] | weights of mesh and outside, within a fixed frame | outsides that are triangulated alike |
-//! | [`Route::Circle`] | weights, while pockets are opened one layer after the other until the boundary is a circle, and back | always, but for rounding |
+//! | [`Route::Straight`] | vertices along straight lines | no frame folds |
+//! | [`Route::Turned`] | vertices along straight lines, in a plane that turns and scales | no frame folds |
+//! | [`Route::Boundary`] | weights, within a boundary that moves straight | the boundary is convex throughout |
+//! | [`Route::Outside`] | weights of mesh and outside, in a fixed frame | a common outside triangulation exists |
+//! | [`Route::Circle`] | weights, while pockets open to a circle by layers, and back | always, except for rounding |
 //!
-//! | file | what |
+//! | file | contents |
 //! |---|---|
-//! | `mod.rs` | the morph: ways in their order, each frame proved |
-//! | `turn.rs` | what a similarity between the two ends has to do with the way |
-//! | `blend.rs` | weights between those of two embeddings, and the systems that they make |
-//! | `outside.rs` | an outside of both ends, triangulated alike |
-//! | `circle.rs`, `half.rs`, `pockets.rs` | the way through a circle; one half of it; the layers of pockets around a boundary |
+//! | `mod.rs` | the morph: routes in order, each frame proved |
+//! | `turn.rs` | similarity between the two ends, applied along the route |
+//! | `blend.rs` | weights between those of two embeddings, and their linear systems |
+//! | `outside.rs` | an outside of both ends with a common triangulation |
+//! | `circle.rs`, `half.rs`, `pockets.rs` | route through a circle; one half of it; layers of pockets |
 
 mod blend;
 mod circle;
@@ -52,12 +55,12 @@ use blend::Blend;
 use circle::Circle;
 use turn::Turn;
 
-/// By what way a morph goes.
+/// Route of a morph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Route {
-    /// Every vertex goes straight.
+    /// Every vertex moves straight.
     Straight,
-    /// Every vertex goes straight in a plane that is turned and scaled along.
+    /// Every vertex moves straight in a plane that turns and scales.
     Turned,
     /// Weights are interpolated within a convex boundary.
     Boundary,
@@ -68,10 +71,10 @@ pub enum Route {
 }
 
 impl Route {
-    /// All ways, in the order in which they are tried.
+    /// All routes, in the order in which they are tried.
     pub const ALL: [Self; 5] = [Self::Straight, Self::Turned, Self::Boundary, Self::Outside, Self::Circle];
 
-    /// A fixed name of it.
+    /// Fixed name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Straight => "straight",
@@ -82,24 +85,24 @@ impl Route {
         }
     }
 
-    /// How it goes, in a few lower-case words.
+    /// Short lower-case description.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Straight => "straight",
-            Self::Turned => "straight, turned along",
-            Self::Boundary => "by weights, within a convex boundary",
-            Self::Outside => "by weights, within a frame",
-            Self::Circle => "by weights, through a circle",
+            Self::Turned => "straight, with rotation",
+            Self::Boundary => "interpolated weights, convex boundary",
+            Self::Outside => "interpolated weights, within a frame",
+            Self::Circle => "interpolated weights, through a circle",
         }
     }
 }
 
-/// What is sought.
+/// Options of a morph.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MorphOptions {
-    /// How many frames there are, both ends included: two at least.
+    /// Number of frames, both ends included. Values below 2 count as 2. Default: 33.
     pub frame_count: usize,
-    /// The ways that are tried, in their order.
+    /// Routes to try, in order. Default: [`Route::ALL`].
     pub routes: Vec<Route>,
 }
 
@@ -109,29 +112,29 @@ impl Default for MorphOptions {
     }
 }
 
-/// A way from one embedding to another, both among its frames, each proved one-to-one.
+/// Morph from one embedding to another. Both are among its frames, each proved one-to-one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Morph {
-    /// How it goes.
+    /// Route that was taken.
     pub route: Route,
-    /// Embeddings at equal times, from the one to the other.
+    /// Embeddings at equal time steps, from the first end to the second.
     pub frames: Vec<Embedding>,
 }
 
-/// Why there is no morph.
+/// Reason for the lack of a morph.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoMorph {
-    /// One of the two embeddings is not one-to-one.
-    #[error("only embeddings that are proved one-to-one have a planar morph between them")]
+    /// An end is not one-to-one.
+    #[error("an embedding is not proved one-to-one: a planar morph needs two that are")]
     EndFolds,
-    /// One of them is a mirror image.
-    #[error("one of the two embeddings is a mirror image: every way to the other one folds")]
+    /// Exactly one end is a mirror image.
+    #[error("one of the two embeddings is mirrored: every morph between them folds")]
     Mirrored,
-    /// Every way has a frame that is not proved.
-    #[error("every way that was tried has a frame that is not proved one-to-one")]
+    /// Every route has a frame that is not proved.
+    #[error("every route tried has a frame that is not proved one-to-one")]
     NoWay,
-    /// The caller asked to stop.
+    /// The caller cancelled.
     #[error("the morph was cancelled")]
     Cancelled,
 }
@@ -161,12 +164,12 @@ pub fn morph(
     }
     let [from, to] = ends.map(mirrored);
     let mut found = upright_morph(mesh, [&from, &to], options, control)?;
-    // One after the other: not all of them twice in memory.
+    // Frames are mirrored in place, so that memory holds them once.
     found.frames.iter_mut().for_each(|frame| *frame = mirrored(frame));
     Ok(found)
 }
 
-/// Whether the faces of a one-to-one embedding are positive: one of them is.
+/// True if the faces of a one-to-one embedding are positive, tested on one face.
 fn is_upright(mesh: &DiskMesh, embedding: &Embedding) -> bool {
     mesh.faces().take(1).all(|face| {
         let [a, b, c] = embedding.corners(mesh, face);
@@ -174,16 +177,16 @@ fn is_upright(mesh: &DiskMesh, embedding: &Embedding) -> bool {
     })
 }
 
-/// The mirror image: exact.
+/// Mirror image, exact.
 fn mirrored(embedding: &Embedding) -> Embedding {
     embedding.iter().map(|z| DVec2::new(-z.x, z.y)).collect()
 }
 
-/// Why one way gives no morph.
+/// Reason for the failure of one route.
 #[derive(Debug)]
 enum Miss {
     Cancelled,
-    /// It is not for these ends, a system has no solution, or a frame is not proved.
+    /// The route does not apply to these ends, a system has no solution, or a frame is not proved.
     NotThisWay,
 }
 
@@ -210,7 +213,7 @@ fn upright_morph(
     Err(NoMorph::NoWay)
 }
 
-/// What a way is sought for. Faces of both ends are positive.
+/// Search for a morph. The faces of both ends are positive.
 struct Search<'a> {
     mesh: &'a DiskMesh,
     ends: [&'a Embedding; 2],
@@ -219,7 +222,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// All frames of one way.
+    /// All frames of one route.
     fn along(&self, route: Route) -> Result<Vec<Embedding>, Miss> {
         let [from, to] = self.ends;
         let turn = &self.turn_along(route);
@@ -243,8 +246,8 @@ impl Search<'_> {
         }
     }
 
-    /// What is turned along a way: all vertices by what fits them best, or boundaries by what fits these, so that one that
-    /// is the same at both ends stays where it is.
+    /// Similarity applied along a route: the best fit of all vertices for [`Route::Turned`], of the boundaries for
+    /// routes by weights. A boundary that is equal at both ends therefore stays fixed.
     fn turn_along(&self, route: Route) -> Turn {
         let [from, to] = self.ends;
         match route {
@@ -256,7 +259,7 @@ impl Search<'_> {
         }
     }
 
-    /// The frames of interpolated weights.
+    /// Frames with interpolated weights.
     fn blended(&self, blend: &Blend, turn: &Turn) -> Result<Vec<Embedding>, Miss> {
         let mut latest = blend.points_at_start();
         self.frames(|t| {
@@ -265,7 +268,8 @@ impl Search<'_> {
         })
     }
 
-    /// The frames of a way that is asked for them in turn, each proved; and half way, where no frame is, what is there.
+    /// All frames of a route, each proved. Also proves the middle if no frame is there. `at` is called at ascending
+    /// times.
     fn frames(&self, mut at: impl FnMut(f64) -> Result<Embedding, Miss>) -> Result<Vec<Embedding>, Miss> {
         let last = self.frame_count - 1;
         let mut proved = |t: f64| {
@@ -277,7 +281,7 @@ impl Search<'_> {
         };
         let mut frames = vec![self.ends[0].clone()];
         for k in 1..=last {
-            // A way is asked for its embeddings in the order of their times.
+            // Embeddings are requested in the order of their times.
             if 2 * k == last + 1 {
                 proved(0.5)?;
             }
@@ -294,7 +298,7 @@ fn straight([from, to]: [&Embedding; 2], t: f64) -> Embedding {
     from.iter().zip(to).map(|(&a, &b)| toward([a, b], t)).collect()
 }
 
-/// A point at a share of the way from one to another; exactly there where both are the same.
+/// Point at a share of the way between two points. Exact if both are equal.
 fn toward([from, to]: [DVec2; 2], share: f64) -> DVec2 {
     from + share * (to - from)
 }

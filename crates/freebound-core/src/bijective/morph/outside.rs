@@ -1,18 +1,19 @@
-//! An outside of two embeddings, triangulated alike: each triangle positive around both.
+//! Outside of two embeddings with a common triangulation: each triangle is positive around both.
 //!
-//! The frame is a circle's polygon around both. Four triangulations are tried: those that suit one end, or the mean of both,
-//! and one without pockets, each triangle of which has a corner on the frame.
+//! The frame is a regular polygon around both. Four triangulations are tried: those of the mean of both ends and of
+//! each end, and one without pockets, in which each triangle has a corner on the frame.
 //!
 //! # Without pockets
 //!
-//! Such a triangulation goes around boundary and frame once, a side of either at a time:
+//! A triangulation without pockets goes around boundary and frame once, by one side of either at a time:
 //!
 //! ```text
 //! (i, j) → (i + 1, j)    triangle of the boundary's side i and the frame's corner j
 //! (i, j) → (i, j + 1)    triangle of the frame's side j and the boundary's vertex i
 //! ```
 //!
-//! from (0, j₀) to (n, j₀ + m) through triangles that are positive at both ends. Whether there is a way is found row by row.
+//! from (0, j₀) to (n, j₀ + m) through triangles that are positive at both ends. A row-by-row search decides if it
+//! exists.
 
 use glam::DVec2;
 
@@ -28,7 +29,7 @@ const FRAME_CORNERS: u32 = 16;
 /// Radius of the frame, relative to half the diagonal of the box around both ends.
 const FRAME_RADIUS: f64 = 1.3;
 
-/// Mesh and outside of both ends; none where no outside is found that suits both.
+/// Blend of mesh and outside of both ends. `None` if no outside fits both.
 pub(super) fn common_outside(
     mesh: &DiskMesh,
     ends: [&Embedding; 2],
@@ -53,7 +54,7 @@ fn is_positive([a, b, c]: [DVec2; 3]) -> bool {
     orientation(a, b, c) == Some(Orientation::CounterClockwise)
 }
 
-/// A strictly convex polygon around points, counter-clockwise.
+/// Strictly convex polygon around points, counter-clockwise.
 fn frame_around(points: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
     let bounds = Bounds::of(points);
     let radius = FRAME_RADIUS * 0.5 * bounds.size().length();
@@ -61,24 +62,24 @@ fn frame_around(points: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
     (0..FRAME_CORNERS).map(|k| bounds.middle() + radius * corner(k)).collect()
 }
 
-/// A triangulation without pockets, from whatever corner of the frame there is one.
+/// Triangulation without pockets, starting at the first possible corner of the frame.
 fn without_pockets(mesh: &DiskMesh, points: &[Embedding; 2], frame: usize) -> Option<Vec<[VertexId; 3]>> {
     let strip = Strip { mesh, points, frame };
     (0..frame).find_map(|first| strip.from(first))
 }
 
-/// What a triangle takes up a side of.
+/// Loop whose side a triangle covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Side {
     Boundary,
     Frame,
 }
 
-/// Boundary and frame, between which triangles stand in one row.
+/// Boundary and frame, with a single strip of triangles between them.
 struct Strip<'a> {
     mesh: &'a DiskMesh,
     points: &'a [Embedding; 2],
-    /// Corners of the frame.
+    /// Number of corners of the frame.
     frame: usize,
 }
 
@@ -92,7 +93,7 @@ impl Strip<'_> {
         VertexId::from_index(self.mesh.vertex_count() + place % self.frame)
     }
 
-    /// The triangle that begins at a place of both and takes up a side of one.
+    /// Triangle that starts at a place of each loop and covers a side of one.
     fn triangle(&self, [inner, outer]: [usize; 2], side: Side) -> [VertexId; 3] {
         match side {
             Side::Boundary => [self.inner(inner + 1), self.inner(inner), self.outer(outer)],
@@ -104,10 +105,10 @@ impl Strip<'_> {
         self.points.iter().all(|points| is_positive(triangle.map(|v| points[v])))
     }
 
-    /// The row of triangles that begins between the boundary's first vertex and a corner of the frame, where there is one.
+    /// Strip of triangles that starts between the boundary's first vertex and a corner of the frame, if there is one.
     fn from(&self, first: usize) -> Option<Vec<[VertexId; 3]>> {
         let (rows, columns) = (self.mesh.boundary_loop().len() + 1, self.frame + 1);
-        // How each place of both is come to, where it is.
+        // Last step to each pair of places, if it can be reached.
         let mut come_by: Vec<Option<Side>> = vec![None; rows * columns];
         for at in 0..rows * columns {
             let (i, j) = (at / columns, at % columns);

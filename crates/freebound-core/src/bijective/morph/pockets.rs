@@ -1,8 +1,9 @@
-//! The pockets between a simple polygon and its hull, in layers.
+//! Pockets between a simple polygon and its hull, in layers.
 //!
-//! A pocket is a polygon between a side of the hull and the boundary. Its triangles make a tree, whose root stands on the side of
-//! the hull: each triangle has an outer side and an *apex*, which no triangle nearer to the hull has. Apexes as far from the
-//! root are one layer. Where all nearer layers are taken away, a layer's apexes are the ones behind single triangles.
+//! A pocket is a polygon between a side of the hull and the boundary. Its triangles form a tree with its root on the
+//! side of the hull. Each triangle has an outer side and an *apex*, a corner of no triangle nearer to the hull. Apexes
+//! at equal distance from the root form a layer. If all nearer layers are removed, each apex of a layer lies behind a
+//! single triangle.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,27 +11,27 @@ use glam::DVec2;
 
 use crate::geom::{convex_hull, outside_triangles};
 
-/// A place of the boundary between two others, which it has before and behind it in the loop.
+/// Place of the boundary between two others, the ends: the first precedes it in the loop, the second follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Apex {
     pub(super) place: usize,
     pub(super) ends: [usize; 2],
 }
 
-/// The pockets of a simple polygon, counter-clockwise; everything by places in its loop.
+/// Pockets of a simple polygon, counter-clockwise. All numbers are places in its loop.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Pockets {
-    /// Corners of the hull, in the order of the loop.
+    /// Corners of the hull, in loop order.
     pub(super) corners: Vec<usize>,
-    /// What lies within sides of the hull, between its ends.
+    /// Places within sides of the hull, between the ends of the side.
     pub(super) within_sides: Vec<Apex>,
-    /// Apexes of the triangles, between the ends of their outer sides: those next to the hull first.
+    /// Apexes of the triangles between the ends of their outer sides, those next to the hull first.
     pub(super) layers: Vec<Vec<Apex>>,
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
 impl Pockets {
-    /// Those of a polygon; none where it is not simple.
+    /// Pockets of a polygon. `None` if it is not simple.
     pub(super) fn of(polygon: &[DVec2]) -> Option<Self> {
         let triangles = outside_triangles(polygon, &[])?;
         let layers = layers(&triangles, polygon.len())?;
@@ -48,7 +49,7 @@ impl Pockets {
     }
 }
 
-/// The triangles' apexes, from the hull inward. None where a place is the apex of two.
+/// Apexes of the triangles, from the hull inward. `None` if a place is the apex of two triangles.
 fn layers(triangles: &[[u32; 3]], count: usize) -> Option<Vec<Vec<Apex>>> {
     let sides = |t: usize| {
         let [a, b, c] = triangles[t].map(|corner| corner as usize);
@@ -83,10 +84,10 @@ fn layers(triangles: &[[u32; 3]], count: usize) -> Option<Vec<Vec<Apex>>> {
     Some(layers.into_iter().filter(|layer: &Vec<Apex>| !layer.is_empty()).collect())
 }
 
-/// A place with the ends of a side, that before it in the loop first.
+/// Place with the ends of a side; the end that precedes it in the loop comes first.
 fn between(place: usize, [a, b]: [usize; 2], count: usize) -> Apex {
     let behind = |end: usize| (end + count - place) % count;
-    // Going on from the place, the end of its pocket comes first.
+    // In loop order from the place, the second end is met first.
     let ends = if behind(b) < behind(a) { [a, b] } else { [b, a] };
     Apex { place, ends }
 }

@@ -1,10 +1,10 @@
-//! Which neighbour a vertex may be moved onto, so that it is gone: the best of those that leave all triangles in order.
+//! Collapse of a vertex onto a neighbour: the best neighbour for which all triangles stay valid.
 //!
-//! A vertex v that moves onto its neighbour u takes two triangles with it, and the others at v become a fan from u. In the
-//! plane all of the fan, the outside's part too, has to be positive, exactly: then surface and outside still cover the
-//! frame once, and no edge is there twice. In space the fan's triangles must not be thin, nor turned away from those that
-//! they stand for, and between space and plane they must not be much more distorted. Without an embedding, u and v must have
-//! no other neighbours in common than the corners across from their edge.
+//! Moving a vertex v onto its neighbour u removes two triangles; the other triangles at v become a fan from u. In the
+//! plane all triangles of the fan, also those of the outside, must be positive, exactly. Then surface and outside
+//! still cover the frame once, and no edge is doubled. In space the triangles of the fan must be neither thin nor
+//! turned away from those that they replace. Their distortion from space to plane must not grow much. Without an
+//! embedding, u and v must have no common neighbours except the corners opposite their edge.
 
 use glam::{DVec2, DVec3};
 
@@ -14,44 +14,46 @@ use crate::mesh::VertexId;
 use crate::nonlinear::foldover_energy::{Element, Energy, Stiffness};
 use crate::nonlinear::rest_shape::{THINNEST, laid_flat};
 
-/// Vertices with more neighbours stay.
+/// Most neighbours of a vertex that can be removed.
 const MOST_NEIGHBOURS: usize = 12;
 
-/// The least quality of a new triangle, unless those before were worse: 1 is equilateral, 0 without area.
+/// Least quality of a new triangle, unless a replaced one was worse. Quality is 1 for equilateral triangles, 0 without
+/// area.
 const LEAST_QUALITY: f64 = 0.25;
 
-/// The least cosine between the normals of a new triangle and of those that it stands for.
+/// Least cosine between the normals of a new triangle and of the replaced triangles.
 const LEAST_COSINE: f64 = 0.2;
 
-/// The most energy of a new triangle at the size of those before, or so many times their most. Undistorted it is 2.
+/// Largest energy of a new triangle at the scale of the replaced ones. The energy without distortion is 2.
 const MOST_ENERGY: f64 = 6.0;
+/// Largest ratio of the energy of a new triangle to the largest energy of the replaced ones, if that allows more.
 const MORE_ENERGY: f64 = 2.0;
 
-/// A vertex and the neighbour that it is best moved onto.
+/// Vertex with the best neighbour to move it onto.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Collapse {
-    /// Those of low cost come first.
+    /// Lower costs come first.
     pub(super) cost: f64,
     pub(super) vertex: u32,
-    /// The neighbour's place in the ring.
+    /// Place of the neighbour in the ring.
     pub(super) onto: usize,
 }
 
-/// The triangles at a vertex.
+/// Triangles at a vertex.
 struct Star {
     /// Sum of the vector areas in space, doubled.
     normal: DVec3,
     /// Sum of the areas in space, doubled.
     area: f64,
-    /// Length in the plane by length in space.
+    /// Length in the plane per length in space.
     scale: f64,
     least_quality: f64,
     most_energy: f64,
 }
 
 impl Surface<'_> {
-    /// The best way to take a vertex away, if there is any. No edge comes to be between two vertices that are kept: where
-    /// these are to go, none may be.
+    /// Best collapse of a vertex, if any. No collapse creates an edge between two kept vertices: at their targets,
+    /// such an edge may be impossible.
     pub(super) fn best_collapse(&self, vertex: u32, kept: &[bool], ring: &mut Ring) -> Option<Collapse> {
         if kept[vertex as usize] || !self.find_ring(vertex, ring) || ring.len() > MOST_NEIGHBOURS {
             return None;
@@ -87,7 +89,7 @@ impl Surface<'_> {
         Star { normal, area, scale, least_quality, most_energy }
     }
 
-    /// The least quality of the fan from a neighbour; `None` where that is not in order.
+    /// Least quality of the fan from a neighbour. `None` if a triangle of the fan is not valid.
     fn quality_onto(&self, onto: usize, ring: &Ring, star: &Star) -> Option<f64> {
         let u = ring.at(onto);
         let sides = (1..ring.len() - 1).map(|by| (onto + by) % ring.len());
@@ -117,7 +119,7 @@ impl Surface<'_> {
         Some(worst)
     }
 
-    /// Whether no edge of the fan from a neighbour is there already.
+    /// True if no edge of the fan from a neighbour exists already.
     fn leaves_edges_apart(&self, onto: usize, ring: &Ring) -> bool {
         let is_next = |place: usize| {
             let apart = place.abs_diff(onto);
@@ -139,14 +141,14 @@ impl Surface<'_> {
         (b - a).cross(c - a)
     }
 
-    /// 4√3 area / Σ side².
+    /// Quality of a triangle in space: 4√3 area / Σ side².
     fn quality(&self, face: [u32; 3]) -> f64 {
         let [a, b, c] = self.in_space(face);
         let squares = a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a);
         if squares == 0.0 { 0.0 } else { 2.0 * 3_f64.sqrt() * (b - a).cross(c - a).length() / squares }
     }
 
-    /// Half the symmetric Dirichlet energy of a triangle's map, at rest so many times as large as in space.
+    /// Symmetric Dirichlet energy, halved, of a triangle's map from its shape in space scaled by `scale`.
     fn energy(&self, face: [u32; 3], scale: f64) -> f64 {
         let flat = laid_flat(self.mesh.shape(face.map(VertexId::new))).map(|z| scale * z);
         Element::new([0, 1, 2], flat, Stiffness { weight: 1.0, thinnest: THINNEST })

@@ -1,4 +1,4 @@
-//! Vertices taken from a disk, round by round.
+//! Removal of vertices from a disk, round by round.
 
 use crate::parallel::prelude::*;
 
@@ -8,67 +8,69 @@ use super::surface::{Ring, Surface};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::{Control, Embedding, Phase, SolveError};
 
-/// The corner of a boundary vertex's polygon that lies outside, and is no vertex.
+/// Corner of a boundary vertex's polygon that lies outside and is not a vertex.
 pub(super) const OUTSIDE: u32 = u32::MAX;
 
-/// Candidates of a round that may be removed, those of the lowest cost: 3 of 5. Small triangles go first.
+/// Numerator of the share of candidates that a round may remove, lowest cost first. Small triangles go first.
 const REMOVED: usize = 3;
+/// Denominator of that share.
 const REMOVED_OF: usize = 5;
 
-/// A round that takes less than this share of the vertices is the last.
+/// Least share of the vertices that a round must remove; a smaller round is dropped and ends the removal.
 const LEAST_SHARE: f64 = 0.01;
 
-/// From level to level there are so many times as many vertices.
+/// Ratio of vertex counts between successive levels.
 const FACTOR: usize = 4;
 
-/// A disk with fewer and fewer vertices, down to a coarse one, and what is needed to put them back.
+/// Hierarchy of coarser disks, with the data for putting the vertices back.
 #[derive(Debug)]
 pub struct Hierarchy {
-    /// In the order in which they were taken.
+    /// Rounds in order of removal.
     pub(super) rounds: Vec<Round>,
-    /// Disks on the way, by the number of rounds that led to them, finest first.
+    /// Intermediate disks, each with the number of rounds before it, finest first.
     pub(super) levels: Vec<(usize, Level)>,
     coarsest: Level,
 }
 
-/// Vertices that were taken at once: no two are neighbours.
+/// Vertices that were removed at once: no two are neighbours.
 #[derive(Debug)]
 pub(super) struct Round {
     pub(super) removed: Vec<Removed>,
-    /// The boundary without them, where any of them lay on it.
+    /// Boundary without the removed vertices. Empty if none lay on the boundary.
     pub(super) boundary: Vec<u32>,
 }
 
-/// A vertex that was taken.
+/// Removed vertex.
 #[derive(Debug)]
 pub(super) struct Removed {
     pub(super) vertex: u32,
-    /// Its neighbours, counter-clockwise, from the one on that it was moved onto. At the boundary [`OUTSIDE`] stands
-    /// between the last and the first.
+    /// Neighbours, counter-clockwise, starting with the one that the vertex was moved onto. At the boundary
+    /// [`OUTSIDE`] stands for the outside.
     pub(super) polygon: Vec<u32>,
 }
 
 impl Removed {
-    /// Sides of the polygon that are sides of faces of the vertex, by the place of their first corner.
+    /// Sides of the polygon that belong to faces of the vertex, by the place of their first corner.
     pub(super) fn sides(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.polygon.len()).filter(|&k| !self.side(k).contains(&OUTSIDE))
     }
 
-    /// A side of the polygon.
+    /// Side of the polygon, from corner `k` to the next.
     pub(super) fn side(&self, k: usize) -> [u32; 2] {
         [self.polygon[k], self.polygon[(k + 1) % self.polygon.len()]]
     }
 
-    /// The triangles that fill its place, as places in the polygon.
+    /// Triangles that fill the polygon, as places in it.
     pub(super) fn fan(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
         self.sides().filter(|&k| k > 0 && k + 1 < self.polygon.len()).map(|k| [0, k, k + 1])
     }
 }
 
 impl Hierarchy {
-    /// Takes vertices from a disk in a planar embedding until about `target` are left or no more can go, without those
-    /// that are kept. It is the same for any number of threads. `None` where the mesh has holes that were filled, and
-    /// where too few vertices can go.
+    /// Removes vertices of a disk in a planar embedding until about `target` are left or no more can go. Vertices for
+    /// which `keeps` is true stay. The result does not depend on the number of threads.
+    ///
+    /// `None` if the mesh has filled holes, or if not even one round removes enough vertices.
     ///
     /// # Errors
     ///
@@ -83,7 +85,7 @@ impl Hierarchy {
         Self::of(Surface::new(mesh, embedding), keeps, target, control)
     }
 
-    /// The same where there is no embedding yet: the shape of the surface alone says which vertices can go.
+    /// Removes vertices without an embedding, by the shape of the surface alone. Otherwise like [`Hierarchy::new`].
     ///
     /// # Errors
     ///
@@ -132,19 +134,19 @@ impl Hierarchy {
         Ok(Some(Self { rounds, levels, coarsest }))
     }
 
-    /// The disk with the fewest vertices.
+    /// Disk with the fewest vertices.
     pub fn coarsest(&self) -> &Level {
         &self.coarsest
     }
 
-    /// The disks between that and the mesh as given, finest first.
+    /// Disks between the coarsest one and the input mesh, finest first.
     pub fn levels(&self) -> impl DoubleEndedIterator<Item = &Level> {
         self.levels.iter().map(|(_, level)| level)
     }
 }
 
 impl Surface<'_> {
-    /// Vertices that can go at once, `most` of them at most.
+    /// Vertices that can be removed at once, at most `most`.
     fn round(&self, left: &[u32], kept: &[bool], most: usize) -> Vec<Removed> {
         let mut found: Vec<Collapse> = left
             .par_iter()
@@ -156,7 +158,7 @@ impl Surface<'_> {
         found.truncate((found.len() * REMOVED).div_ceil(REMOVED_OF));
         let mut is_blocked = vec![false; self.points.len()];
         let mut ring = Ring::default();
-        // A boundary of three vertices is the last that there can be.
+        // The boundary must keep three vertices.
         let mut spare = self.boundary.len().saturating_sub(3);
         let mut removed = Vec::new();
         for Collapse { vertex, onto, .. } in found {
@@ -179,7 +181,7 @@ impl Surface<'_> {
         removed
     }
 
-    /// Takes vertices away.
+    /// Removes vertices, and fills their polygons.
     fn take(&mut self, removed: &[Removed], left: &mut Vec<u32>) {
         let mut is_gone = vec![false; self.vertex_count()];
         for removed in removed {
@@ -195,7 +197,7 @@ impl Surface<'_> {
     }
 }
 
-/// The polygon that a vertex leaves, from the neighbour on that it is moved onto.
+/// Polygon that a vertex leaves, starting with the neighbour that it is moved onto.
 fn polygon(ring: &Ring, onto: usize) -> Vec<u32> {
     let mut polygon = if ring.is_of_boundary() { ring.vertices[..=ring.inner].to_vec() } else { ring.vertices.clone() };
     if ring.is_of_boundary() {

@@ -1,21 +1,21 @@
-//! A surface with fewer vertices: a disk of its own, whose vertices know their numbers in the mesh as given.
+//! Level of a hierarchy: a disk with fewer vertices, each with its number in the input mesh.
 
 use glam::DVec2;
 
 use crate::mesh::{DiskMesh, TriMesh, VertexId};
 use crate::problem::{Embedding, Pins};
 
-/// A disk of some of a mesh's vertices.
+/// Disk over some vertices of a mesh.
 #[derive(Debug)]
 pub struct Level {
     /// The disk.
     pub disk: DiskMesh,
-    /// For each of its vertices the number in the mesh as given, ascending.
+    /// Number of each vertex in the input mesh, ascending.
     pub vertices: Vec<VertexId>,
 }
 
 impl Level {
-    /// Triangles over some of a mesh's vertices; `None` where they are no disk.
+    /// Disk of triangles over some vertices of a mesh. `None` if they do not form a disk.
     pub(super) fn new(mesh: &DiskMesh, triangles: &[[u32; 3]]) -> Option<Self> {
         let mut place = vec![u32::MAX; mesh.vertex_count()];
         triangles.iter().flatten().for_each(|&v| place[v as usize] = 0);
@@ -30,18 +30,18 @@ impl Level {
         Some(Self { disk, vertices })
     }
 
-    /// Its part of an embedding of the mesh as given.
+    /// Restriction of an embedding of the input mesh to this level.
     pub fn part_of(&self, points: &[DVec2]) -> Embedding {
         self.vertices.iter().map(|vertex| points[vertex.index()]).collect()
     }
 
-    /// Its part of pins of the mesh as given.
+    /// Restriction of pins of the input mesh to this level.
     pub fn pins_of(&self, pins: &Pins) -> Pins {
         let of = |(place, vertex): (usize, &VertexId)| Some((VertexId::from_index(place), *pins.get(vertex)?));
         self.vertices.iter().enumerate().filter_map(of).collect()
     }
 
-    /// Lays its vertices among those of the mesh as given.
+    /// Writes the positions of this level's vertices into positions of the input mesh.
     pub(super) fn put_into(&self, embedding: &Embedding, points: &mut [DVec2]) {
         for (vertex, z) in self.vertices.iter().zip(embedding) {
             points[vertex.index()] = *z;

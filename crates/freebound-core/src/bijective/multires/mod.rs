@@ -1,27 +1,27 @@
-//! Coarse to fine: a disk with fewer vertices is solved first, and the others are put back one-to-one.
+//! Coarse to fine: solves a disk with fewer vertices first, then puts the other vertices back one-to-one.
 //!
-//! | file | holds |
+//! | file | contents |
 //! |---|---|
-//! | `hierarchy.rs` | [`Hierarchy`]: vertices taken from a disk, round by round |
-//! | `surface.rs` | the triangles of a round with those of the outside, and the neighbours of each vertex |
-//! | `collapse.rs` | which neighbour a vertex may be moved onto |
+//! | `hierarchy.rs` | [`Hierarchy`]: removal of vertices from a disk, round by round |
+//! | `surface.rs` | triangles of a round with those of the outside, and the neighbours of each vertex |
+//! | `collapse.rs` | choice of the neighbour that a vertex is moved onto |
 //! | `level.rs` | [`Level`]: a disk of some of the vertices |
-//! | `lift.rs` | the rounds backwards: all vertices put back |
+//! | `prolong.rs` | rounds in reverse: all vertices put back |
 //! | `place.rs` | one vertex put back into the polygon that it left |
-//! | `sweep.rs` | vertices moved one after another to where their own triangles are least distorted |
+//! | `relaxation_sweep.rs` | vertices moved one after another to where their own triangles are least distorted |
 //!
-//! A vertex is taken by moving it onto a neighbour, where that leaves all triangles positive in a planar embedding, those of
-//! the outside included. It is put back into the polygon of its neighbours in another embedding of what is left. That
-//! polygon is star-shaped, seen from the corner that the vertex was moved onto, for the triangles that fill it are
-//! positive: near that corner there is always room for it, but for rounding. So a planar embedding of the coarse disk
-//! becomes one of the whole mesh.
+//! A vertex is removed by a collapse onto a neighbour that leaves all triangles of a planar embedding positive,
+//! including those of the outside. Later it is put back into the polygon of its neighbours in another embedding of the
+//! remaining disk. Because the triangles that fill this polygon are positive, the polygon is star-shaped, seen from
+//! the collapse corner. Near that corner there is always room for the vertex, except for rounding. A planar embedding
+//! of the coarse disk thus extends to the whole mesh.
 //!
-//! Where there is no planar embedding yet, vertices are taken by the shape of the surface alone, and the coarse disk is the
-//! place to find one: whatever its embedding, if it is planar, all vertices can be put back.
+//! Without a planar embedding, vertices are removed by the shape of the surface alone. Then the coarse disk is the
+//! place to find a planar embedding: all vertices can be put back into any such embedding.
 //!
 //! After L. Liu, C. Ye, R. Ni, X.-M. Fu, "Progressive parameterizations", 2018, and H. Shen, Z. Jiang, D. Zorin,
-//! D. Panozzo, "Progressive embedding", 2019, from whom it differs in what guides the collapses (an embedding that is
-//! planar already), in rounds of vertices that are far from each other, and in the boundary, which is made coarser too.
+//! D. Panozzo, "Progressive embedding", 2019. Three things differ: an embedding that is planar already guides the
+//! collapses, each round removes vertices that are far from each other, and the boundary is coarsened too.
 
 mod collapse;
 mod hierarchy;

@@ -1,4 +1,4 @@
-//! One vertex put back into the polygon of its neighbours.
+//! Return of one vertex into the polygon of its neighbours.
 
 use glam::{DVec2, DVec3};
 
@@ -6,30 +6,31 @@ use crate::geom::{Orientation, centre_of_gravity, kernel, orientation};
 use crate::nonlinear::foldover_energy::{Element, Energy, Stiffness};
 use crate::nonlinear::rest_shape::{THINNEST, laid_flat};
 
-/// Newton steps of a vertex that is put back, its neighbours held.
+/// Newton steps of a vertex that is put back, with its neighbours held.
 const STEPS: usize = 4;
 
-/// The share of the way to the first fold that a step takes at most, and how often it is halved.
+/// Largest step, as a share of the distance to the first fold.
 const SHARE_BEFORE_FOLD: f64 = 0.8;
+/// Most halvings of a step.
 const HALVINGS: usize = 8;
 
-/// A step that gains a smaller share of the energy is the last.
+/// Least relative gain of a step that is followed by another.
 const TOLERANCE: f64 = 1e-2;
 
-/// Halvings of the way from a corner into the polygon.
+/// Most halvings of the distance from a corner into the polygon.
 const HALVINGS_FROM_CORNER: usize = 60;
 
-/// The polygon that a vertex goes back into.
+/// Polygon that a vertex is put back into.
 pub(super) struct Room<'a> {
-    /// Its corners, counter-clockwise, from the one on that sees all of it.
+    /// Corners, counter-clockwise. The first corner sees the whole polygon.
     pub(super) polygon: &'a [DVec2],
-    /// The triangles of the vertex that resist distortion: the vertex is point 0, the polygon's corners follow.
+    /// Triangles of the vertex that resist distortion. The vertex is point 0; the polygon's corners follow.
     pub(super) elements: &'a [Element],
 }
 
 impl Room<'_> {
-    /// Where the vertex lies with little distortion, all triangles to the polygon's sides positive. A guess is improved,
-    /// if it is such a place. `None` where rounding leaves no room.
+    /// Position of the vertex with little distortion, in which all triangles to the polygon's sides are positive.
+    /// Improves `guess` if that is such a position. `None` if rounding leaves no such position.
     pub(super) fn place(&self, guess: Option<DVec2>) -> Option<DVec2> {
         let middle = || centre_of_gravity(&kernel(self.polygon));
         let in_order = |z: &DVec2| self.is_in_order(*z);
@@ -37,7 +38,7 @@ impl Room<'_> {
         Some(self.improved(begin, STEPS))
     }
 
-    /// Whether all triangles from a point to the polygon's sides are positive.
+    /// True if all triangles from a point to the polygon's sides are positive.
     fn is_in_order(&self, z: DVec2) -> bool {
         self.sides().all(|[a, b]| orientation(z, a, b) == Some(Orientation::CounterClockwise))
     }
@@ -47,7 +48,7 @@ impl Room<'_> {
         self.polygon.iter().zip(next).map(|(a, b)| [*a, *b])
     }
 
-    /// A place as far as may be from the first corner, half of its angle to either side.
+    /// Valid position on the bisector of the first corner's angle, as far as possible from the corner.
     fn near_corner(&self) -> Option<DVec2> {
         let corner = self.polygon[0];
         let to = |z: DVec2| (z - corner).normalize_or_zero();
@@ -68,7 +69,7 @@ impl Room<'_> {
         [z, self.polygon[a as usize - 1], self.polygon[b as usize - 1]]
     }
 
-    /// Lowers the energy from a place in order, within the places in order.
+    /// Minimises the energy from a valid position, through valid positions only.
     pub(super) fn improved(&self, mut z: DVec2, steps: usize) -> DVec2 {
         let mut before = self.energy(z);
         for _ in 0..steps {
@@ -92,7 +93,7 @@ impl Room<'_> {
         z
     }
 
-    /// Newton's direction of the vertex.
+    /// Newton direction of the vertex.
     fn direction(&self, z: DVec2) -> Option<DVec2> {
         let (mut gradient, mut hessian) = (DVec2::ZERO, [0.0; 3]);
         for element in self.elements {
@@ -108,7 +109,7 @@ impl Room<'_> {
     }
 }
 
-/// What a triangle in space, of a vertex and two of its polygon's corners, is at rest, so many times as large.
+/// Element of a triangle in space of a vertex and two polygon corners, with its rest shape scaled by `scale`.
 pub(super) fn resistance(shape: [DVec3; 3], corners: [usize; 2], scale: f64) -> Element {
     let flat = laid_flat(shape).map(|x| scale * x);
     let [p, q, r] = flat;
@@ -124,7 +125,7 @@ pub(super) fn resistance(shape: [DVec3; 3], corners: [usize; 2], scale: f64) -> 
 mod tests {
     use super::*;
 
-    /// Corners of a polygon that its first corner alone sees all of.
+    /// Corners of a polygon whose first corner alone sees all of it.
     fn narrow() -> Vec<DVec2> {
         let corners = [(0.0, 0.0), (4.0, -1.0), (1.0, 0.25), (4.0, 4.0), (0.25, 1.0), (-1.0, 4.0)];
         corners.map(|(x, y)| DVec2::new(x, y)).to_vec()
@@ -136,7 +137,7 @@ mod tests {
         let room = Room { polygon: &polygon, elements: &[] };
         let near = room.near_corner().unwrap();
         assert!(room.is_in_order(near) && near.length() < 1.0, "{near}");
-        // The same where no guess and no kernel of any size helps.
+        // The fallback is also used if neither guess nor kernel gives a valid position.
         assert!(room.place(Some(DVec2::new(3.0, 3.0))).is_some_and(|z| room.is_in_order(z)));
     }
 
@@ -150,7 +151,7 @@ mod tests {
         let room = Room { polygon: &polygon, elements: &elements };
         let far = DVec2::new(0.7, 0.1);
         let z = room.place(Some(far)).unwrap();
-        // By symmetry the middle is best.
+        // By symmetry, the middle is the minimum.
         let [least, here, there] = [DVec2::ZERO, z, far].map(|z| room.energy(z));
         assert!(least <= here && here < 1.02 * least && there > 1.5 * least, "{z}: {least} {here} {there}");
     }

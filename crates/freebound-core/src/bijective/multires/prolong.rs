@@ -1,4 +1,4 @@
-//! The rounds of a hierarchy backwards: all vertices put back, one-to-one.
+//! Prolongation: the rounds of a hierarchy in reverse, which put all vertices back one-to-one.
 
 use std::collections::HashMap;
 
@@ -16,36 +16,39 @@ use crate::nonlinear::rest_shape::laid_flat;
 use crate::nonlinear::scaffold::{FRAME_POINTS, frame_around};
 use crate::problem::{Control, Embedding, Phase, Pins, SolveError};
 
-/// The mesh as given, and where its vertices lay when some were taken.
+/// Input mesh, with its embedding before the removal.
 #[derive(Clone, Copy, Debug)]
 pub struct FineLevel<'a> {
     /// The mesh.
     pub mesh: &'a DiskMesh,
-    /// The embedding that vertices were taken in; without one, any: it says near which neighbours a vertex is tried first.
+    /// Embedding in which vertices were removed. Without one, any embedding; it only determines the first guess of a
+    /// position.
     pub embedding: &'a Embedding,
     /// Vertices that stay where the coarsest disk has them.
     pub pins: &'a Pins,
 }
 
-/// Sweeps over all vertices of a level before it is improved, and over those of the mesh as given.
+/// Relaxation sweeps over a level before it is improved, and over the whole mesh at the end.
 const SWEEPS: usize = 3;
 
-/// For each boundary edge, by its ends in the boundary's direction, the point outside that its new vertex stays before.
+/// Point outside each boundary edge up to which its new vertex may move. Keys are the edge's ends in boundary
+/// direction.
 type Reach = HashMap<[u32; 2], DVec2>;
 
-/// What there is when the vertices of a round are put back.
+/// Surroundings of the vertices that a round puts back.
 struct Around<'a> {
-    /// Positions of the others.
+    /// Positions of all other vertices.
     points: &'a [DVec2],
     reach: Reach,
-    /// Length in the plane by length in space.
+    /// Length in the plane per length in space.
     scale: f64,
 }
 
 impl Hierarchy {
-    /// Puts all vertices back: from a planar embedding of the coarsest disk to one of the mesh as given. `improve` takes
-    /// the embedding of each level on the way, and gives a better one that is planar too. `None` where rounding leaves no
-    /// room for a vertex, and where the outside cannot be triangulated.
+    /// Puts all vertices back: turns a planar embedding of the coarsest disk into a planar one of the input mesh.
+    ///
+    /// `improve` receives the embedding of each intermediate level and must return a planar one. `None` if rounding
+    /// leaves no room for a vertex, or if the outside cannot be triangulated.
     ///
     /// # Errors
     ///
@@ -82,7 +85,7 @@ impl Hierarchy {
     }
 }
 
-/// An embedding after sweeps over all vertices that are not held.
+/// Embedding after relaxation sweeps over all vertices that are not held.
 fn swept(
     disk: &DiskMesh,
     mut embedding: Embedding,
@@ -97,7 +100,7 @@ fn swept(
     Ok(embedding)
 }
 
-/// Length in the plane by length in space.
+/// Length in the plane per length in space.
 fn scale_of(disk: &DiskMesh, embedding: &Embedding) -> f64 {
     let areas = disk.faces().map(|face| {
         let [x, z] = [laid_flat(disk.shape(disk.face(face))), embedding.corners(disk, face)];
@@ -107,7 +110,7 @@ fn scale_of(disk: &DiskMesh, embedding: &Embedding) -> f64 {
     (plane / space).sqrt()
 }
 
-/// How far out new boundary vertices may go: each edge of the boundary without them has a part of the outside to itself.
+/// Limits of new boundary vertices: each edge of the coarser boundary has a part of the outside to itself.
 fn reach_of(round: &Round, points: &[DVec2]) -> Option<Reach> {
     if round.boundary.is_empty() {
         return Some(Reach::new());
@@ -120,7 +123,7 @@ fn reach_of(round: &Round, points: &[DVec2]) -> Option<Reach> {
     for corners in outside_triangles(&polygon, &frame)? {
         let middle = corners.map(at).iter().sum::<DVec2>() / 3.0;
         for k in 0..3 {
-            // The outside runs along the boundary the other way round.
+            // The outside traverses the boundary in the opposite direction.
             let ends = [corners[(k + 1) % 3], corners[k]].map(|corner| round.boundary.get(corner as usize));
             if let [Some(&from), Some(&to)] = ends {
                 reach.insert([from, to], middle);
@@ -130,7 +133,7 @@ fn reach_of(round: &Round, points: &[DVec2]) -> Option<Reach> {
     Some(reach)
 }
 
-/// Where a vertex goes in its polygon.
+/// Position of a removed vertex in its polygon.
 fn placed(FineLevel { mesh, embedding, .. }: FineLevel<'_>, removed: &Removed, around: &Around<'_>) -> Option<DVec2> {
     let Around { points, reach, scale } = around;
     let corners = &removed.polygon;
@@ -150,7 +153,8 @@ fn placed(FineLevel { mesh, embedding, .. }: FineLevel<'_>, removed: &Removed, a
     Room { polygon: &polygon, elements: &elements }.place(guess)
 }
 
-/// The point of the same barycentric coordinates in the fan's triangle that held a vertex, or was the nearest to holding it.
+/// Point with equal barycentric coordinates in the triangle of the fan that held the vertex, or came nearest to
+/// holding it.
 fn guess(removed: &Removed, z: DVec2, before: impl Fn(usize) -> DVec2, polygon: &[DVec2]) -> Option<DVec2> {
     let coordinates = |corners: [usize; 3]| {
         let [a, b, c] = corners.map(&before);

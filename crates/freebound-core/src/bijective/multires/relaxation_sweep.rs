@@ -1,7 +1,7 @@
-//! Vertices moved one after another to where their own triangles are least distorted.
+//! Relaxation sweeps: vertices move one after another to where their own triangles are least distorted.
 //!
-//! Vertices that are put back find room between others that were placed without them. What that costs is local, and is
-//! mended locally, at a small part of the price of a Newton step of all vertices together.
+//! Vertices that are put back find room between others that were placed without them. The resulting distortion is
+//! local, and local moves remove it at a small fraction of the cost of a Newton step of all vertices.
 
 use crate::parallel::prelude::*;
 use glam::DVec2;
@@ -10,20 +10,20 @@ use super::place::{Room, resistance};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::Embedding;
 
-/// Newton steps of a vertex in one sweep.
+/// Newton steps per vertex in one sweep.
 const STEPS: usize = 1;
 
-/// What a sweep works on.
+/// Data of the sweeps over one disk.
 pub(super) struct Sweeps<'a> {
     disk: &'a DiskMesh,
-    /// Length in the plane by length in space.
+    /// Length in the plane per length in space.
     scale: f64,
-    /// Vertices that move; no two of one list are neighbours.
+    /// Movable vertices by colour; no two vertices of one list are neighbours.
     colours: Vec<Vec<VertexId>>,
 }
 
 impl<'a> Sweeps<'a> {
-    /// Of all vertices within a disk that are not held.
+    /// Colours all interior vertices that are not held.
     pub(super) fn new(disk: &'a DiskMesh, is_held: impl Fn(VertexId) -> bool, scale: f64) -> Self {
         let mut colours: Vec<Vec<VertexId>> = Vec::new();
         let mut colour_of = vec![usize::MAX; disk.vertex_count()];
@@ -42,7 +42,7 @@ impl<'a> Sweeps<'a> {
         Self { disk, scale, colours }
     }
 
-    /// Moves each vertex once, in an embedding whose faces are all positive. They stay so.
+    /// Moves each vertex once. The faces of `embedding` must be positive, and stay positive.
     pub(super) fn sweep(&self, embedding: &mut Embedding) {
         for vertices in &self.colours {
             let moved: Vec<DVec2> =

@@ -1,4 +1,4 @@
-//! The triangles of one round of collapses, with those of the outside, and the neighbours of each vertex.
+//! Triangles of one round of collapses, with those of the outside, and the neighbours of each vertex.
 
 use glam::DVec2;
 
@@ -6,46 +6,47 @@ use crate::geom::outside_triangles;
 use crate::mesh::{DiskMesh, VertexId};
 use crate::nonlinear::scaffold::{FRAME_POINTS, frame_around};
 
-/// What keeps a surface in order while vertices are taken.
+/// Criterion for the validity of a surface while vertices are removed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Guide {
-    /// A planar embedding: triangles stay positive, those of the outside included.
+    /// Planar embedding: triangles stay positive, including those of the outside.
     Plane,
-    /// The surface alone: no edge comes to be there twice.
+    /// Surface alone: no edge is doubled.
     Space,
 }
 
-/// A surface; in the plane with its outside up to a frame. Vertices have the numbers of the mesh as given; the frame's
-/// points follow.
+/// Surface, in the plane with its outside up to a frame. Vertices have their numbers in the input mesh; points of the
+/// frame follow.
 pub(super) struct Surface<'a> {
     pub(super) mesh: &'a DiskMesh,
     pub(super) guide: Guide,
-    /// Positions in the plane; anywhere where the surface alone guides.
+    /// Positions in the plane. Meaningless for [`Guide::Space`].
     pub(super) points: Vec<DVec2>,
     /// Triangles of the surface.
     pub(super) inner: Vec<[u32; 3]>,
-    /// The boundary, counter-clockwise.
+    /// Boundary, counter-clockwise.
     pub(super) boundary: Vec<u32>,
-    /// Triangles of the outside; none where it cannot be triangulated.
+    /// Triangles of the outside. Empty if it cannot be triangulated.
     outer: Vec<[u32; 3]>,
     stars: Stars,
 }
 
-/// For each vertex its triangles, inner ones first.
+/// Triangles of each vertex, inner ones first.
 #[derive(Default)]
 struct Stars {
     starts: Vec<u32>,
     faces: Vec<u32>,
 }
 
-/// The neighbours of a vertex, counter-clockwise. At a boundary vertex the first one follows it along the boundary, and
-/// those of the outside are the last. Where the surface alone guides there is no outside, and the last one precedes it.
+/// Neighbours of a vertex, counter-clockwise. At a boundary vertex the first is the next vertex of the boundary, and
+/// those of the outside come last. For [`Guide::Space`] there is no outside, and the last is the previous boundary
+/// vertex.
 #[derive(Default)]
 pub(super) struct Ring {
     pub(super) vertices: Vec<u32>,
-    /// How many of its triangles belong to the surface.
+    /// Number of its triangles that belong to the surface.
     pub(super) inner: usize,
-    /// Sides across from the vertex, in any order, the surface's first.
+    /// Sides opposite the vertex, in any order, those of the surface first.
     sides: Vec<[u32; 2]>,
 }
 
@@ -54,19 +55,19 @@ impl Ring {
         self.vertices.len()
     }
 
-    /// Whether it is that of a boundary vertex.
+    /// True if the ring belongs to a boundary vertex.
     pub(super) fn is_of_boundary(&self) -> bool {
         self.inner < self.len()
     }
 
-    /// A neighbour, counted on around the vertex.
+    /// Neighbour at a place, counted cyclically.
     pub(super) fn at(&self, place: usize) -> u32 {
         self.vertices[place % self.len()]
     }
 }
 
 impl<'a> Surface<'a> {
-    /// The faces of a mesh in an embedding.
+    /// Faces of a mesh in an embedding.
     pub(super) fn new(mesh: &'a DiskMesh, embedding: &[DVec2]) -> Self {
         let inner = mesh.faces().map(|face| mesh.face(face).map(VertexId::number)).collect();
         let boundary: Vec<u32> = mesh.boundary_loop().iter().map(|v| v.number()).collect();
@@ -75,13 +76,13 @@ impl<'a> Surface<'a> {
         Self { mesh, guide: Guide::Plane, points, inner, boundary, outer: Vec::new(), stars: Stars::default() }
     }
 
-    /// The same without an embedding.
+    /// Faces of a mesh without an embedding.
     pub(super) fn alone(mesh: &'a DiskMesh) -> Self {
         let nowhere = vec![DVec2::ZERO; mesh.vertex_count()];
         Self { guide: Guide::Space, points: nowhere.clone(), ..Self::new(mesh, &nowhere) }
     }
 
-    /// How many vertices the mesh as given has: higher numbers are the frame's.
+    /// Number of vertices of the input mesh. Higher numbers are points of the frame.
     pub(super) fn vertex_count(&self) -> usize {
         self.mesh.vertex_count()
     }
@@ -104,13 +105,13 @@ impl<'a> Surface<'a> {
         outer.into_iter().map(|corners| corners.map(vertex)).collect()
     }
 
-    /// Whether two vertices are joined by an edge.
+    /// True if an edge joins two vertices.
     pub(super) fn are_joined(&self, v: u32, u: u32) -> bool {
         self.stars.of_vertex(v).iter().any(|&face| self.inner[face as usize].contains(&u))
     }
 
-    /// Finds the neighbours of a vertex. Returns whether they go all around it, or as far as there is a surface where that
-    /// alone guides.
+    /// Finds the neighbours of a vertex. Returns true if they form a closed ring, or, at a boundary vertex with
+    /// [`Guide::Space`], a single fan.
     pub(super) fn find_ring(&self, v: u32, ring: &mut Ring) -> bool {
         ring.sides.clear();
         ring.vertices.clear();
@@ -144,7 +145,7 @@ impl<'a> Surface<'a> {
         }
         while to != first && ring.vertices.len() < all.len() {
             ring.vertices.push(to);
-            // Those of the surface are first, and follow each other.
+            // Sides of the surface come first and are consecutive.
             let Some(&[_, next]) = all.iter().find(|[from, _]| *from == to) else { return false };
             to = next;
         }

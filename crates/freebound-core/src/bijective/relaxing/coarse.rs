@@ -1,37 +1,42 @@
-//! Relaxing by way of a disk with fewer vertices, where an embedding is very distorted.
+//! Relaxing on a disk with fewer vertices first, if an embedding is very distorted.
 
 use super::super::multires::{FineLevel, Hierarchy, Level};
 use super::Relaxing;
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::{Control, Embedding, Pins, SolveError};
 
-/// An energy up to this is lowered directly. Of 20 real disks none ends with more energy for it than with 1000, six end with
-/// less, and three take two thirds of the time.
+/// Largest energy that is lowered directly; above it the round starts on a coarse disk. Compared with 1000 on 20 real
+/// disks: none ends with more energy, six end with less, three take two thirds of the time.
 pub(super) const MOST_DIRECTLY: f64 = 30.0;
 
-/// About how many vertices the coarsest disk has, and so many more for each pin.
+/// Approximate number of vertices of the coarsest disk without pins.
 const COARSE_VERTICES: usize = 400;
+/// Additional vertices of the coarsest disk for each pin.
 const VERTICES_A_PIN: usize = 20;
 
-/// Rounds of the coarsest disk at most, and of those on the way.
+/// Most rounds on the coarsest disk.
 const COARSE_ROUNDS: usize = 60;
+/// Most rounds on each level between the coarsest disk and the mesh.
 const LEVEL_ROUNDS: usize = 3;
 
-/// Smaller meshes go by themselves where constraints follow: of the places where boundaries come to touch, which those
-/// keep, what was relaxed as a whole has somewhat better ones, and there it takes little time.
+/// Least number of vertices for the coarse disk if constraints are met afterwards. Relaxing a smaller mesh directly is
+/// fast, and leads to slightly better places of contact between boundaries, which persist while constraints are met.
 const FROM_VERTICES: usize = 4000;
 
-/// A coarsest disk with more than this part of the vertices is no way: its rounds are hardly shorter than the mesh's.
+/// Largest share of the vertices that the coarsest disk may have. Above it, a coarse round is hardly cheaper than a
+/// full one.
 const COARSE_PART: f64 = 0.6;
 
 impl Relaxing {
-    /// The same as what constraints are met from: on a small mesh, all its vertices from the first round on.
+    /// Prepares for meeting constraints afterwards: a mesh with fewer than [`FROM_VERTICES`] vertices is relaxed
+    /// directly.
     pub(crate) fn before_constraints(self, mesh: &DiskMesh) -> Self {
         let coarse_from = if mesh.used_vertex_count() >= FROM_VERTICES { self.coarse_from } else { f64::INFINITY };
         Self { coarse_from, ..self }
     }
 
-    /// Takes in what relaxing fewer vertices leads to, where the energy is high and falls by that.
+    /// Replaces the embedding by one that was relaxed on a coarse disk, if its energy is high and becomes lower.
+    /// Errors other than cancellation leave it unchanged.
     pub(super) fn go_by_way_of_coarse(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<(), SolveError> {
         let target = COARSE_VERTICES + VERTICES_A_PIN * self.pins.len();
         if self.standing.faces.energy < self.coarse_from || mesh.used_vertex_count() < 2 * target {
@@ -74,17 +79,17 @@ impl Relaxing {
     }
 }
 
-/// Rounds of relaxing of a disk with fewer vertices.
+/// Settings for relaxing a disk with fewer vertices.
 #[derive(Clone, Copy)]
 pub(crate) struct Relaxed<'a> {
-    /// Those of the mesh as given.
+    /// Pins of the input mesh.
     pub(crate) pins: &'a Pins,
     pub(crate) rounds: usize,
     pub(crate) control: Control<'a>,
 }
 
 impl Relaxed<'_> {
-    /// An embedding of the disk after the rounds.
+    /// Embedding of the disk after the rounds.
     pub(crate) fn of(self, level: &Level, embedding: Embedding) -> Result<Embedding, SolveError> {
         let mut relaxing = Relaxing::new(&level.disk, embedding, &level.pins_of(self.pins));
         relaxing.coarse_from = f64::INFINITY;

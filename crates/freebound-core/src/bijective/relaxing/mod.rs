@@ -1,19 +1,19 @@
-//! Relaxing: a planar embedding's distortion is lowered, one-to-one throughout, exact pins where they are.
+//! Relaxing: lowers the distortion of a planar embedding, one-to-one throughout, with hard pins fixed.
 //!
-//! Each round triangulates the outside anew and takes a few Newton steps down the symmetric Dirichlet energy of mesh and
-//! outside (J. Smith, S. Schaefer, "Bijective parameterization with free boundaries", 2015). While some face is nearly
-//! without area, the foldover energy goes first, which is less steep there.
+//! Each round triangulates the outside again and takes a few Newton steps on the symmetric Dirichlet energy of mesh
+//! and outside (J. Smith, S. Schaefer, "Bijective parameterization with free boundaries", 2015). While some face is
+//! nearly degenerate, the foldover energy comes first, which is less steep there.
 //!
-//! In the end it is the energy at equal total areas, which is what distortion is measured by: as the embedding grows or
-//! shrinks, so do the shapes at rest (see `membrane/own_size.rs`).
+//! The last rounds minimise the energy at equal total areas, which is the measure of distortion: the rest shapes grow
+//! and shrink with the embedding (see `nonlinear/energy_problem/own_size.rs`).
 //!
-//! Where the mesh has polygons, the triangles at their corners have energies too: a polygon that is convex stays so, and
-//! one that is not is unfolded like any folded triangle, by the same energy with ε > 0.
+//! If the mesh has polygons, the triangles at their corners have energies too. Convex polygons stay convex. A concave
+//! polygon is unfolded like a folded triangle, by the foldover energy with ε > 0.
 //!
-//! | file | holds |
+//! | file | contents |
 //! |---|---|
-//! | `mod.rs` | [`Relaxing`]: round by round down the energy |
-//! | `coarse.rs` | by way of a disk with fewer vertices, where the energy is huge |
+//! | `mod.rs` | [`Relaxing`]: rounds of Newton steps on the energy |
+//! | `coarse.rs` | relaxing on a disk with fewer vertices, for huge energies |
 
 mod coarse;
 
@@ -32,34 +32,35 @@ use crate::nonlinear::scaffold::{FRAME_POINTS, outside_of};
 use crate::problem::{Control, Embedding, Pins, Progress, SolveError};
 use crate::verify::UvFrame;
 
-/// Weight of the whole outside, that of the mesh being 1.
+/// Weight of the whole outside, relative to that of the mesh.
 const OUTSIDE_WEIGHT: f64 = 0.002;
 
-/// Newton steps of a round, and of one that begins with a face nearly without area: there a step hardly more than
-/// doubles an area.
+/// Newton steps of a round.
 const ROUND_STEPS: usize = 5;
+/// Newton steps of a round that starts with a nearly degenerate face, where a step hardly more than doubles an area.
 const STEEP_ROUND_STEPS: usize = 25;
 
-/// A round that gains a smaller share of the energy is the last; the first while the size is that of each round's beginning,
-/// the second at the embedding's own size.
+/// Relative gain below which a round is the last, for [`Measure::AsItBegins`].
 const TOLERANCE: f64 = 1e-3;
+/// Relative gain below which a round is the last, for [`Measure::AtOwnSize`].
 const TOLERANCE_AT_OWN_SIZE: f64 = 1e-4;
 
-/// Below this determinant the symmetric Dirichlet energy is too steep to begin with.
+/// Least determinant for the symmetric Dirichlet energy; below it that energy is too steep to start with.
 const STEEP: f64 = 1e-3;
 
-/// Rounds in a row without a lower energy than ever before, by more than this share, after which it goes round in circles.
+/// Rounds in a row without a new lowest energy after which relaxing stops: it cycles.
 const PATIENCE: usize = 5;
+/// Relative decrease that counts as a new lowest energy.
 const LOWER: f64 = 1e-9;
 
-/// The size of the shapes at rest, beside that of the embedding.
+/// Size of the rest shapes, relative to that of the embedding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Measure {
-    /// As large as the embedding is when a round begins. That way is short, but ends where the energy at equal areas is not
-    /// least.
+    /// Size of the embedding at the start of each round. Converges fast, but not to the least energy at equal areas.
     AsItBegins,
-    /// Always as large as the embedding. It follows where the other gains no more, but not where springs pull, whose
-    /// stiffness is told by a size, or polygons have triangles at their corners, whose areas are not the faces'.
+    /// Size of the embedding at every moment. Follows [`Measure::AsItBegins`] once that gains no more. Excluded if
+    /// springs pull, because their stiffness refers to a size. Excluded if polygons have triangles at their corners,
+    /// because the areas of these triangles are not the faces'.
     AtOwnSize,
 }
 
@@ -75,26 +76,27 @@ impl Measure {
 #[derive(Debug)]
 pub(crate) struct Relaxing {
     rest: RestShape,
-    /// The same with the triangles at the corners of polygons, where there are any.
+    /// Rest shapes including the triangles at the corners of polygons, if the mesh has polygons.
     with_ears: Option<RestShape>,
     pins: Pins,
     embedding: Embedding,
-    /// How distorted the embedding is.
+    /// Distortion of `embedding`.
     standing: DistortionState,
-    /// The order of elimination of the round before.
+    /// Elimination order of the previous round, for reuse.
     order: Option<EliminationOrder>,
     stall: Stall,
     measure: Measure,
-    /// Whether the last round gained next to nothing.
+    /// True if the last round gained next to nothing.
     pub(crate) has_converged: bool,
-    /// How embeddings are written: what is proved.
+    /// Output frame in which embeddings are proved.
     sheet: Arc<UvFrame>,
-    /// The energy from which on the next round begins by way of a disk with fewer vertices.
+    /// Energy at or above which the next round starts on a disk with fewer vertices.
     coarse_from: f64,
 }
 
 impl Relaxing {
-    /// Begins at a one-to-one embedding of `mesh`; `pins` are held, exact ones where they lie.
+    /// Starts from a one-to-one embedding of `mesh`. Hard pins stay at their present positions; soft pins act as
+    /// springs.
     pub(crate) fn new(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Self {
         let rest = RestShape::new(mesh);
         let with_ears = RestShape::with_ears(mesh);
@@ -114,12 +116,12 @@ impl Relaxing {
         }
     }
 
-    /// The same with embeddings proved as they are written on a sheet.
+    /// Proves embeddings as they are written in an output frame.
     pub(crate) fn with_output_frame(self, sheet: Arc<UvFrame>) -> Self {
         Self { sheet, ..self }
     }
 
-    /// One round. The embedding stays as it is where rounding keeps a better one from being planar.
+    /// Runs one round. The embedding stays unchanged if the improved one is not planar after rounding.
     pub(crate) fn round(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Advance, SolveError> {
         self.go_by_way_of_coarse(mesh, control)?;
         self.coarse_from = f64::INFINITY;
@@ -128,14 +130,15 @@ impl Relaxing {
         match self.descend(mesh, &outside, control) {
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
             Ok(()) => {}
-            // No direction of descent but for rounding: the energy is as low as it gets.
+            // No descent direction except for rounding: the energy is as low as possible.
             Err(_) => self.has_converged = true,
         }
         let (embedding, progress) = (self.embedding.clone(), self.standing.faces);
         Ok(Advance { embedding, progress, scaffold: Arc::new(outside), note: None })
     }
 
-    /// Goes down the energy of mesh and outside, to what is one-to-one there, and planar if it was.
+    /// Minimises the energy of mesh and outside. Accepts the result only if it is one-to-one, and planar if the start
+    /// was.
     fn descend(&mut self, mesh: &DiskMesh, outside: &Scaffold, control: Control<'_>) -> Result<(), SolveError> {
         let surrounded = Surrounded { embedding: &self.embedding, outside, weight: OUTSIDE_WEIGHT };
         let all = self.with_ears.as_ref().unwrap_or(&self.rest);
@@ -156,12 +159,13 @@ impl Relaxing {
         let gain = problem.descend(&mut z, limits, control)?.gain;
         let pull = problem.pull(&z);
         let z = Embedding::of_mesh(mesh, &z);
-        // The outside has a small part in the energy that goes down; the faces' own must not go up for it.
+        // The energy being minimised includes a small share of the outside; the energy of the faces must not rise for
+        // it.
         let is_drawn = is_steep || is_drawn;
         let standing = self.standing_of(mesh, &z);
         let inner = standing.inner;
         let is_better = is_drawn || inner.energy <= before.energy;
-        // What the descent gains by size alone is lost again: an embedding is measured at its own size.
+        // A gain by size alone is not a gain: an embedding is measured at its own size.
         let gain = if is_drawn { gain } else { (before.energy - inner.energy) / movable_before.energy };
         let must_be_planar = folded == 0 && self.with_ears.is_some() && self.sheet.is_planar(mesh, &self.embedding);
         let is_taken = is_better
@@ -189,31 +193,31 @@ impl Relaxing {
         DistortionState::of(&self.rest, self.with_ears.as_ref(), Placed { mesh, embedding, pins: &self.pins })
     }
 
-    /// Whether springs pull.
+    /// True if springs pull.
     fn is_drawn(&self) -> bool {
         self.pins.values().any(|pin| !pin.kind.is_hard())
     }
 
-    /// Whether the energy can be measured at the embedding's own size, and that can change.
+    /// True if the energy can be measured at the embedding's own size and that size can change.
     fn has_own_size(&self, mesh: &DiskMesh) -> bool {
         let is_boundary_free = mesh.boundary_loop().iter().any(|vertex| !self.pins.contains_key(vertex));
         is_boundary_free && !self.is_drawn() && self.with_ears.is_none()
     }
 }
 
-/// How distorted an embedding is.
+/// Distortion of an embedding.
 #[derive(Clone, Copy, Debug)]
 struct DistortionState {
-    /// Over the faces.
+    /// Distortion of the faces.
     faces: Progress,
-    /// Over all that has an energy.
+    /// Distortion of all elements: faces, and triangles at polygon corners.
     inner: Progress,
-    /// Over what of that is not held at all its corners: the rest stays as it is.
+    /// Distortion of the elements that are not held at all their corners. Other elements cannot change.
     movable: Progress,
 }
 
 impl DistortionState {
-    /// By the faces, and by these with the triangles at the corners of polygons where there are any.
+    /// Measures the faces, and with `with_ears` also the triangles at the corners of polygons.
     fn of(faces: &RestShape, with_ears: Option<&RestShape>, Placed { mesh, embedding, pins }: Placed<'_>) -> Self {
         let of_faces = faces.progress(mesh, embedding, 0.0);
         let inner = with_ears.map_or(of_faces, |all| all.progress(mesh, embedding, 0.0));
@@ -231,16 +235,16 @@ struct Placed<'a> {
     pins: &'a Pins,
 }
 
-/// Watches for rounds that lead nowhere, such as those that come to the steep and leave it again and again.
+/// Detects rounds without progress, such as rounds that keep switching between the steep and the ordinary energy.
 #[derive(Debug, Default)]
 struct Stall {
-    /// The lowest energy after a steep round, and after another.
+    /// Lowest energy after ordinary rounds, and after steep rounds.
     lowest: [Option<f64>; 2],
     rounds_since: usize,
 }
 
 impl Stall {
-    /// Takes in a round: which energy it lowers, and what that has come to.
+    /// Records a round: the energy that it minimises, and the value reached.
     fn observe(&mut self, is_steep: bool, energy: f64) {
         let lowest = &mut self.lowest[usize::from(is_steep)];
         let is_lower = lowest.is_none_or(|lowest| energy < (1.0 - LOWER) * lowest);

@@ -1,4 +1,4 @@
-//! Results that flatteners on one mesh pass on to further ones.
+//! Results of flatteners on one mesh, for reuse by further ones.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use crate::flatten::Prepared;
 use crate::geom::PictureFrame;
 use crate::problem::{Embedding, GaugeSize};
 
-/// Results that flatteners on one mesh pass on to further ones.
+/// Results of flatteners on one mesh, for reuse by further ones.
 #[derive(Clone, Debug, Default)]
 pub struct SolverCache {
     /// Equations and factors of a linear solve.
@@ -19,9 +19,9 @@ pub struct SolverCache {
 /// A planar embedding without constraints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanarStart {
-    /// Size that it was computed at.
+    /// Size for which it was computed.
     size: GaugeSize,
-    /// Picture that it was proved on.
+    /// Picture frame in which it was proved.
     frame: PictureFrame,
     /// Position of every vertex in the plane.
     pub(super) embedding: Embedding,
@@ -32,7 +32,7 @@ impl PlanarStart {
         Self { size: task.settings.size, frame: task.frame.frame(), embedding }
     }
 
-    /// True if another task would begin with it.
+    /// True if another task can start from it: size and picture frame are equal.
     pub(super) fn serves(&self, task: &Task) -> bool {
         self.size == task.settings.size && self.frame == task.frame.frame()
     }

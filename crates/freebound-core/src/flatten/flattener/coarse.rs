@@ -1,8 +1,8 @@
-//! Before stage 3 on large meshes: a disk with few vertices goes all the way to a planar embedding, and the others are put
+//! Coarse stage, before stage 3 on large meshes: a disk with few vertices is flattened, and the other vertices are put
 //! back one-to-one.
 //!
-//! This is our addition to the flattener. Where the boundary crosses itself, stage 3 bends it to a circle, and relaxing has to
-//! undo what that does to every triangle. Both cost little on a disk with few vertices.
+//! This is our addition to the flattener. If the boundary crosses itself, stage 3 bends it to a circle, and relaxing
+//! has to undo the resulting distortion of every triangle. Both cost little on a disk with few vertices.
 
 use std::time::Instant;
 
@@ -15,14 +15,15 @@ use crate::mesh::DiskMesh;
 use crate::nonlinear::rest_shape::RestShape;
 use crate::problem::{Control, Embedding, Method, Pins, Settings, SolveError, Stage};
 
-/// Meshes with fewer vertices go by themselves.
+/// Least number of vertices for this stage.
 const FROM_VERTICES: usize = 4000;
 
-/// About how many vertices the coarse disk has.
+/// Approximate number of vertices of the coarse disk.
 const COARSE_VERTICES: usize = 1500;
 
-/// Rounds of relaxing on the way back, level by level, and of the whole mesh that follow.
+/// Rounds of relaxing of each level between the coarse disk and the mesh.
 const LEVEL_ROUNDS: usize = 6;
+/// Rounds of relaxing of the whole mesh afterwards.
 const ROUNDS: usize = 3;
 
 #[derive(Debug, Default)]
@@ -47,7 +48,7 @@ impl RunStage for FewVertices {
     }
 }
 
-/// A planar embedding by way of few vertices; `None` where that leads nowhere.
+/// Planar embedding from a coarse disk. `None` if that fails or the mesh is small.
 fn by_few(
     StageInput { mesh, latest, .. }: StageInput<'_>,
     control: Control<'_>,
@@ -70,7 +71,7 @@ fn by_few(
     Ok(Some(Candidate {
         progress: Some(progress),
         bent_vertices: coarse.bent_vertices,
-        note: Some(format!("by way of {few} of the {all} vertices")),
+        note: Some(format!("solved first on {few} of the {all} vertices")),
         ..Candidate::one_to_one(Stage::VirtualBoundary, embedding, &pins)
     }))
 }
@@ -81,7 +82,7 @@ struct Flattened {
     bent_vertices: usize,
 }
 
-/// A planar embedding of a disk, relaxed where its boundary was bent; `None` where there is none.
+/// Planar embedding of a disk, relaxed if its boundary was bent. `None` if there is none.
 fn flattened(disk: &DiskMesh, control: Control<'_>) -> Result<Option<Flattened>, SolveError> {
     let mut flattener = Flattener::new(Settings::default(), Pins::new());
     let mut last: Option<Step> = None;

@@ -1,4 +1,4 @@
-//! Stage 4: a planar start without the constraints, moved to where it fits them best, then one-to-one on the way to them.
+//! Stage 4: moves a planar start to the best fit to the constraints, then towards them, one-to-one at every step.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -12,21 +12,22 @@ use crate::flatten::placing::Placing;
 use crate::mesh::DiskMesh;
 use crate::problem::{Control, Embedding, Pins, SolveError, Stage};
 
-/// Rounds of relaxing that follow: the first answer is not the best. More where springs have yet to pull.
+/// Rounds of relaxing afterwards: the first result is not the best.
 const ROUNDS: usize = 3;
+/// Rounds of relaxing afterwards if springs have yet to pull.
 const ROUNDS_WITH_SPRINGS: usize = 30;
 
-/// Rounds of relaxing at most until a planar start can be moved to where it fits the constraints.
+/// Most rounds of relaxing until a planar start can be moved to its best fit.
 const ROUNDS_BEFORE_FITTING: usize = 30;
 
 fn rounds_after(task: &Task) -> usize {
     if task.held().values().any(|pin| !pin.kind.is_hard()) { ROUNDS_WITH_SPRINGS } else { ROUNDS }
 }
 
-/// The planar start, moved.
+/// Stage that moves the planar start to its best fit.
 #[derive(Debug)]
 pub(super) struct Fit {
-    /// Kept from an earlier flattener; otherwise the latest step is the start.
+    /// Start from an earlier flattener. `None`: the latest step.
     pub(super) start: Option<Arc<PlanarStart>>,
     pub(super) is_done: bool,
 }
@@ -58,8 +59,8 @@ impl RunStage for Fit {
     }
 }
 
-/// An embedding where it fits the pins best. One that would fold there is relaxed until it does not; where that helps
-/// no more, it stays where it lies.
+/// Embedding at its best fit to the pins. If it would fold there, it is relaxed until it does not; if relaxing
+/// converges first, it stays in place.
 fn fitted(task: &Task, mesh: &DiskMesh, start: &Embedding, control: Control<'_>) -> Result<Embedding, SolveError> {
     let held = task.held();
     let holds = |placed: &Embedding| control.go_on().map(|()| task.frame.is_one_to_one(mesh, placed));
@@ -82,17 +83,17 @@ fn fitted(task: &Task, mesh: &DiskMesh, start: &Embedding, control: Control<'_>)
 #[derive(Debug, Default)]
 pub(super) struct Continue {
     stage: ContinuationPhase,
-    /// Whether its latest step left the embedding as it was.
+    /// True if the latest step left the embedding unchanged.
     has_stayed: bool,
 }
 
 impl Continue {
-    /// One that leaves the embedding which it begins with as it is, where that meets all constraints.
+    /// Stage that returns its initial embedding unchanged if that meets all constraints.
     pub(super) fn staying() -> Self {
         Self { stage: ContinuationPhase::Stay, has_stayed: false }
     }
 
-    /// The embedding that it begins with, where that meets all constraints.
+    /// Initial embedding, if it meets all constraints.
     fn stay(from: StageInput<'_>) -> Option<Candidate> {
         let StageInput { task, mesh, latest } = from;
         let (began, held) = (Instant::now(), task.held());
@@ -106,12 +107,12 @@ impl Continue {
 
 #[derive(Debug, Default)]
 enum ContinuationPhase {
-    /// Nothing is to be done where the constraints are met.
+    /// Return the initial embedding if it meets the constraints.
     Stay,
     #[default]
     Begin,
     UnderWay(Box<Continuation>),
-    /// No step leads nearer to the targets.
+    /// No step gets closer to the targets.
     Stuck,
 }
 
@@ -139,15 +140,15 @@ impl RunStage for Continue {
             }
         }
         let ContinuationPhase::UnderWay(continuation) = &mut self.stage else {
-            // What comes after it may still meet them.
+            // The next stage may still meet the constraints.
             return Err(StageFailure { error: SolveError::Unmet, handover: Some(Handover::default()) });
         };
-        // Where it has arrived and the flattener still asks, other numbers than these fold: those that are written.
+        // If it has arrived but another step is requested, the embedding folds in the written numbers.
         let next = if continuation.is_at_its_end() { Err(SolveError::Unmet) } else { continuation.step(mesh, control) };
         match next {
             Ok(advance) => return Ok(Candidate::of_advance(Stage::Continuation, advance, &held).since(began)),
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
-            // What cannot be solved is stuck, too.
+            // Every other error also means stuck.
             Err(_) => {}
         }
         let is_crushed = continuation.go_back_to_sound();

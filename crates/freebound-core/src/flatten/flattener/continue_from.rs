@@ -1,5 +1,5 @@
-//! A flattener that goes on from a one-to-one embedding, or from a step of another flattener's: what is there is not thrown away for
-//! an edit, nor solved again when the edit is taken back.
+//! Continuation from a one-to-one embedding, or from a step of another flattener. An edit of the request keeps
+//! existing results, and an edit that is undone needs no new solve.
 
 use std::sync::Arc;
 
@@ -14,8 +14,10 @@ use crate::problem::{Embedding, Method, Settings, Stage};
 use crate::verify::is_one_to_one;
 
 impl Flattener {
-    /// Continues from a one-to-one embedding, such as one under a dragged pin, and meets the constraints from there. If that
-    /// gets stuck, the usual stages follow. The embedding has one position per vertex, in the plane. Methods that do not continue ignore the embedding, and so do pins that are no constraints.
+    /// Continues from a one-to-one embedding, such as one under a dragged pin, and meets the constraints from there.
+    /// If that gets stuck, the usual stages follow. The embedding has one position per vertex, in the plane.
+    ///
+    /// The embedding is ignored if the method does not continue or the pins are not constraints.
     #[must_use]
     pub fn continue_from(mut self, embedding: &Embedding) -> Self {
         if !self.task.continues() {
@@ -32,12 +34,12 @@ impl Flattener {
             concave_polygons: Vec::new(),
             refinement: None,
         });
-        self.notes.say("goes on from the embedding that was there".to_owned());
+        self.notes.say("continued from the existing embedding".to_owned());
         self
     }
 
-    /// Continues as [`continue_from`](Self::continue_from) does, but returns an embedding that meets all constraints unchanged,
-    /// bit for bit.
+    /// Continues like [`continue_from`](Self::continue_from), but returns an embedding that meets all constraints
+    /// unchanged, bit for bit.
     #[must_use]
     pub fn warm_start(self, embedding: &Embedding) -> Self {
         let mut run = self.continue_from(embedding);
@@ -47,8 +49,8 @@ impl Flattener {
         run
     }
 
-    /// The same at rest after the newest step of another flattener's on the same mesh, with the same settings and pins: further
-    /// steps go on from it, and count on. `stages` are those of all its steps, in order.
+    /// Resumes after the newest step of another flattener on the same mesh, with equal settings and pins. Further
+    /// steps continue from that step and from its index. `stages` are the stages of all its steps, in order.
     #[must_use]
     pub fn resume_after(mut self, step: &Step, stages: &[Stage]) -> Self {
         let is_climber = |stage: &Stage| matches!(stage, Stage::Continuation | Stage::Matchmaker);
@@ -62,7 +64,7 @@ impl Flattener {
         self
     }
 
-    /// Begins from scratch where the embedding to go on from is not one-to-one in units of the solve.
+    /// Restarts from scratch if the embedding to continue from is not one-to-one in units of the solve.
     pub(super) fn check_beginning(&mut self, mesh: &DiskMesh) {
         let is_bad = |latest: &StepState| {
             latest.embedding.len() != mesh.vertex_count() || !is_one_to_one(mesh, &latest.embedding)
@@ -71,27 +73,27 @@ impl Flattener {
             self.strategy = Strategy::new(&self.task, &self.cache, self.asked.start.as_ref());
             self.latest = None;
             self.notes.take();
-            self.notes.say("solved afresh, for the embedding before is not one-to-one".to_owned());
+            self.notes.say("restarted from scratch: the existing embedding is not one-to-one".to_owned());
         }
     }
 }
 
 impl PhaseState {
-    /// Whether it goes on from an embedding that was there before the flattener began.
+    /// True if the phase continues from an embedding that existed before the flattener.
     pub(super) fn is_continued(&self) -> bool {
         self.sequences == CONTINUING
     }
 
-    /// Leaves that as it is, where it meets all constraints.
+    /// Returns that embedding unchanged if it meets all constraints.
     fn stay(&mut self) {
         self.stages.insert(StageKind::Continuation, Box::new(Continue::staying()));
     }
 }
 
 impl Flattener {
-    /// Keeps a step as the planar start of flatteners with constraints, if their planar start would be this step: a flattener
-    /// without constraints takes the same steps until only the energy is lowered. A step is kept once, and not if the mesh has
-    /// polygons, which a planar start may leave concave.
+    /// Keeps a step as the planar start of flatteners with constraints, if their planar start would be this step. A
+    /// flattener without constraints takes equal steps until only the energy is lowered. A step is kept once. No step
+    /// is kept if the mesh has polygons, because a planar start may leave them concave.
     pub(super) fn keep_start(&mut self, step: &mut Step, mesh: &DiskMesh) {
         let phase = self.strategy.phase();
         let Task { settings, pins, start, .. } = &*self.task;

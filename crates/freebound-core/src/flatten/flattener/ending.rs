@@ -1,22 +1,23 @@
-//! Why a flattener has come to its end.
+//! Reason for the end of a flattener.
 
-/// Why a flattener has come to its end.
+/// Reason for the end of a flattener.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
     /// The embedding is proved planar.
     Planar,
     /// The method has no further step.
     Done,
-    /// The iteration gets no better and hardly moves.
+    /// The iteration no longer improves and hardly moves.
     Stalled,
-    /// The iteration has taken as many steps as it may.
+    /// The iteration has taken its maximum number of steps.
     Limit,
-    /// The embedding is planar, but constraints could not be met without new vertices: [`Step::unmet`](super::Step::unmet) names them.
+    /// The embedding is planar, but constraints cannot be met without new vertices.
+    /// [`Step::unmet`](super::Step::unmet) lists them.
     Unmet,
 }
 
 impl Ending {
-    /// A fixed lower-case name, for reports and tables.
+    /// Fixed lower-case name, for reports and tables.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Planar => "planar",

@@ -1,9 +1,10 @@
-//! Stage 4 where the whole boundary is held: from an embedding whose boundary follows the targets, not from a free one.
+//! Stage 4 if the whole boundary is pinned: starts from an embedding whose boundary follows the targets, not from a
+//! free one.
 //!
-//! Where the targets' polygon is convex, the mean-value equations with the boundary fixed have the answer by theorem (Floater
-//! 1997), and often where it is not. Otherwise the boundary is laid on a circle first, its vertices as far apart as
-//! their targets, and goes from there. Where faces between boundary vertices would turn over, it goes with new vertices on
-//! their edges.
+//! If the polygon of the targets is convex, the mean-value equations with a fixed boundary give a planar embedding by
+//! theorem (Floater 1997), and often also if it is not convex. Otherwise the boundary starts on a circle, its vertices
+//! spaced in proportion to their targets. If faces between boundary vertices would turn over, the edges of these faces
+//! get new vertices.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -25,10 +26,10 @@ use crate::problem::{
     fixed_pins,
 };
 
-/// Rounds of relaxing that follow where that meets the targets: the first answer is not the best.
+/// Rounds of relaxing after the targets are met: the first result is not the best.
 const ROUNDS: usize = 3;
 
-/// The most steps of continuation with new vertices.
+/// Most steps of continuation with new vertices.
 const MOST_STEPS: usize = 60;
 
 #[derive(Debug, Default)]
@@ -53,15 +54,15 @@ impl RunStage for HeldBoundary {
     }
 }
 
-/// A one-to-one embedding to begin with; `None` where not all of the boundary is held, or on no simple polygon, or where
-/// numbers give none.
+/// Initial one-to-one embedding. `None` if part of the boundary is not pinned, its targets do not form a simple
+/// polygon, or rounding prevents it.
 fn begun(StageInput { task, mesh, .. }: StageInput<'_>, control: Control<'_>) -> Result<Option<Candidate>, SolveError> {
     let held = task.held();
     let Some(targets) = targets_of_boundary(mesh, &held) else { return Ok(None) };
     if !is_simple(&targets) || turning_number(&targets) != Some(1) {
         return Ok(None);
     }
-    // Stage 5 makes what is written on other sheets.
+    // For other output frames, stage 5 adds the vertices.
     if task.adds_vertices()
         && task.frame.is_plain()
         && let Some(refinement) = with_boundary_clearance(mesh, &targets)
@@ -74,8 +75,8 @@ fn begun(StageInput { task, mesh, .. }: StageInput<'_>, control: Control<'_>) ->
     Ok(Some(Candidate { progress: Some(progress), note: Some(note.to_owned()), ..candidate }))
 }
 
-/// An embedding that meets the targets on a mesh with room at its boundary, without the new vertices that it does not need;
-/// `None` where it gets stuck.
+/// Embedding that meets the targets on a mesh with boundary clearance, without the new vertices that are not needed.
+/// `None` if it gets stuck.
 fn with_new_vertices(
     task: &Task,
     mesh: &DiskMesh,
@@ -100,7 +101,7 @@ fn with_new_vertices(
     Ok(None)
 }
 
-/// A one-to-one embedding with the whole boundary on its targets or else on a circle, and which of both it is.
+/// Initial one-to-one embedding with the whole boundary on its targets or else on a circle, and a note of which.
 fn begun_on(
     task: &Task,
     mesh: &DiskMesh,
@@ -114,11 +115,11 @@ fn begun_on(
     } else {
         let Some(circle) = on_circle(mesh, targets)? else { return Ok(None) };
         let round = with_boundary_at(mesh, &circle, control)?.filter(is_one_to_one);
-        round.map(|round| (round, "the whole boundary begins on a circle"))
+        round.map(|round| (round, "the whole boundary starts on a circle"))
     })
 }
 
-/// Places on the circle that fits the targets best, as far apart as these in proportion.
+/// Points on the circle that fits the targets best, spaced in proportion to the targets.
 fn on_circle(mesh: &DiskMesh, targets: &[DVec2]) -> Result<Option<Vec<DVec2>>, SolveError> {
     let next = targets.iter().cycle().skip(1);
     let lengths: Vec<f64> = targets.iter().zip(next).map(|(a, b)| a.distance(*b)).collect();
@@ -127,13 +128,13 @@ fn on_circle(mesh: &DiskMesh, targets: &[DVec2]) -> Result<Option<Vec<DVec2>>, S
     Ok(Similarity::fitting(&pairs).map(|way| circle.into_iter().map(|z| way.apply(z)).collect()))
 }
 
-/// Where the boundary is to go; `None` where not all of it is held exactly.
+/// Targets of the boundary. `None` if part of it is not held by hard pins.
 fn targets_of_boundary(mesh: &DiskMesh, held: &Pins) -> Option<Vec<DVec2>> {
     let target = |vertex| held.get(vertex).filter(|pin| pin.kind.is_hard()).map(|pin| pin.target);
     mesh.boundary_loop().iter().map(target).collect()
 }
 
-/// The mean-value embedding with the boundary at these places.
+/// Mean-value embedding with the boundary at the given points.
 fn with_boundary_at(mesh: &DiskMesh, places: &[DVec2], control: Control<'_>) -> Result<Option<Embedding>, SolveError> {
     let settings =
         Settings { treatment: Some(Treatment::Eliminate), ..Settings::new(Method::Natural, Family::MeanValue) };

@@ -1,4 +1,4 @@
-//! Stage 2: mean-value iterations (paper §4), until they get no better or are as many as allowed.
+//! Stage 2: mean-value iterations (paper §4), until they no longer improve or reach their maximum number.
 
 use super::stage::{RunStage, StageFailure, StageInput, StepState};
 use super::task::{Task, gauge_in};
@@ -6,33 +6,34 @@ use super::{Candidate, Ending, Step};
 use crate::linear::Iteration;
 use crate::problem::{Control, Family, Method, SolveError, Stage};
 
-/// The most iterations of a flattener that has other ways to the constraints.
+/// Most iterations of a flattener that has other methods for the constraints.
 const ITERATIONS_WITH_CONSTRAINTS: usize = 8;
 
 /// Steps without an improvement after which an iteration that hardly moves has stalled.
 const PATIENCE: usize = 5;
 
-/// Steps without an improvement after which it has stalled however much it moves: it goes round in circles.
+/// Steps without an improvement after which an iteration has stalled although it moves: it cycles.
 const LONG_PATIENCE: usize = 12;
 
-/// A move of every vertex below this share of the embedding's diameter is hardly any.
+/// Largest move of a vertex that counts as hardly any, as a share of the embedding's diameter.
 const STILL: f64 = 1e-3;
 
-/// An iteration is slow where a step has more than this part of the fewest defects before.
+/// Ratio of defects to the fewest defects so far above which a step counts as slow.
 const SLOW: f64 = 0.9;
 
 #[derive(Debug, Default)]
 pub(super) struct Iterate {
     iteration: Option<Iteration>,
-    /// What has become of the steps since the last linear solve, and how many of them were iterations.
+    /// Improvement of the steps since the last linear solve.
     stall: Stall,
+    /// Number of iterations since the last linear solve.
     taken: usize,
 }
 
 impl Iterate {
-    /// Why there is no sense in going on.
+    /// Reason why further iterations are useless, if they are.
     fn end(&self, task: &Task) -> Option<Ending> {
-        // With constraints the iteration seldom arrives, and continuation always begins anew.
+        // With constraints the iteration seldom meets them, and continuation always starts from scratch.
         let gives_way = task.settings.method == Method::Auto && task.is_constrained();
         let is_enough = gives_way && (self.stall.is_slow || self.taken >= ITERATIONS_WITH_CONSTRAINTS);
         if is_enough || self.stall.is_reached() {
@@ -73,11 +74,11 @@ impl RunStage for Iterate {
         match step.candidate.stage {
             Stage::Iterate => self.taken += 1,
             Stage::Relax => {}
-            // A linear solve, from which iterations count anew.
+            // A linear solve restarts the count of iterations.
             _ => (self.stall, self.taken) = (Stall::default(), 0),
         }
         if step.candidate.stage != Stage::Iterate {
-            // Its memory is as large as that of a stage that follows.
+            // The factors of the iteration need as much memory as those of a later stage.
             self.iteration = None;
         }
         self.stall.observe(step);
@@ -88,13 +89,13 @@ impl RunStage for Iterate {
     }
 }
 
-/// Watches steps for improvement.
+/// Improvement of the steps.
 #[derive(Debug, Default)]
 struct Stall {
     best: Option<usize>,
     steps_since: usize,
     is_still: bool,
-    /// Whether the last step is hardly better than one before it, or no better.
+    /// True if the last step has hardly fewer defects than the best one before it, or no fewer.
     is_slow: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Stage 5: new vertices, of which those are taken out again that a relaxed embedding does not need.
+//! Stage 5: new vertices, followed by the removal of those that a relaxed embedding does not need.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -11,22 +11,24 @@ use crate::bijective::relaxing::Relaxing;
 use crate::mesh::{DiskMesh, Refinement};
 use crate::problem::{Control, SolveError, Stage};
 
-/// Rounds of relaxing before new vertices are looked at again, and how often they are at most.
+/// Most rounds of relaxing before each removal of new vertices.
 const ROUNDS_BEFORE_REMOVAL: usize = 10;
+/// Most removals of new vertices.
 const REMOVALS: usize = 12;
 
-/// Another look at the new vertices is worthwhile where the last one took out so great a part of them.
+/// Least share of new vertices removed by a removal that is followed by another.
 const WORTHWHILE: f64 = 0.05;
 
-/// Rounds of relaxing that follow: paths were made straight.
+/// Rounds of relaxing after the paths were made straight.
 const ROUNDS_AFTER_MATCHMAKER: usize = 30;
 
-/// The same on a tangle. There a round takes seconds and leads nowhere near to an embedding that serves: paths wind around
+/// Rounds of relaxing of a tangle. There a round takes seconds and hardly improves the embedding: paths wind around
 /// each other, and so does the map.
 const ROUNDS_OF_TANGLE: usize = 1;
 
-/// A map is a tangle where there are more new vertices than this, and so many for each of the mesh.
+/// Least number of new vertices of a tangle.
 const NEW_VERTICES_OF_TANGLE: usize = 20_000;
+/// Least ratio of new vertices to mesh vertices of a tangle.
 const NEW_PER_OLD_OF_TANGLE: usize = 4;
 
 #[derive(Debug, Default)]
@@ -38,9 +40,9 @@ pub(super) struct Match {
 enum MatchmakerPhase {
     #[default]
     Begin,
-    /// The constraints are met with new vertices, some of which may be needless once the embedding has relaxed.
+    /// The constraints are met with new vertices, some of which may be removable once the embedding has relaxed.
     Refined { found: Box<Matched>, looks_left: usize },
-    /// There is no further step.
+    /// No further step.
     End,
 }
 
@@ -48,7 +50,7 @@ impl RunStage for Match {
     fn step(&mut self, from: StageInput<'_>, control: Control<'_>) -> Result<Candidate, StageFailure> {
         let StageInput { task, mesh, latest } = from;
         let (began, held, frame) = (Instant::now(), task.held(), &*task.frame);
-        // What lies on one line, or folds, is judged in the numbers that are written.
+        // Collinearity and folds are tested in the written numbers.
         let bare = |written: Matched| -> Result<Matched, SolveError> {
             let Matched { refinement, embedding } = simplified(mesh, written, control)?;
             let embedding = if frame.is_plain() { embedding } else { frame.in_plane(&embedding, &held) };
@@ -76,7 +78,7 @@ impl RunStage for Match {
         };
         let candidate = Candidate::one_to_one(Stage::Matchmaker, found.embedding.clone(), &held).since(began);
         let count = found.refinement.new_vertices().len();
-        let tangled = || format!("its paths wind around each other, with {count} new vertices: hardly relaxed");
+        let tangled = || format!("paths wind around each other, with {count} new vertices: barely relaxed");
         let note = is_tangle(&found.refinement).then(tangled);
         let refinement = Some(Arc::clone(&found.refinement));
         self.stage = if looks_left > 0 {
@@ -105,13 +107,13 @@ impl RunStage for Match {
     }
 }
 
-/// Whether new vertices outnumber those of the mesh so far that all work on them takes minutes, and gains little.
+/// True if new vertices outnumber those of the mesh so far that all work on them takes minutes and gains little.
 pub(super) fn is_tangle(refinement: &Refinement) -> bool {
     let least = NEW_VERTICES_OF_TANGLE.max(NEW_PER_OLD_OF_TANGLE * refinement.old_vertex_count());
     refinement.new_vertices().len() > least
 }
 
-/// The same with its embedding relaxed.
+/// Result with its embedding relaxed.
 fn relaxed(found: &Matched, task: &Task, control: Control<'_>) -> Result<Matched, SolveError> {
     let disk: &DiskMesh = found.refinement.disk();
     let frame = Arc::clone(&task.frame);
@@ -126,7 +128,8 @@ fn relaxed(found: &Matched, task: &Task, control: Control<'_>) -> Result<Matched
     Ok(Matched { refinement: Arc::clone(&found.refinement), embedding })
 }
 
-/// The same without new vertices for whose removal room can be made, if it is as good in the numbers that are written.
+/// Result without the new vertices that can be removed with clearance, if that is one-to-one in the written numbers;
+/// otherwise `bare`.
 fn with_clearance_on_frame(
     mesh: &DiskMesh,
     bare: Matched,

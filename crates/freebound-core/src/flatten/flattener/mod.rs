@@ -1,31 +1,32 @@
-//! The flattener: the steps of a method, one after another; for `auto` one stage after another until the embedding is planar.
+//! The flattener: the steps of a method, one after another; for `auto`, stage after stage until the embedding is
+//! planar.
 //!
-//! | file | holds |
+//! | file | contents |
 //! |---|---|
-//! | `mod.rs` | [`Flattener`]: walks the strategy, proves each candidate, remembers the latest step |
-//! | `strategy.rs` | the strategy of every method: which stage follows which |
-//! | `cache.rs` | what flatteners on a mesh have computed, for further ones |
-//! | `sequence.rs` | the stages by name, and the sequences of them that plans are made of |
-//! | `proof.rs` | a candidate proved in the numbers that are written of it: a step |
-//! | `stage.rs` | what a stage is: from the latest step to a candidate, or to a reason why there is none |
-//! | `options.rs` | [`Options`]: all that a flattener is built from |
-//! | `task.rs` | what is asked for: settings and pins |
-//! | `ending.rs` | why a flattener has come to its end |
-//! | `step.rs` | [`Candidate`]: what a stage gives, before it is proved; [`Step`]: a candidate with its verdict |
-//! | `continue_from.rs` | before all stages: a one-to-one embedding to go on from, or a step of another flattener's |
+//! | `mod.rs` | [`Flattener`]: follows the strategy, proves each candidate, keeps the latest step |
+//! | `strategy.rs` | strategy of every method: the order of stages |
+//! | `cache.rs` | results of flatteners on a mesh, for further ones |
+//! | `sequence.rs` | stages by name, and the sequences of which strategies consist |
+//! | `proof.rs` | proof of a candidate in the written numbers, which makes it a step |
+//! | `stage.rs` | interface of a stage: from the latest step to a candidate, or to the reason why there is none |
+//! | `options.rs` | [`Options`] from which a flattener is built |
+//! | `task.rs` | the request: settings and pins |
+//! | `ending.rs` | reason for the end of a flattener |
+//! | `step.rs` | [`Candidate`]: result of a stage before its proof; [`Step`]: a candidate with its verdict |
+//! | `continue_from.rs` | continuation from a one-to-one embedding, or from a step of another flattener |
 //! | `single_step.rs` | stages of one step: given layout, linear solves, grid drawing, cut of concave polygons |
-//! | `iterate.rs` | stage 2: mean-value iterations, and when they get no better |
-//! | `slim.rs` | Tutte's map, or a planar one of the flattener, iteration after iteration with less energy |
-//! | `stretch.rs` | a convex boundary, solve after solve with less stretch |
-//! | `coarse.rs` | before stage 3 on large meshes: a disk with few vertices goes first |
+//! | `iterate.rs` | stage 2: mean-value iterations, and when they no longer improve |
+//! | `slim.rs` | SLIM iterations from Tutte's map, or from a planar map of the flattener |
+//! | `stretch.rs` | solves with a convex boundary, each of less stretch |
+//! | `coarse.rs` | before stage 3 on large meshes: a disk with few vertices first |
 //! | `virtual_boundary.rs` | stage 3: the boundary made simple, and the outside embedded with the mesh |
-//! | `continuation.rs` | stage 4: a planar start fitted to the constraints, then one-to-one on the way to them |
-//! | `held.rs` | stage 4 where the whole boundary is held: from a boundary that follows its targets |
+//! | `continuation.rs` | stage 4: a planar start fitted to the constraints, then moved to them one-to-one |
+//! | `held.rs` | stage 4 if the whole boundary is pinned: from a boundary that follows its targets |
 //! | `matchmaker.rs` | stage 5: new vertices |
-//! | `relax.rs` | what follows: lower distortion, convex polygons; `auto` goes on until the embedding serves |
+//! | `relax.rs` | relaxing: lower distortion, convex polygons; for `auto`, until the embedding is usable |
 //!
-//! A flattener is asked for one step at a time, so that it can be watched, paused and taken on by hand. A step that is
-//! cancelled leaves the flattener as it was.
+//! A flattener takes one step per call, so that a caller can observe it, pause it, or continue it manually. A
+//! cancelled step leaves the flattener unchanged.
 
 mod cache;
 mod coarse;
@@ -63,29 +64,29 @@ use crate::mesh::DiskMesh;
 use crate::problem::units::Units;
 use crate::problem::{Control, Method, Pins, Settings, SolveError, Stage};
 
-/// A method under way on one mesh with one set of pins.
+/// Run of a method on one mesh with one set of pins.
 #[derive(Debug)]
 pub struct Flattener {
     asked: Task,
     units: Units,
-    /// What is asked for, in units of the solve, as all but steps are.
+    /// The request in units of the solve. Everything except steps is in these units.
     task: Arc<Task>,
     strategy: Strategy,
     step_count: usize,
     latest: Option<StepState>,
-    /// A candidate whose proof was stopped: its stage has moved on.
+    /// Candidate whose proof was cancelled, although its stage has already advanced.
     unproved: Option<Candidate>,
     ending: Option<Ending>,
-    /// Notes on the next step: why stages before it gave no candidate.
+    /// Notes on the next step: reasons why earlier stages had no candidate.
     notes: Notes,
-    /// What earlier flatteners on the mesh have computed.
+    /// Results of earlier flatteners on the mesh.
     cache: SolverCache,
-    /// Whether its steps hand on factors, which are large.
+    /// True if steps keep factors, which are large, for further flatteners.
     keeps_factors: bool,
 }
 
 impl Flattener {
-    /// Makes a flattener of these settings and the user's pins. All other options have their defaults.
+    /// Makes a flattener of these settings and pins. All other options have their defaults.
     pub fn new(settings: Settings, pins: Pins) -> Self {
         Self::with_options(Options { settings, pins, ..Options::default() })
     }
@@ -114,38 +115,39 @@ impl Flattener {
         }
     }
 
-    /// The same, going on from a step of another flattener's on the same mesh, which counts as this one's first.
+    /// Adopts a step of another flattener on the same mesh as the first step.
     #[must_use]
     pub fn after(mut self, step: &Step) -> Self {
         self.adopt(step);
         self
     }
 
-    /// What was asked for.
+    /// Settings of the request.
     pub fn settings(&self) -> &Settings {
         &self.asked.settings
     }
 
-    /// The user's pins.
+    /// Pins of the request.
     pub fn pins(&self) -> &Pins {
         &self.asked.pins
     }
 
-    /// How many steps it has taken.
+    /// Number of steps taken.
     pub fn step_count(&self) -> usize {
         self.step_count
     }
 
-    /// Why the method has come to its end, if it has. [`Flattener::step`] goes on all the same.
+    /// Reason for the end of the method, if it has ended. [`Flattener::step`] can still continue unless it is
+    /// [`Ending::Unmet`].
     pub fn ending(&self) -> Option<Ending> {
         self.ending
     }
 
-    /// Takes all steps of the method, and hands each over as it is there.
+    /// Takes all steps of the method, and passes each to `take` as soon as it is proved.
     ///
     /// # Errors
     ///
-    /// As [`Flattener::step`]; steps handed over before are good.
+    /// Errors of [`Flattener::step`]. Steps passed on before remain valid.
     pub fn finish(
         &mut self,
         mesh: &DiskMesh,
@@ -160,13 +162,14 @@ impl Flattener {
         }
     }
 
-    /// Takes the method's next step; where the method has ended, one more mean-value iteration, or, after stages 4 and 5, a
-    /// round of relaxing.
+    /// Takes the method's next step. After the end of the method: one more mean-value iteration or, after stages 4 and
+    /// 5, a round of relaxing.
     ///
     /// # Errors
     ///
-    /// Pins that cannot be, a family that does not go with the method, a system that cannot be solved, or the caller's
-    /// wish to stop. In a flattener only the last stage's errors are errors.
+    /// If pins are invalid, the family does not fit the method, a system cannot be solved, or the caller cancels. A
+    /// failure of a stage that a later stage can replace is no error. [`SolveError::Unmet`] if the constraints cannot
+    /// be met.
     pub fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Step, SolveError> {
         if self.step_count == 0 {
             self.task.check(mesh)?;
@@ -175,7 +178,7 @@ impl Flattener {
         let candidate = match self.ending {
             _ if self.unproved.is_some() => self.unproved.take().ok_or(SolveError::Cancelled),
             None => self.next_candidate(mesh, control),
-            // Where no way led to the constraints, none does now.
+            // No stage met the constraints, so no further step can.
             Some(Ending::Unmet) => Err(SolveError::Unmet),
             Some(_) => {
                 let task = Arc::clone(&self.strategy.phase().task);
@@ -192,17 +195,17 @@ impl Flattener {
         Ok(step)
     }
 
-    /// Whether rounds of relaxing may follow the latest step: it is one-to-one, even where polygons are concave.
+    /// True if rounds of relaxing may follow the latest step: it is one-to-one, even if polygons are concave.
     pub fn can_relax(&self) -> bool {
         self.latest.as_ref().is_some_and(|latest| latest.is_one_to_one)
     }
 
-    /// Lets rounds of relaxing follow: each lowers the distortion of a planar embedding, which keeps its exact pins and
-    /// stays one-to-one.
+    /// Requests rounds of relaxing as the next steps. Each lowers the distortion of a planar embedding, which stays
+    /// one-to-one with its hard pins fixed.
     ///
     /// # Errors
     ///
-    /// [`SolveError::NotPlanar`] where there is no planar embedding to begin with.
+    /// [`SolveError::NotPlanar`] if the latest step is not one-to-one.
     pub fn relax(&mut self, rounds: usize) -> Result<(), SolveError> {
         if !self.can_relax() {
             return Err(SolveError::NotPlanar);
@@ -212,12 +215,12 @@ impl Flattener {
         Ok(())
     }
 
-    /// The next candidate by the strategy. A stage that gives nothing leads on to the next sequence.
+    /// Next candidate of the strategy. If a stage has no candidate, the next sequence follows.
     fn next_candidate(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
         loop {
             let latest = self.latest.as_ref().filter(|_| !self.strategy.phase().begins_anew());
             if self.strategy.phase().begins_anew() {
-                self.notes.say("without the constraints, for a planar start".to_owned());
+                self.notes.say("constraints ignored to find a planar start".to_owned());
             }
             let Some(place) = self.strategy.phase().next(latest) else {
                 self.enter_next_phase()?;
@@ -246,14 +249,15 @@ impl Flattener {
         }
     }
 
-    /// Goes on to the next phase of the strategy: from the planar start to the constraints only where it is planar.
+    /// Enters the next phase of the strategy. Fails if a planar start is required and the latest step is not
+    /// one-to-one.
     fn enter_next_phase(&mut self) -> Result<(), SolveError> {
         let has_start = || self.latest.as_ref().is_some_and(|latest| latest.is_one_to_one);
         if !self.strategy.has_next_phase() || (self.strategy.phase().aim == PhaseGoal::PlanarStart && !has_start()) {
-            let reasons = "the planar start without the constraints is not planar".to_owned();
+            let reasons = "the start without constraints is not planar".to_owned();
             return Err(self.given_up(SolveError::StagesExhausted { reasons }));
         }
-        // A phase may have given no step at all.
+        // A phase may have had no step at all.
         if let Some(latest) = &mut self.latest {
             latest.attained = Attained::Nothing;
         }
@@ -261,7 +265,7 @@ impl Flattener {
         Ok(())
     }
 
-    /// The error of a flattener that gives up: which stages failed, and why.
+    /// Error of a flattener that gives up: which stages failed, and why.
     fn given_up(&mut self, error: SolveError) -> SolveError {
         match self.notes.take() {
             Some(reasons) if self.task.settings.method == Method::Auto && error != SolveError::Unmet => {
@@ -271,18 +275,19 @@ impl Flattener {
         }
     }
 
-    /// Remembers a step and decides whether the method has ended.
+    /// Keeps a step as the latest one, and decides if the method has ended.
     fn adopt(&mut self, step: &Step) {
         self.step_count += 1;
         let units = self.units_in_force();
         let phase = self.strategy.phase_mut();
-        // A mirror image is one-to-one, but not what the flattener is for.
+        // A mirror image is one-to-one, but not a goal of the flattener.
         let is_upright = !step.verdict.mirrored || phase.task.settings.method != Method::Auto;
         let is_met = phase.aim == PhaseGoal::PlanarStart || step.unmet().is_empty();
         let is_given = step.candidate.stage == Stage::Given;
-        // What fills the holes of a layout that was given may fold without harm.
+        // The filling of holes of a given layout may fold without harm.
         let is_proved = (step.verdict.is_one_to_one() || (is_given && step.verdict.planar)) && is_upright;
-        // The way from a planar start to the constraints keeps no polygon convex: that follows.
+        // Polygons may be concave on the way from a planar start to the constraints: relaxing makes them convex
+        // afterwards.
         let has_polygons = step.verdict.planar || phase.aim == PhaseGoal::PlanarStart;
         let attained = match (is_proved, is_met) {
             (true, true) if has_polygons => Attained::Goal,
@@ -307,10 +312,10 @@ impl Flattener {
         self.ending = self.ending_now();
     }
 
-    /// Takes the way from the surface alone: the layout that was given is no map to go on from.
+    /// Restarts with the surface alone: the given layout is no map to continue from.
     fn start_from_scratch(&mut self, given: &Step) {
         let fault = if given.verdict.is_one_to_one() { "a mirror image" } else { "not one-to-one" };
-        self.notes.say(format!("solved afresh, for the layout of the file is {fault}"));
+        self.notes.say(format!("restarted from scratch: the layout of the file is {fault}"));
         self.strategy = Strategy::from_scratch(&self.task, &self.cache);
         self.latest = None;
     }

@@ -7,30 +7,31 @@ use crate::mesh::VertexId;
 use crate::problem::{Embedding, Pin, Pins, Settings};
 use crate::verify::UvFrame;
 
-/// Options of [`flatten`](crate::flatten) and of a [`Flattener`](super::Flattener).
+/// Options of [`flatten`](crate::flatten()) and of a [`Flattener`](super::Flattener).
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Method and weights. Default: `auto`.
     pub settings: Settings,
     /// Pinned vertices and their targets in the plane. Default: none.
     pub pins: Pins,
-    /// Numbers in which every step is proved and written. Default: the coordinates of the plane.
+    /// Frame of the numbers in which every step is proved and written. Default: the coordinates of the plane.
     pub output_frame: UvFrame,
-    /// Existing embedding to start from instead of solving from scratch: one position per vertex, in the plane; vertices of
-    /// no face are ignored. Default: none.
+    /// Existing embedding to start from instead of solving from scratch: one position per vertex, in the plane.
+    /// Positions of unreferenced vertices are ignored. Default: none.
     ///
-    /// The embedding becomes step 0. If it is planar, constraints and relaxation start from it; otherwise the iteration and
-    /// the virtual boundary do, and other methods solve from scratch. If it meets every constraint, it is returned
-    /// unchanged. If it meets two constraints, it is not moved to fit the others. It is relaxed only if rounds are given.
+    /// The embedding becomes step 0. If it is planar, constraints and relaxation start from it; otherwise the
+    /// iteration and the virtual boundary do, and other methods solve from scratch. If it meets every constraint, it
+    /// is returned unchanged. If it meets two constraints, it is not moved to fit the others. It is relaxed only if
+    /// rounds are given.
     pub layout: Option<Arc<Embedding>>,
-    /// Results of earlier flatteners on the same mesh, to be reused. With a cache, steps keep the factors of linear solves
-    /// for further flatteners; without one, factors are dropped after use. Default: none.
+    /// Results of earlier flatteners on the same mesh, for reuse. With a cache, steps keep the factors of linear
+    /// solves for further flatteners; without a cache, factors are dropped after use. Default: none.
     pub cache: Option<SolverCache>,
 }
 
 impl Options {
-    /// Adds a hard pin: vertex `vertex` of the mesh lies at this point of the plane. Two pins fix place, turn and size; more
-    /// are constraints.
+    /// Adds a hard pin: vertex `vertex` of the mesh must lie at this point of the plane. Two pins fix position,
+    /// rotation and scale; more are constraints.
     #[must_use]
     pub fn pinned(mut self, vertex: u32, target: [f64; 2]) -> Self {
         self.pins.insert(VertexId::new(vertex), Pin::hard(target.into()));

@@ -1,4 +1,4 @@
-//! From candidates to steps: placed, taken to the plane, and proved in the numbers that are written.
+//! From candidates to steps: placed, converted to the plane, and proved in the written numbers.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -15,13 +15,13 @@ use crate::verify::hull_condition::vertices_outside_hull_unless;
 use crate::verify::verdict::verdict_unless;
 
 impl Flattener {
-    /// Those of the current phase: a planar start lies in the plane where it lies.
+    /// Units of the current phase. A planar start is solved in the plane itself.
     pub(super) fn units_in_force(&self) -> Units {
         if self.strategy.phase().aim == PhaseGoal::Constraints { self.units } else { Units::default() }
     }
 
-    /// A candidate with its verdict. Where the caller asks to stop it is kept, for the stage has moved on: the next step
-    /// begins with its proof.
+    /// Proves a candidate. If cancelled, keeps the candidate, because its stage has already advanced; the next step
+    /// then starts with its proof.
     pub(super) fn proved(
         &mut self,
         mut candidate: Candidate,
@@ -29,7 +29,7 @@ impl Flattener {
         control: Control<'_>,
     ) -> Result<Step, SolveError> {
         if self.strategy.phase().aim == PhaseGoal::PlanarStart || !self.keeps_factors {
-            // Factors are the largest part of all memory: what follows shall not come on top.
+            // Factors take most of the memory; the next factors must not add to them.
             candidate.prepared = None;
         }
         self.unproved = Some(candidate.clone());
@@ -40,7 +40,7 @@ impl Flattener {
         step
     }
 
-    /// The same; where the caller asks to stop the flattener stays as it is.
+    /// Places and proves a candidate. If cancelled, the flattener is unchanged.
     fn placed_and_proved(
         &mut self,
         mut candidate: Candidate,
@@ -69,14 +69,14 @@ impl Flattener {
         let verify_seconds = start.elapsed().as_secs_f64();
         control.go_on()?;
         let (outside_hull, hull_seconds) = self.outside_hull_of(mesh, &candidate, &verdict, control)?;
-        // New vertices have no position before, or another one's.
+        // New vertices have no previous position, or that of another vertex.
         let old = mesh.vertex_count();
         let moved = |latest: &StepState| largest_move(&latest.embedding[..old], &candidate.solution.embedding[..old]);
         let max_move = self.latest.as_ref().map(moved).map(|length| units.length_in_plane(length));
         candidate.take_to_plane(&units, &self.asked.held());
         candidate.solution.embedding.check_finite()?;
         if self.strategy.phase().is_from_layout {
-            // Only a start from the surface alone serves others.
+            // Only a start from the surface alone is valid for other flatteners.
             candidate.planar_start = None;
         }
         self.notes.say(candidate.note.take());
@@ -100,14 +100,14 @@ impl Flattener {
         Ok(step)
     }
 
-    /// The verdict on a candidate as it is written.
+    /// Verdict on a candidate as written.
     fn verdict_of(&self, mesh: &DiskMesh, candidate: &Candidate, control: Control<'_>) -> Result<Verdict, SolveError> {
         control.go_on()?;
         verdict_unless(candidate.mesh(mesh), &self.written(candidate), control)
     }
 
-    /// Why a candidate folds: vertices outside the hull of their neighbours, and the seconds that finding them took. None where
-    /// it is one-to-one, by the theorem.
+    /// Causes of the folds of a candidate: vertices outside the hull of their neighbours, and the seconds taken to
+    /// find them. Empty if the candidate is one-to-one, by the theorem.
     fn outside_hull_of(
         &self,
         mesh: &DiskMesh,
@@ -124,7 +124,7 @@ impl Flattener {
         Ok((found, start.elapsed().as_secs_f64()))
     }
 
-    /// The numbers that are written of a candidate.
+    /// Written numbers of a candidate.
     fn written<'a>(&self, candidate: &'a Candidate) -> Cow<'a, Embedding> {
         let (units, embedding) = (self.units_in_force(), &candidate.solution.embedding);
         if units.is_plane() {
@@ -135,15 +135,16 @@ impl Flattener {
         Cow::Owned(self.asked.frame.written(&in_plane).into_owned())
     }
 
-    /// Gives back the embedding before a round of relaxing, where that was all that is asked for and this is not.
-    /// Returns whether it did.
+    /// Restores the embedding before a round of relaxing if that met the whole request and the candidate does not.
+    /// Returns true if restored.
     fn keep_what_is_proved(&self, candidate: &mut Candidate) -> bool {
         let is_relaxed = candidate.stage == Stage::Relax;
         let Some(latest) = self.latest.as_ref().filter(|latest| is_relaxed && latest.is_solved()) else { return false };
         candidate.solution.embedding.clone_from(&latest.embedding);
         candidate.solution.pins.clone_from(&latest.pins);
         (candidate.outside, candidate.progress) = (None, None);
-        candidate.note = Some("the relaxed embedding would fold in its place: that before is kept".to_owned());
+        candidate.note =
+            Some("the relaxed embedding would fold at its final position: the previous one is kept".to_owned());
         true
     }
 }

@@ -1,7 +1,7 @@
-//! What follows a planar embedding: rounds of relaxing, each of lower distortion.
+//! Relaxing of a planar embedding: rounds of lower distortion.
 //!
-//! `auto` goes on with them until the embedding *serves*: until it holds in 32 bits, as most programs read it, and its
-//! energy is moderate, so that a picture on it keeps some texels everywhere. A planar layout that was given stays as it is.
+//! `auto` continues with them until the embedding is *usable*: planar in 32 bits, as most programs read it, and of
+//! moderate energy, so that a picture on it keeps some texels everywhere. A given planar layout stays unchanged.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -13,18 +13,18 @@ use super::{Candidate, Step};
 use crate::bijective::relaxing::Relaxing;
 use crate::problem::{Control, Pins, SolveError, Stage};
 
-/// A mean symmetric Dirichlet energy up to this is moderate; 4 is the least.
+/// Largest mean symmetric Dirichlet energy that is moderate. The minimum is 4.
 const MODERATE_ENERGY: f64 = 20.0;
 
-/// An embedding is far from the origin where it is so many of its sizes away: there it has fewer digits.
+/// Distance from the origin, in sizes of the embedding, beyond which it is far. Far numbers have fewer digits.
 const FAR: f64 = 8.0;
 
-/// How many rounds may follow.
+/// Numbers of rounds that may follow.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Rounds {
-    /// Whatever they come to.
+    /// Rounds that follow in any case.
     pub(super) always: usize,
-    /// As long as the embedding does not serve.
+    /// Rounds that follow while the embedding is not usable.
     pub(super) until_it_serves: usize,
 }
 
@@ -33,31 +33,31 @@ pub(super) struct Relax {
     relaxing: Option<Relaxing>,
     /// Rounds that may still follow.
     left: Rounds,
-    /// Why the latest embedding does not serve.
+    /// Reason why the latest embedding is not usable.
     lack: Option<Shortfall>,
-    /// Whether a round has failed: then none follows.
+    /// True if a round has failed, so that no further one follows.
     has_failed: bool,
-    /// Whether constraints are to follow.
+    /// True if constraints are met afterwards.
     is_before_constraints: bool,
 }
 
-/// What an embedding lacks to serve.
+/// Reason why an embedding is not usable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Shortfall {
-    /// It folds in 32 bits; whether that is because it lies far from the origin.
+    /// Folds in 32 bits. `is_far` is true if it lies far from the origin.
     Digits { is_far: bool },
-    /// Its energy is so high.
+    /// High energy.
     Energy(f64),
 }
 
 impl Shortfall {
-    /// What a step lacks; the energy is no matter where it only begins a way to constraints.
+    /// Reason why a step is not usable. Steps of a planar start may have any energy.
     fn of(step: &Step) -> Option<Self> {
         if step.verdict.planar && !step.verdict.planar_in_f32 {
             let bounds = step.candidate.solution.embedding.bounds();
             let vertices = step.candidate.solution.embedding.len() as f64;
             // A face of the drawing is at least 1/n of a grid cell high, and a cell is 1/n of the drawing.
-            let far = FAR.max(1.0 / (f64::from(f32::EPSILON) * vertices * vertices));
+            let far = FAR.max(0.5 / (f64::from(f32::EPSILON) * vertices * vertices));
             let is_far = bounds.middle().abs().max_element() > far * bounds.size().max_element();
             return Some(Self::Digits { is_far });
         }
@@ -74,31 +74,31 @@ impl Shortfall {
 }
 
 impl Relax {
-    /// Of a phase of the strategy with such an aim.
+    /// Relaxing in a phase with this goal.
     pub(super) fn of(aim: PhaseGoal) -> Self {
         Self { is_before_constraints: aim == PhaseGoal::PlanarStart, ..Self::default() }
     }
 
-    /// Lets so many rounds follow, from the latest embedding on.
+    /// Schedules rounds that start from the latest embedding.
     pub(super) fn begin(&mut self, rounds: Rounds) {
         (self.relaxing, self.left, self.has_failed) = (None, rounds, false);
     }
 
-    /// Takes in the step that rounds may follow.
+    /// Examines the step that rounds may follow.
     pub(super) fn look_at_start(&mut self, step: &Step) {
         self.lack = Shortfall::of(step);
         if step.candidate.refinement.as_deref().is_some_and(is_tangle) {
-            // However many rounds follow, it does not come to serve.
+            // No number of rounds makes a tangle usable.
             self.left.until_it_serves = 0;
         }
     }
 
-    /// Whether rounds follow that do not only lower the energy until it serves.
+    /// True if rounds follow for another reason than a high energy.
     pub(super) fn goes_on_for_digits(&self) -> bool {
         self.left.always > 0 || matches!(self.lack, Some(Shortfall::Digits { .. }))
     }
 
-    /// Whether the latest embedding is finer than 32 bits, wherever it lies.
+    /// True if the latest embedding folds in 32 bits although it is not far from the origin.
     pub(super) fn is_too_fine(&self) -> bool {
         self.lack == Some(Shortfall::Digits { is_far: false })
     }
@@ -109,7 +109,7 @@ impl Relax {
         let latest = latest.ok_or(SolveError::NotPlanar)?;
         let refinement = latest.refinement.clone();
         let mesh = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
-        // Up to two pins only say where the embedding is to lie: it is brought there after the round.
+        // Up to two pins only place the embedding, which happens after the round.
         let is_constrained = task.is_constrained();
         let held = if is_constrained { task.held() } else { Pins::new() };
         let frame = if is_constrained { Arc::clone(&task.frame) } else { Arc::default() };
@@ -131,11 +131,11 @@ impl RunStage for Relax {
             Ok(candidate) => return Ok(candidate),
             Err(error) => error,
         };
-        // What is one-to-one stays the result: a failure only ends the relaxing.
+        // A one-to-one embedding stays the result: a failure only ends the relaxing.
         let latest = from.latest.filter(|latest| latest.is_one_to_one && error != SolveError::Cancelled);
         let Some(StepState { embedding, pins, refinement, .. }) = latest else { return Err(error.into()) };
         self.has_failed = true;
-        let note = Some(format!("relaxing gave nothing: {error}; the embedding before is kept"));
+        let note = Some(format!("relaxing failed: {error}; the previous embedding is kept"));
         let candidate = Candidate::one_to_one(Stage::Relax, embedding.clone(), pins);
         Ok(Candidate { refinement: refinement.clone(), note, ..candidate })
     }
@@ -143,7 +143,7 @@ impl RunStage for Relax {
     fn has_more(&self, _: &Task, latest: Option<&StepState>) -> bool {
         // Polygons that cannot be convex are cut.
         let may_serve = self.lack.is_some() && latest.is_none_or(|latest| latest.attained != Attained::AllButPolygons);
-        // What fills the holes of a layout that was given may fold: there is no way on from that.
+        // The filling of holes of a given layout may fold; relaxing cannot start from that.
         let may_begin = latest.is_none_or(|latest| latest.is_one_to_one || !latest.is_solved());
         let is_wanted = self.left.always > 0 || (self.left.until_it_serves > 0 && may_serve);
         is_wanted

@@ -1,4 +1,4 @@
-//! The stages by name, and which sequences of them a part of a strategy can have.
+//! Stages by name, and the sequences of stages of a phase.
 
 use self::StageKind::{
     Again, Angles, Continuation, FewVertices, Fit, Given, Held, Iterate, Lee, Matchmaker, Natural, Schnyder, Slim,
@@ -8,49 +8,49 @@ use super::SolverCache;
 use super::stage::RunStage;
 use super::{coarse, continuation, held, iterate, matchmaker, single_step, slim, stretch, virtual_boundary};
 
-/// The stages of a phase, sequence by sequence.
+/// Stages of a phase, sequence by sequence.
 pub(super) type Sequence = &'static [&'static [StageKind]];
 
-/// Until planar.
+/// All stages of `auto`, until planar.
 pub(super) const LADDER: Sequence =
     &[&[Natural, Iterate], &[Again, Iterate], &[FewVertices], &[VirtualBoundary], &[Schnyder]];
-/// Until planar, stalled or at the limit.
+/// Iteration, until planar, stalled or at the limit.
 pub(super) const ITERATED: Sequence = &[&[Natural, Iterate]];
-/// Until planar.
+/// Virtual boundary, until planar.
 pub(super) const BENT: Sequence = &[&[Natural], &[VirtualBoundary]];
-/// By theorem.
+/// Grid drawing, planar by theorem.
 pub(super) const DRAWN: Sequence = &[&[Schnyder]];
-/// One linear solve of mesh and padding.
+/// Lee's method: a single linear solve of mesh and padding.
 pub(super) const PADDED: Sequence = &[&[Lee]];
-/// As long as the energy falls.
+/// SLIM, while the energy falls.
 pub(super) const LESS_ENERGETIC: Sequence = &[&[Slim]];
-/// As long as stretch falls.
+/// Stretch minimising, while the stretch falls.
 pub(super) const LESS_STRETCHED: Sequence = &[&[Stretch]];
-/// Angles, laid out.
+/// Angle based flattening.
 pub(super) const ANGLES: Sequence = &[&[Angles]];
-/// One eigenvector.
+/// Spectral map: a single eigenvector.
 pub(super) const SPECTRAL: Sequence = &[&[Spectral]];
-/// One linear solve.
+/// Single linear solve.
 pub(super) const LINEAR: Sequence = &[&[Natural]];
-/// From a planar start until the constraints are met, or stuck.
+/// Continuation from a planar start until the constraints are met, or stuck.
 pub(super) const CONTINUED: Sequence = &[&[Fit, Continuation]];
-/// From a boundary that follows its targets until the constraints are met, or stuck.
+/// Continuation from a boundary that follows its targets until the constraints are met, or stuck.
 pub(super) const HELD: Sequence = &[&[Held, Continuation]];
-/// From a planar start until the constraints are met, with new vertices.
+/// Matchmaker from a planar start, which meets the constraints with new vertices.
 pub(super) const MATCHED: Sequence = &[&[Fit, Matchmaker]];
-/// From a planar start until the constraints are met, with new vertices where it cannot be otherwise.
+/// Continuation from a planar start, then new vertices if the constraints cannot be met otherwise.
 pub(super) const CONTINUED_OR_MATCHED: Sequence = &[&[Fit, Continuation], &[Matchmaker]];
-/// From a one-to-one embedding, as it lies, until the constraints are met, or stuck.
+/// Continuation from a one-to-one embedding, not moved to fit, until the constraints are met, or stuck.
 pub(super) const CONTINUING: Sequence = &[&[Continuation]];
 
-/// The layout that it starts from, as it is.
+/// Given layout, unchanged.
 pub(super) const GIVEN: Sequence = &[&[Given]];
-/// From that until planar, stalled or at the limit.
+/// Iteration from the given layout, until planar, stalled or at the limit.
 pub(super) const GIVEN_ITERATED: Sequence = &[&[Given, Iterate]];
-/// From that until planar.
+/// Virtual boundary from the given layout, until planar.
 pub(super) const GIVEN_BENT: Sequence = &[&[Given], &[VirtualBoundary]];
 
-/// Every stage but relaxing, which follows all of them.
+/// Name of a stage. Relaxing has none: it can follow every stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum StageKind {
     Given,

@@ -30,10 +30,10 @@ impl RunStage for Given {
     }
 }
 
-/// One linear solve by the method that was asked for; for `auto` the natural boundary (paper §3.3).
+/// Single linear solve of the requested method. For `auto`, the natural boundary (paper §3.3).
 #[derive(Debug)]
 pub(super) struct Natural {
-    /// Equations and factors, kept from an earlier solve, or made by a step that came to no end.
+    /// Equations and factors, from an earlier solve or from a step that did not finish.
     pub(super) prepared: Option<Arc<Prepared>>,
 }
 
@@ -58,16 +58,16 @@ impl RunStage for Natural {
     }
 }
 
-/// Other stages may make good what is wrong with the system, but not what the user got wrong.
+/// Failures of the system are left to other stages; errors of the request are final.
 fn natural_failure(error: SolveError) -> StageFailure {
     if error.is_failure_of_method() { StageFailure::of("the natural boundary", error) } else { error.into() }
 }
 
-/// Natural boundary once more, with conformal weights and default pins, moved to where the user's pins want it.
+/// Second natural boundary, with conformal weights and default pins, moved to the user's pins.
 ///
 /// This stage is our addition. The virtual boundary keeps a simple boundary and bends any other to a circle. If other
-/// weights or pins were asked for, this solve comes first: the default ones' boundary is simple far more often, and stays
-/// free.
+/// weights or pins were requested, this solve comes first. The default ones give a simple boundary far more often, and
+/// it stays free.
 #[derive(Debug, Default)]
 pub(super) struct Again {
     is_done: bool,
@@ -77,10 +77,10 @@ impl RunStage for Again {
     fn step(&mut self, from: StageInput<'_>, control: Control<'_>) -> Result<Candidate, StageFailure> {
         let settings = Settings { size: from.task.settings.size, ..Settings::new(Method::Natural, Family::default()) };
         let mut solution = solve_once(from.mesh, &settings, &Pins::new(), control)
-            .map_err(|error| StageFailure::of("starting again", error))?;
+            .map_err(|error| StageFailure::of("the restart", error))?;
         self.is_done = true;
         solution.pins = Pins::new();
-        let note = "started again with conformal weights and the farthest boundary vertices as pins".to_owned();
+        let note = "restarted with conformal weights and the farthest boundary vertices as pins".to_owned();
         Ok(Candidate { note: Some(note), ..Candidate::new(Stage::Natural, settings.family(), solution) })
     }
 
@@ -115,7 +115,7 @@ impl RunStage for Pad {
     }
 }
 
-/// Spectral conformal map; pins have no part in it.
+/// Spectral conformal map. Pins are ignored.
 #[derive(Debug, Default)]
 pub(super) struct Eigenvector {
     is_done: bool,
@@ -136,7 +136,7 @@ impl RunStage for Eigenvector {
     }
 }
 
-/// Angle based flattening; pins have no part in it.
+/// Angle based flattening. Pins are ignored.
 #[derive(Debug, Default)]
 pub(super) struct Angles {
     is_done: bool,
@@ -174,7 +174,7 @@ fn angle_note(found: &AngleMap) -> Option<String> {
 /// Rounds of relaxing after the grid drawing, whose faces are far from their shapes.
 const ROUNDS_AFTER_DRAWING: usize = 100;
 
-/// Schnyder's grid drawing: planar by theorem if every linear solve runs out of digits.
+/// Schnyder's grid drawing: planar by theorem when every linear solve runs out of digits.
 #[derive(Debug, Default)]
 pub(super) struct Draw {
     is_done: bool,
@@ -198,8 +198,8 @@ impl RunStage for Draw {
 
 /// Cut of concave polygons into triangles, after a step without any other fault.
 ///
-/// A polygon cannot be convex if only two polygons meet at a vertex inside, or if exact pins hold its corners so. Its
-/// triangles are positive: once it is cut into them, other programs cannot cut it otherwise.
+/// A polygon cannot be convex if only two polygons meet at an inner vertex, or if hard pins fix its corners so. The
+/// triangles of the polygon are positive. Once it is cut into them, other programs cannot cut it otherwise.
 #[derive(Debug, Default)]
 pub(super) struct Cut;
 
@@ -217,8 +217,8 @@ impl RunStage for Cut {
             None => Refinement::of_cut_polygons(mesh, concave).map_err(|_| SolveError::NotPlanar)?,
         };
         let note = match concave.len() {
-            1 => "1 polygon cannot be convex here: it is cut into triangles".to_owned(),
-            count => format!("{count} polygons cannot be convex here: they are cut into triangles"),
+            1 => "1 polygon cannot be convex: cut into triangles".to_owned(),
+            count => format!("{count} polygons cannot be convex: cut into triangles"),
         };
         let candidate = Candidate::one_to_one(Stage::Cut, latest.embedding.clone(), &latest.pins).since(began);
         Ok(Candidate { refinement: Some(Arc::new(refinement)), note: Some(note), ..candidate })

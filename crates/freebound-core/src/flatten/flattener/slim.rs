@@ -1,5 +1,5 @@
-//! SLIM: Tutte's map on a circle, then one iteration a step. Where rounding folds that map, the flattener's way to a planar one
-//! follows, and the iterations begin there.
+//! SLIM: Tutte's map on a circle, then one iteration per step. If rounding folds Tutte's map, the flattener computes a
+//! planar map first, and the iterations start from that.
 
 use std::time::Instant;
 
@@ -11,7 +11,7 @@ use crate::mesh::DiskMesh;
 use crate::nonlinear::slim::Slim;
 use crate::problem::{BoundaryShape, Control, Embedding, Pins, Settings, SolveError, Stage};
 
-/// An iteration that gains a smaller share of the energy is the last.
+/// Least relative gain of an iteration that is followed by another.
 const TOLERANCE: f64 = 1e-6;
 
 #[derive(Debug, Default)]
@@ -30,27 +30,27 @@ struct Run {
 
 #[derive(Debug)]
 enum SlimPhase {
-    /// On the flattener's way to a planar map.
+    /// The flattener computes a planar map.
     Start(Box<Flattener>),
     Iterations(Box<Slim>),
 }
 
-/// Why no iteration follows.
+/// Reason why no iteration follows.
 #[derive(Debug)]
 enum End {
-    /// As many as allowed.
+    /// Maximum number of iterations reached.
     Limit,
-    /// There is no sense in going on.
+    /// Further iterations are useless.
     Done,
 }
 
 impl Run {
-    /// The first step, and the run that goes on from it.
+    /// First step, and the run that continues from it.
     fn begin(from: StageInput<'_>, control: Control<'_>) -> Result<(Self, Candidate), SolveError> {
         let start = SlimPhase::Start(Box::new(to_planar_map(from.task)));
         let mut run = Self { stage: start, taken: 0, end: None, notes: Notes::default() };
         let tutte = match tutte(from.mesh, control) {
-            Err(error) if error.is_failure_of_method() => Err(format!("Tutte's map gave nothing ({error})")),
+            Err(error) if error.is_failure_of_method() => Err(format!("Tutte's map failed ({error})")),
             other => Ok(other?),
         };
         let why = match tutte {
@@ -58,7 +58,7 @@ impl Run {
             Ok((solution, family)) => {
                 run.look_for_start(from.mesh, &solution.embedding, control)?;
                 if matches!(run.stage, SlimPhase::Start(_)) {
-                    run.notes.say("rounding leaves faces of Tutte's map without area, or folded".to_owned());
+                    run.notes.say("rounding collapses or folds faces of Tutte's map".to_owned());
                 }
                 let candidate = Candidate::new(Stage::Convex(BoundaryShape::Circle), family, solution);
                 let candidate = run.described(candidate, from.task);
@@ -70,7 +70,7 @@ impl Run {
         Ok((run, candidate))
     }
 
-    /// Begins with the iterations where an embedding can be their start.
+    /// Starts the iterations if an embedding is a valid start.
     fn look_for_start(
         &mut self,
         mesh: &DiskMesh,
@@ -95,9 +95,9 @@ impl Run {
                 }
                 if is_end && matches!(self.stage, SlimPhase::Start(_)) {
                     self.end = Some(End::Done);
-                    self.notes.say("SLIM cannot begin: no planar map was found".to_owned());
+                    self.notes.say("SLIM cannot start: no planar map was found".to_owned());
                 }
-                // Factors are of no use to later solves by SLIM.
+                // Later solves by SLIM cannot reuse the factors.
                 Candidate { prepared: None, ..step.candidate }
             }
             SlimPhase::Iterations(slim) => {
@@ -113,7 +113,7 @@ impl Run {
         Ok(self.described(candidate, from.task))
     }
 
-    /// A candidate with what there is to say of it.
+    /// Candidate with its progress and notes.
     fn described(&mut self, candidate: Candidate, task: &Task) -> Candidate {
         self.notes.say(candidate.note);
         let mut progress = candidate.progress;
@@ -121,27 +121,27 @@ impl Run {
             progress = Some(slim.progress());
             if self.end.is_none() && self.taken >= task.settings.max_steps() {
                 self.end = Some(End::Limit);
-                self.notes.say(format!("the last of {} iterations, as many as it may take", self.taken));
+                self.notes.say(format!("the last of {} iterations: limit reached", self.taken));
             }
         }
         Candidate { progress, note: self.notes.take(), ..candidate }
     }
 }
 
-/// The flattener, without pins and only as far as its first planar map: SLIM lowers the distortion itself.
+/// Flattener without pins, up to its first planar map: SLIM lowers the distortion itself.
 fn to_planar_map(task: &Task) -> Flattener {
     let settings =
         Settings { size: task.settings.size, relax_rounds: Some(0), new_vertices: false, ..Settings::default() };
     Flattener::new(settings, Pins::new())
 }
 
-/// Why an iteration is the last, if it is.
+/// Reason why an iteration is the last, if it is.
 fn why_last(gain: Result<Option<f64>, SolveError>) -> Result<Option<String>, SolveError> {
     Ok(match gain {
         Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
-        Err(error) => Some(format!(", for the next direction cannot be computed: {error}")),
-        Ok(None) => Some(": no step lowers the energy any more".to_owned()),
-        Ok(Some(gain)) if gain < TOLERANCE => Some(format!(": it gained less than {TOLERANCE:.0e} of the energy")),
+        Err(error) => Some(format!(": the next direction cannot be computed: {error}")),
+        Ok(None) => Some(": no step lowers the energy".to_owned()),
+        Ok(Some(gain)) if gain < TOLERANCE => Some(format!(": it lowered the energy by less than {TOLERANCE:.0e}")),
         Ok(Some(_)) => None,
     })
 }

@@ -1,4 +1,4 @@
-//! What a stage is: from the latest step to a candidate, or to a reason why there is none.
+//! Interface of a stage: from the latest step to a candidate, or to the reason why there is none.
 
 use std::sync::Arc;
 
@@ -8,26 +8,26 @@ use crate::mesh::{DiskMesh, FaceId, Refinement};
 use crate::problem::{Control, Embedding, Pins, SolveError};
 
 pub(super) trait RunStage: std::fmt::Debug + Send {
-    /// The next candidate. A step that is cancelled leaves the stage as it was.
+    /// Next candidate. A cancelled step leaves the stage unchanged.
     fn step(&mut self, from: StageInput<'_>, control: Control<'_>) -> Result<Candidate, StageFailure>;
 
-    /// Whether it has another step, on the way to what is asked for.
+    /// True if the stage has another step towards the goal.
     fn has_more(&self, task: &Task, latest: Option<&StepState>) -> bool;
 
-    /// Whether it is to be taken to its end before anything follows, even where it is solved already.
+    /// True if the stage must finish before anything follows, even if the goal is reached.
     fn improves(&self) -> bool {
         false
     }
 
-    /// Takes in a step, its own or one of another stage of the same phase.
+    /// Records a step of this stage or of another stage of the phase.
     fn observe(&mut self, _step: &Step) {}
 
-    /// Rounds of relaxing that follow a step of its own, where nobody says how many.
+    /// Default number of rounds of relaxing after a step of this stage.
     fn relax_rounds_after(&self, _task: &Task, _step: &Step) -> usize {
         0
     }
 
-    /// Why the flattener ends where this was its last stage.
+    /// Reason for the end of the flattener if this is its last stage.
     fn ending(&self, _task: &Task) -> Ending {
         Ending::Done
     }
@@ -38,21 +38,21 @@ pub(super) trait RunStage: std::fmt::Debug + Send {
 pub(super) enum PhaseGoal {
     /// The request: planar, with the constraints met.
     Constraints,
-    /// A planar embedding without the constraints, for the next phase to begin with.
+    /// Planar embedding without the constraints, from which the next phase starts.
     PlanarStart,
 }
 
 /// Start of a step.
 #[derive(Clone, Copy)]
 pub(super) struct StageInput<'a> {
-    /// What the phase of the strategy is asked for.
+    /// Request for the current phase of the strategy.
     pub(super) task: &'a Task,
     pub(super) mesh: &'a DiskMesh,
-    /// The latest step of the same phase of the strategy; of the phase before, where that leads here.
+    /// Latest step of the current phase, or of the previous phase if that leads to this one.
     pub(super) latest: Option<&'a StepState>,
 }
 
-/// Share of its phase's goal that a step has reached.
+/// Part of its phase's goal that a step has reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Attained {
     /// Not the goal.
@@ -76,32 +76,32 @@ impl StepState {
 #[derive(Debug)]
 pub(super) struct StepState {
     pub(super) embedding: Embedding,
-    /// Start of the next stage, where it is not this step.
+    /// Start of the next stage, if that is not this step.
     pub(super) onward: Option<Embedding>,
-    /// The pins in force.
+    /// Active pins.
     pub(super) pins: Pins,
     pub(super) has_simple_boundary: bool,
     pub(super) is_one_to_one: bool,
     pub(super) attained: Attained,
     /// Concave polygons, by their first faces.
     pub(super) concave_polygons: Vec<FaceId>,
-    /// The mesh with new vertices that it is of.
+    /// Mesh with new vertices, if the embedding has such.
     pub(super) refinement: Option<Arc<Refinement>>,
 }
 
 #[derive(Debug)]
 pub(super) struct StageFailure {
     pub(super) error: SolveError,
-    /// For the next sequence, where the failure is not the end.
+    /// Data for the next sequence, if the failure is not the end.
     pub(super) handover: Option<Handover>,
 }
 
-/// What a stage without a candidate hands on.
+/// Data that a stage without a candidate passes on.
 #[derive(Debug, Default)]
 pub(super) struct Handover {
-    /// Why there was none.
+    /// Reason for the lack of a candidate.
     pub(super) note: Option<String>,
-    /// Start of the next stage, where it is not the latest step.
+    /// Start of the next stage, if that is not the latest step.
     pub(super) embedding: Option<Embedding>,
 }
 
@@ -112,22 +112,22 @@ impl From<SolveError> for StageFailure {
 }
 
 impl StageFailure {
-    /// A failure that other stages may make good.
+    /// Failure of a stage named `what` that other stages may replace.
     pub(super) fn of(what: &str, error: SolveError) -> Self {
         if error == SolveError::Cancelled {
             return error.into();
         }
-        let note = Some(format!("{what} gave nothing: {error}"));
+        let note = Some(format!("{what} failed: {error}"));
         Self { error, handover: Some(Handover { note, embedding: None }) }
     }
 
-    /// The same of a stage that is tried where it may serve: that it did not is nothing to say.
+    /// Failure of an optional stage, which needs no note.
     pub(super) fn in_silence(error: SolveError) -> Self {
         Self { error, handover: Some(Handover::default()) }
     }
 }
 
-/// What a stage found that is tried where it may serve; of its failures only the wish to stop counts.
+/// Result of an optional stage. Every failure except cancellation means that there is no candidate.
 pub(super) fn tried(found: Result<Option<Candidate>, SolveError>) -> Result<Option<Candidate>, SolveError> {
     match found {
         Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
@@ -145,7 +145,7 @@ impl Notes {
         self.0.extend(note.into().filter(|note| !self.0.contains(note)));
     }
 
-    /// All of them as one line.
+    /// All notes as one line.
     pub(super) fn take(&mut self) -> Option<String> {
         (!self.0.is_empty()).then(|| std::mem::take(&mut self.0).join("; "))
     }

@@ -1,4 +1,4 @@
-//! One step of a flattener: what a stage gives, and that with its verdict and its numbers.
+//! Step of a flattener: the result of a stage, with its verdict and its numbers.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -14,30 +14,31 @@ use crate::problem::units::Units;
 use crate::problem::{Embedding, Family, Pin, Pins, Progress, Solution, Stage};
 use crate::verify::Verdict;
 
-/// An embedding, and what made it.
+/// Embedding with its origin.
 #[derive(Clone, Debug, Default)]
 pub struct Candidate {
-    /// The stage that made it.
+    /// Stage that computed it.
     pub stage: Stage,
-    /// The family of its weights, where its method has a choice.
+    /// Family of its weights, if its method has a choice.
     pub family: Family,
-    /// The embedding and the numbers of its solve.
+    /// Embedding, and the numbers of its solve.
     pub solution: Solution,
-    /// The mesh with new vertices that the embedding is of; none where it is of the mesh as given.
+    /// Mesh with new vertices of the embedding. `None` if the embedding belongs to the input mesh.
     pub refinement: Option<Arc<Refinement>>,
-    /// How far a continuation or relaxing has come.
+    /// Progress of a continuation or relaxation.
     pub progress: Option<Progress>,
-    /// The outside that it was made with, where there was one.
+    /// Outside with which it was computed, if any.
     pub outside: Option<Arc<Scaffold>>,
-    /// Boundary vertices bent to a convex polygon (paper §5, k); none where it is free, or convex by the method.
+    /// Number of boundary vertices bent to a convex polygon (paper §5, k). 0 if the boundary is free, or convex by the
+    /// method.
     pub bent_vertices: usize,
-    /// The stages of §5, where it has any.
+    /// Intermediate results of paper §5, if any.
     pub virtual_boundary: Option<Arc<VirtualBoundary>>,
-    /// What else there is to say: why the stage before gave nothing, or what had to be repaired.
+    /// Remark: why an earlier stage failed, or which part was repaired.
     pub note: Option<String>,
-    /// Equations and factors of a linear solve, for other targets of the same pins.
+    /// Equations and factors of a linear solve, for other targets of these pins.
     pub prepared: Option<Arc<Prepared>>,
-    /// The planar start that it was fitted from, for other targets on the same mesh.
+    /// Planar start from which it was fitted, for other targets on the same mesh.
     pub planar_start: Option<Arc<PlanarStart>>,
 }
 
@@ -46,21 +47,21 @@ impl Candidate {
         Self { stage, family, solution, ..Self::default() }
     }
 
-    /// An embedding that minimises an energy: no linear system has it as its solution.
+    /// Candidate whose embedding is not the solution of a linear system, such as the minimum of an energy.
     pub(crate) fn one_to_one(stage: Stage, embedding: Embedding, pins: &Pins) -> Self {
         let gauge_completed = pins.len() < 2;
         let solution = Solution { embedding, pins: pins.clone(), gauge_completed, ..Solution::default() };
         Self::new(stage, Family::default(), solution)
     }
 
-    /// An advance of continuation or relaxing under these pins.
+    /// Candidate of an advance of continuation or relaxing, with these pins.
     pub(super) fn of_advance(stage: Stage, advance: Advance, pins: &Pins) -> Self {
         let Advance { embedding, progress, scaffold, note } = advance;
         let candidate = Self::one_to_one(stage, embedding, pins);
         Self { progress: Some(progress), outside: Some(scaffold), note, ..candidate }
     }
 
-    /// Takes it from units of the solve to the plane, vertices on the targets asked for to the last bit.
+    /// Converts from units of the solve to the plane. Vertices on the targets in `asked` get their exact bits.
     pub(super) fn take_to_plane(&mut self, units: &Units, asked: &Pins) {
         if units.is_plane() {
             return;
@@ -75,51 +76,52 @@ impl Candidate {
         }
     }
 
-    /// The same, computed since `start`.
+    /// Sets the seconds of the solve to the time since `start`.
     pub(super) fn since(mut self, start: Instant) -> Self {
         self.solution.seconds.solve = start.elapsed().as_secs_f64();
         self
     }
 
-    /// Whether the boundary was bent to a convex polygon: it is no longer free.
+    /// True if the boundary is a convex polygon, by the method or by bending, and no longer free.
     pub fn has_convex_boundary(&self) -> bool {
         matches!(self.stage, Stage::Convex(_) | Stage::Stretch(_)) || self.bent_vertices > 0
     }
 
-    /// The mesh that the embedding is of: `mesh` as given, or its refinement.
+    /// Mesh of the embedding: `mesh`, the input, or its refinement.
     pub fn mesh<'a>(&'a self, mesh: &'a DiskMesh) -> &'a DiskMesh {
         self.refinement.as_ref().map_or(mesh, |refinement| refinement.disk())
     }
 }
 
-/// A candidate, proved: how good it is.
+/// Candidate with its proof.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// The embedding, and what made it.
+    /// Embedding with its origin.
     pub candidate: Candidate,
-    /// Place in the flattener, from 0.
+    /// Index in the flattener, from 0.
     pub index: usize,
-    /// The exact verdict on it.
+    /// Exact verdict on the embedding as written.
     pub verdict: Verdict,
-    /// Vertices outside the hull of their neighbours, ascending, or without a neighbour on the surface's side where the boundary
-    /// goes straight on: why it folds. None where it is one-to-one.
+    /// Vertices outside the convex hull of their neighbours, ascending: the causes of folds. Includes boundary
+    /// vertices at which the boundary goes straight on and no neighbour lies on the surface's side. Empty if the
+    /// embedding is one-to-one.
     pub outside_hull: Vec<VertexId>,
-    /// Largest move of a vertex since the step before, in the plane; none for the first.
+    /// Largest move of a vertex since the previous step, in the plane. `None` for the first step.
     pub max_move: Option<f64>,
-    /// Seconds that the verdict took.
+    /// Seconds for the verdict.
     pub verify_seconds: f64,
-    /// Seconds that it took to find those vertices: part of neither solve nor verdict. 0 where it is one-to-one.
+    /// Seconds for `outside_hull`, not included in solve or verdict. 0 if the embedding is one-to-one.
     pub hull_seconds: f64,
-    /// Pins that have no part in it: all constraints, where it is on the way to a planar start without them.
+    /// Pins without influence: all constraints, if this is a step of a planar start without them.
     pub set_aside: Pins,
-    /// Whether it lies as the layout does that it started from, as far as pins leave that open.
+    /// True if its placement is that of the initial layout, as far as pins leave it open.
     pub lies_as_given: bool,
-    /// Whether it goes on from an embedding that was there before its flattener began.
+    /// True if it continues from an embedding that existed before its flattener.
     pub is_continued: bool,
 }
 
 impl Step {
-    /// Vertices that are to be met exactly and are not, by number.
+    /// Vertices with hard pins that are not on their targets, ascending.
     pub fn unmet(&self) -> Vec<VertexId> {
         let pins = if self.is_of_planar_start() { &self.set_aside } else { &self.candidate.solution.pins };
         let is_unmet = |(vertex, pin): &(&VertexId, &Pin)| {
@@ -128,23 +130,23 @@ impl Step {
         pins.iter().filter(is_unmet).map(|(&vertex, _)| vertex).collect()
     }
 
-    /// Whether it is on the way to a planar start, in which the constraints have no phase.
+    /// True if this is a step of a planar start, which ignores the constraints.
     pub fn is_of_planar_start(&self) -> bool {
         !self.set_aside.is_empty()
     }
 
-    /// Whether the boundary is simple and runs counter-clockwise.
+    /// True if the boundary is simple and runs counter-clockwise.
     pub fn has_simple_boundary(&self) -> bool {
         self.verdict.boundary_crossings.is_empty() && self.verdict.turning_number == Some(1)
     }
 
-    /// Seconds of the solve and the verdict.
+    /// Seconds for the solve and the verdict.
     pub fn seconds(&self) -> f64 {
         self.candidate.solution.seconds.total() + self.verify_seconds
     }
 }
 
-/// The largest distance between the same vertices of two embeddings.
+/// Largest distance between corresponding vertices of two embeddings.
 pub fn largest_move(before: &[DVec2], after: &[DVec2]) -> f64 {
     before.iter().zip(after).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
 }

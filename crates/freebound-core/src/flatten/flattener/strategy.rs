@@ -1,8 +1,8 @@
-//! The strategy: which stage follows which, chosen once from method and pins.
+//! Strategy: the order of stages, chosen once from method and pins.
 //!
-//! A strategy has phases, a phase has sequences, a sequence has stages. After a stage's last step the next one of its sequence
-//! follows; a stage that gives nothing, or that does not apply where the flattener comes to it, leads to the next sequence.
-//! A phase ends where it is solved, and relaxed; or with its last sequence.
+//! A strategy has phases, a phase has sequences, a sequence has stages. After the last step of a stage, the next stage
+//! of its sequence follows. A stage that fails, or that does not apply, leads to the next sequence. A phase ends when
+//! its goal is reached and the embedding relaxed, or with its last sequence.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -19,20 +19,20 @@ use super::task::Task;
 use super::{Ending, SolverCache, Step};
 use crate::problem::{Embedding, Method, Pins, Settings, Stage};
 
-/// The most rounds of relaxing until a planar embedding serves.
+/// Most rounds of relaxing until a planar embedding is usable.
 const ROUNDS_UNTIL_IT_SERVES: usize = 60;
 
-/// Rounds of relaxing by which polygons become convex.
+/// Rounds of relaxing to make polygons convex.
 const ROUNDS_TO_CONVEX: usize = 30;
 
-/// What is still to be done: the phase under way first.
+/// Remaining phases, the current one first.
 #[derive(Debug)]
 pub(super) struct Strategy {
     phases: VecDeque<PhaseState>,
 }
 
 impl Strategy {
-    /// From a layout in the plane on, where there is one.
+    /// Strategy that starts from a layout in the plane, if there is one.
     pub(super) fn new(task: &Arc<Task>, cache: &SolverCache, layout: Option<&Arc<Embedding>>) -> Self {
         layout.map_or_else(|| Self::from_scratch(task, cache), |layout| Self::from_given(task, cache, layout))
     }
@@ -42,7 +42,7 @@ impl Strategy {
         let cache = SolverCache { planar_start: None, ..cache.clone() };
         let from_layout = |phase| PhaseState { is_from_layout: true, ..phase };
         let phase = |sequences| from_layout(PhaseState::new(task, PhaseGoal::Constraints, sequences, &cache));
-        // Constraints are met from the layout as it is.
+        // Constraints are met from the unchanged layout.
         let start = || {
             let settings = Settings { size: task.settings.size, ..Settings::default() };
             let frame = Arc::clone(&task.frame);
@@ -63,7 +63,7 @@ impl Strategy {
         Self { phases }
     }
 
-    /// From the surface alone.
+    /// Strategy that starts from the surface alone.
     pub(super) fn from_scratch(task: &Arc<Task>, cache: &SolverCache) -> Self {
         let planar_start = cache.planar_start.clone().filter(|start| start.serves(task));
         let cache = SolverCache { planar_start, ..cache.clone() };
@@ -94,7 +94,8 @@ impl Strategy {
         Self { phases }
     }
 
-    /// From a one-to-one embedding to the constraints, as it lies; where it gets stuck, from the planar start.
+    /// Strategy from a one-to-one embedding, not moved to fit, to the constraints. If it gets stuck, from the planar
+    /// start.
     pub(super) fn continuing(task: &Arc<Task>, cache: &SolverCache) -> Self {
         let from_scratch_after =
             Self::from_scratch(task, cache).phases.into_iter().skip_while(|phase| phase.sequences == ITERATED);
@@ -102,15 +103,15 @@ impl Strategy {
         Self { phases: std::iter::once(continuing).chain(from_scratch_after).collect() }
     }
 
-    /// At rest on the way from a planar start to the constraints, or at its end.
+    /// Strategy paused between a planar start and the constraints, or at its end.
     pub(super) fn on_the_way(task: &Arc<Task>, cache: &SolverCache) -> Self {
         let phase = PhaseState::new(task, PhaseGoal::Constraints, Self::sequence_to_constraints(task), cache);
-        // Behind the fit.
+        // The fit is skipped.
         let at = StageIndex { sequence: 0, stage: 1 };
         Self { phases: [PhaseState { at, ..phase }].into() }
     }
 
-    /// From a planar start.
+    /// Sequences from a planar start to the constraints.
     fn sequence_to_constraints(task: &Task) -> Sequence {
         match task.settings.method {
             Method::Matchmaker => MATCHED,
@@ -135,38 +136,38 @@ impl Strategy {
         self.phases.pop_front();
     }
 
-    /// Whether the next phase follows the one under way, where that has no further step.
+    /// True if the next phase follows once the current one has no further step.
     pub(super) fn leads_on(&self, latest: Option<&StepState>) -> bool {
         let is_end = self.phase().aim == PhaseGoal::Constraints && latest.is_some_and(StepState::is_solved);
         self.has_next_phase() && !is_end
     }
 }
 
-/// A stage, by its sequence and its place in the sequence.
+/// Stage, by its sequence and its place in the sequence.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct StageIndex {
     sequence: usize,
     stage: usize,
 }
 
-/// What takes the next step of a phase.
+/// Next action of a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum NextStage {
     Stage(StageIndex),
-    /// What follows the stages where they have solved it.
+    /// Relaxing, after the stages have reached the goal.
     Relax,
-    /// What follows where they have, but for concave polygons.
+    /// Cut of polygons, after the stages have reached the goal except for concave polygons.
     Cut,
 }
 
-/// Stages with one aim.
+/// Phase: stages with one goal.
 #[derive(Debug)]
 pub(super) struct PhaseState {
     pub(super) aim: PhaseGoal,
     pub(super) task: Arc<Task>,
     pub(super) relax: Relax,
     cut: Cut,
-    /// Whether it goes on from a layout that was given.
+    /// True if the phase continues from a given layout.
     pub(super) is_from_layout: bool,
     pub(super) sequences: Sequence,
     pub(super) stages: BTreeMap<StageKind, Box<dyn RunStage>>,
@@ -188,7 +189,7 @@ enum PhaseProgress {
 
 impl PhaseState {
     fn new(task: &Arc<Task>, aim: PhaseGoal, sequences: Sequence, cache: &SolverCache) -> Self {
-        // The latest step of any phase can be iterated on by hand, or relaxed where it is one-to-one.
+        // The latest step of any phase can be iterated manually, or relaxed if it is one-to-one.
         let kinds = sequences.iter().copied().flatten().chain(&[Iterate]);
         let stages = kinds.map(|&kind| (kind, kind.stage(cache))).collect();
         Self {
@@ -212,14 +213,14 @@ impl PhaseState {
         &*self.stages[&self.kind(at)]
     }
 
-    /// Whether it is about to begin, and not from the latest step.
+    /// True if the phase is about to start, and not from the latest step.
     pub(super) fn begins_anew(&self) -> bool {
         self.aim == PhaseGoal::PlanarStart && self.progress == PhaseProgress::NotBegun
     }
 
-    /// What takes the next step; none where the phase is at its end.
+    /// Next action. `None` at the end of the phase.
     pub(super) fn next(&self, latest: Option<&StepState>) -> Option<NextStage> {
-        // Its next step goes on from its own, not from one that was relaxed.
+        // The next step of the stage continues from its own previous step, not from a relaxed one.
         if self.stage(self.at).improves() {
             return Some(NextStage::Stage(self.at));
         }
@@ -227,7 +228,7 @@ impl PhaseState {
         if latest.is_some_and(StepState::is_solved) {
             return relax().or_else(|| self.drawing().filter(|_| self.is_too_fine()).map(NextStage::Stage));
         }
-        // What is too fine for its place may fit there once it has relaxed.
+        // An embedding that is too fine for its place may fit there once it has relaxed.
         if latest.is_some_and(|latest| latest.attained == Attained::AllButPlace)
             && let Some(place) = relax()
         {
@@ -236,7 +237,7 @@ impl PhaseState {
         if latest.is_some_and(|latest| latest.attained == Attained::AllButPolygons) {
             let relaxes = self.relax.has_more(&self.task, latest).then_some(NextStage::Relax);
             let follows = relaxes.or_else(|| self.cut.has_more(&self.task, latest).then_some(NextStage::Cut));
-            // Where constraints are met there is no further way to them.
+            // Once constraints are met, no further stage follows.
             if follows.is_some() || self.task.is_constrained() {
                 return follows;
             }
@@ -257,19 +258,19 @@ impl PhaseState {
         None
     }
 
-    /// Whether a planar embedding is too fine to serve, however much it is relaxed.
+    /// True if a planar embedding is too fine to be usable, however much it is relaxed.
     fn is_too_fine(&self) -> bool {
         self.rounds_until_it_serves() > 0 && self.relax.is_too_fine()
     }
 
-    /// The grid drawing, where the phase has one that is still to come: no face of it is fine.
+    /// Grid drawing, if the phase has it and it is still to come: no face of it is fine.
     fn drawing(&self) -> Option<StageIndex> {
         let sequence = self.sequences.iter().position(|sequence| sequence[0] == Schnyder)?;
         let at = StageIndex { sequence, stage: 0 };
         self.stage(at).has_more(&self.task, None).then_some(at)
     }
 
-    /// Goes to what takes the next step.
+    /// Enters the stage of an action.
     pub(super) fn enter(&mut self, place: NextStage) -> &mut dyn RunStage {
         let at = match place {
             NextStage::Relax => return &mut self.relax,
@@ -289,11 +290,11 @@ impl PhaseState {
         }
     }
 
-    /// What goes on from the latest step, whether or not the phase is at its end.
+    /// Stage that continues from the latest step on a manual request, even after the end of the phase.
     pub(super) fn by_hand(&mut self) -> &mut dyn RunStage {
         match self.kind(StageIndex::default()) {
             Fit | Continuation => &mut self.relax,
-            // What meets constraints as it is was brought there one-to-one.
+            // A layout that meets constraints is one-to-one.
             Given if self.task.is_constrained() => &mut self.relax,
             _ => self.stage_of(Iterate),
         }
@@ -303,7 +304,7 @@ impl PhaseState {
         &mut **self.stages.get_mut(&kind).expect("a phase has all stages of its sequences")
     }
 
-    /// Goes on to the next sequence. Returns whether there is one.
+    /// Enters the next sequence. Returns false if there is none.
     pub(super) fn leave_sequence(&mut self, place: NextStage) -> bool {
         let has_next = matches!(place, NextStage::Stage(_)) && self.at.sequence + 1 < self.sequences.len();
         if has_next {
@@ -312,7 +313,7 @@ impl PhaseState {
         has_next
     }
 
-    /// Takes in a step: one of its own, or the first where a flattener goes on from another's.
+    /// Records a step of this phase, or the adopted step of another flattener.
     pub(super) fn observe(&mut self, step: &Step) {
         self.progress = PhaseProgress::StageStepped;
         for stage in self.stages.values_mut() {
@@ -330,7 +331,7 @@ impl PhaseState {
                 self.stage(self.at).relax_rounds_after(&self.task, step).max(to_convex)
             };
             let always = self.task.settings.relax_rounds.unwrap_or_else(own);
-            // Where it lies as it is wanted, it stays as near to the layout as it is.
+            // An embedding in its requested place is not relaxed, to stay close to the layout.
             let is_in_place = step.is_of_planar_start() || step.unmet().is_empty();
             let stays = self.is_from_layout && is_in_place;
             let until_it_serves = if stays { 0 } else { self.rounds_until_it_serves() };
@@ -339,14 +340,14 @@ impl PhaseState {
         }
     }
 
-    /// Whether a planar end is relaxed until it serves, and by how many rounds at most.
+    /// Most rounds of relaxing until a planar end is usable. 0 if none are wanted.
     pub(super) fn rounds_until_it_serves(&self) -> usize {
         let settings = &self.task.settings;
         let is_wanted = settings.method == Method::Auto && settings.relax_rounds.is_none();
         if is_wanted { ROUNDS_UNTIL_IT_SERVES } else { 0 }
     }
 
-    /// Why the flattener ends where this was its last phase, and it is not solved.
+    /// Reason for the end of the flattener if this is its last phase and its goal is not reached.
     pub(super) fn ending(&self) -> Ending {
         let last = self.sequences.iter().copied().flatten().last().expect("a phase has stages");
         self.stages[last].ending(&self.task)

@@ -1,6 +1,7 @@
-//! Stretch minimising: one solve after another, each of less stretch, as long as there is one.
+//! Stretch minimising: a sequence of solves, each of less stretch.
 //!
-//! The solve after a step is made with the step: where it is stretched no less, that step is the last, and says so.
+//! Each step already computes the solve after it. If that solve has no less stretch, the step is the last, and its
+//! note tells.
 
 use std::mem;
 
@@ -10,7 +11,7 @@ use super::{Candidate, Ending};
 use crate::linear::{LessStretched, StretchMinimising};
 use crate::problem::{BoundaryShape, Control, Family, Solution, SolveError, Stage, fixed_pins};
 
-/// A fall by a smaller share is one of rounding.
+/// Least relative decrease of the stretch that is not mere rounding.
 const LEAST_FALL: f64 = 1e-9;
 
 #[derive(Debug, Default)]
@@ -18,23 +19,23 @@ pub(super) struct Stretch {
     run: Option<Run>,
 }
 
-/// A minimisation under way.
+/// Run of the minimisation.
 #[derive(Debug)]
 struct Run {
     shape: BoundaryShape,
     minimising: StretchMinimising,
     next: Next,
-    /// Solves that were taken after the first.
+    /// Number of solves after the first.
     taken: usize,
 }
 
-/// What the next step is.
+/// Next step.
 #[derive(Debug)]
 enum Next {
     Solved(Box<LessStretched>),
-    /// None, for there is none of less stretch.
+    /// No solve has less stretch.
     Minimum,
-    /// None, for there are as many as allowed.
+    /// Maximum number of solves reached.
     Limit,
 }
 
@@ -45,7 +46,7 @@ impl Run {
         Ok(Self { shape, minimising, next: Next::Solved(Box::new(first)), taken: 0 })
     }
 
-    /// What follows a solve, and what there is to say of it.
+    /// Next step after a solve, with a note.
     fn outlook(
         &self,
         solved: &LessStretched,
@@ -54,22 +55,21 @@ impl Run {
     ) -> Result<(Next, String), SolveError> {
         let stretch = format!("L² stretch {:.6}", solved.stretch);
         if !solved.stretch.is_finite() {
-            let why = "a face has no area, and nothing can be said of its stretch";
+            let why = "a face has no area, so its stretch is undefined";
             return Ok((Next::Minimum, format!("L² stretch infinite: {why}")));
         }
         if self.taken >= from.task.settings.max_steps() {
-            return Ok((Next::Limit, format!("{stretch}: as many solves as it may take")));
+            return Ok((Next::Limit, format!("{stretch}: solve limit reached")));
         }
         match self.minimising.after(solved, from.mesh, control) {
             Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
-            Err(error) => Ok((Next::Minimum, format!("{stretch}: the next solve gave nothing: {error}"))),
+            Err(error) => Ok((Next::Minimum, format!("{stretch}: the next solve failed: {error}"))),
             Ok(after) if after.stretch < (1.0 - LEAST_FALL) * solved.stretch => {
                 Ok((Next::Solved(Box::new(after)), stretch))
             }
-            Ok(after) => Ok((
-                Next::Minimum,
-                format!("{stretch}, the minimum: the next solve would come to {:.6}", after.stretch),
-            )),
+            Ok(after) => {
+                Ok((Next::Minimum, format!("{stretch}, the minimum: the next solve would give {:.6}", after.stretch)))
+            }
         }
     }
 

@@ -1,4 +1,4 @@
-//! What is asked for: settings and pins.
+//! The request: settings and pins.
 
 use std::sync::Arc;
 
@@ -16,35 +16,35 @@ use crate::problem::{
 };
 use crate::verify::{Conflict, UvFrame, conflicts};
 
-/// Numbers in 32 bits are off by less than this share of their size, and so are targets that lie about the origin.
+/// Relative error bound of numbers in 32 bits, also for targets that lie about the origin.
 const ROUNDING_IN_32_BITS: f64 = 1e-6;
 
 #[derive(Debug)]
 pub(super) struct Task {
     pub(super) settings: Settings,
     pub(super) pins: Pins,
-    /// How embeddings are written: what is proved.
+    /// Output frame in which embeddings are proved.
     pub(super) frame: Arc<UvFrame>,
-    /// The layout to start from, one position per vertex.
+    /// Layout to start from, one position per vertex.
     pub(super) start: Option<Arc<Embedding>>,
 }
 
 impl Task {
-    /// Pins count only where the method uses them.
+    /// Task with these pins, or without pins if the method does not use them.
     pub(super) fn new(settings: Settings, pins: Pins, frame: Arc<UvFrame>) -> Self {
         let pins = if settings.method.uses_pins() { pins } else { Pins::new() };
         Self { settings, pins, frame, start: None }
     }
 
-    /// The units of its solves. Placing and pictures that are not square round in the numbers that are written: there the
-    /// origin stays, so that stages prove these.
+    /// Units of the solves. Placement, and pictures that are not square, round the written numbers. In these cases the
+    /// origin stays fixed, so that stages prove the written numbers.
     pub(super) fn units(&self) -> Units {
         let units = Units::of(&self.pins, self.settings.size);
         if self.is_constrained() && self.frame.is_plain() { units } else { units.about_origin() }
     }
 
-    /// The same in units of a solve. Where these are not the plane's own, stages prove what they solve, and what is written
-    /// is proved of every step.
+    /// Task in units of the solves. If these differ from the plane's own, stages prove the numbers that they solve
+    /// for, and every step is proved again as written.
     pub(super) fn in_units(&self, units: &Units) -> Self {
         let frame = if units.is_plane() { Arc::clone(&self.frame) } else { Arc::default() };
         let in_units = |start: &Arc<Embedding>| {
@@ -54,7 +54,7 @@ impl Task {
         Self { settings: units.settings(self.settings.clone()), pins: units.pins(&self.pins), frame, start }
     }
 
-    /// Whether the pins are constraints: up to two exact ones only fix the similarity.
+    /// True if the pins are constraints. Up to two hard pins only fix the similarity.
     pub(super) fn is_constrained(&self) -> bool {
         self.settings.are_constraints(&self.pins)
     }
@@ -63,7 +63,7 @@ impl Task {
         self.pins.len() < GAUGE_PINS
     }
 
-    /// Whether the layout to start from meets all constraints, and none pulls.
+    /// True if the layout to start from meets all constraints, and all pins are hard.
     pub(super) fn is_met_by_start(&self) -> bool {
         let Some(start) = self.start.as_ref().filter(|_| self.is_constrained()) else { return false };
         let is_met = |(vertex, pin): (&VertexId, &Pin)| {
@@ -72,8 +72,8 @@ impl Task {
         self.pins.iter().all(is_met)
     }
 
-    /// Whether the method continues, and the layout to start from lies on two of the constraints, but for rounding to 32
-    /// bits: they hold it where it is.
+    /// True if the method continues and the initial layout lies on at least two of the constraints, up to rounding to
+    /// 32 bits. These constraints then hold the layout in place.
     pub(super) fn is_held_by_start(&self) -> bool {
         let Some(start) = self.start.as_ref().filter(|_| self.continues()) else { return false };
         let near = ROUNDING_IN_32_BITS * Bounds::of(self.pins.values().map(|pin| pin.target)).size().max_element();
@@ -83,7 +83,7 @@ impl Task {
         self.pins.iter().filter(lies_on).count() >= GAUGE_PINS
     }
 
-    /// Whether the method continues from an embedding to the constraints, and there are some.
+    /// True if the method continues from an embedding to the constraints, and there are constraints.
     pub(super) fn continues(&self) -> bool {
         self.settings.continues(&self.pins)
     }
@@ -92,17 +92,17 @@ impl Task {
         self.settings.held(&self.pins)
     }
 
-    /// Whether new vertices are made where the constraints cannot be met otherwise.
+    /// True if new vertices are added when the constraints cannot be met otherwise.
     pub(super) fn adds_vertices(&self) -> bool {
         self.settings.method == Method::Auto && self.settings.new_vertices
     }
 
-    /// Whether polygons that cannot be convex are cut into triangles: stage 5 by itself is asked for new vertices, too.
+    /// True if polygons that cannot be convex are cut into triangles. Stage 5 as a method also permits new vertices.
     pub(super) fn cuts_polygons(&self) -> bool {
         self.adds_vertices() || self.settings.method == Method::Matchmaker
     }
 
-    /// Checks what the first stage does not.
+    /// Checks the conditions that the first stage does not check.
     pub(super) fn check(&self, mesh: &DiskMesh) -> Result<(), SolveError> {
         match &self.settings.method {
             method if self.is_constrained() && !method.takes_constraints() => {
@@ -118,8 +118,8 @@ impl Task {
         }
     }
 
-    /// Moves a candidate to where up to two pins, or none, want it, without a fold. Constraints hold it where it is.
-    /// Returns a note where it could not be moved.
+    /// Moves a candidate to the position that up to two pins, or none, require, without a fold. Constraints hold it in
+    /// place. Returns a note if it could not be moved.
     ///
     /// # Errors
     ///
@@ -142,7 +142,7 @@ impl Task {
         }
         let Some(placing) = self.placing(mesh, candidate, control)? else {
             candidate.solution.pins = gauge_in(mesh, embedding);
-            let note = "the pinned vertices fell together, and no similarity takes them to their targets";
+            let note = "the pinned vertices coincide: no similarity moves them to their targets";
             return Ok(Some(note.to_owned()));
         };
         control.go_on()?;
@@ -168,10 +168,10 @@ impl Task {
         if let (Some(way), Some(outside)) = (placed.way, &candidate.outside) {
             candidate.outside = Some(Arc::new(moved(outside, way)));
         }
-        Ok(placed.way.is_none().then(|| "not yet moved to its place, whose numbers would fold it".to_owned()))
+        Ok(placed.way.is_none().then(|| "not yet moved to its place: rounding there would fold it".to_owned()))
     }
 
-    /// Whether an embedding is the layout that it started from, to the last bit; vertices of no face may lie anywhere.
+    /// True if an embedding equals the initial layout to the last bit. Unreferenced vertices are ignored.
     fn is_start(&self, mesh: &DiskMesh, embedding: &Embedding) -> bool {
         self.start.as_deref().is_some_and(|start| {
             let mut used = mesh.vertices().filter(|&vertex| mesh.is_used(vertex));
@@ -179,7 +179,7 @@ impl Task {
         })
     }
 
-    /// To where up to two pins want a candidate; where they leave that open, to where the layout lies that it started from.
+    /// Placement of a candidate for up to two pins. If they leave it open, the initial layout determines it.
     fn placing(
         &self,
         mesh: &DiskMesh,
@@ -196,8 +196,8 @@ impl Task {
         }
     }
 
-    /// How a candidate is turned where pins leave it free: upright; the sides of a square stay level, and a polygon of the
-    /// user's as it is.
+    /// Rotation of a candidate if pins leave it free: upright. The sides of a square stay level, and a polygon given
+    /// by the user is not rotated.
     fn turns(&self, mesh: &DiskMesh, candidate: &Candidate, control: Control<'_>) -> Result<Turns, SolveError> {
         if !self.has_open_gauge() {
             return Ok(Turns::NONE);
@@ -211,14 +211,14 @@ impl Task {
         })
     }
 
-    /// Whether all pins that are to be met exactly lie on their targets.
+    /// True if all hard pins lie on their targets.
     pub(super) fn are_met(&self, embedding: &Embedding) -> bool {
         let mut exact = self.pins.iter().filter(|(_, pin)| self.settings.is_hard(pin.kind));
         exact.all(|(vertex, pin)| embedding[vertex] == pin.target)
     }
 }
 
-/// The default gauge pins where they lie in an embedding.
+/// Default gauge pins at their positions in an embedding.
 pub(super) fn gauge_in(mesh: &DiskMesh, embedding: &Embedding) -> Pins {
     fixed_pins(gauge_pins(mesh).into_keys().map(|v| (v, embedding[v])))
 }
@@ -228,7 +228,7 @@ fn moved(outside: &Scaffold, way: Similarity) -> Scaffold {
     Scaffold { frame, triangles: outside.triangles.clone() }
 }
 
-/// Checks that no two exact targets are so near that numbers between them run out.
+/// Checks that no two hard targets are so close that 64-bit numbers cannot separate them.
 fn check_distances(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveError> {
     for conflict in conflicts(mesh, pins) {
         if let Conflict::NearCoincidentTargets { vertices: [first, second] } = conflict {

@@ -5,9 +5,9 @@
 //! extend the embedding up to a convex outline, solve the mean-value equations with the outline fixed, peel
 //! ```
 //!
-//! With all boundary vertices pinned the boundary is simple, so the method ends planar where numbers are exact. What can
-//! still go wrong is rounding: a solve that collapses faces. Then it is repeated with weights from its own result, which
-//! squeeze less, and at the very end with weights from the surface and with equal weights.
+//! With all boundary vertices pinned the boundary is simple, so the method ends planar in exact arithmetic. In
+//! floating point a solve may still collapse faces. Then it is repeated with weights from its own result, which
+//! squeeze less. The last attempts use weights from the surface, and equal weights.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -28,30 +28,30 @@ use crate::problem::{
 use crate::weights::equations::{barycentric, uniform};
 use crate::weights::plane_weights::{mean_value_in_plane, residuals_in_plane};
 
-/// Least share of the circle between neighbouring pins, relative to an even share: in 64 bits they must stay apart,
-/// and the polygon strictly convex.
+/// Least share of the circle between neighbouring pins, relative to an even share. In 64 bits the pins must stay
+/// apart, and the polygon strictly convex.
 const LEAST_SHARE: f64 = 0.2;
 
-/// Rounds of relaxing after the boundary was bent: it is not to stay a circle.
+/// Rounds of relaxing after the boundary was bent, so that it does not stay a circle.
 const ROUNDS_AFTER_BENDING: usize = 30;
 
-/// Weights that an extended embedding is solved with, in the order in which they are tried.
+/// Weights for solving an extended embedding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Weights {
-    /// Mean value, from the embedding before.
+    /// Mean value, from the previous embedding.
     Before,
     /// Mean value, from the last result.
     Again,
-    /// Mean value, from the surface in space.
+    /// Mean value, from the surface in space. With pockets, equal to [`Weights::Before`].
     Surface,
-    /// All equal.
+    /// Equal weights.
     Uniform,
 }
 
-/// While the boundary is free, or partly so.
+/// Weights to try while the boundary is free, or partly free.
 const TRIED_WHILE_FREE: &[Weights] = &[Weights::Before, Weights::Again, Weights::Again];
 
-/// When all of it is pinned, and nothing comes after.
+/// Weights to try when the whole boundary is pinned, as the last resort.
 const TRIED_AT_LAST: &[Weights] = &[
     Weights::Before,
     Weights::Again,
@@ -66,21 +66,22 @@ const TRIED_AT_LAST: &[Weights] = &[
 
 #[derive(Debug)]
 pub(super) struct Bend {
-    /// Boundary vertices that the present embedding was pinned by, and whether they are all of them.
+    /// Number of boundary vertices by which the present embedding was pinned.
     pinned: usize,
+    /// True if the whole boundary was pinned.
     is_all_pinned: bool,
     trial: Trial,
-    /// What gave nothing, and why.
+    /// Reasons for failed solves.
     notes: Notes,
 }
 
-/// An embedding that is being extended.
+/// Embedding that is being extended.
 #[derive(Debug, Default)]
 struct Trial {
     extended: Option<Extended>,
-    /// The last result.
+    /// Last result.
     last: Option<Arc<VirtualBoundary>>,
-    /// How many weights have been tried on `extended`.
+    /// Number of weights tried on `extended`.
     tried: usize,
 }
 
@@ -110,7 +111,7 @@ impl RunStage for Bend {
 }
 
 impl Bend {
-    /// Where every weight has failed, a drawing without weights may follow.
+    /// Failure after all weights. The grid drawing, which needs no weights, may follow.
     fn failure(&mut self, error: SolveError) -> StageFailure {
         match error {
             SolveError::Cancelled => error.into(),
@@ -122,7 +123,8 @@ impl Bend {
         if self.is_all_pinned { TRIED_AT_LAST } else { TRIED_WHILE_FREE }
     }
 
-    /// Tries the next weights on the embedding extended; where all are tried, or the boundary is not simple, pins more.
+    /// Tries the next weights on the extended embedding. If all were tried, or the boundary is not simple, pins more
+    /// vertices.
     fn bent(
         &mut self,
         StageInput { task, mesh, latest }: StageInput<'_>,
@@ -142,7 +144,7 @@ impl Bend {
                 Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
                 Err(error) => {
                     self.trial.tried += 1;
-                    self.notes.say(format!("the virtual boundary gave nothing: {error}"));
+                    self.notes.say(format!("the virtual boundary failed: {error}"));
                 }
             }
         }
@@ -159,7 +161,7 @@ impl Bend {
             };
             let pinned = wanted.min(boundary);
             let is_last = pinned == boundary;
-            // At last only weights that cannot fail will do.
+            // With the whole boundary pinned, only weights that cannot fail are used.
             let family = if is_last { Family::MeanValue } else { task.settings.family() };
             let settings = Settings { treatment: Some(Treatment::Eliminate), ..Settings::new(Method::Natural, family) };
             let solved = solve_once(mesh, &settings, &fixed_pins(on_circle(mesh, pinned)), control);
@@ -168,7 +170,7 @@ impl Bend {
             }
             (self.pinned, self.is_all_pinned) = (pinned, is_last);
             match solved {
-                Err(error) => self.notes.say(format!("{pinned} boundary pins gave nothing: {error}")),
+                Err(error) => self.notes.say(format!("{pinned} boundary pins failed: {error}")),
                 Ok(solution) => {
                     self.trial = Trial::default();
                     return Ok(Candidate::new(Stage::VirtualBoundary, family, solution));
@@ -178,7 +180,7 @@ impl Bend {
         Err(SolveError::AllBent)
     }
 
-    /// Solves mesh and outside together, and peels the outside off.
+    /// Solves for mesh and outside together, and removes the outside.
     fn peeled(
         &self,
         mesh: &DiskMesh,
@@ -191,7 +193,7 @@ impl Bend {
         let from = last.map_or(&extended.embedding, |last| &last.solved);
         let has_pockets = !extended.pockets.is_empty();
         let (equations, residuals) = match weights {
-            // The theorem is about triangles.
+            // The theorem holds for triangles.
             Weights::Surface if !has_pockets => (barycentric(&mesh.without_polygons(), 0.0, control)?, None),
             Weights::Uniform => (uniform(&extended.disk), None),
             _ => (
@@ -223,7 +225,8 @@ impl Bend {
     }
 }
 
-/// Boundary vertices on a circle as long as the boundary, evenly chosen along the loop, spaced by their lengths.
+/// Boundary vertices, evenly chosen along the loop, on a circle as long as the boundary. Their gaps are proportional
+/// to lengths along the boundary, with a lower bound.
 fn on_circle(mesh: &DiskMesh, count: usize) -> PinPositions {
     let boundary = mesh.boundary_loop();
     let chosen: Vec<usize> = (0..count).map(|j| j * boundary.len() / count).collect();

@@ -1,18 +1,20 @@
-//! A shallow nested dissection of large graphs: a few levels of separators, and minimum degree in what they part.
+//! Shallow nested dissection of large graphs: a few levels of separators, and minimum degree in the parts between
+//! them.
 //!
-//! Patches of some dozen vertices are grown, and their quotient graph is cut in two again and again, along level lines of
-//! differences of distances from far vertices: so a cut is about as straight as the surface allows. Each cut is then made
-//! least, in a band of vertices around it, by a greatest flow. What the separators part is independent in every phase that
-//! follows, and is ordered by minimum degree, part beside part. (George 1973, "Nested dissection of a regular finite element
-//! mesh"; patches as in Zarebavani et al. 2026, "Fast sparse matrix permutation for mesh-based direct solvers".)
+//! Patches of some dozen vertices are grown, and their quotient graph is bisected recursively. Cuts run along level
+//! lines of differences of distances from far vertices, and so are about as straight as the surface allows. A maximum
+//! flow then minimises each cut, in a band of vertices around it. The parts between the separators are independent in
+//! all later phases and are ordered by minimum degree in parallel. (George 1973, "Nested dissection of a regular
+//! finite element mesh"; patches as in Zarebavani et al. 2026, "Fast sparse matrix permutation for mesh-based direct
+//! solvers".)
 //!
 //! The parts depend on the graph alone, not on the number of threads.
 //!
-//! | file | what |
+//! | file | contents |
 //! |---|---|
-//! | `mod.rs` | the tree of separators and parts |
-//! | `patches.rs` | patches, their quotient graph, where that is cut in two |
-//! | `separator.rs` | the least separator in a band around a cut |
+//! | `mod.rs` | tree of separators and parts |
+//! | `patches.rs` | patches, bisection of their quotient graph |
+//! | `separator.rs` | minimum separator in a band around a cut |
 
 mod patches;
 mod separator;
@@ -26,39 +28,41 @@ use self::separator::{Moved, least_separator};
 use super::LinalgError;
 use super::pattern::{Pattern, go_on_unless, narrow};
 
-/// Vertices of a part, at most twice as many: below twice this nothing is cut. At 30 k vertices order, factor and solve together
-/// took as long as without when that was tried, from 50 k on less.
+/// Number of vertices of a part, up to twice as many: graphs of fewer than twice this number are not cut. In a
+/// measurement at 30 k vertices, order, factor and solve together took equally long with and without dissection. From
+/// 50 k on they took less time with dissection.
 const PART: usize = 10_000;
 
-/// The most levels: parts for as many threads as there may be, and more.
+/// Largest number of levels: more parts than there may be threads.
 const MOST_LEVELS: u32 = 6;
 
-/// A separator of more vertices, in roots of the number of vertices, is that of no surface: then nothing is gained.
+/// Largest accepted separator, in roots of the number of vertices. Surfaces have smaller separators; a larger
+/// separator gains nothing.
 const MOST_OF_ROOT: f64 = 4.0;
 
-/// Vertices that share the work of one task.
+/// Number of vertices per task.
 const VERTICES_PER_TASK: usize = 16_384;
 
-/// Marks the number of a separator's node beside those of parts.
+/// Bit that marks the node number of a separator, in contrast to the number of a part.
 const SEPARATOR: u32 = 1 << 31;
 
-/// What a graph is cut into: a complete binary tree with a separator at every node and a part at every leaf.
+/// Dissection of a graph: a complete binary tree with a separator at every node and a part at every leaf.
 #[derive(Debug)]
 pub(super) struct Dissection {
-    /// The vertices of every part, ascending.
+    /// Vertices of every part, ascending.
     pub(super) parts: Vec<Vec<u32>>,
-    /// The vertices of every separator, by its node: the children of node k, from 1, are 2k and 2k + 1.
+    /// Vertices of the separator of every node: the children of node k, from 1, are 2k and 2k + 1.
     separators: Vec<Vec<u32>>,
-    /// Each vertex's place in its part.
+    /// Index of each vertex in its part or separator.
     pub(super) place: Vec<u32>,
 }
 
 impl Dissection {
-    /// Cuts a graph, the pattern of a symmetric matrix; nothing where it is small, or falls apart in no cheap way.
+    /// Cuts a graph, the pattern of a symmetric matrix. `None` if the graph is small or has no cheap cuts.
     ///
     /// # Errors
     ///
-    /// [`LinalgError::Cancelled`], looked for at every level.
+    /// [`LinalgError::Cancelled`], checked at every level.
     pub(super) fn new(graph: &Pattern, cancel: &AtomicBool) -> Result<Option<Self>, LinalgError> {
         let levels = (graph.order() / PART).checked_ilog2().unwrap_or(0).min(MOST_LEVELS);
         if levels == 0 {
@@ -71,7 +75,7 @@ impl Dissection {
             go_on_unless(cancel)?;
             let most = MOST_OF_ROOT * (graph.order() as f64).sqrt();
             let cuts = Level { graph, labels: &labels, above: level, below: levels - level - 1 }.cuts();
-            // A cut along patches is hardly twice as long as it has to be.
+            // A cut along patches is hardly more than twice as long as necessary.
             if cuts.iter().any(|cut| cut.width() as f64 > 2.0 * most) {
                 return Ok(None);
             }
@@ -108,7 +112,7 @@ impl Dissection {
         this
     }
 
-    /// The pattern of a part by itself.
+    /// Pattern of the subgraph of a part.
     pub(super) fn pattern_of(&self, part: usize, graph: &Pattern) -> Pattern {
         let vertices = &self.parts[part];
         let is_own = |&vertex: &u32| vertices.get(self.place[vertex as usize] as usize) == Some(&vertex);
@@ -122,7 +126,7 @@ impl Dissection {
         Pattern { offsets, rows }
     }
 
-    /// All vertices, each part in the order given: a separator comes behind all that it parts.
+    /// All vertices, each part in the given order. A separator follows the parts that it separates.
     pub(super) fn order(&self, of_parts: &[Vec<u32>]) -> Vec<u32> {
         let mut order = Vec::with_capacity(self.place.len());
         self.append(1, of_parts, &mut order);
@@ -141,34 +145,34 @@ impl Dissection {
     }
 }
 
-/// The two sides of a node of the tree, by the numbers of their parts.
+/// Two sides of a node of the tree, identified by the numbers of their parts.
 struct Cut {
     /// Number of the node.
     node: u32,
-    /// Levels of the tree below its sides.
+    /// Number of levels of the tree below its sides.
     below: u32,
-    /// Vertices of either side beside the other.
+    /// Vertices of either side that are adjacent to the other side.
     beside: [Vec<u32>; 2],
 }
 
 impl Cut {
-    /// Vertices of the side that has fewer beside the other.
+    /// Number of adjacent vertices of the side that has fewer.
     fn width(&self) -> usize {
         self.beside.each_ref().map(Vec::len).into_iter().min().unwrap_or(0)
     }
 
-    /// The side that a label belongs to; none of this node.
+    /// Side of a label; `None` if the label does not belong to this node.
     fn side(&self, label: u32) -> Option<usize> {
         let is_own = label & SEPARATOR == 0 && (label >> (self.below + 1)) == self.first();
         is_own.then_some((label >> self.below & 1) as usize)
     }
 
-    /// Its place among the nodes of its level.
+    /// Index among the nodes of the level.
     fn first(&self) -> u32 {
         self.node - (1 << self.node.ilog2())
     }
 
-    /// Its label's number of the first part of a side.
+    /// Label of the first part of a side.
     fn first_part(&self, side: usize) -> u32 {
         (2 * self.first() + narrow(side)) << self.below
     }
@@ -178,9 +182,9 @@ impl Cut {
 struct Level<'a> {
     graph: &'a Pattern,
     labels: &'a [u32],
-    /// Levels above it.
+    /// Number of levels above this level.
     above: u32,
-    /// Levels below the sides of its nodes.
+    /// Number of levels below the sides of the nodes.
     below: u32,
 }
 
@@ -213,7 +217,7 @@ impl Level<'_> {
     }
 }
 
-/// Gives vertices of a cut's separator its label, and those that change sides the label of a neighbour there.
+/// Labels the vertices of a cut's separator, and gives vertices that change sides the label of a neighbour there.
 fn adopt(graph: &Pattern, labels: &mut [u32], cut: &Cut, moved: &[Moved]) {
     let mut open = Vec::new();
     for &Moved { vertex, side } in moved {
@@ -223,7 +227,7 @@ fn adopt(graph: &Pattern, labels: &mut [u32], cut: &Cut, moved: &[Moved]) {
             Some(_) => {}
         }
     }
-    // Meanwhile they belong to neither side.
+    // Until then they belong to neither side.
     for &(vertex, _) in &open {
         labels[vertex as usize] = SEPARATOR;
     }
@@ -241,7 +245,7 @@ fn adopt(graph: &Pattern, labels: &mut [u32], cut: &Cut, moved: &[Moved]) {
             None => true,
         });
         if open.len() == before {
-            // Cut off from the rest of their side.
+            // Disconnected from the rest of their side.
             open.drain(..).for_each(|(vertex, side)| labels[vertex as usize] = cut.first_part(side));
         }
     }
@@ -251,7 +255,7 @@ fn adopt(graph: &Pattern, labels: &mut [u32], cut: &Cut, moved: &[Moved]) {
 mod tests {
     use super::*;
 
-    /// The graph of so many vertices with these edges and all loops, as patterns of matrices have them.
+    /// Graph of `count` vertices with the given edges and all loops, like a pattern of a matrix.
     fn graph(count: usize, edges: impl Iterator<Item = [usize; 2]>) -> Pattern {
         let mut columns: Vec<Vec<u32>> = (0..count).map(|vertex| vec![narrow(vertex)]).collect();
         for [a, b] in edges {
@@ -268,7 +272,7 @@ mod tests {
         pattern
     }
 
-    /// A grid with diagonals. Vertices are renumbered: k becomes k times `factor`, modulo their number.
+    /// Grid with diagonals. Vertices are renumbered: k becomes k times `factor`, modulo their number.
     fn grid(width: usize, length: usize, factor: usize) -> Pattern {
         let count = width * length;
         let number = move |x: usize, y: usize| (y * width + x) * factor % count;
@@ -292,7 +296,7 @@ mod tests {
 
     #[test]
     fn a_strip_is_cut_across_by_hardly_more_vertices_than_it_is_wide() {
-        // Its 60 columns are so many paths without a common vertex: no separator is smaller (Menger).
+        // The 60 columns are paths without a common vertex: no separator is smaller (Menger).
         for factor in [1, 7919] {
             let dissection = dissected(&grid(60, 400, factor)).expect("large enough");
             let width = dissection.separators[1].len();
@@ -304,7 +308,7 @@ mod tests {
 
     #[test]
     fn no_edge_leads_from_one_part_to_another_and_each_vertex_is_ordered_once() {
-        // A fan has no band between its hub and what is beside it.
+        // A fan has no band between its hub and the adjacent vertices.
         let count = 41_989;
         let fan = graph(count, (1..count).flat_map(|k| [[0, k], [k, k % (count - 1) + 1]]));
         for graph in [grid(211, 199, 7919), fan] {
@@ -330,7 +334,7 @@ mod tests {
         let of_parts: Vec<Vec<u32>> =
             dissection.parts.iter().map(|vertices| (0..narrow(vertices.len())).collect()).collect();
         let mut order = dissection.order(&of_parts);
-        // A separator comes behind both sides: that of the root is last.
+        // A separator follows both sides: the separator of the root is last.
         let root = &dissection.separators[1];
         assert_eq!(order[order.len() - root.len()..], root[..]);
         order.sort_unstable();
@@ -339,7 +343,7 @@ mod tests {
 
     #[test]
     fn a_graph_without_cheap_cuts_and_a_small_one_are_left_whole() {
-        // Each vertex with three others anywhere: such graphs are expanders.
+        // Each vertex is joined to three others anywhere: such graphs are expanders.
         let count = 20_011;
         let edges = (0..count).flat_map(|k| [3, 7919, 12_345].map(|factor| [k, (k * factor + factor) % count]));
         assert!(dissected(&graph(count, edges)).is_none());

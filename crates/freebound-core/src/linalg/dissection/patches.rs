@@ -1,4 +1,4 @@
-//! Patches of a graph, and where their quotient graph is cut in two.
+//! Patches of a graph, and bisection of their quotient graph.
 
 use std::cmp::Reverse;
 use std::sync::atomic::AtomicBool;
@@ -8,27 +8,28 @@ use crate::parallel::prelude::*;
 use crate::linalg::LinalgError;
 use crate::linalg::pattern::{NONE, Pattern, go_on_unless, narrow, running_sum};
 
-/// Vertices of a patch.
+/// Average number of vertices per seed of a patch.
 const PATCH: u64 = 64;
 
-/// Far patches from which distances are taken.
+/// Number of far patches from which distances are measured.
 const LANDMARKS: usize = 6;
 
-/// The least share of the vertices on either side of a cut.
+/// Least share of the vertices on either side of a cut.
 const LEAST_SHARE: f64 = 0.44;
 
-/// The patches of a graph and the edges between them.
+/// Patches of a graph and the edges between them.
 pub(super) struct Quotient {
-    /// Patches beside each patch.
+    /// Adjacent patches of each patch.
     around: Pattern,
-    /// The edges of the graph that each of these stands for.
+    /// Number of edges of the graph behind each entry of `around`.
     edges: Vec<u32>,
-    /// Vertices of each patch.
+    /// Number of vertices of each patch.
     size: Vec<u32>,
 }
 
 impl Quotient {
-    /// Grows patches around vertices that are strewn over the graph. Also returns the patch of every vertex.
+    /// Grows patches around vertices scattered over the graph. Returns the patch of every vertex, and the quotient
+    /// graph.
     ///
     /// # Errors
     ///
@@ -59,7 +60,8 @@ impl Quotient {
         Ok((patch, Self { around: Pattern { offsets: running_sum(&counts), rows }, edges, size }))
     }
 
-    /// Cuts it in two so many times. The part of every patch: the parts of its halves come one after the other.
+    /// Bisects the quotient graph recursively, `levels` times. Returns the part of every patch; the parts of both
+    /// halves of a part are consecutive.
     ///
     /// # Errors
     ///
@@ -93,7 +95,7 @@ impl Quotient {
         self.around.rows[range.clone()].iter().copied().zip(self.edges[range].iter().copied())
     }
 
-    /// The patches of a list on one side of the cheapest cut that is found: along a level line of the distance from a far
+    /// Patches of a list on a side of the cheapest cut found. Cuts run along a level line of the distance from a far
     /// patch, or of the difference of two such distances.
     fn second_half(&self, list: &[u32], part: &[u32]) -> Vec<u32> {
         let Some(&first) = list.first() else { return Vec::new() };
@@ -113,13 +115,13 @@ impl Quotient {
             let (cost, at) = self.cheapest(&sorted, part)?;
             Some((cost, sorted.split_off(at)))
         };
-        // The first of those that cost the least.
+        // Ties go to the first cut.
         let cuts: Vec<Option<(f64, Vec<u32>)>> = differences.into_par_iter().map(cut).collect();
         let best = cuts.into_iter().flatten().reduce(|best, cut| if cut.0 < best.0 { cut } else { best });
         best.map_or_else(|| list[list.len() / 2..].to_vec(), |(_, half)| half)
     }
 
-    /// The cost and the place of the cheapest cut of a sorted list.
+    /// Cost and position of the cheapest cut of a sorted list.
     fn cheapest(&self, sorted: &[u32], part: &[u32]) -> Option<(f64, usize)> {
         let weight = |patch: u32| f64::from(self.size[patch as usize]);
         let total: f64 = sorted.iter().map(|&patch| weight(patch)).sum();
@@ -142,7 +144,8 @@ impl Quotient {
         best
     }
 
-    /// Distances from far patches of a list to all of it, in patches; those that are out of reach are farther than all others.
+    /// Distances from far patches of a list to all its patches, counted in patches. Unreachable patches get a
+    /// distance greater than all others.
     fn fields(&self, first: u32, list: &[u32], part: &[u32]) -> Vec<Vec<i32>> {
         let far = i32::try_from(list.len()).expect("fewer patches than vertices");
         let farthest = |fields: &[Vec<i32>]| {
@@ -175,7 +178,7 @@ impl Quotient {
     }
 }
 
-/// A list sorted by small numbers; equal ones stay in their order. Counting takes a fraction of the time of comparing.
+/// Counting sort of a list by small numbers, stable. It takes a fraction of the time of a comparison sort.
 fn sorted_by(list: &[u32], value: impl Fn(u32) -> i32) -> Vec<u32> {
     let (least, greatest) = list
         .iter()
@@ -196,11 +199,11 @@ fn sorted_by(list: &[u32], value: impl Fn(u32) -> i32) -> Vec<u32> {
     sorted
 }
 
-/// The patch of every vertex: that of the nearest seed.
+/// Patch of every vertex: the patch of the nearest seed.
 fn grown(graph: &Pattern) -> Vec<u32> {
     let n = graph.order();
     let mut patch = vec![NONE; n];
-    // Seeds are strewn by a hash of their numbers (Fibonacci's), whose neighbours may lie in a row.
+    // A hash of vertex numbers (Fibonacci hashing) scatters the seeds, since consecutive numbers may be neighbours.
     let is_seed = |vertex: &u64| (vertex.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 32).is_multiple_of(PATCH);
     let mut queue: Vec<u32> = (0..n as u64).filter(is_seed).filter_map(|vertex| u32::try_from(vertex).ok()).collect();
     queue.reserve_exact(n - queue.len());

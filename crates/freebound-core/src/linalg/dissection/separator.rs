@@ -1,9 +1,9 @@
-//! The least separator in a band around a cut.
+//! Minimum separator in a band around a cut.
 //!
-//! By Menger's theorem the fewest vertices that part two sets are as many as there are paths between these without a common
-//! vertex. The paths are found as a greatest flow (Ford and Fulkerson 1956) in the graph in which every vertex of the band is
-//! two, with an arc of capacity 1 from one to the other. The separator is where what the source still reaches ends: the same
-//! for all greatest flows.
+//! By Menger's theorem, the size of a minimum vertex separator of two sets is the number of paths between them
+//! without a common vertex. A maximum flow (Ford and Fulkerson 1956) finds the paths. In its graph every vertex of
+//! the band is two nodes, with an arc of capacity 1 from the first to the second. The separator consists of the
+//! vertices at which the nodes reachable from the source end: identical for all maximum flows.
 
 use std::cmp::Reverse;
 use std::sync::atomic::AtomicBool;
@@ -12,23 +12,25 @@ use super::Cut;
 use crate::linalg::LinalgError;
 use crate::linalg::pattern::{Pattern, go_on_unless, narrow, running_sum};
 
-/// Layers of vertices on either side of the cut among which the separator is sought: a patch is less than twice as wide.
+/// Number of layers of vertices on either side of the cut in which the separator is sought: a patch is less than
+/// twice as wide.
 const LAYERS: i8 = 5;
 
-/// The most of a band, in vertices beside the cut: thin parts have few layers, and are not taken up whole.
+/// Largest size of a band relative to the vertices beside the cut: thin parts have few layers and must not be
+/// consumed entirely.
 const MOST_TIMES: usize = 2 * LAYERS as usize;
 
-/// More than any flow.
+/// Capacity greater than any flow.
 const ENDLESS: u32 = 1 << 30;
 
-/// A vertex of a band, and the side that it is on now; none where it belongs to the separator.
+/// Vertex of a band with its new side; `None` if it belongs to the separator.
 #[derive(Clone, Copy)]
 pub(super) struct Moved {
     pub(super) vertex: u32,
     pub(super) side: Option<usize>,
 }
 
-/// The vertices of a band around a cut with their sides: no vertex of one is beside one of the other.
+/// Vertices of a band around a cut with their sides: no vertex of either side is adjacent to the other side.
 ///
 /// # Errors
 ///
@@ -61,11 +63,11 @@ pub(super) fn least_separator(
 /// Vertices around a cut.
 struct Band {
     vertices: Vec<u32>,
-    /// The place of a vertex of the graph among them, from 1; 0 elsewhere.
+    /// Index of each vertex of the graph in `vertices`, plus 1; 0 for other vertices.
     place: Vec<u32>,
-    /// Layers from the cut to each, negative on the first side, where paths begin.
+    /// Layer of each vertex, counted from the cut; negative on the first side, the side of the source.
     layer: Vec<i8>,
-    /// Whether it is one of the outermost layer of either side: it stays there.
+    /// Side of a vertex of the outermost layer: such a vertex stays on its side. `None` for other vertices.
     rim: Vec<Option<usize>>,
 }
 
@@ -111,7 +113,7 @@ impl Band {
     }
 }
 
-/// An arc, with the place of its reverse.
+/// Arc, with the index of its reverse.
 #[derive(Clone, Copy, Default)]
 struct Arc {
     head: u32,
@@ -119,22 +121,24 @@ struct Arc {
     reverse: u32,
 }
 
-/// The band's vertices as pairs of nodes, 2k where paths come in and 2k + 1 where they leave, with a source and a sink.
+/// Flow network: each vertex k of the band is a pair of nodes, with an in-node 2k and an out-node 2k + 1. A source
+/// and a sink are added.
 struct Network {
-    /// Those of one tail after another: both ways are gone through again and again.
+    /// Arcs grouped by tail: the search visits the arcs of a node, forward and reverse, again and again.
     arcs: Vec<Arc>,
-    /// Where the arcs of each node begin, and the end of the last.
+    /// Start of the arcs of each node, followed by the end of the last.
     begin: Vec<u32>,
-    /// The arc of each node that comes next.
+    /// Next arc of each node to visit.
     at: Vec<u32>,
-    /// Whether the last search came to a node.
+    /// True for nodes reached by the last search.
     is_reached: Vec<bool>,
     source: usize,
     sink: usize,
 }
 
 impl Network {
-    /// None where the rims of both sides touch: such a way is not cut by any vertex that may go.
+    /// Builds the network of a band. `None` if the rims of both sides are adjacent: no removable vertex cuts such a
+    /// path.
     fn of(graph: &Pattern, band: &Band) -> Option<Self> {
         let nodes = 2 * band.vertices.len() + 2;
         let (source, sink) = (nodes - 2, nodes - 1);
@@ -154,7 +158,7 @@ impl Network {
             if rim == Some(0) && around.iter().any(|&other| band.rim[other as usize] == Some(1)) {
                 return None;
             }
-            // Those nearer to the sink come first: so most paths lead straight there.
+            // Neighbours nearer to the sink come first, so that most paths lead straight there.
             around.sort_by_key(|&other| Reverse(band.layer[other as usize]));
             edges.extend(around.iter().map(|&other| Edge::new(2 * k + 1, 2 * other as usize, ENDLESS)));
         }
@@ -176,8 +180,8 @@ impl Network {
         Some(Self { arcs, at: begin[..nodes].to_vec(), begin, is_reached: vec![false; nodes], source, sink })
     }
 
-    /// Sends paths as long as a search that comes to each node once finds any. Whether it did; if not, it came to all nodes that
-    /// the source reaches.
+    /// Sends paths as long as a search that visits each node once finds any. Returns true if it found a path. If not,
+    /// the search has visited all nodes that the source reaches.
     fn send_paths(&mut self) -> bool {
         self.is_reached.fill(false);
         self.is_reached[self.source] = true;
@@ -207,7 +211,7 @@ impl Network {
         }
     }
 
-    /// The next arc of a node that leads to where the search was not yet.
+    /// Next arc of a node to a node that the search has not visited.
     fn onward(&mut self, node: usize) -> Option<u32> {
         while self.at[node] < self.begin[node + 1] {
             let Arc { head, capacity, .. } = self.arcs[self.at[node] as usize];
@@ -220,7 +224,7 @@ impl Network {
     }
 }
 
-/// An arc before the arcs are in their order, from the first end to the second.
+/// Arc before sorting, from the first end to the second.
 struct Edge {
     ends: [u32; 2],
     capacity: u32,

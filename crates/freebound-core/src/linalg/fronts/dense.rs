@@ -1,4 +1,4 @@
-//! Slices as column-major matrices, and the additions of a child's rows to its parent's.
+//! Slices as column-major matrices, and the addition of a child's rows to its parent's.
 
 use faer::{MatMut, MatRef};
 
@@ -16,12 +16,12 @@ pub(in crate::linalg) fn scatter_add<T: Number>(
     }
 }
 
-/// A column-major matrix.
+/// Slice as a column-major matrix.
 pub(in crate::linalg) fn mat<T>(values: &[T], rows: usize, columns: usize) -> MatRef<'_, T> {
     MatRef::from_column_major_slice(values, rows, columns)
 }
 
-/// A column-major matrix that can be written.
+/// Slice as a mutable column-major matrix.
 pub(in crate::linalg) fn mat_mut<T>(values: &mut [T], rows: usize, columns: usize) -> MatMut<'_, T> {
     MatMut::from_column_major_slice_mut(values, rows, columns)
 }

@@ -1,19 +1,19 @@
-//! The tree of fronts that every multifrontal factorization of this layer goes up.
+//! Tree of fronts, shared by all multifrontal factorizations of this layer.
 //!
-//! The supernodes, columns of L that share one pattern, form a tree. Each gathers its entries of A and its children's
-//! updates into a dense front, eliminates its own columns and hands the Schur complement to its parent (Duff and Reid
-//! 1983, "The multifrontal solution of indefinite sparse symmetric linear equations"). Subtrees are independent of each
-//! other, so that threads share them out.
+//! The supernodes, columns of L that share a pattern, form a tree. Each gathers its entries of A and its children's
+//! updates into a dense front. It eliminates its own columns and passes the Schur complement to its parent (Duff and
+//! Reid 1983, "The multifrontal solution of indefinite sparse symmetric linear equations"). Subtrees are independent
+//! of each other, so that threads process them in parallel.
 //!
-//! | file | what |
+//! | file | contents |
 //! |---|---|
 //! | `supernodes.rs` | columns → relaxed supernodes, their order |
-//! | `symbolic.rs` | patterns of the fronts, where every entry goes |
-//! | `places.rs` | which fronts are real, and where their numbers are kept |
-//! | `units.rs` | what runs one after another, what side by side |
-//! | `tree.rs` | the way up the tree, on all threads |
-//! | `substitution.rs` | the way of right-hand sides up the tree and down again |
-//! | `dense.rs` | slices as matrices, and adding rows of one front to another's |
+//! | `symbolic.rs` | patterns of the fronts, position of every entry |
+//! | `places.rs` | real and complex fronts, storage of their numbers |
+//! | `units.rs` | units of work: sequential inside, parallel to each other |
+//! | `tree.rs` | traversal of the tree from the leaves to the root, on all threads |
+//! | `substitution.rs` | substitution of right-hand sides, up the tree and down |
+//! | `dense.rs` | slices as matrices, addition of a front's rows to another front |
 
 mod dense;
 mod places;

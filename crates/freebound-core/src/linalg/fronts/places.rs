@@ -1,9 +1,9 @@
-//! What is kept of fronts: complex numbers, or real ones where nothing else occurs.
+//! Storage of fronts: complex numbers, or real numbers if no others occur.
 //!
-//! A matrix may be complex in a few places alone, as the equations of a free boundary are along the boundary. Then its
-//! factors are complex in the fronts that such an entry lies in and in those above them. All others take half the memory
-//! as real ones, and a quarter of the multiplications. A matrix of real numbers has no use for that: all its fronts hold
-//! their numbers in full.
+//! A matrix may be complex in a few places alone, like the equations of a free boundary along the boundary. Then its
+//! factors are complex in the fronts that contain such an entry and in the fronts above them. All other fronts take
+//! half the memory as real numbers, and a quarter of the multiplications. A real matrix needs no distinction: all its
+//! fronts are stored in full.
 
 use std::convert::identity;
 use std::ops::Range;
@@ -15,44 +15,45 @@ use super::tree::Update;
 use crate::linalg::pattern::NONE;
 use crate::linalg::scalar::Number;
 
-/// Fronts whose entries are looked at by one task.
+/// Number of fronts per task.
 const FRONTS_PER_TASK: usize = 1024;
 
-/// Which fronts hold real parts alone, and where the numbers of each begin among those of its unit that are of its kind.
+/// Kind of each front (real parts alone, or full numbers), and the start of its numbers among the numbers of that
+/// kind in its unit.
 #[derive(Debug)]
 pub(in crate::linalg) struct Places {
     is_real: Vec<bool>,
     starts: Vec<usize>,
 }
 
-/// Numbers of one front.
+/// Numbers of a front.
 #[derive(Debug)]
 pub(in crate::linalg) enum Numbers<T: Number> {
     Full(Vec<T>),
-    /// Real parts, where all imaginary ones are zero.
+    /// Real parts; all imaginary parts are zero.
     Real(Vec<T::Part>),
 }
 
-/// The numbers of a front among others.
+/// Borrowed numbers of a front.
 #[derive(Clone, Copy)]
 pub(in crate::linalg) enum FrontNumbers<'a, T: Number> {
     Full(&'a [T]),
     Real(&'a [T::Part]),
 }
 
-/// The numbers of a unit's fronts, one after another.
+/// Consecutive numbers of a unit's fronts.
 #[derive(Debug)]
 pub(in crate::linalg) struct Kept<T: Number> {
     pub(in crate::linalg) full: Vec<T>,
     pub(in crate::linalg) real: Vec<T::Part>,
 }
 
-/// How many numbers are kept of some fronts.
+/// Number of stored numbers of some fronts.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::linalg) struct Room {
-    /// Of those that hold them in full.
+    /// Numbers of full fronts.
     pub(in crate::linalg) full: usize,
-    /// Of real ones.
+    /// Numbers of real fronts.
     pub(in crate::linalg) real: usize,
 }
 
@@ -63,12 +64,12 @@ impl Room {
 }
 
 impl Places {
-    /// Those where every front holds what it is given.
+    /// Storage with all fronts in full.
     pub(in crate::linalg) fn all_full(analysis: &FrontAnalysis) -> Self {
         Self::of(analysis, vec![false; analysis.count()])
     }
 
-    /// Those of a matrix whose values `value` gives by their places in the analysed pattern.
+    /// Storage for a matrix. `value` returns a value by its index in the analysed pattern.
     pub(in crate::linalg) fn new<T: Number>(analysis: &FrontAnalysis, value: impl Fn(usize) -> T + Sync) -> Self {
         let mut is_real = vec![T::IS_COMPLEX; analysis.count()];
         if T::IS_COMPLEX {
@@ -100,19 +101,19 @@ impl Places {
         Self { is_real, starts }
     }
 
-    /// Whether a front holds real parts alone.
+    /// True if a front holds real parts alone.
     pub(in crate::linalg) fn is_real(&self, front: usize) -> bool {
         self.is_real[front]
     }
 
-    /// How many numbers are kept of some fronts.
+    /// Number of stored numbers of some fronts.
     pub(super) fn room(&self, analysis: &FrontAnalysis, fronts: Range<usize>) -> Room {
         let mut room = Room::default();
         fronts.for_each(|front| *room.of_kind(self.is_real[front]) += analysis.kept_len(front));
         room
     }
 
-    /// The numbers of a front among those of its unit.
+    /// Numbers of a front among the numbers of its unit.
     pub(in crate::linalg) fn numbers_of<'a, T: Number>(
         &self,
         analysis: &FrontAnalysis,
@@ -150,13 +151,14 @@ impl<T: Number> Numbers<T> {
     }
 }
 
-/// A front that its children's updates are added to.
+/// Front to which the updates of its children are added.
 pub(in crate::linalg) trait Gather<N> {
-    /// Adds a child's update, of whose numbers `number` makes the front's; `relative` are its rows in this front, ascending.
+    /// Adds a child's update. `number` converts its numbers to those of the front; `relative` holds the positions of
+    /// its rows in this front, ascending.
     fn extend_add<S: Copy>(&mut self, update: &[S], relative: &[u32], number: impl Fn(S) -> N + Copy);
 }
 
-/// Adds the updates of all children to a front that holds its numbers in full.
+/// Adds the updates of all children to a front that is stored in full.
 pub(in crate::linalg) fn gather_in_full<T: Number>(
     analysis: &FrontAnalysis,
     children: &[Update<T>],
@@ -171,7 +173,7 @@ pub(in crate::linalg) fn gather_in_full<T: Number>(
     }
 }
 
-/// Adds the updates of all children to a real front: they are real, too.
+/// Adds the updates of all children to a real front; these updates are real, too.
 pub(in crate::linalg) fn gather_real<T: Number>(
     analysis: &FrontAnalysis,
     children: &[Update<T>],
@@ -183,15 +185,15 @@ pub(in crate::linalg) fn gather_real<T: Number>(
     }
 }
 
-/// Appends so many zeros, and returns these.
+/// Appends `count` zeros and returns them.
 pub(in crate::linalg) fn append_zeros<T: Number>(numbers: &mut Vec<T>, count: usize) -> &mut [T] {
     let start = numbers.len();
     numbers.resize(start + count, T::ZERO);
     &mut numbers[start..]
 }
 
-/// So many zeros that have been written. Memory that the system only promises to be zero costs two page faults, and a message to
-/// the other cores, where it is read before it is written.
+/// Returns `count` zeros that have been written. The system only promises zeros in new memory. Reading it before
+/// writing then costs two page faults and a message to the other cores.
 pub(in crate::linalg) fn written_zeros<T: Number>(count: usize) -> Vec<T> {
     let mut numbers = Vec::with_capacity(count);
     append_zeros(&mut numbers, count);

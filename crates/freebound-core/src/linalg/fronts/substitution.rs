@@ -1,9 +1,9 @@
-//! The way of right-hand sides through the fronts: up to the root, and down again.
+//! Substitution of right-hand sides through the fronts: up to the root and down again.
 //!
-//! A front solves for its own unknowns and hands what these take from the rows below to its parent, as updates go in the
-//! factorization; on the way down it gets the unknowns of these rows from its parent. So subtrees need nothing of each other.
-//! Units that await none run side by side, the fronts above them one after another, with threads in large ones. What is
-//! added to what, and in which order, depends on the pattern alone.
+//! A front solves for its own unknowns and passes their contribution to the rows below to its parent, like an update
+//! of the factorization. On the way down it receives the unknowns of these rows from its parent. So subtrees are
+//! independent. Units that await no other run in parallel, the fronts above them in sequence, with threads in large
+//! fronts. The summands and their order depend on the pattern alone.
 
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
@@ -20,42 +20,41 @@ use crate::linalg::LinalgError;
 use crate::linalg::pattern::{NONE, go_on_unless};
 use crate::linalg::scalar::Number;
 
-/// Right-hand sides solved together.
+/// Number of right-hand sides solved together.
 pub(in crate::linalg) const TOGETHER: usize = 4;
 
-/// A panel with at least so many entries is worth the call of a dense kernel.
+/// Number of entries of a panel from which a dense kernel is worth the call.
 pub(in crate::linalg) const LARGE_PANEL: usize = 256;
 
-/// A product with more entries than this is worth a further thread.
+/// Number of entries of a product above which a further thread is used.
 const ENTRIES_PER_TASK: usize = 1 << 15;
 
-/// What a factorization does to right-hand sides at each front.
+/// Operation of a factorization on right-hand sides at each front.
 pub(in crate::linalg) trait Substitution<T>: Sync {
-    /// Solves for the front's own unknowns and subtracts what these take from the rows below.
+    /// Solves for the front's own unknowns and subtracts their contribution from the rows below.
     fn up(&self, supernode: usize, part: Part<'_, T>);
 
-    /// Solves for the front's own unknowns where those of the rows below are known, which stay as they are.
+    /// Solves for the front's own unknowns from the known unknowns of the rows below, which do not change.
     fn down(&self, supernode: usize, part: Part<'_, T>);
 }
 
-/// The part of some right-hand sides that one front has to do with; column-major.
+/// Rows of some right-hand sides that belong to a front; column-major.
 pub(in crate::linalg) struct Part<'a, T> {
     pub(in crate::linalg) shape: Shape,
-    /// `columns` of each.
+    /// Own rows: `columns` of each right-hand side.
     pub(in crate::linalg) own: &'a mut [T],
-    /// `below` of each.
+    /// Rows below: `below` of each right-hand side.
     pub(in crate::linalg) outer: &'a mut [T],
 }
 
 impl<T: Number> Part<'_, T> {
-    /// Both as matrices.
+    /// Own rows and rows below as matrices.
     pub(in crate::linalg) fn matrices(&mut self) -> (MatMut<'_, T>, MatMut<'_, T>) {
         let (Shape { columns, below }, count) = (self.shape, self.own.len() / self.shape.columns);
         (mat_mut(self.own, columns, count), mat_mut(self.outer, below, count))
     }
 
-    /// Lets `act` treat real and imaginary parts as right-hand sides of their own: a real front tells them nothing of each
-    /// other.
+    /// Calls `act` with real and imaginary parts as separate right-hand sides, which a real front does not couple.
     pub(in crate::linalg) fn by_parts(self, act: impl FnOnce(Part<'_, T::Part>)) {
         let Shape { columns, below } = self.shape;
         let (mut own, mut outer) = (split_parts(self.own, columns), split_parts(self.outer, below));
@@ -64,7 +63,7 @@ impl<T: Number> Part<'_, T> {
         join_parts(&outer, below, self.outer);
     }
 
-    /// One right-hand side after another.
+    /// Iterates over the right-hand sides.
     pub(in crate::linalg) fn each(&mut self) -> impl Iterator<Item = (&mut [T], &mut [T])> {
         let Shape { columns, below } = self.shape;
         let (mut own, mut outer) = (&mut *self.own, &mut *self.outer);
@@ -77,7 +76,7 @@ impl<T: Number> Part<'_, T> {
     }
 }
 
-/// The real parts of each column of this length, and then its imaginary ones.
+/// Splits each column of the given length into its real parts, followed by its imaginary parts.
 fn split_parts<T: Number>(columns: &[T], length: usize) -> Vec<T::Part> {
     let mut parts = Vec::with_capacity(2 * columns.len());
     for column in columns.chunks_exact(length.max(1)) {
@@ -87,7 +86,7 @@ fn split_parts<T: Number>(columns: &[T], length: usize) -> Vec<T::Part> {
     parts
 }
 
-/// Puts the parts back together.
+/// Joins real and imaginary parts.
 fn join_parts<T: Number>(parts: &[T::Part], length: usize, columns: &mut [T]) {
     let length = length.max(1);
     for (column, parts) in columns.chunks_exact_mut(length).zip(parts.chunks_exact(2 * length)) {
@@ -98,7 +97,7 @@ fn join_parts<T: Number>(parts: &[T::Part], length: usize, columns: &mut [T]) {
     }
 }
 
-/// Subtracts A B, of large A some rows beside the others.
+/// Subtracts A B; rows of a large A are processed in parallel.
 pub(in crate::linalg) fn subtract_product<T: Number, A: Conjugate<Canonical = T>>(
     target: MatMut<'_, T>,
     a: MatRef<'_, A>,
@@ -114,11 +113,11 @@ pub(in crate::linalg) fn subtract_product<T: Number, A: Conjugate<Canonical = T>
     crate::parallel::join(|| subtract_product(upper_target, upper, b), || subtract_product(lower_target, lower, b));
 }
 
-/// Takes right-hand sides, one after another in the order of elimination, to their solutions.
+/// Replaces consecutive right-hand sides, in the order of elimination, by their solutions.
 ///
 /// # Errors
 ///
-/// [`LinalgError::Cancelled`], looked for at every unit and every front above the units: `x` is then of no use.
+/// [`LinalgError::Cancelled`], checked at every unit and every front above the units: `x` is then unusable.
 pub(in crate::linalg) fn substitute<T: Number>(
     analysis: &FrontAnalysis,
     how: &impl Substitution<T>,
@@ -154,30 +153,30 @@ pub(in crate::linalg) fn substitute<T: Number>(
     Ok(())
 }
 
-/// What is the same for all fronts.
+/// Data common to all fronts.
 struct Way<'a, H> {
     analysis: &'a FrontAnalysis,
     how: &'a H,
-    /// Rows of a right-hand side.
+    /// Number of rows of a right-hand side.
     n: usize,
-    /// Right-hand sides.
+    /// Number of right-hand sides.
     count: usize,
 }
 
-/// The rows of a unit, and what is left for the rows above by each front whose parent belongs to another.
+/// Rows of a unit, and contributions to the rows above from each front whose parent belongs to another unit.
 struct Carried<T> {
     own: Vec<T>,
     outer: Vec<T>,
 }
 
 impl<H> Way<'_, H> {
-    /// The rows that some fronts, one after another, solve for.
+    /// Own rows of consecutive fronts.
     fn rows(&self, fronts: &Range<usize>) -> Range<usize> {
         let at = |supernode: usize| self.analysis.begin[supernode] as usize;
         at(fronts.start)..at(fronts.end)
     }
 
-    /// The fronts of a unit whose parents belong to other units, ascending.
+    /// Fronts of a unit whose parents belong to other units, ascending.
     fn roots(&self, unit: &Unit) -> impl Iterator<Item = usize> {
         let end = unit.range.end;
         let is_root = move |&supernode: &usize| {
@@ -187,7 +186,7 @@ impl<H> Way<'_, H> {
         unit.range.clone().filter(is_root)
     }
 
-    /// Adds what a front leaves for the rows below it to these.
+    /// Adds the contribution of a front to the rows below it.
     fn add<T: Number>(&self, front: usize, outer: &[T], x: &mut [T]) {
         let rows = self.analysis.rows.column(front);
         if rows.is_empty() {
@@ -206,7 +205,8 @@ impl<H> Way<'_, H> {
         }
     }
 
-    /// A unit that awaits none, on the way up. In a postorder what the children leave stands on top of a stack.
+    /// Processes a unit that awaits no other, on the way up. In a postorder, the contributions of the children are on
+    /// top of a stack.
     fn up<T: Number>(&self, unit: &Unit, x: &[T]) -> Carried<T>
     where
         H: Substitution<T>,
@@ -252,7 +252,7 @@ impl<H> Way<'_, H> {
         }
     }
 
-    /// The same on the way down: what the next front has to know stands on top of the stack.
+    /// Processes a unit that awaits no other, on the way down. The rows below the next front are on top of the stack.
     fn down<T: Number>(&self, unit: &Unit, x: &[T]) -> Vec<T>
     where
         H: Substitution<T>,
@@ -286,7 +286,7 @@ impl<H> Way<'_, H> {
         x
     }
 
-    /// A front above those units, on the way up.
+    /// Processes a front above the units that await no other, on the way up.
     fn up_top<T: Number>(&self, front: usize, x: &mut [T])
     where
         H: Substitution<T>,
@@ -312,25 +312,25 @@ impl<H> Way<'_, H> {
     }
 }
 
-/// Some rows of right-hand sides of this length, one after another.
+/// Rows of consecutive right-hand sides of the given length.
 fn taken<'a, T: Copy>(x: &'a [T], length: usize, rows: &Range<usize>) -> impl Iterator<Item = T> + use<'a, T> {
     let rows = rows.clone();
     x.chunks_exact(length).flat_map(move |column| &column[rows.clone()]).copied()
 }
 
-/// Puts such rows back.
+/// Writes rows back into consecutive right-hand sides.
 fn put<T: Copy>(own: &[T], rows: &Range<usize>, length: usize, x: &mut [T]) {
     for (column, own) in x.chunks_exact_mut(length).zip(own.chunks_exact(rows.len())) {
         column[rows.clone()].copy_from_slice(own);
     }
 }
 
-/// Σ xᵢ yᵢ over the shorter of both, without conjugation.
+/// Sum Σ xᵢ yᵢ over the shorter of both, without conjugation.
 pub(in crate::linalg) fn dot<T: Number>(x: &[T], y: &[T]) -> T {
     x.iter().zip(y).fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
 }
 
-/// The L panel of a front, split at its own rows.
+/// L panel of a front, split below its diagonal block.
 pub(in crate::linalg) fn split_panel<T>(left: &[T], shape: Shape) -> (MatRef<'_, T>, MatRef<'_, T>) {
     mat(left, shape.height(), shape.columns).split_at_row(shape.columns)
 }

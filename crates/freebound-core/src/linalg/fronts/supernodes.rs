@@ -1,28 +1,29 @@
-//! Supernodes: runs of columns of L that share one pattern, relaxed so that few of them are tiny.
+//! Supernodes: runs of columns of L that share a pattern, relaxed so that few of them are tiny.
 //!
-//! A child is merged into its parent when the explicit zeros this stores are few for the size of the result (Ashcraft
-//! and Grimes 1989, "The influence of relaxed supernode partitions on the multifrontal method").
+//! A child is merged into its parent if this stores few explicit zeros for the size of the result (Ashcraft and
+//! Grimes 1989, "The influence of relaxed supernode partitions on the multifrontal method").
 
 use std::cmp::Reverse;
 
 use crate::linalg::elimination::{Elimination, postorder};
 use crate::linalg::pattern::{NONE, narrow};
 
-/// Columns up to which a merged supernode may hold the given share of zeros. The steps are those of CHOLMOD and faer.
+/// Largest number of columns of a merged supernode, with its accepted share of explicit zeros. The values are those
+/// of CHOLMOD and faer.
 const RELAXATION: [(u64, f64); 4] = [(4, 1.0), (16, 0.8), (48, 0.1), (u64::MAX, 0.05)];
 
-/// A partition of the columns into supernodes, numbered in a postorder of their tree.
+/// Partition of the columns into supernodes, numbered in a postorder of their tree.
 pub(super) struct Supernodes {
-    /// First column of each supernode, and the order of the matrix last.
+    /// First column of each supernode, followed by the order of the matrix.
     pub(super) begin: Vec<u32>,
     pub(super) parent: Vec<u32>,
-    /// Rows below the diagonal block.
+    /// Number of rows below the diagonal block.
     pub(super) below: Vec<u32>,
-    /// The elimination order's columns, renumbered: new column `k` was `columns[k]`.
+    /// Renumbered columns of the elimination order: new column `k` was `columns[k]`.
     pub(super) columns: Vec<u32>,
 }
 
-/// A supernode while it may still be merged.
+/// Supernode that may still be merged.
 struct Group {
     columns: u64,
     below: u64,
@@ -30,7 +31,7 @@ struct Group {
 }
 
 impl Group {
-    /// The parent after it swallowed `child`, if that stores few enough zeros.
+    /// Parent merged with `child`, if that stores few enough zeros.
     fn merged(&self, child: &Self) -> Option<Self> {
         let columns = self.columns + child.columns;
         // The child's columns grow to the parent's pattern.
@@ -41,7 +42,7 @@ impl Group {
     }
 }
 
-/// Finds the relaxed supernodes of an elimination tree and an order of them that keeps few updates waiting.
+/// Finds the relaxed supernodes of an elimination tree, in an order that keeps few updates waiting.
 pub(super) fn supernodes(elimination: &Elimination) -> Supernodes {
     let (first, mut parent, mut groups) = maximal(elimination);
     let merged_into = relax(&mut parent, &mut groups);
@@ -49,7 +50,8 @@ pub(super) fn supernodes(elimination: &Elimination) -> Supernodes {
     number(&first, &merged_into, &parent, &groups, &children_first)
 }
 
-/// Runs of columns where each is the parent of the one before and has just its pattern.
+/// Runs of columns in which each column is the parent of the previous and has exactly its pattern without that
+/// column.
 fn maximal(elimination: &Elimination) -> (Vec<u32>, Vec<u32>, Vec<Group>) {
     let Elimination { parent, counts, .. } = elimination;
     let n = parent.len();
@@ -77,10 +79,10 @@ fn maximal(elimination: &Elimination) -> (Vec<u32>, Vec<u32>, Vec<Group>) {
     (first, parents, groups)
 }
 
-/// The children of every supernode, in lists that are changed without new memory.
+/// Children of every supernode, in linked lists that change without allocation.
 struct Broods {
     first: Vec<u32>,
-    /// The sibling that follows each.
+    /// Next sibling of each.
     next: Vec<u32>,
 }
 
@@ -94,26 +96,27 @@ impl Broods {
         std::iter::successors(some(self.first[parent as usize]), move |&child| some(self.next[child as usize]))
     }
 
-    /// Puts a child before the others.
+    /// Inserts a child before the others.
     fn push(&mut self, parent: u32, child: u32) {
         self.next[child as usize] = std::mem::replace(&mut self.first[parent as usize], child);
     }
 
-    /// Has just these children, in this order.
+    /// Replaces the children of a parent, in the given order.
     fn set(&mut self, parent: u32, children: impl DoubleEndedIterator<Item = u32>) {
         self.first[parent as usize] = NONE;
         children.rev().for_each(|child| self.push(parent, child));
     }
 }
 
-/// Merges children into parents, bottom up. Returns for every supernode the one it ended in (itself if it stands).
+/// Merges children into parents, bottom up. Returns for every supernode the supernode that contains it, itself if it
+/// was not merged.
 fn relax(parent: &mut [u32], groups: &mut [Group]) -> Vec<u32> {
     let count = groups.len();
     let mut broods = Broods::new(count);
     let mut merged_into: Vec<u32> = (0..narrow(count)).collect();
     let (mut brood, mut kept) = (Vec::new(), Vec::new());
     for node in 0..narrow(count) {
-        // Children descend here: the last in postorder is nearest in size, and wastes least.
+        // Children descend here: the last in postorder is nearest in size and wastes least.
         brood.clear();
         brood.extend(broods.of(node));
         kept.clear();
@@ -136,15 +139,15 @@ fn relax(parent: &mut [u32], groups: &mut [Group]) -> Vec<u32> {
             broods.push(parent[node as usize], node);
         }
     }
-    // Parents have higher numbers, so from the top every chain is followed in one step.
+    // Parents have higher numbers, so a single pass from the top resolves every chain.
     for node in (0..count).rev() {
         merged_into[node] = merged_into[merged_into[node] as usize];
     }
     merged_into
 }
 
-/// The standing supernodes in a postorder that visits first the child that needs most room beyond its
-/// update (Liu 1986, "On the storage requirement in the out-of-core multifrontal method").
+/// Remaining supernodes in a postorder that visits first the child that needs most memory beyond its update (Liu
+/// 1986, "On the storage requirement in the out-of-core multifrontal method").
 fn order_for_memory(parent: &[u32], groups: &[Group], merged_into: &[u32]) -> Vec<u32> {
     let count = groups.len();
     let standing = || (0..narrow(count)).filter(|&node| merged_into[node as usize] == node);
@@ -171,10 +174,10 @@ fn order_for_memory(parent: &[u32], groups: &[Group], merged_into: &[u32]) -> Ve
     postorder(roots, |node| broods.of(node))
 }
 
-/// Renumbers the standing supernodes, `first` being the first columns of all.
+/// Renumbers the remaining supernodes; `first` holds the first columns of all supernodes before merging.
 fn number(first: &[u32], merged_into: &[u32], parent: &[u32], groups: &[Group], sequence: &[u32]) -> Supernodes {
     let mut position = vec![NONE; groups.len()];
-    // Where the next column of each standing supernode goes.
+    // New number of the next column of each remaining supernode.
     let mut next = vec![0; groups.len()];
     let mut total = 0;
     let mut this = Supernodes { begin: vec![0], parent: Vec::new(), below: Vec::new(), columns: Vec::new() };

@@ -1,8 +1,8 @@
-//! Symbolic factorization: the pattern of every front, and where each number goes.
+//! Symbolic factorization: the pattern of every front, and the position of each number.
 //!
-//! Everything that depends on the pattern alone is found here once, so that the numeric factorization neither searches
-//! nor sorts: `relative` says where the rows of an update lie in the parent's front, `entries` where the entries of A
-//! lie in theirs.
+//! Everything that depends on the pattern alone is computed here once, so that the numeric factorization neither
+//! searches nor sorts. `relative` holds the positions of the rows of an update in the parent's front, `entries` the
+//! positions of the entries of A in their fronts.
 
 use std::sync::atomic::AtomicBool;
 
@@ -16,24 +16,24 @@ use crate::linalg::LinalgError;
 use crate::linalg::elimination::{Elimination, children};
 use crate::linalg::pattern::{COLUMNS_AT_ONCE, NONE, Order, Pattern, go_on_unless, in_pairs, narrow, running_sum};
 
-/// Less work than this, in multiplications, is not worth more than one thread.
+/// Number of multiplications below which a single thread is used.
 const PARALLEL_WORK: f64 = 2e6;
 
-/// An entry of the caller's matrix and its place in the kept part of a front.
+/// Entry of the caller's matrix and its position in the stored part of a front.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::linalg) struct Entry {
-    /// Position among the matrix's values.
+    /// Index among the values of the matrix.
     pub(in crate::linalg) source: u32,
-    /// Position in the supernode's block: L panel first, then U panel where it is kept.
+    /// Index in the supernode's block: L panel first, then the U panel if it is stored.
     pub(in crate::linalg) target: u32,
 }
 
-/// Sizes of one front.
+/// Sizes of a front.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::linalg) struct Shape {
-    /// Columns that the supernode eliminates.
+    /// Number of columns that the supernode eliminates.
     pub(in crate::linalg) columns: usize,
-    /// Rows, and columns, that it passes to its parent.
+    /// Number of rows, and of columns, that the supernode passes to its parent.
     pub(in crate::linalg) below: usize,
 }
 
@@ -41,49 +41,49 @@ impl Shape {
     pub(in crate::linalg) fn height(self) -> usize {
         self.columns + self.below
     }
-    /// Entries of the L panel, diagonal block included.
+    /// Number of entries of the L panel, diagonal block included.
     pub(in crate::linalg) fn left_len(self) -> usize {
         self.height() * self.columns
     }
     pub(in crate::linalg) fn update_len(self) -> usize {
         self.below * self.below
     }
-    /// The threads that its dense operations are worth.
+    /// Threads for its dense operations.
     pub(in crate::linalg) fn threads(self) -> Par {
         threads_for(self.work())
     }
-    /// Multiplications of an LU, to leading order.
+    /// Number of multiplications of an LU, to leading order.
     pub(in crate::linalg) fn work(self) -> f64 {
         let (c, p) = (self.columns as f64, self.below as f64);
         c * (c * c / 3.0 + c * p + p * p)
     }
 }
 
-/// The threads that so many multiplications are worth.
+/// Threads for a number of multiplications.
 pub(in crate::linalg) fn threads_for(work: f64) -> Par {
     if work < PARALLEL_WORK { Par::Seq } else { parallelism() }
 }
 
-/// Which panels of a front are kept.
+/// Panels of a front that are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::linalg) enum Sides {
-    /// L alone, lower triangles of diagonal blocks and updates: the matrix is Hermitian.
+    /// L alone, with lower triangles of diagonal blocks and updates: the matrix is Hermitian.
     Lower,
     /// L and U.
     Both,
 }
 
-/// The pattern of L and U, supernode by supernode, in a postorder of the supernode tree.
+/// Pattern of L and U, supernode by supernode, in a postorder of the supernode tree.
 #[derive(Debug)]
 pub(in crate::linalg) struct FrontAnalysis {
     sides: Sides,
     pub(in crate::linalg) order: Order,
-    /// First column of each supernode, and the order of the matrix last.
+    /// First column of each supernode, followed by the order of the matrix.
     pub(in crate::linalg) begin: Vec<u32>,
     pub(in crate::linalg) parent: Vec<u32>,
-    /// For each supernode the rows below its diagonal block, ascending, in the order of elimination.
+    /// Rows of each supernode below its diagonal block, ascending, in the order of elimination.
     pub(in crate::linalg) rows: Pattern,
-    /// The same rows as positions in the parent's front.
+    /// Positions of `rows` in the fronts of the parents.
     relative: Vec<u32>,
     entry_offsets: Vec<u32>,
     entries: Vec<Entry>,
@@ -93,7 +93,7 @@ pub(in crate::linalg) struct FrontAnalysis {
 }
 
 impl FrontAnalysis {
-    /// Analyses a pattern in an order of elimination, which may be one of pairs (see [`Pattern::of_pairs`]).
+    /// Analyses a pattern in an order of elimination, which may be an order of pairs (see [`Pattern::of_pairs`]).
     pub(in crate::linalg) fn new(
         pattern: &Pattern,
         elimination: &Elimination,
@@ -119,7 +119,7 @@ impl FrontAnalysis {
             units: Vec::new(),
             unit_of: Vec::new(),
         };
-        // Places inside a front are counted in 32 bits: fronts up to order 65,535.
+        // Positions inside a front have 32 bits: the order of a front is at most 65,535.
         let too_large = |s| u32::try_from(this.shape(s).height().pow(2)).is_err();
         if (0..this.count()).any(too_large) {
             return Err(LinalgError::TooLarge { order: pattern.order() });
@@ -140,12 +140,12 @@ impl FrontAnalysis {
         Shape { columns, below: self.rows.column(supernode).len() }
     }
 
-    /// Multiplications of all fronts.
+    /// Number of multiplications of all fronts.
     pub(in crate::linalg) fn work(&self) -> f64 {
         (0..self.count()).map(|supernode| self.shape(supernode).work()).sum()
     }
 
-    /// Numbers that are kept of a front.
+    /// Number of stored numbers of a front.
     pub(in crate::linalg) fn kept_len(&self, supernode: usize) -> usize {
         let shape = self.shape(supernode);
         match self.sides {
@@ -154,7 +154,7 @@ impl FrontAnalysis {
         }
     }
 
-    /// The same rows as positions in the parent's front.
+    /// Positions of the rows of a supernode below its diagonal block in the parent's front.
     pub(in crate::linalg) fn relative(&self, supernode: usize) -> &[u32] {
         &self.relative[self.rows.offsets[supernode] as usize..self.rows.offsets[supernode + 1] as usize]
     }
@@ -202,7 +202,7 @@ impl FrontAnalysis {
         go_on_unless(cancel)
     }
 
-    /// Appends the entries of one front. `local` has room for all rows.
+    /// Appends the entries of a front. `local` is scratch memory for all rows.
     fn place_entries_of(&self, supernode: usize, from: Source<'_>, local: &mut [u32], entries: &mut Vec<Entry>) {
         let Shape { columns, below } = self.shape(supernode);
         let (begin, end) = (self.begin[supernode], self.begin[supernode + 1]);
@@ -231,17 +231,17 @@ impl FrontAnalysis {
     }
 }
 
-/// Where entries come from: a pattern, and the position of the mirror image of each where both sides are kept.
+/// Source of entries: a pattern, and the index of the mirror image of each entry if both sides are stored.
 #[derive(Clone, Copy)]
 struct Source<'a> {
     pattern: &'a Pattern,
     mirror: &'a [u32],
 }
 
-/// Supernodes that share the work of one task.
+/// Number of supernodes per task.
 const SUPERNODES_PER_TASK: usize = 8192;
 
-/// What runs of supernodes give, in their order.
+/// Results of runs of supernodes, in their order.
 fn in_tasks<T: Send>(
     count: usize,
     cancel: &AtomicBool,
@@ -254,7 +254,7 @@ fn in_tasks<T: Send>(
     (0..count.div_ceil(SUPERNODES_PER_TASK)).into_par_iter().map(of_task).collect()
 }
 
-/// The supernodes with the rows of their fronts.
+/// Supernodes with the rows of their fronts.
 struct Plan {
     order: Order,
     begin: Vec<u32>,
@@ -271,7 +271,7 @@ impl Plan {
         Ok(Self { order, begin, parent, rows })
     }
 
-    /// The same of a matrix whose unknowns stand for pairs: 2k and 2k + 1 for k.
+    /// Plan of the matrix whose unknowns form the pairs 2k and 2k + 1 of the unknowns k of this plan.
     fn of_pairs(self) -> Self {
         let doubled = |list: &[u32]| list.iter().map(|&k| 2 * k).collect();
         Self {
@@ -283,15 +283,15 @@ impl Plan {
     }
 }
 
-/// A pattern in an order of elimination.
+/// Pattern in an order of elimination.
 #[derive(Clone, Copy)]
 struct Renumbered<'a> {
     pattern: &'a Pattern,
     order: &'a Order,
 }
 
-/// The rows of every front below its diagonal block, so many `below` each: row k lies in the fronts on the way up the tree from
-/// each entry (k, i), i < k, of A to the supernode of k itself.
+/// Rows of every front below its diagonal block; `below` holds their numbers. Row k lies in several fronts. For each
+/// entry (k, i), i < k, of A, these are the fronts on the path up the tree from column i to the supernode of k.
 fn front_rows(
     of: Renumbered<'_>,
     begin: &[u32],

@@ -1,4 +1,5 @@
-//! The way up the tree of fronts: units run one after another on one thread, and side by side on several.
+//! Traversal of the tree of fronts from the leaves to the root: a unit runs on a single thread, units run in
+//! parallel.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock};
@@ -11,16 +12,16 @@ use crate::linalg::LinalgError;
 use crate::linalg::pattern::{NONE, narrow};
 use crate::linalg::scalar::Number;
 
-/// What is done at each front.
+/// Operation at each front.
 pub(in crate::linalg) trait Kernel<T: Number>: Sync {
-    /// What is kept of a unit's fronts.
+    /// Stored data of the fronts of a unit.
     type Kept: Send + Sync;
 
-    /// Makes room for what is kept of a unit: so many numbers and columns.
+    /// Allocates the stored data of a unit, for the given numbers and columns.
     fn room(&self, unit: usize, room: Room, columns: usize) -> Self::Kept;
 
-    /// Assembles a front from its entries and its children's updates, eliminates its columns, and leaves the Schur
-    /// complement in `update`, which is all zero, and real where the front is.
+    /// Assembles a front from its entries and its children's updates and eliminates its columns. Leaves the Schur
+    /// complement in `update`, which is zero before, and real if the front is real.
     fn eliminate(
         &self,
         supernode: usize,
@@ -30,10 +31,10 @@ pub(in crate::linalg) trait Kernel<T: Number>: Sync {
     ) -> Result<(), LinalgError>;
 }
 
-/// A supernode's update on its way to the parent.
+/// Number of a supernode, with its update for the parent.
 pub(in crate::linalg) type Update<T> = (u32, Numbers<T>);
 
-/// What the threads of one factorization share.
+/// Data shared by the threads of a factorization.
 pub(in crate::linalg) struct Tree<'a, T: Number, K: Kernel<T>> {
     analysis: &'a FrontAnalysis,
     places: &'a Places,
@@ -42,7 +43,7 @@ pub(in crate::linalg) struct Tree<'a, T: Number, K: Kernel<T>> {
     done: Vec<OnceLock<K::Kept>>,
     inboxes: Vec<Mutex<Vec<Update<T>>>>,
     awaited: Vec<AtomicUsize>,
-    /// The first front in the order of elimination that could not be eliminated.
+    /// First front in the order of elimination that could not be eliminated.
     failed: Mutex<Option<(usize, LinalgError)>>,
     memory: Memory,
 }
@@ -64,11 +65,11 @@ impl Memory {
 }
 
 impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
-    /// Goes up the whole tree. Returns what is kept of every unit, and the most numeric memory at one time in bytes.
+    /// Processes the whole tree. Returns the stored data of every unit, and the peak numeric memory in bytes.
     ///
     /// # Errors
     ///
-    /// [`LinalgError::Cancelled`], and what the kernel says of the first front, in the order of elimination, that it
+    /// [`LinalgError::Cancelled`], and the kernel's error at the first front, in the order of elimination, that it
     /// cannot eliminate.
     pub(in crate::linalg) fn run(
         analysis: &'a FrontAnalysis,
@@ -149,14 +150,14 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
         debug_assert!(fresh, "a unit runs once");
     }
 
-    /// Whether a front before this one could not be eliminated: then this one is of no use.
+    /// True if a front before this front could not be eliminated: then this front is not needed.
     fn has_failed_before(&self, supernode: usize) -> bool {
         let failed = self.failed.lock().expect("no task panics while it holds this");
         failed.as_ref().is_some_and(|&(before, _)| before < supernode)
     }
 
-    /// Notes a front that cannot be eliminated. Those before it go on, so that the first of all such fronts is the same for
-    /// any number of threads.
+    /// Records a front that cannot be eliminated. The fronts before it continue, so that the first failed front does
+    /// not depend on the number of threads.
     fn fail(&self, supernode: usize, error: LinalgError) {
         let mut failed = self.failed.lock().expect("no task panics while it holds this");
         if failed.as_ref().is_none_or(|&(before, _)| supernode < before) {
@@ -164,7 +165,7 @@ impl<'a, T: Number, K: Kernel<T>> Tree<'a, T, K> {
         }
     }
 
-    /// Hands an update to another unit, and starts that unit if this was the last it waited for.
+    /// Sends an update to another unit, and starts that unit if it awaited only this update.
     fn send<'scope>(&'scope self, supernode: usize, parent: u32, update: Numbers<T>, scope: &Scope<'scope>) {
         let unit = self.analysis.unit_of[parent as usize] as usize;
         self.inboxes[unit].lock().expect("no task panics while it holds this").push((narrow(supernode), update));

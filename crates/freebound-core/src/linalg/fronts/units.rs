@@ -1,24 +1,25 @@
-//! Units of work: runs of supernodes that one thread does one after another.
+//! Units of work: runs of supernodes that a single thread processes in sequence.
 //!
-//! In a postorder a subtree is a run of supernodes. Small subtrees are gathered into units of about equal work;
-//! above them, in the top of the tree, a unit is a chain. The partition depends on the pattern alone, not on the
-//! number of threads, and so do the results.
+//! In a postorder a subtree is a run of supernodes. Small subtrees are gathered into units of about equal work; above
+//! them, in the top of the tree, a unit is a chain. The partition depends on the pattern alone, not on the number of
+//! threads. Therefore the results do not depend on the number of threads either.
 
 use std::ops::Range;
 
 use crate::linalg::pattern::{NONE, narrow};
 
-/// The most of all work in a unit of subtrees: enough units for 16 threads, few enough that waiting updates stay small.
+/// Largest share of all work in a unit of subtrees: enough units for 16 threads, few enough that waiting updates stay
+/// small.
 const LARGEST_SHARE: f64 = 1.0 / 64.0;
 
-/// A run of supernodes and the number of updates it awaits from other units.
+/// Run of supernodes and the number of updates it awaits from other units.
 #[derive(Clone, Debug)]
 pub(in crate::linalg) struct Unit {
     pub(in crate::linalg) range: Range<usize>,
     pub(in crate::linalg) awaited: usize,
 }
 
-/// Cuts the supernodes into units. Also returns the unit of every supernode.
+/// Partitions the supernodes into units. Returns the units, and the unit of every supernode.
 pub(super) fn units(parent: &[u32], work: &[f64]) -> (Vec<Unit>, Vec<u32>) {
     let begins = cut(parent, work);
     let mut unit_of = Vec::with_capacity(parent.len());
@@ -44,7 +45,7 @@ fn cut(parent: &[u32], work: &[f64]) -> Vec<usize> {
     }
     let limit = LARGEST_SHARE * work.iter().sum::<f64>();
     let is_top = |node: usize| subtree[node] > limit;
-    // The whole subtree below the top that a node belongs to, by its root.
+    // Whole subtree below the top that a node belongs to, identified by its root.
     let mut root: Vec<usize> = (0..parent.len()).collect();
     for node in (0..parent.len()).rev() {
         if parent[node] != NONE && !is_top(parent[node] as usize) {
@@ -56,7 +57,7 @@ fn cut(parent: &[u32], work: &[f64]) -> Vec<usize> {
     for node in 0..parent.len() {
         let begin = begins.last().copied().unwrap_or(0);
         let continues = if is_top(node) {
-            // A chain goes on while nothing from outside has to be waited for.
+            // A chain continues unless it must wait for a child outside of it.
             after_top && first_child[node] as usize >= begin
         } else if node > 0 && root[node] == root[node - 1] {
             true

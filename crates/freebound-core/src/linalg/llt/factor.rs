@@ -1,4 +1,4 @@
-//! Numeric factorization: every front of the tree.
+//! Numeric factorization of all fronts of the tree.
 
 use std::convert::identity;
 use std::sync::Mutex;
@@ -11,7 +11,7 @@ use crate::linalg::fronts::{
 use crate::linalg::scalar::Number;
 use crate::linalg::{FactorStats, LinalgError};
 
-/// The L panels of every unit's supernodes, and the sign that made the matrix positive.
+/// L panels of every unit's supernodes, and the sign that makes the matrix positive.
 #[derive(Debug)]
 pub(crate) struct Llt<T: Number> {
     pub(super) units: Vec<Kept<T>>,
@@ -20,20 +20,20 @@ pub(crate) struct Llt<T: Number> {
     peak_bytes: usize,
 }
 
-/// What the threads of one factorization share.
+/// Data shared by the threads of a factorization.
 struct Job<'a, T: Number, V> {
     analysis: &'a FrontAnalysis,
-    /// An entry by its place among the matrix's values, and its column.
+    /// Function that returns an entry, from its index among the values of the matrix and its column.
     value: &'a V,
-    /// Memory of an earlier factor's units.
+    /// Memory of the units of an earlier factor.
     spare: Vec<Mutex<Kept<T>>>,
     cancel: &'a AtomicBool,
 }
 
 impl<T: Number> Llt<T> {
-    /// Factors A, or −A where the diagonal is negative. The values are those of the analysed pattern.
+    /// Factors A, or −A if the diagonal is negative. The values are those of the analysed pattern.
     pub(crate) fn new(analysis: &FrontAnalysis, values: &[T], cancel: &AtomicBool) -> Result<Self, LinalgError> {
-        // The diagonal's first entry is the first of column 0, since no row comes before it.
+        // The first entry of column 0 is the diagonal entry, since no row comes before it.
         let is_negative = values.first().is_some_and(|value| value.real() < T::ZERO.real());
         let sign = if is_negative { -T::ONE } else { T::ONE };
         let value = |source: usize, _: usize| values[source].scale(sign.real());
@@ -42,9 +42,9 @@ impl<T: Number> Llt<T> {
         Ok(Self { sign, ..factor })
     }
 
-    /// Factors a positive matrix of real numbers, whose entries `value` gives by their places in the analysed pattern, and
-    /// their columns; in the memory of an earlier factor, where there is one: new memory costs a good part of the time of a
-    /// factorization.
+    /// Factors a positive real matrix. `value` returns an entry from its index in the analysed pattern and its
+    /// column. Reuses the memory of an earlier factor, if any: allocating new memory costs a considerable part of the
+    /// time of a factorization.
     pub(crate) fn of(
         analysis: &FrontAnalysis,
         value: &(impl Fn(usize, usize) -> T + Sync),
@@ -56,7 +56,7 @@ impl<T: Number> Llt<T> {
     }
 }
 
-/// What a front is written to.
+/// Destination of a front.
 struct Target<'a, N> {
     left: &'a mut [N],
     update: &'a mut [N],
@@ -68,7 +68,7 @@ impl<T: Number, V: Fn(usize, usize) -> T + Sync> Job<'_, T, V> {
         Ok(Llt { units, places, sign: T::ONE, peak_bytes })
     }
 
-    /// Assembles and eliminates a front of numbers in full or real parts, into its kept numbers and its update.
+    /// Assembles and eliminates a front, in full numbers or real parts, into its stored numbers and its update.
     fn eliminate_in<N: Number>(
         &self,
         supernode: usize,

@@ -1,4 +1,4 @@
-//! One front: assembly, elimination, update; lower triangles alone.
+//! Assembly, elimination and update of a front; lower triangles alone.
 
 use std::sync::atomic::AtomicBool;
 
@@ -12,15 +12,15 @@ use crate::linalg::fronts::{Gather, Shape, mat, mat_mut, scatter_add, threads_fo
 use crate::linalg::pattern::go_on_unless;
 use crate::linalg::scalar::Number;
 
-/// Columns eliminated one by one before the rest of the block is updated by a matrix product.
+/// Number of columns eliminated individually before a matrix product updates the rest of the block.
 const BLOCK: usize = 32;
 
-/// A dense front under way. The panel is the factor's own memory.
+/// Dense front during factorization. The panel is memory of the factor.
 pub(super) struct Front<'a, T> {
     pub(super) shape: Shape,
-    /// `height` × `columns`, of which the upper triangle is not used.
+    /// L panel, `height` × `columns`; its upper triangle is unused.
     pub(super) left: &'a mut [T],
-    /// `below` × `below`, of which the upper triangle is not used.
+    /// Update, `below` × `below`; its upper triangle is unused.
     pub(super) update: &'a mut [T],
 }
 
@@ -44,8 +44,8 @@ impl<T: Number> Gather<T> for Front<'_, T> {
 }
 
 impl<T: Number> Front<'_, T> {
-    /// Eliminates the front's columns and leaves the Schur complement in `update`. An error's row is the first column
-    /// without a positive pivot.
+    /// Eliminates the front's columns and leaves the Schur complement in `update`. The row of an error is the first
+    /// column without a positive pivot.
     pub(super) fn eliminate(&mut self, par: Par, cancel: &AtomicBool) -> Result<(), LinalgError> {
         let Shape { columns, below } = self.shape;
         let height = self.shape.height();

@@ -1,7 +1,7 @@
 //! Forward and backward substitution through the fronts.
 //!
-//! Several right-hand sides are taken some at a time, so that the numbers of the factors are read once for all of them;
-//! such groups run side by side. Large blocks go through faer's dense kernels, small ones through plain loops.
+//! Several right-hand sides are solved together, so that the numbers of the factors are read only once for all of
+//! them. Such groups run in parallel. Large blocks use the dense kernels of faer, small blocks plain loops.
 
 use std::sync::atomic::AtomicBool;
 
@@ -54,7 +54,7 @@ impl<T: Number> Llt<T> {
     }
 }
 
-/// The L panels of all fronts.
+/// L panels of all fronts.
 struct Panels<'a, T: Number> {
     analysis: &'a FrontAnalysis,
     factor: &'a Llt<T>,
@@ -83,7 +83,7 @@ impl<T: Number> Substitution<T> for Panels<'_, T> {
     }
 }
 
-/// L y = b.
+/// Solves L y = b.
 fn forward<T: Number>(left: &[T], mut part: Part<'_, T>) {
     let shape = part.shape;
     if left.len() >= LARGE_PANEL {
@@ -104,7 +104,7 @@ fn forward<T: Number>(left: &[T], mut part: Part<'_, T>) {
     }
 }
 
-/// Lᴴ x = y.
+/// Solves Lᴴ x = y.
 fn backward<T: Number>(left: &[T], mut part: Part<'_, T>) {
     let shape = part.shape;
     if left.len() >= LARGE_PANEL {

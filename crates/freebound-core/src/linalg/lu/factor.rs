@@ -1,4 +1,4 @@
-//! Numeric factorization: every front of the tree.
+//! Numeric factorization of all fronts of the tree.
 
 use std::convert::identity;
 use std::sync::atomic::AtomicBool;
@@ -15,21 +15,21 @@ use crate::linalg::scalar::{Number, Scalar};
 use crate::linalg::sparse::power_of_two_near;
 use crate::linalg::{FactorStats, LinalgError};
 
-/// √ε: a pivot smaller than this against its row's largest entry is replaced.
+/// Ratio √ε of a pivot to the largest entry of its row below which the pivot is replaced.
 const TINY_PIVOT: f64 = 1.490_116_119_384_765_6e-8;
 
 #[derive(Debug)]
 pub(crate) struct Lu<T: Number> {
     pub(super) units: Vec<UnitFactor<T>>,
     pub(super) places: Places,
-    /// 1/R, by the caller's rows.
+    /// Diagonal of R⁻¹, in the order of the caller's rows.
     pub(crate) row_scale: Vec<f64>,
-    /// The caller's rows whose pivot was replaced, in the order of elimination.
+    /// Rows of the caller whose pivot was replaced, in the order of elimination.
     pub(crate) replaced_rows: Vec<u32>,
     peak_bytes: usize,
 }
 
-/// The blocks of a unit's supernodes, one after another, and the row swaps inside each.
+/// Consecutive blocks of a unit's supernodes, and the row swaps inside each.
 #[derive(Debug)]
 pub(super) struct UnitFactor<T: Number> {
     pub(super) values: Kept<T>,
@@ -37,13 +37,13 @@ pub(super) struct UnitFactor<T: Number> {
     replaced: Vec<u32>,
 }
 
-/// What the threads of one factorization share.
+/// Data shared by the threads of a factorization.
 struct Job<'a, T> {
     analysis: &'a FrontAnalysis,
     pattern: &'a Pattern,
     values: &'a [T],
     row_scale: &'a [f64],
-    /// Smallest pivot accepted, by the caller's rows.
+    /// Smallest accepted pivot, in the order of the caller's rows.
     thresholds: &'a [f64],
     cancel: &'a AtomicBool,
 }
@@ -108,7 +108,7 @@ impl<T: Scalar> Kernel<T> for Job<'_, T> {
     }
 }
 
-/// What a front is written to.
+/// Destination of a front.
 struct Target<'a, N> {
     block: &'a mut [N],
     update: &'a mut [N],
@@ -116,7 +116,8 @@ struct Target<'a, N> {
 }
 
 impl<T: Scalar> Job<'_, T> {
-    /// Assembles and eliminates a front of numbers in full or real parts. Returns the columns whose pivots were replaced.
+    /// Assembles and eliminates a front, in full numbers or real parts. Returns the columns whose pivots were
+    /// replaced.
     fn eliminate_in<N: Scalar>(
         &self,
         supernode: usize,
@@ -150,8 +151,8 @@ impl<T: Number> Lu<T> {
     }
 }
 
-/// The factor of every row, a power of two near 1/|aᵢᵢ|, so that scaling rounds nothing; and √ε of the scaled row's
-/// largest entry. Where the diagonal is tiny against its row, the row's largest entry stands in.
+/// Factor of every row, a power of two near 1/|aᵢᵢ|, so that scaling does not round; and √ε times the largest entry
+/// of the scaled row. If the diagonal is tiny relative to its row, the largest entry of the row replaces it.
 fn equilibrate<T: Scalar>(pattern: &Pattern, values: &[T]) -> Result<(Vec<f64>, Vec<f64>), LinalgError> {
     let n = pattern.order();
     let (mut largest, mut diagonal, mut column_largest) = (vec![0.0f64; n], vec![0.0; n], vec![0.0f64; n]);

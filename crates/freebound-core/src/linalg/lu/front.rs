@@ -1,4 +1,4 @@
-//! One front: assembly, elimination, update.
+//! Assembly, elimination and update of a front.
 
 use std::sync::atomic::AtomicBool;
 
@@ -10,14 +10,14 @@ use crate::linalg::fronts::{Gather, Shape, mat_mut, scatter_add};
 use crate::linalg::pattern::go_on_unless;
 use crate::linalg::scalar::Scalar;
 
-/// A dense front under way. The two panels are the factor's own memory.
+/// Dense front during factorization. Both panels are memory of the factor.
 pub(super) struct Front<'a, T> {
     pub(super) shape: Shape,
-    /// `height` × `columns`.
+    /// L panel, `height` × `columns`.
     pub(super) left: &'a mut [T],
-    /// `columns` × `below`.
+    /// U panel, `columns` × `below`.
     pub(super) right: &'a mut [T],
-    /// `below` × `below`.
+    /// Update, `below` × `below`.
     pub(super) update: &'a mut [T],
 }
 

@@ -12,12 +12,12 @@
 //!   p  | L₂₁        S  |     S, p by p, goes to the parent and is freed there
 //! ```
 //!
-//! Panels are real where nothing complex is below (see `fronts/places.rs`).
+//! Panels are real unless an entry below them is complex (see `fronts/places.rs`).
 //!
-//! There is no pivoting between fronts. A pivot that is too small against its row is replaced and counted; refinement
-//! against the original A repairs what that changed, or the solve is an error.
+//! There is no pivoting between fronts. A pivot that is too small relative to its row is replaced and counted.
+//! Refinement against the original A repairs the effect, or the solve fails.
 //!
-//! | file | what |
+//! | file | contents |
 //! |---|---|
 //! | `factor.rs`, `front.rs`, `pivot.rs` | numbers: all fronts, one front, its diagonal block |
 //! | `solve.rs` | forward and backward substitution |

@@ -1,4 +1,4 @@
-//! Dense LU of one diagonal block, with partial pivoting inside it.
+//! Dense LU of a diagonal block, with partial pivoting inside it.
 
 use std::sync::atomic::AtomicBool;
 
@@ -9,24 +9,25 @@ use crate::linalg::fronts::{mat, mat_mut, threads_for};
 use crate::linalg::pattern::{go_on_unless, narrow};
 use crate::linalg::scalar::Scalar;
 
-/// The diagonal entry is taken as pivot when it is at least this share of the largest candidate. Systems with positive
-/// weights need no pivoting, and on the diagonal their elimination subtracts nothing of like size.
+/// Share of the largest candidate from which the diagonal entry is the pivot. Systems with positive weights need no
+/// pivoting: elimination on their diagonal subtracts no numbers of similar size.
 const DIAGONAL_PREFERENCE: f64 = 0.1;
 
-/// Columns eliminated one by one before the rest of the block is updated by a matrix product.
+/// Number of columns eliminated individually before a matrix product updates the rest of the block.
 const BLOCK: usize = 32;
 
-/// What pivoting does to the rows of a block, besides moving numbers.
+/// Row data of a block that pivoting uses and records.
 pub(super) struct Pivots<'a> {
-    /// For every row the smallest pivot that is accepted; moves along with the rows.
+    /// Smallest accepted pivot of every row; swapped along with the rows.
     pub(super) thresholds: &'a mut [f64],
-    /// Row `swaps[k]` changed places with row `k`, in the order of `k`.
+    /// Row `swaps[k]` was swapped with row `k`, in the order of `k`.
     pub(super) swaps: &'a mut [u32],
     /// Columns whose pivot was replaced.
     pub(super) replaced: Vec<usize>,
 }
 
-/// Factors the top `columns` × `columns` block of `panel` (leading dimension `height`); the rows of `right` move along.
+/// Factors the top `columns` × `columns` block of `panel` (leading dimension `height`); the rows of `right` are
+/// swapped along.
 pub(super) fn factor_block<T: Scalar>(
     panel: &mut [T],
     height: usize,
@@ -75,7 +76,7 @@ fn replace_if_tiny<T: Scalar>(panel: &mut [T], height: usize, k: usize, pivots: 
     if size >= threshold {
         return;
     }
-    // A NaN comes here too.
+    // A NaN is replaced, too.
     *pivot = if size > 0.0 { pivot.scale(threshold / size) } else { T::from_real(threshold) };
     pivots.replaced.push(k);
 }
@@ -99,7 +100,7 @@ fn eliminate<T: Scalar>(panel: &mut [T], height: usize, k: usize, last: usize, c
     }
 }
 
-/// Brings the block's columns right of `done` up to date.
+/// Updates the block's columns to the right of `done`.
 fn update_rest<T: Scalar>(panel: &mut [T], height: usize, done: std::ops::Range<usize>, columns: usize) {
     let (left, rest) = panel.split_at_mut(done.end * height);
     let left = mat(left, height, done.end);

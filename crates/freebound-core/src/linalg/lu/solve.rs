@@ -1,7 +1,7 @@
 //! Forward and backward substitution through the fronts.
 //!
-//! Several right-hand sides are taken [`TOGETHER`] at a time, so that the numbers of the factors are read once for all of
-//! them; such groups run side by side. Large blocks go through faer's dense kernels, small ones through plain loops.
+//! Up to [`TOGETHER`] right-hand sides are solved together, so that the numbers of the factors are read only once for
+//! all of them. Such groups run in parallel. Large blocks use the dense kernels of faer, small blocks plain loops.
 
 use std::sync::atomic::AtomicBool;
 
@@ -22,7 +22,7 @@ use crate::linalg::pattern::go_on_unless;
 use crate::linalg::scalar::Scalar;
 use crate::linalg::sparse::Operation;
 
-/// One supernode's part of the factors.
+/// Part of the factors of a supernode.
 struct Block<'a, T> {
     left: &'a [T],
     right: &'a [T],
@@ -90,20 +90,20 @@ impl<T: Scalar> Lu<T> {
     }
 }
 
-/// The blocks of all fronts.
+/// Blocks of all fronts.
 struct Blocks<'a, T: Scalar> {
     analysis: &'a FrontAnalysis,
     factor: &'a Lu<T>,
 }
 
-/// L U x = b.
+/// Substitution for L U x = b.
 struct Plain<'a, T: Scalar>(Blocks<'a, T>);
 
-/// Uᵀ Lᵀ x = b.
+/// Substitution for Uᵀ Lᵀ x = b.
 struct Transposed<'a, T: Scalar>(Blocks<'a, T>);
 
 impl<T: Scalar> Blocks<'_, T> {
-    /// Lets a front's block act on its part of the right-hand sides, as numbers in full or by parts.
+    /// Applies a front's block to its part of the right-hand sides, in full numbers or by parts.
     fn act(&self, act: Act, supernode: usize, part: Part<'_, T>) {
         let (analysis, shape) = (self.analysis, part.shape);
         let unit = analysis.unit_of[supernode] as usize;
@@ -117,7 +117,7 @@ impl<T: Scalar> Blocks<'_, T> {
     }
 }
 
-/// What a block does to right-hand sides.
+/// Operation of a block on right-hand sides.
 #[derive(Clone, Copy)]
 enum Act {
     Forward,
@@ -145,7 +145,7 @@ impl<T: Scalar> Substitution<T> for Transposed<'_, T> {
 }
 
 impl<'a, T> Block<'a, T> {
-    /// Of numbers that are those of the L panel and then those of the U panel.
+    /// Block of the numbers of the L panel followed by the numbers of the U panel.
     fn new(numbers: &'a [T], shape: Shape, swaps: &'a [u32]) -> Self {
         let (left, right) = numbers.split_at(shape.left_len());
         Self { left, right, swaps }
@@ -166,7 +166,7 @@ impl<T: Scalar> Block<'_, T> {
         self.left.len() >= LARGE_PANEL
     }
 
-    /// L y = P b.
+    /// Solves L y = P b.
     fn forward(&self, mut part: Part<'_, T>) {
         let shape = part.shape;
         for (own, _) in part.each() {
@@ -191,7 +191,7 @@ impl<T: Scalar> Block<'_, T> {
         }
     }
 
-    /// U x = y.
+    /// Solves U x = y.
     fn backward(&self, mut part: Part<'_, T>) {
         let shape = part.shape;
         if self.is_large() {
@@ -214,7 +214,7 @@ impl<T: Scalar> Block<'_, T> {
         }
     }
 
-    /// Uᵀ y = b.
+    /// Solves Uᵀ y = b.
     fn forward_transpose(&self, mut part: Part<'_, T>) {
         let shape = part.shape;
         if self.is_large() {
@@ -236,7 +236,7 @@ impl<T: Scalar> Block<'_, T> {
         }
     }
 
-    /// Lᵀ x = y, then the swaps undone.
+    /// Solves Lᵀ x = y and undoes the swaps.
     fn backward_transpose(&self, mut part: Part<'_, T>) {
         let shape = part.shape;
         if self.is_large() {

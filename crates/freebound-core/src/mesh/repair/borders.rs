@@ -1,5 +1,7 @@
-//! Edges that seams follow as a rule: creases, and those where faces of two kinds meet. They are found on the mesh as it is repaired
-//! and before it is cut, so that faces whose vertices a repair joins are neighbours; edges are named by vertices of the file.
+//! Edges that seams usually follow: creases, and borders between faces of two kinds.
+//!
+//! The search uses the repaired mesh before it is cut, so that faces become neighbours if a repair joins their
+//! vertices. Edges are named by vertices of the file.
 
 use glam::DVec3;
 
@@ -8,11 +10,12 @@ use super::ways::normal;
 use super::{Repaired, Repairs};
 use crate::mesh::{PolygonMesh, VertexId};
 
-/// By how much an angle may be smaller, in radians, and still be as large as is asked for: a box has creases of 90 degrees.
+/// Tolerance on the smallest crease angle, in radians, so that a box has creases of 90 degrees.
 const SLACK: f64 = 1e-9;
 
-/// The edges at which faces meet at an angle of so many degrees or more between their normals: 0 where they lie in one plane. A
-/// face without area has no angle to its neighbours.
+/// Returns the edges whose faces meet at `degrees` or more, as the angle between their normals: 0 in a plane.
+///
+/// A face without area has no angle to its neighbours.
 pub fn creases(source: &PolygonMesh, repairs: Repairs, degrees: f64) -> Vec<[VertexId; 2]> {
     let repaired = Repaired::new(source, repairs);
     let least = degrees.to_radians() - SLACK;
@@ -23,13 +26,13 @@ pub fn creases(source: &PolygonMesh, repairs: Repairs, degrees: f64) -> Vec<[Ver
     };
     edges_between(source, &repaired, |sides, [a, b]| {
         let [n, m] = [a, b].map(|side| normals[sides.face[side as usize] as usize]);
-        // Neighbours that run around in different directions: one of them shows its other side.
+        // Inconsistently oriented neighbours: one of them shows its other side.
         let m = if sides.ends(a)[0] == sides.ends(b)[0] { -m } else { m };
         n != DVec3::ZERO && m != DVec3::ZERO && n.cross(m).length().atan2(n.dot(m)) >= least
     })
 }
 
-/// The edges at which faces with different labels meet. There is a label for each face of the file.
+/// Returns the edges at which faces with different labels meet. `labels` has one label per face of the file.
 pub fn borders(source: &PolygonMesh, repairs: Repairs, labels: &[u32]) -> Vec<[VertexId; 2]> {
     let repaired = Repaired::new(source, repairs);
     edges_between(source, &repaired, |sides, pair| {
@@ -38,7 +41,7 @@ pub fn borders(source: &PolygonMesh, repairs: Repairs, labels: &[u32]) -> Vec<[V
     })
 }
 
-/// The edges with two sides that are looked for, by the file's vertices, the smaller first, in their order.
+/// Edges with two or more sides that satisfy `is_sought`, by the file's vertices, the smaller first; ascending.
 fn edges_between(
     source: &PolygonMesh,
     repaired: &Repaired,

@@ -1,4 +1,4 @@
-//! The charts of a repaired mesh: its parts that hang together across edges, where every one of them is a disk.
+//! Charts of a repaired mesh: its edge-connected parts, if each of them is a disk.
 
 use std::collections::HashMap;
 
@@ -8,36 +8,37 @@ use super::sides::Sides;
 use crate::mesh::union::DisjointSets;
 use crate::mesh::{FaceId, PolygonMesh, VertexId, parts};
 
-/// A mesh of several charts.
+/// A mesh with several charts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Charts {
     whole: Repaired,
-    /// The faces of each chart, of the whole, ascending.
+    /// Faces of each chart in the whole mesh, ascending.
     faces: Vec<Vec<u32>>,
-    /// The chart of each vertex of the whole; none where it has no face.
+    /// Chart of each vertex of the whole mesh; `None` for unreferenced vertices.
     chart_of_vertex: Vec<Option<u32>>,
 }
 
-/// One chart, over vertices of its own.
+/// A chart with its own vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// Its faces, each known as the face of the mesh as given that it is.
+    /// Faces of the chart, each with its face of the given mesh.
     pub repaired: Repaired,
-    /// The vertex of the whole that each of its vertices is, ascending.
+    /// Vertex of the whole mesh for each vertex of the chart, ascending.
     pub vertex_of: Vec<VertexId>,
 }
 
 impl Charts {
-    /// The charts of a mesh, in the order of their first faces; none where it is one part, or a part is no disk.
+    /// Returns the charts of a mesh, in the order of their first faces; `None` if it has one part, or a part is not a
+    /// disk.
     pub fn of(whole: Repaired) -> Option<Self> {
         Self::try_of(whole).ok()
     }
 
-    /// As [`of`](Self::of), the mesh given back where there are none.
+    /// Returns the charts of a mesh like [`of`](Self::of), or returns the mesh if there are none.
     ///
     /// # Errors
     ///
-    /// The mesh, where it is one part, or a part is no disk.
+    /// The mesh, if it has one part only, or a part is not a disk.
     pub fn try_of(whole: Repaired) -> Result<Self, Box<Repaired>> {
         let Some(faces) = disks_of(&whole).filter(|faces| faces.len() > 1) else { return Err(Box::new(whole)) };
         let mut chart_of_vertex = vec![None; whole.polygons.positions.len()];
@@ -49,49 +50,49 @@ impl Charts {
         Ok(Self { whole, faces, chart_of_vertex })
     }
 
-    /// The mesh that they are the charts of.
+    /// Mesh that the charts belong to.
     pub fn whole(&self) -> &Repaired {
         &self.whole
     }
 
-    /// How many there are.
+    /// Number of charts.
     pub fn count(&self) -> usize {
         self.faces.len()
     }
 
-    /// The faces of a chart, of the whole, ascending.
+    /// Faces of a chart in the whole mesh, ascending.
     pub fn faces(&self, chart: usize) -> &[u32] {
         &self.faces[chart]
     }
 
-    /// The first face of a chart, as the mesh as given numbers it.
+    /// First face of a chart, by its number in the given mesh.
     pub fn first_face(&self, chart: usize) -> FaceId {
         FaceId::new(self.whole.face_of[self.faces[chart][0] as usize])
     }
 
-    /// The chart of a face of the whole; none where there is no such face.
+    /// Chart of a face of the whole mesh; `None` if there is no such face.
     pub fn chart_of_face(&self, face: u32) -> Option<usize> {
         let polygons = &self.whole.polygons;
         let is_there = (face as usize) < polygons.face_count();
         is_there.then(|| polygons.face(face as usize)[0]).and_then(|vertex| self.chart_of_vertex(vertex))
     }
 
-    /// The chart of a vertex of the whole.
+    /// Chart of a vertex of the whole mesh.
     pub fn chart_of_vertex(&self, vertex: VertexId) -> Option<usize> {
         self.chart_of_vertex.get(vertex.index()).copied().flatten().map(|chart| chart as usize)
     }
 
-    /// The chart with the most faces, the first of these.
+    /// Chart with the most faces; the first one at a tie.
     pub fn largest(&self) -> usize {
         (0..self.count()).max_by_key(|&chart| (self.faces[chart].len(), std::cmp::Reverse(chart))).unwrap_or_default()
     }
 
-    /// The chart that is wanted, where there is such a one; the largest where there is not, or none is wanted.
+    /// Returns the wanted chart if it exists, otherwise the largest chart.
     pub fn pick(&self, wanted: Option<usize>) -> usize {
         wanted.filter(|&wanted| wanted < self.count()).unwrap_or_else(|| self.largest())
     }
 
-    /// One chart by itself.
+    /// Extracts a chart with its own vertices and fills its holes if holes are to be filled.
     pub fn chart(&self, chart: usize) -> Chart {
         let part = compact(&self.whole.polygons, &self.faces[chart]);
         let repaired = Repaired {
@@ -112,19 +113,20 @@ impl Charts {
 }
 
 impl Chart {
-    /// The chart's vertex that a vertex of the whole is.
+    /// Vertex of the chart for a vertex of the whole mesh.
     pub fn vertex_at(&self, of_whole: VertexId) -> Option<VertexId> {
         self.vertex_of.binary_search(&of_whole).ok().map(VertexId::from_index)
     }
 }
 
-/// The faces of each part, where every part is a disk, once its holes are filled where they are to be, and no two share a vertex.
+/// Faces of each part. `None` unless every part is a disk, once holes are filled if allowed, and no two parts share a
+/// vertex.
 pub(super) fn disks_of(whole: &Repaired) -> Option<Vec<Vec<u32>>> {
     let polygons = &whole.polygons;
     let found = parts(&polygons.triangulate()).ok()?;
     let faces = parts_of(polygons, &Sides::new(polygons));
     let are_disks = found.len() == faces.len() && found.iter().all(|part| whole.fills || part.loops().len() == 1);
-    // A part has a copy of each vertex that it shares.
+    // A part has its own copy of each vertex that it shares.
     let own_count: usize = found.iter().map(|part| part.vertex_of().len()).sum();
     let mut used: Vec<VertexId> = polygons.corners.clone();
     used.sort_unstable();
@@ -132,16 +134,16 @@ pub(super) fn disks_of(whole: &Repaired) -> Option<Vec<Vec<u32>>> {
     (are_disks && own_count == used.len()).then_some(faces)
 }
 
-/// Some faces of a mesh, over vertices of their own.
+/// Some faces of a mesh, with their own vertices.
 pub(super) struct Compact {
     pub(super) polygons: PolygonMesh,
-    /// The corner of the whole that each corner is.
+    /// Corner of the whole mesh for each corner.
     pub(super) corner_of: Vec<u32>,
-    /// The vertex of the whole that each vertex is, ascending.
+    /// Vertex of the whole mesh for each vertex, ascending.
     vertex_of: Vec<VertexId>,
 }
 
-/// Takes some faces of a mesh out.
+/// Extracts faces of a mesh with their own vertices.
 pub(super) fn compact(whole: &PolygonMesh, faces: &[u32]) -> Compact {
     let count = |count: usize| u32::try_from(count).expect("a mesh has fewer than 2^32 corners");
     let places = || faces.iter().flat_map(|&face| whole.corner_range(face as usize));
@@ -163,7 +165,7 @@ pub(super) fn compact(whole: &PolygonMesh, faces: &[u32]) -> Compact {
     Compact { polygons, corner_of: places().map(count).collect(), vertex_of }
 }
 
-/// The faces of each part that hangs together across edges, in the order of their first faces.
+/// Faces of each edge-connected part, in the order of their first faces.
 pub(super) fn parts_of(polygons: &PolygonMesh, sides: &Sides<'_>) -> Vec<Vec<u32>> {
     let mut sets = DisjointSets::new(polygons.face_count());
     for on in sides.table.edges() {

@@ -1,17 +1,17 @@
-//! Each part of a surface is cut along edges until it is a disk.
+//! Cutting of each part of a surface along edges until it is a disk.
 //!
 //! # Method
 //!
-//! A tree of shortest ways reaches all vertices: from the boundary, all of whose vertices it begins at, or from one vertex of
-//! a closed surface. A tree of faces, across edges that are not in the first, reaches all faces. Each edge in neither closes one loop, or
-//! one way from boundary to boundary, with the shortest ways from its ends: 2g + b − 1 of them for genus g and b loops of the
-//! boundary. What is left when the surface is cut along all of these is a disk: the tree of faces, unfolded. The tree of
-//! faces takes the longest loops first, so that the shortest are left to be cut. A surface with one side is cut alike; its faces are turned
-//! over afterwards where they clash.
+//! A tree of shortest paths reaches all vertices. Its roots are all boundary vertices or, for a closed surface, one
+//! vertex. A tree of faces, across edges that are not in the first tree, reaches all faces. Each edge in neither tree
+//! closes a loop, or a path from boundary to boundary, with the shortest paths from its ends. There are 2g + b − 1
+//! such edges for genus g and b boundary loops. Cutting the surface along all these paths leaves a disk: the tree of
+//! faces, unfolded. The tree of faces takes edges with the longest loops first, so that the shortest loops remain to
+//! be cut. A one-sided surface is cut by this method too; its faces are flipped afterwards if they clash.
 //!
-//! On a sphere nothing is left to cut: it is cut along a tree of shortest ways between far points.
+//! On a sphere no edge remains. A sphere is cut along a tree of shortest paths between far points.
 //!
-//! Source: J. Erickson, K. Whittlesey, "Greedy optimal homotopy and homology generators", 2005; the far points as in
+//! Source: J. Erickson, K. Whittlesey, "Greedy optimal homotopy and homology generators", 2005. The far points follow
 //! A. Sheffer, "Spanning tree seams for reducing parameterization distortion of triangulated surfaces", 2002.
 
 use super::charts::{Compact, compact, parts_of};
@@ -21,14 +21,14 @@ use super::{Repair, Repaired};
 use crate::mesh::union::DisjointSets;
 use crate::mesh::{VertexId, parts};
 
-/// A point is joined to a sphere's cut while it is farther from it than this share of the first two points' distance.
+/// Smallest distance from a sphere's cut at which a point is added, relative to the distance of the first two points.
 const FAR: f64 = 0.5;
 
-/// The most points of a sphere's cut.
+/// Largest number of points of a sphere's cut.
 const MOST_POINTS: usize = 8;
 
-/// The mesh cut open, each part by itself. Parts that are disks already, or are so once their holes are
-/// filled, stay as they are.
+/// Returns the mesh cut open, part by part. Parts that are disks, or become disks when their holes are filled, stay
+/// unchanged.
 pub(super) fn cut_open(whole: &Repaired) -> Repaired {
     let mut cut = whole.clone();
     if !whole.has_faces() {
@@ -52,13 +52,13 @@ pub(super) fn cut_open(whole: &Repaired) -> Repaired {
     cut
 }
 
-/// Whether a part is a disk once its holes are filled.
+/// True if a part is a disk once its holes are filled.
 fn is_filled(part: &Compact) -> bool {
     parts(&part.polygons.triangulate()).is_ok_and(|found| found.len() == 1)
 }
 
-/// Opens the sides of the whole along which a part is cut. Returns how many edges these are. Where edges have three faces
-/// or more, there are none.
+/// Opens the sides of the whole mesh along which a part is cut, and returns the number of cut edges. Returns 0 for a
+/// part that has an edge with three or more faces.
 fn open_part(part: &Compact, is_open: &mut [bool]) -> usize {
     let sides = Sides::new(&part.polygons);
     if sides.table.edges().any(|on| on.len() > 2) {
@@ -79,7 +79,7 @@ struct Surface<'a> {
 }
 
 impl Surface<'_> {
-    /// For each edge whether it is to be cut.
+    /// True for each edge that is to be cut.
     fn seam(&self) -> Vec<bool> {
         let boundary = self.boundary_vertices();
         let tree = self.ways.reach(self.roots(&boundary), Measure::Cost);
@@ -106,7 +106,7 @@ impl Surface<'_> {
         is_boundary
     }
 
-    /// Where the shortest ways begin: at the boundary, or, of a closed surface, where they are cheapest on the whole.
+    /// Roots of the shortest paths: all boundary vertices or, on a closed surface, an end of the cheapest edge.
     fn roots(&self, boundary: &[bool]) -> impl Iterator<Item = VertexId> + use<> {
         let mut roots: Vec<VertexId> = (0..boundary.len()).filter(|&v| boundary[v]).map(VertexId::from_index).collect();
         if roots.is_empty() {
@@ -116,7 +116,7 @@ impl Surface<'_> {
         roots.into_iter()
     }
 
-    /// The edges that neither the tree of ways nor a tree of faces has.
+    /// Edges in neither the tree of paths nor the tree of faces.
     fn left_over(&self, tree: &Reach) -> Vec<u32> {
         let mut is_of_tree = vec![false; self.ways.edges().len()];
         tree.back.iter().flatten().for_each(|&edge| is_of_tree[edge as usize] = true);
@@ -134,7 +134,7 @@ impl Surface<'_> {
         edges.into_iter().filter(|(_, [a, b])| !faces.join(*a, *b)).map(|(edge, _)| edge).collect()
     }
 
-    /// Opens a tree of ways between points of a sphere that lie far apart.
+    /// Opens a tree of paths between far points of a sphere.
     fn open_sphere(&self, seam: &mut [bool]) {
         let start = self.ways.edges()[0].ends[0];
         let [by_length, by_cost] = self.reaches(&[start]);
@@ -146,7 +146,7 @@ impl Surface<'_> {
         for _ in 2..MOST_POINTS {
             let [by_length, by_cost] = self.reaches(&self.vertices_of(seam));
             let next = by_length.farthest(&by_cost);
-            // A cut of one edge would be a boundary of two vertices.
+            // A cut of one edge would leave a boundary with two vertices.
             let is_cut = seam.iter().filter(|is_open| **is_open).count() > 1;
             if is_cut && by_length.far[next.index()] <= FAR * size {
                 break;
@@ -155,7 +155,7 @@ impl Surface<'_> {
         }
     }
 
-    /// How far all vertices are from some, by length and by cost.
+    /// Distances of all vertices from the given vertices, by length and by cost.
     fn reaches(&self, from: &[VertexId]) -> [Reach; 2] {
         [Measure::Length, Measure::Cost].map(|by| self.ways.reach(from.iter().copied(), by))
     }
@@ -165,7 +165,7 @@ impl Surface<'_> {
         open.flat_map(|(edge, _)| edge.ends).collect()
     }
 
-    /// Closes what hangs on the cut by one end, and lies on no boundary, unless nothing else would be left.
+    /// Removes dangling ends of the cut that lie on no boundary, unless nothing else would remain.
     fn prune(&self, seam: &mut [bool], boundary: &[bool]) {
         let degree = |seam: &[bool], v: VertexId| self.ways.at(v).iter().filter(|&&edge| seam[edge as usize]).count();
         let has_core = boundary.contains(&true) || self.has_loop(seam);
@@ -184,7 +184,7 @@ impl Surface<'_> {
         }
     }
 
-    /// Whether the cut goes around a loop.
+    /// True if the cut contains a loop.
     fn has_loop(&self, seam: &[bool]) -> bool {
         let mut sets = DisjointSets::new(self.ways.vertex_count());
         let open = self.ways.edges().iter().zip(seam).filter(|(_, is_open)| **is_open);
@@ -192,7 +192,7 @@ impl Surface<'_> {
     }
 }
 
-/// Opens a way towards where a tree begins, up to where it is open already: so is all behind that.
+/// Opens a path towards the root of a tree, up to the first open edge: from there on it is open already.
 fn open(seam: &mut [bool], way: impl Iterator<Item = u32>) {
     for edge in way {
         if std::mem::replace(&mut seam[edge as usize], true) {

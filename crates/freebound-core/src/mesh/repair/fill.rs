@@ -1,17 +1,17 @@
-//! Holes are filled with virtual faces, so that each part of the surface is a disk while it is flattened.
+//! Filling of holes with virtual faces, so that each part of the surface is a disk while it is flattened.
 //!
 //! # Method
 //!
-//! Of each part the longest boundary loop, by the lengths of its edges, is the outer one; all others are around holes. Of three ways to fill
-//! a hole the first is taken that serves:
+//! The longest boundary loop of each part, by the lengths of its edges, is the outer one; all other loops are holes.
+//! Each hole gets the first of three fillings that fits:
 //!
-//! * A fan around a new vertex in the middle of the loop, where the loop is seen from there, in its best plane, as a whole.
-//! * The triangles of the loop as a polygon, where these have an area and no edge that the surface has: what lies in a plane keeps its shape.
-//! * A fan around a new vertex that is raised from the plane, so that its triangles have an area even where the loop is
-//!   a slit.
+//! * A fan around a new vertex at the centre of the loop, if the loop is star-shaped from there in its best-fit plane.
+//! * A triangulation of the loop as a polygon, if all its triangles have an area and none of its diagonals is an edge
+//!   of the surface. A planar hole keeps its shape.
+//! * A fan around a new vertex above the plane, so that its triangles have an area even if the loop is a slit.
 //!
-//! Nothing is filled where a part would be no disk for that: where it has handles, or one side only. Such a part is cut with its holes
-//! as parts of the boundary.
+//! A part with handles or with one side only is not filled, because filling does not make it a disk. Such a part is
+//! cut, and its holes are parts of the boundary.
 
 use std::collections::HashSet;
 
@@ -24,22 +24,23 @@ use crate::mesh::polygons::newell_normal;
 use crate::mesh::triangulate::triangulate;
 use crate::mesh::{FIRST_HOLE, Part, TriMesh, VertexId, parts};
 
-/// A triangle, or a loop, whose area is a smaller share of its longest side's square, or its length's, has none.
+/// Smallest area relative to the squared longest side of a triangle, or to the squared length of a loop. Anything
+/// smaller counts as zero.
 const THINNEST: f64 = 1e-6;
 
-/// What fills the holes of a surface.
+/// Virtual vertices and faces that fill the holes of a surface.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Filling {
-    /// New vertices, numbered after those of the surface.
+    /// New vertices, numbered after the vertices of the surface.
     centres: Vec<DVec3>,
     triangles: Vec<[VertexId; 3]>,
-    /// For each triangle the hole, counted from 0.
+    /// Hole of each triangle, counted from 0.
     hole_of: Vec<u32>,
 }
 
 impl Repaired {
-    /// Fills all holes where that is wanted and makes disks of all parts. Where there are several, each is filled when it
-    /// is taken for itself.
+    /// Fills all holes if that is allowed and makes every part a disk. A mesh with several parts is only noted here;
+    /// each part is filled when it is extracted.
     #[must_use]
     pub(super) fn fill_holes(mut self) -> Self {
         let loops = self.inner_loops();
@@ -51,7 +52,7 @@ impl Repaired {
         }
     }
 
-    /// Fills the holes of one part.
+    /// Fills the holes of a mesh with one part.
     #[must_use]
     pub(super) fn filled(mut self) -> Self {
         let holes = self.inner_loops();
@@ -61,8 +62,8 @@ impl Repaired {
         self
     }
 
-    /// The loops to fill, each turned around so that the surface lies to its right; none where they are to stay, or filling
-    /// them makes no disks.
+    /// Loops to fill, reversed so that the surface lies to their right. Empty if holes are not filled, or filling
+    /// makes no disks.
     fn inner_loops(&self) -> Vec<Vec<VertexId>> {
         if !self.fills || !self.is_sound() {
             return Vec::new();
@@ -78,7 +79,7 @@ impl Repaired {
     }
 }
 
-/// All loops but the longest, those with the lowest vertices first.
+/// All loops but the longest, in the order of their lowest vertices.
 fn all_but_the_longest(mesh: &TriMesh, mut loops: Vec<Vec<VertexId>>) -> Vec<Vec<VertexId>> {
     let length = |of: &[VertexId]| -> f64 {
         sides(of).map(|ends| ends.map(|v| mesh.positions[v.index()])).map(|[a, b]| a.distance(b)).sum()
@@ -113,12 +114,12 @@ impl Filling {
         filling
     }
 
-    /// Runs around the other way.
+    /// Reverses the orientation of the triangles.
     pub(super) fn turn(&mut self) {
         self.triangles.iter_mut().for_each(|corners| corners[1..].reverse());
     }
 
-    /// A surface with its holes filled.
+    /// Appends the virtual vertices and triangles to a surface.
     pub(super) fn appended_to(&self, mut mesh: TriMesh) -> TriMesh {
         mesh.positions.extend(&self.centres);
         mesh.triangles.extend(&self.triangles);
@@ -139,28 +140,28 @@ struct Fan {
 }
 
 impl Fan {
-    /// Around the middle of a loop, where all its triangles lie the same way up.
+    /// Fan around the mean of a loop's vertices, if all its triangles are positive in the loop's best-fit plane.
     fn flat(points: &[DVec3]) -> Option<Self> {
         let centre = mean(points);
         let normal = newell_normal(points).try_normalize()?;
         sides(points).all(|[a, b]| has_area([a, b, centre], normal)).then_some(Self { centre })
     }
 
-    /// Above the middle of a loop, by the mean length of its edges.
+    /// Fan around a vertex above the mean of a loop's vertices, raised by the mean length of its edges.
     fn raised(points: &[DVec3]) -> Self {
         let length: f64 = sides(points).map(|[a, b]| a.distance(b)).sum();
         let normal = newell_normal(points);
         let longest = sides(points).map(|[a, b]| b - a).fold(DVec3::ZERO, |longest, side| {
             if side.length_squared() > longest.length_squared() { side } else { longest }
         });
-        // What a slit has for a normal is its rounding.
+        // The normal of a slit is rounding noise.
         let is_slit = normal.length() <= THINNEST * length * length;
         let upward = if is_slit { longest.any_orthogonal_vector() } else { normal };
         Self { centre: mean(points) + upward.normalize_or_zero() * (length / points.len() as f64) }
     }
 }
 
-/// The triangles of a loop as a polygon, where these serve.
+/// Triangles of a loop as a polygon, if they all have an area and their diagonals are no edges of the surface.
 fn chords(rim: &[VertexId], points: &[DVec3], edges: &HashSet<[VertexId; 2]>) -> Option<Vec<[VertexId; 3]>> {
     let normal = newell_normal(points).try_normalize()?;
     let mut places = Vec::with_capacity(rim.len() - 2);
@@ -173,7 +174,7 @@ fn chords(rim: &[VertexId], points: &[DVec3], edges: &HashSet<[VertexId; 2]>) ->
     places.iter().all(serves).then(|| places.iter().map(|triangle| triangle.map(|at| rim[at])).collect())
 }
 
-/// The edges of a surface that join vertices around holes, the lower end first.
+/// Edges of a surface between vertices around holes, the lower end first.
 fn edges_across(mesh: &TriMesh, holes: &[Vec<VertexId>]) -> HashSet<[VertexId; 2]> {
     let mut is_on_rim = vec![false; mesh.vertex_count()];
     holes.iter().flatten().for_each(|v| is_on_rim[v.index()] = true);
@@ -181,7 +182,7 @@ fn edges_across(mesh: &TriMesh, holes: &[Vec<VertexId>]) -> HashSet<[VertexId; 2
     all.filter(|ends| ends.iter().all(|v| is_on_rim[v.index()])).map(ascending).collect()
 }
 
-/// Whether a triangle runs around its normal, and is no needle.
+/// True if a triangle is counter-clockwise about its normal and is not a needle.
 fn has_area([a, b, c]: [DVec3; 3], normal: DVec3) -> bool {
     let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
     (b - a).cross(c - a).dot(normal) > THINNEST * longest
@@ -191,7 +192,7 @@ fn mean(points: &[DVec3]) -> DVec3 {
     points.iter().sum::<DVec3>() / points.len() as f64
 }
 
-/// The sides of a closed chain.
+/// Sides of a closed chain.
 fn sides<T: Copy>(chain: &[T]) -> impl Iterator<Item = [T; 2]> {
     chain.iter().zip(chain.iter().cycle().skip(1)).map(|(&a, &b)| [a, b])
 }

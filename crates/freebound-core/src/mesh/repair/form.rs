@@ -1,4 +1,4 @@
-//! What is wanted of a file's faces, and the mesh that comes of it.
+//! Preparation of a file's faces: its settings, and the mesh that results.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -6,43 +6,43 @@ use std::sync::Arc;
 use super::{PartFaces, Repair, Repaired, Repairs, Seams};
 use crate::mesh::PolygonMesh;
 
-/// What is made of a file's faces before they are flattened.
+/// Settings for the preparation of a file's faces before they are flattened.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Preparation {
-    /// Whether all faces are turned around: the other side is the outside.
+    /// True if all faces are reversed: the other side becomes the outside.
     pub faces_turned: bool,
-    /// What may be repaired.
+    /// Allowed repairs.
     pub repair: Repairs,
-    /// What becomes of holes.
+    /// Treatment of holes.
     pub holes: HoleTreatment,
-    /// Whether parts that are no disks are cut open.
+    /// True if parts that are not disks are cut open.
     pub cut: bool,
-    /// Where the surface is cut before that.
+    /// Seams along which the surface is cut first.
     pub seams: Seams,
-    /// Parts of the surface that are left out, by the file's numbers of their first faces.
+    /// Parts of the surface to leave out, by the file's numbers of their first faces.
     pub left_out: Arc<BTreeSet<u32>>,
 }
 
-/// What becomes of inner boundary loops.
+/// Treatment of inner boundary loops.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum HoleTreatment {
-    /// They are filled with virtual faces, unless nothing may be repaired.
+    /// Fill holes with virtual faces, if repairs allow it.
     #[default]
     Fill,
-    /// They are cut open to the outside, where a surface is cut at all.
+    /// Cut holes open to the outer boundary, if the surface is cut at all.
     Cut,
 }
 
 impl Preparation {
-    /// All that can be done to make disks.
+    /// Adds all repairs that can help to make disks, and cutting.
     #[must_use]
     pub fn with_all_repairs(&self) -> Self {
         Self { repair: self.repair.and(Repairs::ALL), cut: true, ..self.clone() }
     }
 
-    /// Whether a repair may be done.
+    /// True if a repair is allowed.
     pub fn allows(&self, repair: Repair) -> bool {
         match repair {
             Repair::Cut => self.cut,
@@ -53,34 +53,37 @@ impl Preparation {
         }
     }
 
-    /// The same where a repair may be done, too.
+    /// Allows one more repair.
     #[must_use]
     pub fn with_repair(&self, repair: Repair) -> Self {
         let form = self.clone();
         match repair {
             Repair::Cut => Self { cut: true, ..form },
-            // Which parts or seams, a repair does not say.
+            // A repair does not name the parts or seams.
             Repair::LeaveOutParts | Repair::CutSeams => form,
             Repair::FillHoles => Self { holes: HoleTreatment::Fill, repair: form.repair.with(repair), ..form },
             _ => Self { repair: form.repair.with(repair), ..form },
         }
     }
 
-    /// The repairs of a mesh, whose faces are turned already: the same as before they were, so that every vertex keeps its
-    /// number when they are turned. Seams of texture coordinates are for [`repaired_along`](Self::repaired_along).
+    /// Repairs a mesh.
+    ///
+    /// If faces are reversed, `source` is the reversed mesh. The repair runs on its original orientation and reverses
+    /// the result, so that every vertex has the number that it has without reversal. For seams of texture coordinates
+    /// use [`repaired_along`](Self::repaired_along).
     pub fn repaired(&self, source: &PolygonMesh) -> Repaired {
         self.repaired_along(source, None)
     }
 
-    /// The parts that are left out where their first faces are named: those of the mesh repaired, cut along its seams. `labels`
-    /// are as in [`repaired_along`](Self::repaired_along).
+    /// Parts of the mesh after repairs and cuts along its seams; `left_out` names parts by their first faces. For
+    /// `labels` see [`repaired_along`](Self::repaired_along).
     pub fn parts(&self, source: &PolygonMesh, labels: Option<&[u32]>) -> Vec<PartFaces> {
         let form = Self { left_out: Arc::default(), cut: false, holes: HoleTreatment::Cut, ..self.clone() };
         form.repaired_along(source, labels).parts()
     }
 
-    /// As [`repaired`](Self::repaired), the surface cut at edges, too, that have different labels on their sides: there is one for
-    /// each corner of `source`.
+    /// Repairs a mesh like [`repaired`](Self::repaired), and also cuts it at edges with different labels on their two
+    /// sides. `labels` has one label per corner of `source`.
     pub fn repaired_along(&self, source: &PolygonMesh, labels: Option<&[u32]>) -> Repaired {
         if self.faces_turned {
             let before = source.turned();

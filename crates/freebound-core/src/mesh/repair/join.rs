@@ -1,4 +1,4 @@
-//! Vertices in one place become one, or one becomes several; faces are turned over.
+//! Joining of coincident vertices, splitting of vertices and edges, and flipping of faces.
 
 use std::collections::HashMap;
 
@@ -10,14 +10,14 @@ use crate::mesh::union::DisjointSets;
 use crate::mesh::{Fault, VertexId, diagnose};
 
 impl Repaired {
-    /// Joins vertices of different parts that lie in one place, to the bit.
+    /// Joins vertices of different parts whose positions are equal to the bit.
     pub(super) fn weld(&mut self) {
         let mesh = self.polygons.triangulate();
         let found = coincident_vertices(&mesh, &mesh.triangles);
         if found.is_empty() {
             return;
         }
-        // −0 is 0 here.
+        // Adding 0 turns −0 into 0.
         let place = |v: VertexId| mesh.positions[v.index()].to_array().map(|x| (x + 0.0).to_bits());
         let mut first: HashMap<[u64; 3], VertexId> = found.iter().map(|&v| (place(v), v)).collect();
         for &v in mesh.triangles.iter().flatten() {
@@ -31,7 +31,7 @@ impl Repaired {
         self.note(Repair::WeldVertices, found.len());
     }
 
-    /// Gives faces at edges of three or more edges of their own.
+    /// Gives the faces at edges with three or more faces separate edges.
     pub(super) fn split_edges(&mut self) {
         let sides = Sides::new(&self.polygons);
         let crowded = sides.table.edges().filter(|sides| sides.len() > 2).count();
@@ -42,15 +42,15 @@ impl Repaired {
         }
     }
 
-    /// Gives fans of faces that meet in nothing but a vertex one each.
+    /// Gives each fan of faces that meet only at a vertex its own vertex.
     pub(super) fn split_vertices(&mut self) {
         let fans = Sides::new(&self.polygons).fans(|_| true);
         let split = self.split_into(fans);
         self.note(Repair::SplitVertices, split);
     }
 
-    /// Gives each fan of corners a vertex of its own: the first of a vertex keeps it, new ones follow behind all others.
-    /// Returns how many vertices were split.
+    /// Gives each fan of corners its own vertex. The first fan keeps the vertex; new vertices are numbered after all
+    /// others. Returns the number of vertices that were split.
     pub(super) fn split_into(&mut self, mut fans: DisjointSets) -> usize {
         const NONE: u32 = u32::MAX;
         let mut fan_of_vertex = vec![NONE; self.polygons.positions.len()];
@@ -74,12 +74,13 @@ impl Repaired {
         split.len()
     }
 
-    /// Turns the fewer faces of each part over, so that all run around alike.
+    /// Flips the smaller set of faces of each part, so that all faces have a consistent orientation.
     pub(super) fn turn_faces(&mut self) {
         self.turn_faces_where(|_| true);
     }
 
-    /// Turns faces over, as [`turn_faces`](Self::turn_faces), where a surface that is cut by now had one side only: it may have two.
+    /// Flips faces like [`turn_faces`](Self::turn_faces), but only faces that were on a one-sided surface before it
+    /// was cut: the surface may have two sides now.
     pub(super) fn turn_faces_that_were(&mut self, one_sided: &[bool]) {
         if one_sided.contains(&true) {
             self.turn_faces_where(|face| one_sided[face]);

@@ -1,4 +1,4 @@
-//! Parts that are wanted, and parts that are left out.
+//! Parts to keep, and parts to leave out.
 
 use std::collections::BTreeSet;
 
@@ -7,24 +7,25 @@ use super::leave_out::Fate;
 use super::sides::Sides;
 use super::{Repair, Repaired};
 
-/// A part of a mesh that hangs together across edges.
+/// An edge-connected part of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PartFaces {
-    /// The file's number of its first face.
+    /// Number of the part's first face in the file.
     pub first_face: u32,
-    /// How many faces it has.
+    /// Number of faces.
     pub count: usize,
 }
 
 impl Repaired {
-    /// The parts that hang together across edges, in the order of their first faces.
+    /// Edge-connected parts, in the order of their first faces.
     pub(super) fn parts(&self) -> Vec<PartFaces> {
         let parts = parts_of(&self.polygons, &Sides::new(&self.polygons));
         let part = |faces: &Vec<u32>| PartFaces { first_face: self.face_of[faces[0] as usize], count: faces.len() };
         parts.iter().map(part).collect()
     }
 
-    /// Leaves out the parts with these first faces, by their numbers in the file; none where no part would be left.
+    /// Leaves out the parts with these first faces, by their numbers in the file. Does nothing if no part would
+    /// remain.
     pub(super) fn leave_parts_out(&mut self, first_faces: &BTreeSet<u32>) {
         if first_faces.is_empty() || !self.is_sound() {
             return;
@@ -48,7 +49,7 @@ impl Repaired {
         self.note(Repair::LeaveOutParts, unwanted.len());
     }
 
-    /// The faces of parts that were left out, by their numbers in the file.
+    /// Faces of the parts that were left out, by their numbers in the file.
     pub fn left_out(&self) -> &[u32] {
         &self.left_out
     }

@@ -1,33 +1,33 @@
-//! The repairs by name, and which of them may be done.
+//! Names of the repairs, and sets of allowed repairs.
 
 use std::fmt;
 use std::str::FromStr;
 
 use crate::mesh::Fault;
 
-/// What may be done to a mesh so that it flattens: a set of repairs, and within which distance vertices are welded.
+/// Allowed repairs of a mesh: a set of repairs, and the distance within which vertices are welded.
 ///
-/// As text it is `none`, `safe` or `all`, or names of repairs, with commas between; `safe,turn-faces` is more than `safe` by
-/// one. The distance is no part of the text.
+/// The text form is `none`, `safe` or `all`, or names of repairs separated by commas: `safe,turn-faces` adds one
+/// repair to `safe`. The text does not contain the distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "String", into = "String"))]
 pub struct Repairs {
-    /// A bit for each kind.
+    /// Bit set of repairs.
     kinds: u16,
     weld: Option<WeldDistance>,
 }
 
 impl Repairs {
-    /// Nothing: a mesh with any fault is refused.
+    /// No repairs: a mesh with any fault is refused.
     pub const NONE: Self = Self::of(&[]);
-    /// What changes no visible surface.
+    /// Repairs that do not change the visible surface.
     pub const SAFE: Self =
         Self::of(&[Repair::DropRepeatedCorners, Repair::DropDuplicateFaces, Repair::SplitVertices, Repair::FillHoles]);
-    /// All that can be done, cutting aside.
+    /// All repairs except cutting.
     pub const ALL: Self = Self::of(&Repair::CHOSEN);
 
-    /// These repairs.
+    /// Set of the given repairs.
     pub const fn of(repairs: &[Repair]) -> Self {
         let mut found = Self { kinds: 0, weld: None };
         let mut at = 0;
@@ -38,35 +38,35 @@ impl Repairs {
         found
     }
 
-    /// One repair more.
+    /// Adds a repair.
     #[must_use]
     pub const fn with(self, repair: Repair) -> Self {
         Self { kinds: self.kinds | repair.bit(), ..self }
     }
 
-    /// The repairs of both, vertices welded within the distance of these.
+    /// Union of two sets. Keeps the weld distance of `self`.
     #[must_use]
     pub const fn and(self, others: Self) -> Self {
         Self { kinds: self.kinds | others.kinds, ..self }
     }
 
-    /// The same, vertices welded within a distance, whatever parts they are of; or not.
+    /// Sets the distance within which vertices are welded, of all parts; `None` disables welding by distance.
     #[must_use]
     pub const fn welding(self, within: Option<WeldDistance>) -> Self {
         Self { weld: within, ..self }
     }
 
-    /// Whether a repair may be done.
+    /// True if a repair is allowed.
     pub const fn allows(self, repair: Repair) -> bool {
         self.kinds & repair.bit() != 0
     }
 
-    /// Whether no repair may be done: nothing, or nothing but welding within a distance.
+    /// True if no repair of the set is allowed; welding within a distance does not count.
     pub const fn is_none(self) -> bool {
         self.kinds == 0
     }
 
-    /// Within which distance vertices are welded, where they are.
+    /// Distance within which vertices are welded, if any.
     pub const fn weld_distance(self) -> Option<WeldDistance> {
         self.weld
     }
@@ -78,7 +78,7 @@ impl Default for Repairs {
     }
 }
 
-/// The sets that have a name.
+/// Sets with a name.
 const NAMED: [(&str, Repairs); 3] = [("none", Repairs::NONE), ("safe", Repairs::SAFE), ("all", Repairs::ALL)];
 
 impl fmt::Display for Repairs {
@@ -104,7 +104,7 @@ impl FromStr for Repairs {
                 || Repair::CHOSEN.into_iter().find(|repair| repair.name() == name).map(|repair| Self::of(&[repair]));
             let repairs = set.or_else(single).ok_or_else(|| {
                 let names = NAMED.map(|(name, _)| name).into_iter().chain(Repair::CHOSEN.map(Repair::name));
-                format!("there is no repair \"{name}\": name some of {}", names.collect::<Vec<_>>().join(", "))
+                format!("unknown repair \"{name}\": choose from {}", names.collect::<Vec<_>>().join(", "))
             })?;
             Ok(found.and(repairs))
         })
@@ -125,35 +125,35 @@ impl From<Repairs> for String {
     }
 }
 
-/// One kind of repair.
+/// Kind of repair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Repair {
-    /// Corners that name a vertex again leave their face; what has fewer than three left goes.
+    /// Remove corners that repeat a vertex from their face; remove faces with fewer than three corners left.
     DropRepeatedCorners,
-    /// Faces with the vertices of an earlier one go.
+    /// Remove faces with the vertices of an earlier face.
     DropDuplicateFaces,
-    /// Vertices of different parts that lie in one place become one; or all that lie within a distance.
+    /// Join vertices of different parts that coincide, or all vertices within a distance.
     WeldVertices,
-    /// Faces at edges of three or more get edges of their own.
+    /// Give faces at edges with three or more faces separate edges.
     SplitEdges,
-    /// The fewer faces of a part are turned over, so that all run around alike.
+    /// Flip the smaller set of faces of each part, so that all have a consistent orientation.
     TurnFaces,
-    /// Fans of faces that meet in nothing but a vertex get one each.
+    /// Give each fan of faces that meet only at a vertex its own vertex.
     SplitVertices,
-    /// Inner boundary loops are filled with virtual faces, which are of no file.
+    /// Fill inner boundary loops with virtual faces, which are never written to a file.
     FillHoles,
-    /// The surface is cut along seams that were given.
+    /// Cut the surface along given seams.
     CutSeams,
-    /// The surface is cut along edges until each part is a disk.
+    /// Cut the surface along edges until each part is a disk.
     Cut,
-    /// Parts that are not wanted are not flattened.
+    /// Leave out unwanted parts: they are not flattened.
     LeaveOutParts,
 }
 
 impl Repair {
-    /// Those that can be chosen one by one; cutting is chosen by itself.
+    /// Repairs that can be chosen one by one; cutting is a separate setting.
     pub const CHOSEN: [Self; 7] = [
         Self::DropRepeatedCorners,
         Self::DropDuplicateFaces,
@@ -164,12 +164,12 @@ impl Repair {
         Self::FillHoles,
     ];
 
-    /// Its place in a set.
+    /// Bit of the repair in a set.
     const fn bit(self) -> u16 {
         1 << self as u16
     }
 
-    /// A fixed lower-case name, as reports have it.
+    /// A fixed lower-case name, used in reports.
     pub const fn name(self) -> &'static str {
         match self {
             Self::DropRepeatedCorners => "drop-repeated-corners",
@@ -185,48 +185,48 @@ impl Repair {
         }
     }
 
-    /// What a person is offered, and what comes of it.
+    /// Label of the button that offers the repair, and description of its effect.
     pub const fn offer(self) -> [&'static str; 2] {
         match self {
             Self::DropRepeatedCorners => [
                 "Leave out corners",
-                "Corners that repeat a vertex leave their face; a face with fewer than three left goes",
+                "Removes corners that repeat a vertex, and faces left with fewer than three corners",
             ],
-            Self::DropDuplicateFaces => ["Leave out duplicates", "Of faces with the same vertices the first stays"],
-            Self::WeldVertices => ["Weld", "Vertices of different parts that lie in one place become one"],
+            Self::DropDuplicateFaces => ["Leave out duplicates", "Keeps the first of all faces with equal vertices"],
+            Self::WeldVertices => ["Weld", "Joins vertices of different parts at one position"],
             Self::SplitEdges => {
-                ["Split edges", "Faces at edges of three or more get edges of their own: sheets come apart there"]
+                ["Split edges", "Gives each sheet its own edge if three or more faces share one: the sheets separate"]
             }
             Self::TurnFaces => {
-                ["Turn faces over", "The fewer faces of each part turn over, so that all run around alike"]
+                ["Turn faces over", "Turns over the minority of each part's faces, so that all have one orientation"]
             }
-            Self::SplitVertices => ["Split vertices", "Fans of faces that meet in nothing but a vertex get one each"],
+            Self::SplitVertices => {
+                ["Split vertices", "Gives each fan of faces its own vertex if fans share only a vertex"]
+            }
             Self::FillHoles => {
-                ["Fill holes", "Holes are filled while the mesh is flattened, with faces that no file gets"]
+                ["Fill holes", "Fills holes during flattening; the extra faces are not written to files"]
             }
-            Self::LeaveOutParts => ["Leave out parts", "Parts that are not wanted stay in the file as they are"],
-            Self::CutSeams => ["Cut along seams", "The surface is cut along the seams that were drawn"],
-            Self::Cut => {
-                ["Cut open", "Parts that are no disks are cut along short ways, creases first, until they are"]
-            }
+            Self::LeaveOutParts => ["Leave out parts", "Keeps unwanted parts unchanged in the file"],
+            Self::CutSeams => ["Cut along seams", "Cuts the surface along the drawn seams"],
+            Self::Cut => ["Cut open", "Cuts parts that are not disks along short paths, creases first"],
         }
     }
 
-    /// What was done, for one element and for several.
+    /// Description of the completed repair, for one element and for several.
     const fn words(self) -> [&'static str; 2] {
         match self {
             Self::DropRepeatedCorners => [
-                "face that names a vertex twice mended, or left out",
-                "faces that name a vertex twice mended, or left out",
+                "face with a repeated vertex repaired or left out",
+                "faces with a repeated vertex repaired or left out",
             ],
             Self::DropDuplicateFaces => ["duplicate face left out", "duplicate faces left out"],
             Self::WeldVertices => ["vertex joined with another", "vertices joined with others"],
-            Self::SplitEdges => ["edge of three faces or more split", "edges of three faces or more split"],
+            Self::SplitEdges => ["edge of three or more faces split", "edges of three or more faces split"],
             Self::TurnFaces => ["face turned over", "faces turned over"],
             Self::SplitVertices => {
-                ["vertex split, one for each fan of faces", "vertices split, one for each fan of faces"]
+                ["vertex split into one per fan of faces", "vertices split into one per fan of faces"]
             }
-            Self::FillHoles => ["hole filled while it is flattened", "holes filled while it is flattened"],
+            Self::FillHoles => ["hole filled during flattening", "holes filled during flattening"],
             Self::CutSeams => ["edge cut along a seam", "edges cut along seams"],
             Self::Cut => ["edge cut open", "edges cut open"],
             Self::LeaveOutParts => ["part left out", "parts left out"],
@@ -234,13 +234,13 @@ impl Repair {
     }
 }
 
-/// A repair, and how many elements it was done to.
+/// A completed repair, and the number of elements that it changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Done {
-    /// What was done.
+    /// Kind of repair.
     pub repair: Repair,
-    /// How often.
+    /// Number of elements that were changed.
     pub count: usize,
 }
 
@@ -252,7 +252,7 @@ impl fmt::Display for Done {
 }
 
 impl Fault {
-    /// Repairs that mend the fault, each by itself. Empty if none does.
+    /// Repairs that fix the fault, each by itself. Empty if none does.
     pub const fn repairs(&self) -> &'static [Repair] {
         match self {
             Self::RepeatedVertices(_) => &[Repair::DropRepeatedCorners],
@@ -273,32 +273,32 @@ impl Fault {
     }
 }
 
-/// The greatest distance of vertices that become one, in the mesh's units: finite, and 0 or more.
+/// Largest distance of vertices that are welded, in mesh units: finite, and 0 or more.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "f64", into = "f64"))]
 pub struct WeldDistance(f64);
 
 impl WeldDistance {
-    /// A distance; none where the number is none.
+    /// Checks a distance; `None` if it is negative, infinite or not a number.
     pub fn new(distance: f64) -> Option<Self> {
         (distance.is_finite() && distance >= 0.0).then_some(Self(distance.abs()))
     }
 
-    /// The distance, in the mesh's units.
+    /// Distance in mesh units.
     pub const fn get(self) -> f64 {
         self.0
     }
 }
 
-// It is never NaN.
+// The distance is never NaN.
 impl Eq for WeldDistance {}
 
 impl TryFrom<f64> for WeldDistance {
     type Error = &'static str;
 
     fn try_from(distance: f64) -> Result<Self, Self::Error> {
-        Self::new(distance).ok_or("a distance is finite, and 0 or more")
+        Self::new(distance).ok_or("the distance must be finite and at least 0")
     }
 }
 

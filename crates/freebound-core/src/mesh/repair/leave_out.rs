@@ -1,20 +1,20 @@
-//! Corners and faces that add nothing to the surface are left out.
+//! Removal of corners and faces that add nothing to the surface.
 
 use std::collections::{HashMap, HashSet};
 
 use super::{Repair, Repaired, Repairs};
 use crate::mesh::{PolygonMesh, VertexId};
 
-/// What becomes of the corners of a face.
+/// Fate of a face and its corners.
 pub(super) enum Fate {
-    /// Those at these places stay.
+    /// Keep the corners at these positions of the face.
     Keep(Vec<usize>),
-    /// It goes. At each corner the corner of another face that stands for it, where there is one.
+    /// Remove the face. Lists for each of its corners the corner of another face that replaces it; may be empty.
     Go(Vec<u32>),
 }
 
 impl Repaired {
-    /// Leaves out repeated corners, then duplicate faces, as far as that is allowed.
+    /// Removes repeated corners, then duplicate faces, if allowed.
     pub(super) fn leave_out(&mut self, repairs: Repairs) {
         if repairs.allows(Repair::DropRepeatedCorners) {
             self.drop_repeated_corners(|_| true);
@@ -24,7 +24,8 @@ impl Repaired {
         }
     }
 
-    /// The same where joining vertices has made them: faces that are so in the mesh as given, `source`, stay.
+    /// Removes repeated corners and duplicate faces that joining vertices has created. Faces that are degenerate or
+    /// duplicate already in the given mesh, `source`, stay.
     pub(super) fn leave_out_joined(&mut self, source: &PolygonMesh) {
         if self.joined.is_empty() {
             return;
@@ -39,7 +40,8 @@ impl Repaired {
         self.drop_duplicate_faces(|own| seen.insert(given(own)));
     }
 
-    /// `is_looked_at` is asked of each face, by its corners of the mesh as given.
+    /// Removes repeated corners of the faces for which `is_looked_at` is true; its argument is their corners in the
+    /// given mesh.
     fn drop_repeated_corners(&mut self, is_looked_at: impl Fn(&[u32]) -> bool) {
         let mut with_all_repairs = 0;
         self.decide(|corners, corner_of| {
@@ -53,9 +55,10 @@ impl Repaired {
         self.note(Repair::DropRepeatedCorners, with_all_repairs);
     }
 
-    /// As there; it is asked once of each face, in order.
+    /// Removes duplicates among the faces for which `is_looked_at` is true. The predicate is called once per face, in
+    /// order.
     fn drop_duplicate_faces(&mut self, mut is_looked_at: impl FnMut(&[u32]) -> bool) {
-        // By its vertices, ascending, the corners of the first such face, in the order of its vertices.
+        // Maps the sorted vertices of a face to the corners of the first such face, in the order of these vertices.
         let mut seen: HashMap<Vec<VertexId>, Vec<u32>> = HashMap::with_capacity(self.polygons.face_count());
         let mut duplicates = 0;
         self.decide(|corners, corner_of| {
@@ -79,7 +82,7 @@ impl Repaired {
         self.note(Repair::DropDuplicateFaces, duplicates);
     }
 
-    /// Decides on each face, by its vertices and by the corners of the mesh as given that they are.
+    /// Applies `fate` to each face. The arguments of `fate` are the face's vertices and its corners in the given mesh.
     pub(super) fn decide(&mut self, mut fate: impl FnMut(&[VertexId], &[u32]) -> Fate) {
         let (mut corners, mut corner_of, mut face_of) = (Vec::new(), Vec::new(), Vec::new());
         let mut starts = vec![0];
@@ -105,7 +108,7 @@ impl Repaired {
     }
 }
 
-/// The corners of a face that are not kept, each with the kept one before it, whose vertex it repeats.
+/// Removed corners of a face, each with the kept corner before it, whose vertex it repeats.
 fn left_out(kept: &[usize], own: &[u32]) -> Vec<[u32; 2]> {
     if kept.len() == own.len() {
         return Vec::new();
@@ -122,13 +125,13 @@ fn left_out(kept: &[usize], own: &[u32]) -> Vec<[u32; 2]> {
     found
 }
 
-/// The places of corners that differ from the one before, around the face.
+/// Positions of corners that differ from the previous corner around the face.
 fn without_repeats(corners: &[VertexId]) -> Vec<usize> {
     let count = corners.len();
     (0..count).filter(|&k| corners[k] != corners[(k + count - 1) % count]).collect()
 }
 
-/// Whether a face still names a vertex twice.
+/// True if the kept corners of a face still name a vertex twice.
 fn has_repeats(corners: &[VertexId], kept: &[usize]) -> bool {
     let mut sorted: Vec<VertexId> = kept.iter().map(|&k| corners[k]).collect();
     sorted.sort_unstable();

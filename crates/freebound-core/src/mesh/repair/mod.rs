@@ -1,27 +1,27 @@
-//! Repairs: what keeps a mesh from being a disk, mended as far as it can be, and where each corner comes from.
+//! Repair of faults that keep a mesh from being a disk, with the origin of each corner.
 //!
-//! | file | what |
+//! | file | contents |
 //! |---|---|
-//! | `mod.rs` | a mesh with some repairs done |
-//! | `kinds.rs` | the repairs by name, and sets of them |
-//! | `form.rs` | what is wanted of a file's faces |
-//! | `sides.rs` | sides of polygons, which lie on one edge, and which edges of the file they are |
-//! | `leave_out.rs` | repeated corners and duplicate faces left out |
-//! | `weld.rs` | vertices near each other made one |
-//! | `join.rs` | vertices in one place made one; one made several, where fans of faces only touch; faces turned over |
-//! | `kept.rs` | parts that are wanted, and parts that are left out |
-//! | `fill.rs` | holes filled with virtual faces |
-//! | `cut.rs` | a surface cut open until it is a disk, or several |
-//! | `seams.rs` | a surface cut along given seams |
-//! | `borders.rs` | edges that seams follow as a rule: creases, and where faces of two kinds meet |
-//! | `stretches.rs` | seams as lines, from where they end or meet to where they do again |
-//! | `charts.rs` | the parts of a mesh, each a disk by itself |
-//! | `paths.rs` | shortest paths along edges, for seams that a person draws |
-//! | `ways.rs` | shortest ways along edges, and what an edge costs a cut |
+//! | `mod.rs` | a mesh with completed repairs |
+//! | `kinds.rs` | names of the repairs, and sets of them |
+//! | `form.rs` | preparation settings of a file's faces |
+//! | `sides.rs` | sides of polygons by edge, and their edges in the file |
+//! | `leave_out.rs` | removal of repeated corners and duplicate faces |
+//! | `weld.rs` | welding of near vertices |
+//! | `join.rs` | joining of coincident vertices, splitting of vertices at touching fans, flipping of faces |
+//! | `kept.rs` | parts to keep, and parts to leave out |
+//! | `fill.rs` | filling of holes with virtual faces |
+//! | `cut.rs` | cutting of a surface until each part is a disk |
+//! | `seams.rs` | cutting of a surface along given seams |
+//! | `borders.rs` | edges that seams usually follow: creases, and borders between faces of two kinds |
+//! | `stretches.rs` | seams as lines between their ends and junctions |
+//! | `charts.rs` | parts of a mesh that are disks |
+//! | `paths.rs` | shortest paths along edges, for seams that the user draws |
+//! | `ways.rs` | shortest paths along edges, and the cost of cutting an edge |
 //!
-//! A repair changes connectivity alone: every position stays, and old vertices keep their numbers; new ones, which lie where
-//! an old one does, follow. The file that the mesh came from is never changed but for its texture coordinates, which
-//! [`Repaired::corner_of`] carries back.
+//! A repair changes connectivity alone. Every position stays, and old vertices keep their numbers. New vertices lie at
+//! the position of an old vertex and are numbered after all old ones. The source file never changes, except for its
+//! texture coordinates, which [`Repaired::corner_of`] maps back to it.
 
 mod borders;
 mod charts;
@@ -54,32 +54,32 @@ pub use paths::{EdgePaths, PathTree};
 pub use seams::Seams;
 pub use weld::near_vertices;
 
-/// A mesh with repairs done, and where each part of it comes from.
+/// A mesh with completed repairs, and the origin of each of its parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Repaired {
     polygons: PolygonMesh,
-    /// For each corner the corner of the mesh as given that it is.
+    /// Corner of the given mesh for each corner.
     corner_of: Vec<u32>,
-    /// For each face the face of the mesh as given that it is.
+    /// Face of the given mesh for each face.
     face_of: Vec<u32>,
-    /// Corners of the mesh as given that were left out, each with one that stands for it; that may be left out later.
+    /// Removed corners of the given mesh, each with its replacement; a replacement may itself be removed later.
     stand_ins: Vec<[u32; 2]>,
-    /// Vertices that were joined with others, each with the one that stands for it.
+    /// Vertices that were joined with others, each with the vertex that replaces it.
     joined: HashMap<VertexId, VertexId>,
-    /// Whether holes are filled while it is flattened.
+    /// True if holes are filled while the mesh is flattened.
     fills: bool,
-    /// What fills them, where it is one part. Positions beyond those of the polygons are the filling's.
+    /// Filling of the holes if the mesh has one part. Positions beyond those of the polygons belong to the filling.
     filling: Filling,
-    /// The faces of parts that were left out, by their numbers in the mesh as given.
+    /// Faces of the parts that were left out, by their numbers in the given mesh.
     left_out: Vec<u32>,
-    /// Whether the last of the corners of a face that repeat each other is kept, not the first: where the mesh as given was
-    /// turned around.
+    /// True if the last of several repeated corners of a face is kept instead of the first: the given mesh was
+    /// reversed.
     keeps_last: bool,
     done: Vec<Done>,
 }
 
 impl Repaired {
-    /// Repairs a mesh as far as is allowed. Where nothing is to be done, [`done`](Self::done) is empty.
+    /// Applies the allowed repairs to a mesh. [`done`](Self::done) is empty if the mesh needs none of them.
     pub fn new(source: &PolygonMesh, repairs: Repairs) -> Self {
         let mut repaired = Self::of(source);
         if !repaired.is_sound() {
@@ -106,7 +106,7 @@ impl Repaired {
         repaired
     }
 
-    /// The mesh as given.
+    /// The given mesh without any repair.
     fn of(source: &PolygonMesh) -> Self {
         let count = |count: usize| u32::try_from(count).expect("a mesh has fewer than 2^32 corners");
         Self {
@@ -123,27 +123,27 @@ impl Repaired {
         }
     }
 
-    /// Whether every corner has a vertex: where some are missing, nothing can be known of the rest.
+    /// True if every corner has a vertex. If vertices are missing, nothing else can be repaired.
     fn is_sound(&self) -> bool {
         let count = self.polygons.positions.len();
         self.polygons.corners.iter().all(|corner| corner.index() < count)
     }
 
-    /// Whether every corner has a vertex, and every face three corners or more.
+    /// True if every corner has a vertex, and every face has three or more corners.
     fn has_faces(&self) -> bool {
         let is_face = |face: usize| self.polygons.corner_range(face).len() >= 3;
         self.is_sound() && (0..self.polygons.face_count()).all(is_face)
     }
 
-    /// Cuts each part of the surface open until it is a disk: for parts without crowded edges. Nothing where all are disks
-    /// already, or cutting makes none of one.
+    /// Cuts each part of the surface open until it is a disk; skips parts with an edge of three or more faces. Returns
+    /// the mesh unchanged if all parts are disks already, or if the cut does not make disks of all parts.
     #[must_use]
     pub fn cut_to_disks(self) -> Self {
         let cut = cut::cut_open(&self);
         if cut.flattens() { cut } else { self }
     }
 
-    /// The same repairs of the mesh as given, `source`, with every face turned around.
+    /// Repairs of the given mesh `source`, transferred to the mesh with every face reversed.
     fn turned(mut self, source: &PolygonMesh) -> Self {
         let mut place: Vec<u32> = (0..).take(source.corners.len()).collect();
         for face in 0..source.face_count() {
@@ -162,23 +162,23 @@ impl Repaired {
         self
     }
 
-    /// What was done, in order.
+    /// Completed repairs, in order.
     pub fn done(&self) -> &[Done] {
         &self.done
     }
 
-    /// Positions and faces; of holes nothing but that they are there.
+    /// Positions and faces, without the filling of holes.
     pub fn polygons(&self) -> &PolygonMesh {
         &self.polygons
     }
 
-    /// The corner of the mesh as given that a corner is.
+    /// Corner of the given mesh for a corner of the repaired mesh.
     pub fn corner_of(&self, corner: usize) -> usize {
         self.corner_of[corner] as usize
     }
 
-    /// The vertex at each corner of the mesh as given; at corners that were left out that of the corner that stands for
-    /// them, or any in their place. None where there is none in their place, and in parts that were left out.
+    /// Vertex at each corner of the given mesh. A removed corner gets the vertex of its replacement or, without one,
+    /// any vertex at its place in the mesh. `None` if there is no such vertex, and in parts that were left out.
     pub fn vertices_at_corners(&self, source: &PolygonMesh) -> Vec<Option<VertexId>> {
         let mut vertices = vec![None; source.corners.len()];
         let mut in_place = vec![None; source.positions.len()];
@@ -199,12 +199,12 @@ impl Repaired {
         vertices
     }
 
-    /// The vertex that stands for one of the mesh as given that was joined with others.
+    /// Vertex that replaces a joined vertex of the given mesh; `None` if the vertex was not joined.
     pub fn stands_for(&self, vertex: VertexId) -> Option<VertexId> {
         self.joined.get(&vertex).copied()
     }
 
-    /// The vertex of the mesh as given in whose place each vertex lies: an old one itself.
+    /// Vertex of the given mesh at the position of each vertex; an old vertex maps to itself.
     pub fn vertices_of(&self, source: &PolygonMesh) -> Vec<VertexId> {
         let mut vertices: Vec<VertexId> = (0..self.polygons.positions.len()).map(VertexId::from_index).collect();
         let corners = self.polygons.corners.iter().zip(&self.corner_of);
@@ -215,8 +215,8 @@ impl Repaired {
         vertices
     }
 
-    /// Its faces as triangles, numbered as in the file. Those that fill holes follow, numbered from
-    /// [`FIRST_HOLE`](super::FIRST_HOLE) on, and so do the vertices that only these have.
+    /// Triangles of the faces, numbered as in the file. Triangles that fill holes follow, numbered from
+    /// [`FIRST_HOLE`](super::FIRST_HOLE), and their own vertices follow the others.
     pub fn triangulate(&self) -> TriMesh {
         let TriMesh { positions, triangles, polygon_of } = self.polygons.triangulate();
         let of_triangle = |face: usize| self.face_of[polygon_of.as_ref().map_or(face, |of| of[face] as usize)];
@@ -224,7 +224,7 @@ impl Repaired {
         self.filling.appended_to(TriMesh { positions, triangles, polygon_of })
     }
 
-    /// Notes what was done, where it was.
+    /// Records a completed repair. Does nothing if the count is 0.
     fn note(&mut self, repair: Repair, count: usize) {
         if count == 0 {
             return;
@@ -235,7 +235,7 @@ impl Repaired {
         }
     }
 
-    /// Whether nothing keeps it from being a disk, or several.
+    /// True if the mesh is a disk, or all its parts are disks.
     pub fn flattens(&self) -> bool {
         diagnose(&self.triangulate()).is_disk() || charts::disks_of(self).is_some()
     }

@@ -1,4 +1,4 @@
-//! Shortest paths along edges, for seams that a person draws from vertex to vertex of a file.
+//! Shortest paths along edges, for seams that the user draws from vertex to vertex of a file.
 //!
 //! # Measure
 //!
@@ -6,12 +6,12 @@
 //! cost = length · (1 − s · (1 − CREASED_SEAM) · min(1, θ / SHARP))
 //! ```
 //!
-//! with θ the angle between the normals of the edge's faces, and s the share of creases from 0, where length alone counts, to 1,
-//! where a path takes a detour of up to 1 / `CREASED_SEAM` of its length to stay on sharp edges. It is linear in the angle, so that a
-//! rounded edge, whose crease is spread over a few rows of faces, still leads a path along it. A boundary edge, and one beside a
-//! face without area, has no crease.
+//! θ is the angle between the normals of the edge's faces. The crease weight s runs from 0 to 1. At 0 length alone
+//! counts; at 1 a path accepts a detour of up to 1 / `CREASED_SEAM` of its length to stay on sharp edges. The cost is
+//! linear in the angle. So a rounded edge, whose crease is spread over a few rows of faces, still attracts a path. A
+//! boundary edge, or an edge beside a face without area, has no crease.
 //!
-//! A tree of paths from one vertex (Dijkstra 1959) takes the time, once; a path in it is then only followed back.
+//! A tree of paths from one vertex (Dijkstra 1959) costs time once; reading a path from it is cheap.
 
 use std::sync::Arc;
 
@@ -20,18 +20,19 @@ use super::ways::{Measure, Reach, Ways};
 use super::{Repaired, Repairs};
 use crate::mesh::{PolygonMesh, VertexId};
 
-/// The edges of a mesh that is repaired, and not cut: vertices of the file in one place are one, where the repair joins them.
+/// Edges of a repaired, uncut mesh: coincident vertices of the file are one vertex if the repair joins them.
 #[derive(Debug)]
 pub struct EdgePaths {
     ways: Ways,
-    /// The ends of each edge as the file's faces have them.
+    /// Ends of each edge, by vertices of the file's faces.
     in_file: Vec<[VertexId; 2]>,
-    /// Vertices of the file with those that the repair made of them under other numbers, in the file's order.
+    /// Vertices of the file with their new numbers after the repair, in file order. Unchanged numbers are left out.
     renamed: Vec<[VertexId; 2]>,
 }
 
 impl EdgePaths {
-    /// Prepares paths on a file's faces. There are none where a face has fewer than three corners, or one without a vertex.
+    /// Prepares paths on a file's faces. There are no paths if a face has fewer than three corners, or a corner has no
+    /// vertex.
     pub fn new(source: &PolygonMesh, repairs: Repairs) -> Self {
         let repaired = Repaired::new(source, repairs);
         let none = PolygonMesh::default();
@@ -46,7 +47,7 @@ impl EdgePaths {
         Self { ways: Ways::new(polygons, &sides), in_file, renamed }
     }
 
-    /// The vertices that a vertex of the file has become.
+    /// Vertices of the repaired mesh that a vertex of the file has become.
     fn vertices_of(&self, vertex: VertexId) -> impl Iterator<Item = VertexId> + '_ {
         let from = self.renamed.partition_point(|[of, _]| *of < vertex);
         let renamed = self.renamed[from..].iter().take_while(move |[of, _]| *of == vertex).map(|[_, now]| *now);
@@ -54,7 +55,7 @@ impl EdgePaths {
     }
 }
 
-/// The shortest paths from one vertex to all others.
+/// Shortest paths from one vertex to all others.
 #[derive(Debug)]
 pub struct PathTree {
     paths: Arc<EdgePaths>,
@@ -62,14 +63,14 @@ pub struct PathTree {
 }
 
 impl PathTree {
-    /// Finds the paths from a vertex of the file. `creases` is the share s of the measure, from 0 to 1.
+    /// Finds the shortest paths from a vertex of the file. `creases` is the weight s of the measure, clamped to 0..1.
     pub fn new(paths: &Arc<EdgePaths>, from: VertexId, creases: f64) -> Self {
         let reach = paths.ways.reach(paths.vertices_of(from), Measure::Blend(creases.clamp(0.0, 1.0)));
         Self { paths: Arc::clone(paths), reach }
     }
 
-    /// The edges of the shortest path to a vertex of the file, from there back: vertices of the file. None where no path
-    /// leads there.
+    /// Edges of the shortest path to a vertex of the file, listed backwards from it, by vertices of the file. `None`
+    /// if no path leads there.
     pub fn path_to(&self, vertex: VertexId) -> Option<Vec<[VertexId; 2]>> {
         let far = |vertex: VertexId| self.reach.far[vertex.index()];
         let there = self.paths.vertices_of(vertex).min_by(|a, b| far(*a).total_cmp(&far(*b)))?;

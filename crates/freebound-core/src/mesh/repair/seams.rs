@@ -1,4 +1,4 @@
-//! A surface cut along seams: edges that are listed, and edges whose two sides have different texture coordinates.
+//! Cutting of a surface along seams: listed edges, and edges whose two sides have different texture coordinates.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -8,36 +8,36 @@ use super::{Repair, Repaired};
 use crate::mesh::union::DisjointSets;
 use crate::mesh::{PolygonMesh, VertexId};
 
-/// Where a surface is cut besides what makes disks of it.
+/// Seams along which a surface is cut, beyond the cuts that make disks.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Seams {
-    /// Along the seams of the file's texture coordinates, where all corners have some.
+    /// True to cut along the seams of the file's texture coordinates, if all corners have coordinates.
     pub of_texture: bool,
-    /// Along these edges: the file's vertices, the smaller number first.
+    /// Listed edges by the file's vertices, the smaller number first.
     edges: Arc<BTreeSet<[VertexId; 2]>>,
 }
 
 impl Seams {
-    /// The edges that are listed: the file's vertices at their ends, the smaller number first.
+    /// Listed edges by the file's vertices, the smaller number first.
     pub fn edges(&self) -> &BTreeSet<[VertexId; 2]> {
         &self.edges
     }
 
-    /// The same with these edges, too, whose ends may come in any order. What has one vertex at both ends is none.
+    /// Adds edges to the list. Their ends may be in any order; edges with equal ends are ignored.
     #[must_use = "the seams themselves stay as they are"]
     pub fn with(&self, edges: impl IntoIterator<Item = [VertexId; 2]>) -> Self {
         let fresh = edges.into_iter().filter(|[a, b]| a != b).map(ascending);
         Self { edges: Arc::new(self.edges.iter().copied().chain(fresh).collect()), ..self.clone() }
     }
 
-    /// The same without these edges.
+    /// Removes edges from the list.
     #[must_use = "the seams themselves stay as they are"]
     pub fn without(&self, edges: impl IntoIterator<Item = [VertexId; 2]>) -> Self {
         let gone: BTreeSet<[VertexId; 2]> = edges.into_iter().map(ascending).collect();
         Self { edges: Arc::new(self.edges.difference(&gone).copied().collect()), ..self.clone() }
     }
 
-    /// The listed edges that no face of a mesh has, ascending.
+    /// Listed edges that no face of a mesh has, ascending.
     pub fn missing_in(&self, mesh: &PolygonMesh) -> Vec<[VertexId; 2]> {
         let mut missing = BTreeSet::clone(&self.edges);
         for face in (0..mesh.face_count()).take_while(|_| !self.edges.is_empty()) {
@@ -49,16 +49,18 @@ impl Seams {
         missing.into_iter().collect()
     }
 
-    /// Whether there are none.
+    /// True if there are no seams.
     pub fn is_empty(&self) -> bool {
         !self.of_texture && self.edges.is_empty()
     }
 }
 
 impl Repaired {
-    /// Cuts each edge that is listed, or at whose ends the faces there have different labels. `labels` has one for each corner of
-    /// the mesh as given, `source`. Of edges that became one, any is enough. Where a seam ends inside the surface, the vertex
-    /// there stays whole: a seam of one edge opens nothing. A surface that had one side only, and has two now, has its faces turned.
+    /// Cuts each edge that is listed, or whose faces have different labels at its ends.
+    ///
+    /// `labels` has one label per corner of the given mesh `source`. If several edges became one, any of them being
+    /// listed is enough. A vertex stays whole if a seam ends there inside the surface, so a seam with a single edge
+    /// opens nothing. Faces of a formerly one-sided surface are flipped if it has two sides now.
     pub(super) fn cut_along(&mut self, seams: &Seams, labels: Option<&[u32]>, source: &PolygonMesh) {
         if !self.is_sound() || (labels.is_none() && seams.edges.is_empty()) {
             return;
@@ -85,7 +87,7 @@ impl Repaired {
         }
     }
 
-    /// Fans, those joined that touch in a vertex alone without any seam.
+    /// Joins fans that met only at a vertex before any cut, so that the cut does not split that vertex.
     fn with_touching(&self, mut fans: DisjointSets, sides: &Sides<'_>) -> DisjointSets {
         let mut first = vec![None; self.polygons.positions.len()];
         for corner in sides.fans(|_| true).roots() {

@@ -1,16 +1,16 @@
-//! Sides of polygons, and which of them lie on one edge. A side has the number of the corner that it leaves.
+//! Sides of polygons, grouped by edge. A side has the number of the corner that it leaves.
 
 use super::Repaired;
 use crate::mesh::edges::EdgeTable;
 use crate::mesh::union::{DisjointSets, ParitySets};
 use crate::mesh::{PolygonMesh, VertexId};
 
-/// The sides of a mesh.
+/// Sides of a mesh.
 pub(super) struct Sides<'a> {
     corners: &'a [VertexId],
-    /// The face that each side belongs to.
+    /// Face of each side.
     pub(super) face: Vec<u32>,
-    /// The side that follows around its face.
+    /// Next side around the face of each side.
     next: Vec<u32>,
     pub(super) table: EdgeTable,
 }
@@ -31,7 +31,7 @@ impl<'a> Sides<'a> {
         Self { corners, face, next, table }
     }
 
-    /// The ends of a side, in the direction of its face.
+    /// Ends of a side, in the direction of its face.
     pub(super) fn ends(&self, side: u32) -> [VertexId; 2] {
         [side, self.next(side)].map(|corner| self.corners[corner as usize])
     }
@@ -40,13 +40,13 @@ impl<'a> Sides<'a> {
         self.next[side as usize]
     }
 
-    /// The edge of the mesh as given, `source`, that a side of `repaired` is.
+    /// Edge of the given mesh `source` for a side of `repaired`.
     pub(super) fn edge_in_file(&self, repaired: &Repaired, source: &PolygonMesh, side: u32) -> [VertexId; 2] {
         let ends = [side, self.next(side)].map(|corner| corner as usize);
         repaired.edge_in_file(source, self.face[side as usize] as usize, ends)
     }
 
-    /// The corners that meet across an edge, in pairs.
+    /// Corners that meet across an edge, in pairs.
     pub(super) fn across(&self, a: u32, b: u32) -> [[u32; 2]; 2] {
         let [tail, _] = self.ends(a);
         if tail == self.ends(b)[0] {
@@ -56,7 +56,7 @@ impl<'a> Sides<'a> {
         }
     }
 
-    /// The corners in fans: those that hang together across edges whose sides `joins`.
+    /// Fans of corners, connected across the edges for which `joins` is true.
     pub(super) fn fans(&self, joins: impl Fn(&[u32]) -> bool) -> DisjointSets {
         let mut fans = DisjointSets::new(self.corners.len());
         for sides in self.table.edges().filter(|sides| joins(sides)) {
@@ -69,7 +69,7 @@ impl<'a> Sides<'a> {
         fans
     }
 
-    /// For each face whether the surface has only one side there. What hangs together across edges of two faces counts as one.
+    /// True for each face of a one-sided surface. Components are connected across edges with exactly two faces.
     pub(super) fn one_sided(&self) -> Vec<bool> {
         let count = self.face.last().map_or(0, |&last| last as usize + 1);
         let mut sets = ParitySets::new(count);
@@ -90,8 +90,10 @@ impl<'a> Sides<'a> {
 }
 
 impl Repaired {
-    /// The edge of the mesh as given, `source`, that a side of a face is, the smaller vertex first. Where corners were left out
-    /// between its two, the one that is kept is an end of another side: these repeat its vertex, and the last of them is the end.
+    /// Edge of the given mesh `source` for a side of a face, the smaller vertex first.
+    ///
+    /// Corners removed between the two ends repeat the vertex of a kept corner, so in the file they are ends of this
+    /// side. The side's end is then the last removed corner.
     pub(super) fn edge_in_file(&self, source: &PolygonMesh, face: usize, side: [usize; 2]) -> [VertexId; 2] {
         let corner_of = &self.corner_of[self.polygons.corner_range(face)];
         let runs_back = matches!(corner_of, [.., before, last] if before > last);
@@ -109,7 +111,7 @@ impl Repaired {
     }
 }
 
-/// An edge's ends, the smaller number first.
+/// Ends of an edge, the smaller number first.
 pub(super) fn ascending([a, b]: [VertexId; 2]) -> [VertexId; 2] {
     [a.min(b), a.max(b)]
 }

@@ -1,5 +1,6 @@
-//! Seams as lines: the stretch of a seam through a vertex, and the way along seams from one vertex to another. So they are
-//! taken away again, wherever the shortest path would lead now.
+//! Seams as lines: the stretches of seams through a vertex, and the path along seams between two vertices.
+//!
+//! Seams can so be removed stretch by stretch, independent of the path that would be shortest now.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -7,7 +8,7 @@ use super::{Repaired, Seams};
 use crate::mesh::{PolygonMesh, VertexId};
 
 impl Seams {
-    /// The edges of the stretches that a vertex lies on, each up to where seams end or meet. None where no listed edge has
+    /// Edges of the stretches through a vertex, each up to an end or a junction of seams. Empty if no listed edge has
     /// this vertex.
     pub fn stretches_through(&self, vertex: VertexId) -> Vec<[VertexId; 2]> {
         let neighbours = self.neighbours();
@@ -16,7 +17,7 @@ impl Seams {
             let mut edge = [vertex, first];
             while edges.insert([edge[0].min(edge[1]), edge[0].max(edge[1])]) {
                 let [before, at] = edge;
-                // Where it ends there is one neighbour, and where seams meet there are more than two.
+                // An end has one neighbour; a junction has more than two.
                 let [a, b] = neighbours[&at][..] else { break };
                 edge = [at, if a == before { b } else { a }];
             }
@@ -24,7 +25,8 @@ impl Seams {
         edges.into_iter().collect()
     }
 
-    /// The fewest listed edges that lead from one vertex to another; none where none do.
+    /// Shortest chain of listed edges from one vertex to another, by number of edges; `None` if they are not
+    /// connected.
     pub fn way(&self, from: VertexId, to: VertexId) -> Option<Vec<[VertexId; 2]>> {
         let neighbours = self.neighbours();
         let mut back = BTreeMap::from([(to, to)]);
@@ -42,7 +44,7 @@ impl Seams {
         (!way.is_empty()).then(|| way.windows(2).map(|edge| [edge[0], edge[1]]).collect())
     }
 
-    /// The other ends of the listed edges at each vertex, ascending.
+    /// Other ends of the listed edges at each vertex, ascending.
     fn neighbours(&self) -> BTreeMap<VertexId, Vec<VertexId>> {
         let mut neighbours: BTreeMap<VertexId, Vec<VertexId>> = BTreeMap::new();
         for &[a, b] in self.edges() {
@@ -54,7 +56,8 @@ impl Seams {
 }
 
 impl Repaired {
-    /// Its sides that are listed edges of the mesh as given, `source`: both sides of each, with the vertices that they have here.
+    /// Sides that are listed edges of the given mesh `source`: both sides of each edge, by vertices of the repaired
+    /// mesh.
     pub fn seam_sides(&self, seams: &Seams, source: &PolygonMesh) -> Vec<[VertexId; 2]> {
         let mut is_on_seam = vec![false; source.positions.len()];
         let ends = seams.edges().iter().flatten().filter(|end| end.index() < source.positions.len());

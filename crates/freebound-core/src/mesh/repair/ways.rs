@@ -1,7 +1,7 @@
-//! Shortest ways along the edges of a mesh (Dijkstra 1959), and what an edge costs a cut.
+//! Shortest paths along the edges of a mesh (Dijkstra 1959), and the cost of cutting an edge.
 //!
-//! A cut shows where the picture breaks off. It costs its length, less where the surface has a crease, and more where it looks to
-//! the front, along +z, where figures have their faces:
+//! A cut interrupts the texture visibly. Its cost is its length, reduced along creases of the surface, and increased
+//! on parts that face the front, +z, where figures have their faces:
 //!
 //! ```text
 //! cost = length · (CREASED + (1 − CREASED) · (1 + n₁·n₂)/2) · (1 + FRONT · max(0, n_z))
@@ -9,7 +9,7 @@
 //!
 //! with n₁ and n₂ the normals of the edge's faces and n their mean.
 //!
-//! A seam that a person draws has a measure of its own, which `paths.rs` gives.
+//! Seams that the user draws have a different measure, defined in `paths.rs`.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -19,45 +19,45 @@ use glam::DVec3;
 use super::sides::Sides;
 use crate::mesh::{PolygonMesh, VertexId};
 
-/// What is left of the cost of an edge whose faces lie back to back.
+/// Factor of the cost of an edge whose faces lie back to back.
 const CREASED: f64 = 0.1;
 
-/// The same for a seam that a person draws along creases alone.
+/// Factor of the cost of a sharp edge for drawn seams with full crease weight.
 const CREASED_SEAM: f64 = 0.05;
 
-/// Angle between two faces' normals, in radians, from which on the edge between them is as sharp as can be: 90°.
+/// Smallest angle between two faces' normals, in radians, at which an edge counts as fully sharp: 90°.
 const SHARP: f64 = std::f64::consts::FRAC_PI_2;
 
-/// By how much the cost of an edge grows that looks straight to the front.
+/// Relative increase of the cost of an edge that faces straight to the front.
 const FRONT: f64 = 4.0;
 
-/// Edges as ways between vertices, in the order of the edges of the sides.
+/// Graph of a mesh's edges, in the order of the edge table.
 #[derive(Debug)]
 pub(super) struct Ways {
-    /// Length and cost of each edge.
+    /// Ends, length, cost and sharpness of each edge.
     edges: Vec<Edge>,
-    /// Edges at each vertex, one after the other.
+    /// Edges at each vertex, vertex by vertex.
     at: Vec<u32>,
-    /// Where the edges of each vertex begin, and the end of the last.
+    /// Start of each vertex's edges in `at`, and the end of the last.
     starts: Vec<u32>,
 }
 
-/// An edge as a way.
+/// Edge of the graph.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
     pub(super) ends: [VertexId; 2],
     length: f64,
     pub(super) cost: f64,
-    /// How sharp its crease is, from 0 to 1.
+    /// Sharpness of the crease, from 0 to 1.
     sharpness: f64,
 }
 
-/// What is sought to be short.
+/// Measure that shortest paths minimise.
 #[derive(Clone, Copy)]
 pub(super) enum Measure {
     Length,
     Cost,
-    /// Length, less along creases by a share from 0 to 1.
+    /// Length, reduced along creases by a weight from 0 to 1.
     Blend(f64),
 }
 
@@ -71,7 +71,8 @@ impl Edge {
     }
 }
 
-/// How far vertices are, and the edge towards where the way began; none there, or where no way leads.
+/// Distance of each vertex, and the edge from it towards the start. The edge is `None` at the start and at unreachable
+/// vertices.
 #[derive(Debug)]
 pub(super) struct Reach {
     pub(super) far: Vec<f64>,
@@ -120,23 +121,23 @@ impl Ways {
         &self.edges
     }
 
-    /// The edges at a vertex.
+    /// Edges at a vertex.
     pub(super) fn at(&self, vertex: VertexId) -> &[u32] {
         &self.at[self.starts[vertex.index()] as usize..self.starts[vertex.index() + 1] as usize]
     }
 
-    /// The end of an edge that is not this one.
+    /// End of an edge other than `vertex`.
     pub(super) fn other_end(&self, edge: u32, vertex: VertexId) -> VertexId {
         let [a, b] = self.edges[edge as usize].ends;
         if a == vertex { b } else { a }
     }
 
-    /// The shortest ways from some vertices to all others.
+    /// Finds the shortest paths from the given vertices to all others.
     pub(super) fn reach(&self, from: impl Iterator<Item = VertexId>, by: Measure) -> Reach {
         let mut far = vec![f64::INFINITY; self.starts.len() - 1];
         let mut back = vec![None; far.len()];
         let mut queue = BinaryHeap::new();
-        // Numbers that are not negative are ordered as their bits are.
+        // Non-negative floats sort like their bit patterns.
         for vertex in from {
             far[vertex.index()] = 0.0;
             queue.push(Reverse((0_u64, vertex)));
@@ -160,7 +161,7 @@ impl Ways {
 }
 
 impl Reach {
-    /// The edges of the way to a vertex, from there back.
+    /// Edges of the shortest path to a vertex, listed backwards from it.
     pub(super) fn way_to<'a>(&'a self, vertex: VertexId, ways: &'a Ways) -> impl Iterator<Item = u32> + 'a {
         let mut at = vertex;
         std::iter::from_fn(move || {
@@ -170,8 +171,8 @@ impl Reach {
         })
     }
 
-    /// The vertex that is farthest by length, the first of several. One whose ways cost more than they are long, because they
-    /// go across the front, counts as nearer by as much. `cost` is how far vertices are by cost.
+    /// Returns the farthest vertex by length, the first of several. A vertex whose path costs more than its length,
+    /// because it crosses the front, counts as nearer by the ratio of the two. `cost` holds the distances by cost.
     pub(super) fn farthest(&self, cost: &Self) -> VertexId {
         let score = |v: usize| {
             let (far, cost) = (self.far[v], cost.far[v]);
@@ -183,7 +184,8 @@ impl Reach {
     }
 }
 
-/// How sharp the crease between two faces is by their normals: in proportion to the angle, up to 1. A face without area has none.
+/// Sharpness of the crease between two faces, proportional to the angle between their normals, at most 1. A face
+/// without area has no crease.
 fn sharpness(first: DVec3, last: DVec3) -> f64 {
     if first == DVec3::ZERO || last == DVec3::ZERO {
         return 0.0;
@@ -191,7 +193,7 @@ fn sharpness(first: DVec3, last: DVec3) -> f64 {
     (first.cross(last).length().atan2(first.dot(last)) / SHARP).min(1.0)
 }
 
-/// The normal of a face, of length 1 or 0.
+/// Normal of a face, of length 1; zero if the face has no area.
 pub(super) fn normal(polygons: &PolygonMesh, face: usize) -> DVec3 {
     let corners = polygons.face(face);
     let origin = polygons.positions[corners[0].index()];

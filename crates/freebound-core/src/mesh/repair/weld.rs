@@ -1,12 +1,12 @@
-//! Vertices that lie near each other become one.
+//! Welding of vertices that lie near each other.
 //!
-//! Vertices are taken in the order of their numbers. One that lies within the distance of an earlier one that stands for
-//! others joins the nearest of these, the one with the lowest number where several are as near; or else it stands for
-//! others itself. So no vertex moves by more than the distance: a row of vertices, each near the next, does not collapse
-//! into its first as the sets of all near pairs would.
+//! Vertices are visited in the order of their numbers. Some become *representatives*. A vertex within the distance of
+//! a representative joins the nearest one; at a tie, the one with the lowest number. Any other vertex becomes a
+//! representative itself. So no vertex moves by more than the distance: a row of vertices, each near the next, does
+//! not collapse into its first vertex. Joining all near pairs would collapse it.
 //!
-//! Those that stand for others lie in cells of a grid, little wider than the distance, wherever other vertices are. They
-//! are farther apart than the distance, so that a cell holds few of them, and time grows with the number of vertices alone.
+//! Representatives are stored in the cells of a grid, each slightly wider than the distance. They are farther apart
+//! than the distance, so a cell holds few of them. Time is linear in the number of vertices.
 
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
@@ -16,16 +16,17 @@ use glam::DVec3;
 use super::{Repair, Repaired, WeldDistance};
 use crate::mesh::{PolygonMesh, VertexId};
 
-/// A cell is wider than the distance by this factor at least: rounding does not put near vertices two cells apart.
+/// Smallest ratio of cell width to distance, so that rounding does not put near vertices two cells apart.
 const MARGIN: f64 = 1.01;
 
-/// From the cell with this number on numbers are farther apart than the distance: near ones are equal.
+/// Cell number from which adjacent floats are farther apart than the distance: near coordinates are equal there.
 const LAST_CELL: f64 = (1_u64 << 53) as f64;
 
-/// The widest cell.
+/// Largest width of a cell.
 const WIDEST: f64 = f64::from_bits(2046 << 52);
 
-/// The vertices of faces that [`WeldDistance`] would join with others, each with the one that stands for it. Ascending.
+/// Returns the vertices of faces that a weld within `distance` joins with others, each with its representative.
+/// Ascending.
 pub fn near_vertices(polygons: &PolygonMesh, distance: WeldDistance) -> Vec<[VertexId; 2]> {
     let count = polygons.positions.len();
     let mut used = vec![false; count];
@@ -36,12 +37,12 @@ pub fn near_vertices(polygons: &PolygonMesh, distance: WeldDistance) -> Vec<[Ver
     vertices.into_iter().filter_map(|vertex| grid.join(vertex).map(|to| [vertex, to])).collect()
 }
 
-/// Vertices that stand for others, by cells.
+/// Representatives by grid cell.
 struct Grid<'a> {
     positions: &'a [DVec3],
     /// Width of a cell, a power of two: dividing by it rounds nothing.
     width: f64,
-    /// The distance in cells.
+    /// Welding distance, in cell widths.
     reach: f64,
     cells: HashMap<[i64; 3], Vec<VertexId>>,
 }
@@ -52,7 +53,7 @@ impl<'a> Grid<'a> {
         Self { positions, width, reach: distance / width, cells: HashMap::new() }
     }
 
-    /// The number of the cell that a place lies in along an axis, and of those beside it where near places may lie.
+    /// Number of the cell of a coordinate along an axis, and the range of cells that can hold near coordinates.
     fn cells_near(&self, place: f64) -> (i64, RangeInclusive<i64>) {
         let cell = (place / self.width).floor();
         if cell.abs() < LAST_CELL {
@@ -60,18 +61,18 @@ impl<'a> Grid<'a> {
             let cell = cell as i64;
             (cell, cell - 1..=cell + 1)
         } else {
-            // One by itself. Should another have this number, it is too far away.
+            // Such a coordinate has a cell to itself. Any other coordinate with this cell number is too far away.
             let cell = place.to_bits().cast_signed();
             (cell, cell..=cell)
         }
     }
 
-    /// How many cells wide a place and a vertex lie apart.
+    /// Distance from a point to a vertex, in cell widths.
     fn in_cells(&self, place: DVec3, vertex: VertexId) -> f64 {
         ((place - self.positions[vertex.index()]) / self.width).length()
     }
 
-    /// The vertex that one joins. Where there is none, it stands for others from now on.
+    /// Returns the representative that a vertex joins. If there is none, the vertex becomes a representative.
     fn join(&mut self, vertex: VertexId) -> Option<VertexId> {
         let place = self.positions[vertex.index()];
         let [(x, near_x), (y, near_y), (z, near_z)] = place.to_array().map(|place| self.cells_near(place));
@@ -89,8 +90,8 @@ impl<'a> Grid<'a> {
 }
 
 impl Repaired {
-    /// Joins vertices of faces that lie within a distance, whatever parts they are of. The one with the lowest number stands
-    /// for the others, in its place.
+    /// Joins vertices of faces within a distance, of any parts. The representative, the lowest number of its group,
+    /// keeps its position.
     pub(super) fn weld_within(&mut self, distance: WeldDistance) {
         let near = near_vertices(&self.polygons, distance);
         self.joined.extend(near.iter().map(|&[vertex, to]| (vertex, to)));

@@ -1,4 +1,4 @@
-//! A step of abf: angles and multipliers in one symmetric system.
+//! Newton step of ABF: angles and multipliers in one symmetric system.
 //!
 //! # Equation
 //!
@@ -7,8 +7,8 @@
 //! ⎣  J F      0   ⎦ ⎣  −λ⁺   ⎦ = ⎣ −c   ⎦          F = diag(φ): all angles by their own size
 //! ```
 //!
-//! Rows of an angle and of the multiplier that is eliminated right after it (`pairs.rs`) stand in turn, as the
-//! factorization of augmented matrices wants them (`linalg/ldlt.rs`); then the other angles.
+//! Each angle row that is paired with a multiplier (`pairs.rs`) is followed by the row of that multiplier. The
+//! factorization of augmented matrices requires this order (`linalg/ldlt.rs`). All other angles follow.
 
 use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
@@ -21,34 +21,34 @@ use crate::linear::block_pattern::HELD;
 use crate::mesh::FaceId;
 use crate::problem::{Control, SolveError};
 
-/// The system's layout.
+/// Layout of the system.
 #[derive(Debug)]
 pub(super) struct Full {
     rows: Rows,
     pattern: SparsityPattern,
     analysis: Analysis,
-    /// For each angle the place of its diagonal entry.
+    /// Index of the diagonal entry of each angle.
     diagonal: Vec<usize>,
-    /// For each coefficient, face by face, its places below and above the diagonal.
+    /// Indices of each coefficient below and above the diagonal, face by face.
     slots: Vec<[usize; 2]>,
 }
 
-/// Where everything stands.
+/// Row numbers of angles and multipliers.
 #[derive(Debug)]
 struct Rows {
-    /// By number, 3 · face + corner.
+    /// Row of each angle, by its number 3 · face + corner.
     of_angles: Vec<usize>,
     of_faces: Vec<usize>,
     of_vertices: Vec<[usize; 2]>,
-    /// Rows below twice this stand in pairs.
+    /// Number of pairs; rows below twice this number are paired.
     pairs: usize,
 }
 
-/// A coefficient of the Jacobian.
+/// Coefficient of the Jacobian.
 struct Coefficient {
-    /// The angle's corner in its face.
+    /// Corner of the angle in its face.
     corner: usize,
-    /// The row of the multiplier.
+    /// Row of the multiplier.
     row: usize,
     value: f64,
 }
@@ -73,7 +73,7 @@ impl Rows {
         }
     }
 
-    /// What stays together: the two rows of a pair, or one row.
+    /// Node of a row: the two rows of a pair, or a single row.
     fn node(&self, row: usize) -> usize {
         if row < 2 * self.pairs { row / 2 } else { row - self.pairs }
     }
@@ -82,7 +82,7 @@ impl Rows {
         if node < self.pairs { 2 * node..2 * node + 2 } else { node + self.pairs..node + self.pairs + 1 }
     }
 
-    /// The face's part of the Jacobian, always in the same order.
+    /// Coefficients of a face in the Jacobian, always in a fixed order.
     fn coefficients(&self, net: &Net<'_>, face: usize, angles: &[f64; 3]) -> Vec<Coefficient> {
         let mut found = Vec::with_capacity(12);
         let of_face = self.of_faces[face];
@@ -98,7 +98,7 @@ impl Rows {
         found
     }
 
-    /// The pattern: every two nodes that share a coefficient are joined with all their rows.
+    /// Sparsity pattern: two nodes that share a coefficient are connected with all their rows.
     fn pattern(&self, net: &Net<'_>) -> SparsityPattern {
         let order = self.of_angles.len() + self.pairs;
         let mut joined: Vec<[usize; 2]> = (0..self.of_angles.len()).map(|node| [node, node]).collect();
@@ -143,7 +143,7 @@ impl Full {
         Ok(Self { rows, pattern, analysis, diagonal, slots })
     }
 
-    /// The step from where the problem was linearised.
+    /// Newton step at the point of linearisation.
     pub(super) fn direction(&self, at: &Linearised<'_>, control: Control<'_>) -> Result<Direction, SolveError> {
         let Rows { of_angles, of_faces, of_vertices, .. } = &self.rows;
         let mut values = vec![0.0; self.pattern.nnz()];
@@ -176,7 +176,7 @@ impl Full {
         })
     }
 
-    /// Says an error in terms of the mesh: the vertex whose angle stands in its row, or before it.
+    /// Translates an error to the mesh: the vertex whose angle has the row, or the row before it.
     fn named(&self, net: &Net<'_>, error: LinalgError) -> SolveError {
         match error {
             LinalgError::Singular { row } | LinalgError::NotFinite { row } => {

@@ -1,20 +1,20 @@
-//! From angles to the plane: the embedding whose faces have these angles, or come nearest to them.
+//! Layout of angles in the plane: the embedding whose faces have the given angles, or angles nearest to them.
 //!
 //! # Equation
 //!
-//! A face with angles α has the shape of a triangle with sides sin α. The least-squares conformal map of faces of these
-//! shapes, edges joined, is the source's system of equations
+//! A face with angles α has the shape of a triangle with sides sin α. The least-squares conformal map of faces with
+//! these shapes, joined at edges, is the source's system of equations
 //!
 //! ```text
-//! z₂ − z₀ = (sin α₁ / sin α₂) e^{iα₀} (z₁ − z₀)         per face, by weights that make no corner another's better
+//! z₂ − z₀ = (sin α₁ / sin α₂) e^{iα₀} (z₁ − z₀)         per face, weighted so that all three corners count equally
 //! ```
 //!
-//! in least squares. Its normal equations are the natural boundary's with cot α of the solved angles in place of those of the
-//! surface: Hermitian, n × n, and exact where the angles meet their conditions. Two pins fix the similarity; which two is
-//! then no matter.
+//! in least squares. Its normal equations are the natural boundary equations with cot α of the solved angles in place
+//! of the surface's angles. They are Hermitian, n × n, and exact if the angles meet their conditions. Two pins fix the
+//! similarity; in the exact case their choice does not matter.
 //!
-//! Source: A. Sheffer, B. Lévy, M. Mogilnitsky, A. Bogomyakov, "ABF++", 2005, §4.2, after B. Lévy, S. Petitjean, N. Ray,
-//! J. Maillot, "Least squares conformal maps", 2002.
+//! Source: A. Sheffer, B. Lévy, M. Mogilnitsky, A. Bogomyakov, "ABF++", 2005, §4.2, after B. Lévy, S. Petitjean, N.
+//! Ray, J. Maillot, "Least squares conformal maps", 2002.
 
 use std::time::Instant;
 
@@ -31,11 +31,11 @@ use crate::problem::{Control, Embedding, Phase, PhaseSeconds, Solution, SolveErr
 use crate::weights::corner_weights::bounded;
 use crate::weights::equations::Equations;
 
-/// Solves at most, each from where the one before has come: thin faces have large cotangents, and what is left of the
-/// equations is better measured on edges than on positions.
+/// Largest number of solves, each starting from the previous result. Thin faces have large cotangents, and residuals
+/// are more accurate when measured on edges than on positions.
 const SOLVES: usize = 3;
 
-/// Lays faces of these angles out, the gauge pins where they lie by default.
+/// Lays out faces with the given angles. The gauge pins have their default targets.
 pub(super) fn laid_out(mesh: &DiskMesh, angles: &[[f64; 3]], control: Control<'_>) -> Result<Solution, SolveError> {
     control.enter(Phase::Assemble)?;
     let start = Instant::now();
@@ -69,7 +69,7 @@ pub(super) fn laid_out(mesh: &DiskMesh, angles: &[[f64; 3]], control: Control<'_
     Ok(Solution { embedding, pins, gauge_completed: true, linear, convergence: None, seconds })
 }
 
-/// Cotangents of the angles in place of those of the surface.
+/// Natural boundary equations with cotangents of the given angles in place of those of the surface.
 fn equations_of(mesh: &DiskMesh, angles: &[[f64; 3]]) -> Equations<Complex<f64>> {
     let mut coefficients = vec![Complex::ZERO; mesh.link_count()];
     let mut bounded_corners = 0;

@@ -1,4 +1,4 @@
-//! Angle based flattening: the angles of all faces are solved for, and the plane is laid out from them.
+//! Angle based flattening: solves for the angles of all faces, then lays out the plane from them.
 //!
 //! # Equation
 //!
@@ -9,26 +9,26 @@
 //!      Σ ln sin α_next − Σ ln sin α_previous = 0                around every inner vertex v
 //! ```
 //!
-//! Angles that meet these conditions are those of a layout in the plane, with every face positive: the third condition, the
-//! *wheel*, says that going once around v by the law of sines comes back to the length of the edge where it began. The
-//! source has it as the product of the sines; in logarithms it holds for the same angles, and depends on them evenly
-//! however many faces a vertex has. φ are the angles on the surface, scaled around each inner vertex to a sum of 2π.
+//! Angles that meet these conditions belong to a layout in the plane whose faces are all positive. The third condition
+//! is the *wheel*: walking once around v by the law of sines returns to the length of the first edge. The source
+//! states it as a product of sines. The logarithmic form is equivalent, and depends on each angle evenly for any
+//! number of faces at a vertex. φ are the angles on the surface, scaled around each inner vertex to a sum of 2π.
 //!
 //! The two systems of a Newton step are the two methods:
 //!
 //! ```text
-//! ⎡ W  Jᵀ ⎤ ⎡ δ  ⎤   ⎡ −∇E ⎤     abf:    all of it, angles and multipliers
+//! ⎡ W  Jᵀ ⎤ ⎡ δ  ⎤   ⎡ −∇E ⎤     abf:    the whole system, angles and multipliers
 //! ⎣ J  0  ⎦ ⎣ λ⁺ ⎦ = ⎣ −c  ⎦     abf++:  W is diagonal: angles, then faces' multipliers eliminated, two unknowns per
 //!                                        inner vertex remain, positive definite
 //! ```
 //!
-//! | file | holds |
+//! | file | contents |
 //! |---|---|
 //! | `mod.rs` | [`angle_based`]: from a disk to an embedding |
-//! | `net.rs` | inner vertices, angles on the surface, the conditions around vertices |
-//! | `newton.rs` | the way to the least energy: steps, their lengths, the end |
-//! | `reduced.rs` | a step of abf++ |
-//! | `full.rs`, `pairs.rs` | a step of abf; the angles that its multipliers are eliminated with |
+//! | `net.rs` | inner vertices, angles on the surface, conditions around vertices |
+//! | `newton.rs` | Newton iteration: steps, step lengths, stop criteria |
+//! | `reduced.rs` | a step of ABF++ |
+//! | `full.rs`, `pairs.rs` | a step of ABF; the angles that its multipliers are eliminated with |
 //! | `layout.rs` | from angles to the plane, by least squares |
 //!
 //! # Symbols
@@ -38,11 +38,11 @@
 //! | α      | `angles`      | angles in the plane, three per face                  | radians |
 //! | φ      | `targets`     | angles on the surface, scaled                        | radians |
 //! | λ      | `multipliers` | of sum and wheel, per inner vertex                   | none    |
-//! | c      | `gaps`        | what is left of sum and wheel, per inner vertex      | radians, none |
+//! | c      | `gaps`        | residuals of sum and wheel, per inner vertex         | radians, none |
 //! | W      | `curvatures`  | diagonal of the Lagrangian's Hessian, kept positive  | 1/radian² |
 //!
-//! Source: A. Sheffer, E. de Sturler, "Parameterization of Faceted Surfaces for Meshing using Angle-Based Flattening", 2001;
-//! A. Sheffer, B. Lévy, M. Mogilnitsky, A. Bogomyakov, "ABF++: Fast and Robust Angle Based Flattening", 2005.
+//! Source: A. Sheffer, E. de Sturler, "Parameterization of Faceted Surfaces for Meshing using Angle-Based Flattening",
+//! 2001; A. Sheffer, B. Lévy, M. Mogilnitsky, A. Bogomyakov, "ABF++: Fast and Robust Angle Based Flattening", 2005.
 
 mod full;
 mod layout;
@@ -58,37 +58,37 @@ use self::newton::Newton;
 use crate::mesh::DiskMesh;
 use crate::problem::{Control, Phase, Solution, SolveError};
 
-/// Which linear system a Newton step solves. Both have the same solution.
+/// Linear system of a Newton step. Both variants have one and the same solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AngleSystem {
-    /// Of angles and multipliers together (Sheffer, de Sturler 2001).
+    /// Angles and multipliers together (Sheffer, de Sturler 2001).
     Full,
-    /// Of the multipliers of inner vertices, all others eliminated (Sheffer et al. 2005).
+    /// Multipliers of inner vertices, with all other unknowns eliminated (Sheffer et al. 2005).
     Reduced,
 }
 
-/// An embedding by its angles.
+/// An embedding computed from angles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleMap {
-    /// The embedding that fits the angles best in the least-squares sense, and the numbers of its solve. The convergence is
-    /// that of the angles: Newton steps, and the largest of the conditions that is left.
+    /// Least-squares fit of an embedding to the angles, with the numbers of its solve. The convergence describes the
+    /// angles: Newton steps, and the largest residual of the conditions.
     pub solution: Solution,
-    /// The angles of each face at its corners, in radians.
+    /// Angles of each face at its corners, in radians.
     pub angles: Vec<[f64; 3]>,
-    /// Σ w (α − φ)².
+    /// Energy Σ w (α − φ)².
     pub energy: f64,
-    /// Weight κ of the barrier that the energy is the least with, 0 without one.
+    /// Weight κ of the barrier with which the energy was minimised; 0 without a barrier.
     pub barrier: f64,
-    /// Angles that the barrier keeps from 0, where the least energy has them there.
+    /// Number of angles that the barrier keeps from 0 and that would vanish at the minimum of the energy.
     pub held: usize,
 }
 
-/// Computes the angles of least energy and lays them out. Polygons count as the triangles that they are cut into.
+/// Computes the angles of least energy and lays them out. Polygons count as the triangles they are cut into.
 ///
 /// # Errors
 ///
-/// Faces whose angles are no numbers, a singular system, a layout whose residual refinement cannot bring down, or the
-/// caller's wish to stop.
+/// Fails if angles are not finite, a system is singular, or refinement cannot reduce the residual of the layout. Also
+/// fails if the caller cancels.
 pub fn angle_based(mesh: &DiskMesh, system: AngleSystem, control: Control<'_>) -> Result<AngleMap, SolveError> {
     control.enter(Phase::Assemble)?;
     let start = Instant::now();
@@ -102,7 +102,7 @@ pub fn angle_based(mesh: &DiskMesh, system: AngleSystem, control: Control<'_>) -
     let mut solution = layout::laid_out(mesh, &found.angles, control)?;
     solution.seconds.assemble += assembled;
     solution.seconds.analyze += analyzed - assembled;
-    // Newton's steps, each with a factorization.
+    // Time of all Newton steps, each with a factorization.
     solution.seconds.solve += seconds - analyzed;
     solution.convergence = Some(found.convergence);
     Ok(AngleMap { solution, angles: found.angles, energy: found.energy, barrier: found.barrier, held: found.held })

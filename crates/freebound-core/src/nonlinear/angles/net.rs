@@ -1,7 +1,7 @@
-//! The inner vertices of a disk, the angles of its faces, and the conditions that bind them.
+//! Inner vertices of a disk, angles of its faces, and the conditions that link them.
 //!
-//! The corner k of a face has its angle at place k. Seen from that corner the face's next corner is k + 1, and the
-//! previous one k + 2, both modulo 3: these are the two that the wheel around its vertex takes.
+//! Corner k of a face has its angle at index k. Seen from that corner, the face's next corner is k + 1 and its
+//! previous corner is k + 2, both modulo 3. The wheel around the corner's vertex uses these two angles.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,16 +11,16 @@ use crate::linear::block_pattern::HELD;
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::problem::{Control, SolveError};
 
-/// The least angle on the surface that counts, radians: below, 64 bits hold no more than its order of magnitude.
+/// Smallest angle on the surface, radians. Below it, 64 bits hold no more than its order of magnitude.
 const LEAST_ANGLE: f64 = 1e-14;
 
-/// A disk as its angles see it.
+/// A disk with its angles and conditions.
 #[derive(Debug)]
 pub(super) struct Net<'a> {
     pub(super) mesh: &'a DiskMesh,
-    /// The inner vertices, ascending.
+    /// Inner vertices, ascending.
     pub(super) inner: Vec<VertexId>,
-    /// Of each face the places of its corners among the inner vertices, or [`HELD`] on the boundary.
+    /// Index of each corner of a face among the inner vertices; [`HELD`] on the boundary.
     pub(super) corners: Vec<[u32; 3]>,
     /// Angles on the surface, scaled to 2π around inner vertices.
     pub(super) targets: Vec<[f64; 3]>,
@@ -45,7 +45,7 @@ impl<'a> Net<'a> {
         Ok(net)
     }
 
-    /// Sums a number of each corner of a face around the inner vertices.
+    /// Sums a number per corner around each inner vertex.
     fn around(&self, of_corner: impl Fn(&[f64; 3], usize) -> f64, angles: &[[f64; 3]]) -> Vec<f64> {
         let mut sums = vec![0.0; self.inner.len()];
         for (corners, angles) in self.corners.iter().zip(angles) {
@@ -56,13 +56,13 @@ impl<'a> Net<'a> {
         sums
     }
 
-    /// Angles to begin with: the targets, scaled to a sum of π in each face. None is then π or more.
+    /// Initial angles: the targets, scaled to a sum of π in each face. So every angle is below π.
     pub(super) fn first_angles(&self) -> Vec<[f64; 3]> {
         let scaled = |angles: &[f64; 3]| angles.map(|angle| angle * PI / angles.iter().sum::<f64>());
         self.targets.iter().map(scaled).collect()
     }
 
-    /// What is left of the conditions around each inner vertex: the sum beyond 2π, and the wheel.
+    /// Residuals of the conditions around each inner vertex: the angle sum minus 2π, and the wheel.
     pub(super) fn gaps(&self, angles: &[[f64; 3]], control: Control<'_>) -> Result<Vec<[f64; 2]>, SolveError> {
         let logarithms = control.each(angles.len(), |face| angles[face].map(|angle| angle.sin().ln()))?;
         let mut gaps = vec![[-TAU, 0.0]; self.inner.len()];
@@ -80,12 +80,12 @@ impl<'a> Net<'a> {
     }
 }
 
-/// What each face lacks of a sum of π.
+/// Residual of each face: its angle sum minus π.
 pub(super) fn face_gaps(angles: &[[f64; 3]]) -> Vec<f64> {
     angles.iter().map(|[a, b, c]| (a + b + c) - PI).collect()
 }
 
-/// The angles of the faces as they lie in space, or as their mollified lengths have them.
+/// Angles of the faces in space, or of their mollified shapes.
 fn angles_on_surface(mesh: &DiskMesh) -> Result<Vec<[f64; 3]>, SolveError> {
     let of_face = |face: usize| {
         let face = FaceId::from_index(face);

@@ -1,35 +1,36 @@
-//! Newton's method on the angles: a step, how much of it is taken, and when it ends.
+//! Newton's method on the angles: steps, step lengths and stop criteria.
 //!
 //! # Equation
 //!
-//! With the multipliers λ of the wheels (those of sums have no curvature) the Lagrangian's Hessian is diagonal:
+//! With the multipliers λ of the wheels (multipliers of sums have no curvature) the Lagrangian's Hessian is diagonal:
 //!
 //! ```text
 //! W_i = 2/φ_i² + κ/α_i² + (λ_next − λ_previous) / sin² α_i
 //! ```
 //!
-//! `next` is the vertex at the face's next corner: it sees `α_i` as the angle of its previous corner, and the other way
-//! round. Where the last term is below zero, W is kept above a share of the others: so W is positive, and every step goes
-//! down the merit
+//! `next` is the vertex at the face's next corner; it sees `α_i` as the angle of its previous corner. `previous` sees
+//! it as the angle of its next corner. If the last term is negative, W is kept above a share of the other terms. So W
+//! is positive, and every step reduces the merit
 //!
 //! ```text
-//! E(α) + Σ μ |c|        μ a little above |λ|
+//! E(α) + Σ μ |c|        μ slightly above |λ|
 //! ```
 //!
-//! A step is taken as far as no angle loses more than a share of what it has to 0 or π, and is then halved until the
-//! merit goes down.
+//! A step is shortened until no angle loses more than a share of its distance to 0 or π. Then it is halved until the
+//! merit falls.
 //!
 //! # Angles that would become 0
 //!
-//! Nothing in the energy forbids an angle of 0, and on some surfaces the least energy has one. The source raises such
-//! angles' weights and starts again. Here a *barrier* stands in where a step is cut short by them,
+//! The energy does not forbid an angle of 0, and on some surfaces its minimum has such angles. The source raises the
+//! weights of such angles and restarts. This implementation adds a *barrier* once a step is cut short by them:
 //!
 //! ```text
 //! E(α) = Σ (α/φ − 1)² + κ (α/φ − 1 − ln α/φ)
 //! ```
 //!
-//! with its own least at φ, as the energy. κ falls step by step to a least one, and then to 0: where the energy has its
-//! least at positive angles, that is the answer; where it has not, the answer is that of the least barrier.
+//! The barrier, like the energy, has its minimum at φ. κ falls step by step to a smallest value, and then to 0. If the
+//! energy has its minimum at positive angles, that minimum is the result. Otherwise the result is the minimum with the
+//! smallest barrier.
 
 use std::f64::consts::PI;
 
@@ -39,73 +40,76 @@ use super::net::{Net, face_gaps};
 use super::reduced::Reduced;
 use crate::problem::{Control, Convergence, Phase, SolveError, Stop};
 
-/// The most steps.
+/// Largest number of steps.
 const MOST_STEPS: usize = 100;
 
-/// A whole step that moves no angle by more than this, radians, is the last.
+/// Largest change of an angle, radians, in a whole step after which the iteration stops.
 const STILL: f64 = 1e-10;
 
-/// The least W, as a share of what it is without the wheels.
+/// Smallest W, relative to W without the wheels.
 const LEAST_CURVATURE: f64 = 0.1;
 
-/// The most that an angle may lose at once of what it has to 0 and to π.
+/// Largest share of its distance to 0 or π that an angle may lose in one step.
 const MOST_LOST: f64 = 0.9;
 
-/// A step that an angle cuts down to a smaller part than this leads to angles of 0.
+/// A step shortened below this fraction by an angle leads to angles of 0.
 const SHORT: f64 = 0.25;
 
-/// The barrier κ: what it begins with, to which part it falls each time, and what is hardly more than the least.
+/// Initial barrier κ.
 const GREATEST_BARRIER: f64 = 1.0;
+/// Factor of κ in each reduction.
 const FALL: f64 = 0.1;
+/// Barriers up to this bound count as the smallest one. The bound is slightly above `GREATEST_BARRIER · FALL²`.
 const LEAST_BARRIER: f64 = 0.011;
 
-/// A whole step that changes no angle by more than this part of it lets the barrier fall.
+/// Largest relative change of an angle in a whole step after which the barrier is reduced.
 const NEARLY_STILL: f64 = 0.1;
 
-/// Penalties are so many times the multipliers.
+/// Ratio of penalties to multipliers.
 const PENALTY: f64 = 1.5;
 
-/// The least decrease of the merit, by what the step promises; and what of the merit is rounding.
+/// Smallest decrease of the merit, relative to the decrease that the step predicts.
 const DECREASE: f64 = 1e-4;
+/// Rounding error of the merit, relative to the merit.
 const ROUNDING: f64 = 1e-12;
 
-/// Halvings of a step before it counts as none.
+/// Number of halvings of a step before it counts as failed.
 const HALVINGS: usize = 30;
 
-/// Where the problem stands, as a linear system of a step takes it.
+/// Problem linearised at the current angles, the input of a step's linear system.
 pub(super) struct Linearised<'a> {
     pub(super) net: &'a Net<'a>,
     pub(super) angles: &'a [[f64; 3]],
-    /// ∇E.
+    /// Gradient ∇E.
     pub(super) gradient: Vec<[f64; 3]>,
-    /// W.
+    /// Diagonal W.
     pub(super) curvatures: Vec<[f64; 3]>,
-    /// What is left of sum and wheel around each inner vertex.
+    /// Residuals of sum and wheel around each inner vertex.
     pub(super) gaps: Vec<[f64; 2]>,
-    /// What is left of the sum of each face.
+    /// Residual of the angle sum of each face.
     pub(super) face_gaps: Vec<f64>,
 }
 
-/// A step: moves of the angles, and the multipliers of inner vertices after it.
+/// Newton step: moves of the angles, and the new multipliers of inner vertices.
 #[derive(Debug)]
 pub(super) struct Direction {
     pub(super) angles: Vec<[f64; 3]>,
     pub(super) multipliers: Vec<[f64; 2]>,
 }
 
-/// Where it ended.
+/// Result of the iteration.
 pub(super) struct Found {
     pub(super) angles: Vec<[f64; 3]>,
     pub(super) convergence: Convergence,
-    /// Σ (α/φ − 1)².
+    /// Energy Σ (α/φ − 1)².
     pub(super) energy: f64,
-    /// κ at the end.
+    /// Final κ.
     pub(super) barrier: f64,
-    /// Angles that the barrier keeps from 0.
+    /// Number of angles that the barrier keeps from 0.
     pub(super) held: usize,
 }
 
-/// Where a barrier came to.
+/// Result with the smallest barrier.
 #[derive(Debug)]
 struct Kept {
     angles: Vec<[f64; 3]>,
@@ -118,13 +122,13 @@ enum System {
     Reduced(Reduced),
 }
 
-/// How a step ended.
+/// State after a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NewtonState {
     GoesOn,
-    /// Another step would hardly change anything.
+    /// Converged: another step would hardly change anything.
     Arrived,
-    /// It leads to angles of 0, or to nothing better.
+    /// Failed: the step leads to angles of 0, or to no smaller merit.
     Blocked,
 }
 
@@ -135,9 +139,9 @@ pub(super) struct Newton<'a> {
     angles: Vec<[f64; 3]>,
     multipliers: Vec<[f64; 2]>,
     penalties: Vec<[f64; 2]>,
-    /// κ.
+    /// Weight κ of the barrier.
     barrier: f64,
-    /// Where the least barrier came to, while it is tried without one.
+    /// Result with the smallest barrier, while the iteration runs without a barrier.
     kept: Option<Kept>,
     steps: usize,
 }
@@ -157,7 +161,7 @@ impl<'a> Newton<'a> {
         while self.steps < MOST_STEPS {
             control.enter(Phase::Solve)?;
             let stage = match self.step(control) {
-                // Angles that are next to 0 make systems that cannot be solved.
+                // Angles near 0 make singular systems.
                 Err(error) if error != SolveError::Cancelled && self.barrier == 0.0 => NewtonState::Blocked,
                 other => other?,
             };
@@ -179,7 +183,7 @@ impl<'a> Newton<'a> {
         self.found(Stop::Limit, control)
     }
 
-    /// Starts again, with a barrier.
+    /// Restarts with the initial barrier.
     fn start_behind_barrier(&mut self) {
         let none = vec![[0.0; 2]; self.net.inner.len()];
         self.angles = self.net.first_angles();
@@ -187,8 +191,8 @@ impl<'a> Newton<'a> {
         self.barrier = GREATEST_BARRIER;
     }
 
-    /// The end. What converged with the least barrier, and has not without it, is as it was with it: the least of the energy
-    /// with that barrier.
+    /// Builds the result. If the iteration converged with the smallest barrier but not without it, the result is the
+    /// minimum with that barrier.
     fn found(self, stop: Stop, control: Control<'_>) -> Result<Found, SolveError> {
         let Self { net, angles, barrier, kept, steps, .. } = self;
         let (angles, barrier, stop) = match kept {
@@ -196,7 +200,8 @@ impl<'a> Newton<'a> {
             None => (angles, barrier, stop),
         };
         let pairs = || angles.as_flattened().iter().zip(net.targets.as_flattened());
-        // Below this the barrier, κ/α², is curved more than the energy, 2/φ². On the way to the end that tells nothing.
+        // Below this ratio to φ the barrier's curvature κ/α² exceeds the energy's 2/φ². Before convergence this means
+        // nothing.
         let most = if stop == Stop::Converged { (barrier / 2.0).sqrt() } else { 0.0 };
         let held = pairs().filter(|(angle, target)| **angle < most * **target).count();
         let energy = pairs().map(|(angle, target)| (angle / target - 1.0).powi(2)).sum();
@@ -257,7 +262,7 @@ impl<'a> Newton<'a> {
         Ok(Linearised { net, angles: &self.angles, gradient, curvatures, gaps, face_gaps: face_gaps(&self.angles) })
     }
 
-    /// Takes as much of a step as serves. Returns how much, none where nothing does.
+    /// Applies as much of a step as reduces the merit. Returns the applied fraction, or `None` if no fraction does.
     fn take(
         &mut self,
         direction: &Direction,
@@ -271,7 +276,7 @@ impl<'a> Newton<'a> {
             *penalty = wanted.max(0.5 * (*penalty + wanted));
         }
         let merit = self.merit(&self.angles, &before.gaps);
-        // What is still moves by rounding, which the merit does not tell from a step.
+        // At convergence angles move by rounding only, which the merit cannot tell from a step.
         let is_still = largest(direction.angles.as_flattened()) <= STILL;
         let mut step = longest;
         for _ in 0..HALVINGS {
@@ -289,7 +294,7 @@ impl<'a> Newton<'a> {
         Ok(None)
     }
 
-    /// The longest part of a step, up to all of it, that leaves every angle some of what it has to 0 and π.
+    /// Longest fraction of a step, at most 1, after which every angle keeps part of its distance to 0 and π.
     fn longest(&self, direction: &Direction) -> f64 {
         let of_angle = |(&angle, &by): (&f64, &f64)| {
             let room = if by < 0.0 { angle } else { PI - angle };
@@ -311,13 +316,13 @@ impl<'a> Newton<'a> {
     }
 }
 
-/// What a step begins from, and what it promises.
+/// Residuals before a step, and the merit decrease that it predicts.
 struct Before {
     gaps: Vec<[f64; 2]>,
     descent: f64,
 }
 
-/// δᵀ W δ, by which the merit goes down at least, to first order.
+/// Smallest first-order decrease of the merit, δᵀ W δ.
 fn descent(at: &Linearised<'_>, direction: &Direction) -> f64 {
     let work = |(w, d): (&f64, &f64)| w * d * d;
     at.curvatures.as_flattened().iter().zip(direction.angles.as_flattened()).map(work).sum()
@@ -327,7 +332,7 @@ fn moved(angles: &[[f64; 3]], by: &[[f64; 3]], step: f64) -> Vec<[f64; 3]> {
     angles.iter().zip(by).map(|(angles, by)| [0, 1, 2].map(|k| angles[k] + step * by[k])).collect()
 }
 
-/// The largest amount; a NaN where there is one.
+/// Largest absolute value; NaN if any number is NaN.
 fn largest(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |largest: f64, number| if number.abs() <= largest { largest } else { number.abs() })
 }

@@ -1,24 +1,24 @@
-//! Which angle each multiplier of abf is eliminated with.
+//! Angles that the multipliers of ABF are eliminated with.
 //!
-//! A multiplier has no curvature of its own: its pivot comes from an angle that is eliminated right before it and that its
-//! condition depends on. All such angles must differ. Faces have three angles, and as many conditions as multipliers:
-//! their own, and two for each vertex that chooses them. So it is enough that vertices choose different faces.
+//! A multiplier has no curvature. Its pivot comes from an angle that its condition depends on and that is eliminated
+//! right before it. All these angles must differ. A face has three angles and at most three multipliers: its own, and
+//! two for a vertex that chooses the face. So it is enough that vertices choose different faces.
 //!
-//! They do: from each inner vertex v an edge leads one step nearer to the boundary, and v takes the face to the left of it.
-//! Let a face (a, b, c) be the choice of both a and b. Then b is a step nearer than a, and c a step nearer than b; but a and
-//! c are neighbours, and cannot lie two steps apart.
+//! They do. From each inner vertex v an edge leads one step nearer to the boundary, and v chooses the face to its
+//! left. Suppose that both a and b choose a face (a, b, c). Then b is a step nearer than a, and c a step nearer than
+//! b. But a and c are neighbours, and cannot lie two steps apart.
 
 use std::collections::VecDeque;
 
 use super::net::Net;
 use crate::mesh::VertexId;
 
-/// Angles by their numbers, 3 · face + corner.
+/// Paired angles by their numbers, 3 · face + corner.
 #[derive(Debug)]
 pub(super) struct Pairs {
-    /// Of each face.
+    /// Angle of each face's multiplier.
     pub(super) of_faces: Vec<usize>,
-    /// Of each inner vertex, for its sum and for its wheel.
+    /// Angles of each inner vertex, for its sum and for its wheel.
     pub(super) of_vertices: Vec<[usize; 2]>,
 }
 
@@ -34,7 +34,7 @@ impl Pairs {
         for &vertex in &net.inner {
             let is_nearer = |&h: &_| steps[net.mesh.head(h).index()] < steps[vertex.index()];
             let nearer = net.mesh.outgoing(vertex).find(is_nearer).expect("the boundary is some steps away");
-            // An inner halfedge leaves the corner of its own number.
+            // An inner halfedge leaves the corner with its own number.
             let (face, corner) = (nearer.index() / 3, nearer.index() % 3);
             let [after, before] = [(corner + 1) % 3, (corner + 2) % 3];
             // The wheel hardly depends on an angle near π/2.
@@ -47,7 +47,7 @@ impl Pairs {
     }
 }
 
-/// How many edges each vertex is away from the boundary.
+/// Number of edges from each vertex to the boundary.
 fn steps_to_boundary(net: &Net<'_>) -> Vec<u32> {
     let mut steps = vec![u32::MAX; net.mesh.vertex_count()];
     let mut queue: VecDeque<VertexId> = net.mesh.boundary_loop().iter().copied().collect();

@@ -1,10 +1,10 @@
-//! A step of abf++: angles and the multipliers of faces eliminated.
+//! Newton step of ABF++: angles and the multipliers of faces are eliminated.
 //!
 //! # Equation
 //!
-//! In a face let D = W⁻¹ (three numbers d), s = d₁ + d₂ + d₃, and R the rows of its inner corners in the Jacobian: of a sum
-//! the unit row of its corner, of a wheel cot α at the next corner and −cot α at the previous one. With the multiplier of the
-//! face eliminated, what a face gives is
+//! In a face let D = W⁻¹ (three numbers d) and s = d₁ + d₂ + d₃. R holds the rows of its inner corners in the
+//! Jacobian. The row of a sum is the unit row of its corner; the row of a wheel has cot α at the next corner and −cot
+//! α at the previous corner. With the multiplier of the face eliminated, a face contributes
 //!
 //! ```text
 //! G = D − d dᵀ/s                                  (3 × 3: no move of the angles' sum)
@@ -12,8 +12,8 @@
 //! δ = −G (∇E + Rᵀ λ⁺) − d c_t/s
 //! ```
 //!
-//! G is positive semidefinite, and M positive definite where the conditions do not depend on each other: one Cholesky
-//! factorization of two unknowns per inner vertex, with a block for every pair of neighbours.
+//! G is positive semidefinite. M is positive definite if the conditions are independent. The step takes one Cholesky
+//! factorization with two unknowns per inner vertex and a block for every pair of neighbours.
 
 use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
@@ -24,24 +24,24 @@ use crate::linalg::{Analysis, Kind, LinalgError};
 use crate::linear::block_pattern::{HELD, Neighbours};
 use crate::problem::{Control, SolveError};
 
-/// The pattern of M, and where the block of each pair of corners stands.
+/// Pattern of M, and the location of the block of each pair of corners.
 #[derive(Debug)]
 pub(super) struct Reduced {
     pattern: SparsityPattern,
-    /// None where there is no inner vertex.
+    /// Symbolic factorization; `None` if there is no inner vertex.
     analysis: Option<Analysis>,
     column_lengths: Vec<u32>,
-    /// Of each face the first places of the blocks of its corners, by row and column; [`HELD`] where one is none.
+    /// First index of each block of a face's corners, by row and column; [`HELD`] if there is no block.
     slots: Vec<[[u32; 3]; 3]>,
 }
 
-/// What a face has a part in the step with.
+/// Contribution of a face to the step.
 struct Part {
-    /// R: for each corner the row of its sum and of its wheel.
+    /// Rows R of each corner: its sum and its wheel.
     rows: [[[f64; 3]; 2]; 3],
-    /// d/s.
+    /// Vector d/s.
     spread: [f64; 3],
-    /// G.
+    /// Matrix G.
     kept: [[f64; 3]; 3],
 }
 
@@ -56,7 +56,7 @@ impl Part {
         });
         let d = curvatures.map(f64::recip);
         let spread = d.map(|entry| entry / (d[0] + d[1] + d[2]));
-        // Written so that no entry is the small difference of large ones.
+        // Avoids entries that are small differences of large numbers.
         let entry = |i: usize, j: usize| {
             if i == j { d[i] * (spread[(i + 1) % 3] + spread[(i + 2) % 3]) } else { -d[i] * spread[j] }
         };
@@ -64,7 +64,7 @@ impl Part {
         Self { rows, spread, kept }
     }
 
-    /// G x.
+    /// Product G x.
     fn keep(&self, x: &[f64; 3]) -> [f64; 3] {
         self.kept.map(|row| dot(&row, x))
     }
@@ -88,7 +88,7 @@ impl Reduced {
         Ok(Self { pattern, analysis, column_lengths: neighbours.column_lengths(), slots })
     }
 
-    /// The step from where the problem was linearised.
+    /// Newton step at the point of linearisation.
     pub(super) fn direction(&self, at: &Linearised<'_>, control: Control<'_>) -> Result<Direction, SolveError> {
         let net = at.net;
         let count = at.angles.len();
@@ -123,7 +123,7 @@ impl Reduced {
         Ok(Direction { angles: control.each(count, angles)?, multipliers })
     }
 
-    /// Adds a face's R G Rᵀ.
+    /// Adds R G Rᵀ of a face.
     fn add(&self, face: usize, corners: [u32; 3], part: &Part, values: &mut [f64]) {
         for (i, row_slots) in self.slots[face].iter().enumerate() {
             for (j, &slot) in row_slots.iter().enumerate().filter(|(_, slot)| **slot != HELD) {

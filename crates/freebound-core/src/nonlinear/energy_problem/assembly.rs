@@ -1,8 +1,8 @@
-//! Gradient and Hessian of a membrane, put together on all threads.
+//! Parallel assembly of the gradient and Hessian of an energy problem.
 //!
-//! Elements are taken block by block. Their models are made side by side; then each part of the unknowns takes from them
-//! what belongs to its own columns. So no two threads write to one place, and every entry is summed in the order of the
-//! elements however many threads there are.
+//! Elements are processed block by block. The models of a block are computed in parallel. Then each part of the
+//! unknowns adds the entries of its own columns. So no two threads write to one entry, and every entry is summed in
+//! the order of the elements for any number of threads.
 
 use std::ops::Range;
 
@@ -14,32 +14,33 @@ use super::{CHUNK, EnergyProblem, Spring};
 use crate::linear::block_pattern::{HELD, number};
 use crate::problem::{Control, SolveError};
 
-/// Elements whose models are held at one time.
+/// Number of elements whose models are held at one time.
 const MODELS: usize = 2 * CHUNK;
 
-/// Parts that the unknowns are cut into: work for so many threads.
+/// Number of parts of the unknowns, an upper bound on the threads that add entries.
 const PARTS: usize = 16;
 
-/// Elements whose models are made by one task.
+/// Smallest number of elements per task that computes models.
 const TOGETHER: usize = CHUNK / 8;
 
 /// Consecutive unknowns with their part of the gradient and of the Hessian's values.
 struct Part<'a> {
     unknowns: Range<usize>,
-    /// Where its values begin among all.
+    /// Index of the part's first value among all values.
     first_value: usize,
     gradient: &'a mut [f64],
     values: &'a mut [f64],
-    /// The elements that it has to do with and that are not yet added.
+    /// Elements that touch the part and are not yet added.
     elements: &'a [u32],
 }
 
-/// The first unknown of a part.
+/// First unknown of a part.
 fn begin(part: usize, count: usize) -> usize {
     part * count / PARTS
 }
 
-/// For each part of so many unknowns the elements that it has to do with, ascending. Of each element its corners' unknowns.
+/// Elements that touch each part of `count` unknowns, ascending. `of_corners` has the unknowns of each element's
+/// corners.
 pub(super) fn elements_of_parts(of_corners: &[[u32; 3]], count: usize) -> Vec<Vec<u32>> {
     let of_part = |part: usize| {
         let unknowns = number(begin(part, count))..number(begin(part + 1, count));
@@ -50,8 +51,8 @@ pub(super) fn elements_of_parts(of_corners: &[[u32; 3]], count: usize) -> Vec<Ve
 }
 
 impl EnergyProblem {
-    /// Gradient by unknown, and the Hessian's values, of these models of the elements, which are numbered. Where points are moved by
-    /// `shift`, the gradient is that of the models there.
+    /// Returns the gradient by unknown and the Hessian's values. `model_of` gives the model of each element by its
+    /// number. With `shift`, the gradient is that of the models at points moved by `shift`.
     pub(super) fn assembled(
         &self,
         z: &[DVec2],
@@ -86,7 +87,7 @@ impl EnergyProblem {
         Ok((gradient, values))
     }
 
-    /// Cuts the unknowns into parts.
+    /// Splits the unknowns into parts.
     fn parts<'a>(&'a self, mut gradient: &'a mut [f64], mut values: &'a mut [f64]) -> Vec<Part<'a>> {
         let count = self.unknowns.len();
         let cut = |(part, elements): (usize, &'a Vec<u32>)| {
@@ -100,7 +101,7 @@ impl EnergyProblem {
         self.of_parts.iter().enumerate().map(cut).collect()
     }
 
-    /// Adds what of an element's model belongs to the columns of a part.
+    /// Adds the entries of an element's model that belong to the columns of a part.
     fn add(&self, element: usize, model: &EnergyModel, part: &mut Part<'_>) {
         let (corners, slots) = (self.elements[element].corners, &self.slots[element]);
         for (l, corner) in corners.into_iter().enumerate() {
@@ -138,7 +139,7 @@ impl EnergyProblem {
     }
 }
 
-/// A model with its gradient taken where the corners are moved by so much.
+/// Moves the point at which a model's gradient is taken by the given shifts of its corners.
 fn shifted(mut model: EnergyModel, [a, b, c]: [DVec2; 3]) -> EnergyModel {
     let by = [a.x, a.y, b.x, b.y, c.x, c.y];
     for (g, row) in model.gradient.iter_mut().zip(&model.hessian) {

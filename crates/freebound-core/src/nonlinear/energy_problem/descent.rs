@@ -1,4 +1,4 @@
-//! The way down an energy: Newton steps with a line search, within the barriers of what is not folded.
+//! Descent on an energy: Newton steps with a line search, within the barriers of unfolded triangles.
 
 use crate::parallel::prelude::*;
 use crate::parallel::reduce;
@@ -10,68 +10,69 @@ use super::{CHUNK, EnergyProblem};
 use crate::linear::block_pattern::HELD;
 use crate::problem::{Control, Phase, SolveError};
 
-/// Least ε² while a triangle is folded.
+/// Smallest ε² while a triangle is folded.
 const LEAST_EPSILON_SQUARED: f64 = 1e-12;
 
-/// Least ε² while a triangle is folded and the others have barriers: folded triangles end with a clearly positive area.
+/// Smallest ε² while a triangle is folded and the others have barriers. Folded triangles end with a clearly positive
+/// area.
 const LEAST_EPSILON_SQUARED_BESIDE_BARRIERS: f64 = 1e-4;
 
-/// Share of the worst determinant's square that is added to the least ε².
+/// Share of the worst determinant's square that is added to the smallest ε².
 const EPSILON_SQUARED_SHARE: f64 = 0.04;
 
-/// The share of the longest unfolded step that is taken at most.
+/// Largest share of the longest unfolded step.
 const STEP_SHARE: f64 = 0.9;
 
-/// The least decrease of the energy, as a share of what the gradient promises (Armijo).
+/// Smallest decrease of the energy, relative to the decrease that the gradient predicts (Armijo).
 const DECREASE: f64 = 1e-4;
 
-/// Halvings of a step before it counts as none.
+/// Number of halvings of a step before it counts as failed.
 const HALVINGS: usize = 40;
 
-/// What a descent does while some triangle is folded.
+/// Rule for a descent while some triangle is folded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unfolding {
-    /// Others may fold meanwhile; it goes on when none is folded.
+    /// Other triangles may fold meanwhile. The descent continues once none is folded.
     Freely,
-    /// The same, but it ends when none is folded.
+    /// Other triangles may fold meanwhile. The descent ends once none is folded.
     Alone,
-    /// Those that are not folded stay so.
+    /// Unfolded triangles stay unfolded.
     BesideBarriers,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Limits {
-    /// The most Newton steps.
+    /// Largest number of Newton steps.
     pub(crate) steps: usize,
-    /// The energy where no triangle is folded: a barrier.
+    /// Energy while no triangle is folded: a barrier.
     pub(crate) unfolded: Energy,
-    /// What happens while some triangle is folded.
+    /// Rule while some triangle is folded.
     pub(crate) unfolding: Unfolding,
-    /// A step that lowers the energy by a smaller share of it is the last.
+    /// Smallest relative decrease of the energy after which the descent continues, once no triangle is folded.
     pub(crate) tolerance: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Descent {
     pub(crate) least_determinant: f64,
-    /// The share of the energy that was gained since the triangles were unfolded.
+    /// Relative decrease of the energy since the triangles were unfolded.
     pub(crate) gain: f64,
 }
 
-/// Memory that every step of a descent uses.
+/// Memory that all steps of a descent share.
 struct Place {
-    /// Points that are tried.
+    /// Trial points.
     trial: Vec<DVec2>,
     memory: Memory,
 }
 
-/// Which energy each element has.
+/// Energy of each element.
 pub(super) struct Energies {
     unfolded: Energy,
     folded: Energy,
-    /// By element; empty where all are as the unfolded ones.
+    /// True for each folded element; empty if all have the unfolded energy.
     is_folded: Vec<bool>,
-    /// How many of the first elements are measured at their own size, and their energy.
+    /// Number of leading elements that are measured at their own size, and their energy.
     own: Option<(usize, Energy)>,
 }
 
@@ -92,18 +93,18 @@ impl Energies {
         }
     }
 
-    /// How many of the first elements are measured at their own size.
+    /// Number of leading elements that are measured at their own size.
     pub(super) fn own_count(&self) -> usize {
         self.own.map_or(0, |(count, _)| count)
     }
 }
 
 impl EnergyProblem {
-    /// Lowers the energy step by step.
+    /// Minimises the energy step by step.
     pub(crate) fn descend(&self, z: &mut [DVec2], limits: Limits, control: Control<'_>) -> Result<Descent, SolveError> {
         let mut place = Place { trial: z.to_vec(), memory: self.no_memory() };
         let mut unfolded_energies: Option<[f64; 2]> = None;
-        // What no step changes is no part of what is gained.
+        // The constant energy of held elements does not count towards the gain.
         let idle = self.energy_of_held(z, limits.unfolded);
         for _ in 0..limits.steps {
             control.enter(Phase::Solve)?;
@@ -126,7 +127,7 @@ impl EnergyProblem {
         Ok(Descent { least_determinant: self.least_determinant(z), gain })
     }
 
-    /// The energy of the elements all of whose corners are held; 0 where one of them is folded.
+    /// Energy of the elements whose corners are all held; 0 if one of them is folded.
     fn energy_of_held(&self, z: &[DVec2], energy: Energy) -> f64 {
         let is_held = |element: &&Element| element.corners.iter().all(|&c| self.unknown_of[c as usize] == HELD);
         let of = |element: &Element| element.energy(Self::corners(element, z), energy);
@@ -134,7 +135,7 @@ impl EnergyProblem {
         if sum.is_finite() { sum } else { 0.0 }
     }
 
-    /// The energies of a step from where the least determinant is that.
+    /// Energies for a step from points with this least determinant.
     fn energies(&self, z: &[DVec2], least: f64, limits: Limits) -> Energies {
         if least > 0.0 {
             let is_sized = self.own_count > 0 && limits.unfolded == Energy::SymmetricDirichlet;
@@ -152,7 +153,7 @@ impl EnergyProblem {
         Energies { unfolded: limits.unfolded, folded, is_folded, own: None }
     }
 
-    /// The longest step along a direction that folds no element with a barrier.
+    /// Longest step along a direction that folds no element with a barrier.
     fn longest_within_barriers(&self, z: &[DVec2], direction: &[DVec2], energies: &Energies) -> f64 {
         let of = |(at, element): (usize, &Element)| {
             if !energies.of(at).is_barrier() {
@@ -163,7 +164,7 @@ impl EnergyProblem {
         reduce(self.elements.par_iter().enumerate().with_min_len(CHUNK).map(of), || f64::INFINITY, f64::min)
     }
 
-    /// One step with line search. Returns the energies before and after, `None` where no step lowers it.
+    /// Takes one step with line search. Returns the energies before and after, or `None` if no step lowers the energy.
     fn newton_step(
         &self,
         z: &mut [DVec2],

@@ -1,7 +1,7 @@
-//! Directions of descent, and how points follow those that are held: one system of the Hessian each.
+//! Descent directions, and the response of free points to moves of held points. Each solves one system of the Hessian.
 //!
-//! Where there are many unknowns the Hessian is factored in single precision, which takes half the memory and time, and
-//! the direction is found by conjugate gradients; in double precision where that is no good.
+//! With many unknowns the Hessian is factored in single precision, which takes half the memory and time. Conjugate
+//! gradients then find the direction. If this fails, double precision is used.
 
 use glam::DVec2;
 
@@ -11,32 +11,33 @@ use super::descent::Energies;
 use crate::linalg::{FactorPrecision, LinalgError, RoughFactor};
 use crate::problem::{Control, SolveError};
 
-/// The first multiple of the diagonal that is added where the Hessian cannot be factored; then ten times as much.
+/// First multiple of the diagonal that is added if the Hessian cannot be factored. Each further attempt adds ten times
+/// more.
 const REGULARISATION: f64 = 1e-10;
 
-/// The greatest of these multiples.
+/// Largest multiple of the diagonal that is added.
 const MOST_REGULARISATION: f64 = 1e3;
 
-/// Points that move, from which on single precision is worth its iterations.
+/// Number of free points from which single precision is worth its iterations.
 const SINGLE_FROM: usize = 20_000;
 
-/// What a step leaves to the next.
+/// State passed from a step to the next.
 #[derive(Debug)]
 pub(super) struct Memory {
-    /// Its factor, for the memory of it.
+    /// Factor of the previous step; its memory is reused.
     factor: Option<RoughFactor>,
     precision: FactorPrecision,
 }
 
 impl EnergyProblem {
-    /// What there is before the first step.
+    /// Initial state before the first step.
     pub(super) fn no_memory(&self) -> Memory {
         let precision =
             if self.unknowns.len() < SINGLE_FROM { FactorPrecision::Double } else { FactorPrecision::Single };
         Memory { factor: None, precision }
     }
 
-    /// Newton's direction, where the Hessian has these values: how far each point goes.
+    /// Newton direction for the given Hessian values: a move per point.
     pub(super) fn direction(
         &self,
         gradient: &[f64],
@@ -49,7 +50,7 @@ impl EnergyProblem {
             match self.solved_in_single(&hessian, &rhs, memory, control) {
                 Ok(x) => return Ok(self.by_point(&x)),
                 Err(LinalgError::Cancelled) => return Err(SolveError::Cancelled),
-                // The next steps are as hard.
+                // The next steps are equally hard.
                 Err(_) => *memory = Memory { factor: None, precision: FactorPrecision::Double },
             }
         }
@@ -73,7 +74,7 @@ impl EnergyProblem {
         Ok(x)
     }
 
-    /// Factors a Hessian; where rounding has made it indefinite, with a growing multiple of its diagonal added.
+    /// Factors a Hessian. If rounding has made it indefinite, adds growing multiples of its diagonal.
     fn factor(
         &self,
         hessian: &mut [f64],
@@ -97,7 +98,7 @@ impl EnergyProblem {
         }
     }
 
-    /// What belongs to unknowns, by point.
+    /// Values of unknowns arranged by point; 0 for held points.
     fn by_point(&self, x: &[f64]) -> Vec<DVec2> {
         let mut by_point = vec![DVec2::ZERO; self.unknown_of.len()];
         for (&point, x) in self.unknowns.iter().zip(x.chunks_exact(2)) {
@@ -106,7 +107,7 @@ impl EnergyProblem {
         by_point
     }
 
-    /// How the others follow, to first order, where held points are moved by `shift`: the moves of all points.
+    /// First-order response of all points if held points move by `shift`: the moves of all points.
     pub(crate) fn response(
         &self,
         z: &[DVec2],
@@ -130,7 +131,7 @@ mod tests {
 
     const SIDE: u32 = 9;
 
-    /// A square of unit cells, each of two triangles, one corner held; and where its points lie, sheared and uneven.
+    /// A square of unit cells, each of two triangles, with one corner held; and its points, sheared and uneven.
     fn sheared() -> (EnergyProblem, Vec<DVec2>) {
         let at = |point: u32| DVec2::new(f64::from(point % SIDE), f64::from(point / SIDE));
         let first_corners = (0..SIDE * (SIDE - 1)).filter(|point| point % SIDE + 1 < SIDE);
@@ -148,7 +149,7 @@ mod tests {
         (problem, (0..count).map(place).collect())
     }
 
-    /// The change of the energy to first order along a direction.
+    /// First-order change of the energy along a direction.
     fn slope(problem: &EnergyProblem, gradient: &[f64], direction: &[DVec2]) -> f64 {
         let along = |(&point, g): (&u32, &[f64])| DVec2::new(g[0], g[1]).dot(direction[point as usize]);
         problem.unknowns.iter().zip(gradient.chunks_exact(2)).map(along).sum()
@@ -165,7 +166,7 @@ mod tests {
             assert_eq!(memory.precision, precision);
             slope(&problem, &gradient, &direction)
         });
-        // The error of the direction is 1e-2 of it at most, and that of its energy the square.
+        // The error of the direction is at most 1e-2 of it. The error of its energy is the square of that.
         assert!(double < 0.0 && (single - double).abs() < 2e-4 * double.abs(), "{single} for {double}");
     }
 
@@ -174,7 +175,7 @@ mod tests {
         let (problem, z) = sheared();
         let (gradient, mut hessian) =
             problem.linearise(&z, &Energies::all(Energy::SymmetricDirichlet), None, Control::unattended()).unwrap();
-        // Indefinite: no shift that rounding could call for mends it.
+        // Indefinite: no diagonal shift that rounding could call for repairs it.
         let place = problem.diagonal[40] as usize;
         hessian[place] *= -0.1;
         let mut memory = Memory { factor: None, precision: FactorPrecision::Single };

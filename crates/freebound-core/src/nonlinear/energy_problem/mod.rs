@@ -1,19 +1,20 @@
-//! Triangles in the plane that resist folding: an energy over all of them, and Newton's method to lower it.
+//! Energy problem: triangles in the plane that resist folding, and Newton's method to lower their energy.
 //!
 //! ```text
 //! E(z) = Σ elements f(J) + Σ springs ½ s |z − t|²
 //! ```
 //!
-//! Some points are held; the others move. While a triangle is folded, ε follows the smallest determinant, as in "Foldover-free
-//! maps in 50 lines of code" (see the module `foldover_energy`); once all are unfolded ε is 0, and no step leaves that state.
-//! On request it is so for each triangle by itself: those that are unfolded have a barrier while others unfold.
+//! Some points are held; the others move. While a triangle is folded, ε follows the smallest determinant, as in
+//! "Foldover-free maps in 50 lines of code" (see the module `foldover_energy`). Once all triangles are unfolded, ε is
+//! 0 and no step folds any again. On request this applies to each triangle by itself: unfolded triangles have a
+//! barrier while others unfold.
 //!
-//! | file | what |
+//! | file | contents |
 //! |---|---|
 //! | `assembly.rs` | gradient and Hessian of all elements |
 //! | `descent.rs` | Newton steps with a line search |
-//! | `direction.rs` | the systems of the Hessian |
-//! | `own_size.rs` | the energy of elements that are measured at their own size |
+//! | `direction.rs` | linear systems of the Hessian |
+//! | `own_size.rs` | energy of elements that are measured at their own size |
 //! | `reweighted.rs` | a step of SLIM |
 
 mod assembly;
@@ -34,10 +35,10 @@ use assembly::elements_of_parts;
 use descent::Energies;
 pub(crate) use descent::{Limits, Unfolding};
 
-/// Elements whose energies are summed by one task: the sum is the same however many threads share it.
+/// Number of elements whose energies one task sums. The sum does not depend on the number of threads.
 const CHUNK: usize = 2048;
 
-/// A pull on a point.
+/// Spring that pulls a point to its target.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spring {
     pub(crate) point: u32,
@@ -45,37 +46,37 @@ pub(crate) struct Spring {
     pub(crate) stiffness: f64,
 }
 
-/// The elements with what is free to move, and the plan of the Hessian.
+/// Elements, springs and free points, with the structure of the Hessian.
 #[derive(Debug)]
 pub(crate) struct EnergyProblem {
     elements: Vec<Element>,
     springs: Vec<Spring>,
-    /// For each point its unknown, or `HELD`.
+    /// Unknown of each point, or `HELD`.
     unknown_of: Vec<u32>,
     unknowns: Vec<u32>,
-    /// For each element and pair of corners (row, column) the place of the block's first entry, or `HELD`.
+    /// Index of the first entry of the block of each element and pair of corners (row, column), or `HELD`.
     slots: Vec<[[u32; 3]; 3]>,
-    /// Where the unknowns' columns begin among the Hessian's values, and where the last ones end.
+    /// Start of each unknown's columns among the Hessian's values, and the end of the last.
     columns: Vec<u32>,
-    /// For each unknown the place of its block's first entry.
+    /// Index of the first entry of each unknown's diagonal block.
     diagonal: Vec<u32>,
-    /// For each part of the unknowns the elements that it has to do with, ascending.
+    /// Elements that touch each part of the unknowns, ascending.
     of_parts: Vec<Vec<u32>>,
     analysis: Analysis,
-    /// How many of the first elements are measured at their own size; none: 0.
+    /// Number of leading elements that are measured at their own size; 0 if none are.
     own_count: usize,
 }
 
-/// How a membrane is planned.
+/// Inputs for the symbolic analysis of an energy problem.
 #[derive(Clone, Copy)]
 pub(crate) struct Planning<'a> {
-    /// The order of elimination of one over the same points, most of whose elements are the same.
+    /// Elimination order of another energy problem over these points that shares most of its elements.
     pub(crate) order: Option<&'a EliminationOrder>,
     pub(crate) control: Control<'a>,
 }
 
 impl EnergyProblem {
-    /// Plans the energy of `elements` over points of which some are held.
+    /// Prepares the energy of `elements` over points of which some are held.
     pub(crate) fn new(
         point_count: usize,
         elements: Vec<Element>,
@@ -123,12 +124,12 @@ impl EnergyProblem {
         Ok(Self { elements, springs, unknown_of, unknowns, slots, columns, diagonal, of_parts, analysis, own_count })
     }
 
-    /// The order of elimination, for another that is similar.
+    /// Elimination order, for reuse by a similar problem.
     pub(crate) fn order(&self) -> Option<EliminationOrder> {
         self.analysis.order()
     }
 
-    /// Entries of each of an unknown's columns.
+    /// Number of entries of each of an unknown's columns.
     fn column_length(&self, unknown: usize) -> usize {
         (self.columns[unknown + 1] - self.columns[unknown]) as usize / 2
     }
@@ -137,7 +138,7 @@ impl EnergyProblem {
         element.corners.map(|corner| z[corner as usize])
     }
 
-    /// The energy; infinite where a triangle is folded that has a barrier.
+    /// Energy; infinite if a triangle with a barrier is folded.
     fn energy(&self, z: &[DVec2], energies: &Energies) -> f64 {
         let own = energies.own_count();
         let of_own = if own > 0 { self.own_sums(z).energy() } else { 0.0 };
@@ -149,18 +150,18 @@ impl EnergyProblem {
         of_own + sums.iter().sum::<f64>() + self.pull(z)
     }
 
-    /// The part of the springs in the energy.
+    /// Energy of the springs.
     pub(crate) fn pull(&self, z: &[DVec2]) -> f64 {
         let of = |spring: &Spring| 0.5 * spring.stiffness * z[spring.point as usize].distance_squared(spring.target);
         self.springs.iter().map(of).sum()
     }
 
-    /// What has energies.
+    /// Elements of the problem.
     pub(crate) fn elements(&self) -> &[Element] {
         &self.elements
     }
 
-    /// Gives springs other targets, by their points.
+    /// Sets new targets of the springs, by their points.
     pub(crate) fn aim_springs(&mut self, target_of: impl Fn(u32) -> DVec2) {
         self.springs.iter_mut().for_each(|spring| spring.target = target_of(spring.point));
     }
@@ -170,15 +171,15 @@ impl EnergyProblem {
         reduce(self.elements.par_iter().with_min_len(CHUNK).map(of), || f64::INFINITY, f64::min)
     }
 
-    /// The longest step along a direction that folds none of the first `count` elements.
+    /// Longest step along a direction that folds none of the first `count` elements.
     pub(crate) fn longest_step(&self, z: &[DVec2], direction: &[DVec2], count: usize) -> f64 {
         let of =
             |element: &Element| Element::longest_step(Self::corners(element, z), Self::corners(element, direction));
         reduce(self.elements[..count].par_iter().with_min_len(CHUNK).map(of), || f64::INFINITY, f64::min)
     }
 
-    /// Gradient by unknown, and the Hessian's values. Where points are moved by `shift`, the gradient is that of the model
-    /// there.
+    /// Returns the gradient by unknown and the Hessian's values. With `shift`, the gradient is that of the model at
+    /// points moved by `shift`.
     fn linearise(
         &self,
         z: &[DVec2],

@@ -1,21 +1,22 @@
-//! Elements that are measured at their own size: shapes at rest that grow and shrink with what they are mapped to.
+//! Elements that are measured at their own size: rest shapes that grow and shrink with their images.
 //!
-//! Distortion is measured at equal total areas. With weights w that sum to 1, s = ½ tr(JᵀJ) and d = det J of elements at rest
-//! in shapes of some size, and the area σ = Σ w d of their images by that of the shapes, it is half of
+//! Distortion is measured at equal total areas. With weights w that sum to 1, let s = ½ tr(JᵀJ) and d = det J of
+//! elements with rest shapes of some size. Let σ = Σ w d be the area of their images relative to the area of the
+//! shapes. Then the distortion is half of
 //!
 //! ```text
 //! E(z) = D/σ + σ I,     D = Σ w s,   I = Σ w s/d²
 //! ```
 //!
-//! and does not change where all points are scaled. Its gradient is that of the elements' energies for a fixed σ, and with it a
-//! pressure p on their area:
+//! and does not change if all points are scaled. Its gradient is the gradient of the elements' energies for a fixed σ
+//! plus a pressure p on their area:
 //!
 //! ```text
 //! ∇E = ∇D/σ + σ ∇I + p ∇σ,     p = I − D/σ²
 //! ```
 //!
-//! A descent for a fixed σ = 1 alone, which leaves p out, ends where E is not least: where the images would have to grow, and
-//! pins keep them from that, or shrink.
+//! A descent for a fixed σ = 1, which leaves p out, does not end at the minimum of E. The images would have to grow or
+//! shrink, and pins keep them from it.
 
 use crate::parallel::prelude::*;
 use glam::DVec2;
@@ -23,11 +24,11 @@ use glam::DVec2;
 use super::super::foldover_energy::{Element, Energy};
 use super::{CHUNK, EnergyProblem};
 
-/// D, I and σ of elements.
+/// Sums D, I and σ of elements.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sums {
     stretch: f64,
-    /// Infinite where an element is folded.
+    /// Infinite if an element is folded.
     inverse: f64,
     size: f64,
 }
@@ -49,25 +50,25 @@ impl Sums {
         }
     }
 
-    /// E.
+    /// Energy E.
     pub(super) fn energy(self) -> f64 {
         if self.inverse.is_finite() { self.stretch / self.size + self.size * self.inverse } else { f64::INFINITY }
     }
 
-    /// The energy of each element whose gradients add up to that of E.
+    /// Energy of each element, so that the elements' gradients add up to the gradient of E.
     pub(super) fn model(self) -> Energy {
         Energy::AtSize { size: self.size, pressure: self.inverse - self.stretch / (self.size * self.size) }
     }
 }
 
 impl EnergyProblem {
-    /// The same with its first elements, so many, measured at their own size while none of all is folded and the energy is the
-    /// symmetric Dirichlet energy. Their weights sum to 1.
+    /// Measures the first `count` elements at their own size. Applies while no element is folded and the energy is the
+    /// symmetric Dirichlet energy. Their weights must sum to 1.
     pub(crate) fn measured_at_own_size(self, count: usize) -> Self {
         Self { own_count: count, ..self }
     }
 
-    /// The sums over the elements that are measured at their own size, the same however many threads share it.
+    /// Sums over the elements that are measured at their own size, independent of the number of threads.
     pub(super) fn own_sums(&self, z: &[DVec2]) -> Sums {
         let of_chunk = |elements: &[Element]| {
             let sums = elements.iter().map(|element| Sums::of(element, Self::corners(element, z)));

@@ -1,4 +1,4 @@
-//! One iteration of SLIM on the elements: the minimiser of their proxies, approached as far as the energy falls.
+//! SLIM iteration on the elements: steps towards the minimiser of their proxies while the energy falls.
 
 use glam::DVec2;
 
@@ -9,14 +9,14 @@ use super::descent::Energies;
 use crate::geom::double_area;
 use crate::problem::{Control, Phase, Progress, SolveError};
 
-/// The share of the way to the first fold that is taken at most.
+/// Largest share of the distance to the first fold that a step may take.
 const SHARE_BEFORE_FOLD: f64 = 0.8;
 
-/// Halvings of a step before it counts as none.
+/// Number of halvings of a step before it counts as failed.
 const HALVINGS: usize = 40;
 
 impl EnergyProblem {
-    /// The symmetric Dirichlet energy |J|² + |J⁻¹|² of the first `count` elements, each by its weight, and their least
+    /// Symmetric Dirichlet energy |J|² + |J⁻¹|² of the first `count` elements, times their weights, and their least
     /// determinant.
     pub(crate) fn standing(&self, z: &[DVec2], count: usize) -> Progress {
         let placed = || self.elements[..count].iter().map(|element| (element, Self::corners(element, z)));
@@ -30,9 +30,9 @@ impl EnergyProblem {
         self.elements[..count].iter().map(|element| double_area(Self::corners(element, z))).sum()
     }
 
-    /// Goes towards the minimiser of the proxies at `z`, no farther than to a share of the way to the first fold, and
-    /// halves that until the energy falls. Returns the energies before and after; `None` where no step lowers it, and `z`
-    /// stays.
+    /// Steps towards the minimiser of the proxies at `z`, at most to a share of the distance to the first fold. Halves
+    /// the step until the energy falls. Returns the energies before and after. Returns `None` and leaves `z` unchanged
+    /// if no step lowers the energy.
     pub(crate) fn reweighted_step(
         &self,
         z: &mut Vec<DVec2>,

@@ -1,15 +1,16 @@
-//! The paper's open question (§7), by experiment: from where does the mean-value iteration converge to a planar map?
+//! Experiment on the paper's open question (§7): from which starts does the mean-value iteration converge to a planar
+//! map?
 //!
-//! Trials are drawn at random on a mesh, each from the study's seed and its own number: how many threads run them, and
-//! in which order, changes nothing.
+//! Trials are drawn at random on a mesh, each from the study's seed and its own number. Results do not depend on the
+//! number or the order of threads.
 //!
-//! | file | holds |
+//! | file | contents |
 //! |---|---|
-//! | `mod.rs` | [`Study`]: all runs on a mesh; [`Limits`]: how long each may go on |
-//! | `subject.rs` | [`StudySubject`]: the mesh, where pins can be, what of its form may count |
+//! | `mod.rs` | [`Study`]: all runs on a mesh; [`Limits`]: end of a run |
+//! | `subject.rs` | [`StudySubject`]: the mesh, candidate vertices for pins, counts that convergence may depend on |
 //! | `trial.rs` | [`Trial`]: pins, weights and treatment, drawn at random |
-//! | `record.rs` | [`run`]: a trial run to its end; [`Record`]: what is kept of it |
-//! | `summary.rs` | [`summary`]: runs in groups, how often and how fast they came to a planar map |
+//! | `record.rs` | [`run`]: runs a trial to its end; [`Record`]: its results |
+//! | `summary.rs` | [`summary`]: runs in groups, with the share and the speed of convergence to a planar map |
 
 mod record;
 mod subject;
@@ -25,33 +26,33 @@ pub use trial::Trial;
 
 use crate::problem::{Control, SolveError};
 
-/// How many runs of a mesh there are, and what decides them.
+/// Number of runs on a mesh, their seed and their limits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Study {
-    /// How many runs.
+    /// Number of runs.
     pub runs: u64,
-    /// What all trials are drawn from.
+    /// Seed of all trials.
     pub seed: u64,
-    /// How long a run may go on.
+    /// Limits of each run.
     pub limits: Limits,
 }
 
-/// How long a run may go on.
+/// Limits of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// The most mean-value iterations of a run.
+    /// Largest number of mean-value iterations of a run.
     pub max_steps: usize,
-    /// What becomes of an iteration that gets no better.
+    /// Treatment of an iteration that no longer improves.
     pub patience: Patience,
 }
 
-/// What becomes of an iteration that gets no better.
+/// Treatment of an iteration that no longer improves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Patience {
-    /// It ends as stalled, as the method does by itself.
+    /// End as stalled, as the method itself does.
     #[default]
     OfMethod,
-    /// It goes on until it is planar or has taken as many steps as it may.
+    /// Continue until the map is planar or the step limit is reached.
     ToTheLimit,
 }
 
@@ -60,7 +61,7 @@ impl Study {
     ///
     /// # Errors
     ///
-    /// [`SolveError::Cancelled`] at the caller's wish to stop.
+    /// [`SolveError::Cancelled`] if the caller cancels.
     pub fn records(
         self,
         subject: &StudySubject<'_>,

@@ -1,4 +1,4 @@
-//! A run: the mean-value iteration on one trial, and what is kept of it.
+//! Run of the mean-value iteration on one trial, and its record.
 
 use num_complex::Complex;
 
@@ -9,21 +9,21 @@ use crate::problem::{Control, SolveError};
 use crate::verify::distortion;
 use crate::weights::plane_weights::residuals_in_plane;
 
-/// How a run ended.
+/// Outcome of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TrialOutcome {
     /// Proved planar.
     Planar,
-    /// The iteration got no better and hardly moved, or went round in circles.
+    /// The iteration no longer improved and hardly moved, or it cycled.
     Stalled,
-    /// It took as many steps as it might.
+    /// The step limit was reached.
     Limit,
-    /// A step could not be taken; the name of the error.
+    /// A step failed. Holds the name of the error.
     Failed(String),
 }
 
 impl TrialOutcome {
-    /// Its name in tables.
+    /// Name in tables.
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Planar => "planar",
@@ -33,30 +33,30 @@ impl TrialOutcome {
         }
     }
 
-    /// Why no step could be taken; empty where all could.
+    /// Name of the error of a failed run; otherwise empty.
     pub fn reason(&self) -> &str {
         if let Self::Failed(reason) = self { reason } else { "" }
     }
 
-    /// The one with this name and this reason.
+    /// Outcome with this name. `reason` is the error of a failed run.
     pub fn named(name: &str, reason: &str) -> Option<Self> {
         let all = [Self::Planar, Self::Stalled, Self::Limit, Self::Failed(reason.to_owned())];
         all.into_iter().find(|outcome| outcome.name() == name)
     }
 }
 
-/// What a verdict says in numbers.
+/// Numbers of the defects in a verdict.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Defects {
     /// Flipped faces.
     pub flips: usize,
-    /// Boundary crossings, as far as they are listed.
+    /// Listed boundary crossings.
     pub crossings: usize,
-    /// Vertices that their faces wind around twice or more.
+    /// Overwound vertices: their faces wind around them twice or more.
     pub overwound: usize,
-    /// Turning number of the boundary, where it has one.
+    /// Turning number of the boundary, if it is defined.
     pub turning_number: Option<i64>,
-    /// Whether it is a mirror image.
+    /// True if the map is a mirror image.
     pub mirrored: bool,
 }
 
@@ -73,43 +73,44 @@ impl Defects {
     }
 }
 
-/// How near to a fixed point an iteration has come.
+/// Distance of an iteration from a fixed point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StopReason {
-    /// Largest move of a vertex in the last step, as a share of the embedding's diameter; none where there was no step
-    /// after the first map.
+    /// Largest move of a vertex in the last step, as a share of the embedding's diameter. Absent if no step followed
+    /// the first map.
     pub last_move: Option<f64>,
-    /// Largest residual of the mean-value equations of the last embedding, without unit: at vertices that are free,
+    /// Largest residual of the mean-value equations of the last embedding at free vertices, dimensionless.
     pub free_residual: f64,
-    /// and at those that are pinned, whose equations are the first to go.
+    /// Largest residual of the mean-value equations of the last embedding at pinned vertices, dimensionless.
+    /// Treatments drop or weaken these equations first.
     pub pinned_residual: f64,
 }
 
-/// A run, and how it went.
+/// A run and its results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// What was to be done.
+    /// Trial of the run.
     pub trial: Trial,
-    /// How many of the pins are inside.
+    /// Number of pins on interior vertices.
     pub pins_inside: usize,
-    /// Least distance of two pinned vertices in space, as a share of the diagonal of the mesh's box.
+    /// Least distance of two pinned vertices in space, as a share of the diagonal of the mesh's bounding box.
     pub pin_distance: f64,
-    /// How it ended.
+    /// Outcome of the run.
     pub outcome: TrialOutcome,
-    /// Mean-value iterations taken: until planar, where it ended so.
+    /// Number of mean-value iterations until the end of the run.
     pub steps: usize,
-    /// The first map, where there was one.
+    /// Defects of the first map, if there is one.
     pub first: Option<Defects>,
-    /// Mean angle distortion σ₁/σ₂ of the first map; infinite where a face is flat.
+    /// Mean angle distortion σ₁/σ₂ of the first map. Infinite if a face is flat.
     pub distortion: f64,
-    /// The last map.
+    /// Defects of the last map, if there is one.
     pub last: Option<Defects>,
-    /// How near it came to a fixed point.
+    /// Distance of the last map from a fixed point.
     pub rest: Option<StopReason>,
 }
 
 impl Record {
-    /// Whether the first map was planar already.
+    /// True if the first map is already planar.
     pub fn is_planar_at_once(&self) -> bool {
         self.outcome == TrialOutcome::Planar && self.steps == 0
     }
@@ -119,7 +120,7 @@ impl Record {
 ///
 /// # Errors
 ///
-/// [`SolveError::Cancelled`] at the caller's wish to stop; other errors are ends.
+/// [`SolveError::Cancelled`] if the caller cancels. All other errors are outcomes.
 pub fn run(
     subject: &StudySubject<'_>,
     trial: Trial,

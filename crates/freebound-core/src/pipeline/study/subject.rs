@@ -1,4 +1,4 @@
-//! A mesh that is studied: where pins can be, and what of its form the convergence may depend on.
+//! Mesh of a study: candidate vertices for pins, and the counts that convergence may depend on.
 
 use glam::{DVec2, DVec3};
 
@@ -6,45 +6,45 @@ use crate::flatten::solve_once;
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::{Control, Embedding, Family, Method, Pins, Settings, SolveError};
 
-/// A mesh that is studied.
+/// A studied mesh.
 #[derive(Debug)]
 pub struct StudySubject<'a> {
     /// The mesh.
     pub mesh: &'a DiskMesh,
-    /// What is known of its form.
+    /// Counts that convergence may depend on.
     pub form: SystemForm,
-    /// Vertices on the boundary, along it.
+    /// Boundary vertices, in order along the boundary.
     pub(super) boundary: Vec<VertexId>,
-    /// Vertices inside, by number.
+    /// Interior vertices, by number.
     pub(super) inside: Vec<VertexId>,
-    /// Its natural embedding by conformal weights, in a box with a diagonal of 1: targets lie around its places. None
-    /// where it cannot be solved for: then there are no constraints.
+    /// Natural embedding by conformal weights, in a box with a diagonal of 1. Targets lie around its positions.
+    /// Absent if the solve failed: trials then have no constraints.
     pub(super) natural: Option<Embedding>,
-    /// The diagonal of the box around it in space, in units of its positions.
+    /// Diagonal of the bounding box in space, in units of the positions.
     pub(super) diagonal: f64,
 }
 
-/// What of a mesh's form the convergence may depend on.
+/// Counts of a mesh that convergence may depend on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SystemForm {
-    /// Vertices that belong to faces.
+    /// Number of vertices that belong to faces, without virtual ones.
     pub vertices: usize,
-    /// Faces.
+    /// Number of faces, without virtual ones.
     pub faces: usize,
-    /// Vertices on the boundary.
+    /// Number of boundary vertices.
     pub boundary: usize,
-    /// Interior edges between two boundary vertices.
+    /// Number of interior edges between two boundary vertices.
     pub dividing_edges: usize,
-    /// Triangles with two boundary edges or three.
+    /// Number of triangles with two or three boundary edges.
     pub ears: usize,
 }
 
 impl<'a> StudySubject<'a> {
-    /// Makes a mesh ready: solves for its natural embedding once.
+    /// Prepares a mesh: solves for its natural embedding once.
     ///
     /// # Errors
     ///
-    /// [`SolveError::Cancelled`] at the caller's wish to stop.
+    /// [`SolveError::Cancelled`] if the caller cancels.
     pub fn new(mesh: &'a DiskMesh, control: Control<'_>) -> Result<Self, SolveError> {
         let settings = Settings::new(Method::Natural, Family::Conformal);
         let natural = match solve_once(mesh, &settings, &Pins::new(), control) {
@@ -71,13 +71,13 @@ impl<'a> StudySubject<'a> {
         })
     }
 
-    /// Distance of two vertices in space, as a share of the diagonal of the mesh's box.
+    /// Distance of two vertices in space, as a share of the diagonal of the mesh's bounding box.
     pub(super) fn distance(&self, a: VertexId, b: VertexId) -> f64 {
         self.mesh.position(a).distance(self.mesh.position(b)) / self.diagonal
     }
 }
 
-/// The same around the origin, in a box with a diagonal of 1.
+/// Embedding centred at the origin, in a box with a diagonal of 1.
 fn in_unit_box(embedding: &Embedding) -> Embedding {
     let bounds = embedding.bounds();
     let (middle, diameter) = (bounds.middle(), bounds.diameter());

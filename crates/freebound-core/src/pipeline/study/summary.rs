@@ -1,24 +1,24 @@
-//! Runs in groups: how often and how fast the iteration came to a planar map, against what it may depend on.
+//! Runs in groups: share and speed of convergence to a planar map, by the properties that it may depend on.
 
 use super::{Defects, Limits, Record, SystemForm, TrialOutcome};
 use crate::problem::{NamedOption as _, Treatment};
 
-/// Runs of one kind.
+/// A group of runs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Group {
-    /// What runs are told apart by.
+    /// Property by which runs are grouped.
     pub by: &'static str,
-    /// Which of them these are.
+    /// Value of the property in this group.
     pub name: String,
-    /// How many there are.
+    /// Number of runs.
     pub runs: usize,
-    /// Those whose first map was planar already.
+    /// Number of runs whose first map was planar.
     pub at_once: usize,
-    /// Those that the iteration made planar, from a first map that was not.
+    /// Number of runs that the iteration made planar, from a first map that was not.
     pub with_all_repairs: usize,
-    /// Iterations within which half of these were mended; none where none was.
+    /// Median number of iterations of the runs that the iteration made planar. Absent if there is none.
     pub median_steps: Option<usize>,
-    /// Iterations within which nine in ten of them were.
+    /// 90th percentile of the iterations of the runs that the iteration made planar. Absent if there is none.
     pub p90_steps: Option<usize>,
 }
 
@@ -46,12 +46,12 @@ impl Group {
         share(self.at_once + self.with_all_repairs, self.runs)
     }
 
-    /// Share that was planar at once.
+    /// Share of the runs whose first map was planar, from 0 to 1.
     pub fn share_at_once(&self) -> f64 {
         share(self.at_once, self.runs)
     }
 
-    /// Share that the iteration mended, of those that were not planar at once; NaN where there is none of them.
+    /// Share that the iteration made planar among the runs whose first map was not. NaN if there is no such run.
     pub fn share_mended(&self) -> f64 {
         share(self.with_all_repairs, self.runs - self.at_once)
     }
@@ -61,26 +61,26 @@ fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole as f64
 }
 
-/// The least value that so many per cent of ascending ones do not exceed.
+/// Least value that `percent` per cent of the ascending values do not exceed. `None` for an empty list.
 fn nearest_rank(ascending: &[usize], percent: usize) -> Option<usize> {
     let rank = (ascending.len() * percent).div_ceil(100);
     ascending.get(rank.saturating_sub(1)).copied()
 }
 
-/// The runs on one mesh.
+/// Runs on one mesh.
 #[derive(Clone, Debug)]
 pub struct Studied {
-    /// The mesh's name.
+    /// Name of the mesh.
     pub mesh: String,
-    /// Its form.
+    /// Counts of the mesh.
     pub form: SystemForm,
-    /// How long its runs might go on.
+    /// Limits of the runs.
     pub limits: Limits,
-    /// Its runs, by number.
+    /// Records of the runs, by number.
     pub records: Vec<Record>,
 }
 
-/// One run with its mesh.
+/// A run and its mesh.
 #[derive(Clone, Copy)]
 struct Run<'a> {
     of: &'a Studied,
@@ -120,14 +120,14 @@ pub fn summary(studied: &[Studied]) -> Vec<Group> {
     table.groups
 }
 
-/// Groups under way.
+/// Groups under construction.
 struct Table<'a> {
     all: &'a [Run<'a>],
     groups: Vec<Group>,
 }
 
 impl Table<'_> {
-    /// Adds a group for each name that runs have, in the order of the names.
+    /// Adds a group for each name that runs have, in alphabetical order.
     fn add(&mut self, by: &'static str, name: impl Fn(Run<'_>) -> Option<String>) {
         let mut names: Vec<String> = self.all.iter().filter_map(|&run| name(run)).collect();
         names.sort();
@@ -135,7 +135,7 @@ impl Table<'_> {
         self.add_named(by, names, name);
     }
 
-    /// The same in the order in which names come.
+    /// Adds a group for each name that runs have, in order of first appearance.
     fn add_in_order(&mut self, by: &'static str, name: impl Fn(Run<'_>) -> Option<String>) {
         let mut names: Vec<String> = Vec::new();
         for name in self.all.iter().filter_map(|&run| name(run)) {
@@ -154,10 +154,10 @@ impl Table<'_> {
         }
     }
 
-    /// Adds a group for each quarter of the runs that have a value, from the least values to the greatest.
+    /// Adds a group for each quarter of the runs that have a value, in ascending order of values.
     fn add_quarters(&mut self, by: &'static str, value: impl Fn(Run<'_>) -> Option<f64>) {
         let mut of: Vec<(f64, &Record)> = self.all.iter().filter_map(|&run| Some((value(run)?, run.record))).collect();
-        // A stable sort: runs of one value stay in their order.
+        // Stable sort: runs with equal values keep their order.
         of.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         for quarter in 0..4 {
             let part = &of[of.len() * quarter / 4..of.len() * (quarter + 1) / 4];
@@ -168,7 +168,7 @@ impl Table<'_> {
     }
 }
 
-/// A number with three digits or so.
+/// Number with about three digits.
 fn rounded(value: f64) -> String {
     match value.abs() {
         size if size >= 1e4 => format!("{value:.0e}"),
@@ -190,7 +190,7 @@ fn place(record: &Record) -> &'static str {
     }
 }
 
-/// What a first map that is not planar is like.
+/// Kind of a first map that is not planar.
 fn first_map(run: Run<'_>) -> Option<&'static str> {
     let first = run.record.first.filter(|_| !run.record.is_planar_at_once())?;
     let share = first.flips as f64 / run.of.form.faces as f64;

@@ -1,16 +1,16 @@
-//! A trial: pins, weights and treatment of one run, drawn at random.
+//! Trial: pins, weights and treatment of one run, drawn at random.
 //!
-//! | what | how it is drawn |
+//! | item | distribution |
 //! |---|---|
-//! | pins | a pair, or 3 to 12 constraints, one as often as the other |
-//! | where | all on the boundary, some inside, all inside: one as often as another |
-//! | second pin of a pair | the ⌊u² n⌋-th nearest to the first of n vertices, u even in `[0, 1)`: near pairs are not rare |
-//! | targets of a pair | (0, 0) and (1, 0): a similarity changes nothing |
-//! | targets of constraints | even in a disk around the place in the natural embedding, whose box has a diagonal of 1 |
-//! | radius of that disk | 10ᵉ with e even in `[−2.5, −0.3)`: from a 300th to half of the diagonal |
-//! | family, treatment | each as often as another |
+//! | pins | a pair, or 3 to 12 constraints, with equal probability |
+//! | position of pins | all on the boundary, some inside, all inside, with equal probability |
+//! | second pin of a pair | the ⌊u² n⌋-th nearest to the first of n vertices, u uniform in `[0, 1)`: often near |
+//! | targets of a pair | (0, 0) and (1, 0): other targets change the map by a similarity only |
+//! | targets of constraints | uniform in a disk around the natural embedding's position; its box has a diagonal of 1 |
+//! | radius of that disk | 10ᵉ with e uniform in `[−2.5, −0.3)`: from a 300th to half of the diagonal |
+//! | family, treatment | each with equal probability |
 //!
-//! Where there are too few vertices on the boundary or inside, others are taken.
+//! If the boundary or the interior has too few vertices, the other side provides them.
 
 use std::f64::consts::TAU;
 
@@ -21,31 +21,32 @@ use crate::geom::Random;
 use crate::mesh::VertexId;
 use crate::problem::{Family, Method, NamedOption as _, Pins, Settings, Treatment, hard_pins};
 
-/// The families that a trial draws from: those of the paper's §3.1.
+/// Families that a trial draws from (paper §3.1).
 const FAMILIES: [Family; 3] = [Family::Conformal, Family::MeanValue, Family::Wachspress];
 
-/// Fewest and most constraints.
+/// Least and largest number of constraints.
 const CONSTRAINTS: [u32; 2] = [3, 12];
 
-/// Exponents of 10 of the least and the greatest displacement, as shares of the embedding's diagonal.
+/// Exponents of 10 of the least and the largest displacement, as shares of the embedding's diagonal.
 const DISPLACEMENTS: [f64; 2] = [-2.5, -0.3];
 
 /// Pins, weights and treatment of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// Its number among the runs on a mesh, from 0.
+    /// Number of the trial among the runs on a mesh, from 0.
     pub number: u64,
-    /// The weights of the first solve.
+    /// Weights of the first solve.
     pub family: Family,
-    /// What becomes of pinned vertices' equations.
+    /// Treatment of the equations of pinned vertices.
     pub treatment: Treatment,
-    /// Exact pins, which the treatment may weigh.
+    /// Hard pins, which the treatment may turn into soft pins.
     pub pins: Pins,
-    /// How far constraints may lie from the natural embedding, as a share of its diagonal; none for a pair of pins.
+    /// Largest distance of a target from the natural embedding, as a share of its diagonal. Absent for a pair of
+    /// pins.
     pub displacement: Option<f64>,
 }
 
-/// Where pins are.
+/// Position of the pins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Where {
     Boundary,
@@ -56,7 +57,7 @@ enum Where {
 const WHERE: [Where; 3] = [Where::Boundary, Where::Mixed, Where::Inside];
 
 impl Trial {
-    /// Draws a trial. The same numbers give the same one.
+    /// Draws a trial. Equal seeds and numbers draw equal trials.
     pub fn draw(subject: &StudySubject<'_>, seed: u64, number: u64) -> Self {
         let mut random = Random::of_run(seed, number);
         let family = FAMILIES[random.index(FAMILIES.len())];
@@ -82,7 +83,7 @@ impl Trial {
         Self { number, family, treatment, pins: hard_pins(places), displacement: Some(displacement) }
     }
 
-    /// The settings of its run.
+    /// Settings of the run.
     pub fn settings(&self, max_steps: usize) -> Settings {
         Settings {
             treatment: Some(self.treatment),
@@ -93,7 +94,7 @@ impl Trial {
     }
 }
 
-/// Vertices to be drawn, each once.
+/// Vertices to draw from, each at most once.
 struct Urn<'a> {
     subject: &'a StudySubject<'a>,
     boundary: Vec<VertexId>,
@@ -107,7 +108,7 @@ impl<'a> Urn<'a> {
         Self { subject, boundary: subject.boundary.clone(), inside: subject.inside.clone(), place, drawn: 0 }
     }
 
-    /// Those that the next one is drawn from: of a mixture, one side and then the other.
+    /// Vertices to draw the next one from. For mixed positions, boundary and interior alternate.
     fn side(&mut self) -> &mut Vec<VertexId> {
         let wants_inside = match self.place {
             Where::Boundary => false,
@@ -124,7 +125,7 @@ impl<'a> Urn<'a> {
         (!side.is_empty()).then(|| side.swap_remove(random.index(side.len())))
     }
 
-    /// One that is rather near to another one than far from it.
+    /// Draws a vertex that is more likely near to `to` than far from it.
     fn draw_near(&mut self, random: &mut Random, to: VertexId) -> Option<VertexId> {
         let subject = self.subject;
         let side = self.side();
@@ -139,7 +140,7 @@ impl<'a> Urn<'a> {
     }
 }
 
-/// The place in a list of so many that a share of it lies before; none in an empty one.
+/// Index in a list of `count` items with a share of the items before it. `None` for an empty list.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of a count is a count")]
 fn nearest_rank(share: f64, count: usize) -> Option<usize> {
     (count > 0).then(|| ((share * count as f64) as usize).min(count - 1))

@@ -1,4 +1,4 @@
-//! Disks with fewer vertices: taken one-to-one, put back one-to-one, and the ways of the flattener that go by them.
+//! Coarser disks: coarsening and prolongation stay one-to-one; stages of the flattener that use them.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -14,8 +14,8 @@ use proptest::prelude::*;
 
 use freebound_testkit::{Random, Relief, seamed_ball};
 
-/// A hilly square of so many columns and rows, of irregular triangles; and where its vertices lie seen from above, in a
-/// square about the origin of side 2.
+/// Hilly square with this number of columns and rows of irregular triangles, and its view from above. The view fills
+/// a square of side 2 about the origin.
 fn hills(columns: u32, random: &mut Random) -> (DiskMesh, Embedding) {
     let stride = columns + 1;
     let mut at = |k: u32| {
@@ -38,7 +38,7 @@ fn taken(mesh: &DiskMesh, flat: &Embedding, pins: &Pins, target: usize) -> Hiera
     Hierarchy::new(mesh, flat, keeps, target, Control::unattended()).unwrap().expect("most vertices can go")
 }
 
-/// Pins on some vertices, wherever.
+/// Pins six random vertices to the origin.
 fn some_pins(mesh: &DiskMesh, random: &mut Random) -> Pins {
     let count = u32::try_from(mesh.vertex_count()).unwrap();
     (0..6).map(|_| (VertexId::new(random.below(count)), Pin::hard(DVec2::ZERO))).collect()
@@ -48,7 +48,7 @@ fn lifted(hierarchy: &Hierarchy, fine: FineLevel<'_>, coarse: &Embedding) -> Opt
     hierarchy.lifted(fine, coarse, |_, embedding| Ok(embedding), Control::unattended()).unwrap()
 }
 
-/// A twist about the origin, strongest there, and then a stretch.
+/// Twists about the origin, most in the middle, then stretches.
 fn twisted(z: DVec2, [turn, stretch]: [f64; 2]) -> DVec2 {
     let turned = DVec2::from_angle(turn * (-2.0 * z.length_squared()).exp()).rotate(z);
     DVec2::new(stretch * turned.x, turned.y / stretch)
@@ -89,7 +89,7 @@ fn a_boundary_that_is_kept_stays_as_it_is() {
     expected.rotate_left(begin);
     assert_eq!(boundary, expected);
     assert!(coarsest.vertices.len() < mesh.vertex_count() / 2);
-    // No new edge joins two vertices that are kept.
+    // No new edge joins two kept vertices.
     for edge in coarsest.disk.edges().filter(|&edge| !coarsest.disk.is_boundary_edge(edge)) {
         let [a, b] = coarsest.disk.ends(edge).map(|v| coarsest.vertices[v.index()]);
         let was_there = || mesh.outgoing(a).any(|side| mesh.head(side) == b);
@@ -156,7 +156,7 @@ proptest! {
         let coarsest = hierarchy.coarsest();
         let mut coarse: Embedding = coarsest.part_of(&flat).iter().map(|&z| twisted(z, [turn, stretch])).collect();
         prop_assume!(is_one_to_one(&coarsest.disk, &coarse));
-        // Vertices at random places between their neighbours, as long as that is planar.
+        // Moves vertices to random positions between their neighbours.
         for vertex in coarsest.disk.vertices() {
             let before = coarse[vertex];
             let reach = coarsest.disk.outgoing(vertex).map(|side| coarse[coarsest.disk.head(side)].distance(before));
@@ -175,7 +175,7 @@ proptest! {
     }
 }
 
-/// A mesh of some thousand vertices, its view from above, and six pins of which four are to turn about the middle.
+/// Mesh of some thousand vertices, its view from above, and six pins, four of which turn about the middle.
 fn far_pins() -> (DiskMesh, Arc<Embedding>, Pins) {
     let (mesh, flat) = hills(64, &mut Random(13));
     let nearest = |to: DVec2| {
@@ -207,7 +207,7 @@ fn pins_far_from_their_targets_are_met_by_way_of_fewer_vertices() {
     assert_eq!(ending, Ending::Planar);
     assert!(last.verdict.planar && last.unmet().is_empty(), "{}", last.verdict.summary());
     let note = last.candidate.note.as_deref().unwrap_or_default();
-    assert!(note.starts_with("by way of ") && note.ends_with(" of the 4225 vertices"), "{note}");
+    assert!(note.starts_with("solved first on ") && note.ends_with(" of the 4225 vertices"), "{note}");
     assert!(last.candidate.progress.unwrap().energy < 20.0 && last.candidate.progress.unwrap().distance_left == 0.0);
     let of_continuation = steps.iter().filter(|step| step.candidate.stage == Stage::Continuation);
     assert_eq!(of_continuation.count(), 1, "the outer pins hold it where it lies: nothing is fitted");
@@ -237,7 +237,7 @@ fn the_way_by_fewer_vertices_that_is_cancelled_is_taken_anew() {
 #[test]
 fn an_embedding_of_a_huge_energy_is_relaxed_by_way_of_fewer_vertices() {
     let (mesh, flat) = hills(40, &mut Random(17));
-    // What lies at the middle is crushed: the square of the distance from there, thrice.
+    // Crushes the middle: a distance r from it becomes r⁷.
     let crushed: Embedding = flat.iter().map(|z| z.length_squared().powi(3) * *z).collect();
     assert!(is_one_to_one(&mesh, &crushed));
     let (steps, _) = all_steps(&mesh, ladder(Method::Continuation, 1, (&Pins::new(), &Arc::new(crushed))));
@@ -261,7 +261,7 @@ fn without_an_embedding_the_surface_says_what_can_go_and_any_planar_drawing_of_t
         for (place, &vertex) in coarsest.vertices.iter().enumerate() {
             assert_eq!(coarsest.disk.position(VertexId::from_index(place)), mesh.position(vertex));
         }
-        // A grid drawing is planar by theorem, and has nothing to do with the surface.
+        // A grid drawing is planar by theorem and does not depend on the surface.
         let drawing = schnyder(&coarsest.disk);
         assert!(is_one_to_one(&coarsest.disk, &drawing));
         let nowhere = Embedding::from(vec![DVec2::ZERO; all]);
@@ -279,18 +279,19 @@ fn a_large_disk_whose_boundary_crosses_itself_goes_by_way_of_few_vertices() {
     let (steps, ending) = all_steps(&mesh, Flattener::new(settings, Pins::new()));
     assert_eq!(ending, Ending::Planar);
     assert!(!steps[0].has_simple_boundary(), "the natural boundary crosses itself");
-    let by_few =
-        steps.iter().position(|step| step.candidate.note.as_deref().is_some_and(|note| note.starts_with("by way of ")));
+    let by_few = steps
+        .iter()
+        .position(|step| step.candidate.note.as_deref().is_some_and(|note| note.starts_with("solved first on ")));
     let by_few = by_few.expect("a step by way of few vertices");
     assert!(steps[by_few].verdict.planar && steps[..by_few].iter().all(|step| !step.verdict.planar));
-    // No bending of the whole: all steps before are linear solves and iterations.
+    // No continuation on the fine mesh: all steps before are linear solves and iterations.
     assert!(steps[..by_few].iter().all(|step| matches!(step.candidate.stage, Stage::Natural | Stage::Iterate)));
     let energy = steps[by_few].candidate.progress.expect("numbers of its energy").energy;
-    // A mean energy up to 20 is moderate: nothing has to be relaxed before the map serves.
+    // A mean energy up to 20 is moderate: the map needs no relaxation first.
     assert!(energy < 20.0, "{energy}, not the millions of a boundary on a circle");
 }
 
-/// A small cut ball, and its boundary where it lies in a planar embedding.
+/// Small cut ball, and its boundary in a planar embedding.
 fn cut_ball() -> (DiskMesh, Vec<DVec2>) {
     let mesh = DiskMesh::try_from(seamed_ball(12, 60, Relief::Folds, 8)).unwrap();
     let (steps, _) = all_steps(&mesh, Flattener::new(Settings::default(), Pins::new()));
@@ -332,7 +333,7 @@ fn a_boundary_held_on_waves_is_met_from_a_circle() {
     let (mesh, boundary) = cut_ball();
     let size = boundary.iter().map(|z| z.abs().max_element()).fold(0.0, f64::max);
     let wave = |by: f64| 0.3 * size * (6.0 * by / size).sin();
-    // Sheared along x and then along y: a one-to-one map of the plane.
+    // Shear along x, then along y: a one-to-one map of the plane.
     let sheared = |z: &DVec2| {
         let x = z.x + wave(z.y);
         DVec2::new(x, z.y + wave(x))
@@ -342,7 +343,7 @@ fn a_boundary_held_on_waves_is_met_from_a_circle() {
     let last = steps.last().unwrap();
     assert_eq!(ending, Ending::Planar);
     assert!(last.verdict.planar && last.unmet().is_empty(), "{}", last.verdict.summary());
-    assert!(is_noted(&steps, "the whole boundary begins on a circle"));
+    assert!(is_noted(&steps, "the whole boundary starts on a circle"));
     assert!(steps.iter().all(|step| !step.is_of_planar_start()), "no free boundary had to be found first");
     let distances = steps
         .iter()

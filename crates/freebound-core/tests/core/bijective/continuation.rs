@@ -1,5 +1,5 @@
-//! The flattener with constraints: whatever the targets, it ends planar with the exact ones met; every step of continuation
-//! and relaxing is planar; what is stopped goes on where it was.
+//! Constrained flattening: for any targets it ends planar with all hard pins met. Every step of continuation and
+//! relaxation is planar, and a cancelled run continues from its last step.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -14,7 +14,7 @@ use crate::linear::shapes::finger;
 use freebound_testkit::surfaces::irregular_cube;
 use freebound_testkit::{Random, grid};
 
-/// All steps of a run and why it ended.
+/// Returns all steps of a run, and its ending.
 fn steps_of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Result<(Vec<Step>, Ending), SolveError> {
     let mut steps = Vec::new();
     let ending = Flattener::new(settings, pins.clone()).finish(mesh, Control::unattended(), |step| steps.push(step))?;
@@ -25,7 +25,7 @@ fn one_to_one(method: Method) -> Settings {
     Settings::new(method, Family::default())
 }
 
-/// A small disk of one of three kinds.
+/// Small disk of one of three kinds.
 fn small_disk(kind: u32, random: &mut Random) -> DiskMesh {
     match kind % 3 {
         0 => DiskMesh::try_from(grid(2 + random.below(4), 2 + random.below(4))).unwrap(),
@@ -34,7 +34,7 @@ fn small_disk(kind: u32, random: &mut Random) -> DiskMesh {
     }
 }
 
-/// Pins at random places of the unit square, every fourth of them with a weight.
+/// Pins at random points of the unit square; every fourth is soft.
 fn random_pins(mesh: &DiskMesh, count: u32, random: &mut Random) -> Pins {
     let vertex_count = u32::try_from(mesh.vertex_count()).unwrap();
     let mut pins = Pins::new();
@@ -46,7 +46,7 @@ fn random_pins(mesh: &DiskMesh, count: u32, random: &mut Random) -> Pins {
     pins
 }
 
-/// Four vertices of the dome that are to turn by a right angle about the middle, and four of its boundary that stay.
+/// Pins four vertices of the dome to a right-angle turn about the middle, and four of its boundary in place.
 fn swirl() -> (DiskMesh, Pins) {
     let mesh = DiskMesh::try_from(BuiltIn::Dome.mesh()).unwrap();
     let (steps, _) = steps_of(&mesh, Settings::default(), &Pins::new()).unwrap();
@@ -168,7 +168,7 @@ fn the_planar_start_is_among_the_steps_and_serves_other_targets_on_the_mesh() {
     assert!(fitted > 0 && steps[fitted].candidate.stage == Stage::Continuation);
     assert!(steps[..fitted].iter().all(|step| step.is_of_planar_start() && !step.unmet().is_empty()));
     assert!(steps[fitted - 1].verdict.planar, "no end, as the constraints are not met");
-    assert!(steps[0].candidate.note.as_ref().is_some_and(|note| note.contains("without the constraints")));
+    assert!(steps[0].candidate.note.as_ref().is_some_and(|note| note.contains("constraints ignored")));
     let kept = SolverCache { planar_start: steps[fitted].candidate.planar_start.clone(), prepared: None };
     let mut run = from_cache(pins, &kept);
     let mut shorter: Vec<Step> = Vec::new();
@@ -231,12 +231,12 @@ fn a_ladder_goes_on_from_an_embedding_that_is_one_to_one_and_begins_afresh_where
         let from_scratch = run(&bad);
         assert_ne!(from_scratch[0].candidate.stage, Stage::Continuation);
         assert!(
-            from_scratch[0].candidate.note.as_ref().is_some_and(|note| note.contains("afresh")),
+            from_scratch[0].candidate.note.as_ref().is_some_and(|note| note.contains("from scratch")),
             "{:?}",
             from_scratch[0].candidate.note
         );
     }
-    // Two pins only say where it is to lie, and other methods do not continue.
+    // Two pins only fix position, size and rotation, and other methods do not use continuation.
     let two: Pins = pins.iter().take(2).map(|(&v, pin)| (v, *pin)).collect();
     for (settings, pins) in [(Settings::default(), two), (one_to_one(Method::Natural), pins.clone())] {
         let step = Flattener::new(settings, pins).continue_from(before).step(&mesh, Control::unattended()).unwrap();
@@ -301,7 +301,7 @@ fn pins_that_no_continuation_reaches_do_not_keep_it_busy_for_ever() {
     let error = run.finish(&mesh, Control::unattended(), |step| last = Some(step)).unwrap_err();
     assert_eq!(error, SolveError::Unmet);
     let last = last.unwrap();
-    // What is left is not what was crushed in vain.
+    // The result does not keep what was crushed in vain.
     assert!(last.verdict.planar && last.candidate.progress.unwrap().energy < 100.0, "{:?}", last.candidate.progress);
 }
 
@@ -322,7 +322,7 @@ fn pins_that_are_in_each_others_way_pass_around_each_other() {
     let (mesh, _) = swirl();
     let (steps, _) = steps_of(&mesh, Settings::default(), &Pins::new()).unwrap();
     let flat = &steps.last().unwrap().candidate.solution.embedding;
-    // Two neighbours of a place in the middle change sides, head on; the boundary's four stay.
+    // Two neighbours around the middle swap places head-on; the four boundary pins stay.
     let (_, pins) = swirl();
     let inner: Vec<VertexId> = pins.keys().copied().filter(|&v| mesh.boundary_place(v).is_none()).collect();
     let mut pins: Pins = pins.into_iter().filter(|(v, _)| mesh.boundary_place(*v).is_some()).collect();

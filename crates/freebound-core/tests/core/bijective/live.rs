@@ -1,5 +1,6 @@
-//! A planar embedding under dragged pins: planar at every frame by the whole verdict, which what is proved of the region
-//! must equal; on the pointer where there is room, and short of it where there is none, naming what is in the way.
+//! Dragging pins of a planar embedding. Every frame is planar, and the verdict proved for the moved region equals
+//! the whole verdict. The pin follows the pointer if there is clearance; otherwise it stops short and the blockers
+//! are named.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -16,7 +17,7 @@ use proptest::prelude::*;
 use freebound_testkit::surfaces::without_faces;
 use freebound_testkit::{Random, disk, grid, jittered_sheet, quad_sheet};
 
-/// A sheet seen from above: planar.
+/// View of a mesh from above, planar for a sheet.
 fn from_above(mesh: &DiskMesh) -> Embedding {
     mesh.mesh().positions.iter().map(|p| p.truncate()).collect()
 }
@@ -26,14 +27,14 @@ fn nearest(embedding: &Embedding, z: DVec2) -> VertexId {
     VertexId::from_index(at.unwrap())
 }
 
-/// Pins near such places of a sheet, held where they lie.
+/// Pins near the given points of a sheet, in place.
 fn pins_near(embedding: &Embedding, places: &[[f64; 2]]) -> (Vec<VertexId>, Pins) {
     let vertices: Vec<VertexId> = places.iter().map(|&z| nearest(embedding, z.into())).collect();
     let pins = hard_pins(vertices.iter().map(|&v| (v, embedding[v])));
     (vertices, pins)
 }
 
-/// A drag with its mesh, which looks at every frame.
+/// Drag on a mesh; [`Drag::frame`] checks every frame.
 struct Drag {
     mesh: DiskMesh,
     live: DragSolver,
@@ -48,7 +49,8 @@ impl Drag {
         Self { mesh, live, pins, begin }
     }
 
-    /// Four pins in a ring about the middle of a bumpy sheet of so many cells a side, four near its corners; the first is dragged.
+    /// Bumpy sheet with `cells` cells per side. Four pins form a ring about the middle, four are near the corners.
+    /// The first is dragged.
     fn on_sheet(cells: u32) -> (Self, VertexId) {
         let mesh = disk(jittered_sheet(cells));
         let begin = from_above(&mesh);
@@ -69,7 +71,7 @@ impl Drag {
         moved
     }
 
-    /// Frames until nothing moves.
+    /// Runs frames until nothing moves.
     fn rest_at(&mut self, target: DVec2) -> DragFrame {
         for _ in 0..60 {
             let moved = self.frame(target);
@@ -80,7 +82,7 @@ impl Drag {
         panic!("it never comes to rest");
     }
 
-    /// The largest distance of a vertex from where it was at first.
+    /// Largest distance of a vertex from its initial position.
     fn farthest(&self) -> f64 {
         self.begin.iter().zip(self.live.embedding()).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
     }
@@ -130,7 +132,7 @@ fn a_pin_that_comes_back_brings_back_what_it_began_with() {
     }
     assert!(drag.farthest() > 0.15);
     drag.rest_at(from);
-    // But for what the outside, triangulated anew on the way, has forgotten.
+    // Not exact: the scaffold, retriangulated during the drag, does not return to its initial state.
     assert!(drag.farthest() < 2e-3, "{:.1e}", drag.farthest());
 }
 
@@ -250,7 +252,7 @@ fn a_weighted_pin_follows_by_its_weight() {
         let (vertices, mut pins) = pins_near(&begin, &[[0.0, 0.0], [-0.8, 0.8], [0.8, 0.8], [0.0, -0.8]]);
         pins.insert(vertices[0], Pin::weighted(begin[vertices[0]] + DVec2::new(0.3, 0.0), weight));
         let mut drag = Drag::new(mesh.clone(), begin.clone(), vertices[0], pins);
-        // Its target was not met before, and need not be now: it is drawn by as much as the target moves.
+        // Its target was not met before and need not be met now: the vertex moves as its target moves.
         let target = drag.pins[&vertices[0]].target + DVec2::new(0.0, 0.1);
         drag.rest_at(target);
         drag.live.embedding()[vertices[0]] - begin[vertices[0]]
@@ -335,7 +337,7 @@ fn a_frame_that_is_stopped_or_asked_for_the_impossible_leaves_what_is_proved() {
     drag.frame(target);
 }
 
-/// Random drags, each frame looked at: on triangles, on quads, and around holes that are filled. Returns whether there was
+/// Random drags with every frame checked: on triangles, on quads, and around filled holes. Returns true if there was
 /// a planar embedding to begin with.
 fn random_drags(kind: u32, sheet: &UvFrame, offset: DVec2, random: &mut Random) -> Result<bool, TestCaseError> {
     let mesh = match kind {
@@ -380,7 +382,8 @@ fn polygons_stay_convex_and_filled_holes_open() {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 24, ..ProptestConfig::default() })]
 
-    /// Far from the origin few digits are left in 32 bits, and on pictures that are not square numbers are rounded.
+    /// Far from the origin few digits remain in 32 bits, and coordinates are rounded for pictures that are not
+    /// square.
     #[test]
     fn what_is_proved_of_the_region_is_the_verdict_on_the_whole(kind in 0_u32..3, far in 0_u32..3, seed in 1_u32..) {
         let mut random = Random(seed.into());

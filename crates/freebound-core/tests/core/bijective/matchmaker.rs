@@ -1,4 +1,4 @@
-//! New vertices: every set of distinct targets is met, and the surface stays what it was.
+//! New vertices: every set of distinct targets is met, and the surface does not change.
 
 use freebound_core::flatten::{Flattener, Step};
 use freebound_core::mesh::{DiskMesh, VertexId};
@@ -11,10 +11,10 @@ use crate::linear::shapes::finger;
 use freebound_testkit::surfaces::irregular_cube;
 use freebound_testkit::{Random, disk, fan, grid};
 
-/// Area may change by rounding alone.
+/// Relative change of the area by rounding.
 const SAME_AREA: f64 = 1e-12;
 
-/// The step that makes the new vertices: the one after the planar start was moved to the constraints.
+/// Step that adds the new vertices, after the planar start was moved to the constraints.
 fn matched(mesh: &DiskMesh, pins: &Pins) -> Result<Step, SolveError> {
     let mut run = Flattener::new(Settings::new(Method::Matchmaker, Family::default()), pins.clone());
     let mut start = run.step(mesh, Control::unattended())?;
@@ -27,7 +27,7 @@ fn matched(mesh: &DiskMesh, pins: &Pins) -> Result<Step, SolveError> {
     Ok(step)
 }
 
-/// Meets pins with new vertices, and checks everything that must hold.
+/// Meets pins with new vertices, and checks all required properties.
 fn check(mesh: &DiskMesh, pins: &Pins, name: &str) -> Step {
     let step = matched(mesh, pins).unwrap_or_else(|error| panic!("{name}: {error}"));
     let refinement = step.candidate.refinement.as_ref().expect("new vertices");
@@ -57,7 +57,7 @@ fn check(mesh: &DiskMesh, pins: &Pins, name: &str) -> Step {
     step
 }
 
-/// So many different vertices.
+/// Random distinct vertices.
 fn vertices(mesh: &DiskMesh, count: usize, random: &mut Random) -> Vec<VertexId> {
     let mut all: Vec<VertexId> = mesh.vertices().collect();
     for i in 0..count {
@@ -68,13 +68,13 @@ fn vertices(mesh: &DiskMesh, count: usize, random: &mut Random) -> Vec<VertexId>
     all
 }
 
-/// Pins at random places of the unit square.
+/// Pins at random points of the unit square.
 fn random_pins(mesh: &DiskMesh, count: usize, random: &mut Random) -> Pins {
     let pinned = vertices(mesh, count, random);
     pinned.into_iter().map(|v| (v, Pin::hard(DVec2::new(random.unit(), random.unit())))).collect()
 }
 
-/// Vertices pinned to where others of them lie without pins.
+/// Pins vertices to each other's positions in the embedding without pins.
 fn permuted_pins(mesh: &DiskMesh, count: usize, random: &mut Random) -> Pins {
     let mut last = None;
     let mut run = Flattener::new(Settings::default(), Pins::new());
@@ -82,7 +82,7 @@ fn permuted_pins(mesh: &DiskMesh, count: usize, random: &mut Random) -> Pins {
     let flat = last.unwrap().candidate.solution.embedding;
     let pinned = vertices(mesh, count, random);
     let mut others: Vec<DVec2> = pinned.iter().map(|v| flat[v.index()]).collect();
-    // One cycle through all of them (Sattolo 1986): none stays.
+    // A single cycle (Sattolo 1986), so no vertex keeps its position.
     for i in 1..count {
         others.swap(i, random.below(u32::try_from(i).unwrap()) as usize);
     }
@@ -162,7 +162,7 @@ fn without_pins_nothing_is_split() {
 
 #[test]
 fn targets_in_a_hopeless_order_are_given_up_with_a_reason() {
-    // Every vertex inside has the place of another one, at random: the paths wind around each other without end.
+    // Every inner vertex gets the position of another at random, so the paths wind around each other many times.
     let mesh = disk(grid(12, 12));
     let mut random = Random(5);
     let inside: Vec<VertexId> = mesh.vertices().filter(|&v| mesh.boundary_place(v).is_none()).collect();

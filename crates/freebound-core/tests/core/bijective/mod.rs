@@ -1,4 +1,4 @@
-//! Continuation, matchmaker, relaxing, dragging, morphs, virtual boundary and Schnyder drawings.
+//! Continuation, matchmaker, relaxation, dragging, morphs, virtual boundary and Schnyder drawings.
 
 pub(crate) mod coarse;
 pub(crate) mod continuation;

@@ -1,5 +1,5 @@
-//! Planar morphs: every frame against the rational oracle or the verdict, the weights between two embeddings against
-//! angles, and all ways on meshes that need them.
+//! Planar morphs: every frame against the rational oracle or the verdict. Also the weights between two embeddings
+//! against angles, and all routes on meshes that need them.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::atomic::AtomicBool;
@@ -15,7 +15,7 @@ use crate::verify::verdict_cases::nearly_planar_case;
 use freebound_testkit::oracle::examine;
 use freebound_testkit::{Entry, Random, corpus_disks, corpus_test, data_entry, grid, quad_sheet};
 
-/// What a solve leaves of an equation, relative to the sizes of its terms.
+/// Residual of a solved equation, relative to the sizes of its terms.
 const SOLVED: f64 = 1e-9;
 
 fn by(mesh: &DiskMesh, ends: [&Embedding; 2], routes: &[Route]) -> Result<Morph, NoMorph> {
@@ -23,7 +23,7 @@ fn by(mesh: &DiskMesh, ends: [&Embedding; 2], routes: &[Route]) -> Result<Morph,
     morph(mesh, ends, &options, Control::unattended())
 }
 
-/// Fails where a morph has other ends, other frames than asked for, or one that folds.
+/// Fails if a morph has wrong ends, a wrong number of frames, or a folded frame.
 fn assert_planar(mesh: &DiskMesh, ends: [&Embedding; 2], found: &Morph) {
     assert_eq!((found.frames.len(), found.frames.first(), found.frames.last()), (17, Some(ends[0]), Some(ends[1])));
     let mirrored = verdict(mesh, ends[0]).mirrored;
@@ -38,7 +38,7 @@ fn assert_planar(mesh: &DiskMesh, ends: [&Embedding; 2], found: &Morph) {
     }
 }
 
-/// Rings around the origin up to radius 1, so many vertices on each.
+/// Rings around the origin up to radius 1, each with `sectors` vertices.
 fn rings(count: u32, sectors: u32) -> (DiskMesh, Embedding) {
     let on_ring = |ring: u32, k: u32| 1 + (ring - 1) * sectors + k % sectors;
     let mut triangles: Vec<[u32; 3]> = (0..sectors).map(|k| [0, on_ring(1, k), on_ring(1, k + 1)]).collect();
@@ -56,7 +56,7 @@ fn rings(count: u32, sectors: u32) -> (DiskMesh, Embedding) {
     (DiskMesh::try_from(TriMesh::new(positions, &triangles)).unwrap(), embedding)
 }
 
-/// The same with what is inside turned, the more the nearer to the middle.
+/// Rotates the inside of a disk by an angle that grows towards the middle.
 fn swirled(embedding: &Embedding, by: f64) -> Embedding {
     embedding
         .iter()
@@ -64,7 +64,7 @@ fn swirled(embedding: &Embedding, by: f64) -> Embedding {
         .collect()
 }
 
-/// Mean-value weights of an inner vertex from angles, adding up to 1.
+/// Mean-value weights of an inner vertex from angles, normalised to sum 1.
 fn weights_by_angles(mesh: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> Vec<f64> {
     let arms: Vec<DVec2> = mesh.outgoing(vertex).map(|h| embedding[mesh.head(h)] - embedding[vertex]).collect();
     let half_tangent = |k: usize| (arms[k % arms.len()].angle_to(arms[(k + 1) % arms.len()]) / 2.0).tan();
@@ -125,7 +125,7 @@ fn what_is_only_turned_and_scaled_is_turned_and_scaled_along() {
 fn a_map_and_its_half_turn_have_no_straight_way_however_few_frames_there_are() {
     let mesh = DiskMesh::try_from(grid(5, 3)).unwrap();
     let from: Embedding = mesh.mesh().positions.iter().map(|p| p.truncate()).collect();
-    // Straight ways all meet at t = 1/2 in one point.
+    // Straight paths all meet in one point at t = 1/2.
     let to: Embedding = from.iter().map(|&z| DVec2::new(5.0, 3.0) - z).collect();
     let with = |frame_count: usize, routes: &[Route]| {
         let options = MorphOptions { frame_count, routes: routes.to_vec() };
@@ -139,7 +139,7 @@ fn a_map_and_its_half_turn_have_no_straight_way_however_few_frames_there_are() {
     }
 }
 
-/// A bar that is wound up: so many turns, to the left, or to the right where they are negative.
+/// Bar wound up by a number of turns: to the left if positive, to the right if negative.
 fn wound(mesh: &DiskMesh, turns: f64) -> Embedding {
     let place = |p: &glam::DVec3| {
         let along = p.x / 60.0;
@@ -176,7 +176,7 @@ fn a_spiral_is_unwound_and_wound_the_other_way_through_a_circle() {
 #[test]
 fn between_boundaries_that_are_not_convex_weights_of_mesh_and_outside_serve() {
     let (mesh, round) = rings(16, 36);
-    // A clover, and inside of it everything turned.
+    // A clover with its inside turned.
     let clover = |z: &DVec2| *z * (1.0 + 0.15 * z.length().powi(3) * (3.0 * z.to_angle()).sin());
     let from: Embedding = round.iter().map(clover).collect();
     let to: Embedding = swirled(&round, 4.0).iter().map(clover).collect();
@@ -186,7 +186,7 @@ fn between_boundaries_that_are_not_convex_weights_of_mesh_and_outside_serve() {
     assert_planar(&mesh, [&from, &to], &found);
 }
 
-/// Another embedding of a mesh: a drawing in whole numbers, or an even one on a circle.
+/// Another embedding of a mesh: a Schnyder drawing, or a uniform one on a circle.
 fn other_embedding(mesh: &DiskMesh, round: usize) -> Embedding {
     if round.is_multiple_of(2) {
         return schnyder(mesh);

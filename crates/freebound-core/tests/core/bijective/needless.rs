@@ -1,4 +1,4 @@
-//! New vertices that are not needed are taken out again, and those that are stay.
+//! Unneeded new vertices are removed again; needed ones stay.
 
 use freebound_core::bijective::{Matched, matched, simplified};
 use freebound_core::mesh::{DiskMesh, TriMesh, VertexId};
@@ -6,7 +6,7 @@ use freebound_core::problem::{Control, Embedding, Pin, Pins, SolveError};
 use freebound_core::verify::verdict;
 use glam::DVec2;
 
-/// A flat square of 2·n² triangles, and where its vertices lie.
+/// Flat square of 2·n² triangles, and the positions of its vertices.
 fn square(n: u32) -> (DiskMesh, Embedding) {
     let stride = n + 1;
     let flat: Embedding =
@@ -24,11 +24,11 @@ fn pins(pairs: &[(u32, DVec2)]) -> Pins {
 #[test]
 fn new_vertices_are_all_needless_where_the_map_is_flat() {
     let (mesh, flat) = square(6);
-    // The pins of two corners and of two vertices inside change places.
+    // Pins of two corners and of two inner vertices swap places.
     let pins = pins(&[(0, flat[48]), (48, flat[0]), (16, flat[32]), (32, flat[16])]);
     let matched = matched(&mesh, &flat, &pins, Control::unattended()).unwrap();
     assert!(matched.refinement.new_vertices().len() > 10);
-    // With the places that the vertices have on the flat surface itself no new one is needed.
+    // If all vertices keep their positions on the flat surface, no new vertex is needed.
     let positions = &matched.refinement.disk().mesh().positions;
     let embedding: Embedding = positions.iter().map(|x| x.truncate()).collect();
     let bare = simplified(&mesh, Matched { embedding, ..matched }, Control::unattended()).unwrap();

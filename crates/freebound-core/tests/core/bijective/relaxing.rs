@@ -1,4 +1,4 @@
-//! Relaxing comes to its end by itself, and what was proved before it stays where it fails.
+//! Relaxation ends by itself, and if it fails, the maps proved before it stay.
 
 use freebound_core::flatten::{Ending, Flattener, Step};
 use freebound_core::mesh::{DiskMesh, TriMesh, VertexId};
@@ -15,8 +15,8 @@ fn steps(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> (Vec<Step>, Ending
     (steps, ending.expect("what is proved is a result"))
 }
 
-/// A fan of four triangles and targets for all vertices, with a slit so narrow that a triangulation of the outside, which
-/// takes what is nearest to zero as zero, sees its sides cross.
+/// Fan of four triangles with targets for all vertices. Their slit is so narrow that a triangulation of the outside,
+/// which treats tiny numbers as zero, sees its sides cross.
 fn slit() -> (DiskMesh, Pins) {
     let slit_of = |[a, b, c]: [f64; 3]| [(b, 1.0), (c, -1.0), (2.0, 0.0), (1.0, 3.0), (-1.0, 3.0), (a, 0.0)];
     let positions = slit_of([-0.5, 0.0, 0.0]).map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
@@ -36,14 +36,14 @@ fn what_is_proved_stays_the_result_where_relaxing_fails() {
         assert!(last.verdict.planar && last.unmet().is_empty(), "{method:?}: {}", last.verdict.summary());
         assert_eq!(last.candidate.solution.embedding, steps[0].candidate.solution.embedding);
         let note = last.candidate.note.as_deref().unwrap_or_default();
-        assert!(note.contains("relaxing gave nothing"), "{method:?}: {note}");
+        assert!(note.contains("relaxing failed"), "{method:?}: {note}");
     }
 }
 
 #[test]
 fn relaxing_that_goes_round_in_circles_ends_by_itself() {
-    // Two pins inside are so near that the face between them comes to the least determinant of ordinary rounds, leaves it
-    // with the steep rounds, and comes back.
+    // Two inner pins are so near that the face between them reaches the least determinant of ordinary rounds. It
+    // gets past that with the steep rounds, and back.
     let near = DVec2::splat(0.5) + DVec2::new(2.15e-4, 1.075e-4);
     let corners = [(0, DVec2::ZERO), (6, DVec2::X), (48, DVec2::ONE), (42, DVec2::Y)];
     let pins = corners.into_iter().chain([(24, DVec2::splat(0.5)), (32, near)]);
@@ -82,8 +82,8 @@ fn weighted_constraints_do_not_keep_relaxing_from_going_on() {
     }
 }
 
-/// How fast the mean symmetric Dirichlet energy at equal total areas falls as vertices that are free move, all at once by
-/// the length of a gradient of 1: by differences.
+/// Rate at which the mean symmetric Dirichlet energy at equal total areas falls, by differences. All free vertices
+/// move at once along the gradient of length 1.
 fn steepness(mesh: &DiskMesh, embedding: &Embedding, pins: &Pins) -> f64 {
     const STEP: f64 = 1e-5;
     let energy = |vertex: VertexId, by: DVec2| {
@@ -98,7 +98,7 @@ fn steepness(mesh: &DiskMesh, embedding: &Embedding, pins: &Pins) -> f64 {
 
 #[test]
 fn relaxing_ends_where_the_energy_at_equal_areas_is_least() {
-    // Four pins in the middle at a quarter of the size that the four corners are held at.
+    // Four pins in the middle at a quarter of the scale of the four corner pins.
     let mesh = disk(bump(8));
     let held = [(0, 1.0), (8, 1.0), (72, 1.0), (80, 1.0), (30, 0.25), (32, 0.25), (48, 0.25), (50, 0.25)];
     let place = |v: u32| (mesh.position(VertexId::new(v)) - mesh.position(VertexId::new(40))).truncate();
@@ -107,15 +107,15 @@ fn relaxing_ends_where_the_energy_at_equal_areas_is_least() {
     let (steps, _) = steps(&mesh, settings, &pins);
     let rounds = steps.iter().filter(|step| step.candidate.stage == Stage::Relax);
     let slopes: Vec<f64> = rounds.map(|step| steepness(&mesh, &step.candidate.solution.embedding, &pins)).collect();
-    // Rounds that keep the size which they begin with come to 0.175, and no further.
+    // Rounds that keep their initial size stop at 0.175.
     assert!(slopes.iter().any(|&slope| slope > 0.1), "the test is to need the size: {slopes:?}");
     assert!(slopes.last().is_some_and(|&slope| slope < 0.02), "{slopes:?}");
 }
 
 #[test]
 fn faces_whose_corners_are_all_pinned_do_not_keep_the_others_from_their_least_energy() {
-    // A boundary on a circle, all of it pinned, but for two corners of the grid that are hardly off the line between their
-    // neighbours: their faces are too steep to begin with, and always will be.
+    // Boundary pinned to a circle. Two corners of the grid are almost on the line between their neighbours, so their
+    // faces are too steep from the start and stay so.
     let mesh = disk(bump(8));
     let boundary = mesh.boundary_loop();
     let count = boundary.len();

@@ -1,4 +1,4 @@
-//! New vertices for whose removal room is made, and the tree of paths that needs few.
+//! New vertices removed after clearance is made for it, and the path tree that needs few.
 
 use freebound_core::bijective::{Matched, matched, simplified, with_clearance};
 use freebound_core::flatten::Flattener;
@@ -9,20 +9,20 @@ use glam::DVec2;
 
 use freebound_testkit::{Random, disk, grid};
 
-/// A flat sheet, and where its vertices lie.
+/// Flat sheet, and the positions of its vertices.
 fn sheet(columns: u32, rows: u32) -> (DiskMesh, Embedding) {
     let mesh = disk(grid(columns, rows));
     let flat = mesh.vertices().map(|v| mesh.position(v).truncate()).collect();
     (mesh, flat)
 }
 
-/// Met with new vertices, the needless ones taken out.
+/// Meets pins with new vertices, then removes the unneeded ones.
 fn bare(mesh: &DiskMesh, flat: &Embedding, pins: &Pins) -> Matched {
     simplified(mesh, matched(mesh, flat, pins, Control::unattended()).unwrap(), Control::unattended()).unwrap()
 }
 
-/// Makes room, and checks all that must hold: pins to the last bit, one-to-one, new vertices on old edges, the surface as it
-/// was.
+/// Makes clearance, and checks all required properties: pins exactly met, one-to-one, new vertices on old edges,
+/// unchanged surface.
 fn roomy(mesh: &DiskMesh, before: &Matched, pins: &Pins) -> Matched {
     let after = with_clearance(mesh, before.clone(), pins, Control::unattended()).unwrap();
     let fine = after.refinement.disk();
@@ -43,7 +43,7 @@ fn roomy(mesh: &DiskMesh, before: &Matched, pins: &Pins) -> Matched {
 
 #[test]
 fn two_pins_that_change_places_with_room_around_need_no_new_vertex() {
-    // A half turn of the inside meets both pins: the boundary stays, and nothing is in the way.
+    // A half turn of the inside meets both pins; the boundary stays and nothing blocks.
     let (mesh, flat) = sheet(10, 10);
     let pins = hard_pins([(48, 72), (72, 48)].map(|(v, at)| (VertexId::new(v), flat[at])));
     let before = bare(&mesh, &flat, &pins);
@@ -60,7 +60,7 @@ fn two_pins_that_change_places_with_room_around_need_no_new_vertex() {
 
 #[test]
 fn room_is_made_beside_pins_that_hold_a_crossing_boundary() {
-    // Faces between pins alone cannot be unfolded by any move: what they need stays.
+    // No move unfolds faces between pins alone, so they keep the new vertices they need.
     for (columns, rows) in [(5, 4), (7, 7), (12, 3)] {
         let (mesh, flat) = sheet(columns, rows);
         let boundary = mesh.boundary_loop();
@@ -70,7 +70,7 @@ fn room_is_made_beside_pins_that_hold_a_crossing_boundary() {
         let before = bare(&mesh, &flat, &pins);
         let after = roomy(&mesh, &before, &pins);
         let count = |found: &Matched| found.refinement.new_vertices().len();
-        // The boundary crosses as it is held: it must bend somewhere.
+        // The pinned boundary crosses itself, so some boundary edge must bend.
         assert!(0 < count(&after) && count(&after) < count(&before), "{} {}", count(&before), count(&after));
     }
 }
@@ -89,7 +89,7 @@ fn room_is_made_the_same_way_whatever_runs_beside_it() {
 
 #[test]
 fn paths_are_laid_in_the_order_that_needs_few_new_vertices() {
-    // So many were needed when this was written; more would be a step back.
+    // Count when this test was written; more would be a regression.
     const NEEDED: usize = 730;
     let mut all = 0;
     for seed in 1..=6 {
@@ -101,7 +101,7 @@ fn paths_are_laid_in_the_order_that_needs_few_new_vertices() {
             vertices.swap(i, i + random.below(rest) as usize);
         }
         vertices.truncate(8);
-        // One cycle through all of them.
+        // A single cycle through all of them.
         let targets: Vec<DVec2> = vertices.iter().cycle().skip(1).take(8).map(|v| flat[v.index()]).collect();
         let pins = hard_pins(vertices.into_iter().zip(targets));
         let found = matched(&mesh, &flat, &pins, Control::unattended()).unwrap();

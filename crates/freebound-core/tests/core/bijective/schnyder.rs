@@ -1,4 +1,4 @@
-//! Schnyder's grid drawing: planar on whatever is a disk, in whole numbers no larger than the count of vertices.
+//! Schnyder's grid drawing: planar on every disk, in integers no larger than the number of vertices.
 
 use freebound_core::bijective::schnyder;
 use freebound_core::mesh::{DiskMesh, VertexId};
@@ -10,12 +10,12 @@ use freebound_testkit::{
     Entry, Random, corpus_test, data_triangle_disks, disk, fan, grid, hand, manifest, stacked, steps, tube,
 };
 
-/// Every face positive and the boundary simple, on the grid that the theorem promises.
+/// Asserts that every face is positive, the boundary simple, and all vertices on the grid of the theorem.
 fn assert_drawn(name: &str, mesh: &DiskMesh) {
     let embedding = schnyder(mesh);
     let found = verdict(mesh, &embedding);
     assert!(found.planar && !found.mirrored, "{name}: {}", found.summary());
-    // With the apex there are n + 1 vertices: a grid of n − 1.
+    // The apex makes n + 1 vertices, hence a grid of n − 1.
     let most = (mesh.vertex_count() - 1) as f64;
     for z in embedding.iter().flat_map(|z| [z.x, z.y]) {
         assert!(z == z.trunc() && (0.0..=most).contains(&z), "{name}: {z} is not on the grid up to {most}");

@@ -1,4 +1,4 @@
-//! The virtual boundary (paper §5): pockets, frames, reproduction, and the boundaries that make trouble.
+//! Virtual boundary (paper §5): pockets, frames, reproduction, and difficult boundaries.
 
 use std::collections::BTreeSet;
 
@@ -14,23 +14,23 @@ use glam::{DVec2, DVec3};
 
 use freebound_testkit::{Random, corpus_entry, corpus_test, disk, grid};
 
-/// A planar embedding may move by this share of its diameter: 2D reproduction.
+/// Largest move of a planar embedding relative to its diameter: 2D reproduction.
 const REPRODUCED: f64 = 1e-12;
 
 fn flat(mesh: &DiskMesh) -> Embedding {
     mesh.mesh().positions.iter().map(|x| DVec2::new(x.x, x.y)).collect()
 }
 
-/// Solved within the outline and peeled.
+/// Solves within the outline, and returns the mesh's part.
 fn solved(mesh: &DiskMesh, extended: &Extended) -> Embedding {
     let equations = mean_value_in_plane(&extended.disk, &extended.embedding, Control::unattended()).unwrap();
-    // Summed up from the equations, so that the answer does not lean on what is known of positive faces.
+    // Accumulated from the equations, so that the result does not rely on positive faces.
     let (positions, numbers) = extended.solve(equations, &extended.embedding, None, Control::unattended()).unwrap();
     assert!(numbers.residual <= 1e-10, "{:.1e}", numbers.residual);
     Embedding::of_mesh(mesh, &positions)
 }
 
-/// A grid with further triangles on its lower side, whose tips lie at the given heights above that side's edge.
+/// Grid with extra triangles on its lower side, their tips at the given heights above that side's edge.
 fn grid_with_ears(columns: u32, heights: &[(u32, f64)]) -> (DiskMesh, Embedding) {
     let TriMesh { mut positions, triangles, .. } = grid(columns, columns);
     let mut faces: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(VertexId::number)).collect();

@@ -1,4 +1,4 @@
-//! Polygons hold however other programs cut them into triangles.
+//! Polygons stay valid for every triangulation that other programs choose.
 
 use freebound_core::flatten::{Flattener, Step};
 use freebound_core::mesh::{DiskMesh, PolygonMesh, TriMesh, VertexId};
@@ -9,15 +9,16 @@ use robust::orient2d;
 
 use freebound_testkit::{Random, coord, honeycomb, quad_sheet};
 
-/// Triangles by places in a polygon.
+/// Triangles by corner indices in a polygon.
 type Cut = Vec<[usize; 3]>;
 
-/// All triangles from one corner, as MeshLab, trimesh and assimp cut; from the next corner it is a quad's other diagonal.
+/// Fan from one corner, as in MeshLab, trimesh and assimp; from the next corner it is a quad's other diagonal.
 fn fan(count: usize, apex: usize) -> Cut {
     (1..count - 1).map(|k| [apex, (apex + k) % count, (apex + k + 1) % count]).collect()
 }
 
-/// Ears, the widest angle first, of the polygon as seen along its normal: Blender's way with polygons, in short.
+/// Ear clipping, widest angle first, of the polygon seen along its normal: a simplified form of Blender's
+/// triangulation.
 fn ears(points: &[DVec3]) -> Cut {
     let normal = normal_of(points);
     let mut left: Vec<usize> = (0..points.len()).collect();
@@ -43,14 +44,14 @@ fn normal_of(points: &[DVec3]) -> DVec3 {
     turns.sum::<DVec3>().normalize_or_zero()
 }
 
-/// Whether every corner turns left in space, by an angle that cannot be doubted.
+/// True if every corner turns left in space by a clear angle.
 fn is_convex_in_space(points: &[DVec3]) -> bool {
     let (normal, count) = (normal_of(points), points.len());
     let side = |k: usize| (points[(k + 1) % count] - points[k % count]).normalize_or_zero();
     (0..count).all(|k| side(k).cross(side(k + 1)).dot(normal) > 1e-4)
 }
 
-/// Folded triangles of whole polygons, over all ways to cut; and how many polygons were looked at.
+/// Number of folded triangles of whole polygons over all triangulations, and number of polygons checked.
 fn folds(whole: &[&[VertexId]], positions: &[DVec3], embedding: &Embedding) -> (usize, usize) {
     let (mut folded, mut looked_at) = (0, 0);
     for polygon in whole {
@@ -71,7 +72,7 @@ fn in_f32(embedding: &Embedding) -> Embedding {
     embedding.iter().map(|z| z.as_vec2().as_dvec2()).collect()
 }
 
-/// The last step of a flattener.
+/// Last step of a flattener.
 fn last_step(disk: &DiskMesh, settings: Settings, pins: Pins) -> Step {
     let mut last = None;
     let mut ladder = Flattener::new(settings, pins);
@@ -79,7 +80,7 @@ fn last_step(disk: &DiskMesh, settings: Settings, pins: Pins) -> Step {
     last.expect("a step")
 }
 
-/// The polygons that are written whole.
+/// Polygons that are written whole.
 fn whole_polygons<'a>(mesh: &'a PolygonMesh, disk: &DiskMesh, step: &Step) -> Vec<&'a [VertexId]> {
     let cut = step.candidate.refinement.as_ref().map(|refinement| refinement.cut_polygons(disk)).unwrap_or_default();
     let is_whole = |number: &usize| !cut.iter().any(|polygon| polygon.index() == *number);
@@ -146,7 +147,7 @@ fn planar_polygons_fold_in_no_other_program_over_300_meshes() {
     assert_no_folds(300);
 }
 
-/// A wavy sheet of `side`² quads in the unit square.
+/// Wavy sheet of `side`² quads in the unit square.
 fn waves(side: u32) -> PolygonMesh {
     let mut mesh = quad_sheet(side, side, 0.0, &mut Random(0));
     for position in &mut mesh.positions {
@@ -181,7 +182,7 @@ fn a_dart_of_positive_triangles_is_named_as_a_concave_polygon() {
     let mut flat: Embedding = mesh.positions.iter().map(|p| p.truncate()).collect();
     assert!(verdict(&disk, &flat).planar);
     let polygon = disk.polygons().next().expect("two quads");
-    // An end of the diagonal of the cut goes over the other diagonal: both triangles stay positive.
+    // One end of the cut's diagonal crosses the other diagonal; both triangles stay positive.
     let is_end = |v: &VertexId| polygon.faces().all(|face| disk.face(face).contains(v));
     let at = polygon.corners.iter().position(is_end).expect("the cut has a diagonal");
     let [tip, side, far, other] = [0, 1, 2, 3].map(|k| polygon.corners[(at + k) % 4]);
@@ -193,7 +194,7 @@ fn a_dart_of_positive_triangles_is_named_as_a_concave_polygon() {
     assert_eq!(found.summary(), "1 concave polygon");
 }
 
-/// The same polygons, each cut into the fan of some corner.
+/// Triangulates every polygon as a fan from a random corner.
 fn cut_in_fans(mesh: &PolygonMesh, random: &mut Random) -> TriMesh {
     let mut triangles = mesh.triangulate();
     let mut next = 0;
@@ -230,7 +231,7 @@ fn the_cut_of_polygons_does_not_show_in_a_linear_solve() {
 
 #[test]
 fn two_quads_around_a_vertex_of_valence_two_are_a_disk_and_end_planar() {
-    // A quad in the middle of which a vertex hangs on two edges: two quads share three corners.
+    // A vertex inside a quad with two edges: two quads share three corners.
     let positions = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0], [1.1, 0.9, 0.1]];
     let faces = [[0, 1, 4, 3], [1, 2, 3, 4]];
     let mesh = PolygonMesh {

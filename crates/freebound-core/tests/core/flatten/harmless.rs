@@ -1,4 +1,4 @@
-//! Meshes whose only faults are faces without area, or vertices of no face: they flatten as they are.
+//! Meshes with harmless faults only (degenerate faces, unreferenced vertices) flatten without repair.
 
 use freebound_core::flatten::{Flattener, Step};
 use freebound_core::mesh::{DiskMesh, Fault, TriMesh, VertexId, diagnose};
@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 
 use freebound_testkit::{Random, corpus_entry, corpus_test, disk, fan, grid, sheet};
 
-/// The last step of a run.
+/// Last step of a run.
 fn last_step(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Step {
     let mut last = None;
     Flattener::new(settings.clone(), pins.clone())
@@ -23,7 +23,7 @@ fn method(method: Method) -> Settings {
     Settings::new(method, Family::default())
 }
 
-/// A mesh with a vertex of no face, far away, in place of the one of this number; that and all behind it move up by one.
+/// Inserts an unreferenced, distant vertex at index `number`; later vertices move up by one.
 fn with_stray(mut mesh: TriMesh, number: u32) -> TriMesh {
     mesh.positions.insert(number as usize, DVec3::new(1e3, -2e200, 5e2));
     for corner in mesh.triangles.iter_mut().flatten() {
@@ -59,7 +59,7 @@ fn a_vertex_of_no_face_changes_no_bit_of_an_embedding() {
 
 #[test]
 fn a_vertex_of_no_face_changes_no_bit_where_pins_need_every_rung() {
-    // Four corners of the sheet, two of them changed over: only new vertices can meet that.
+    // Four corners of the sheet with two of them swapped: only new vertices can meet that.
     let corners = [(0, [0.0, 0.0]), (6, [0.0, 1.0]), (24, [0.4, 0.6]), (42, [1.0, 0.0]), (48, [1.0, 1.0])];
     for number in [3, 49] {
         let pins = |number: u32| -> Pins {
@@ -84,8 +84,8 @@ fn a_pin_on_a_vertex_of_no_face_is_refused_by_its_number() {
     assert_eq!(refused, SolveError::UnusedVertex { vertex: VertexId::new(4) });
 }
 
-/// A sheet of faces without area of all kinds: a vertex in the middle of an edge of a neighbour, two vertices in one
-/// place, and a whole fan on one line.
+/// Sheet with degenerate faces of all kinds: a vertex in the middle of a neighbour's edge, two coinciding vertices,
+/// and a whole fan on one line.
 fn with_flat_faces() -> TriMesh {
     let mut mesh = sheet(8, 0.3);
     let at = |column: usize, row: usize| 9 * row + column;
@@ -145,7 +145,7 @@ fn mollified_triangles_have_the_sides_and_the_margin_that_the_source_asks_for() 
         let longest = after.into_iter().fold(0.0, f64::max);
         least_margin = least_margin.min(after.iter().sum::<f64>() - 2.0 * longest);
     }
-    // The least ε: the margin is reached, and by no more than is asked for.
+    // The least ε: the margin is reached, without excess.
     assert!((least_margin - 1e-5 * mean).abs() < 1e-12, "{least_margin} for {mean}");
 }
 

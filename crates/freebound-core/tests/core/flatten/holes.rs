@@ -1,5 +1,5 @@
-//! Surfaces with holes, flattened with their holes filled: each result without its filling against the verdict on charts,
-//! which knows of no filling but looks at every loop.
+//! Surfaces flattened with filled holes. Each result without its filling is checked against the verdict on charts,
+//! which ignores fillings but checks every loop.
 
 use freebound_testkit::surfaces::without_faces;
 use std::collections::BTreeSet;
@@ -23,12 +23,12 @@ fn filled(mesh: &PolygonMesh) -> (Repaired, DiskMesh) {
     (repaired, disk)
 }
 
-/// How many holes were filled.
+/// Number of filled holes.
 fn count(repaired: &Repaired) -> usize {
     repaired.done().iter().find(|done| done.repair == Repair::FillHoles).map_or(0, |done| done.count)
 }
 
-/// The verdict on what is left without the filling.
+/// Verdict on the map without the filling.
 fn peeled(repaired: &Repaired, embedding: &Embedding) -> AtlasVerdict {
     let mesh = repaired.polygons().triangulate();
     let charts = parts(&mesh).unwrap_or_else(|faults| panic!("{faults}"));
@@ -37,7 +37,7 @@ fn peeled(repaired: &Repaired, embedding: &Embedding) -> AtlasVerdict {
     atlas_verdict(&charts, embedding)
 }
 
-/// A sheet of quads, some of its inner quads left out.
+/// Sheet of quads with some inner quads removed.
 fn holed_sheet(random: &mut Random, side: u32, roughness: f64) -> PolygonMesh {
     let sheet = quad_sheet(side, side, roughness, random);
     loop {
@@ -83,14 +83,14 @@ fn an_embedding_is_planar_where_its_surface_is_proved_by_its_loops_and_only_ther
 
 #[test]
 fn a_hole_that_crosses_itself_alone_is_named() {
-    // A square ring around a square: its inner loop is pulled through itself, and no face is turned over for it.
+    // A square ring around a square: its inner loop is pulled through itself, and no face flips.
     let ring = without_faces(&quads(3), |face| face == 4);
     let (repaired, disk) = filled(&ring);
     let mut embedding: Embedding = disk.mesh().positions.iter().map(|p| p.truncate()).collect();
     assert!(verdict(&disk, &embedding).planar);
     let inner = [5, 6, 10, 9].map(VertexId::new);
     assert_eq!(disk.mesh().holes()[0].rim, inner, "counter-clockwise around the hole, the lowest first");
-    // The two lower corners change over with the two upper ones: the hole is turned inside out, faces with it.
+    // The two lower corners swap with the upper ones: the hole turns inside out, and some faces with it.
     for v in inner {
         embedding[v].y = 3.0 - embedding[v].y;
     }
@@ -99,7 +99,7 @@ fn a_hole_that_crosses_itself_alone_is_named() {
     assert!(!peeled(&repaired, &embedding).planar);
 }
 
-/// A flat sheet of unit quads.
+/// Flat sheet of unit quads.
 fn quads(side: u32) -> PolygonMesh {
     let mut mesh = quad_sheet(side, side, 0.0, &mut Random(1));
     mesh.positions.iter_mut().for_each(|p| p.z = 0.0);
@@ -137,7 +137,7 @@ fn every_method_flattens_sheets_with_random_holes() {
 
 #[test]
 fn a_flat_plate_keeps_its_shape_whatever_the_shape_of_its_holes() {
-    // A hole in the form of a C, and a square one.
+    // A C-shaped hole and a square one.
     let c = [22, 23, 24, 25, 32, 42, 52, 53, 54, 55];
     let mesh = without_faces(&quads(10), |face| c.contains(&face) || face == 77);
     let (repaired, disk) = filled(&mesh);
@@ -152,7 +152,7 @@ fn a_flat_plate_keeps_its_shape_whatever_the_shape_of_its_holes() {
 
 #[test]
 fn a_slit_is_filled_with_faces_that_have_an_area() {
-    // Two edges of a sheet opened: the loop around them encloses nothing.
+    // Two edges of a sheet opened: the loop around them encloses no area.
     let mut mesh = grid(6, 6);
     let slit = [16, 17, 18, 19].map(VertexId::new);
     let copies: Vec<VertexId> = (0..2).map(|k| VertexId::from_index(mesh.vertex_count() + k)).collect();
@@ -178,7 +178,7 @@ fn a_slit_is_filled_with_faces_that_have_an_area() {
 
 #[test]
 fn whatever_the_holes_of_a_rough_surface_filling_them_makes_a_disk() {
-    // Rims that are far from flat, with edges of the surface from one vertex of a rim to another.
+    // Rims far from flat, with surface edges that join vertices of one rim.
     let mut random = Random(41);
     let mut filled_count = 0;
     for case in 0..200 {
@@ -244,7 +244,7 @@ fn what_fills_holes_is_no_part_of_areas_and_distortion() {
     let embedding = &steps.last().unwrap().candidate.solution.embedding;
     let found = distortion(&disk, embedding);
     assert_eq!(found.faces.len(), disk.mesh().real_face_count());
-    // Moving what only fills holes changes no measure.
+    // Moving the filling changes no measure.
     let mut moved = embedding.clone();
     for vertex in disk.virtual_vertices() {
         moved[vertex] += DVec2::splat(0.01);
@@ -269,13 +269,14 @@ fn relaxing_lowers_the_distortion_of_a_sheet_with_holes_and_keeps_it_proved() {
     assert!(!relaxed.is_empty());
     assert!(relaxed.windows(2).all(|pair| energy(pair[1]) <= energy(pair[0])));
     assert!(relaxed.iter().all(|step| peeled(&repaired, &step.candidate.solution.embedding).planar));
-    // The energy that is told is that of the surface: the mean by area of what the distortion says of each face.
+    // The reported energy is that of the surface: the area-weighted mean of the faces' distortion.
     let last = relaxed[relaxed.len() - 1];
     let told = distortion(&disk, &last.candidate.solution.embedding).summary.symmetric_dirichlet.mean;
     assert!((energy(last) / told - 1.0).abs() < 1e-3, "{} and {told}", energy(last));
 }
 
-/// Pins that turn the vertices around a hole by a third of a full turn; the corners of the sheet of 6 × 6 quads stay.
+/// Pins that rotate the vertices around a hole by a third of a full turn. The corners of the sheet of 6 × 6 quads
+/// stay.
 fn hole_turned(disk: &DiskMesh) -> Pins {
     let hole = &disk.mesh().holes()[0];
     let middle = hole.rim.iter().map(|&v| disk.position(v).truncate()).sum::<DVec2>() / hole.rim.len() as f64;
@@ -295,7 +296,7 @@ fn constraints_around_holes_are_met_with_new_vertices_where_that_takes_some() {
         let last = steps.last().unwrap();
         assert_eq!((ending, last.unmet()), (Ending::Planar, Vec::new()), "{method:?}");
         let of = last.candidate.mesh(&disk);
-        // The surface of the refinement by itself: faces of the file alone.
+        // Surface of the refinement alone: faces of the file only.
         let surface = TriMesh { triangles: of.mesh().real_triangles().to_vec(), polygon_of: None, ..of.mesh().clone() };
         let charts = parts(&surface).unwrap();
         assert!(atlas_verdict(&charts, &last.candidate.solution.embedding).planar, "{method:?}");
@@ -307,8 +308,8 @@ fn constraints_around_holes_are_met_with_new_vertices_where_that_takes_some() {
 
 #[test]
 fn whichever_of_equally_long_ways_rounding_takes_constraints_around_a_hole_end_planar() {
-    // Every edge of the sheet is as long as many others, and the last bits decide which paths come first. After some of them
-    // quads are concave still where relaxing ends: those are cut.
+    // Many edges of the sheet have equal length, so rounding decides the order of the paths. Some quads may stay
+    // concave when relaxation ends, and are cut.
     let mut cut = 0;
     for seed in 0..24 {
         let mut random = Random(seed);

@@ -1,4 +1,4 @@
-//! The flattener (`auto`): it ends planar on every disk, whatever the first stage was given.
+//! The automatic strategy (`auto`) ends planar on every disk, whatever the input of its first stage.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -22,7 +22,7 @@ fn steps_of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Vec<Step> {
     steps
 }
 
-/// Pins on two vertices, at their distance in space.
+/// Pins two vertices at their distance in space.
 fn pins_on(mesh: &DiskMesh, [a, b]: [VertexId; 2]) -> Pins {
     hard_pins([(a, DVec2::ZERO), (b, DVec2::new(mesh.position(a).distance(mesh.position(b)), 0.0))])
 }
@@ -123,7 +123,7 @@ corpus_test! {
             .expect("for some pins these weights cross the boundary");
         let last = steps.last().unwrap();
         assert!(last.verdict.planar && !last.candidate.has_convex_boundary());
-        assert!(steps.iter().any(|step| step.candidate.note.as_ref().is_some_and(|note| note.contains("started again"))));
+        assert!(steps.iter().any(|step| step.candidate.note.as_ref().is_some_and(|note| note.contains("restarted with"))));
     }
 }
 
@@ -138,7 +138,7 @@ corpus_test! {
         assert!(matches!(alone, Err(SolveError::Singular { .. })), "{alone:?}");
         let steps = steps_of(&mesh, Settings::new(Method::Auto, Family::Wachspress), &Pins::new());
         let note = steps[0].candidate.note.clone().unwrap_or_default();
-        assert!(note.contains("singular") && note.contains("started again"), "{note}");
+        assert!(note.contains("singular") && note.contains("restarted with"), "{note}");
         assert!(steps.last().unwrap().verdict.planar);
     }
 }
@@ -160,7 +160,7 @@ fn constraints_are_iterated_on_and_then_met_one_to_one_but_no_boundary_is_bent_f
     let mut pins = Pins::new();
     let boundary = mesh.boundary_loop();
     for k in 0..5 {
-        // Five places of a pentagram: a natural boundary has to cross itself.
+        // Five points of a pentagram: a natural boundary must cross itself.
         let v = boundary[k * boundary.len() / 5];
         pins.insert(v, Pin::hard(DVec2::from_angle(2.0 * std::f64::consts::TAU * k as f64 / 5.0) * 10.0));
     }
@@ -176,7 +176,7 @@ fn constraints_are_iterated_on_and_then_met_one_to_one_but_no_boundary_is_bent_f
     assert!(steps[..tried].iter().all(is_met) && steps.last().is_some_and(|step| step.verdict.planar && is_met(step)));
 }
 
-/// A run whose every step is first cancelled at each of its phases in turn, then let through.
+/// Cancels every step at each of its phases in turn, then lets it finish.
 fn disturbed(mesh: &DiskMesh, mut run: Flattener) -> Vec<Step> {
     let (mut found, mut allowed, mut cancelled): (Vec<Step>, _, _) = (Vec::new(), 0, 0);
     while run.ending().is_none() {
@@ -255,7 +255,7 @@ fn a_virtual_boundary_refuses_constraints_and_says_what_to_choose() {
 
 #[test]
 fn every_ladder_ends_however_far_apart_the_numbers_are() {
-    // Faces squeezed far beyond what 64 bits can tell apart, and a similarity that takes them farther still.
+    // Faces squeezed far beyond 64-bit precision, and a similarity that worsens it.
     let mesh = finger(120, 8, &mut Random(2));
     let boundary = mesh.boundary_loop();
     let far = hard_pins([(boundary[0], DVec2::ZERO), (boundary[4], DVec2::new(1e61, 0.0))]);

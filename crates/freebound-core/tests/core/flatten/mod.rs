@@ -1,4 +1,4 @@
-//! Methods from settings and pins to proved steps; holes, harmless faults, a given start.
+//! Methods from settings and pins to proved steps; holes, harmless faults, starts from an embedding.
 
 pub(crate) mod convex_polygons;
 pub(crate) mod harmless;

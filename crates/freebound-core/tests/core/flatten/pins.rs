@@ -1,4 +1,4 @@
-//! Pins: met exactly, completed where there are too few, refused where they cannot be.
+//! Pins: met exactly, completed if there are too few, refused if impossible.
 
 #![allow(clippy::float_cmp, reason = "the unit square is filled bit for bit")]
 
@@ -28,7 +28,7 @@ fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Result<Embedding,
     solve_once(mesh, settings, pins, Control::unattended()).map(|solution| solution.embedding)
 }
 
-/// Total area of the embedding's faces, turned ones counted as they lie.
+/// Signed total area of the embedding's faces.
 fn signed_area(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     mesh.faces()
         .map(|face| {
@@ -191,7 +191,7 @@ fn a_single_triangle_and_all_vertices_pinned_are_no_special_cases() {
     }
 }
 
-/// The largest distance of two boundary vertices, by trying all pairs.
+/// Largest distance between two boundary vertices, over all pairs.
 fn farthest_distance(mesh: &DiskMesh) -> f64 {
     let boundary = mesh.boundary_loop();
     let distance = |a: VertexId, b: VertexId| mesh.position(a).distance_squared(mesh.position(b));

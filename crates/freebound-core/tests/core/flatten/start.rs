@@ -1,4 +1,4 @@
-//! Methods that go on from a layout: it is the first step as it is, and what follows begins there.
+//! Starts from an embedding: it becomes the first step unchanged, and later steps start from it.
 
 use std::sync::Arc;
 
@@ -12,14 +12,14 @@ use glam::DVec2;
 use freebound_testkit::surfaces::bump;
 use freebound_testkit::{disk, grid};
 
-/// Seen from above, sheared, and away from the origin: planar, and not at all as the surface is.
+/// View from above, sheared and shifted: planar, but far from isometric.
 fn sheared(mesh: &DiskMesh) -> Embedding {
     let place = |v: VertexId| mesh.position(v).truncate();
     let shear = |z: DVec2| DVec2::new(0.1 * z.x + 0.05 * z.y, 0.03 * z.y) + DVec2::new(3.0, -2.0);
     mesh.vertices().map(|v| shear(place(v))).collect()
 }
 
-/// The same with one vertex pulled over its neighbours.
+/// Sheared view with one vertex pulled over its neighbours.
 fn folded(mesh: &DiskMesh) -> Embedding {
     let mut layout = sheared(mesh);
     let middle = mesh.vertex_count() / 2;
@@ -38,7 +38,7 @@ fn finished(mesh: &DiskMesh, mut ladder: Flattener) -> (Vec<Step>, Result<Ending
     (steps, ending)
 }
 
-/// Triangles that are not positive, by their areas.
+/// Number of triangles without positive area.
 fn flipped_count(mesh: &DiskMesh, layout: &Embedding) -> usize {
     let corners = |face| mesh.face(face).map(|v| layout[v]);
     mesh.faces().map(corners).filter(|[a, b, c]| (*b - *a).perp_dot(*c - *a) <= 0.0).count()
@@ -76,7 +76,7 @@ fn a_planar_layout_of_high_energy_or_of_more_than_32_bits_is_relaxed_only_where_
         assert_eq!((steps.len(), ending), (1, Ok(Ending::Planar)));
         assert!(energy(&mesh, &steps[0]) > 20.0 || !steps[0].verdict.planar_in_f32);
         assert_eq!(steps[0].candidate.solution.embedding, layout, "to the last bit");
-        // Constraints are met from the layout as it is.
+        // Constraints are met starting from the unchanged embedding.
         let pins = [0, 6, 24, 48].map(|v| (VertexId::new(v), layout[v as usize] + DVec2::new(0.001, 0.0)));
         let settings = Settings::new(Method::Continuation, Family::Conformal);
         let (steps, ending) = finished(&mesh, ladder(settings, hard_pins(pins), &layout));
@@ -103,7 +103,7 @@ fn relaxing_begins_with_the_layout_and_stays_planar_at_every_step() {
     let energies: Vec<f64> = steps.iter().map(|step| energy(&mesh, step)).collect();
     assert!(energies.is_sorted_by(|before, after| after <= before), "{energies:?}");
     assert!(energies[energies.len() - 1] < 0.6 * energies[0], "{energies:?}");
-    // It lies over the layout, as large as that is.
+    // Steps lie over the embedding, at equal size.
     let middle = |z: &Embedding| z.iter().sum::<DVec2>() / z.len() as f64;
     let spread = |z: &Embedding| z.iter().map(|p| p.distance_squared(middle(z))).sum::<f64>();
     for step in &steps {
@@ -115,7 +115,7 @@ fn relaxing_begins_with_the_layout_and_stays_planar_at_every_step() {
 
 #[test]
 fn an_iteration_from_a_planar_layout_stays_there() {
-    // Mean-value weights of an embedding reproduce it, the boundary included.
+    // Mean-value weights of an embedding reproduce it, boundary included.
     let mesh = disk(bump(6));
     let layout = sheared(&mesh);
     let mut ladder = ladder(Settings::new(Method::Iterate, Family::Conformal), Pins::new(), &layout);
@@ -142,14 +142,14 @@ fn a_folded_layout_is_shown_with_its_faults_and_then_solved() {
     assert_eq!(steps[1].candidate.stage, Stage::Natural);
     let note = steps[1].candidate.note.as_deref().unwrap_or_default();
     assert!(note.contains("not one-to-one"), "{note}");
-    // What follows is what there is without a layout, laid over it.
+    // Later steps equal those without a start, laid over the embedding.
     let (from_scratch, _) = finished(&mesh, Flattener::new(one_of_each(), Pins::new()));
     let shape = |step: &Step| energy(&mesh, step);
     assert!((shape(&steps[1]) - shape(&from_scratch[0])).abs() < 1e-9);
     assert!(size_ratio(&steps[1].candidate.solution.embedding, &layout) < 2.0);
 }
 
-/// How many times as large the larger of two layouts is.
+/// Ratio of the larger embedding's size to the smaller one's.
 fn size_ratio(a: &Embedding, b: &Embedding) -> f64 {
     let ratio = a.bounds().diameter() / b.bounds().diameter();
     ratio.max(ratio.recip())
@@ -222,7 +222,7 @@ fn one_pin_moves_the_layout_and_turns_and_sizes_nothing() {
 
 #[test]
 fn a_layout_whose_hole_cannot_be_filled_as_it_is_stays_proved_and_is_not_relaxed() {
-    // Around the hole in the middle one corner is drawn in, past the middle of the four.
+    // One corner of the middle hole is drawn in, past the middle of the four.
     let (mesh, layout) = drawn_in(0.15);
     for relax_rounds in [None, Some(5)] {
         let settings = Settings { relax_rounds, ..one_of_each() };
@@ -230,7 +230,7 @@ fn a_layout_whose_hole_cannot_be_filled_as_it_is_stays_proved_and_is_not_relaxed
         assert_eq!((steps.len(), ending), (1, Ok(Ending::Planar)));
         assert!(steps[0].verdict.planar && steps[0].verdict.is_filling_folded);
     }
-    // Where the filling holds, relaxing goes on.
+    // If the filling is not folded, relaxation continues.
     let (mesh, layout) = drawn_in(0.9);
     let settings = Settings { relax_rounds: Some(5), ..one_of_each() };
     let (steps, ending) = finished(&mesh, ladder(settings, Pins::new(), &layout));
@@ -238,7 +238,8 @@ fn a_layout_whose_hole_cannot_be_filled_as_it_is_stays_proved_and_is_not_relaxed
     assert!(steps.iter().all(|step| step.verdict.planar && !step.verdict.is_filling_folded));
 }
 
-/// Three by three cells, the middle one a hole, whose far corner lies in the layout so far along its diagonal.
+/// Three by three cells with a hole in the middle. The embedding moves the hole's far corner along its diagonal by
+/// `share`.
 fn drawn_in(share: f64) -> (DiskMesh, Embedding) {
     let TriMesh { mut positions, mut triangles, .. } = grid(3, 3);
     let middle = |t: &[VertexId; 3]| t.iter().map(|v| positions[v.index()].truncate()).sum::<DVec2>() / 3.0;

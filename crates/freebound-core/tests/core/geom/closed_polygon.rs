@@ -1,4 +1,4 @@
-//! Closed polygons in the plane: where they meet themselves, how often they turn and wind.
+//! Closed polygons in the plane: self-intersections, turning number, winding number.
 
 use std::time::{Duration, Instant};
 
@@ -49,7 +49,7 @@ fn edges_that_overlap_cross() {
 #[test]
 fn an_edge_that_folds_back_crosses_its_neighbour() {
     assert_eq!(crossings(&points(&[[0, 0], [4, 0], [2, 0], [2, 3]])).pairs, [[0, 1], [0, 2]]);
-    // The same with the spike at the first corner.
+    // The spike at the first corner.
     assert_eq!(crossings(&points(&[[4, 0], [2, 0], [2, 3], [0, 0]])).pairs, [[0, 3], [1, 3]]);
 }
 
@@ -68,7 +68,7 @@ fn corners_that_are_not_finite_take_no_part() {
 
 #[test]
 fn beyond_the_limit_crossings_are_no_longer_looked_for() {
-    // A comb laid over another: 400 teeth across 400 teeth, 4 · 400² pairs at least.
+    // Two combs laid across each other: 400 teeth across 400 teeth, at least 4 · 400² pairs.
     let teeth = 400;
     let mut corners = Vec::new();
     for tooth in 0..teeth {

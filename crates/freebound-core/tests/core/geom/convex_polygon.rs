@@ -1,4 +1,4 @@
-//! Convex polygons of the user's: what is read comes back, and what is none is refused with the reason.
+//! Convex polygons of the user: valid ones survive a round trip, others are refused with the reason.
 
 use freebound_core::geom::{ConvexPolygon, PolygonFault};
 use glam::DVec2;
@@ -32,10 +32,10 @@ fn what_is_no_convex_polygon_is_refused_with_its_reason() {
     }
     assert_eq!(fault("0 0; 0 1; 1 1; 1 0"), PolygonFault::Clockwise);
     assert_eq!(fault("0 0; 2 0; 2 2; 1 0.5"), PolygonFault::NotConvex { corner: 4, x: 1.0, y: 0.5 });
-    // A straight corner, and two corners in one place.
+    // A straight corner, and two coinciding corners.
     assert_eq!(fault("0 0; 1 0; 2 0; 1 1"), PolygonFault::NotConvex { corner: 2, x: 1.0, y: 0.0 });
     assert!(matches!(fault("0 0; 1 0; 1 0; 0 1"), PolygonFault::NotConvex { .. }));
-    // A straight corner by one unit of the last place is told from a turn.
+    // A corner that is straight up to one unit in the last place is distinguished from a turn.
     let bent = |y: f64| ConvexPolygon::new(&[DVec2::ZERO, DVec2::new(1.0, y), DVec2::new(2.0, 0.0), DVec2::Y]);
     assert!(bent(-f64::MIN_POSITIVE).is_ok() && bent(0.0).is_err());
     let star = (0..5).map(|k| DVec2::from_angle(f64::from(2 * k) / 5.0 * std::f64::consts::TAU));
@@ -58,7 +58,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn what_is_written_is_read_again_bit_for_bit_and_is_one_list(
+    fn what_is_written_is_read_again_bit_for_bit_and_clones_share_it(
         gaps in prop::collection::vec(0.2..1.0_f64, 3..9), size in -90..90_i32, middle in -1e3..1e3_f64,
     ) {
         let total: f64 = gaps.iter().sum();
@@ -70,6 +70,8 @@ proptest! {
         let polygon = ConvexPolygon::new(&corners).expect("on a circle");
         let again = ConvexPolygon::parse(&polygon.to_string()).expect("written by itself");
         prop_assert_eq!(again.corners(), &corners[..]);
-        prop_assert!(std::ptr::eq(again.corners(), polygon.corners()), "kept once");
+        let clone = polygon.clone();
+        prop_assert!(std::ptr::eq(clone.corners(), polygon.corners()), "shared");
+        prop_assert_eq!(again, polygon);
     }
 }

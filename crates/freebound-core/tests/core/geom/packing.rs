@@ -1,12 +1,12 @@
-//! Boxes packed into a picture: that they lie apart, by comparing them all; that they are large, against shelves; and the
-//! rectangle of the least area around points, against all turns.
+//! Packing boxes into a picture: disjoint by comparing all pairs, and large compared with shelves. Also the
+//! least-area rectangle around points, compared with all rotations.
 
 use freebound_core::geom::{Bounds, Packing, PackingOptions, convex_hull, least_box_turn, pack};
 use glam::{DVec2, UVec2};
 
 use freebound_testkit::Random;
 
-/// Numbers are of pixels up to some thousands; their rounding is far below this.
+/// Rounding tolerance, pixels. Coordinates reach some thousands of pixels.
 const ROUNDING: f64 = 1e-6;
 
 fn random_boxes(count: usize, random: &mut Random) -> Vec<DVec2> {
@@ -14,14 +14,14 @@ fn random_boxes(count: usize, random: &mut Random) -> Vec<DVec2> {
     (0..count).map(|_| DVec2::new(side(), side())).collect()
 }
 
-/// Where a packed box lies, in pixels.
+/// Bounds of a packed box, pixels.
 fn place_of(size: DVec2, packing: &Packing, k: usize) -> Bounds {
     let packed = packing.places[k];
     let size = packing.scale * if packed.turned { DVec2::new(size.y, size.x) } else { size };
     Bounds::of([packed.low, packed.low + size])
 }
 
-/// Packs, and asserts that boxes keep their gap from each other, and half of it from the edge.
+/// Packs, and asserts the gap between boxes and half of it to the edge.
 #[track_caller]
 fn packed(sizes: &[DVec2], options: PackingOptions) -> Packing {
     let packing = pack(sizes, options);
@@ -34,7 +34,7 @@ fn packed(sizes: &[DVec2], options: PackingOptions) -> Packing {
         assert!(place.high.cmple(inside).all(), "box {k} at {place:?} in {}", packing.picture);
         assert!(options.turns || !packing.places[k].turned, "box {k}");
     }
-    // Sorted by their left side, a box can only meet those that begin before it ends.
+    // Sorted by left side, a box can only meet boxes that begin before it ends.
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by(|&a, &b| places[a].low.x.total_cmp(&places[b].low.x));
     for (at, &a) in order.iter().enumerate() {
@@ -47,7 +47,7 @@ fn packed(sizes: &[DVec2], options: PackingOptions) -> Packing {
     packing
 }
 
-/// The largest factor by which boxes fit on shelves: the highest first, side by side, a new shelf above where one is full.
+/// Largest scale at which boxes fit on shelves: highest first, side by side, a new shelf above a full one.
 fn scale_on_shelves(sizes: &[DVec2], options: PackingOptions) -> f64 {
     let gap = f64::from(options.gap);
     let picture = UVec2::from_array(options.picture).as_dvec2();
@@ -153,7 +153,7 @@ fn the_same_boxes_are_packed_in_the_same_way() {
     }
 }
 
-/// Area of the box around points that are turned.
+/// Area of the bounding box of rotated points.
 fn box_area(points: &[DVec2], turn: DVec2) -> f64 {
     Bounds::of(points.iter().map(|z| turn.rotate(*z))).size().element_product()
 }

@@ -1,4 +1,4 @@
-//! The plane: orientation, hulls, triangulations, similarities and the picture's frame.
+//! Plane geometry: orientation, hulls, triangulations, similarities and the picture's frame.
 
 use freebound_core::geom::{
     Bounds, Orientation, PictureFrame, Similarity, VAxis, clip_polygon, clip_segment, constrained_triangles,
@@ -12,7 +12,7 @@ fn double_area(corners: &[DVec2]) -> f64 {
     corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| a.perp_dot(*b)).sum()
 }
 
-/// Twice the area of the triangles, all of which must be positive.
+/// Twice the total area of the triangles; asserts that all are positive.
 fn covered(points: &[DVec2], triangles: &[[u32; 3]]) -> f64 {
     let corners = triangles.iter().map(|t| t.map(|c| points[c as usize]));
     corners
@@ -106,7 +106,7 @@ fn what_spans_no_area_has_no_polygon() {
 
 #[test]
 fn a_dent_of_one_bit_is_seen() {
-    // The fourth point lies on the lower side but for the last bit, above it and below it.
+    // The fourth point is on the lower side up to the last bit, above it and below it.
     let dented = |y: f64| hull(&[[0.0, 1.0], [2.0, 1.0], [1.0, 2.0], [1.0, y]]).len();
     assert_eq!((dented(1.0 + f64::EPSILON), dented(1.0), dented(1.0 - f64::EPSILON)), (3, 3, 4));
 }
@@ -117,7 +117,7 @@ fn a_square_with_a_point_in_it_has_four_triangles_around_that_point() {
     assert_eq!(delaunay_triangles(&points[..4]).map(|triangles| triangles.len()), Some(2));
     let inside = [points[0], points[1], points[2], points[3], DVec2::new(0.4, 0.5)];
     assert_eq!(delaunay_triangles(&inside), Some(vec![[0, 1, 4], [0, 4, 3], [1, 2, 4], [2, 3, 4]]));
-    // A coordinate that is all but zero counts as zero: the point then lies on the lower side.
+    // A coordinate close to zero counts as zero, so the point lies on the lower side.
     assert_eq!(delaunay_triangles(&points).map(|triangles| triangles.len()), Some(3));
 }
 
@@ -156,7 +156,7 @@ fn no_similarity_spreads_what_lies_in_one_place() {
 
 #[test]
 fn integers_and_the_adaptive_predicate_agree_where_both_hold() {
-    // Scaling is exact, and numbers so small are left to integers.
+    // Scaling is exact, and numbers this small are left to integer arithmetic.
     let tiny = 2_f64.powi(-500);
     // A line of slope 1 sampled around (0.5, 0.5) in steps of one ulp: Kettner et al. 2008, figure 1.
     for i in 0..64_u64 {
@@ -237,7 +237,7 @@ fn a_similarity_goes_back_and_in_parts_that_make_up_the_whole() {
         assert!(similarity.part(0.0).apply(z).distance(z) < 1e-14);
         assert!(similarity.part(1.0).apply(z).distance(similarity.apply(z)) < 1e-13);
     }
-    // Half of it turns by half the angle and scales by the root of the factor.
+    // Half of the similarity rotates by half the angle and scales by the root of the factor.
     let half = similarity.part(0.5);
     let arm = half.apply(DVec2::new(2.0, -2.0)) - half.apply(DVec2::new(1.0, -2.0));
     assert!(arm.distance(DVec2::from_angle(1.25) * 3_f64.sqrt()) < 1e-14);
@@ -246,7 +246,7 @@ fn a_similarity_goes_back_and_in_parts_that_make_up_the_whole() {
 
 #[test]
 fn a_triangulation_has_the_sides_that_are_asked_for() {
-    // The longer diagonal, which Delaunay's has not.
+    // The longer diagonal is not a Delaunay edge.
     let kite = points(&[[0, 0], [4, -1], [8, 0], [4, 1]]);
     let has = |triangles: &[[u32; 3]], [a, b]: [u32; 2]| triangles.iter().any(|t| t.contains(&a) && t.contains(&b));
     let free = constrained_triangles(&kite, &[]).unwrap();

@@ -1,4 +1,4 @@
-//! Augmented matrices of least squares, `[−E A; Aᴴ F]` by pairs, against dense and general factorizations.
+//! Augmented least-squares matrices, `[−E A; Aᴴ F]` in pairs, against dense and general factorizations.
 
 use freebound_core::linalg::{Kind, LinalgError};
 use nalgebra_sparse::CscMatrix;
@@ -10,10 +10,11 @@ use super::matrices::{Draw, GO_ON, dominant, factored, grid_pattern, pattern_whe
 use super::solvers::{dense, deviation};
 use freebound_testkit::Random;
 
-/// Relative to the largest entry of the answer. A's diagonal dominates its rows.
+/// Tolerance relative to the largest entry of the solution. A's diagonal dominates its rows.
 const TOLERANCE: f64 = 1e-9;
 
-/// A random augmented matrix whose A has the first `pairs` columns of the pattern; `share` of F's diagonal is positive.
+/// Random augmented matrix whose A has the first `pairs` columns of the pattern; `share` of F's diagonal is
+/// positive.
 fn augmented(pattern: &SparsityPattern, pairs: usize, share: f64, random: &mut Random) -> CscMatrix<Complex<f64>> {
     let order = pattern.major_dim() + pairs;
     let vertex = |row: usize| if row < 2 * pairs { row / 2 } else { row - pairs };
@@ -63,7 +64,7 @@ fn the_factors_take_little_more_than_half_the_memory_of_an_lu() {
 
 #[test]
 fn a_row_without_a_coefficient_of_its_own_has_its_pivot_replaced_and_the_answer_is_as_good() {
-    // A leaf on each vertex of a clique: it is eliminated first, and has no pivot then.
+    // Each vertex of a clique has a leaf, which is eliminated first and has no pivot then.
     let (clique, pairs) = (12, 24);
     let pattern = pattern_where(pairs, |i, j| i == j || (i < clique && j < clique) || i.abs_diff(j) == clique);
     let mut random = Random(8);

@@ -1,4 +1,4 @@
-//! What the factorizations say of matrices that they cannot take.
+//! Errors of the factorizations for unsuitable matrices.
 
 use std::sync::atomic::AtomicBool;
 
@@ -112,7 +112,7 @@ fn a_cancelled_solve_stops() {
     }
 }
 
-/// Unknowns in a row, so many that they are dissected.
+/// Chain of unknowns, long enough for dissection.
 fn long_chain() -> SparsityPattern {
     let n = 60_000;
     let lanes: Vec<Vec<usize>> = (0..n).map(|k: usize| (k.saturating_sub(1)..(k + 2).min(n)).collect()).collect();
@@ -135,7 +135,7 @@ fn a_cancelled_analysis_stops() {
 
 #[test]
 fn a_pattern_that_is_dissected_is_solved_like_others() {
-    // −1 2 −1 with a little more on the diagonal, times 0 1 2 3 4 0 1 …
+    // −1 2.5 −1, times 0 1 2 3 4 0 1 …
     let pattern = long_chain();
     let entry = |(row, column): (usize, usize)| if row == column { 2.5 } else { -1.0 };
     let columns = |column: usize| pattern.lane(column).iter().map(move |&row| (row, column));

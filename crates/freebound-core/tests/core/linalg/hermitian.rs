@@ -1,4 +1,5 @@
-//! The Cholesky factorization: pairs of unknowns, large fronts, any number of threads, and matrices that are not definite.
+//! Cholesky factorization: pairs of unknowns, large fronts, any number of threads, and matrices that are not
+//! definite.
 
 use std::sync::atomic::AtomicBool;
 
@@ -14,17 +15,17 @@ use freebound_testkit::Random;
 
 type C = Complex<f64>;
 
-/// Relative to the largest entry of the answer; diagonals dominate their rows.
+/// Tolerance relative to the largest entry of the solution; diagonals dominate their rows.
 const TOLERANCE: f64 = 1e-11;
 
-/// A 2 × 2 block for every entry.
+/// Pattern with a 2 × 2 block for every entry.
 pub(crate) fn in_blocks(pattern: &SparsityPattern) -> SparsityPattern {
     let n = pattern.major_dim();
     let joined: std::collections::BTreeSet<(usize, usize)> = pattern.entries().collect();
     pattern_where(2 * n, |column, row| joined.contains(&(column / 2, row / 2)))
 }
 
-/// What `work` gives on so many threads.
+/// Runs `work` on a pool of `count` threads.
 pub(crate) fn on_threads<R: Send>(count: usize, work: impl FnOnce() -> R + Send) -> R {
     rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("threads").install(work)
 }
@@ -38,7 +39,7 @@ fn unknowns_in_pairs_are_analysed_as_pairs_and_solved_as_any() {
     let factor = factored(Kind::Hermitian, &matrix).expect("definite");
     let solved = factor.solve(&matrix, &rhs, &GO_ON).expect("definite");
     assert!(deviation(&dense(&matrix), &solved.x, &rhs) < TOLERANCE);
-    // Of every pair both columns stand in one front, so the factor holds whole blocks.
+    // Both columns of every pair are in one front, so the factor consists of whole blocks.
     assert_eq!(factor.stats().factor_bytes % (4 * size_of::<f64>()), 0);
 }
 
@@ -79,7 +80,7 @@ fn any_number_of_threads_gives_the_same_bits() {
 #[test]
 fn fronts_that_are_worth_several_threads_have_the_same_bits_on_any_number() {
     let mut random = Random(11);
-    // Two cliques that share a third: fronts with many columns, and with many rows below them.
+    // Two cliques that share a third give fronts with many columns, and with many rows below them.
     let part = |i: usize| {
         if i < 150 {
             0
@@ -122,12 +123,12 @@ fn the_row_without_a_positive_pivot_is_the_same_for_any_number_of_threads() {
 #[test]
 fn a_similar_pattern_is_factored_in_the_order_of_the_first() {
     let mut random = Random(10);
-    // The order of the third keeps no pairs together, and the pattern that follows has them.
+    // The order of the third keeps no pairs together, although the next pattern has pairs.
     let uncoupled = pattern_where(12, |i, j| i == j || i % 2 == 0 && j % 2 == 0);
     for first in [in_blocks(&grid_pattern(9)), grid_pattern(18), uncoupled] {
         let n = first.major_dim();
         let joined: std::collections::BTreeSet<(usize, usize)> = first.entries().collect();
-        // One further edge between the first unknown and the last, with its block.
+        // An extra edge between the first unknown and the last, with its block.
         let other = pattern_where(n, |i, j| {
             let (low, high) = (i.min(j), i.max(j));
             joined.contains(&(i, j)) || (low < 2 && high >= n - 2) || n == 12

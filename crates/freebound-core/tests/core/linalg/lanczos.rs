@@ -1,4 +1,4 @@
-//! Lanczos' method against a dense eigen-solver.
+//! Lanczos method against a dense eigensolver.
 
 use std::convert::Infallible;
 
@@ -18,7 +18,7 @@ fn random_vector(n: usize, random: &mut Random) -> Vec<C64> {
     (0..n).map(|_| C64::draw(random)).collect()
 }
 
-/// A random Hermitian matrix with given eigenvalues, and its eigenvectors.
+/// Random Hermitian matrix with given eigenvalues, and its eigenvectors.
 fn hermitian(eigenvalues: &[f64], random: &mut Random) -> (DMatrix<C64>, DMatrix<C64>) {
     let n = eigenvalues.len();
     let vectors = DMatrix::from_vec(n, n, random_vector(n * n, random)).qr().q();

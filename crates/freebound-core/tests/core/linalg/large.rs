@@ -1,4 +1,4 @@
-//! Systems large enough to be dissected: answers that are known beforehand, and no difference by threads.
+//! Systems large enough for dissection: known solutions, and equal results on any number of threads.
 
 use freebound_core::linalg::{Kind, Scalar};
 use nalgebra_sparse::CscMatrix;
@@ -10,15 +10,15 @@ use super::matrices::{Draw, GO_ON, dominant, factored, hermitian, laplacian, sca
 use super::solvers::bits;
 use freebound_testkit::Random;
 
-/// Side of a grid of 25,600 unknowns: cut in two.
+/// Side of a grid of 25,600 unknowns, which is split in two.
 const SIDE: usize = 160;
 
-/// The number of a grid's vertex: without order.
+/// Scattered number of a grid vertex.
 fn number(x: usize, y: usize) -> usize {
     (y * SIDE + x) * 7919 % (SIDE * SIDE)
 }
 
-/// The pattern of a grid with one diagonal a cell, its vertices renumbered.
+/// Pattern of a grid with one diagonal per cell and scattered vertex numbers.
 fn pattern() -> SparsityPattern {
     let count = SIDE * SIDE;
     let mut columns: Vec<Vec<usize>> = (0..count).map(|k| vec![k]).collect();
@@ -37,7 +37,7 @@ fn pattern() -> SparsityPattern {
     SparsityPattern::try_from_offsets_and_indices(count, count, offsets, rows).expect("sorted and in range")
 }
 
-/// A x, entry by entry.
+/// Product A x, entry by entry.
 fn product<T: Scalar>(matrix: &CscMatrix<T>, x: &[T]) -> Vec<T> {
     let mut product = vec![T::ZERO; x.len()];
     for (row, column, &value) in matrix.triplet_iter() {
@@ -46,8 +46,8 @@ fn product<T: Scalar>(matrix: &CscMatrix<T>, x: &[T]) -> Vec<T> {
     product
 }
 
-/// Solves for three known answers on 1, 2 and 4 threads: they come back up to `tolerance`, and always alike. Returns the
-/// memory of the factors, bytes.
+/// Solves for three known solutions on 1, 2 and 4 threads. Asserts that they are recovered up to `tolerance`,
+/// equally on all thread counts. Returns the memory of the factors, bytes.
 fn known_answers_come_back<T: Draw>(kind: Kind, matrix: &CscMatrix<T>, tolerance: f64) -> usize {
     let mut random = Random(11);
     let n = matrix.nrows();
@@ -66,7 +66,7 @@ fn known_answers_come_back<T: Draw>(kind: Kind, matrix: &CscMatrix<T>, tolerance
     assert!(bits(&one.1) == bits(&two.1) && bits(&one.1) == bits(&four.1), "threads make a difference");
     let worst = one.0.iter().zip(&known).map(|(&x, &known)| (x - known).size()).fold(0.0, f64::max);
     assert!(worst < tolerance, "off by {worst}");
-    // Aᴴ y = b for the same b: judged by its product.
+    // Aᴴ y = b with an unchanged b, checked by its product.
     let back: Vec<T> = one.1.chunks_exact(n).flat_map(|x| product(&matrix.transpose(), &conjugate(x))).collect();
     let off = back.iter().zip(&rhs).map(|(&back, &b)| (back - b.conjugate()).size()).fold(0.0, f64::max);
     let largest = rhs.iter().map(|b| b.size()).fold(0.0, f64::max);
@@ -84,7 +84,7 @@ fn a_large_definite_system_is_solved_alike_on_any_number_of_threads() {
     let matrix = laplacian(&pattern(), 0.01, &mut random);
     let mut symmetric = &matrix + &matrix.transpose();
     symmetric.values_mut().iter_mut().for_each(|value| *value *= 0.5);
-    // The mean of two Laplacians has rows that do not sum to 0: the diagonal makes up for that.
+    // The mean of two Laplacians has rows that do not sum to 0; the diagonal compensates.
     let bytes = {
         let n = symmetric.nrows();
         let mut sums = vec![0.0; n];
@@ -100,7 +100,7 @@ fn a_large_definite_system_is_solved_alike_on_any_number_of_threads() {
         }
         known_answers_come_back(Kind::Hermitian, &symmetric, 1e-9)
     };
-    // George 1973: a nested dissection of a grid fills at most 31/4 n log₂ n.
+    // George 1973: nested dissection of a grid fills at most 31/4 n log₂ n.
     let n = symmetric.nrows() as f64;
     assert!((bytes / size_of::<f64>()) as f64 <= 31.0 / 4.0 * n * n.log2(), "{bytes} bytes");
 }
@@ -118,8 +118,8 @@ fn a_large_unsymmetric_system_is_solved_alike_on_any_number_of_threads() {
     known_answers_come_back(Kind::General, &matrix, 1e-8);
 }
 
-/// The same with imaginary parts between the vertices of the grid's first row alone, as the equations of a free boundary
-/// have them.
+/// Removes the imaginary parts except between vertices of the grid's first row, as in the equations of a free
+/// boundary.
 fn complex_along_one_side(matrix: &CscMatrix<Complex<f64>>) -> CscMatrix<Complex<f64>> {
     let mut is_of_side = vec![false; matrix.nrows()];
     (0..SIDE).for_each(|x| is_of_side[number(x, 0)] = true);
@@ -133,7 +133,7 @@ fn complex_along_one_side(matrix: &CscMatrix<Complex<f64>>) -> CscMatrix<Complex
     partly
 }
 
-/// Factors take the memory of complex numbers only where these are, and answers are as good.
+/// Asserts that factors use complex memory only at complex entries, with equal accuracy.
 fn only_one_side_takes_the_memory_of_complex_numbers(kind: Kind, whole: &CscMatrix<Complex<f64>>) {
     let partly = complex_along_one_side(whole);
     let in_pattern = |values: Vec<f64>| {
@@ -151,7 +151,7 @@ fn only_one_side_takes_the_memory_of_complex_numbers(kind: Kind, whole: &CscMatr
         of_real,
         "no imaginary part is stored where there is none"
     );
-    // A grid that is cut in 4^k squares has 2^k of them at the side: at every depth of the tree most fronts are real.
+    // A grid split into 4^k squares has 2^k at the side: at every depth of the tree most fronts are real.
     assert!(of_real < of_partly && 4 * of_partly < 3 * of_whole, "{of_real} < {of_partly} < 3/4 of {of_whole} bytes");
 }
 

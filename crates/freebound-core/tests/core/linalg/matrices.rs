@@ -9,10 +9,10 @@ use num_complex::Complex;
 
 use freebound_testkit::Random;
 
-/// The flag of a caller who lets everything run to its end.
+/// Cancellation flag that is never set.
 pub(crate) static GO_ON: AtomicBool = AtomicBool::new(false);
 
-/// A scalar drawn from a generator.
+/// Scalar drawn from a random generator.
 pub(crate) trait Draw: Scalar {
     fn draw(random: &mut Random) -> Self;
 }
@@ -27,7 +27,7 @@ impl Draw for Complex<f64> {
     }
 }
 
-/// The pattern of a predicate of column and row.
+/// Pattern given by a predicate of column and row.
 pub(crate) fn pattern_where(n: usize, joined: impl Fn(usize, usize) -> bool) -> SparsityPattern {
     let (mut offsets, mut rows) = (vec![0], Vec::new());
     for column in 0..n {
@@ -37,22 +37,22 @@ pub(crate) fn pattern_where(n: usize, joined: impl Fn(usize, usize) -> bool) -> 
     SparsityPattern::try_from_offsets_and_indices(n, n, offsets, rows).expect("sorted and in range")
 }
 
-/// A symmetric pattern with a full diagonal, in which about `density` of all pairs are joined.
+/// Symmetric pattern with a full diagonal, in which about `density` of all pairs are joined.
 pub(crate) fn random_pattern(n: usize, density: f64, random: &mut Random) -> SparsityPattern {
     let joined: Vec<bool> = (0..n * n).map(|_| random.unit() < density).collect();
     pattern_where(n, |i, j| i == j || joined[i.max(j) * n + i.min(j)])
 }
 
-/// The pattern of a grid of `side` × `side` vertices with one diagonal a cell.
+/// Pattern of a grid of `side` × `side` vertices with one diagonal per cell.
 pub(crate) fn grid_pattern(side: usize) -> SparsityPattern {
     pattern_where(side * side, |a, b| {
         let (a, b) = (a.min(b), a.max(b));
-        // The later of two vertices never stands to the left: one diagonal of each cell is not an edge.
+        // The later of two vertices is never to the left: one diagonal of each cell is not an edge.
         b / side - a / side <= 1 && b % side >= a % side && b % side - a % side <= 1
     })
 }
 
-/// Random values whose diagonal outweighs its row.
+/// Random values with a dominant diagonal.
 pub(crate) fn dominant<T: Draw>(pattern: &SparsityPattern, random: &mut Random) -> CscMatrix<T> {
     let n = pattern.major_dim() as f64;
     let value = |(column, row): (usize, usize), random: &mut Random| {
@@ -62,7 +62,7 @@ pub(crate) fn dominant<T: Draw>(pattern: &SparsityPattern, random: &mut Random) 
     CscMatrix::try_from_pattern_and_values(pattern.clone(), values).expect("one value an entry")
 }
 
-/// A random Hermitian matrix whose diagonal outweighs its row, times `sign`.
+/// Random Hermitian matrix with a dominant diagonal, times `sign`.
 pub(crate) fn hermitian<T: Draw>(pattern: &SparsityPattern, sign: f64, random: &mut Random) -> CscMatrix<T> {
     let half: CscMatrix<T> = dominant(pattern, random);
     let adjoint = half.transpose();
@@ -71,7 +71,7 @@ pub(crate) fn hermitian<T: Draw>(pattern: &SparsityPattern, sign: f64, random: &
     CscMatrix::try_from_pattern_and_values(pattern.clone(), values).expect("one value an entry")
 }
 
-/// Positive random weights λ off the diagonal and −Σλ on it; with `leak` 0 every row sums to 0 and A is singular.
+/// Positive random weights λ off the diagonal and −Σλ on it. If `leak` is 0, every row sums to 0 and A is singular.
 pub(crate) fn laplacian(pattern: &SparsityPattern, leak: f64, random: &mut Random) -> CscMatrix<f64> {
     let entries: Vec<(usize, usize)> = pattern.entries().collect();
     let mut values: Vec<f64> = entries.iter().map(|_| 0.1 + random.unit()).collect();

@@ -1,5 +1,5 @@
-//! The LU on the system it was made for: the mean-value equations with a natural boundary, on a disk squeezed into its
-//! middle over many decades.
+//! LU on the system that it was made for: the mean-value equations with a natural boundary. The disk is squeezed
+//! into its middle over many decades.
 
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
@@ -10,8 +10,8 @@ use num_complex::Complex;
 
 type C = Complex<f64>;
 
-/// A disk of rings of vertices around a middle vertex, each ring `ratio` times as wide as the next, every second one
-/// turned by half a step. The last ring is the widest.
+/// Disk of rings of vertices around a middle vertex, the last ring the widest. Each ring is `ratio` times as wide as
+/// the next; alternate rings are rotated by half a step.
 struct Disk {
     points: Vec<C>,
     faces: Vec<[usize; 3]>,
@@ -35,8 +35,8 @@ fn disk(rings: usize, ratio: f64) -> Disk {
                 faces.push([0, a, b]);
                 continue;
             }
-            // Of the inner ring, a vertex of an odd ring stands between its own number and the next, one of an even
-            // ring between the one before and its own.
+            // A vertex of an odd ring is between the inner ring's vertices with its own number and the next. A
+            // vertex of an even ring is between the previous number and its own.
             let first = sector + SECTORS - usize::from(ring % 2 == 0);
             let (c, d) = (vertex(ring - 1, first), vertex(ring - 1, first + 1));
             faces.push([c, a, d]);
@@ -46,7 +46,7 @@ fn disk(rings: usize, ratio: f64) -> Disk {
     Disk { points, faces }
 }
 
-/// The mean-value equations (paper, eqs. 1 to 3 with d = 1) of all vertices but the first and the middle one of the
+/// Mean-value equations (paper, eqs. 1 to 3 with d = 1) of all vertices except the first and the middle one of the
 /// outer ring, which are pinned in place; and the positions of the free vertices.
 fn system(disk: &Disk) -> (CscMatrix<C>, Vec<C>, Vec<C>) {
     let count = disk.points.len();
@@ -85,7 +85,7 @@ fn factored(matrix: &CscMatrix<C>) -> Factor<C> {
 
 #[test]
 fn a_disk_squeezed_over_twenty_decades_of_area_comes_back() {
-    // Radii from 1 to 0.6⁴⁶ = 6e-11, areas and the squares of the rows' sizes over 20 decades.
+    // Radii range from 1 to 0.6⁴⁶ = 6e-11; areas and squared row sizes span 20 decades.
     let (matrix, rhs, exact) = system(&disk(47, 0.6));
     let factor = factored(&matrix);
     assert_eq!(factor.stats().replaced_pivots, 0);

@@ -1,4 +1,4 @@
-//! Definite systems of which a few digits are enough: factors in single precision against answers in double.
+//! Definite systems that need few digits: single-precision factors against double-precision solutions.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -11,13 +11,13 @@ use super::matrices::{Draw, GO_ON, factored, grid_pattern, hermitian, laplacian,
 use super::solvers::bits;
 use freebound_testkit::Random;
 
-/// What single precision is to leave of the error at most, in the norm of the matrix; the module asks for this in the
-/// norm of its factors, which is nearly the same.
+/// Largest relative error of single precision in the norm of the matrix. The module requires it in the norm of its
+/// factors, which is nearly equal.
 const ROUGH: f64 = 2e-2;
 
 fn positive_laplacian(side: usize, leak: f64) -> CscMatrix<f64> {
     let mut matrix = laplacian(&grid_pattern(side), leak, &mut Random(3));
-    // Weights of both directions are drawn apart: their mean is symmetric.
+    // Weights of both directions are drawn independently; their mean is symmetric.
     let other = matrix.transpose();
     let pairs: Vec<f64> = matrix.values().iter().zip(other.values()).map(|(a, b)| -0.5 * (a + b)).collect();
     matrix.values_mut().copy_from_slice(&pairs);
@@ -35,18 +35,18 @@ fn set_diagonal(matrix: &mut CscMatrix<f64>, row: usize, to: impl Fn(f64) -> f64
     *value = to(*value);
 }
 
-/// The answer in so much precision.
+/// Solves with factors of the given precision.
 fn rough(matrix: &CscMatrix<f64>, rhs: &[f64], precision: FactorPrecision) -> Result<Vec<f64>, LinalgError> {
     let analysis = Analysis::new(Kind::Hermitian, matrix.pattern(), &GO_ON)?;
     analysis.factor_roughly(matrix.values(), precision, None, &GO_ON)?.solve(matrix.values(), rhs, &GO_ON)
 }
 
-/// xᵀ A x.
+/// Quadratic form xᵀ A x.
 fn energy(matrix: &CscMatrix<f64>, x: &[f64]) -> f64 {
     matrix.triplet_iter().map(|(i, j, value)| x[i] * value * x[j]).sum()
 }
 
-/// The error of an answer in the norm of the matrix, by the norm of the answer that refinement gives.
+/// Error of a solution relative to the refined solution, in the norm of the matrix.
 fn error(matrix: &CscMatrix<f64>, rhs: &[f64], x: &[f64]) -> f64 {
     let best =
         factored(Kind::Hermitian, matrix).and_then(|f| f.solve_correction(matrix, rhs, &GO_ON)).expect("definite").x;
@@ -87,10 +87,10 @@ fn rows_of_any_size_are_within_reach_of_32_bits() {
 
 #[test]
 fn a_mode_that_rounding_to_32_bits_loses_is_found_all_the_same() {
-    // The constant vector has an energy of 1e-9 of the others': in 32 bits the matrix is singular.
+    // The constant vector has 1e-9 of the energy of the others, so the matrix is singular in 32 bits.
     let matrix = positive_laplacian(30, 1e-9);
     let mut rhs = drawn(matrix.nrows(), &mut Random(6));
-    // A part of it along that mode, as large in the answer as all the rest.
+    // Adds a part along that mode, as large in the solution as all the rest.
     for b in &mut rhs {
         *b += 1e-4;
     }
@@ -143,7 +143,7 @@ fn the_memory_of_an_earlier_factor_leaves_no_trace() {
 
 #[test]
 fn a_rough_answer_has_the_same_bits_on_any_number_of_threads() {
-    // More rows than one task sums over.
+    // More rows than a single task sums.
     let matrix = positive_laplacian(80, 1e-4);
     let rhs = drawn(matrix.nrows(), &mut Random(9));
     let solve = || rough(&matrix, &rhs, FactorPrecision::Single).expect("definite");
@@ -167,8 +167,8 @@ fn cancelling_ends_a_rough_solve() {
 
 #[test]
 fn an_order_that_has_become_bad_is_given_up() {
-    // A path in its natural order, closed to a star around its first vertex: in that order all that is left of the star
-    // is one clique.
+    // A path in its natural order, closed to a star around its first vertex: eliminated in that order, the rest of
+    // the star is a clique.
     let path = pattern_where(400, |i, j| i.abs_diff(j) <= 1);
     let order =
         Analysis::new(Kind::Hermitian, &path, &GO_ON).expect("symmetric").order().expect("that of a Hermitian matrix");

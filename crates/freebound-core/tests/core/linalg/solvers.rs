@@ -1,4 +1,4 @@
-//! The sparse factorizations against dense ones.
+//! Sparse factorizations against dense ones.
 
 use std::sync::atomic::AtomicBool;
 
@@ -13,7 +13,7 @@ use super::matrices::{
 };
 use freebound_testkit::Random;
 
-/// Relative to the largest entry of the answer, for matrices of order 40 with diagonals that dominate their rows.
+/// Tolerance relative to the largest entry of the solution, for diagonally dominant matrices of order 40.
 const TOLERANCE: f64 = 1e-11;
 
 pub(crate) fn dense<T: Scalar>(matrix: &CscMatrix<T>) -> faer::Mat<T> {
@@ -24,7 +24,7 @@ pub(crate) fn dense<T: Scalar>(matrix: &CscMatrix<T>) -> faer::Mat<T> {
     dense
 }
 
-/// Largest difference between `x` and the dense solution, relative to the largest entry of the latter.
+/// Largest difference between `x` and the dense solution, relative to the dense solution's largest entry.
 pub(crate) fn deviation<T: Scalar>(dense: &faer::Mat<T>, x: &[T], rhs: &[T]) -> f64 {
     let n = dense.nrows();
     let count = rhs.len() / n;
@@ -44,7 +44,7 @@ fn agrees_with_dense<T: Draw>(seed: u64, n: usize, density: f64) {
     let pattern = random_pattern(n, density, &mut random);
     let matrix: CscMatrix<T> = dominant(&pattern, &mut random);
     let factor = factored(Kind::General, &matrix).expect("a dominant matrix is regular");
-    // More than a group of lanes and more than a group of refinement.
+    // More right-hand sides than a group of lanes, and than a group of refinement.
     let rhs: Vec<T> = (0..11 * n).map(|_| T::draw(&mut random)).collect();
     let dense = dense(&matrix);
     let many = factor.solve(&matrix, &rhs, &GO_ON).expect("regular");
@@ -95,8 +95,8 @@ fn rows_over_twenty_decades_do_not_spoil_the_answer() {
 
 #[test]
 fn a_regular_matrix_with_a_zero_diagonal_is_solved() {
-    // Leaves on a clique, each with a zero on its diagonal and eliminated before the clique: a pivot of zero that no
-    // exchange inside its supernode can avoid.
+    // Leaves on a clique, each with a zero diagonal and eliminated before the clique. No exchange inside a supernode
+    // avoids the zero pivot.
     let (clique, leaves) = (60, 20);
     let n = clique + leaves;
     let mut random = Random(21);
@@ -138,7 +138,7 @@ fn a_reused_analysis_gives_the_bits_of_a_fresh_one_and_two_runs_agree() {
 
 #[test]
 fn an_adjoint_answer_that_dwarfs_its_right_hand_side_is_judged_by_its_backward_error() {
-    // A with 1 on the diagonal, −1.7 and −0.3 below it: the answer to Aᴴ x = e grows by 1.86 a row, so that rounding
+    // A with 1 on the diagonal, −1.7 and −0.3 below it. The solution of Aᴴ x = e grows by 1.86 per row, so rounding
     // alone leaves a residual.
     let n = 60;
     let pattern = pattern_where(n, |i, j| i.abs_diff(j) <= 2);

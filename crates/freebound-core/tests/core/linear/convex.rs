@@ -1,4 +1,4 @@
-//! Convex boundaries: the boundary on its shape, the inside at weighted means, and proved where the theorem holds.
+//! Convex boundaries: the boundary on its shape, the inside at weighted means, and planar if the theorem applies.
 
 #![allow(clippy::float_cmp, reason = "places on the outline are meant bit for bit")]
 
@@ -21,7 +21,7 @@ use freebound_testkit::{Entry, corpus_disks, corpus_test, data_disks};
 const FAMILIES: [Family; 5] =
     [Family::Uniform, Family::MeanValue, Family::ShapePreserving, Family::Conformal, Family::Wachspress];
 
-/// Relative residual of a solve.
+/// Largest relative residual of a solve.
 const RESIDUAL: f64 = 1e-10;
 
 fn convex(shape: BoundaryShape, family: Family) -> Settings {
@@ -52,7 +52,7 @@ fn the_boundary_lies_on_a_circle_in_the_order_of_the_loop() {
         let boundary = embedding.boundary(&mesh);
         let radius = boundary[0].length();
         assert!(boundary.iter().all(|z| (z.length() / radius - 1.0).abs() < 1e-14), "{name}");
-        // Arcs are as long as edges, in proportion, and go around once.
+        // Arcs are proportional to edge lengths and go around once.
         let lengths: Vec<f64> = edge_lengths(&mesh);
         let total: f64 = lengths.iter().sum();
         for (k, length) in lengths.iter().enumerate() {
@@ -78,7 +78,7 @@ fn the_boundary_lies_on_a_square_in_the_order_of_the_loop() {
         for corner in corners {
             assert!(boundary.contains(&corner), "{name}: no vertex at {corner}");
         }
-        // Place along the outline, from 0 to 4.
+        // Position along the outline, from 0 to 4.
         let along = |z: &DVec2| match *z / side {
             z if z.y == 0.0 => z.x,
             z if z.x == 1.0 => 1.0 + z.y,
@@ -91,14 +91,14 @@ fn the_boundary_lies_on_a_square_in_the_order_of_the_loop() {
     }
 }
 
-/// Where the boundary comes to lie at the shape's own size and place.
+/// Positions of the boundary at the shape's own size and place.
 fn laid(mesh: &DiskMesh, shape: &BoundaryShape, spacing: Spacing) -> Vec<DVec2> {
     let places = convex_boundary(mesh, shape, spacing).expect("a boundary of many vertices");
     mesh.boundary_loop().iter().map(|v| places[v]).collect()
 }
 
-/// Asserts that a boundary runs around a convex polygon once, counter-clockwise: its corners are those of its hull, and
-/// what lies between lies on the hull's sides, one after another.
+/// Asserts that a boundary runs around a convex polygon once, counter-clockwise. Its corners are those of its hull,
+/// and the points between lie in order on the hull's sides.
 fn assert_runs_around(places: &[DVec2], name: &str) {
     let hull: Vec<usize> = convex_hull(places);
     let size = Bounds::of(places.iter().copied()).diameter();
@@ -120,7 +120,7 @@ fn assert_runs_around(places: &[DVec2], name: &str) {
     }
 }
 
-/// A kite, then a pentagon with sides of very different lengths.
+/// A kite, and a pentagon with sides of very different lengths.
 fn polygons() -> [ConvexPolygon; 2] {
     ["0 0; 2 -1; 3 0; 2 1", "0 0; 10 0; 10.1 0.2; 9 4; 1 2"].map(|text| ConvexPolygon::parse(text).expect("convex"))
 }
@@ -160,7 +160,7 @@ fn vertices_lie_evenly_where_that_is_asked_for() {
             let angle = k as f64 / count as f64 * std::f64::consts::TAU;
             assert!(z.distance(DVec2::from_angle(angle)) < 1e-14, "{name}: place {k}");
         }
-        // On a shape with corners the vertices of each side lie evenly.
+        // On a shape with corners the vertices of each side are evenly spaced.
         for shape in [BoundaryShape::Square, BoundaryShape::Hull, BoundaryShape::Polygon(polygons()[0].clone())] {
             let places = laid(&mesh, &shape.clone(), Spacing::Even);
             let turns = |k: usize| {
@@ -180,7 +180,7 @@ fn the_hull_is_that_of_the_projection_along_which_the_boundary_extends_least() {
     for (name, mesh) in examples() {
         assert_runs_around(&laid(&mesh, &BoundaryShape::Hull, Spacing::Chord), &name);
     }
-    // An ellipse that is a little rough, tilted in space: all its vertices are corners, as far apart as on the ellipse.
+    // A slightly rough ellipse, tilted in space: all vertices are corners, spaced as on the ellipse.
     let ring: Vec<DVec2> = (0..30).map(|k| DVec2::from_angle(f64::from(k) * 0.2) * DVec2::new(3.0, 2.0)).collect();
     let [x, y, z] =
         [DVec3::new(2.0, -1.0, 2.0), DVec3::new(2.0, 2.0, -1.0), DVec3::new(-1.0, 2.0, 2.0)].map(|a| a / 3.0);
@@ -199,7 +199,7 @@ fn the_hull_is_that_of_the_projection_along_which_the_boundary_extends_least() {
 
 #[test]
 fn a_flat_convex_boundary_comes_back_on_its_hull() {
-    // A tilted hexagon: its own corners, turned into the plane, and with them the whole mesh by mean-value weights.
+    // A tilted hexagon keeps its corners, rotated into the plane. Mean-value weights then reproduce the whole mesh.
     let flat = fan_of(ConvexPolygon::HEXAGON.corners(), |_, p| DVec3::new(p.x, 0.6 * p.y, 0.8 * p.y));
     let places = laid(&flat, &BoundaryShape::Hull, Spacing::Chord);
     for k in 0..6 {
@@ -216,7 +216,7 @@ fn a_flat_convex_boundary_comes_back_on_its_hull() {
 
 #[test]
 fn a_boundary_that_crosses_itself_in_projection_lies_on_a_convex_outline_all_the_same() {
-    // A strip with a loop: seen along its best plane's normal it is an eight.
+    // A strip with a loop: seen along its best plane's normal it is a figure eight.
     let along = |t: f64| DVec3::new(2.0 * t.sin(), (2.0 * t).sin(), 0.3 * t.cos());
     let rim: Vec<DVec3> = (0..40).map(|k| along(f64::from(k) / 40.0 * std::f64::consts::TAU)).collect();
     let positions: Vec<DVec3> = std::iter::once(DVec3::new(0.0, 0.0, 2.0)).chain(rim).collect();
@@ -249,7 +249,7 @@ fn a_polygon_of_the_users_is_not_turned_and_its_corners_stay_in_their_order() {
     assert!((low.x / low.y - high.x / high.y).abs() < 1e-9, "as wide and as high as it was given");
 }
 
-/// The family's weights, as the solver's own tests of weights know them.
+/// Weights of the family, as in the solver's own tests of weights.
 fn weights(mesh: &DiskMesh, family: Family) -> Equations<f64> {
     match family {
         Family::Uniform => equations::uniform(mesh),
@@ -274,7 +274,7 @@ fn every_interior_vertex_lies_at_its_weighted_mean() {
                     let arm = |h| embedding[mesh.head(h)] - embedding[v];
                     let sum: DVec2 = mesh.outgoing(v).map(|h| weights[h.index()] * arm(h)).sum();
                     let size: f64 = mesh.outgoing(v).map(|h| weights[h.index()].abs()).sum();
-                    // Relative to the whole: a vertex may lie amid neighbours that are all very near.
+                    // Relative to the whole, since all neighbours of a vertex may be very near.
                     let whole = embedding.iter().map(|z| z.length()).fold(0.0, f64::max);
                     assert!(sum.length() <= 1e-12 * size * whole, "{name}, {shape:?}, {family}: {v} is off by {sum}");
                 }
@@ -323,7 +323,7 @@ fn closed_ring() -> impl Strategy<Value = Vec<DVec2>> {
     })
 }
 
-/// A fan around vertex 0 with this ring, at `place` in space.
+/// Fan around vertex 0 with the given ring, mapped to space by `place`.
 fn fan_of(ring: &[DVec2], place: impl Fn(usize, DVec2) -> DVec3) -> DiskMesh {
     let rim = ring.iter().enumerate().map(|(k, &p)| place(k, p));
     let positions = std::iter::once(DVec3::ZERO).chain(rim).collect();
@@ -332,7 +332,7 @@ fn fan_of(ring: &[DVec2], place: impl Fn(usize, DVec2) -> DVec3) -> DiskMesh {
     DiskMesh::try_from(TriMesh::new(positions, &triangles)).expect("well-formed by construction")
 }
 
-/// The weight of each neighbour of vertex 0, by the ring's order.
+/// Weight of each neighbour of vertex 0, in the order of the ring.
 fn ring_weights(mesh: &DiskMesh) -> Vec<f64> {
     let equations = shape_preserving(mesh);
     assert_eq!(equations.bounded_corners, 0);
@@ -367,7 +367,8 @@ proptest! {
 
 #[test]
 fn shape_preserving_weights_of_a_regular_ring_are_equal() {
-    // Even counts put a neighbour exactly opposite to each: the borderline of which triangle holds the centre.
+    // Even counts put a neighbour exactly opposite each other one: the borderline of which triangle contains the
+    // centre.
     for sides in 3..12 {
         let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(sides);
         let ring: Vec<DVec2> = (0..sides).map(|k| DVec2::from_angle(angle(k))).collect();

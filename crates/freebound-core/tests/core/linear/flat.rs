@@ -1,4 +1,4 @@
-//! Planar meshes that are not convex, made at random and laid into space, for tests of reproduction.
+//! Random planar meshes that are not convex, laid into space for tests of reproduction.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,7 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use freebound_testkit::Random;
 
-/// A planar mesh: its places in the plane, and the same moved into space by a similarity.
+/// Planar mesh: its positions in the plane, and its image in space under a similarity.
 pub(crate) struct Flat {
     pub(crate) name: String,
     pub(crate) plane: Embedding,
@@ -16,7 +16,7 @@ pub(crate) struct Flat {
 }
 
 impl Flat {
-    /// Lays a mesh of the plane into a random plane of space, scaled and shifted.
+    /// Lays a planar mesh into a random plane of space, scaled and shifted.
     fn laid_out(name: String, plane: Embedding, triangles: &[[u32; 3]], random: &mut Random) -> Self {
         let turn = DQuat::from_axis_angle(direction(random), TAU * random.unit());
         let size = 10_f64.powf(4.0 * random.unit() - 2.0);
@@ -28,27 +28,27 @@ impl Flat {
         Self { name, plane, mesh }
     }
 
-    /// One of each kind, different for every seed.
+    /// Meshes of three kinds, different for every seed.
     pub(crate) fn of_seed(seed: u64) -> [Self; 3] {
         let mut random = Random(seed);
         [notched_grid(&mut random), comb(&mut random, 3), blob(&mut random)]
     }
 
-    /// Long and thin: what a method does at one end hardly reaches the other.
+    /// Long thin meshes: a change at one end hardly affects the other.
     pub(crate) fn strips_of_seed(seed: u64) -> [Self; 2] {
         let mut random = Random(seed);
         [comb(&mut random, 16), spiral(&mut random)]
     }
 }
 
-/// A direction, each as likely.
+/// Uniformly random direction.
 fn direction(random: &mut Random) -> DVec3 {
     let z = 2.0 * random.unit() - 1.0;
     let (sin, cos) = (TAU * random.unit()).sin_cos();
     DVec3::new(cos, sin, 0.0) * (1.0 - z * z).sqrt() + DVec3::Z * z
 }
 
-/// A grid of squares, those that `keep` wants, with vertices moved at random and diagonals either way.
+/// Grid of the squares for which `keep` returns true, with vertices moved at random and random diagonals.
 fn jittered(size: [u32; 2], keep: impl Fn(u32, u32) -> bool, random: &mut Random) -> (Embedding, Vec<[u32; 3]>) {
     let [columns, rows] = size;
     let mut number = vec![None; ((columns + 1) * (rows + 1)) as usize];
@@ -70,7 +70,7 @@ fn jittered(size: [u32; 2], keep: impl Fn(u32, u32) -> bool, random: &mut Random
     (plane.into(), triangles)
 }
 
-/// A grid with a rectangular bite out of its upper side.
+/// Grid with a rectangular notch in its upper side.
 fn notched_grid(random: &mut Random) -> Flat {
     let [columns, rows] = [8 + random.below(4), 5 + random.below(3)];
     let (left, bottom) = (2 + random.below(2), 2 + random.below(2));
@@ -78,7 +78,7 @@ fn notched_grid(random: &mut Random) -> Flat {
     Flat::laid_out(format!("grid {columns}×{rows} with a notch"), plane, &triangles, random)
 }
 
-/// Teeth two squares wide, of this length, on a back as wide.
+/// Comb with teeth two squares wide, of this length, on a back of equal width.
 fn comb(random: &mut Random, length: u32) -> Flat {
     let teeth = 2 + random.below(3);
     let (plane, triangles) = jittered([4 * teeth - 2, 2 + length], |x, y| y < 2 || x % 4 < 2, random);
@@ -111,13 +111,13 @@ fn blob(random: &mut Random) -> Flat {
     Flat::laid_out(format!("blob of {lobes} lobes"), plane.into(), &triangles, random)
 }
 
-/// A strip wound up nearly one and a half times.
+/// Strip wound up nearly one and a half times.
 fn spiral(random: &mut Random) -> Flat {
     let (length, width) = (60, 4);
     let (mut plane, triangles) = jittered([length, width], |_, _| true, random);
     for p in plane.iter_mut() {
         let angle = p.x / f64::from(length) * 1.4 * TAU;
-        // Farther along is counter-clockwise and farther up is inwards, so faces keep their sense.
+        // Increasing x runs counter-clockwise and increasing y inwards, so faces keep their orientation.
         *p = DVec2::from_angle(angle) * (10.0 + 1.1 * angle - p.y);
     }
     Flat::laid_out("spiral".to_owned(), plane, &triangles, random)

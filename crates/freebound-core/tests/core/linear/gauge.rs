@@ -1,5 +1,5 @@
-//! Which equations a free boundary leaves out: regular grids and corridors come back, and where the usual ones will do, they
-//! stay.
+//! Choice of the equations that a free boundary leaves out. Regular grids and corridors are reproduced, and the
+//! default equations stay if they suffice.
 
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
@@ -17,10 +17,10 @@ use super::reproduction::{distance_up_to_similarity, extent, real_matrix};
 use crate::weights::families::free_methods;
 use freebound_testkit::{corpus_disks, corpus_test, disk, shaped};
 
-/// Largest distance of a vertex from its place, relative to the extent: the limit.
+/// Largest distance of a vertex from its true position, relative to the extent: the limit.
 const TOLERANCE: f64 = 1e-9;
 
-/// A flat mesh and its places in the plane.
+/// Flat mesh and its positions in the plane.
 struct Sheet {
     name: String,
     mesh: DiskMesh,
@@ -30,11 +30,11 @@ struct Sheet {
 #[derive(Clone, Copy, Debug)]
 enum Diagonals {
     OneWay,
-    /// As on a chess board.
+    /// Alternating, like a chess board.
     Alternating,
 }
 
-/// A regular grid in the plane; the sheared one has its squares leaning.
+/// Regular grid in the plane; `shear` slants its squares.
 fn regular(columns: u32, rows: u32, diagonals: Diagonals, shear: f64) -> TriMesh {
     let mut mesh = shaped(columns, rows, |x, y| DVec3::new(x + shear * y, y, 0.0));
     if let Diagonals::Alternating = diagonals {
@@ -51,7 +51,7 @@ fn regular(columns: u32, rows: u32, diagonals: Diagonals, shear: f64) -> TriMesh
 }
 
 impl Sheet {
-    /// A regular grid, laid into space by a turn.
+    /// Regular grid, rotated into space.
     fn new(columns: u32, rows: u32, diagonals: Diagonals, shear: f64) -> Self {
         let mut mesh = regular(columns, rows, diagonals, shear);
         let plane = mesh.positions.iter().map(|p| p.truncate()).collect();
@@ -76,7 +76,7 @@ impl Sheet {
         }
     }
 
-    /// With pins at their true places every vertex lies at its own.
+    /// Asserts that pins at their true positions reproduce all vertices.
     fn assert_pins_hold_it_in_place(&self, pinned: &[VertexId], methods: &[Settings]) {
         let pins = hard_pins(pinned.iter().map(|&v| (v, self.plane[v.index()])));
         for settings in methods {
@@ -92,7 +92,7 @@ fn natural(family: Family) -> Settings {
     Settings::new(Method::Natural, family)
 }
 
-/// The methods whose matrix is not Hermitian.
+/// Methods whose matrix is not Hermitian.
 fn unsymmetric() -> Vec<Settings> {
     let is_hermitian = |s: &Settings| s.method != Method::Levy && s.family() == Family::Conformal;
     let powers = [natural(Family::Power(2.0)), natural(Family::Power(-1.5))];
@@ -103,8 +103,8 @@ fn levy() -> Settings {
     Settings { method: Method::Levy, ..Settings::default() }
 }
 
-/// All but Wachspress weights on squares cut as on a chess board, whose equations have a third solution: see
-/// [`a_chess_board_has_a_third_solution_of_the_wachspress_equations`].
+/// Methods except Wachspress weights on squares with alternating diagonals, whose equations have a third solution:
+/// see [`a_chess_board_has_a_third_solution_of_the_wachspress_equations`].
 fn telling(diagonals: Diagonals, shear: f64) -> Vec<Settings> {
     let is_chess_board = matches!(diagonals, Diagonals::Alternating) && shear == 0.0;
     unsymmetric().into_iter().filter(|s| !(is_chess_board && s.family() == Family::Wachspress)).collect()
@@ -143,11 +143,12 @@ fn thin_corridors_come_back_in_every_family() {
 
 #[test]
 fn a_chess_board_has_a_third_solution_of_the_wachspress_equations() {
-    // An even vertex has no weight for its odd neighbours, whose corners are right: even and odd ones are systems apart.
+    // An even vertex has no weight for its odd neighbours, whose corners are right angles: even and odd vertices
+    // decouple.
     let third = |mesh: &DiskMesh, family| {
         let mut values: Vec<f64> = real_matrix(mesh, &natural(family)).singular_values().iter().copied().collect();
         values.sort_by(f64::total_cmp);
-        // Each complex one counts twice.
+        // Each complex singular value counts twice.
         values[4] / values[values.len() - 1]
     };
     let sheet = Sheet::new(8, 8, Diagonals::Alternating, 0.0);
@@ -182,7 +183,8 @@ fn pins_anywhere_hold_a_grid_in_place() {
 
 #[test]
 fn pins_anywhere_hold_a_corridor_in_place() {
-    // With Wachspress weights and lower powers the rest can be singular without all of the pins' equations.
+    // With Wachspress weights and lower powers the remaining system can be singular unless all equations of pins are
+    // kept.
     let is_higher = |s: &Settings| s.method == Method::Levy || s.family().power().is_some_and(|power| power > -1.0);
     let methods: Vec<Settings> = unsymmetric().into_iter().filter(is_higher).collect();
     for (columns, rows, diagonals) in
@@ -202,7 +204,7 @@ fn pins_anywhere_hold_a_corridor_in_place() {
     }
 }
 
-/// How often a solve factors a matrix, and its solution.
+/// Number of factorizations of a solve, and its solution.
 fn factored(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> (usize, Result<Solution, SolveError>) {
     let phases = Mutex::new(Vec::new());
     let listen = |phase| phases.lock().expect("no listener panics").push(phase);
@@ -238,14 +240,14 @@ corpus_test! {
 
 #[test]
 fn on_a_grid_gauge_pins_move_to_where_the_equations_depend_on_each_other() {
-    // Twice where the usual factors show where the kernel is; once more where these are singular.
+    // Two factorizations if the default factors reveal the kernel; a further one if they are singular.
     for (side, most) in [(20, 2), (40, 3)] {
         let mesh = disk(regular(side, side, Diagonals::OneWay, 0.0));
         let (count, solution) = factored(&mesh, &natural(Family::MeanValue), &Pins::new());
         let solution = solution.expect("solvable");
         assert!((2..=most).contains(&count), "{side}: factored {count} times");
         assert!(solution.gauge_completed && !solution.linear.expect("linear").keeps_equations);
-        // The usual two are the corners with two triangles; the kernel lives at those with one.
+        // The default two are the corners with two triangles; the kernel is at those with one.
         let corner = |v: &VertexId| {
             let at = mesh.position(*v).truncate() / mesh.position(VertexId::new(side)).x * f64::from(side);
             [DVec2::ZERO, DVec2::splat(f64::from(side))].into_iter().any(|corner| corner.distance(at) < 1.5)
@@ -263,7 +265,7 @@ fn constraints_are_factored_once_where_their_equations_depend_on_the_others_and_
     let (count, solution) = factored(&mesh, &settings, &pins([3, 40, 90]));
     assert_eq!(count, 1);
     assert!(solution.expect("solvable").linear.expect("linear").keeps_equations);
-    // The two corners of a grid where the kernel does not live.
+    // The two corners of a grid without the kernel.
     let grid = disk(regular(20, 20, Diagonals::OneWay, 0.0));
     let (count, solution) = factored(&grid, &settings, &pins([20, 20 * 21, 220]));
     assert!((2..=3).contains(&count), "factored {count} times");
@@ -276,11 +278,11 @@ fn two_pins_of_the_users_keep_all_equations_where_theirs_do_not_depend_on_the_ot
     let pins = hard_pins([40, 40 * 41].map(|v| (VertexId::from_index(v), sheet.plane[v])));
     let settings = natural(Family::MeanValue);
     assert!(sheet.solved(&settings, &pins).linear.expect("linear").keeps_equations);
-    // Asked for, their equations are left out all the same, and the error says what that is.
+    // If requested, their equations are left out nevertheless, and the error names the consequence.
     let asked = Settings { treatment: Some(Treatment::Eliminate), ..settings.clone() };
     let eliminated = solve_once(&sheet.mesh, &asked, &pins, Control::unattended());
     assert!(matches!(eliminated, Err(SolveError::Singular { .. })), "{eliminated:?}");
-    // A small grid has no need of it.
+    // A small grid does not need it.
     let small = Sheet::new(6, 6, Diagonals::OneWay, 0.0);
     let pins = hard_pins([6, 42].map(|v| (VertexId::from_index(v), small.plane[v])));
     assert!(!small.solved(&settings, &pins).linear.expect("linear").keeps_equations);

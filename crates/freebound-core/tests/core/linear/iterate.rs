@@ -1,4 +1,4 @@
-//! The mean-value iteration (paper §4): fixed points, treatments of pins, degenerate embeddings, squeezed ones.
+//! Mean-value iteration (paper §4): fixed points, treatments of pins, degenerate and squeezed embeddings.
 
 use faer::Mat;
 use faer::linalg::solvers::SolveLstsq as _;
@@ -16,10 +16,10 @@ use super::shapes::{area_range, finger, interior_pair};
 use freebound_testkit::surfaces::irregular_cube;
 use freebound_testkit::{Entry, Random, corpus_disks, corpus_test, disk, grid};
 
-/// Least-squares solutions of a dense and of our own solver may differ by this share of the extent.
+/// Largest difference of least-squares solutions from a dense solver, relative to the extent.
 const AGAINST_DENSE: f64 = 1e-9;
 
-/// A planar embedding may move by this share of its diameter in one step: the limit.
+/// Largest move of a planar embedding in one step, relative to its diameter: the limit.
 const FIXED_POINT: f64 = 1e-9;
 
 fn steps_of(mesh: &DiskMesh, settings: Settings, pins: Pins) -> Vec<Step> {
@@ -28,19 +28,19 @@ fn steps_of(mesh: &DiskMesh, settings: Settings, pins: Pins) -> Vec<Step> {
     steps
 }
 
-/// Pins that hold vertices where an embedding has them.
+/// Pins vertices at their positions in an embedding.
 fn at_place(pinned: &[VertexId], embedding: &Embedding) -> Pins {
     hard_pins(pinned.iter().map(|&v| (v, embedding[v])))
 }
 
-/// One step from an embedding, with some of its vertices pinned where they lie.
+/// Takes a step from an embedding, with some of its vertices pinned in place.
 fn step(mesh: &DiskMesh, embedding: &Embedding, pinned: &[VertexId], treatment: Treatment) -> Embedding {
     let mut iteration =
         Iteration::new(mesh, embedding, &at_place(pinned, embedding), treatment, Control::unattended()).unwrap();
     iteration.step(mesh, embedding, Control::unattended()).unwrap().embedding
 }
 
-/// A flat mesh whose vertices were moved at random, far enough to fold it.
+/// Flat mesh with vertices moved at random, far enough to fold it.
 fn crumpled(columns: u32, random: &mut Random) -> (DiskMesh, Embedding) {
     let mesh = DiskMesh::try_from(grid(columns, columns)).unwrap();
     let mut jitter = || 1.4 * (random.unit() - 0.5);
@@ -48,7 +48,7 @@ fn crumpled(columns: u32, random: &mut Random) -> (DiskMesh, Embedding) {
     (mesh, embedding)
 }
 
-/// The minimiser of ‖A z‖ with the pins at their places, from all n equations as a dense matrix.
+/// Minimiser of ‖A z‖ with the pins in place, from all n equations as a dense matrix.
 fn dense_least_squares(mesh: &DiskMesh, embedding: &Embedding, pins: &Pins) -> Embedding {
     let equations = natural_in_plane(mesh, embedding, Control::unattended()).unwrap();
     let free: Vec<VertexId> = mesh.vertices().filter(|v| !pins.contains_key(v)).collect();
@@ -117,7 +117,7 @@ fn assert_a_planar_embedding_is_a_fixed_point(meshes: Vec<(String, DiskMesh)>) {
     let mut random = Random(10);
     let mut tried = 0;
     for (name, mesh) in meshes {
-        // The corridors of the maze are singular in 64 bits for nearly any pins: see `natural`.
+        // The corridors of the maze are singular in 64 bits for nearly all pins: see `natural`.
         if mesh.face_count() > 25_000 || name.starts_with("maze") {
             continue;
         }
@@ -155,7 +155,7 @@ corpus_test! {
     }
 }
 
-/// Ends of runs on irregular cubes with two interior pins: how many were planar, and the most steps.
+/// Runs on irregular cubes with two interior pins: number of planar ends, and largest number of steps.
 fn on_cubes(count: u32, treatment: Treatment) -> (u32, usize) {
     let mut random = Random(0xc0be5);
     let (mut planar, mut most) = (0, 0);
@@ -245,7 +245,8 @@ fn a_planar_embedding_satisfies_its_own_equations() {
 
 #[test]
 fn folds_of_a_large_regular_grid_are_taken_away() {
-    // The left kernel of its equations lives in two corners: leaving out those of pins elsewhere would be singular.
+    // The left kernel of its equations is concentrated in two corners; leaving out equations of pins elsewhere would
+    // be singular.
     for columns in [20, 40, 80] {
         let mesh = DiskMesh::try_from(grid(columns, columns)).unwrap();
         let mut embedding: Embedding = mesh.mesh().positions.iter().map(|x| DVec2::new(x.x, x.y)).collect();
@@ -265,7 +266,7 @@ fn folds_of_a_large_regular_grid_are_taken_away() {
 
 #[test]
 fn a_large_regular_grid_stays_where_it_is() {
-    // Its free-boundary system is singular in 64 bits for pins at these corners; nothing has to be solved.
+    // Its free-boundary system is singular in 64 bits for pins at these corners; no solve is needed.
     for columns in [40, 80] {
         let mesh = DiskMesh::try_from(grid(columns, columns)).unwrap();
         let mut run = Flattener::new(Settings::default(), Pins::new());
@@ -303,7 +304,7 @@ fn a_degenerate_embedding_says_that_weights_were_bounded_and_goes_on() {
     let mesh = DiskMesh::try_from(grid(5, 5)).unwrap();
     let flat = |x: &glam::DVec3| DVec2::new(x.x, x.y);
     let mut embedding: Embedding = mesh.mesh().positions.iter().map(flat).collect();
-    // Three vertices in one place, so that a face is a point and others are segments, and a face without height.
+    // Three coinciding vertices collapse a face to a point and others to segments; a fourth flattens a face.
     let [a, b, c, d] = [14, 15, 21, 8];
     embedding[b] = embedding[a];
     embedding[c] = embedding[a];

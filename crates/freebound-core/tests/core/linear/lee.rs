@@ -1,4 +1,5 @@
-//! Lee's virtual boundary: planar by Tutte's theorem, its equations met by mesh and padding, and no flat mesh comes back.
+//! Lee's virtual boundary: planar by Tutte's theorem, equations met by mesh and padding, and no reproduction of flat
+//! meshes.
 
 use freebound_core::bijective::Padded;
 use freebound_core::flatten::{Flattener, Step};
@@ -21,7 +22,7 @@ fn lee(layers: usize, family: Family) -> Settings {
     Settings { layers, ..Settings::new(Method::Lee(BoundaryShape::Circle), family) }
 }
 
-/// The only step of the method.
+/// Single step of the method.
 fn step(mesh: &DiskMesh, settings: Settings) -> Step {
     let mut steps = Vec::new();
     Flattener::new(settings, Pins::new())
@@ -70,7 +71,7 @@ corpus_test! {
 }
 
 fn assert_every_vertex_within_the_outermost_ring_lies_at_the_mean_of_its_neighbours(meshes: Vec<(String, DiskMesh)>) {
-    // Uniform weights: the mean of the neighbours, which are counted here from the triangles alone.
+    // Uniform weights: the mean of the neighbours, counted here from the triangles alone.
     for (name, mesh) in meshes {
         let (solution, padding) = Padded::new(&mesh, 3)
             .solve(&lee(3, Family::Uniform), Control::unattended())
@@ -151,7 +152,7 @@ fn virtual_triangles_have_the_shapes_of_a_straight_strip() {
     for layer in 0..2 {
         let above: Vec<f64> = (0..count).map(|k| 0.5 * (below[k] + below[(k + 1) % count])).collect();
         for k in 0..count {
-            // On a straight strip: the edges of the ring in a row, each vertex above the middle of its edge.
+            // Straight strip: the edges of the ring in a row, each vertex above the middle of its edge.
             let slant = |k: usize| (0.25 * below[k % count].powi(2) + height * height).sqrt();
             let upwards = sides(padded.shape([ring(layer, k), ring(layer + 1, k), ring(layer, k + 1)]));
             let downwards = sides(padded.shape([ring(layer, k + 1), ring(layer + 1, k), ring(layer + 1, k + 1)]));
@@ -165,12 +166,12 @@ fn virtual_triangles_have_the_shapes_of_a_straight_strip() {
         }
         below = above;
     }
-    // Faces of the mesh keep their own.
+    // Faces of the mesh keep their own shape.
     let face = mesh.mesh().triangles[3];
     assert_eq!(padded.shape(face), mesh.shape(face));
 }
 
-/// The mean ratio of singular values over the surface, 1 where angles are kept.
+/// Area-weighted mean ratio of singular values, 1 if angles are preserved.
 fn angle_distortion(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     distortion(mesh, embedding).summary.angle.mean
 }
@@ -184,7 +185,7 @@ fn a_flat_mesh_does_not_come_back_but_is_distorted_less_than_on_a_convex_boundar
         let padded = angle_distortion(&mesh, &step(&mesh, lee(2, family)).candidate.solution.embedding);
         assert!(1.05 < padded && padded < convex, "{family}: {padded} after {convex}");
     }
-    // Not even one whose boundary is convex, and on that very shape (the paper, §1.1).
+    // Not even a square, whose boundary is convex, on that very shape (the paper, §1.1).
     let square = disk(sheet(8, 0.0));
     let on_square = Settings::new(Method::Lee(BoundaryShape::Square), Family::MeanValue);
     assert!(angle_distortion(&square, &step(&square, on_square).candidate.solution.embedding) > 1.01);
@@ -243,7 +244,7 @@ fn a_single_triangle_can_be_padded() {
     }
 }
 
-/// Faces whose corners do not run counter-clockwise, in exact arithmetic.
+/// Number of faces that are not counter-clockwise, in exact arithmetic.
 fn faces_not_positive(mesh: &DiskMesh, embedding: &Embedding) -> usize {
     let at = |vertex: VertexId| robust::Coord { x: embedding[vertex].x, y: embedding[vertex].y };
     let faces = mesh.mesh().triangles.iter();

@@ -1,4 +1,4 @@
-//! Many pins: the sparse way of least squares against dense least squares, and against the way of few pins.
+//! Many pins: sparse least squares against dense least squares, and against the algorithm for few pins.
 
 use std::time::{Duration, Instant};
 
@@ -14,7 +14,7 @@ use super::weighted::{apart, dense_equations, mixed};
 use freebound_testkit::surfaces::{bump, irregular_cube};
 use freebound_testkit::{Random, disk, grid};
 
-/// Two ways to the same answer may be apart by this share of its diameter.
+/// Largest difference between two algorithms, relative to the diameter of the solution.
 const AGREE: f64 = 1e-9;
 
 const FAMILIES: [Family; 4] = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.5)];
@@ -23,7 +23,7 @@ fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Solution {
     solve_once(mesh, settings, pins, Control::unattended()).unwrap()
 }
 
-/// Every `step`th vertex, held as `hold` says.
+/// Pins every `step`th vertex with `pin`, which gets the target and a count.
 fn each(mesh: &DiskMesh, step: usize, pin: impl Fn(DVec2, usize) -> Pin) -> Pins {
     let mut random = Random(17);
     let target = |v: VertexId| mesh.position(v).truncate() + 0.4 * DVec2::new(random.unit(), random.unit());
@@ -59,8 +59,8 @@ fn many_pins_of_any_kind_agree_with_dense_least_squares() {
     }
 }
 
-/// A vertex that is pinned where the minimum has it changes nothing. So a solve with few pins and one with all of these
-/// and many more, on the places where the first put them, must give the same.
+/// A vertex pinned to its position at the minimum changes nothing. Asserts that a solve with few pins agrees with
+/// one that also pins many further vertices at the first solve's positions.
 fn assert_further_pins_change_nothing(mesh: &DiskMesh, settings: &Settings, few: &Pins, further: &Pins) {
     let Solution { embedding, .. } = solve(mesh, settings, few);
     let at_rest = |(&v, pin): (&VertexId, &Pin)| (v, Pin { target: embedding[v], ..*pin });
@@ -106,7 +106,7 @@ fn a_step_of_the_iteration_with_many_pins_agrees_with_one_with_few() {
         iteration.step(&mesh, start, Control::unattended()).unwrap().embedding
     };
     let found = step(&few, &start);
-    // Weighted pins may lie away from where the step begins.
+    // Soft pins may lie away from the start of the step.
     let pulled = each(&mesh, 2, |target, _| Pin::weighted(target, 1.5));
     let at_rest = pulled.iter().map(|(&v, pin)| (v, Pin { target: found[v], ..*pin }));
     let many = at_rest.chain(few.iter().map(|(&v, &pin)| (v, pin))).collect();
@@ -160,7 +160,7 @@ fn thousands_of_pins_are_solved_for_in_good_time_and_stop_when_asked() {
     let pins = each(&mesh, 3, |target, _| Pin::hard(target));
     let start = Instant::now();
     solve(&mesh, &settings, &pins);
-    // One by one, these take minutes.
+    // Handled one by one, these would take minutes.
     assert!(start.elapsed() < Duration::from_mins(2), "{:?}", start.elapsed());
     let cancel = std::sync::atomic::AtomicBool::new(false);
     let raise =

@@ -1,4 +1,4 @@
-//! Linear solves with free and fixed boundaries, beside dense and independent solves.
+//! Linear solves with free and fixed boundaries, against dense and independent solves.
 
 pub(crate) mod convex;
 pub(crate) mod flat;

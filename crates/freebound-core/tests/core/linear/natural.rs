@@ -1,4 +1,4 @@
-//! The natural boundary (paper §3.3) on the corpus, against independent solves, and its repeatability.
+//! Natural boundary (paper §3.3) on the corpus, against independent solves; repeatability.
 
 use std::sync::atomic::AtomicBool;
 
@@ -22,27 +22,28 @@ use super::reproduction::distance_up_to_similarity;
 use crate::weights::families::free_methods;
 use freebound_testkit::{Entry, Random, corpus_disks, corpus_test, data_disks, disk};
 
-/// The relative residual of a solve: the limit.
+/// Largest relative residual of a solve: the limit.
 const RESIDUAL: f64 = 1e-10;
 
-/// The relative residual of the LU after refinement: the limit.
+/// Largest relative residual of the LU after refinement: the limit.
 const LU_RESIDUAL: f64 = 1e-12;
 
-/// The one disk of the corpus whose boundary the conformal natural boundary folds.
+/// The only disk of the corpus that the conformal natural boundary folds.
 const FOLDED: &str = "cow_seamster.obj";
 
-/// The residual of a flattening by LU, relative to the few entries that pins put on the right-hand side. With the numbers
-/// of pinned vertices as the only ones there, ‖b‖ is far smaller than ‖A‖ ‖z‖; 2.5e-12 is the most on the corpus.
+/// Largest residual of a flattening by LU, relative to the few entries that pins put on the right-hand side. These
+/// few make ‖b‖ far smaller than ‖A‖ ‖z‖; the largest on the corpus is 2.5e-12.
 const LU_RESIDUAL_OF_FLATTENING: f64 = 5e-12;
 
-/// How far solutions of size 1 may be off that were multiplied into a right-hand side: ε times a condition number.
+/// Largest error of manufactured solutions of size 1: ε times a condition number.
 const MANUFACTURED: f64 = 1e-9;
 
-/// Corridors two triangles wide, all told thousands of times longer than wide. There the unsymmetric systems are singular
-/// in 64 bits for nearly any two pins, the usual ones too, and an error has to say so: see `gauge`.
+/// Corridors two triangles wide, in total thousands of times longer than wide. The unsymmetric systems there are
+/// singular in 64 bits for nearly all pairs of pins, the default ones included, and must fail with an error: see
+/// `gauge`.
 const CORRIDORS: &str = "maze.obj";
 
-/// The largest mesh that is solved with a dense matrix, vertices.
+/// Largest mesh solved with a dense matrix, vertices.
 const DENSE_LIMIT: usize = 1000;
 
 fn natural(family: Family) -> Settings {
@@ -106,8 +107,8 @@ fn assert_lscm_is_the_conformal_natural_boundary(disks: Vec<Entry>) {
             solve_once(&mesh, &settings, &Pins::new(), Control::unattended()).unwrap().embedding
         });
         let error = distance(&lscm, &natural);
-        // The system of the corridors is so close to singular that the rounding of its entries alone, which the two
-        // formulas do each in its own way, moves the answer by 3e-8.
+        // The system of the corridors is nearly singular. Both formulas round its entries differently, and this
+        // alone moves the solution by 3e-8.
         let limit = if entry.file == CORRIDORS { 1e-7 } else { 1e-9 };
         assert!(error <= limit, "{}: {error:e}", entry.file);
     }
@@ -134,7 +135,7 @@ fn assert_the_conformal_matrix_is_hermitian_bit_for_bit(meshes: Vec<(String, Dis
             .unwrap();
         for (row, column, value) in matrix.triplet_iter() {
             let mirror = matrix.get_entry(column, row).expect("the pattern is symmetric").into_value();
-            // Adding zero makes one bit pattern of the two zeros.
+            // Adding zero gives both zeros one bit pattern.
             let same = (mirror.re + 0.0).to_bits() == (value.re + 0.0).to_bits()
                 && (-mirror.im + 0.0).to_bits() == (value.im + 0.0).to_bits();
             assert!(same, "{name}: entry ({row}, {column}) is {value}, its mirror {mirror}");
@@ -153,7 +154,8 @@ corpus_test! {
     }
 }
 
-/// The family's part of the identity of one corner (DESIGN §1), term by term, from the angle itself: factors of z₀, z₁, z₂.
+/// Contribution of a corner to the family's identity (DESIGN §1), term by term from the angle: factors of z₀, z₁,
+/// z₂.
 pub(crate) fn corner_terms(x: [DVec3; 3], settings: &Settings) -> [Complex<f64>; 3] {
     let (u, w) = (x[1] - x[0], x[2] - x[0]);
     let (r1, r2, angle) = (u.length(), w.length(), u.angle_between(w));
@@ -169,7 +171,7 @@ pub(crate) fn corner_terms(x: [DVec3; 3], settings: &Settings) -> [Complex<f64>;
     [-of1 - of2, of1, of2]
 }
 
-/// Solves with a dense matrix, written down corner by corner.
+/// Solves with a dense matrix, assembled corner by corner.
 fn dense_solution(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Embedding {
     let n = mesh.vertex_count();
     let mut matrix = Mat::<Complex<f64>>::zeros(n, n);
@@ -223,7 +225,7 @@ corpus_test! {
     }
 }
 
-/// The unsymmetric systems with a free boundary.
+/// Unsymmetric systems with a free boundary.
 fn unsymmetric(mesh: &DiskMesh) -> [(&'static str, Equations<Complex<f64>>); 3] {
     [
         ("mean value", equations::natural(mesh, 0.0, Control::unattended()).expect("well-formed by construction")),
@@ -272,7 +274,7 @@ corpus_test! {
             let mesh = entry.disk();
             for settings in families.clone().into_iter().chain([levy.clone()]) {
                 let solved = solve_once(&mesh, &settings, &Pins::new(), Control::unattended());
-                // Its squares leave Wachspress equations a further solution, as on a chess board: see `gauge`.
+                // Its squares add a solution of the Wachspress equations, as alternating diagonals do: see `gauge`.
                 if entry.file == CORRIDORS && settings.family() == Family::Wachspress {
                     assert!(matches!(solved, Err(SolveError::Singular { .. })), "{settings:?}");
                     continue;

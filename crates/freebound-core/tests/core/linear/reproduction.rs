@@ -1,4 +1,4 @@
-//! 2D reproduction (paper §3.3): a planar mesh comes back up to similarity. With it the ranks 2n−4 and 2n−2.
+//! 2D reproduction (paper §3.3): a planar mesh is reproduced up to similarity. Hence the ranks 2n−4 and 2n−2.
 
 #![allow(clippy::float_cmp, reason = "a flat mesh has one height")]
 
@@ -19,14 +19,14 @@ use super::flat::Flat;
 use crate::weights::families::free_methods;
 use freebound_testkit::{Random, corpus_entry, corpus_test, disk, grid, shaped};
 
-/// Largest distance of a vertex from its place, relative to the diameter: the limit.
+/// Largest distance of a vertex from its true position, relative to the diameter: the limit.
 const TOLERANCE: f64 = 1e-9;
 
 fn complex(z: DVec2) -> Complex<f64> {
     Complex::new(z.x, z.y)
 }
 
-/// The extent of a set of points: no two are farther apart than √2 of it.
+/// Extent of a set of points: no two are farther apart than √2 times it.
 pub(crate) fn extent(points: &[DVec2]) -> f64 {
     let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
@@ -50,7 +50,7 @@ fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins, name: &str) -> Embed
         .embedding
 }
 
-/// What is asserted of every planar mesh: with the default pins it comes back up to similarity and is proved.
+/// Asserts that a planar mesh with the default pins is reproduced up to similarity, and proved planar.
 fn assert_comes_back(mesh: &DiskMesh, plane: &[DVec2], name: &str) {
     assert_comes_back_by(&free_methods(), mesh, plane, name);
 }
@@ -64,7 +64,7 @@ fn assert_comes_back_by(methods: &[Settings], mesh: &DiskMesh, plane: &[DVec2], 
     }
 }
 
-/// With two pins at their true places every vertex lies at its own.
+/// Asserts that two pins at their true positions reproduce all vertices.
 fn assert_pins_hold_it_in_place(flat: &Flat, pinned: [VertexId; 2]) {
     let pins = hard_pins(pinned.iter().map(|&v| (v, flat.plane[v.index()])));
     for settings in free_methods() {
@@ -87,9 +87,9 @@ proptest! {
 
 }
 
-/// Seeds are fixed here. Pins that lie together in a tooth leave an unsymmetric system ill-conditioned (see
-/// [`all_methods`]): of 21,000 solves with other seeds the worst was off by 9.5e-10, all but three by less than 5e-10.
-/// With the default pins none was off by more than 1e-11.
+/// Seeds are fixed here. Pins together in one tooth make an unsymmetric system ill-conditioned (see
+/// [`all_methods`]). Of 21,000 solves with other seeds the worst error was 9.5e-10, all but three below 5e-10. With
+/// the default pins no error was above 1e-11.
 #[test]
 fn planar_meshes_come_back_in_place_with_two_random_pins_at_their_places() {
     for seed in 0..40 {
@@ -114,10 +114,11 @@ fn interior_pins_hold_a_planar_mesh_in_place() {
 
 /// All methods with a free boundary.
 ///
-/// On long thin strips an unsymmetric matrix asks for care: the combinations of equations that say nothing (its left
-/// kernel) live at some place of the strip and fade exponentially away from it, and eliminating the equations of pins
-/// elsewhere leaves a system that is singular in 64 bits, although all equations together determine the plane well
-/// (third singular value 5e-4 on the spiral, smallest one without the usual pins' equations below 1e-16).
+/// Long thin strips are difficult for an unsymmetric matrix. Its left kernel, the combinations of equations without
+/// information, is concentrated in one part of the strip and decays exponentially away from it. Eliminating the
+/// equations of pins elsewhere leaves a system that is singular in 64 bits, although all equations together
+/// determine the plane well. On the spiral the third singular value is 5e-4, and the smallest one without the
+/// default pins' equations is below 1e-16.
 fn all_methods() -> Vec<Settings> {
     [free_methods(), vec![Settings::new(Method::Spectral, Family::Conformal)]].concat()
 }
@@ -152,7 +153,7 @@ corpus_test! {
 
 #[test]
 fn a_mirrored_plane_comes_back_by_its_faces() {
-    // Seen from below the faces of the grid run clockwise; they decide what is up.
+    // Seen from below the faces of the grid run clockwise; they determine the orientation.
     let mut mesh = grid(4, 3);
     for position in &mut mesh.positions {
         position.x = -position.x;
@@ -161,7 +162,7 @@ fn a_mirrored_plane_comes_back_by_its_faces() {
     assert_comes_back(&DiskMesh::try_from(mesh).unwrap(), &plane, "a grid turned over");
 }
 
-/// A of all vertex equations as a real matrix of order 2n.
+/// Matrix A of all vertex equations as a real matrix of order 2n.
 pub(crate) fn real_matrix(mesh: &DiskMesh, settings: &Settings) -> DMatrix<f64> {
     let equations = match settings.method {
         Method::Levy => equations::levy(mesh, Control::unattended()),
@@ -187,7 +188,7 @@ pub(crate) fn real_matrix(mesh: &DiskMesh, settings: &Settings) -> DMatrix<f64> 
     matrix
 }
 
-/// How many singular values are zero but for rounding; the smallest of the others stands clear of them.
+/// Number of singular values that are zero up to rounding; asserts a clear gap to the others.
 fn nullity(matrix: &DMatrix<f64>, what: &str) -> usize {
     let values = matrix.singular_values();
     let largest = values.max();
@@ -196,7 +197,7 @@ fn nullity(matrix: &DMatrix<f64>, what: &str) -> usize {
     values.iter().filter(|&&v| v <= 1e-13 * largest).count()
 }
 
-/// A grid of squares moved into space.
+/// Grid of squares mapped to space.
 fn shaped_disk(columns: u32, rows: u32, place: impl Fn(f64, f64) -> DVec3) -> DiskMesh {
     disk(shaped(columns, rows, place))
 }
@@ -223,7 +224,7 @@ fn the_rank_is_2n_minus_4_on_developable_meshes_and_2n_minus_2_on_others() {
 
 #[test]
 fn a_rolled_up_sheet_comes_back_flat() {
-    // A strip of a cylinder: quads are plane, and the sheet unrolls to a rectangle of chords by height.
+    // A strip of a cylinder: quads are planar, and the sheet unrolls to a rectangle of chords by height.
     let (columns, rows) = (9, 4);
     let step = PI / 6.0;
     let mesh = shaped_disk(columns, rows, |x, y| DVec3::new((x * step).cos(), (x * step).sin(), y / 2.0));

@@ -1,4 +1,4 @@
-//! Irregular surfaces that are hard to flatten, made by the dozen.
+//! Irregular surfaces that are hard to flatten.
 
 use freebound_testkit::surfaces::disk;
 use std::f64::consts::TAU;
@@ -9,8 +9,8 @@ use glam::DVec3;
 
 use freebound_testkit::Random;
 
-/// A tube of radius 1, closed at the far end, with jittered rings of `around` vertices: a conformal map shrinks it by e
-/// for every radius of its length.
+/// Tube of radius 1, closed at the far end, with jittered rings of `around` vertices. A conformal map shrinks it by
+/// a factor e per radius of its length.
 pub(crate) fn finger(rings: u32, around: u32, random: &mut Random) -> DiskMesh {
     let spacing = TAU / f64::from(around);
     let mut positions = Vec::new();
@@ -57,7 +57,7 @@ pub(crate) fn interior_pair(mesh: &DiskMesh, random: &mut Random) -> [VertexId; 
     }
 }
 
-/// Areas of the faces of an embedding, the least and the greatest.
+/// Least and greatest area of an embedding's faces.
 pub(crate) fn area_range(mesh: &DiskMesh, embedding: &Embedding) -> [f64; 2] {
     let area = |face| {
         let [a, b, c] = embedding.corners(mesh, face);

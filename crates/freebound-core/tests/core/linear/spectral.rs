@@ -1,4 +1,4 @@
-//! Spectral conformal maps: the eigenvector of a dense solver, no more energy than pins would need, and no pin.
+//! Spectral conformal maps: agreement with a dense eigensolver, no more energy than with pins, and no pin.
 
 use freebound_core::flatten::solve_once;
 use freebound_core::linear::spectral;
@@ -20,7 +20,7 @@ fn complex(z: DVec2) -> C64 {
     C64::new(z.x, z.y)
 }
 
-/// L as a dense matrix, over all vertices of a mesh without unused ones.
+/// Matrix L as a dense matrix, over all vertices of a mesh without unused ones.
 fn energy_matrix(mesh: &DiskMesh) -> DMatrix<C64> {
     let equations = equations::natural(mesh, Family::CONFORMAL_POWER, Control::unattended()).unwrap();
     let mut matrix = DMatrix::zeros(mesh.vertex_count(), mesh.vertex_count());
@@ -32,14 +32,14 @@ fn energy_matrix(mesh: &DiskMesh) -> DMatrix<C64> {
     matrix
 }
 
-/// z* L z, from the equations.
+/// Energy z* L z, from the equations.
 fn energy(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let equations = equations::natural(mesh, Family::CONFORMAL_POWER, Control::unattended()).unwrap();
     let work = |v: VertexId| -(complex(embedding[v]).conj() * equations.residual_of(mesh, embedding, v)).re;
     mesh.vertices().map(work).sum()
 }
 
-/// The energy of an embedding moved so that its boundary is around the origin, at boundary norm 1.
+/// Energy at boundary norm 1, with the boundary centred at the origin.
 fn energy_at_boundary_norm(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let boundary = embedding.boundary(mesh);
     let mean = boundary.iter().sum::<DVec2>() / boundary.len() as f64;
@@ -47,8 +47,8 @@ fn energy_at_boundary_norm(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     energy(mesh, embedding) / norm
 }
 
-/// The least eigenvalue but that of constants, and its eigenvector: with the inside eliminated, the problem is an ordinary
-/// one on the boundary.
+/// Least eigenvalue except that of constants, and its eigenvector. With the inside eliminated, the problem is an
+/// ordinary eigenproblem on the boundary.
 fn dense_answer(mesh: &DiskMesh) -> (f64, Vec<C64>) {
     let matrix = energy_matrix(mesh);
     let boundary: Vec<usize> = mesh.boundary_loop().iter().map(|v| v.index()).collect();
@@ -173,7 +173,7 @@ fn the_order_of_vertices_is_no_matter() {
     let mesh = sheet(7, 0.6);
     let expected = spectral(&disk(mesh.clone()), Control::unattended()).unwrap();
     let count = mesh.vertex_count();
-    // Every number times 5, modulo the number of vertices, which 5 does not divide.
+    // Multiplies every number by 5, modulo the number of vertices, which 5 does not divide.
     let number = |v: usize| 5 * v % count;
     assert!(!count.is_multiple_of(5));
     let mut renumbered = mesh.clone();
@@ -245,7 +245,7 @@ fn assert_every_disk_has_one_of_no_more_energy_than_two_pins_give(disks: Vec<Ent
         let settings = Settings::new(Method::Natural, Family::Conformal);
         let natural = solve_once(&mesh, &settings, &Pins::new(), Control::unattended()).unwrap().embedding;
         let energy = energy_at_boundary_norm(&mesh, &natural);
-        // A flat disk has none but for rounding, on either side of zero.
+        // The energy of a flat disk is zero up to rounding, of either sign.
         let rounding = 1e-15;
         assert!(
             energy >= found.eigenvalue * (1.0 - 1e-6) - rounding,

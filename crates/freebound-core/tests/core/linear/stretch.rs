@@ -1,7 +1,8 @@
-//! Stretch minimising: stretch falls from solve to solve, weights stay positive, and it ends where the next would rise.
+//! Stretch minimisation: stretch falls from solve to solve, weights stay positive, and it ends when the next solve
+//! would raise it.
 //!
-//! Stretch is computed here once more, from the partial derivatives of Sander et al. 2001, §3: an independent source for
-//! `distortion` and for what the weights are divided by.
+//! Stretch is computed here independently, from the partial derivatives of Sander et al. 2001, §3. The computation
+//! checks `distortion` and the divisors of the weights.
 
 use freebound_core::flatten::{Ending, Flattener, Step};
 use freebound_core::linear::StretchMinimising;
@@ -26,8 +27,8 @@ fn settings(method: Method) -> Settings {
     Settings::new(method, Family::default())
 }
 
-/// Twice the area on the surface and in the plane of a face, and its squared L² stretch: `(|S_s|² + |S_t|²) / 2` with the
-/// derivatives of the surface by the coordinates of the plane.
+/// Twice the area of a face on the surface and in the plane, and its squared L² stretch: `(|S_s|² + |S_t|²) / 2`
+/// with the derivatives of the surface by the coordinates of the plane.
 fn of_face(mesh: &DiskMesh, embedding: &Embedding, corners: [VertexId; 3]) -> [f64; 3] {
     let [q1, q2, q3] = corners.map(|v| mesh.position(v));
     let [p1, p2, p3] = corners.map(|v| embedding[v]);
@@ -38,7 +39,7 @@ fn of_face(mesh: &DiskMesh, embedding: &Embedding, corners: [VertexId; 3]) -> [f
     [on_surface, double_area.abs(), f64::midpoint(by_s.length_squared(), by_t.length_squared())]
 }
 
-/// The L² stretch of the whole at equal total areas, and of each vertex relative to it.
+/// L² stretch of the whole map at equal total areas, and of each vertex relative to it.
 fn stretches(mesh: &DiskMesh, embedding: &Embedding) -> (f64, Vec<f64>) {
     let (mut total, mut in_plane, mut weighted) = (0.0, 0.0, 0.0);
     let mut around = vec![[0.0; 2]; mesh.vertex_count()];
@@ -57,7 +58,7 @@ fn stretches(mesh: &DiskMesh, embedding: &Embedding) -> (f64, Vec<f64>) {
     ((whole * in_plane / total).sqrt(), local)
 }
 
-/// The number that a step's note begins with.
+/// Number at the start of a step's note.
 fn stretch_said(note: &str) -> f64 {
     let number = note.strip_prefix("L² stretch ").and_then(|rest| rest.split([',', ':']).next());
     number.and_then(|number| number.parse().ok()).expect("a note begins with the stretch")
@@ -199,7 +200,7 @@ fn a_limit_of_steps_ends_it_and_is_said() {
         assert_eq!(steps.len(), (limit + 1).min(all.len()));
         if steps.len() < all.len() {
             let note = steps.last().and_then(|step| step.candidate.note.clone()).expect("a reason");
-            assert!(note.contains("as many solves as it may take"), "{note}");
+            assert!(note.contains("solve limit reached"), "{note}");
         }
         for (limited, free) in steps.iter().zip(&all) {
             assert_eq!(limited.candidate.solution.embedding, free.candidate.solution.embedding);
@@ -207,15 +208,15 @@ fn a_limit_of_steps_ends_it_and_is_said() {
     }
 }
 
-/// Whether a last step says why it is the last.
+/// True if a last step states its reason.
 fn has_reason(last: &Step) -> bool {
-    let reasons = ["infinite: a face has no area", "the minimum: ", "as many solves as it may take", "gave nothing: "];
+    let reasons = ["infinite: a face has no area", "the minimum: ", "solve limit reached", "the next solve failed: "];
     last.candidate.note.as_deref().is_some_and(|note| reasons.iter().any(|reason| note.contains(reason)))
 }
 
 #[test]
 fn what_rounding_collapses_ends_honestly() {
-    // Faces deep inside lie beyond what 64 bits can tell apart: no stretch can be told of them.
+    // Faces deep inside exceed 64-bit precision, so their stretch cannot be computed.
     let mut random = freebound_testkit::Random(7);
     let meshes = [tube(3, 60), tube(3, 240), stacked(60, 4, &mut random), stacked(240, 4, &mut random)];
     let mut collapsed = 0;
@@ -231,7 +232,7 @@ fn what_rounding_collapses_ends_honestly() {
 
 #[test]
 fn a_flat_sheet_on_its_own_outline_is_at_the_minimum_at_once() {
-    // Mean-value weights reproduce a planar mesh whose boundary is where it was: nothing is stretched.
+    // Mean-value weights reproduce a planar mesh with an unchanged boundary: nothing is stretched.
     let mesh = disk(sheet(8, 0.0));
     let flat: Vec<DVec3> = mesh.mesh().positions.clone();
     assert!(flat.iter().all(|p| p.z == 0.0));

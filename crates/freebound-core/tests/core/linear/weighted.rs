@@ -1,4 +1,4 @@
-//! Weighted constraints, alone and mixed with exact ones: against dense least squares, and what their weights mean.
+//! Soft pins, alone and mixed with hard ones: against dense least squares, and the meaning of their weights.
 
 use faer::Mat;
 use faer::linalg::solvers::SolveLstsq;
@@ -17,7 +17,7 @@ use num_complex::Complex;
 use super::natural::corner_terms;
 use freebound_testkit::{Random, disk};
 
-/// Two ways to the same answer may be apart by this share of its diameter.
+/// Largest difference between two algorithms, relative to the diameter of the solution.
 const AGREE: f64 = 1e-9;
 
 const FAMILIES: [Family; 4] = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.5)];
@@ -26,7 +26,7 @@ fn v(number: u32) -> VertexId {
     VertexId::new(number)
 }
 
-/// The mesh at mean edge length 1.
+/// Mesh scaled to mean edge length 1.
 fn normalised(mesh: &DiskMesh) -> TriMesh {
     let lengths: Vec<f64> =
         mesh.edges().map(|edge| mesh.ends(edge)).map(|[a, b]| mesh.position(a).distance(mesh.position(b))).collect();
@@ -35,7 +35,7 @@ fn normalised(mesh: &DiskMesh) -> TriMesh {
     TriMesh { positions, ..mesh.mesh().clone() }
 }
 
-/// A row's entries by column, and its right-hand side.
+/// Entries of a row by column, and its right-hand side.
 type Row = (Vec<(usize, Complex<f64>)>, Complex<f64>);
 
 /// Rows of a dense least-squares problem.
@@ -44,7 +44,7 @@ pub(crate) struct Dense {
 }
 
 impl Dense {
-    /// The minimiser with the exact pins at their targets.
+    /// Minimiser with the hard pins at their targets.
     pub(crate) fn solve(mut self, count: usize, pins: &Pins) -> Embedding {
         for (vertex, pin) in pins {
             if let freebound_core::problem::PinKind::Soft(weight) = pin.kind {
@@ -74,7 +74,7 @@ impl Dense {
     }
 }
 
-/// The vertex equations, written down corner by corner at mean edge length 1; those of some vertices left out.
+/// Vertex equations at mean edge length 1, assembled corner by corner, without those of some vertices.
 pub(crate) fn dense_equations(mesh: &DiskMesh, settings: &Settings, without: impl Fn(VertexId) -> bool) -> Dense {
     let mesh = disk(normalised(mesh));
     let mut rows = vec![(Vec::new(), Complex::ZERO); mesh.vertex_count()];
@@ -91,7 +91,7 @@ pub(crate) fn dense_equations(mesh: &DiskMesh, settings: &Settings, without: imp
     Dense { rows }
 }
 
-/// Random constraints of which about a half is exact; at least two are.
+/// Random constraints, about half of them hard; at least two are.
 pub(crate) fn mixed(count: u32, weights: impl Fn(&mut Random) -> f64, mesh: &DiskMesh, random: &mut Random) -> Pins {
     let mut pins = Pins::new();
     while pins.len() < count as usize {
@@ -156,13 +156,14 @@ fn a_step_of_the_iteration_with_weighted_constraints_agrees_with_dense_least_squ
     let start = solve(&mesh, &Settings::new(Method::Natural, Family::Conformal), &pins);
     let mut iteration = Iteration::new(&mesh, &start, &pins, Treatment::LeastSquares, Control::unattended()).unwrap();
     let found = iteration.step(&mesh, &start, Control::unattended()).unwrap().embedding;
-    // The oracle: the equations at mean edge length 1.
+    // Oracle: the equations at mean edge length 1.
     let edges = mesh.edges().map(|edge| mesh.ends(edge));
     let lengths: Vec<f64> = edges.map(|[a, b]| start[a.index()].distance(start[b.index()])).collect();
     let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
     let flat: Embedding = start.iter().map(|z| *z / mean).collect();
     let equations = natural_in_plane(&mesh, &flat, Control::unattended()).unwrap();
-    // Coefficients come at a size that is a power of two near mean edge length 1; a mean-value row is a length's inverse.
+    // Coefficients are scaled by a power of two near mean edge length 1; a mean-value row scales like an inverse
+    // length.
     let probe = mesh.halfedges().find(|&h| !mesh.is_boundary_edge(mesh.edge_of(h))).unwrap();
     let unit = raw_coefficient(&mesh, &flat, probe) / equations.coefficients[probe.index()].re;
     let mut rows = vec![(Vec::new(), Complex::ZERO); mesh.vertex_count()];
@@ -176,7 +177,7 @@ fn a_step_of_the_iteration_with_weighted_constraints_agrees_with_dense_least_squ
     assert!(error <= AGREE, "{error:.1e}");
 }
 
-/// The mean-value coefficient of an inner halfedge, from the angles beside it.
+/// Mean-value coefficient of an inner halfedge, from the angles beside it.
 fn raw_coefficient(mesh: &DiskMesh, flat: &[DVec2], h: freebound_core::mesh::HalfedgeId) -> f64 {
     let at = |v: VertexId| flat[v.index()];
     let (tail, head) = (at(mesh.tail(h)), at(mesh.head(h)));
@@ -216,7 +217,7 @@ fn heavier_weights_bring_vertices_nearer_and_very_heavy_ones_are_as_good_as_hard
     for family in FAMILIES {
         let settings = Settings::new(Method::Natural, family);
         let exact = solve(&mesh, &settings, &hard);
-        // The sum of squared distances falls with a weight common to all, in every least-squares problem.
+        // In every least-squares problem the sum of squared distances falls as a common weight grows.
         let error = |weight: f64| {
             let pins: Pins = hard.iter().map(|(&v, pin)| (v, Pin::weighted(pin.target, weight))).collect();
             let found = solve(&mesh, &settings, &pins);

@@ -1,4 +1,4 @@
-//! Disks: those of the corpus, and how their halfedges fit together.
+//! Disks of the corpus, and the consistency of their halfedges.
 
 use std::collections::BTreeSet;
 
@@ -82,7 +82,7 @@ fn check_halfedges(disk: &DiskMesh, name: &str) {
     check_boundary(disk, name);
 }
 
-/// Every halfedge is in the fan of its tail, and each follows the one before it counter-clockwise.
+/// Asserts that every halfedge is in the fan of its tail, and that fans run counter-clockwise.
 fn check_fans(disk: &DiskMesh, name: &str) {
     let mut seen = 0;
     for v in disk.vertices() {
@@ -90,7 +90,7 @@ fn check_fans(disk: &DiskMesh, name: &str) {
         seen += fan.len();
         assert!(fan.iter().all(|&h| disk.tail(h) == v), "{name} {v}");
         assert_eq!(fan.iter().collect::<BTreeSet<_>>().len(), fan.len(), "{name} {v}");
-        // Counter-clockwise: the third corner of each face is the head of the halfedge that follows.
+        // Counter-clockwise: the third corner of each face is the head of the next halfedge.
         for pair in fan.windows(2) {
             assert_eq!(disk.head(disk.next(pair[0])), disk.head(pair[1]), "{name} {v}");
         }
@@ -103,7 +103,7 @@ fn check_fans(disk: &DiskMesh, name: &str) {
     assert_eq!(seen, disk.halfedge_count(), "{name}");
 }
 
-/// The loop runs along the boundary edges with the surface to its left.
+/// Asserts that the loop runs along the boundary edges with the surface to its left.
 fn check_boundary(disk: &DiskMesh, name: &str) {
     let boundary = disk.boundary_loop();
     let outer_count = disk.halfedges().filter(|&h| disk.is_outer(h)).count();
@@ -130,7 +130,7 @@ fn the_boundary_of_a_flat_grid_runs_counter_clockwise() {
 
 #[test]
 fn a_disk_keeps_its_dividing_edges_and_ears() {
-    // The outer corners of the first and last square are cut off by a diagonal only at two of the four.
+    // Diagonals cut off only two of the four outer corners of the first and last square.
     let disk = DiskMesh::try_from(grid(2, 1)).expect("a grid is a disk");
     let ends: Vec<[u32; 2]> = disk.dividing_edges().iter().map(|e| e.map(VertexId::number)).collect();
     assert_eq!(ends, [[0, 4], [1, 4], [1, 5]]);

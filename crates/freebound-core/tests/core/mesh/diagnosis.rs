@@ -1,4 +1,4 @@
-//! The diagnosis: every fault by itself, and all together.
+//! Diagnosis: every fault alone, and all together.
 
 use freebound_core::mesh::{DiskMesh, Elements, Fault, TriMesh, VertexId, diagnose};
 use glam::DVec3;
@@ -10,7 +10,7 @@ fn names(mesh: &TriMesh) -> Vec<&'static str> {
     diagnose(mesh).faults.iter().map(Fault::name).collect()
 }
 
-/// A closed torus of 5 × 5 squares.
+/// Closed torus of 5 × 5 squares.
 fn torus() -> TriMesh {
     let at = |x: u32, y: u32| (y % 5) * 5 + x % 5;
     let squares = (0..25).flat_map(|k| {
@@ -51,7 +51,7 @@ fn moved(mut mesh: TriMesh, vertex: usize, to: [f64; 3]) -> TriMesh {
     mesh
 }
 
-/// The grid with one more vertex, on top of its first.
+/// Adds an unreferenced vertex to a mesh.
 fn and_vertex(mut mesh: TriMesh) -> TriMesh {
     mesh.positions.push(DVec3::Z);
     mesh
@@ -60,7 +60,8 @@ fn and_vertex(mut mesh: TriMesh) -> TriMesh {
 #[test]
 fn each_fault_is_named_with_its_elements_and_nothing_else() {
     let nan = [0.0, f64::NAN, 0.0];
-    // Seven of nine squares: the middle is a hole, and without the last two of its neighbours meet at vertex 10 only.
+    // Seven of nine squares: the middle is a hole, and two neighbours of the removed last square meet at vertex 10
+    // only.
     let mut pinched = grid(3, 3);
     pinched.triangles = [&pinched.triangles[..8], &pinched.triangles[10..16]].concat();
     pinched.positions.pop();
@@ -161,7 +162,7 @@ fn a_book_of_many_pages_is_diagnosed_in_good_time() {
 
 #[test]
 fn faces_are_named_as_the_file_counts_them() {
-    // Two quads and a triangle, the triangle without area: face 2 of the file, triangle 4 of the mesh.
+    // Two quads and a triangle without area: face 2 of the file, triangle 4 of the mesh.
     let mut mesh = with_faces(grid(2, 1), &[[2, 5, 6]]);
     mesh.positions.push(DVec3::new(2.0, 2.0, 0.0));
     mesh.polygon_of = Some(vec![0, 0, 1, 1, 2]);
@@ -189,12 +190,12 @@ fn turning_the_named_faces_over_mends_a_mixed_mesh() {
     }
 }
 
-/// Whether the only triangle of a mesh is said to have no area.
+/// True if the diagnosis reports that a single triangle has no area.
 fn has_zero_area(corners: [DVec3; 3]) -> bool {
     names(&TriMesh::new(corners.to_vec(), &[[0, 1, 2]])).contains(&"zero-area")
 }
 
-/// A right triangle with legs 1 and `height`, moved by `at` and scaled.
+/// Triangle with base 1 and height `height`, moved by `at` and scaled.
 fn triangle(height: f64, at: f64, scale: f64) -> [DVec3; 3] {
     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, height, 0.0]].map(|p| (DVec3::from(p) + at) * scale)
 }

@@ -1,4 +1,4 @@
-//! The verdict of the diagnosis against the definition of a disk, written down naively.
+//! Diagnosis of disks against a naive implementation of the definition of a disk.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -24,7 +24,7 @@ fn random_soups_get_the_verdict_of_a_naive_oracle() {
     assert!((2_000..28_000).contains(&disk_count), "both verdicts occur: {disk_count}");
 }
 
-/// A small mesh that may be anything: a disk with a few changes, or a soup.
+/// Small random mesh: a disk with a few changes, or a soup.
 fn random_mesh(random: &mut Random) -> TriMesh {
     let mut mesh = match random.below(6) {
         0 => fan(3 + random.below(4)),
@@ -43,7 +43,7 @@ fn random_mesh(random: &mut Random) -> TriMesh {
     }
     for _ in 0..random.below(4) {
         let vertex_count = u32::try_from(mesh.vertex_count()).expect("small");
-        // Now and then one beyond the last.
+        // Sometimes one beyond the last.
         let vertex = |random: &mut Random| {
             let beyond = u32::from(random.below(40) == 0);
             VertexId::new(random.below(vertex_count + beyond))
@@ -61,7 +61,7 @@ fn random_mesh(random: &mut Random) -> TriMesh {
     mesh
 }
 
-/// The mesh without the vertices that no face names.
+/// Mesh without unreferenced vertices.
 fn compact(mesh: &TriMesh) -> TriMesh {
     let used: BTreeSet<VertexId> = mesh.triangles.iter().flatten().copied().collect();
     let positions = used.iter().map(|v| mesh.positions.get(v.index()).copied().unwrap_or(DVec3::NAN)).collect();
@@ -75,14 +75,14 @@ fn all_faces_have_an_area(mesh: &TriMesh) -> bool {
     mesh.triangles.iter().map(corners).all(|[a, b, c]| (b - a).cross(c - a) != DVec3::ZERO)
 }
 
-/// The definition of a disk, written down with sets and walks, whatever the areas of its faces.
+/// Definition of a disk with sets and walks, regardless of the areas of faces.
 fn is_disk_by_definition(mesh: &TriMesh) -> bool {
     let faces: Vec<[usize; 3]> = mesh.triangles.iter().map(|t| t.map(VertexId::index)).collect();
     let in_range = faces.iter().flatten().all(|&v| v < mesh.vertex_count());
     if faces.is_empty() || !in_range || !mesh.positions.iter().all(|p| p.is_finite()) {
         return false;
     }
-    // Each directed edge once: manifold edges, one orientation. Also excludes repeated vertices and duplicates.
+    // Each directed edge once: manifold edges and one orientation. Also excludes repeated vertices and duplicates.
     let mut directed = BTreeMap::new();
     for f in &faces {
         for k in 0..3 {
@@ -101,7 +101,7 @@ fn is_disk_by_definition(mesh: &TriMesh) -> bool {
         && reaches_all(&faces, mesh.vertex_count())
 }
 
-/// The edges opposite to a vertex make one path or one cycle.
+/// True if the edges opposite to a vertex form a single path or cycle.
 fn link_is_one_chain(vertex: usize, faces: &[[usize; 3]]) -> bool {
     let mut next = BTreeMap::new();
     for f in faces {

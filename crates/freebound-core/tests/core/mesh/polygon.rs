@@ -1,4 +1,4 @@
-//! Polygons cut into triangles.
+//! Triangulation of polygons.
 
 use std::time::{Duration, Instant};
 
@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 
 use freebound_testkit::Random;
 
-/// A mesh of one polygon.
+/// Mesh of a single polygon.
 fn polygon(points: &[[f64; 3]]) -> PolygonMesh {
     let count = u32::try_from(points.len()).expect("small");
     PolygonMesh {
@@ -17,7 +17,7 @@ fn polygon(points: &[[f64; 3]]) -> PolygonMesh {
     }
 }
 
-/// Asserts that triangles fill a flat polygon once: all face the polygon's way, have an area, and add up to `area`.
+/// Asserts that triangles fill a flat polygon once: all face the polygon's side, have an area, and add up to `area`.
 fn assert_fills(mesh: &TriMesh, normal: DVec3, area: f64) {
     let areas: Vec<f64> =
         (0..mesh.face_count()).map(|f| mesh.double_area_vector(FaceId::from_index(f)).dot(normal) / 2.0).collect();
@@ -37,7 +37,7 @@ fn triangles_come_through_untouched() {
 
 #[test]
 fn a_quad_takes_the_diagonal_that_lies_inside() {
-    // An arrowhead, its notch at each of the four places.
+    // An arrowhead with its notch at each of the four corners.
     let arrow = [[0.0, 0.0, 0.0], [2.0, -1.0, 0.0], [0.5, 0.0, 0.0], [2.0, 1.0, 0.0]];
     for shift in 0..4 {
         let mut points = arrow;
@@ -62,7 +62,7 @@ fn concave_polygons_are_filled_once_in_any_plane() {
     let mut random = Random(3);
     for _ in 0..300 {
         let corner_count = 5 + random.below(30);
-        // Star-shaped around the origin, so simple, and mostly concave.
+        // Star-shaped around the origin: simple, and mostly concave.
         let mut flat: Vec<DVec3> = Vec::new();
         for k in 0..corner_count {
             let angle = std::f64::consts::TAU * (f64::from(k) + 0.8 * random.unit()) / f64::from(corner_count);
@@ -130,7 +130,7 @@ fn a_polygon_with_many_corners_is_cut_in_good_time() {
     assert!((cut.area() - std::f64::consts::PI).abs() < 1e-6);
 }
 
-/// The places of the corners of all triangles.
+/// Corner indices of all triangles.
 fn places(mesh: &TriMesh) -> Vec<[u32; 3]> {
     mesh.triangles.iter().map(|t| t.map(VertexId::number)).collect()
 }

@@ -1,11 +1,11 @@
-//! Repairs: each by itself, where every corner comes from, and surfaces of all kinds cut open to disks.
+//! Repairs one by one, the source of every corner, and surfaces of all kinds cut open to disks.
 
 use freebound_core::mesh::{DiskMesh, PolygonMesh, Repair, Repaired, Repairs, TriMesh, VertexId, diagnose};
 use glam::DVec3;
 
 use freebound_testkit::{Random, band, corpus_entry, corpus_test, disk, fan, grid, head, quad_sheet, tetrahedron};
 
-/// Polygons over so many vertices, scattered.
+/// Polygons over `vertex_count` scattered vertices.
 fn polygons(vertex_count: u32, faces: &[&[u32]]) -> PolygonMesh {
     let mut random = Random(u64::from(vertex_count));
     let mut place = || DVec3::new(random.unit(), random.unit(), random.unit());
@@ -27,7 +27,8 @@ fn faces(repaired: &Repaired) -> Vec<Vec<u32>> {
     (0..polygons.face_count()).map(|face| polygons.face(face).iter().map(|v| v.number()).collect()).collect()
 }
 
-/// Positions stay, new vertices lie on old ones, and each corner comes from one of the same face in the same place.
+/// Asserts that positions stay, new vertices coincide with old ones, and each corner comes from a coinciding one of
+/// its face.
 fn assert_comes_from(source: &PolygonMesh, repaired: &Repaired) {
     let polygons = repaired.polygons();
     let old = source.positions.len();
@@ -97,7 +98,7 @@ fn a_face_that_is_there_again_goes_however_it_runs() {
 
 #[test]
 fn fans_that_meet_in_a_vertex_get_one_each() {
-    // Two sheets of one surface, which meets itself at vertex 0 of its boundary.
+    // Two parts of one surface, which meets itself at vertex 0 of its boundary.
     let source = polygons(6, &[&[0, 1, 2], &[1, 3, 2], &[3, 4, 2], &[4, 5, 2], &[4, 0, 5]]);
     assert!(!diagnose(&source.triangulate()).is_disk());
     let repaired = repaired(&source, Repairs::SAFE);
@@ -133,7 +134,7 @@ fn an_edge_of_three_faces_is_split_where_all_is_allowed() {
     assert_eq!(faces(&all), [[0, 1, 2], [5, 6, 3], [7, 8, 4]]);
 }
 
-/// A closed surface of this genus: so many tori of squares in a row, each with two squares taken out and the rims welded.
+/// Closed surface of this genus: a row of `genus` tori of squares, joined at the rims of removed squares.
 fn surface_of_genus(genus: u32) -> TriMesh {
     let (around, along) = (7, 9);
     let at = |part: u32, x: u32, y: u32| part * around * along + (y % along) * around + x % around;
@@ -143,7 +144,7 @@ fn surface_of_genus(genus: u32) -> TriMesh {
         for k in 0..around * along {
             let [[a, b], [d, c]] = [0, 1].map(|up| [0, 1].map(|along| at(part, k % around + along, k / around + up)));
             if k == 0 && part > 0 {
-                // The square faces the one taken out of the part before.
+                // The square faces the removed one of the previous torus.
                 let other = [at(part - 1, 3, 4), at(part - 1, 4, 4), at(part - 1, 4, 5), at(part - 1, 3, 5)];
                 rims.extend([a, d, c, b].into_iter().zip(other));
             } else if !(k == 4 * around + 3 && part + 1 < genus) {
@@ -172,7 +173,7 @@ fn with_holes(mut mesh: TriMesh, holes: &[usize]) -> TriMesh {
     mesh
 }
 
-/// Cuts a surface open and returns how many edges that took.
+/// Cuts a surface open and returns the number of cut edges.
 fn assert_cut(name: &str, mesh: &TriMesh) -> usize {
     let source = PolygonMesh::from(mesh);
     let cut = repaired(&source, Repairs::ALL).cut_to_disks();
@@ -220,7 +221,7 @@ fn random_surfaces_are_cut_to_disks() {
 fn polygons_are_cut_along_their_own_edges() {
     let mut random = Random(8);
     let mut sheet = quad_sheet(12, 6, 0.2, &mut random);
-    // Rolled to a ring: the last column of vertices is the first.
+    // Rolled into a ring: the last column of vertices is the first.
     let columns = 13;
     for corner in &mut sheet.corners {
         if corner.number() % columns == columns - 1 {

@@ -1,4 +1,4 @@
-//! Shortest paths along edges, for seams: compared with a search that knows no queue and measures edges by itself.
+//! Shortest paths along edges, for seams, compared with a search without a queue that measures edges independently.
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
@@ -9,10 +9,10 @@ use glam::DVec3;
 
 use freebound_testkit::{Random, grid, quad_sheet, tetrahedron};
 
-/// How much of an edge's length counts that is as sharp as can be.
+/// Cost of the sharpest edges relative to their length.
 const CREASED: f64 = 0.05;
 
-/// What a detour of rounding may make of a path's cost, relative.
+/// Relative tolerance for path costs that differ by rounding.
 const TOLERANCE: f64 = 1e-12;
 
 type Edge = [VertexId; 2];
@@ -21,14 +21,14 @@ fn ordered([a, b]: Edge) -> Edge {
     [a.min(b), a.max(b)]
 }
 
-/// The area vector of a face, as Newell has it.
+/// Area vector of a face by Newell's formula, normalised.
 fn normal(mesh: &PolygonMesh, face: usize) -> DVec3 {
     let corners = mesh.face(face);
     let at = |k: usize| mesh.positions[corners[k % corners.len()].index()];
     (0..corners.len()).map(|k| at(k).cross(at(k + 1))).sum::<DVec3>().normalize_or_zero()
 }
 
-/// The cost of every edge, by the formula.
+/// Cost of every edge, by the formula.
 fn costs(mesh: &PolygonMesh, creases: f64) -> BTreeMap<Edge, f64> {
     let mut normals: BTreeMap<Edge, Vec<DVec3>> = BTreeMap::new();
     for face in 0..mesh.face_count() {
@@ -46,7 +46,7 @@ fn costs(mesh: &PolygonMesh, creases: f64) -> BTreeMap<Edge, f64> {
     normals.into_iter().map(cost).collect()
 }
 
-/// How far all vertices are from one: every edge is tried until nothing gets shorter.
+/// Distances of all vertices from one, relaxing all edges until nothing changes.
 fn distances(mesh: &PolygonMesh, costs: &BTreeMap<Edge, f64>, from: VertexId) -> Vec<f64> {
     let mut far = vec![f64::INFINITY; mesh.positions.len()];
     far[from.index()] = 0.0;
@@ -76,7 +76,7 @@ fn assert_leads(path: &[Edge], from: VertexId, to: VertexId) {
     assert_eq!(end, from);
 }
 
-/// A cube of quads from (0, 0, 0) to (cells, cells, cells).
+/// Cube of quads from (0, 0, 0) to (cells, cells, cells).
 fn cube(cells: u32) -> PolygonMesh {
     let mut numbers: BTreeMap<[u32; 3], u32> = BTreeMap::new();
     let (mut positions, mut corners) = (Vec::new(), Vec::new());
@@ -150,7 +150,7 @@ fn on_a_cube_a_path_of_creases_goes_along_its_edges() {
 
 #[test]
 fn a_path_crosses_where_the_repair_joins_two_sheets_and_not_where_it_does_not() {
-    // Two sheets side by side, each with vertices of its own along the line between them.
+    // Two sheets side by side, each with its own vertices along the line between them.
     let one = grid(3, 2);
     let moved = one.positions.iter().map(|&at| at + DVec3::X * (one.positions[3] - one.positions[0]).length());
     let count = u32::try_from(one.positions.len()).unwrap();

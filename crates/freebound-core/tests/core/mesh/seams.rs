@@ -15,7 +15,7 @@ use freebound_testkit::many_parts::ball;
 use freebound_testkit::many_parts::torus;
 use freebound_testkit::{Random, band, grid, quad_sheet};
 
-/// A cylinder of quads, open at both ends.
+/// Cylinder of quads, open at both ends.
 fn cylinder(around: u32, rows: u32) -> PolygonMesh {
     let at = |row: u32, x: u32| row * around + x % around;
     let place = |v: u32| {
@@ -29,7 +29,7 @@ fn cylinder(around: u32, rows: u32) -> PolygonMesh {
     polygons((0..around * (rows + 1)).map(place).collect(), &faces)
 }
 
-/// Nothing but these seams; holes are left open.
+/// Preparation with these seams only; holes stay open.
 fn only(edges: impl IntoIterator<Item = [VertexId; 2]>) -> Preparation {
     Preparation { holes: HoleTreatment::Cut, seams: Seams::default().with(edges), ..Preparation::default() }
 }
@@ -38,7 +38,7 @@ fn cuts(repaired: &Repaired) -> Vec<(Repair, usize)> {
     repaired.done().iter().map(|done| (done.repair, done.count)).collect()
 }
 
-/// V − E + F, counted by hand.
+/// Euler characteristic V − E + F, counted independently.
 fn euler_number(mesh: &PolygonMesh) -> i64 {
     let mut edges = BTreeSet::new();
     for face in 0..mesh.face_count() {
@@ -81,7 +81,7 @@ fn a_torus_cut_along_two_loops_is_a_disk() {
 fn a_mobius_strip_cut_across_is_a_disk_of_faces_that_run_alike() {
     let source = PolygonMesh::from(&band(13, 1));
     assert!(DiskMesh::try_from(source.triangulate()).is_err());
-    // Each edge that has two faces goes from one side of the strip to the other.
+    // Each edge with two faces goes from one side of the strip to the other.
     let between = all_edges(&source).into_iter().filter(|(_, faces)| faces.len() == 2);
     for (across, _) in between {
         let form = Preparation { repair: Repairs::ALL, ..only([across]) };
@@ -93,7 +93,7 @@ fn a_mobius_strip_cut_across_is_a_disk_of_faces_that_run_alike() {
 
 #[test]
 fn seams_that_take_a_surface_apart_make_charts_of_it() {
-    // Three squares to a side, cut along both lines from one side to the other, and along one of the others.
+    // Three squares per side, cut along both lines from one side to the other, and along a crossing line.
     let source = quad_sheet(3, 3, 0.0, &mut Random(1));
     let lines = [1, 2].into_iter().flat_map(|x| (0..3).map(move |row| edge(4 * row + x, 4 * row + x + 4)));
     let charts = Charts::of(only(lines.clone()).repaired(&source)).expect("disks");
@@ -134,7 +134,7 @@ fn faces_turned_around_are_cut_alike_with_the_same_numbers() {
 
 #[test]
 fn after_welding_a_seam_of_either_part_is_cut() {
-    // Two squares whose common side each has its own vertices.
+    // Two squares with separate vertices along their common side.
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let places = vec![at(0., 0.), at(1., 0.), at(1., 1.), at(0., 1.), at(1., 0.), at(2., 0.), at(2., 1.), at(1., 1.)];
     let source = polygons(places, &[&[0, 1, 2, 3], &[4, 5, 6, 7]]);
@@ -146,7 +146,7 @@ fn after_welding_a_seam_of_either_part_is_cut() {
     assert!(borders(&source, Repairs::SAFE, &[4, 5]).is_empty());
 }
 
-/// Every edge with the places of its sides: face and first corner.
+/// All edges with the positions of their sides: first corners in the faces.
 fn all_edges(mesh: &PolygonMesh) -> BTreeMap<[VertexId; 2], Vec<usize>> {
     let mut edges: BTreeMap<[VertexId; 2], Vec<usize>> = BTreeMap::new();
     for face in 0..mesh.face_count() {
@@ -160,7 +160,8 @@ fn all_edges(mesh: &PolygonMesh) -> BTreeMap<[VertexId; 2], Vec<usize>> {
     edges
 }
 
-/// The corners that stay together, by the least of them: those of one vertex of faces with a common edge that is not cut.
+/// Groups of corners that stay together, labelled by their least corner. A group has corners of one vertex in faces
+/// that share uncut edges.
 fn corners_together(mesh: &PolygonMesh, cut: &BTreeSet<[VertexId; 2]>) -> Vec<usize> {
     let mut label: Vec<usize> = (0..mesh.corners.len()).collect();
     let face_of: Vec<usize> =
@@ -176,7 +177,7 @@ fn corners_together(mesh: &PolygonMesh, cut: &BTreeSet<[VertexId; 2]>) -> Vec<us
             ends.map(|v| [corner(first, v), corner(second, v)])
         })
         .collect();
-    // Labels spread until nothing changes.
+    // Propagates labels until nothing changes.
     loop {
         let before = label.clone();
         for &[a, b] in &joined {
@@ -226,11 +227,11 @@ fn creases_are_edges_of_faces_at_an_angle() {
     let mut cube = cube();
     assert_eq!(creases(&cube, Repairs::SAFE, 90.0).len(), 12);
     assert!(creases(&cube, Repairs::SAFE, 90.001).is_empty());
-    // A face that runs around the other way is no crease by itself.
+    // A reversed face does not count as a crease by itself.
     cube.corners[4..8].reverse();
     assert_eq!(creases(&cube, Repairs::SAFE, 90.0).len(), 12);
     assert!(creases(&cube, Repairs::SAFE, 90.001).is_empty());
-    // Of a prism with eight sides, upright edges have 45 degrees.
+    // Vertical edges of an eight-sided prism have 45 degrees.
     let prism = cylinder(8, 2);
     let upright: Vec<_> = (0..16).map(|v| edge(v, v + 8)).collect();
     assert_eq!(creases(&prism, Repairs::SAFE, 45.0), upright);
@@ -246,8 +247,8 @@ fn seams_are_a_set_of_edges_whose_ends_come_in_any_order() {
     assert!(seams.without([edge(5, 2), edge(9, 0)]).is_empty() && !seams.is_empty());
 }
 
-/// A quad two of whose corners are near each other, in every order of its corners, beside a quad with corners of its own. Vertices 1
-/// and 2 become one, as 3 and 5 do, so that the quad's side from 2 to 3 becomes one with that of the other.
+/// Quad with two corners near each other, in every order of its corners, beside a quad with its own corners. Welding
+/// joins vertices 1 and 2, and 3 and 5, so the side from 2 to 3 joins that of the other quad.
 fn near_corners() -> Vec<PolygonMesh> {
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let places =

@@ -1,4 +1,4 @@
-//! Vertices welded within a distance: which, against all pairs of them, and what becomes of their faces.
+//! Vertices welded within a distance: the pairs against all pairs, and the effect on their faces.
 
 use freebound_core::mesh::{
     DiskMesh, PolygonMesh, Repair, Repaired, Repairs, TriMesh, VertexId, WeldDistance, diagnose, near_vertices,
@@ -15,13 +15,13 @@ fn welded(mesh: &PolygonMesh, within: f64) -> Repaired {
     Repaired::new(mesh, Repairs::SAFE.welding(Some(distance(within))))
 }
 
-/// A triangle for each three of these places.
+/// Separate triangles over consecutive triples of positions.
 fn soup(positions: Vec<DVec3>) -> PolygonMesh {
     let corners = (0..positions.len() / 3 * 3).map(VertexId::from_index).collect();
     PolygonMesh { positions, corners, starts: None }
 }
 
-/// Every vertex against all earlier ones that stand for others.
+/// Compares every vertex with all earlier representatives.
 fn near_of_all_pairs(positions: &[DVec3], within: f64) -> Vec<[VertexId; 2]> {
     let mut standing: Vec<usize> = Vec::new();
     let mut found = Vec::new();
@@ -41,7 +41,8 @@ fn the_vertices_that_are_joined_are_those_of_all_pairs() {
     let mut random = Random(71);
     for case in 0..200 {
         let count = 3 * (1 + random.index(60));
-        // Few places along some axes, so that many vertices lie in one place or on one line; near and far from the origin.
+        // Few positions along some axes, so that many vertices coincide or are collinear; near and far from the
+        // origin.
         let origin = DVec3::new(random.unit(), random.unit(), random.unit()) * [0.0, 1.0, 1e3, 1e6][case % 4];
         let steps = [1.0, 3.0, 50.0, 1e9][random.index(4)];
         let mut place = || origin + (DVec3::new(random.unit(), random.unit(), random.unit()) * steps).round() / steps;
@@ -79,7 +80,7 @@ fn vertices_of_no_face_and_without_a_position_are_joined_with_nothing() {
     assert_eq!(joined, [[2, 0], [3, 0], [4, 0], [5, 0]].map(|pair| pair.map(VertexId::new)));
 }
 
-/// A sheet of squares in two halves, whose vertices along the middle lie a little apart.
+/// Sheet of squares in two halves whose vertices along the middle are a little apart.
 fn halves(apart: f64) -> PolygonMesh {
     let left = grid(4, 5);
     let mut right = left.clone();
@@ -104,7 +105,7 @@ fn two_halves_a_little_apart_become_one_and_every_vertex_keeps_its_place() {
         [(Repair::WeldVertices, 6)]
     );
     assert_eq!(disk.vertex_count() - disk.used_vertex_count(), 6);
-    // Every corner of the file has a vertex of the disk: that of its place.
+    // Every corner of the file maps to a vertex of the disk at its position.
     for (corner, vertex) in source.corners.iter().zip(one.vertices_at_corners(&source)) {
         let far = source.positions[corner.index()].distance(source.positions[vertex.expect("a vertex").index()]);
         assert!(far <= 1.1e-3, "{corner}: {far}");
@@ -113,7 +114,7 @@ fn two_halves_a_little_apart_become_one_and_every_vertex_keeps_its_place() {
 
 #[test]
 fn faces_that_lose_their_area_by_welding_go_and_their_corners_have_vertices_all_the_same() {
-    // A sheet with a small square in its middle, which becomes a point: the triangles around it stay.
+    // A sheet whose small middle square collapses to a point: the triangles around it stay.
     let mut source = PolygonMesh::from(&grid(3, 3));
     let middle: Vec<usize> =
         (0..source.positions.len()).filter(|&v| (1..=2).contains(&(v % 4)) && (1..=2).contains(&(v / 4))).collect();

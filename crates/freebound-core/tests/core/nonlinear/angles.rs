@@ -1,4 +1,5 @@
-//! Angle based flattening: the conditions in their published form, least energy, both systems alike, planes come back.
+//! Angle-based flattening: the conditions in their published form, least energy, agreement of both systems,
+//! reproduction of planes.
 
 use std::f64::consts::{PI, TAU};
 
@@ -49,7 +50,7 @@ fn steep_meshes() -> Vec<(String, DiskMesh)> {
     meshes
 }
 
-/// A stacked triangulation, its vertices at random heights.
+/// Stacked triangulation with vertices at random heights.
 fn rough(count: usize, random: &mut Random) -> DiskMesh {
     let mut mesh = stacked(count, 9, random);
     mesh.positions.iter_mut().for_each(|x| x.z += 0.1 * random.unit());
@@ -60,7 +61,7 @@ fn inner_vertices(mesh: &DiskMesh) -> Vec<VertexId> {
     mesh.vertices().filter(|&v| mesh.boundary_place(v).is_none()).collect()
 }
 
-/// The angles on the surface, those around inner vertices scaled to 2π.
+/// Angles on the surface, scaled to 2π around inner vertices.
 fn targets(mesh: &DiskMesh) -> Vec<[f64; 3]> {
     let angle = |[a, b, c]: [DVec3; 3]| (b - a).angle_between(c - a);
     let of_face = |face: FaceId| {
@@ -77,7 +78,7 @@ fn targets(mesh: &DiskMesh) -> Vec<[f64; 3]> {
     mesh.faces().zip(&on_surface).map(scaled).collect()
 }
 
-/// The conditions as the source has them, with products of sines: of faces, of sums, of wheels.
+/// Conditions in published form, with products of sines: for faces, angle sums, and wheels.
 fn conditions(mesh: &DiskMesh, angles: &[[f64; 3]]) -> Vec<f64> {
     let mut found: Vec<f64> = angles.iter().map(|face| face.iter().sum::<f64>() - PI).collect();
     for vertex in inner_vertices(mesh) {
@@ -144,7 +145,7 @@ fn where_the_least_energy_has_angles_of_0_a_barrier_keeps_them_positive() {
     }
 }
 
-/// The derivatives of the conditions by central differences.
+/// Derivatives of the conditions by central differences.
 fn jacobian(mesh: &DiskMesh, angles: &[[f64; 3]]) -> DMatrix<f64> {
     const STEP: f64 = 1e-5;
     let count = conditions(mesh, angles).len();
@@ -170,7 +171,7 @@ fn no_angles_near_by_that_meet_the_conditions_have_less_energy() {
         assert!((energy - found.energy).abs() < 1e-9 * (1.0 + energy), "{name}: {energy} and {}", found.energy);
         let gradient = pairs().map(|(angle, target)| 2.0 * (angle / target - 1.0) / target);
         let gradient = DVector::from_iterator(3 * mesh.face_count(), gradient);
-        // What of the gradient no condition holds against: it would lead to less energy.
+        // Component of the gradient that the conditions leave free; it would lower the energy.
         let conditions = jacobian(&mesh, &found.angles);
         let multipliers =
             (&conditions * conditions.transpose()).cholesky().expect("independent").solve(&(&conditions * &gradient));

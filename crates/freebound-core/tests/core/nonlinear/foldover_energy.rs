@@ -1,4 +1,4 @@
-//! The energy of one triangle: its value against its derivatives.
+//! Energy of one triangle: its value against its derivatives.
 
 use freebound_core::nonlinear::foldover_energy::{Element, Energy, Stiffness};
 use glam::DVec2;
@@ -54,7 +54,7 @@ fn the_gradient_is_that_of_the_energy() {
 
 #[test]
 fn the_hessian_is_that_of_the_energy_where_it_is_convex() {
-    // Near to rest, where nothing had to be made positive.
+    // Near the rest shape, where nothing had to be made positive.
     let z = [DVec2::new(0.01, 0.0), DVec2::new(2.02, 0.1), DVec2::new(0.4, 1.53)];
     for energy in [FREE, Energy::SymmetricDirichlet, Energy::AtSize { size: 1.02, pressure: 0.05 }] {
         let model = element().model(z, energy);

@@ -1,4 +1,4 @@
-//! SLIM: its proxy against the energy, its steps against an energy computed here once more, and where it ends.
+//! SLIM: its proxy against the energy, its steps against an independently computed energy, and its ending.
 
 use freebound_core::flatten::{Ending, Flattener, Step, solve_once};
 use freebound_core::mesh::{DiskMesh, VertexId};
@@ -30,7 +30,7 @@ fn tutte(mesh: &DiskMesh) -> Embedding {
     solve_once(mesh, &settings, &Pins::new(), Control::unattended()).expect("solvable").embedding
 }
 
-/// The map of a face, from its shape in space: the sides of the face from its first corner on go to these in the plane.
+/// Twice the area of a face, and its Jacobian from space to the plane, by the sides from its first corner.
 fn jacobian(mesh: &DiskMesh, embedding: &Embedding, [a, b, c]: [VertexId; 3]) -> (f64, DMat2) {
     let [first, second] = [b, c].map(|vertex| mesh.position(vertex) - mesh.position(a));
     let base = first.length();
@@ -40,7 +40,7 @@ fn jacobian(mesh: &DiskMesh, embedding: &Embedding, [a, b, c]: [VertexId; 3]) ->
     (base * height, moved * at_rest.inverse())
 }
 
-/// The mean over the surface of |J|² + |J⁻¹|².
+/// Area-weighted mean over the surface of |J|² + |J⁻¹|².
 fn energy(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let square = |m: DMat2| m.x_axis.length_squared() + m.y_axis.length_squared();
     let (mut sum, mut total) = (0.0, 0.0);
@@ -52,7 +52,7 @@ fn energy(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     sum / total
 }
 
-/// The same as large as the surface.
+/// Embedding scaled to the area of the surface.
 fn at_equal_areas(mesh: &DiskMesh, embedding: &Embedding) -> Embedding {
     let areas = |face| {
         let (on_surface, map) = jacobian(mesh, embedding, face);
@@ -78,7 +78,7 @@ fn corpus_meshes() -> Vec<(String, DiskMesh)> {
     ["nefertiti_562.obj", "cathead.obj"].map(|file| corpus_entry(file).named_disk()).into()
 }
 
-/// A triangle at rest, and one that is not folded.
+/// Rest triangle, and a triangle that is not folded.
 fn pair_of_triangles() -> impl Strategy<Value = (Element, [DVec2; 3])> {
     let point = || (-1.0..1.0_f64, -1.0..1.0_f64).prop_map(|(x, y)| DVec2::new(x, y));
     let triangle = move || {
@@ -143,7 +143,7 @@ fn at_rest_the_weights_are_those_of_a_rotation() {
         let z = rest.map(|z| DVec2::from_angle(angle).rotate(z));
         let proxy = Proxy::at(&element, z);
         assert!(proxy.value(&element, z).abs() < 1e-24);
-        // W² is 4 there: stretched by 1 + h both ways the proxy has ½ · 4 · 2 h².
+        // W² is 4 there: if stretched by 1 + h in both directions, the proxy is ½ · 4 · 2 h².
         let h = 1e-3;
         assert!((proxy.value(&element, z.map(|z| (1.0 + h) * z)) - 4.0 * h * h).abs() < 1e-12);
     }
@@ -168,8 +168,11 @@ fn assert_no_face_folds_and_the_last_step_says_why_it_is_the_last(meshes: Vec<(S
         }
         let last = steps.last().expect("a step");
         let note = last.candidate.note.as_deref().expect("a reason");
-        let is_limit = note == "the last of 20 iterations, as many as it may take";
-        assert!(if steps.len() == 21 { is_limit } else { note.contains("gained less than") }, "{name}: {note}");
+        let is_limit = note == "the last of 20 iterations: limit reached";
+        assert!(
+            if steps.len() == 21 { is_limit } else { note.contains("lowered the energy by less than") },
+            "{name}: {note}"
+        );
         assert!(!last.candidate.has_convex_boundary());
     }
 }
@@ -224,7 +227,7 @@ fn a_flat_mesh_comes_back_in_the_end() {
     assert!(last.verdict.planar, "{}", last.verdict.summary());
     assert!(steps.len() < 200, "it ends by itself");
     assert!(
-        last.candidate.note.as_deref().is_some_and(|note| note.contains("gained less than")),
+        last.candidate.note.as_deref().is_some_and(|note| note.contains("lowered the energy by less than")),
         "{:?}",
         last.candidate.note
     );
@@ -237,13 +240,13 @@ fn a_limit_of_iterations_ends_it() {
         let (steps, _) = run(&mesh, Settings { max_steps: Some(limit), ..slim() });
         assert_eq!(steps.len(), limit + 1);
         let note = steps[limit].candidate.note.as_deref().expect("a reason");
-        assert_eq!(note, format!("the last of {limit} iterations, as many as it may take"));
+        assert_eq!(note, format!("the last of {limit} iterations: limit reached"));
     }
 }
 
 #[test]
 fn where_rounding_folds_tuttes_map_it_begins_with_the_first_planar_map_of_the_ladder() {
-    // Each ring of the tube is a third of the one before: the innermost are beyond 64 bits.
+    // Each ring of the tube is a third of the one before; the innermost exceed 64-bit precision.
     let mesh = disk(tube(3, 80));
     assert_eq!(
         Slim::new(&mesh, &tutte(&mesh), Control::unattended()).err(),
@@ -252,7 +255,7 @@ fn where_rounding_folds_tuttes_map_it_begins_with_the_first_planar_map_of_the_la
     );
     let (steps, ending) = run(&mesh, Settings { max_steps: Some(3), ..slim() });
     let note = steps[0].candidate.note.as_deref().expect("a reason");
-    assert!(note.contains("rounding leaves faces of Tutte's map without area"), "{note}");
+    assert!(note.contains("rounding collapses or folds faces of Tutte's map"), "{note}");
     let first = steps.iter().position(|step| step.candidate.stage == Stage::Slim).expect("an iteration");
     let (way, iterations) = steps.split_at(first);
     assert!(way.len() > 1 && way[0].candidate.stage == Stage::Convex(BoundaryShape::Circle));
@@ -267,7 +270,7 @@ fn where_rounding_folds_tuttes_map_it_begins_with_the_first_planar_map_of_the_la
     assert!(energies.windows(2).all(|pair| pair[1] < pair[0]), "{energies:?}");
     assert!(iterations.iter().all(|step| step.candidate.stage == Stage::Slim && step.verdict.flipped_faces.is_empty()));
     let note = iterations[2].candidate.note.as_deref().expect("a reason");
-    assert_eq!(note, "the last of 3 iterations, as many as it may take");
+    assert_eq!(note, "the last of 3 iterations: limit reached");
 }
 
 #[test]

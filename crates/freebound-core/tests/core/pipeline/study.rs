@@ -1,4 +1,4 @@
-//! The iteration on random trials (paper §7): trials, runs, and what is told of them.
+//! The iteration on random trials (paper §7): trials, runs, and their summary.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use freebound_io::study_plots;
 use freebound_testkit::surfaces::irregular_cube;
 use freebound_testkit::{Random, bumpy_cap_of, disk, fan};
 
-/// A residual that is rounding: equations have no unit, and their coefficients are near 1.
+/// Residual due to rounding: equations have no unit, and their coefficients are near 1.
 const ROUNDING: f64 = 1e-9;
 
 const LIMITS: Limits = Limits { max_steps: 60, patience: Patience::OfMethod };
@@ -39,7 +39,7 @@ fn the_same_runs_come_from_any_number_of_threads() {
     assert_eq!(alone.len(), 40);
     assert!(alone == on(3));
     assert!(alone.iter().map(|record| record.trial.number).eq(0..40));
-    // The runs of a shorter study are the first of a longer one, those of another seed are others.
+    // The runs of a shorter study are the first of a longer one; another seed gives other runs.
     assert!(records(&mesh, Study { runs: 9, ..STUDY }) == alone[..9]);
     let other = records(&mesh, Study { runs: 9, seed: 8, ..STUDY });
     assert!(other.iter().zip(&alone).all(|(a, b)| a.trial.pins != b.trial.pins));
@@ -104,8 +104,8 @@ fn a_mesh_of_one_interior_vertex_has_trials_too() {
     }
 }
 
-/// Theorem 2 of the paper: what meets all its own mean-value equations, with turning number 1, has no flipped face. And a
-/// planar embedding meets them.
+/// Theorem 2 of the paper: a map with turning number 1 that meets all its own mean-value equations has no flipped
+/// face. Conversely, a planar embedding meets them.
 #[test]
 fn planar_ends_meet_all_their_equations_and_folded_ones_do_not() {
     let mut random = Random(11);
@@ -119,7 +119,7 @@ fn planar_ends_meet_all_their_equations_and_folded_ones_do_not() {
                 assert!(rest.free_residual.max(rest.pinned_residual) <= ROUNDING, "{record:?}");
                 assert_eq!((last.flips, last.crossings), (0, 0));
             } else if last.turning_number == Some(1) && last.flips > 0 {
-                // Without a flipped face it may meet them and lie over itself: see the counter-examples.
+                // Without a flipped face it may meet them and overlap itself: see the counterexamples.
                 folded += 1;
                 assert!(rest.free_residual.max(rest.pinned_residual) > ROUNDING, "{record:?}");
             }
@@ -150,7 +150,7 @@ fn past_a_stall_a_run_goes_on_to_its_limit_and_takes_the_same_steps_before() {
     assert!(stalls > 0);
 }
 
-/// A record of a pair of pins with no more to it than counts.
+/// Record of a trial with two pins and with counts only.
 fn told(number: u64, outcome: TrialOutcome, steps: usize) -> Record {
     let turning_number = Some(if number == 3 { 2 } else { 1 });
     Record {
@@ -208,7 +208,7 @@ fn groups_count_what_was_planar_at_once_and_what_was_mended_and_how_fast() {
     assert_eq!(of("mesh")[0].name, "a.obj");
 }
 
-/// A run whose first solve failed has no map to tell of.
+/// A run whose first solve failed has no map to report.
 #[test]
 fn runs_without_a_first_map_are_in_no_group_of_first_maps_and_in_no_curve() {
     let with_all_repairs = told(0, TrialOutcome::Planar, 1);

@@ -1,8 +1,8 @@
-//! The smallest meshes found on which the mean-value iteration does not end planar, each of another kind.
+//! Smallest known meshes on which the mean-value iteration does not end planar, each of a different kind.
 //!
-//! Found by `freebound study --past-stall --max-steps 200` on pyramids and rough sheets of this file's makers; what they
-//! teach stands in docs/convergence.md. Theorem 2 of the paper says which limits there can be: what meets all its own
-//! mean-value equations and turns once has no flipped face.
+//! Found by `freebound study --past-stall --max-steps 200` on pyramids and rough sheets of this file's makers;
+//! book/src/convergence.md discusses them. Theorem 2 of the paper restricts the limits: a map with turning number 1 that
+//! meets all its own mean-value equations has no flipped face.
 
 use freebound_core::mesh::{DiskMesh, VertexId};
 use freebound_core::pipeline::study::{Limits, Patience, Record, StudySubject, Trial, TrialOutcome, run};
@@ -11,7 +11,7 @@ use glam::DVec2;
 
 use freebound_testkit::{Random, disk, fan, grid};
 
-/// A grid of `columns` × `rows` squares, each vertex at a random height below `height`.
+/// Grid of `columns` × `rows` squares, each vertex at a random height below `height`.
 fn rough(columns: u32, rows: u32, height: f64, seed: u64) -> DiskMesh {
     let mut mesh = grid(columns, rows);
     let mut random = Random(seed);
@@ -21,7 +21,7 @@ fn rough(columns: u32, rows: u32, height: f64, seed: u64) -> DiskMesh {
     disk(mesh)
 }
 
-/// A pyramid over a regular polygon, its apex vertex 0 at a height, its corners at random heights below `ragged`.
+/// Pyramid over a regular polygon, its apex vertex 0 at a height, its corners at random heights below `ragged`.
 fn pyramid(sides: u32, height: f64, ragged: f64, seed: u64) -> DiskMesh {
     let mut mesh = fan(sides);
     let mut random = Random(seed);
@@ -32,8 +32,8 @@ fn pyramid(sides: u32, height: f64, ragged: f64, seed: u64) -> DiskMesh {
     disk(mesh)
 }
 
-/// What the iteration comes to, with the first vertex pinned at the origin and the second at (1, 0): two pins can always be
-/// met by a planar map. No stall ends it before its 200 steps.
+/// Runs the iteration with the first vertex pinned at the origin and the second at (1, 0). A planar map can always
+/// meet two pins. A stall does not end it before its 200 steps.
 fn iterated(mesh: &DiskMesh, family: Family, treatment: Treatment, [first, second]: [u32; 2]) -> Record {
     let pins = hard_pins([(VertexId::new(first), DVec2::ZERO), (VertexId::new(second), DVec2::X)]);
     let trial = Trial { number: 0, family, treatment, pins, displacement: None };
@@ -42,10 +42,10 @@ fn iterated(mesh: &DiskMesh, family: Family, treatment: Treatment, [first, secon
     run(&subject, trial, limits, Control::unattended()).expect("nobody cancels")
 }
 
-/// A move, as a share of the diameter, that is rounding.
+/// Move relative to the diameter that is due to rounding.
 const AT_REST: f64 = 1e-9;
 
-/// The smallest disk with a vertex inside.
+/// The smallest disk with an inner vertex.
 #[test]
 fn on_a_tetrahedron_least_squares_come_to_rest_where_two_faces_of_three_are_flipped() {
     let mesh = pyramid(3, 2.0, 0.0, 0);
@@ -54,7 +54,7 @@ fn on_a_tetrahedron_least_squares_come_to_rest_where_two_faces_of_three_are_flip
     assert_eq!((first.flips, first.crossings, first.turning_number), (1, 0, Some(1)));
     assert_eq!((&record.outcome, record.steps), (&TrialOutcome::Limit, 200));
     assert_eq!((last.flips, last.turning_number), (2, Some(-1)));
-    // Equations that cannot all be met are met as well as can be: that is a limit, but no solution.
+    // Equations that cannot all be met are met in the least-squares sense: a limit, but no solution.
     assert!(rest.last_move.unwrap() <= AT_REST && rest.free_residual > 1.0, "{rest:?}");
     // With both pins on the boundary the first map is planar.
     assert!(iterated(&mesh, Family::Conformal, Treatment::LeastSquares, [2, 1]).is_planar_at_once());
@@ -67,7 +67,7 @@ fn without_the_equations_of_pins_a_tetrahedron_keeps_a_flipped_face_that_it_neve
     let (last, rest) = (record.last.unwrap(), record.rest.unwrap());
     assert_eq!((&record.outcome, last.flips, last.turning_number), (&TrialOutcome::Limit, 1, Some(1)));
     assert!(rest.last_move.unwrap() <= AT_REST, "{rest:?}");
-    // All equations that are left are met; those that were dropped are not.
+    // All remaining equations are met; the dropped ones are not.
     assert!(rest.free_residual <= 1e-9 && rest.pinned_residual > 1.0, "{rest:?}");
     assert!(iterated(&mesh, Family::Wachspress, Treatment::LeastSquares, [3, 0]).is_planar_at_once());
 }
@@ -83,7 +83,7 @@ fn a_pyramid_that_winds_twice_around_its_apex_meets_all_its_equations_and_stays(
     assert_eq!((rest.free_residual, rest.pinned_residual, rest.last_move), (0.0, 0.0, Some(0.0)));
 }
 
-/// Turning once, no flipped face, all equations met: locally planar, as Theorem 2 has it, and yet not one-to-one.
+/// Turning number 1, no flipped face, all equations met: locally planar by Theorem 2, but not one-to-one.
 #[test]
 fn a_sheet_whose_boundary_crosses_itself_without_a_flipped_face_stays_as_it_is() {
     let mesh = rough(4, 4, 3.0, 5);

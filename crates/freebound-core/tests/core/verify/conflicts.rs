@@ -1,4 +1,4 @@
-//! Constraints that cannot be met together, by hand-made cases.
+//! Constraints that conflict with each other, in constructed cases.
 
 use std::time::{Duration, Instant};
 
@@ -50,7 +50,7 @@ fn a_face_that_would_be_turned_over_or_flat_is_named() {
         assert!(found[0].needs_new_vertices());
         assert_eq!(
             found[0].words(),
-            "vertices v0, v1, v4: this face would be turned over: needs new vertices",
+            "vertices v0, v1, v4: their face would flip: needs new vertices",
             "as the program shows vertices"
         );
     }
@@ -66,20 +66,20 @@ fn a_pin_that_only_pulls_conflicts_with_nothing() {
 #[test]
 fn edges_that_would_cross_or_touch_are_named_once() {
     let mesh = two_squares();
-    // Edges 0–3 and 2–5, which have no end in common.
+    // Edges 0–3 and 2–5, which share no end.
     for (there, meets) in [([1.0, 2.0], false), ([0.0, 1.0], true), ([-0.5, 1.0], true), ([0.5, 1.0], false)] {
         let pins = pinned(&[(0, [0.0, 0.0]), (3, [0.0, 2.0]), (2, [1.0, 1.0]), (5, there)]);
         let expected = if meets { vec![crossing([[0, 3], [2, 5]])] } else { Vec::new() };
         assert_eq!(conflicts(&mesh, &pins), expected, "{there:?}");
     }
     let words = crossing([[0, 3], [2, 5]]).words();
-    assert_eq!(words, "vertices v0–v3 and v2–v5: these edges would cross: needs new vertices");
+    assert_eq!(words, "edges v0–v3 and v2–v5 would cross: needs new vertices");
     assert_eq!(crossing([[0, 3], [3, 5]]).vertices(), [0, 3, 5].map(VertexId::new));
 }
 
 #[test]
 fn edges_that_fold_onto_each_other_from_a_shared_end_are_named() {
-    // Spokes of a wheel, two of them not next to each other.
+    // Spokes of a wheel, two of them not adjacent.
     let mesh = DiskMesh::try_from(fan(6)).unwrap();
     let at = |third: [f64; 2]| pinned(&[(0, [0.0, 0.0]), (1, [1.0, 0.5]), (3, third)]);
     assert_eq!(conflicts(&mesh, &at([2.0, 1.0])), [crossing([[0, 1], [0, 3]])]);
@@ -116,7 +116,7 @@ fn near_targets_are_found_across_the_grid_s_cells() {
 fn of_a_mesh_with_every_vertex_astray_only_so_many_are_listed() {
     let mesh = DiskMesh::try_from(grid(60, 60)).unwrap();
     let count = u64::try_from(mesh.vertex_count()).unwrap();
-    // A permutation that takes neighbours far apart.
+    // A permutation that moves neighbours far apart.
     let place = |v: VertexId| {
         mesh.position(VertexId::from_index(usize::try_from(u64::from(v.number()) * 1009 % count).unwrap()))
     };
@@ -129,13 +129,13 @@ fn of_a_mesh_with_every_vertex_astray_only_so_many_are_listed() {
 fn edges_one_above_the_other_are_looked_through_in_good_time() {
     let stages = 20_000;
     let mesh = disk(grid(1, stages));
-    // A flattener so wide that, seen from above, all stages lie on each other.
+    // A strip of squares so wide that its cross edges overlap along x.
     let wide = |v: VertexId| mesh.position(v).truncate() * DVec2::new(1e4, 1.0);
     let targets = mesh.vertices().map(|v| (v, Pin::hard(wide(v))));
     let start = Instant::now();
     assert_eq!(conflicts(&mesh, &targets.clone().collect()), []);
     assert!(start.elapsed() < Duration::from_mins(1), "{:?}", start.elapsed());
-    // One stage laid across the next three.
+    // A cross edge laid over the next three.
     let pins: Pins = targets
         .map(|(v, pin)| if v.index() == 1001 { (v, Pin::hard(wide(v) + 3.5 * DVec2::Y)) } else { (v, pin) })
         .collect();

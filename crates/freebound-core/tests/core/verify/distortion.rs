@@ -7,29 +7,30 @@ use glam::{DMat2, DVec2, DVec3};
 
 use freebound_testkit::{disk, shaped};
 
-/// Relative; sums over a few hundred faces of numbers that are each right to a few units of the last place.
+/// Relative tolerance: sums over a few hundred faces of numbers that are exact to a few units in the last place.
 const TOLERANCE: f64 = 1e-12;
 
 fn assert_near(value: f64, expected: f64, tolerance: f64) {
     assert!((value - expected).abs() <= tolerance * expected.abs(), "{value} is not {expected}");
 }
 
-/// A grid of n × n squares, two triangles each, its vertices where `place` takes the unit square.
+/// Grid of n × n squares, two triangles each, with `place` mapping the unit square to space.
 fn grid(n: u32, place: impl Fn(DVec2) -> DVec3) -> DiskMesh {
     disk(shaped(n, n, |x, y| place(DVec2::new(x, y) / f64::from(n))))
 }
 
-/// The same grid's vertices in the unit square, moved by `place`.
+/// Vertices of the grid in the unit square, moved by `place`.
 fn flat(n: u32, place: impl Fn(DVec2) -> DVec2) -> Embedding {
     freebound_testkit::grid(n, n).positions.iter().map(|x| place(x.truncate() / f64::from(n))).collect()
 }
 
-/// A tilted square of side 3 in space.
+/// Tilted square of side 3 in space.
 fn tilted(p: DVec2) -> DVec3 {
     DVec3::new(2.0, -1.0, 2.0) * p.x + DVec3::new(2.0, 2.0, -1.0) * p.y + DVec3::splat(5.0)
 }
 
-/// Asserts what every face and every summary has under one linear map with these singular values, whose product is 1.
+/// Asserts the values of every face and of the summary under a linear map with these singular values, whose product
+/// is 1.
 fn assert_uniform(found: &Distortion, greater: f64, lesser: f64) {
     let stretch_l2 = f64::midpoint(greater.powi(-2), lesser.powi(-2)).sqrt();
     for face in &found.faces {
@@ -88,7 +89,7 @@ fn the_symmetric_energy_adds_squares_of_singular_values_and_of_their_inverses() 
     let map = DMat2::from_angle(0.3) * DMat2::from_diagonal(DVec2::new(4.0, 1.0 / 9.0)) * DMat2::from_angle(-1.1);
     let squares = 36.0 + 1.0 / 36.0;
     assert_near(of(distortion(&grid(7, tilted), &flat(7, |p| map * p)).summary), 2.0 * squares, TOLERANCE);
-    // Two thirds of the surface are made four times as wide; squared lengths are multiplied by 1/3.
+    // Two thirds of the surface are stretched to four times their width; squared lengths are multiplied by 1/3.
     let stretched = |x: f64| if x <= 1.0 { x } else { 1.0 + 4.0 * (x - 1.0) };
     let mesh = grid(3, |p| DVec3::new(3.0 * p.x, p.y, 0.0));
     let found = distortion(&mesh, &flat(3, |p| DVec2::new(stretched((3.0 * p.x).round()), p.y))).summary;
@@ -114,7 +115,7 @@ fn sums_are_weighted_by_area_on_the_surface() {
 
 #[test]
 fn the_percentile_leaves_out_one_hundredth_of_the_surface() {
-    // A row of 300 squares in which the first few are made twice as wide; three are a hundredth of them.
+    // A row of 300 squares with the first few widened by a factor of two; three are a hundredth of them.
     let row = |wide: usize| {
         let count = 300;
         let mut x = 0.0;
@@ -157,7 +158,7 @@ fn the_stereographic_map_of_an_octant_keeps_angles_and_scales_as_it_should() {
     for face in mesh.faces() {
         assert_near(found.faces[face.index()].area, scale_at(centre(face).z) / ratio, chord);
     }
-    // At the equator the scale is 2, at the upper edge least: there the stretch from plane to sphere is greatest.
+    // The scale is 2 at the equator and least at the upper edge, where the stretch from plane to sphere is greatest.
     assert_near(found.summary.stretch_linf, ratio.sqrt() * f64::midpoint(1.0, first.cos()), chord);
 }
 

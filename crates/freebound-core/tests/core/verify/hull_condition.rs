@@ -1,5 +1,5 @@
-//! Vertices outside the hull of their neighbours: the theorem of Gortler, Gotsman and Thurston and its converse, on random
-//! maps, on solutions with positive weights and on perturbed ones.
+//! Vertices outside the hull of their neighbours: the theorem of Gortler, Gotsman and Thurston and its converse.
+//! Tested on random maps, on solutions with positive weights, and on perturbed ones.
 
 use faer::Mat;
 use faer::linalg::solvers::Solve as _;
@@ -15,7 +15,7 @@ use crate::linear::shapes::interior_pair;
 use freebound_testkit::surfaces::{irregular_cube, without_faces};
 use freebound_testkit::{Entry, Random, corpus_disks, corpus_test, data_disks, grid, quad_sheet};
 
-/// Whether a point is strictly inside a hull, by its corners: to the left of every side.
+/// True if a point is strictly inside a hull, i.e. to the left of every side.
 fn is_inside_by_corners(point: DVec2, others: &[DVec2]) -> bool {
     let corners = convex_hull(others);
     let is_left = |k: usize| {
@@ -25,7 +25,7 @@ fn is_inside_by_corners(point: DVec2, others: &[DVec2]) -> bool {
     corners.len() > 2 && (0..corners.len()).all(is_left)
 }
 
-/// What the theorem speaks of, for one embedding.
+/// Properties that the theorem relates, for one embedding.
 #[expect(clippy::struct_excessive_bools, reason = "independent answers about one embedding")]
 struct Facts {
     outside: Vec<VertexId>,
@@ -46,14 +46,14 @@ fn facts(mesh: &DiskMesh, embedding: &Embedding) -> Facts {
         is_locally_planar: verdict.flipped_faces.is_empty()
             && verdict.overwound_vertices.iter().find(is_on_surface).is_none(),
         has_simple_boundary: verdict.boundary_crossings.is_empty() && verdict.crossed_holes.is_empty(),
-        // The surface alone: what fills its holes may fold.
+        // The surface alone: the filling of holes may fold.
         is_one_to_one: verdict.flipped_faces.is_empty()
             && verdict.crossed_holes.is_empty()
             && verdict.boundary_crossings.is_empty(),
     }
 }
 
-/// Fails where an embedding contradicts the theorem or its converse.
+/// Fails if an embedding contradicts the theorem or its converse.
 fn assert_theorem(facts: &Facts, what: &dyn std::fmt::Debug) {
     let holds = facts.outside.is_empty() && facts.turns_once;
     assert!(!holds || facts.is_locally_planar, "the conditions hold, and yet it folds: {what:?}");
@@ -106,7 +106,7 @@ fn an_ear_without_area_on_a_straight_side_has_its_vertex_outside() {
     assert_eq!(found.outside, [VertexId::new(4)]);
 }
 
-/// A band of squares that goes around more than once, each time through the same places.
+/// Band of squares that goes around more than once over the same positions.
 fn coil(turns: f64) -> (DiskMesh, Embedding) {
     const LENGTH: u32 = 30;
     let mesh = DiskMesh::try_from(grid(LENGTH, 2)).unwrap();
@@ -126,7 +126,7 @@ fn a_coil_meets_the_conditions_and_is_planar_locally_alone() {
     }
 }
 
-/// The embedding whose inner vertices are weighted means of their neighbours, the boundary being where it is given.
+/// Embedding with a given boundary whose inner vertices are weighted means of their neighbours.
 fn positive_weight_solution(mesh: &DiskMesh, boundary: &[DVec2], random: &mut Random) -> Embedding {
     let inner: Vec<VertexId> = mesh.vertices().filter(|&v| mesh.boundary_place(v).is_none()).collect();
     let row = |v: VertexId| inner.binary_search(&v).ok();
@@ -151,7 +151,7 @@ fn positive_weight_solution(mesh: &DiskMesh, boundary: &[DVec2], random: &mut Ra
     mesh.vertices().map(place).collect()
 }
 
-/// A polygon around the origin, its corners in turn, as far out as `radius` says.
+/// Polygon around the origin, its corners in order, at distances from `radius`.
 fn around_origin(count: usize, mut radius: impl FnMut() -> f64) -> Vec<DVec2> {
     let corner = |k: usize| std::f64::consts::TAU * k as f64 / count as f64;
     (0..count).map(|k| DVec2::from_angle(corner(k)) * radius()).collect()
@@ -246,7 +246,7 @@ fn of_a_planar_surface_with_holes_no_vertex_is_outside_however_its_filling_lies(
         let disturb = f64::from(random.below(5)) * 0.25;
         let mut place = |p: &DVec3| p.truncate() + disturb * DVec2::new(random.unit(), random.unit());
         let mut embedding: Embedding = disk.mesh().positions.iter().map(&mut place).collect();
-        // What fills the hole may lie anywhere.
+        // The filling of the hole may lie anywhere.
         for vertex in disk.virtual_vertices() {
             embedding[vertex] = DVec2::new(random.unit(), random.unit()) * 6.0;
         }
@@ -263,12 +263,13 @@ fn of_a_planar_surface_with_holes_no_vertex_is_outside_however_its_filling_lies(
     assert!(planar > 50, "{planar} planar, {folded_filling} with a folded filling");
 }
 
-/// A polygon mesh as a disk whose holes are filled.
+/// Disk of a polygon mesh with filled holes.
 fn filled(mesh: &PolygonMesh) -> DiskMesh {
     DiskMesh::try_from(Preparation::default().repaired(mesh).triangulate()).unwrap()
 }
 
-/// Triangles between a regular polygon of radius 3 and one of radius 1, whose corners come behind those of the outer one.
+/// Triangles between a regular polygon of radius 3 and one of radius 1, whose vertices are numbered after the outer
+/// ones.
 pub(crate) fn ring(count: u32) -> DiskMesh {
     let corner = |k: u32| DVec2::from_angle(std::f64::consts::TAU * f64::from(k % count) / f64::from(count));
     let positions = (0..2 * count).map(|k| (corner(k) * if k < count { 3.0 } else { 1.0 }).extend(0.0)).collect();
@@ -283,7 +284,7 @@ pub(crate) fn ring(count: u32) -> DiskMesh {
     mesh
 }
 
-/// Where the vertices of a mesh lie from above.
+/// View of a mesh from above.
 fn from_above(mesh: &DiskMesh) -> Embedding {
     mesh.mesh().positions.iter().map(|p| p.truncate()).collect()
 }
@@ -306,7 +307,7 @@ fn a_ring_that_is_mirrored_within_folds_without_a_vertex_outside_for_its_hole_do
     assert!(!holes_turn_once(&mesh, &mirrored, Orientation::Clockwise));
 }
 
-/// A sheet without two squares that meet at a corner.
+/// Sheet without two squares that meet at a corner.
 fn holes_about_a_vertex() -> DiskMesh {
     let mut random = Random(38);
     let sheet = quad_sheet(4, 4, 0.0, &mut random);

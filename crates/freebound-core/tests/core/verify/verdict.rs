@@ -1,4 +1,4 @@
-//! The verdict on maps that are known: each kind of failure by itself.
+//! Verdict on known maps: each kind of failure alone.
 
 use freebound_core::mesh::{EdgeId, FaceId, VertexId};
 use freebound_core::problem::Embedding;
@@ -21,7 +21,7 @@ fn faces(numbers: &[u32]) -> Vec<FaceId> {
     numbers.iter().map(|&number| FaceId::new(number)).collect()
 }
 
-/// Crossings as pairs of edges, each named by its vertices; all in ascending order.
+/// Crossings as pairs of edges, each given by its vertices, in ascending order.
 fn crossings(case: &Case) -> Vec<[[u32; 2]; 2]> {
     let mesh = case.mesh();
     let ends = |edge: EdgeId| mesh.ends(edge).map(VertexId::number);
@@ -31,14 +31,14 @@ fn crossings(case: &Case) -> Vec<[[u32; 2]; 2]> {
     found
 }
 
-/// A hexagonal fan that lies as it should.
+/// Hexagonal fan, planar.
 fn hexagon() -> Case {
     let link: Vec<DVec2> =
         [(2.0, 0.0), (1.0, 2.0), (-1.0, 2.0), (-2.0, 0.0), (-1.0, -2.0), (1.0, -2.0)].map(|(x, y)| at(x, y)).to_vec();
     fan(DVec2::ZERO, &link)
 }
 
-/// A strip of squares, two triangles each, between the stages of a flattener.
+/// Strip of squares, two triangles each, given by its cross edges.
 fn ladder(stages: &[[DVec2; 2]]) -> Case {
     strip(stages.iter().flatten().copied().collect())
 }
@@ -70,7 +70,7 @@ fn a_map_finer_than_32_bits_is_planar_but_does_not_hold_there() {
     let verdict = judge(&case);
     assert!(verdict.planar && !verdict.planar_in_f32, "{verdict:?}");
     assert_eq!(verdict.summary_in_f32(), Some("does not hold in 32 bits"));
-    // Beyond the range of 32 bits there is nothing to hold.
+    // Outside the range of 32 bits the map cannot be planar there.
     let mut case = hexagon();
     case.embedding.iter_mut().for_each(|z| *z *= 1e39);
     assert!(judge(&case).planar && !judge(&case).planar_in_f32);
@@ -125,7 +125,7 @@ fn a_bow_tie_crosses_itself_once_and_does_not_turn() {
     assert_eq!(verdict.summary(), "1 flipped face · 1 boundary crossing");
 }
 
-/// A strip bent to a ring whose ends stand at the given places.
+/// Strip bent to a ring, with its ends at the given points.
 fn bent(start: [DVec2; 2], end: [DVec2; 2]) -> Case {
     ladder(&[
         start,
@@ -141,7 +141,7 @@ fn bent(start: [DVec2; 2], end: [DVec2; 2]) -> Case {
 fn a_boundary_that_touches_itself_at_a_point_crosses() {
     let apart = bent([at(0.5, -3.0), at(0.5, -1.0)], [at(-0.5, -3.0), at(-0.5, -1.0)]);
     assert!(judge(&apart).planar);
-    // The last stage's end touches the first stage in its middle.
+    // The end of the last cross edge touches the middle of the first.
     let touching = bent([at(0.5, -3.0), at(0.5, -1.0)], [at(-0.5, -3.0), at(0.5, -1.5)]);
     let verdict = judge(&touching);
     assert_eq!((verdict.flipped_faces.len(), verdict.turning_number), (0, Some(1)));
@@ -155,7 +155,7 @@ fn a_boundary_whose_edges_lie_on_each_other_crosses() {
     let verdict = judge(&overlapping);
     assert_eq!(verdict.flipped_faces, []);
     assert!(crossings(&overlapping).contains(&[[0, 1], [10, 11]]), "{:?}", crossings(&overlapping));
-    // Both stages on the very same segment: four ends meet, too.
+    // Both end edges on one segment: four ends meet, too.
     let closed = bent([at(0.5, -3.0), at(0.5, -1.0)], [at(0.5, -3.0), at(0.5, -1.0)]);
     assert!(!judge(&closed).planar);
 }
@@ -168,7 +168,7 @@ fn a_strip_that_goes_around_far_crosses_though_every_face_is_upright() {
     assert!(!verdict.planar && verdict.boundary_crossings.len() >= 2);
 }
 
-/// A fan whose link goes around the middle a number of times, on a spiral so that its corners are distinct.
+/// Fan whose link goes around the middle several times, on a spiral so that its corners are distinct.
 fn spiral_fan(turns: u32) -> Case {
     let count = 5 * turns;
     let link: Vec<DVec2> = (0..count)

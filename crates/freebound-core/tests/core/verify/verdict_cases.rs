@@ -1,4 +1,4 @@
-//! Small disks and maps of them into the plane, for the tests of the verdict.
+//! Small disks and their maps into the plane, for the tests of the verdict.
 
 use freebound_core::mesh::{DiskMesh, TriMesh};
 use freebound_core::problem::Embedding;
@@ -6,17 +6,17 @@ use glam::{DVec2, DVec3};
 
 use freebound_testkit::Random;
 
-/// A whole number in `low..=high`.
+/// Random integer in `low..=high`.
 fn integer(random: &mut Random, low: i32, high: i32) -> i32 {
     low + i32::try_from(random.below(high.abs_diff(low) + 1)).expect("a small range")
 }
 
-/// A point with whole coordinates from 0 to `size`.
+/// Point with integer coordinates from 0 to `size`.
 fn grid_point(random: &mut Random, size: i32) -> DVec2 {
     DVec2::new(f64::from(integer(random, 0, size)), f64::from(integer(random, 0, size)))
 }
 
-/// A map of a disk into the plane.
+/// Map of a disk into the plane.
 #[derive(Clone, Debug)]
 pub(crate) struct Case {
     pub(crate) triangles: Vec<[u32; 3]>,
@@ -24,7 +24,7 @@ pub(crate) struct Case {
 }
 
 impl Case {
-    /// The disk in space; its shape there is of no interest, but no three vertices lie on a line.
+    /// Disk in space. Its shape is arbitrary, but no three vertices are collinear.
     pub(crate) fn mesh(&self) -> DiskMesh {
         let on_a_curve = |i: usize| DVec3::new(i as f64, (i * i) as f64, (i * i * i) as f64);
         let positions = (0..self.embedding.len()).map(on_a_curve).collect();
@@ -32,21 +32,21 @@ impl Case {
     }
 }
 
-/// Vertex 0 in the middle of the given link.
+/// Fan of vertex 0 in the middle of the given link.
 pub(crate) fn fan(middle: DVec2, link: &[DVec2]) -> Case {
     let count = u32::try_from(link.len()).expect("few vertices");
     let triangles = (0..count).map(|i| [0, 1 + i, 1 + (i + 1) % count]).collect();
     Case { triangles, embedding: std::iter::once(middle).chain(link.iter().copied()).collect() }
 }
 
-/// A strip of triangles between two rows of vertices, the lower even, the upper odd.
+/// Strip of triangles between two rows of vertices, even numbers below, odd ones above.
 pub(crate) fn strip(embedding: Embedding) -> Case {
     let last = u32::try_from(embedding.len()).expect("few vertices") - 2;
     let triangles = (0..last).map(|i| if i % 2 == 0 { [i, i + 2, i + 1] } else { [i, i + 1, i + 2] }).collect();
     Case { triangles, embedding }
 }
 
-/// A random triangulation of a polygon without new vertices.
+/// Random triangulation of a polygon without new vertices.
 fn triangulated(random: &mut Random, corner_count: u32) -> Vec<[u32; 3]> {
     let mut corners: Vec<u32> = (0..corner_count).collect();
     let mut triangles = Vec::new();
@@ -59,7 +59,7 @@ fn triangulated(random: &mut Random, corner_count: u32) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// Turns some interior edges to the other diagonal of their two triangles.
+/// Flips some interior edges.
 fn turn_edges(random: &mut Random, triangles: &mut [[u32; 3]]) {
     for _ in 0..4 {
         let (face, other) = (random.index(triangles.len()), random.index(triangles.len()));
@@ -77,7 +77,7 @@ fn turn_edges(random: &mut Random, triangles: &mut [[u32; 3]]) {
     }
 }
 
-/// A random disk with a convex embedding and some vertices inside.
+/// Random disk with a convex embedding and some inner vertices.
 fn convex(random: &mut Random) -> Case {
     let corner_count = integer(random, 3, 6);
     let mut triangles = triangulated(random, corner_count.unsigned_abs());
@@ -100,7 +100,7 @@ fn convex(random: &mut Random) -> Case {
     Case { triangles, embedding: embedding.into() }
 }
 
-/// A fan whose link goes around once or twice, sometimes folded.
+/// Fan whose link goes around once or twice, sometimes folded.
 fn star(random: &mut Random) -> Case {
     let turns = integer(random, 1, 2);
     let count = integer(random, 3 * turns, 4 + 2 * turns);
@@ -111,7 +111,7 @@ fn star(random: &mut Random) -> Case {
     fan(DVec2::ZERO, &(0..count).map(spoke).collect::<Vec<_>>())
 }
 
-/// A random disk on whole coordinates: almost never one-to-one, often degenerate.
+/// Random disk on integer coordinates: almost never one-to-one, often degenerate.
 pub(crate) fn grid_case(random: &mut Random) -> Case {
     let size = integer(random, 1, 6);
     let mut case = match random.index(3) {
@@ -130,7 +130,7 @@ pub(crate) fn grid_case(random: &mut Random) -> Case {
     case
 }
 
-/// A disk embedded one-to-one, or nearly: some vertices moved, the whole sometimes mirrored.
+/// Disk embedded one-to-one, or nearly: some vertices moved, the whole sometimes mirrored.
 pub(crate) fn nearly_planar_case(random: &mut Random) -> Case {
     let mut case = match random.index(3) {
         0 => star(random),
@@ -141,7 +141,7 @@ pub(crate) fn nearly_planar_case(random: &mut Random) -> Case {
         _ => convex(random),
     };
     if random.index(2) == 0 {
-        // Whole coordinates make what is nearly degenerate degenerate.
+        // Integer coordinates turn nearly degenerate cases into degenerate ones.
         case.embedding.iter_mut().for_each(|p| *p = (*p * 2.0).round());
     }
     for _ in 0..random.index(3) {
@@ -154,7 +154,7 @@ pub(crate) fn nearly_planar_case(random: &mut Random) -> Case {
     case
 }
 
-/// Moves every coordinate by a few units of its last place.
+/// Moves every coordinate by a few units in its last place.
 pub(crate) fn nudge(random: &mut Random, embedding: &mut Embedding) {
     for point in embedding.iter_mut() {
         for coordinate in [&mut point.x, &mut point.y] {

@@ -1,4 +1,4 @@
-//! The verdict against the rational oracle on 100,000 random small maps of disks: all fields, and one-to-one or not, in
+//! Verdict against the rational oracle on 100,000 random small maps of disks: all fields, and one-to-one or not, in
 //! 64 bits and in 32.
 
 use freebound_core::mesh::{EdgeId, VertexId};
@@ -10,7 +10,7 @@ use super::verdict_cases::{Case, grid_case, nearly_planar_case, nudge};
 use freebound_testkit::Random;
 use freebound_testkit::oracle::{OracleVerdict, examine, sorted_pair};
 
-/// Compares the verdict with the oracle; gives back whether the map is planar.
+/// Compares the verdict with the oracle; returns true if the map is planar.
 fn assert_agreement(case: &Case) -> bool {
     let mesh = case.mesh();
     let verdict = verdict(&mesh, &case.embedding);
@@ -34,7 +34,7 @@ fn assert_agreement(case: &Case) -> bool {
     verdict.planar
 }
 
-/// Whether the oracle finds a map one-to-one once its coordinates are rounded to 32 bits, turned over or not as asked.
+/// True if the oracle finds a map one-to-one after rounding its coordinates to 32 bits, with the given orientation.
 fn is_injective_in_f32(case: &Case, mirrored: bool) -> bool {
     let rounded: Embedding = case.embedding.iter().map(|z| z.as_vec2().as_dvec2()).collect();
     let is_finite = rounded.iter().all(|z| z.is_finite());
@@ -44,7 +44,7 @@ fn is_injective_in_f32(case: &Case, mirrored: bool) -> bool {
     }
 }
 
-/// Compares many cases and makes sure that both answers occur often.
+/// Compares many cases and asserts that both answers occur often.
 fn assert_agreement_on(count: usize, seed: u64, make: impl Fn(&mut Random) -> Case) {
     let mut random = Random(seed);
     let planar = (0..count).filter(|_| assert_agreement(&make(&mut random))).count();
@@ -65,14 +65,14 @@ fn the_verdict_agrees_with_the_oracle_on_nearly_planar_maps() {
 fn the_verdict_agrees_with_the_oracle_near_degenerate_cases() {
     assert_agreement_on(20_000, 3, |random| {
         let mut case = if random.index(2) == 0 { grid_case(random) } else { nearly_planar_case(random) };
-        // Tenths are not exact, so that points on one line hardly stay there; then some ulps more.
+        // Tenths are not exact, so collinear points rarely stay collinear; then some ulps more.
         case.embedding.iter_mut().for_each(|p| *p = *p * 0.1 + DVec2::splat(0.7));
         nudge(random, &mut case.embedding);
         case
     });
 }
 
-/// Compares cases with all coordinates multiplied.
+/// Compares cases with all coordinates scaled.
 fn assert_agreement_at_scale(count: usize, seed: u64, scale: f64) {
     assert_agreement_on(count, seed, |random| {
         let mut case = if random.index(2) == 0 { grid_case(random) } else { nearly_planar_case(random) };
@@ -109,7 +109,7 @@ fn the_verdict_agrees_with_the_oracle_at_the_ends_of_the_adaptive_range() {
 fn the_verdict_agrees_with_the_oracle_where_scales_are_mixed() {
     assert_agreement_on(2_500, 11, |random| {
         let mut case = nearly_planar_case(random);
-        // The map x ↦ x³ stretches and does not fold by itself; then everything near the axes is tiny.
+        // The map x ↦ x³ stretches and does not fold by itself; then coordinates near the axes become tiny.
         let tiny = [1.0, 1e-130, 1e-200, 1e-320][random.index(4)];
         for point in case.embedding.iter_mut() {
             for coordinate in [&mut point.x, &mut point.y] {

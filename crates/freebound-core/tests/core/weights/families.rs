@@ -10,10 +10,10 @@ use freebound_testkit::BuiltIn;
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
-/// Of `Σ k (x − x₀)`, relative to the sum of the sizes of its terms.
+/// Tolerance of `Σ k (x − x₀)`, relative to the sum of the sizes of its terms.
 const TOLERANCE: f64 = 1e-12;
 
-/// Conformal, mean value, Wachspress, and two between them.
+/// Powers of conformal, mean-value and Wachspress weights, and two between them.
 const POWERS: [f64; 5] = [1.0, 0.0, -1.0, 0.5, -0.5];
 
 /// Neighbours of the origin, counter-clockwise, every gap between 0.18 and 2.7 rad.
@@ -35,19 +35,20 @@ fn power() -> impl Strategy<Value = f64> {
     prop::sample::select(POWERS.to_vec())
 }
 
-/// The corner at the origin of the triangle (0, a, b), which lies in a tilted plane of space.
+/// Corner at the origin of the triangle (0, a, b), in a tilted plane of space.
 fn corner(a: DVec2, b: DVec2) -> Corner {
     let lift = |p: DVec2| DVec3::new(2.0, -1.0, 2.0) / 3.0 * p.x + DVec3::new(2.0, 2.0, -1.0) / 3.0 * p.y;
     Corner::at([DVec3::ZERO, lift(a), lift(b)])
 }
 
-/// A corner with this angle between edges of these lengths, exact where sine and cosine are.
+/// Corner with this angle between edges of these lengths, exact if sine and cosine are.
 fn corner_of_angle(sin: f64, cos: f64, [r, s]: [f64; 2]) -> Corner {
     let dot = r * s * cos;
     Corner { radii: [r, s], cross: r * s * sin, dot, far_dots: [r * r - dot, s * s - dot] }
 }
 
-/// `Σ k (x − x₀)` over the corners between consecutive neighbours, and the sum of the sizes of all terms of eq. (1).
+/// Sum `Σ k (x − x₀)` over the corners between consecutive neighbours, and the sum of the sizes of all terms of eq.
+/// (1).
 fn weighted_sum(pairs: impl Iterator<Item = (DVec2, DVec2)>, power: f64) -> (DVec2, f64) {
     pairs.fold((DVec2::ZERO, 0.0), |(sum, size), (a, b)| {
         let [k1, k2] = three_point_weights(&corner(a, b), power).shares;
@@ -59,7 +60,7 @@ fn weighted_sum(pairs: impl Iterator<Item = (DVec2, DVec2)>, power: f64) -> (DVe
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// An interior vertex sits at the weighted mean of its neighbours: eq. (2).
+    /// An interior vertex is at the weighted mean of its neighbours: eq. (2).
     #[test]
     fn a_closed_ring_balances(ring in closed_ring(), power in power()) {
         let next = ring.iter().copied().cycle().skip(1);
@@ -78,7 +79,7 @@ proptest! {
         prop_assert!(left.length() <= TOLERANCE * size, "{left} of {size}");
     }
 
-    /// The weights are those of the table in DESIGN §1, written out with the angle itself.
+    /// The weights equal the table in DESIGN §1, computed from the angle.
     #[test]
     fn a_corner_has_the_weights_of_the_formula(
         angle in 0.01..3.13, r1 in 0.1..10.0, r2 in 0.1..10.0, power in -2.0..2.0,
@@ -92,7 +93,8 @@ proptest! {
         prop_assert!(!found.bounded);
         for k in 0..2 {
             let error = (found.shares[k] - expected[k]).abs();
-            // The angle of the rounded corners is off by an ulp of the lengths, which a thin corner magnifies by 1/sin α.
+            // The angle of the rounded corners is off by an ulp of the lengths, which a thin corner magnifies by
+            // 1/sin α.
             prop_assert!(error <= TOLERANCE * sizes[k] / sin, "{:?} is not {expected:?}", found.shares);
         }
     }
@@ -112,7 +114,7 @@ proptest! {
         }
     }
 
-    /// tan(α/2)/r for any angle that three points can make, with relative precision from one end to the other.
+    /// The weight tan(α/2)/r has full relative precision for every angle that three points can form.
     #[test]
     fn mean_value_weights_are_positive_and_finite(decades in -15.0..0.0, r in 1e-3..1e3, s in 1e-3..1e3) {
         let small = PI / 2.0 * f64::powf(10.0, decades);
@@ -138,7 +140,7 @@ fn a_degenerate_corner_is_bounded_and_says_so() {
         for power in POWERS {
             let CornerWeights { shares, bounded } = three_point_weights(&corner, power);
             assert!(shares.iter().all(|w| w.is_finite()), "{corner:?}, power {power}: {shares:?}");
-            // Mean value weights of the angle 0 are 0, which is right and no bound.
+            // Mean-value weights of the angle 0 are 0, correctly, without bounding.
             assert_eq!(bounded, power != 0.0 || angle > 0.0, "{corner:?}, power {power}");
         }
     }
@@ -151,14 +153,14 @@ fn an_ordinary_corner_is_not_bounded() {
     }
 }
 
-/// A surface that no method leaves as it is, scaled.
+/// Scaled surface that every method distorts.
 fn bumpy(scale: f64) -> DiskMesh {
     let mesh = BuiltIn::Dome.mesh();
     let positions = mesh.positions.iter().map(|&p| p * scale).collect();
     DiskMesh::try_from(TriMesh { positions, ..mesh }).unwrap_or_else(|faults| panic!("scaled by {scale}: {faults}"))
 }
 
-/// Every method, all powers among them.
+/// Every method, with all powers.
 pub(crate) fn free_methods() -> Vec<Settings> {
     let families = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.5), Family::Power(-0.5)];
     let natural = families.map(|family| Settings::new(Method::Natural, family));

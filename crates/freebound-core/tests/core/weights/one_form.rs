@@ -1,5 +1,5 @@
-//! Indices of one-forms: their sum is Euler's, for any one-form; those of embeddings along directions, against the
-//! definition and against the hulls of neighbours.
+//! Indices of one-forms: their sum is Euler's for any one-form. Indices of embeddings along directions are compared
+//! with the definition and with the hulls of neighbours.
 
 use std::cmp::Ordering;
 
@@ -49,7 +49,7 @@ fn the_indices_of_any_one_form_add_up_to_two() {
     }
 }
 
-/// A direction at random.
+/// Random direction.
 fn direction(random: &mut Random) -> DVec2 {
     DVec2::from_angle(std::f64::consts::TAU * random.unit())
 }
@@ -73,10 +73,10 @@ fn the_indices_of_an_embedding_along_a_direction_add_up_to_two_and_are_zero_at_f
     assert_eq!(OneFormIndices::along(&mesh, &flat, DVec2::X), None, "some edges are at right angles to it");
 }
 
-/// The least and the greatest index of a vertex, from the directions beside each that an edge is at right angles to.
+/// Least and greatest index of a vertex, from the directions on both sides of each edge's normal.
 fn range_by_directions(mesh: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> [i64; 2] {
     let edges: Vec<DVec2> = mesh.outgoing(vertex).map(|h| embedding[mesh.head(h)] - embedding[vertex]).collect();
-    // Small whole coordinates: a turn by so little passes no other line.
+    // Coordinates are small integers, so a turn this small passes no other line.
     let beside = edges.iter().flat_map(|e| [1e-4, -1e-4].map(|by| e.perp().rotate(DVec2::from_angle(by))));
     let index = |d: DVec2| {
         let signs: Vec<bool> = edges.iter().map(|e| d.dot(*e) > 0.0).collect();
@@ -132,7 +132,7 @@ fn a_vertex_inside_the_hull_is_an_extreme_along_no_direction_and_one_away_from_i
     assert!(inside > 1_000 && outside > 200, "{inside} inside, {outside} outside");
 }
 
-/// Whether a vertex lies on no line through two of its neighbours.
+/// True if a vertex lies on no line through two of its neighbours.
 fn is_off_the_rim(mesh: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> bool {
     let arms: Vec<DVec2> = mesh.outgoing(vertex).map(|h| embedding[mesh.head(h)] - embedding[vertex]).collect();
     arms.iter().enumerate().all(|(k, a)| arms[..k].iter().all(|b| a.perp_dot(*b) != 0.0))

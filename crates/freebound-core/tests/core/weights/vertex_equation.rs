@@ -1,4 +1,4 @@
-//! The equation of one vertex (paper, eq. 2 and 3) against the system of all of them.
+//! Equation of one vertex (paper, eq. 2 and 3) against the system of all of them.
 
 use freebound_core::flatten::equation_of_step;
 use freebound_core::flatten::{Flattener, Step};
@@ -15,10 +15,10 @@ use num_complex::Complex;
 
 use freebound_testkit::{Random, corpus_entry, corpus_test, disk, grid, honeycomb, quad_sheet};
 
-/// Sums in another order, relative to the sizes of their terms.
+/// Relative difference of sums in another order, relative to the sizes of their terms.
 const ROUNDING: f64 = 1e-12;
 
-/// What a solve leaves of an equation, relative to the sizes of its terms.
+/// Residual of a solved equation, relative to the sizes of its terms.
 const SOLVED: f64 = 1e-8;
 
 fn steps_of(mesh: &DiskMesh, settings: Settings) -> Vec<Step> {
@@ -27,7 +27,7 @@ fn steps_of(mesh: &DiskMesh, settings: Settings) -> Vec<Step> {
     steps
 }
 
-/// A linear step with another embedding in the place of its own.
+/// Linear step with its embedding replaced.
 fn step_with(mesh: &DiskMesh, family: Family, embedding: Embedding) -> Step {
     let mut step = steps_of(mesh, Settings::new(Method::Natural, family)).swap_remove(0);
     step.candidate.solution.embedding = embedding;
@@ -38,13 +38,13 @@ fn equation(mesh: &DiskMesh, step: &Step, vertex: VertexId) -> VertexEquation {
     equation_of_step(mesh, step, None, vertex).unwrap().0
 }
 
-/// Positions that satisfy nothing.
+/// Random positions, which satisfy no equation.
 fn at_random(count: usize, seed: u64) -> Embedding {
     let mut random = Random(seed);
     (0..count).map(|_| DVec2::new(random.unit(), random.unit())).collect()
 }
 
-/// That an equation is a row of the system, up to the unit of length.
+/// Asserts that an equation is a row of the system, up to the unit of length.
 fn assert_is_row(
     mesh: &DiskMesh,
     found: &VertexEquation,
@@ -145,8 +145,8 @@ fn a_planar_ring_and_a_planar_fan_satisfy_it() {
 
 #[test]
 fn an_open_fan_leaves_the_boundary_term() {
-    // A vertex in the middle of the lower side of a grid of unit squares: with d = 1 its offset is i(û₂ − û₁) / Σ k, û₁
-    // to the right and û₂ to the left, and so downwards, out of the mesh.
+    // A vertex in the middle of the lower side of a grid of unit squares: with d = 1 its offset is i(û₂ − û₁) / Σ k.
+    // With û₁ to the right and û₂ to the left it points downwards, out of the mesh.
     let mesh = DiskMesh::try_from(grid(4, 4)).unwrap();
     let flat: Embedding = mesh.vertices().map(|v| mesh.position(v).truncate()).collect();
     let vertex = VertexId::new(2);
@@ -187,7 +187,7 @@ fn a_linear_solve_and_an_iteration_satisfy_theirs_but_at_pins() {
     }
 }
 
-/// That all vertices off the outline satisfy the equations of mesh and outside.
+/// Asserts that all vertices off the outline satisfy the equations of mesh and scaffold.
 fn assert_virtual_boundary_is_solved(mesh: &DiskMesh, step: &Step) {
     let stages = step.candidate.virtual_boundary.as_ref().unwrap();
     let mut closed = 0;

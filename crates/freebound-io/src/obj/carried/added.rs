@@ -11,42 +11,43 @@ use super::corner::CornerWord;
 use crate::mesh_file::{MeshFile, Source};
 use freebound_core::mesh::{NewVertex, VertexId};
 
-/// What is added to a text, found in a first look at it. Nothing where there are no new vertices.
+/// Additions to a text, found in a first pass over it. Empty without new vertices.
 #[derive(Default)]
 pub(super) struct Added {
-    /// For each new vertex the numbers behind its position, such as a colour: those of the ends of its edge, between.
+    /// Numbers after the position of each new vertex, such as a colour: interpolated between the ends of its edge.
     pub(super) further_numbers: Vec<Vec<f64>>,
-    /// Of length 1.
+    /// New normals, of length 1.
     pub(super) normals: Vec<DVec3>,
-    /// How many normals the text has.
+    /// Number of normals in the text.
     pub(super) normal_count: usize,
-    /// By the text's face and the new vertex, indices of normals from 0, behind those of the text.
+    /// Index of the normal, by face of the text and new vertex. Counts from 0; new normals come after those of the
+    /// text.
     normal_of: BTreeMap<[u32; 2], usize>,
 }
 
-/// What is looked for in a text.
+/// Data collected from a text.
 #[derive(Default)]
 struct Found {
     normals: Vec<Option<DVec3>>,
-    /// For the ends of split edges.
+    /// Numbers after the positions of the ends of split edges.
     further_numbers: BTreeMap<VertexId, Vec<f64>>,
     wanted: Vec<Wanted>,
 }
 
-/// A face of the text, its corners found and sorted.
+/// Face of the text, with its corners parsed and sorted.
 struct FaceLine<'a> {
     face: u32,
     line: &'a [u8],
     buffers: &'a Buffers,
 }
 
-/// The normal at a new vertex of a face.
+/// Request for the normal at a new vertex of a face.
 struct Wanted {
     face: u32,
     vertex: u32,
-    /// Of the ends of its edge, from 0.
+    /// Normals at the ends of its edge, by index from 0.
     ends: [usize; 2],
-    /// Place on the edge.
+    /// Position on the edge, as a fraction.
     at: f64,
 }
 
@@ -110,7 +111,7 @@ impl Found {
         found
     }
 
-    /// Notes the normals that a face of the text needs at new vertices.
+    /// Collects the normals that a face of the text needs at new vertices.
     fn want(&mut self, of: &FaceLine<'_>, new: &BTreeSet<u32>, text: &Source) {
         let &FaceLine { face, line, buffers } = of;
         let normal_at = |vertex: VertexId| {
@@ -130,7 +131,7 @@ impl Found {
         self.wanted.extend(wanted);
     }
 
-    /// The numbers behind the position of a new vertex: as many as both ends have.
+    /// Numbers after the position of a new vertex, as many as both ends of its edge have.
     fn numbers_between(&self, new: &NewVertex) -> Vec<f64> {
         let [Some(a), Some(b)] = new.edge.map(|end| self.further_numbers.get(&end)) else { return Vec::new() };
         a.iter().zip(b).map(|(a, b)| a + new.at * (b - a)).collect()
@@ -142,7 +143,7 @@ impl Found {
     }
 }
 
-/// The new vertices at corners of each face of the text that has some.
+/// New vertices at the corners of each face of the text, for faces that have some.
 fn new_vertices_by_face(mesh: &MeshFile, text: &Source) -> BTreeMap<u32, BTreeSet<u32>> {
     let mut found: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
     for face in 0..mesh.polygons.face_count() {

@@ -1,12 +1,12 @@
-//! A corner's word with other indices.
+//! Word of a corner with other indices.
 
 use super::super::digits::push_index;
 
-/// The parts of a word of the form `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+/// Parts of a word of the form `v`, `v/vt`, `v//vn` or `v/vt/vn`.
 pub(super) struct CornerWord<'a> {
     vertex: &'a [u8],
     pub(super) has_texture: bool,
-    /// Index of the normal, where there is one.
+    /// Index of the normal, if there is one.
     normal: Option<&'a [u8]>,
 }
 
@@ -18,28 +18,28 @@ impl<'a> CornerWord<'a> {
         Self { vertex, has_texture, normal: parts.next().filter(|normal| !normal.is_empty()) }
     }
 
-    /// The vertex's index as written.
+    /// Index of the vertex as written.
     pub(super) fn vertex_index(&self) -> Option<i64> {
         number(self.vertex)
     }
 
-    /// The normal's index as written.
+    /// Index of the normal as written.
     pub(super) fn normal_index(&self) -> Option<i64> {
         self.normal.and_then(number)
     }
 
-    /// Whether indices count backwards.
+    /// True if the indices count backwards.
     pub(super) fn is_negative(&self) -> bool {
         self.vertex.starts_with(b"-")
     }
 }
 
-/// How indices are written at a place of a file.
+/// Counts of the elements before a line, which determine its indices.
 #[derive(Clone, Copy)]
 pub(super) struct Indices {
-    /// How many vertices of the text stand before it.
+    /// Number of vertices of the text before the line.
     pub(super) vertices: usize,
-    /// How many new ones do.
+    /// Number of new vertices before the line.
     pub(super) new_vertices: usize,
     pub(super) normals: usize,
     pub(super) new_normals: usize,
@@ -47,12 +47,12 @@ pub(super) struct Indices {
 }
 
 impl Indices {
-    /// Whether negative indices change their numbers.
+    /// True if negative indices change.
     pub(super) fn are_shifted(&self) -> bool {
         self.new_vertices > 0 || self.new_normals > 0
     }
 
-    /// Appends a corner of the text with this texture coordinate, from 0, or with none.
+    /// Appends a corner of the text with this texture coordinate (from 0), or without one.
     pub(super) fn push(&self, line: &mut Vec<u8>, word: &CornerWord<'_>, texture: Option<u32>) {
         push_shifted(line, word.vertex, self.new_vertices);
         if let Some(texture) = texture {
@@ -65,8 +65,8 @@ impl Indices {
         }
     }
 
-    /// Appends a corner that the text does not have. All indices count from 0; the normal is a new one. They are written
-    /// as negative ones where those of the other corners are.
+    /// Appends a corner that the text does not have. All indices count from 0; the normal is a new one. They are
+    /// written as negative indices if those of the other corners are negative.
     pub(super) fn push_new(&self, line: &mut Vec<u8>, new: &NewCorner) {
         let backwards = |count: usize| new.is_negative.then_some(count);
         push_any(line, new.vertex as usize, backwards(self.vertices + self.new_vertices));
@@ -81,7 +81,7 @@ impl Indices {
     }
 }
 
-/// A corner at a new vertex.
+/// Corner at a new vertex.
 pub(super) struct NewCorner {
     pub(super) vertex: u32,
     pub(super) texture: Option<u32>,
@@ -89,8 +89,8 @@ pub(super) struct NewCorner {
     pub(super) is_negative: bool,
 }
 
-/// Appends an index from 0 as the format counts: backwards behind so many elements, or from 1. One that comes later in
-/// the file can only be counted from 1.
+/// Appends an index from 0 in the form of the format: backwards from `backwards_behind` elements, or from 1. An
+/// element later in the file can only be counted from 1.
 fn push_any(line: &mut Vec<u8>, index: usize, backwards_behind: Option<usize>) {
     match backwards_behind.and_then(|count| count.checked_sub(index)).filter(|&back| back > 0) {
         Some(back) => {
@@ -101,7 +101,7 @@ fn push_any(line: &mut Vec<u8>, index: usize, backwards_behind: Option<usize>) {
     }
 }
 
-/// Appends an index of the text; a negative one counts back over so many more elements.
+/// Appends an index of the text. A negative index counts back over `by` more elements.
 fn push_shifted(line: &mut Vec<u8>, word: &[u8], by: usize) {
     match number(word).filter(|&index| index < 0 && by > 0) {
         Some(index) => {

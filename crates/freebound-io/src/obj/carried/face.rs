@@ -1,4 +1,4 @@
-//! A face's line: its corners' texture coordinates, or its triangles.
+//! Line of a face: texture coordinates of its corners, or its triangles.
 
 use std::io::{self, Write};
 use std::ops::Range;
@@ -12,7 +12,8 @@ use crate::mesh_file::{NO_TEXTURE, Texture};
 use freebound_core::mesh::VertexId;
 
 impl Writer<'_> {
-    /// Writes the faces that stand for a face of the text: in its line if it is whole, or else in lines of their own.
+    /// Writes the mesh's faces that replace a face of the text: in its line if it is whole, otherwise in their own
+    /// lines.
     pub(super) fn face(&mut self, line: &Line<'_>, one: &[u8]) -> io::Result<()> {
         let mut buffers = std::mem::take(&mut self.buffers);
         buffers.take_corners(one, self.seen.vertices);
@@ -33,7 +34,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// The mesh's faces that stand for the present face of the text.
+    /// Faces of the mesh that replace the current face of the text.
     fn faces_of_line(&mut self) -> Range<usize> {
         let begin = self.seen.own_faces;
         let count = self.all.mesh.polygons.face_count();
@@ -43,7 +44,7 @@ impl Writer<'_> {
         begin..self.seen.own_faces
     }
 
-    /// The line as it stands, its corners in the mesh's order.
+    /// Copies the line, with the corners in the mesh's order.
     fn whole_face(&self, line: &Line<'_>, face: usize, buffers: &mut Buffers) {
         let coordinates = coordinates_of(self.all.written.texture, self.all.mesh.polygons.corner_range(face));
         let (indices, mut at) = (self.indices(), 0);
@@ -57,7 +58,8 @@ impl Writer<'_> {
         buffers.line.extend_from_slice(&line.whole[at..]);
     }
 
-    /// One of the faces that a face of the text is cut into. The last has the end of its line, with what stands before.
+    /// Writes a part of a face that was split. The last part keeps the end of the face's line, including anything
+    /// after its corners.
     fn part(&self, line: &Line<'_>, face: usize, faces_end: usize, buffers: &mut Buffers) {
         let polygons = &self.all.mesh.polygons;
         let coordinates = coordinates_of(self.all.written.texture, polygons.corner_range(face));
@@ -90,7 +92,7 @@ impl Writer<'_> {
 }
 
 impl Buffers {
-    /// Finds the corners of a face's line, with so many vertices before it.
+    /// Parses the corners of a face's line, with `vertices_before` vertices before it.
     pub(super) fn take_corners(&mut self, one: &[u8], vertices_before: usize) {
         self.words.clear();
         self.words.extend(word_ranges(one).skip(1));
@@ -101,7 +103,7 @@ impl Buffers {
         }));
     }
 
-    /// Finds for each corner of a face the line's corner that it is; says whether the face has just these corners.
+    /// Finds the line's corner for each corner of a face; returns true if the face has exactly these corners.
     fn find_order(&mut self, face: &[VertexId]) -> bool {
         self.order.clear();
         if face.iter().map(|corner| corner.number()).eq(self.vertices.iter().copied()) {
@@ -121,21 +123,21 @@ impl Buffers {
         true
     }
 
-    /// Makes [`place_of`](Self::place_of) know the line's corners.
+    /// Prepares the line's corners for [`place_of`](Self::place_of).
     pub(super) fn sort_corners(&mut self) {
         self.by_vertex.clear();
         self.by_vertex.extend(self.vertices.iter().copied().zip(0..));
         self.by_vertex.sort_unstable();
     }
 
-    /// The first corner of the line at a vertex.
+    /// First corner of the line at a vertex.
     pub(super) fn place_of(&self, vertex: u32) -> Option<usize> {
         let first = self.by_vertex.partition_point(|own| own.0 < vertex);
         self.by_vertex.get(first).filter(|own| own.0 == vertex).map(|own| own.1)
     }
 }
 
-/// The texture coordinates of corners; `None` where one has none: then the face is written without.
+/// Texture coordinates of corners; `None` if one has none: the face is then written without.
 fn coordinates_of(texture: &Texture, corners: Range<usize>) -> Option<&[u32]> {
     texture.corners.get(corners).filter(|found| !found.contains(&NO_TEXTURE))
 }

@@ -1,21 +1,21 @@
-//! A mesh written as the text that it was read from, with other texture coordinates.
+//! Writer of a mesh as the text that it was read from, with other texture coordinates.
 //!
-//! | file     | what it holds                                                                     |
+//! | file     | contents                                                                          |
 //! |----------|-----------------------------------------------------------------------------------|
-//! | `mod`    | the text, the lines of it that change, and the way through it                     |
-//! | `face`   | a face's line: its corners' texture coordinates, or its triangles                 |
-//! | `corner` | a corner's word with other indices                                                |
-//! | `pieces` | pieces of the text made ready side by side                                        |
+//! | `mod`    | the text, the lines of it that change, and the pass over it                       |
+//! | `face`   | line of a face: texture coordinates of its corners, or its triangles              |
+//! | `corner` | word of a corner with other indices                                               |
+//! | `pieces` | pieces of the text, processed in parallel                                         |
 //! | `added`  | vertices and normals that the text does not have                                  |
 //!
-//! Every line is copied byte for byte, but for these.
+//! Every line is copied byte for byte, except for these:
 //!
-//! * `vt` lines: the new ones stand where the first was, or before the first face if that comes first.
-//! * `f` lines: of each corner the index of the texture coordinate. `l` lines that have such indices get those of
-//!   corners at the same vertices.
-//! * Faces that are triangles now stand in their place. New vertices follow the last vertex and new normals the last
-//!   normal, so that all positive indices keep their meaning. Negative ones behind them count further back.
-//! * Statements that name materials, where [`Edits`] say so.
+//! * `vt` lines: the new ones replace the old, at the first old one or the first face, whichever comes first.
+//! * `f` lines: each corner gets the index of its new texture coordinate. `l` lines with such indices get those of
+//!   corners at their vertices.
+//! * Faces that were split: the triangles replace the face. New vertices follow the last vertex and new normals the
+//!   last normal, so that all positive indices keep their meaning. Negative indices after them count further back.
+//! * Statements that name materials, according to [`Edits`].
 
 mod added;
 mod corner;
@@ -38,18 +38,18 @@ use super::lines::{Line, Lines, pieces, split_mark};
 use super::parse::resolve;
 use crate::mesh_file::{MeshFile, NO_TEXTURE, Source, Texture};
 
-/// What becomes of the statements of a file.
+/// Changes to the statements of a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Edits {
-    /// By their places among the statements, those that change: to these lines.
+    /// Lines that replace a statement, by its position among the statements.
     pub(super) statements: BTreeMap<usize, Vec<Vec<u8>>>,
-    /// A line before all others.
+    /// Line to insert before all others.
     pub(super) first: Option<Vec<u8>>,
-    /// A line before the first face.
+    /// Line to insert before the first face.
     pub(super) before_faces: Option<Vec<u8>>,
 }
 
-/// Writes a mesh as its text, with these texture coordinates. Pieces of the text are made ready side by side.
+/// Writes a mesh as its text, with these texture coordinates. Pieces of the text are processed in parallel.
 pub(super) fn write_carried(
     out: &mut impl Write,
     mesh: &MeshFile,
@@ -75,7 +75,7 @@ pub(super) fn write_carried(
     all.write_pieces(out, behind, &mut seen)
 }
 
-/// Where the first line stands that texture coordinates come before: one of their own, or a face.
+/// Byte offset of the first line that the texture coordinates must precede: an old coordinate, or a face.
 fn place_of_texture(lines: &[u8]) -> usize {
     let pieces = pieces(lines, PIECE);
     let place_in = |(number, piece): (usize, &&[u8])| {
@@ -93,26 +93,26 @@ fn place_of_texture(lines: &[u8]) -> usize {
     found.map_or(lines.len(), before)
 }
 
-/// What is written otherwise than the text has it.
+/// Changes to the text.
 #[derive(Clone, Copy)]
 pub(super) struct Written<'a> {
     pub(super) edits: &'a Edits,
     pub(super) texture: &'a Texture,
 }
 
-/// What all pieces of a text have in common.
+/// Data shared by all pieces of a text.
 struct All<'a> {
     mesh: &'a MeshFile,
     text: &'a Source,
     written: Written<'a>,
     added: Added,
-    /// Of lines that are added.
+    /// Line end of added lines.
     line_end: Vec<u8>,
-    /// A texture coordinate of each vertex, or [`NO_TEXTURE`].
+    /// Texture coordinate of each vertex, or [`NO_TEXTURE`].
     at_vertex: OnceLock<Vec<u32>>,
 }
 
-/// A piece of a text being written.
+/// Writer of a piece of the text.
 struct Writer<'a> {
     all: &'a All<'a>,
     out: Vec<u8>,
@@ -120,32 +120,32 @@ struct Writer<'a> {
     buffers: Buffers,
 }
 
-/// What has been passed so far.
+/// Counts of the elements passed so far.
 #[derive(Clone, Copy, Default)]
 struct Seen {
     vertices: usize,
     normals: usize,
     statements: usize,
-    /// Faces of the text.
+    /// Number of faces of the text.
     faces: u32,
-    /// Faces of the mesh.
+    /// Number of faces of the mesh.
     own_faces: usize,
-    /// Whether a line with words was there.
+    /// True after the first line with words.
     has_begun: bool,
-    /// Whether texture coordinates are written.
+    /// True once the texture coordinates are written.
     has_texture: bool,
 }
 
-/// Room that is used for every line.
+/// Buffers that are reused for every line.
 #[derive(Default)]
 struct Buffers {
     line: Vec<u8>,
-    /// Where the corners stand in a line.
+    /// Byte ranges of the corners in a line.
     words: Vec<Range<usize>>,
     vertices: Vec<u32>,
-    /// Vertices with their places, ascending; as `order` found only where it is needed.
+    /// Vertices with their corners, ascending. Filled only on demand, like `order`.
     by_vertex: Vec<(u32, usize)>,
-    /// For each corner of a face the corner of the line that it is.
+    /// Corner of the line for each corner of a face.
     order: Vec<usize>,
 }
 
@@ -159,7 +159,7 @@ impl Writer<'_> {
         match keyword {
             b"v" => self.vertex(line),
             b"vn" => self.normal(line),
-            // The new ones stand where the first of these was.
+            // The new coordinates are written at the first old one.
             b"vt" => Ok(()),
             b"f" => {
                 if self.seen.faces == 0 {
@@ -179,7 +179,7 @@ impl Writer<'_> {
         self.out.write_all(&self.all.line_end)
     }
 
-    /// Copies a line that others are to follow at once.
+    /// Copies a line and ensures that it has a line end, so that other lines can follow.
     fn copy_with_end(&mut self, line: &Line<'_>) -> io::Result<()> {
         self.out.write_all(line.whole)?;
         if line.end().is_empty() { self.out.write_all(&self.all.line_end) } else { Ok(()) }
@@ -221,7 +221,7 @@ impl Writer<'_> {
         lines.iter().try_for_each(|line| self.add_line(Some(line)))
     }
 
-    /// A line or points between vertices.
+    /// Writes a line element or point element.
     fn element(&mut self, line: &Line<'_>, one: &[u8]) -> io::Result<()> {
         let (indices, mut at) = (self.indices(), 0);
         let has_texture = one.contains(&b'/');
@@ -246,7 +246,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// The texture coordinate of some corner at a vertex.
+    /// Texture coordinate of some corner at a vertex.
     fn texture_at(&self, vertex: u32) -> Option<u32> {
         let at_vertex = self.all.at_vertex.get_or_init(|| {
             let mut found = vec![NO_TEXTURE; self.all.mesh.polygons.positions.len()];
@@ -258,7 +258,7 @@ impl Writer<'_> {
         at_vertex.get(vertex as usize).copied().filter(|&texture| texture != NO_TEXTURE)
     }
 
-    /// How indices are written at this place.
+    /// Index offsets at the current position.
     fn indices(&self) -> Indices {
         let new_vertices = self.all.mesh.polygons.positions.len() - self.all.text.vertex_count;
         let have_vertices = self.seen.vertices == self.all.text.vertex_count;

@@ -1,4 +1,4 @@
-//! Pieces of a text made ready side by side, and written in their order.
+//! Pieces of a text, processed in parallel and written in order.
 
 use std::io::{self, Write};
 
@@ -11,17 +11,17 @@ use super::super::lines::{Lines, pieces};
 use super::{All, Buffers, Seen, Writer};
 use crate::mesh_file::Source;
 
-/// Bytes of a piece of the text: enough to outweigh the handing out.
+/// Size of a piece of the text, bytes: large enough to outweigh the cost of scheduling it.
 pub(super) const PIECE: usize = 256 << 10;
 
-/// Texture coordinates of a piece.
+/// Number of texture coordinates in a piece.
 const COORDINATES: usize = 8192;
 
-/// Pieces that are made ready before they are written.
+/// Number of pieces that are processed before they are written.
 const PIECES_AT_ONCE: usize = 32;
 
 impl Seen {
-    /// What a piece of the text has.
+    /// Counts of the elements in a piece of the text.
     fn of(piece: &[u8]) -> Self {
         let (mut this, mut joined) = (Self::default(), Vec::new());
         for line in Lines::of(piece) {
@@ -38,7 +38,7 @@ impl Seen {
         this
     }
 
-    /// The same behind so many more.
+    /// Counts after another piece of the text.
     fn and(self, more: &Self, text: &Source) -> Self {
         let faces = self.faces + more.faces;
         Self {
@@ -54,7 +54,7 @@ impl Seen {
 }
 
 impl All<'_> {
-    /// Writes lines behind those that have been passed.
+    /// Writes lines that follow those in `seen`.
     pub(super) fn write_pieces(&self, out: &mut impl Write, lines: &[u8], seen: &mut Seen) -> io::Result<()> {
         for batch in pieces(lines, PIECE).chunks(PIECES_AT_ONCE) {
             let counts: Vec<Seen> = batch.par_iter().map(|piece| Seen::of(piece)).collect();
@@ -70,7 +70,7 @@ impl All<'_> {
         Ok(())
     }
 
-    /// A piece of the text as it is written.
+    /// Piece of the text as it is written.
     fn piece(&self, piece: &[u8], seen: Seen) -> io::Result<Vec<u8>> {
         let out = Vec::with_capacity(2 * piece.len());
         let mut writer = Writer { all: self, out, seen, buffers: Buffers::default() };
@@ -97,7 +97,7 @@ impl All<'_> {
         Ok(lines)
     }
 
-    /// A line that is added, where there is one.
+    /// Line to insert, with its line end; empty if there is none.
     pub(super) fn added_line(&self, line: Option<&Vec<u8>>) -> Vec<u8> {
         line.map_or_else(Vec::new, |line| [&line[..], &self.line_end].concat())
     }

@@ -1,0 +1,101 @@
+//! Card of the guided tour, over the lower left corner of the panes. Each card asks for one action, and says when it was
+//! done.
+
+use eframe::egui::{self, Align2, RichText};
+
+use crate::ui::state::{Tour, TourCard, TourStart, TourState};
+use crate::ui::theme::BOTTOM_HEIGHT;
+use crate::ui::{Editor, theme_of};
+
+/// Width of a card, points.
+const WIDTH: f32 = 300.0;
+
+/// Gap between the card and the edges of the panes, points.
+const GAP: f32 = 12.0;
+
+/// Width of the tool bar, points.
+const TOOL_BAR: f32 = 44.0;
+
+/// Answer to a card.
+enum Answer {
+    Next,
+    End,
+}
+
+pub(in crate::ui) fn tour(context: &egui::Context, editor: &mut Editor) {
+    let Some(mut tour) = editor.layout.tour().cloned() else { return };
+    let mesh = editor.session.model_revision();
+    if tour.start.as_ref().is_some_and(|start| start.mesh != mesh) {
+        tour.start = None;
+    }
+    // The camera is framed when the mesh arrives.
+    if !tour.is_done && editor.mesh.scene().is_some() {
+        let start = tour.start.get_or_insert_with(|| state(editor, mesh));
+        tour.is_done = notices(TourCard::ALL[tour.place], start, editor);
+    }
+    let strip = if editor.has_disk() { editor.timeline.height() } else { 0.0 };
+    let area = egui::Area::new(egui::Id::unique("tour")).order(egui::Order::Foreground).movable(false);
+    let area = area.anchor(Align2::LEFT_BOTTOM, [TOOL_BAR + GAP, -(BOTTOM_HEIGHT + strip + GAP)]);
+    let tour = match area.show(context, |ui| card(ui, &tour)).inner {
+        Some(Answer::Next) => tour.next(),
+        Some(Answer::End) => None,
+        None => Some(tour),
+    };
+    editor.layout.tour = tour.map_or(TourState::Over, TourState::UnderWay);
+}
+
+fn state(editor: &Editor, mesh: u64) -> TourStart {
+    TourStart {
+        mesh,
+        camera: editor.mesh.pane.camera(),
+        targets: editor.session.document().targets.clone(),
+        exports_shown: editor.layout.exports_shown,
+    }
+}
+
+/// True if the action of a card was done since its start.
+fn notices(card: TourCard, start: &mut TourStart, editor: &Editor) -> bool {
+    let targets = &editor.session.document().targets;
+    match card {
+        TourCard::Look => editor.mesh.pane.camera() != start.camera,
+        TourCard::Pin | TourCard::Landmark => targets.keys().any(|vertex| !start.targets.contains_key(vertex)),
+        TourCard::Drag => targets.iter().any(|(&vertex, target)| {
+            // A pin that was made on this card counts once it is dragged.
+            start.targets.entry(vertex).or_insert(*target).uv != target.uv
+        }),
+        TourCard::Step => editor.step_on_screen().is_some_and(|outcome| outcome.step.verdict.planar),
+        TourCard::Export => {
+            start.exports_shown &= editor.layout.exports_shown;
+            editor.layout.exports_shown && !start.exports_shown
+        }
+    }
+}
+
+fn card(ui: &mut egui::Ui, tour: &Tour) -> Option<Answer> {
+    let theme = theme_of(ui);
+    let [title, text] = tour.card().words();
+    let mut answer = None;
+    egui::Frame::popup(ui.style()).fill(theme.panel).inner_margin(12).show(ui, |ui| {
+        ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - TOOL_BAR - 3.0 * GAP));
+        ui.label(RichText::new(format!("Tour {} of {}", tour.place + 1, TourCard::ALL.len())).color(theme.weak_text));
+        ui.strong(title);
+        ui.label(text);
+        ui.add_space(6.0);
+        ui.horizontal(|ui| {
+            let is_last = tour.next().is_none();
+            let next = egui::Button::new(if is_last { "Finish" } else { "Next" });
+            let next = if tour.is_done() { next.fill(theme.planar.gamma_multiply(0.35)) } else { next };
+            let tip = if is_last { "End the tour" } else { "Go to the next card, with or without the action" };
+            if ui.add(next).on_hover_text(tip).clicked() {
+                answer = Some(Answer::Next);
+            }
+            if !is_last && ui.button("Skip tour").on_hover_text("End the tour. Help has it again").clicked() {
+                answer = Some(Answer::End);
+            }
+            if tour.is_done() {
+                ui.colored_label(theme.planar, "Done");
+            }
+        });
+    });
+    answer
+}
