@@ -23,15 +23,19 @@ enum Answer {
 }
 
 pub(in crate::ui) fn tour(context: &egui::Context, editor: &mut Editor) {
-    let Some(mut tour) = editor.layout.tour().cloned() else { return };
+    if editor.layout.tour().is_none() {
+        return;
+    }
+    let TourState::UnderWay(mut tour) = std::mem::replace(&mut editor.layout.tour, TourState::Over) else { return };
     let mesh = editor.session.model_revision();
     if tour.start.as_ref().is_some_and(|start| start.mesh != mesh) {
         tour.start = None;
     }
     // The camera is framed when the mesh arrives.
     if !tour.is_done && editor.mesh.scene().is_some() {
+        let card = tour.card();
         let start = tour.start.get_or_insert_with(|| state(editor, mesh));
-        tour.is_done = notices(TourCard::ALL[tour.place], start, editor);
+        tour.is_done = notices(card, start, editor);
     }
     let strip = if editor.has_disk() { editor.timeline.height() } else { 0.0 };
     let area = egui::Area::new(egui::Id::unique("tour")).order(egui::Order::Foreground).movable(false);

@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use clap::{Arg, Command, CommandFactory as _};
 use freebound::cli::Arguments;
 
+use crate::house::sources::files;
+
 /// Variable that lets the test write the list of options anew.
 const UPDATE: &str = "FREEBOUND_UPDATE";
 
@@ -31,13 +33,10 @@ fn with_ends(page: &str) -> String {
     out
 }
 
-/// Pages with `console` blocks, below a folder.
-fn pages(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).expect("a folder of the book");
-    let paths = entries.map(|entry| entry.expect("an entry").path());
-    let below = |path: PathBuf| if path.is_dir() { pages(&path) } else { vec![path] };
+/// Pages of the book with `console` blocks.
+fn pages() -> Vec<PathBuf> {
     let has_commands = |path: &PathBuf| fs::read_to_string(path).is_ok_and(|page| page.contains("```console\n"));
-    paths.flat_map(below).filter(|path| path.extension().is_some_and(|end| end == "md") && has_commands(path)).collect()
+    files(&book(), "md").into_iter().filter(has_commands).collect()
 }
 
 /// Every page runs in an empty folder of its own: a copy of the page stands beside an empty `.in` and `.out`, as trycmd
@@ -47,7 +46,7 @@ fn commands_of_the_book_print_what_it_says() {
     let copies = tempfile::tempdir().expect("a folder");
     let cases = trycmd::TestCases::new();
     cases.register_bin("freebound", Path::new(env!("CARGO_BIN_EXE_freebound")));
-    let pages = pages(&book());
+    let pages = pages();
     assert!(pages.len() > 5, "only {} pages have commands", pages.len());
     for page in pages {
         let name = page.strip_prefix(book()).expect("a page of the book").display().to_string().replace('/', "-");

@@ -1,11 +1,11 @@
 //! Prose: doc lines begin with their subject, the README fits a screen or two, and links of the book lead somewhere.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use pulldown_cmark::{Event, LinkType, Options, Parser, Tag, TagEnd};
 
-use super::sources::{CRATES, TESTS, root, sources};
+use super::sources::{CRATES, TESTS, files, root, sources};
 
 /// Words that a doc line must not begin with: the subject comes first.
 const FORBIDDEN: [&str; 9] = ["What", "Whether", "How", "Where", "Why", "It", "As", "That", "Those"];
@@ -64,15 +64,6 @@ fn the_readme_is_short() {
     assert!(text.len() <= README_BYTES, "{} bytes, more than {README_BYTES}", text.len());
 }
 
-/// Markdown files below a folder.
-fn pages(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
-    paths.sort();
-    let below = |path: PathBuf| if path.is_dir() { pages(&path) } else { vec![path] };
-    paths.into_iter().flat_map(below).filter(|path| path.extension().is_some_and(|end| end == "md")).collect()
-}
-
 /// Anchors that mdBook and GitHub give to the headings of a page.
 fn anchors(text: &str) -> Vec<String> {
     let (mut all, mut heading) = (Vec::new(), None);
@@ -108,7 +99,7 @@ fn links(text: &str) -> Vec<(String, String)> {
 
 #[test]
 fn links_of_the_book_and_the_documents_lead_somewhere() {
-    let mut all = pages(&root().join("book/src"));
+    let mut all = files(&root().join("book/src"), "md");
     let documents = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"].map(|name| root().join(name));
     all.extend(documents.into_iter().filter(|path| path.exists()));
     let (mut broken, mut count) = (Vec::new(), 0);
@@ -136,8 +127,11 @@ fn every_page_of_the_book_is_in_its_summary() {
     let summary = fs::read_to_string(folder.join("SUMMARY.md")).expect("the summary is there");
     let listed: Vec<String> = links(&summary).into_iter().map(|(path, _)| path).collect();
     let path = |page: PathBuf| page.strip_prefix(&folder).expect("a page of the book").display().to_string();
-    let missing: Vec<String> =
-        pages(&folder).into_iter().map(path).filter(|path| path != "SUMMARY.md" && !listed.contains(path)).collect();
+    let missing: Vec<String> = files(&folder, "md")
+        .into_iter()
+        .map(path)
+        .filter(|path| path != "SUMMARY.md" && !listed.contains(path))
+        .collect();
     assert!(missing.is_empty(), "not in the summary: {}", missing.join(", "));
 }
 

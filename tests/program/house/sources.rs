@@ -24,7 +24,7 @@ pub(crate) fn root() -> &'static Path {
 
 /// All Rust files of some folders of the workspace, sorted by name.
 pub(crate) fn sources(folders: &[&str]) -> Vec<Source> {
-    let paths: Vec<PathBuf> = folders.iter().flat_map(|folder| rust_files(&root().join(folder))).collect();
+    let paths: Vec<PathBuf> = folders.iter().flat_map(|folder| files(&root().join(folder), "rs")).collect();
     assert!(!paths.is_empty(), "{folders:?} hold no source");
     let source = |path: PathBuf| Source {
         text: fs::read_to_string(&path).expect("source is text"),
@@ -33,13 +33,14 @@ pub(crate) fn sources(folders: &[&str]) -> Vec<Source> {
     paths.into_iter().map(source).collect()
 }
 
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
+/// All files below a folder whose names end in `extension`, sorted by name.
+pub(crate) fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
     paths.sort();
-    let below = |path: PathBuf| if path.is_dir() { rust_files(&path) } else { vec![path] };
-    let is_rust = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "rs");
-    paths.into_iter().flat_map(below).filter(is_rust).collect()
+    let below = |path: PathBuf| if path.is_dir() { files(&path, extension) } else { vec![path] };
+    let is_wanted = |path: &PathBuf| path.extension().is_some_and(|end| end == extension);
+    paths.into_iter().flat_map(below).filter(is_wanted).collect()
 }
 
 /// Text without its comments. Two slashes within a string stay.

@@ -332,7 +332,7 @@ fn relaxing_waits_for_the_last_iteration_where_polygons_are_concave_on_the_way()
         let last = steps.iter().rposition(|step| step.candidate.stage == Stage::Slim).expect("an iteration");
         assert!(
             steps[1..=last].iter().all(|step| step.candidate.stage == Stage::Slim),
-            "it goes on from its own steps alone"
+            "SLIM continues from its own steps alone"
         );
         let is_concave = |step: &&Step| step.verdict.is_one_to_one() && !step.verdict.concave_polygons.is_empty();
         waited += steps[..last].iter().filter(is_concave).count();
