@@ -84,6 +84,8 @@ fn kind_of(failure: &CommandError) -> &'static str {
 
 #[cfg(test)]
 mod tests {
+    use freebound_testkit::assert_message;
+
     use super::*;
     use crate::session::MorphShortage;
 
@@ -91,9 +93,7 @@ mod tests {
     fn frames_that_take_too_much_memory_are_no_result_and_the_remedy_is_fewer() {
         let shortage = MorphShortage { frames: 1000, needed: 3 << 30, memory: 4 << 30 };
         let failure = CommandError::MorphMemory { path: "mesh.obj".to_owned(), shortage };
-        let words = "mesh.obj: 1000 frames between maps need 3.0 GiB, more than half of the machine's memory of 4.0 GiB; \
-                     use fewer --frames or fewer --methods";
-        assert_eq!(failure.to_string(), words);
+        assert_message("failed-morph-too-large-for-memory", &failure.to_string());
         assert_eq!((failure.code(), kind_of(&failure)), (FALLS_SHORT, "too-large-for-memory"));
         let (remedy, faults) = remedy_and_faults(&failure);
         assert!(remedy == Some(FRAMES_REMEDY) && faults.is_empty());

@@ -68,7 +68,8 @@ mod tests {
     #[test]
     #[cfg(unix)]
     fn a_program_that_fails_is_a_failure_and_one_that_does_not_is_none() {
-        assert!(show("false", Path::new(".")).is_err_and(|reason| reason.starts_with("false failed")));
+        let reason = show("false", Path::new(".")).expect_err("it fails");
+        freebound_testkit::assert_message("folder-program-failed", &reason);
         assert_eq!(show("true", Path::new(".")), Ok(()));
     }
 }

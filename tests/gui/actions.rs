@@ -2,11 +2,12 @@
 
 use eframe::egui;
 use egui::accesskit::{Action as Offer, Role};
-use egui::{Key, Modifiers, Pos2, Rect, Vec2};
+use egui::{Color32, Key, Modifiers, Pos2, Rect, Vec2};
 use egui_kittest::Node;
 use egui_kittest::kittest::{NodeT, Queryable};
-use freebound::ui::{Pane, Request, ShadingMode};
+use freebound::ui::{Pane, Request, ShadingMode, theme};
 use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Surface;
 use glam::DVec2;
 
 use crate::harness::Window;
@@ -16,6 +17,38 @@ pub(crate) const MESH_VIEW: &str = "3D view of the mesh";
 
 /// Name of the embedding's drawing surface.
 pub(crate) const PLANE_VIEW: &str = "Embedding in the plane";
+
+/// Kind of the verdict in the pill, by the colour of its words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pill {
+    /// Planar and proved.
+    Proved,
+    /// Planar, with constraints that are not met.
+    Unmet,
+    /// Defects of the embedding, or faults of the mesh.
+    Bad,
+    /// Preview, or a step that is not up to date.
+    Stale,
+    /// Work in progress, or a movement to another step.
+    AtWork,
+}
+
+impl Pill {
+    /// Kind with a colour of one of the two themes.
+    fn of(colour: Color32) -> Option<Self> {
+        let kinds = |theme: &theme::Theme| {
+            [
+                (theme.planar, Self::Proved),
+                (theme.unmet, Self::Unmet),
+                (theme.flipped, Self::Bad),
+                (theme.stale, Self::Stale),
+                (theme.weak_text, Self::AtWork),
+            ]
+        };
+        let all = [kinds(&theme::LIGHT), kinds(&theme::DARK)].concat();
+        all.into_iter().find(|(of, _)| *of == colour).map(|(_, kind)| kind)
+    }
+}
 
 impl Window {
     /// Presses keys together with modifiers.
@@ -129,16 +162,50 @@ impl Window {
         self.rect(Role::Image, PLANE_VIEW)
     }
 
+    /// Name of the first control with a role that begins with `start`.
+    pub(crate) fn name_of(&self, role: Role, start: &str) -> String {
+        let mut nodes = self.harness.query_all_by_role(role);
+        let name = nodes.find_map(|node| node.accesskit_node().label().filter(|label| label.starts_with(start)));
+        name.unwrap_or_else(|| panic!("no name begins with {start:?}: {:?}", self.words()))
+    }
+
+    /// Button of the verdict, if it shows.
+    fn pill_button(&self) -> Option<Node<'_>> {
+        self.harness.query_by(|node| node.label().is_some_and(|label| label.starts_with("Verdict: ")))
+    }
+
     /// Text of the verdict's pill.
     pub(crate) fn verdict(&self) -> String {
-        let pill = self.harness.query_by(|node| node.label().is_some_and(|label| label.starts_with("Verdict: ")));
-        let label = pill.and_then(|pill| pill.accesskit_node().label()).expect("the verdict shows");
+        let label = self.pill_button().and_then(|pill| pill.accesskit_node().label()).expect("the verdict shows");
         label.trim_start_matches("Verdict: ").to_owned()
     }
 
-    /// True if the pill says that the embedding is proved planar, with all constraints met.
+    /// Numbers in the text of the verdict's pill.
+    pub(crate) fn numbers_of_verdict(&self) -> Vec<usize> {
+        self.verdict().split(' ').filter_map(|word| word.parse().ok()).collect()
+    }
+
+    /// Kind of the verdict's pill.
+    pub(crate) fn pill(&self) -> Pill {
+        let place = self.pill_button().expect("the verdict shows").rect();
+        let kind = |shape: &egui::Shape| match shape {
+            egui::Shape::Text(text) if place.contains(text.pos) => Pill::of(text.fallback_color),
+            _ => None,
+        };
+        let mut shapes = self.harness.output().shapes.iter();
+        shapes.find_map(|shape| kind(&shape.shape)).expect("its words have a colour of the theme")
+    }
+
+    /// True if the pill has the colour of an embedding proved planar, with all constraints met, and no pin is dragged.
     pub(crate) fn is_proved(&self) -> bool {
-        self.verdict().starts_with("Planar: proved · ")
+        self.pill() == Pill::Proved && !self.editor().shows_preview()
+    }
+
+    /// True if the mesh cannot be flattened, and the pill has the number of its faults.
+    pub(crate) fn is_faulty(&self) -> bool {
+        let Some(model) = self.editor().session.model() else { return false };
+        let Surface::Faulty(_, diagnosis) = &model.prepared.surface else { return false };
+        self.pill() == Pill::Bad && self.numbers_of_verdict() == [diagnosis.faults.len()]
     }
 
     /// All texts painted in the last frame.
@@ -153,6 +220,13 @@ impl Window {
     /// True if a text painted in the last frame contains `words`.
     pub(crate) fn shows(&self, words: &str) -> bool {
         self.words().iter().any(|painted| painted.contains(words))
+    }
+
+    /// First text painted in the last frame that contains `word`.
+    pub(crate) fn text_with(&self, word: &str) -> String {
+        let words = self.words();
+        let found = words.iter().find(|painted| painted.contains(word));
+        found.unwrap_or_else(|| panic!("no text has {word:?}: {words:?}")).clone()
     }
 
     /// True if the last frame painted a ring around `place`.

@@ -11,6 +11,7 @@ use freebound_core::problem::{Embedding, Method, Settings};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
+use freebound_testkit::assert_message;
 
 /// The built-in face after its first iteration: two steps, with the second shown.
 fn two_steps() -> Window {
@@ -144,7 +145,7 @@ fn the_outline_of_the_compared_step_shows_and_goes() {
     window.editor_mut().session.handle(Action::Compare(Some(0)));
     window.settle();
     assert_eq!(window.editor().plane.ghost_step(), Some(0));
-    assert!(window.shows("Outline of step 0"));
+    assert_message("compare-window-outline", &window.text_with("Outline"));
     window.key(Key::ArrowLeft);
     assert_eq!(window.editor().plane.ghost_step(), None, "a step is not compared with itself");
     window.key(Key::ArrowRight);
@@ -152,14 +153,16 @@ fn the_outline_of_the_compared_step_shows_and_goes() {
     window.editor_mut().session.handle(Action::Compare(None));
     window.settle();
     assert_eq!(window.editor().plane.ghost_step(), None);
-    assert!(!window.shows("Outline of step"));
+    assert!(!window.shows("Outline"));
 }
 
 #[test]
 fn moves_are_measured_from_the_compared_step_or_else_from_the_one_before() {
     let mut window = two_steps();
+    let base = |window: &Window| window.editor().plane.moved_from(&window.editor().session).map(|base| base.step.index);
     window.key(Key::Num7);
-    assert!(window.shows("Move from step 0, plane units"), "{:?}", window.words());
+    assert_eq!(base(&window), Some(0));
+    assert_message("compare-window-moved-from-the-step-before", &window.text_with("Move "));
     let legend = window.editor().pane_shading.paint(Pane::Mesh).expect("painted").legend.clone().expect("a legend");
     assert!(legend.range.low.abs() < f64::EPSILON && legend.range.high > 0.0);
     let max_move = window.outcome().step.max_move.expect("not the first");
@@ -167,11 +170,11 @@ fn moves_are_measured_from_the_compared_step_or_else_from_the_one_before() {
 
     window.key(Key::ArrowLeft);
     assert!(window.editor().pane_shading.paint(Pane::Mesh).expect("painted").legend.is_none(), "nothing comes before");
-    assert!(window.shows("there is no movement to show"));
+    assert_message("compare-window-nothing-has-moved", &window.text_with("movement"));
     window.editor_mut().session.handle(Action::Compare(Some(1)));
     window.settle();
-    assert!(window.shows("Move from step 1"));
-    assert_eq!(window.editor().plane.moved_from(&window.editor().session).expect("compared").step.index, 1);
+    assert_eq!(base(&window), Some(1));
+    assert_message("compare-window-moved-from-the-compared-step", &window.text_with("Move "));
 }
 
 #[test]
@@ -180,10 +183,10 @@ fn the_stages_of_a_virtual_boundary_show_no_outline_of_another_step() {
     window.choose("Method", "Virtual boundary");
     window.editor_mut().session.handle(Action::Compare(Some(0)));
     window.settle();
-    assert!(window.shows("Outline of step 0"));
+    assert!(window.shows("Outline"));
     window.key(Key::H);
     assert_eq!(window.editor().plane.stage(), HullStage::Pockets);
-    assert!(!window.shows("Outline of step 0"));
+    assert!(!window.shows("Outline"));
 }
 
 #[test]
@@ -203,7 +206,7 @@ fn the_cross_of_the_legend_ends_the_comparison() {
     window.settle();
     window.click("Stop comparing");
     assert_eq!(window.editor().session.timeline().compared(), None);
-    assert!(!window.has_button("Stop comparing") && !window.shows("Outline of step"));
+    assert!(!window.has_button("Stop comparing") && !window.shows("Outline"));
 }
 
 #[test]

@@ -15,7 +15,8 @@ use freebound::view::Quantity;
 use freebound_core::mesh::VertexId;
 use freebound_core::problem::{BoundaryShape, Family, Method, NamedOption as _, Variant};
 
-use crate::harness::{SIZE, Window, sheet};
+use crate::harness::{PLANE_VIEW, SIZE, Window, sheet};
+use freebound_testkit::assert_message;
 
 fn comparing(mut window: Window) -> Window {
     window.menu(&["Solve", "Compare methods…"]);
@@ -82,7 +83,7 @@ fn the_menu_shows_six_methods_side_by_side_and_escape_leads_back() {
     for (k, (name, place)) in cells.iter().enumerate() {
         assert!(cells[k + 1..].iter().all(|(_, other)| !place.intersects(*other)), "{name}");
     }
-    assert!(window.harness.query_by_label("Embedding in the plane").is_none(), "it stands in the embedding's place");
+    assert!(window.harness.query_by_label(PLANE_VIEW).is_none(), "it stands in the embedding's place");
     window.key(Key::Escape);
     assert!(!window.editor().plane.comparison.is_shown() && window.editor().session.contenders().is_empty());
     assert_eq!(window.editor().layout.full(), None);
@@ -171,15 +172,15 @@ fn methods_are_checked_in_a_list_two_to_six() {
     window.settle();
     // The section opens with an animation.
     window.harness.run_steps(30);
-    let wachspress = "Auto, wachspress";
-    toggle(&mut window, wachspress);
-    assert_eq!(found(&window, wachspress).problem.settings.family(), Family::Wachspress);
+    let wachspress = Variant { method: Method::Auto, family: Some(Family::Wachspress) }.title();
+    toggle(&mut window, &wachspress);
+    assert_eq!(found(&window, &wachspress).problem.settings.family(), Family::Wachspress);
     // Scrolls to entries farther down the list.
     let tutte = Variant { method: Method::Convex(BoundaryShape::Square), family: Some(Family::Uniform) };
     window.editor_mut().handle(Request::ToggleContender(tutte.clone()));
     window.settle();
     let tutte = tutte.title();
-    assert_eq!(tutte, "Convex boundary, uniform, square");
+    assert_message("comparison-window-title-of-a-variant", &tutte);
     assert!(found(&window, &tutte).report.result.as_ref().expect("an embedding").verdict.planar);
     // The choice is restored.
     let before = titles(&window);
@@ -252,7 +253,7 @@ fn faces_are_coloured_alike_in_all_cells_by_list_and_by_key() {
     let mut window = with_sheet();
     let quantity = |window: &Window| window.editor().plane.comparison.quantity();
     assert_eq!(quantity(&window), Some(Quantity::Angle));
-    assert!(window.shows("Angle distortion"));
+    assert!(window.shows(Quantity::Angle.title()));
     window.choose("Colours of the comparison", "Stretch");
     assert_eq!(quantity(&window), Some(Quantity::Stretch));
     for (key, expected) in [(Key::Num5, Some(Quantity::Area)), (Key::Num1, None), (Key::Num4, Some(Quantity::Angle))] {
@@ -268,7 +269,7 @@ fn faces_are_coloured_alike_in_all_cells_by_list_and_by_key() {
 fn a_comparison_is_written_as_a_picture_and_as_tables() {
     let mut window = with_sheet();
     window.menu(&["Export the comparison", "Table…"]);
-    assert!(window.shows("Export the table of the comparison"));
+    assert!(window.editor().files.dialogs.is_open());
     window.click("Export");
     assert!(window.path("sheet-comparison.csv").is_file());
     for (what, name) in [("Picture…", "all.png"), ("Steps…", "steps.csv")] {
@@ -276,7 +277,7 @@ fn a_comparison_is_written_as_a_picture_and_as_tables() {
         window.menu(&["Export the comparison", what]);
         window.fill_in(Role::TextInput, "Name", path.to_str().expect("a path of text"));
         // The message about the earlier file does not cover the dialog.
-        assert!(!window.shows("Show in folder"));
+        assert!(!window.has_button("Show in folder"));
         window.key(Key::Enter);
         assert!(path.is_file(), "{what}");
     }
@@ -304,8 +305,8 @@ fn the_comparison_follows_another_mesh_and_says_where_there_is_nothing_to_compar
         .unwrap();
     let bad = window.path("bad.obj");
     window.open(&bad);
-    assert!(window.shows("This mesh has faults that prevent flattening"), "{:?}", window.words());
-    assert!(cells(&window).is_empty());
+    assert!(window.is_faulty() && cells(&window).is_empty(), "{:?}", window.words());
+    assert_message("comparison-window-nothing-to-compare", &window.text_with("prevent"));
 }
 
 #[test]
@@ -319,7 +320,8 @@ fn a_method_that_fails_says_why_in_its_cell() {
     window.editor_mut().session.handle(Action::UnpinAll);
     window.settle();
     window.click("Methods that are compared");
-    let [remove, add] = [titles(&window)[0].clone(), "Virtual boundary, conformal".to_owned()];
+    let bent = Variant { method: Method::VirtualBoundary, family: Some(Family::Conformal) };
+    let [remove, add] = [titles(&window)[0].clone(), bent.title()];
     for title in [&remove, &add] {
         window.harness.get_by_role_and_label(Role::CheckBox, title).click();
         window.settle();
@@ -327,9 +329,12 @@ fn a_method_that_fails_says_why_in_its_cell() {
     window.key(Key::Escape);
     window.press(Modifiers::COMMAND, Key::Z);
     let failed = found(&window, &add);
-    assert!(failed.outcome.is_none() && window.shows("at most 2 hard pins"), "{:?}", window.words());
+    let error = failed.report.error.as_ref().expect("it takes two pins");
+    assert!(failed.outcome.is_none() && window.shows(&error.message), "{:?}", window.words());
+    assert_eq!(error.kind, "too-many-pins");
+    assert_message("comparison-window-too-many-pins", &error.message);
     let words = cells(&window).into_iter().find(|(name, _)| name.starts_with(&add)).expect("its cell").0;
-    assert!(words.contains("too-many-pins"), "{words}");
+    assert!(words.contains(error.kind), "{words}");
 }
 
 #[test]

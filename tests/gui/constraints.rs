@@ -9,6 +9,7 @@ use freebound_core::pipeline::{Target, Targets};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
+use freebound_testkit::assert_message;
 
 pub(crate) fn window() -> Window {
     Window::with_mesh("sheet.obj", &sheet(8, 0.4))
@@ -93,10 +94,11 @@ fn what_a_click_would_do_is_said_before_it() {
     let mut window = window();
     let vertex = window.vertex_in_the_middle();
     window.click("Constrain: choose the position of a vertex");
-    assert!(window.shows("Click a vertex on the mesh, then its position"));
+    assert_message("constraints-window-hint-at-first", &window.text_with("Click"));
     window.harness.hover_at(window.place_on_mesh(vertex));
     window.settle();
-    assert!(window.shows(&format!("choose {vertex}")), "{:?}", window.words());
+    assert_eq!(window.editor().tools.intent(), Intent::TakeVertex(vertex));
+    assert_message("constraints-window-hint-over-a-vertex", &window.text_with("Click"));
     assert!(window.has_ring_at(window.place_on_mesh(vertex)));
     window.click_at(window.place_on_mesh(vertex), Modifiers::NONE);
     let to = free_place(&window);
@@ -106,7 +108,9 @@ fn what_a_click_would_do_is_said_before_it() {
         panic!("{:?}", window.editor().tools.intent())
     };
     assert_eq!((joined, target), (vertex, in_embedding(&window, to)));
-    assert!(window.shows(&format!("{vertex} goes to u ")), "{:?}", window.words());
+    let hint = window.text_with("Click");
+    let parts = [vertex.to_string(), format!("u {:.4} v {:.4}", target.x, target.y)];
+    assert!(parts.iter().all(|part| hint.contains(part)), "{hint}");
     let from = window.place_in_plane(window.embedding()[vertex.index()]);
     let is_joined = |[a, b]: &[Pos2; 2]| a.distance(from) < 1.0 && b.distance(to) < 1.0;
     assert!(window.lines().iter().any(is_joined), "a line joins the vertex with the pointer");
@@ -158,7 +162,8 @@ fn a_click_on_another_pin_s_mark_completes_the_pair_as_the_status_line_says() {
     let mark = window.place_in_plane(DVec2::new(0.5, 0.5));
     window.harness.hover_at(mark);
     window.settle();
-    assert!(window.shows("v40 goes to u 0.3000 v 0.7000"), "{:?}", window.words());
+    assert_eq!(window.editor().tools.intent(), Intent::Join(VertexId::new(40), target));
+    assert_message("constraints-window-hint-that-joins", &window.text_with("Click"));
     window.click_at(mark, Modifiers::NONE);
     assert_eq!(pins(&window)[&VertexId::new(40)], Target::hard(target));
     assert_eq!(window.editor().tools.pair(), None);
@@ -177,7 +182,7 @@ fn a_click_on_a_mark_far_from_its_vertex_selects_as_the_status_line_says() {
     window.harness.hover_at(mark);
     window.settle();
     assert_eq!(window.editor().tools.intent(), Intent::Select(VertexId::new(30)));
-    assert!(window.shows("select the pin of v30"), "{:?}", window.words());
+    assert_message("constraints-window-hint-that-selects", &window.text_with("Click"));
     window.click_at(mark, Modifiers::NONE);
     assert_eq!(*window.editor().selection.vertices(), [VertexId::new(30)].into());
     assert_eq!(window.editor().tools.pair(), None);

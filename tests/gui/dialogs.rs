@@ -8,12 +8,14 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use freebound::app::LaunchFile;
+use freebound::examples::Example;
 use freebound::session::Severity;
 use freebound_core::geom::Picture;
 use freebound_core::mesh::VertexId;
 use freebound_io::read_mesh;
 
 use crate::harness::{SIZE, Window, sheet, write_obj};
+use freebound_testkit::assert_message;
 
 pub(crate) fn window() -> Window {
     Window::with_mesh("sheet.obj", &sheet(6, 0.3))
@@ -33,7 +35,7 @@ fn a_mesh_is_opened_through_the_dialog() {
     write_obj(&window.path("second.obj"), &sheet(4, 0.0));
     std::fs::write(window.path("notes.txt"), "no mesh").unwrap();
     window.press(Modifiers::COMMAND, Key::O);
-    assert!(window.shows("Open a mesh or a project"));
+    assert!(window.editor().files.dialogs.is_open());
     assert!(window.has_button("second.obj") && window.has_button("sheet.obj"));
     assert!(!window.has_button("notes.txt"), "only meshes are listed");
     window.click("second.obj");
@@ -96,7 +98,9 @@ fn the_mesh_is_saved_with_texture_coordinates() {
     assert_eq!(std::fs::read_to_string(&path).unwrap().lines().filter(|line| line.starts_with("vt ")).count(), 49);
     let message = &window.editor().session.messages()[0];
     assert_eq!(message.severity, Severity::Note);
-    assert!(message.text.starts_with("wrote ") && window.shows("sheet-flat.obj"), "{}", message.text);
+    assert!(matches!(&message.files[..], [file] if file.ends_with("sheet-flat.obj")), "{:?}", message.files);
+    assert!(window.shows("sheet-flat.obj"));
+    assert_message("dialogs-window-wrote-a-file", &message.text);
 }
 
 #[test]
@@ -212,7 +216,8 @@ fn files_dropped_together_are_sorted_by_their_kinds_and_a_second_mesh_is_named()
     assert!(window.editor().has_picture());
     assert_eq!(window.editor().session.document().targets.len(), 2);
     let said: Vec<&str> = window.editor().session.messages().iter().map(|message| &*message.text).collect();
-    assert_eq!(said, ["only one mesh and one picture can be open at a time; not opened: b.obj"]);
+    assert_eq!(said.len(), 1, "{said:?}");
+    assert_message("dialogs-window-one-mesh-at-a-time", said[0]);
     // Files queued after a mesh that fails to open are not applied to another mesh.
     std::fs::write(window.path("broken.obj"), "f 1 2 3\n").expect("written");
     let files = ["broken.obj", "a.txt"].map(|name| dropped(window.path(name)));
@@ -260,13 +265,13 @@ fn files_opened_last_are_kept_and_opened_again() {
     };
     drop(Window::start(SIZE, start()));
     let mut again = Window::start(SIZE, LaunchFile { file: None, ..start() });
-    assert_eq!(name(&again), "Face");
+    assert_eq!(name(&again), Example::Face.title());
     again.menu(&["File", "Recent", &file.display().to_string()]);
     assert_eq!(name(&again), "sheet.obj");
     again.menu(&["File", "Recent", "Clear this list"]);
     assert!(again.editor().session.recent().paths().is_empty());
     again.menu(&["File", "Recent"]);
-    assert!(again.shows("No files yet"));
+    assert_message("dialogs-window-no-recent-files", &again.text_with("yet"));
 }
 
 #[test]
@@ -276,9 +281,9 @@ fn a_recent_file_that_is_gone_says_so_and_changes_nothing() {
     write_obj(&gone, &sheet(4, 0.0));
     window.open(&gone);
     std::fs::remove_file(&gone).unwrap();
-    window.menu(&["File", "Examples", "Flat L"]);
+    window.menu(&["File", "Examples", Example::Ell.title()]);
     window.menu(&["File", "Recent", &gone.display().to_string()]);
-    assert_eq!(name(&window), "Flat L");
+    assert_eq!(name(&window), Example::Ell.title());
     assert!(window.shows("gone.obj"));
     assert!(window.editor().session.messages()[0].remedy.is_some());
 }

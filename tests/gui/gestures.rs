@@ -9,7 +9,8 @@ use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
 use glam::DVec2;
 
-use crate::harness::{Window, sheet};
+use crate::harness::{Pill, Window, sheet};
+use freebound_testkit::assert_message;
 
 fn window() -> Window {
     Window::with_mesh("sheet.obj", &sheet(8, 0.4))
@@ -175,8 +176,8 @@ fn the_embedding_follows_while_a_pin_is_dragged() {
     assert_eq!(window.editor().tools.dragged(), Some(VertexId::new(40)));
     let drawn = window.editor().plane.drawn().expect("solved").positions()[40];
     assert!(drawn.distance(in_embedding(&window, to)) < 1e-9, "{drawn}");
-    assert!(window.verdict().starts_with("Planar: proved"), "{}", window.verdict());
-    assert!(window.shows("Move the pin"), "the status bar says so");
+    assert_eq!(window.pill(), Pill::Proved, "{}", window.verdict());
+    assert_message("gestures-window-hint-during-a-drag", &window.text_with("Esc"));
     window.end_drag(to);
     assert_eq!(window.editor().tools.dragged(), None);
 }

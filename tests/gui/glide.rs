@@ -8,8 +8,9 @@ use freebound_core::mesh::VertexId;
 use freebound_core::problem::{Family, Method, Settings};
 use glam::DVec2;
 
-use crate::harness::{Window, sheet};
+use crate::harness::{Pill, Window, sheet};
 use crate::timeline::shown;
+use freebound_testkit::assert_message;
 
 /// Window after its first step and three more.
 fn with_four_steps() -> Window {
@@ -58,14 +59,15 @@ fn each_frame(window: &mut Window, mut look: impl FnMut(&Window)) {
 fn the_pill_says_that_the_sheet_moves_as_long_as_it_does() {
     let mut window = with_four_steps();
     window.key_now(Key::ArrowLeft);
-    let mut moving = 0;
+    let mut moving = Vec::new();
     each_frame(&mut window, |window| {
         let is_there = drawn_step(window) == 2 && !window.editor().plane.is_easing();
-        let expected = if is_there { "Planar: proved · mean value" } else { "moving 3 to 2" };
-        assert_eq!(window.verdict(), expected);
-        moving += usize::from(window.editor().plane.is_easing());
+        let expected = if is_there { (Pill::Proved, vec![]) } else { (Pill::AtWork, vec![3, 2]) };
+        assert_eq!((window.pill(), window.numbers_of_verdict()), expected, "{}", window.verdict());
+        moving.extend(window.editor().plane.is_easing().then(|| window.verdict()));
     });
-    assert!(moving >= 5, "{moving} frames of a glide");
+    assert!(moving.len() >= 5, "{} frames of a glide", moving.len());
+    assert_message("glide-window-moving", &moving[0]);
 }
 
 #[test]
@@ -81,11 +83,11 @@ fn a_click_on_the_pill_of_a_sheet_that_moves_goes_to_no_defect() {
         let place = window.rect(egui::accesskit::Role::Button, &pill(window)).center();
         window.frame(crate::presses::click(place, Modifiers::NONE));
     };
-    assert_eq!(pill(&window), "Verdict: moving 0 to 1");
+    assert_eq!((window.pill(), window.numbers_of_verdict()), (Pill::AtWork, vec![0, 1]), "{}", window.verdict());
     click_it(&mut window);
     assert_eq!(window.editor().selection.defect(), None);
     window.key(Key::Home);
-    assert!(window.verdict().contains("flipped"), "{}", window.verdict());
+    assert_eq!(window.pill(), Pill::Bad, "{}", window.verdict());
     click_it(&mut window);
     assert_eq!(window.editor().selection.defect(), Some(0));
 }
@@ -137,7 +139,7 @@ fn slow_frames_have_no_glide_and_the_sheet_is_there_at_once() {
             window.frame_after(0.1, []);
         }
         assert!(!window.editor().plane.is_easing());
-        assert!(window.verdict().starts_with("Planar"), "{}", window.verdict());
+        assert_eq!(window.pill(), Pill::Proved, "{}", window.verdict());
     }
 }
 
@@ -180,7 +182,7 @@ fn a_drag_that_is_given_up_goes_back_without_a_word_of_a_verdict_on_the_way() {
     window.key_now(Key::Escape);
     each_frame(&mut window, |window| {
         let is_there = drawn(window) == before;
-        assert!(is_there || !window.verdict().starts_with("Planar"), "{}", window.verdict());
+        assert!(is_there || !matches!(window.pill(), Pill::Proved | Pill::Unmet), "{}", window.verdict());
     });
     assert_eq!(drawn(&window), before);
 }

@@ -16,7 +16,7 @@ use freebound_core::pipeline::Outcome;
 use freebound_core::problem::Embedding;
 use tempfile::TempDir;
 
-pub(crate) use crate::actions::{MESH_VIEW, PLANE_VIEW};
+pub(crate) use crate::actions::{MESH_VIEW, PLANE_VIEW, Pill};
 pub(crate) use freebound_testkit::{sheet, write_obj};
 
 /// Time limit for the background before a test fails, long enough for a machine under load.

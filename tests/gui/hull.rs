@@ -8,6 +8,7 @@ use freebound_core::problem::Embedding;
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
+use freebound_testkit::assert_message;
 
 /// The built-in face. The virtual boundary removes its three folds within the hull.
 fn bent() -> Window {
@@ -15,6 +16,18 @@ fn bent() -> Window {
     window.choose("Method", "Virtual boundary");
     assert!(window.outcome().step.candidate.virtual_boundary.is_some(), "the face bends");
     window
+}
+
+/// Caption of hull and pockets, which the pane shows.
+fn caption(window: &Window) -> String {
+    let caption = window.editor().plane.hull_scene().expect("shown").caption.clone();
+    assert!(window.shows(&caption), "{caption:?} in {:?}", window.words());
+    caption
+}
+
+/// True if the step on the screen has stages of a virtual boundary to show.
+fn has_stages(window: &Window) -> bool {
+    window.editor().plane.hull_scene().expect("shown").has_stages
 }
 
 fn positions(window: &Window) -> Embedding {
@@ -27,7 +40,9 @@ fn h_shows_the_stages_and_hides_them_again() {
     assert!(!window.has_button("Pockets"));
     window.key(Key::H);
     let pockets = window.outcome().step.candidate.virtual_boundary.clone().expect("bent").pockets.len();
-    assert!(window.shows(&format!("{pockets} triangles up to the hull")), "{:?}", window.words());
+    let caption = caption(&window);
+    assert!(has_stages(&window) && caption.split(' ').any(|word| word == pockets.to_string()), "{caption}");
+    assert_message("hull-window-caption-of-pockets", &caption);
     for stage in HullStage::ALL {
         window.click(stage.words()[0]);
         assert_eq!(window.editor().plane.stage(), stage);
@@ -120,8 +135,8 @@ fn the_camera_comes_back_where_the_stages_needed_more_room() {
 fn a_step_without_a_virtual_boundary_says_so_and_shows_its_hull() {
     let mut window = Window::with_example(Example::Ell);
     window.key(Key::H);
-    assert!(window.shows("This step has no virtual boundary"), "{:?}", window.words());
-    assert!(!window.has_button("Pockets"));
+    assert!(!has_stages(&window) && !window.has_button("Pockets"), "{:?}", window.words());
+    assert_message("hull-window-no-virtual-boundary", &caption(&window));
     assert_eq!(positions(&window), window.embedding());
 }
 
@@ -130,9 +145,11 @@ fn another_step_shows_its_own_hull() {
     let mut window = bent();
     window.key(Key::H);
     window.choose("Method", "Natural boundary");
-    assert!(window.shows("This step has no virtual boundary"), "{:?}", window.words());
+    let natural = caption(&window);
+    assert!(!has_stages(&window), "{natural}");
     window.choose("Method", "Virtual boundary");
-    assert!(window.has_button("Pockets"));
+    assert!(has_stages(&window) && window.has_button("Pockets"));
+    assert_ne!(caption(&window), natural);
 }
 
 #[test]
@@ -141,8 +158,10 @@ fn another_mesh_has_another_hull() {
     window.key(Key::H);
     let path = window.path("sheet.obj");
     crate::harness::write_obj(&path, &sheet(6, 0.0));
+    let before = caption(&window);
     window.open(&path);
-    assert!(window.shows("This step has no virtual boundary"), "{:?}", window.words());
+    assert!(!has_stages(&window), "{:?}", window.words());
+    assert_ne!(caption(&window), before);
 }
 
 #[test]
@@ -151,7 +170,9 @@ fn lee_s_padding_shows_up_to_its_outermost_ring() {
     window.choose("Method", "Lee's virtual boundary");
     window.key(Key::H);
     // Two layers around 24 vertices.
-    assert!(window.shows("96 virtual triangles around the mesh"), "{:?}", window.words());
+    let caption = caption(&window);
+    assert!(caption.starts_with("96 "), "{caption}");
+    assert_message("hull-window-caption-of-layers", &caption);
 }
 
 #[test]
@@ -159,5 +180,7 @@ fn a_convex_boundary_says_that_all_of_it_is_pinned() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     window.choose("Method", "Convex boundary");
     window.key(Key::H);
-    assert!(window.shows("24 of 24 boundary vertices pinned on a circle"), "{:?}", window.words());
+    let caption = caption(&window);
+    assert!(caption.starts_with("24 of 24 "), "{caption}");
+    assert_message("hull-window-caption-of-a-convex-boundary", &caption);
 }

@@ -5,6 +5,7 @@ use freebound::session::Action;
 
 use crate::dialogs::dropped;
 use crate::harness::{Window, sheet, write_obj};
+use freebound_testkit::assert_message;
 
 /// Window on a machine whose memory suffices for a small sheet, with a larger sheet in the folder.
 fn window() -> Window {
@@ -20,7 +21,7 @@ fn name(window: &Window) -> String {
 }
 
 fn asks(window: &Window) -> bool {
-    window.shows("Open the large file large.obj?")
+    window.editor().session.large_file().is_some_and(|file| file.path.ends_with("large.obj"))
 }
 
 #[test]
@@ -32,7 +33,9 @@ fn a_large_file_is_asked_about_and_opened_at_a_click() {
     let large = window.path("large.obj");
     window.open(&large);
     assert!(asks(&window) && name(&window) == "sheet.obj");
-    assert!(window.shows("more than half of the machine's memory"), "{:?}", window.words());
+    let shortage = window.editor().session.large_file().expect("it asks").shortage;
+    assert!(window.shows(&shortage.to_string()), "{:?}", window.words());
+    assert_message("large-window-question", &window.text_with("large.obj"));
     window.click("Open");
     assert!(!asks(&window) && name(&window) == "large.obj");
 }

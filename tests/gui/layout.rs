@@ -177,7 +177,8 @@ fn a_curve_whose_numbers_are_all_zero_is_named_in_the_menu_and_not_drawn() {
     window.click("Choice of curves");
     for (title, about, is_zero) in counts {
         assert!(!(is_zero && names.contains(&format!("Curve: {about}"))), "{title}: {names:?}");
-        assert_eq!(window.shows(&format!("{title}: 0 in every step")), is_zero, "{:?}", window.words());
+        let start = format!("{title}: 0 ");
+        assert_eq!(window.words().iter().any(|words| words.starts_with(&start)), is_zero, "{:?}", window.words());
     }
     assert!(names.contains(&"Curve: flipped faces".to_owned()), "{names:?}");
 }

@@ -7,15 +7,17 @@ use std::sync::Arc;
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use freebound::session::{Action, Compared, MorphState, MorphTour};
 use freebound::ui::{MorphRequest, MorphView, Request};
+use freebound::view::Quantity;
 use freebound_core::mesh::VertexId;
 use freebound_core::problem::{Embedding, Variant};
 use freebound_core::verify::verdict;
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
+use freebound_testkit::assert_message;
 
 /// Compared methods.
 const METHODS: [&str; 4] = ["natural", "convex/uniform", "schnyder", "natural/mean-value"];
@@ -67,12 +69,17 @@ fn map_of(window: &Window, name: &str) -> Embedding {
     found.outcome.as_ref().expect("a map").step.candidate.solution.embedding.clone()
 }
 
-/// True if the large view's label contains `words`.
-fn says(window: &Window, words: &str) -> bool {
-    window.harness.query_all_by_role(Role::Image).any(|node| {
-        use egui_kittest::kittest::NodeT as _;
-        node.accesskit_node().label().is_some_and(|label| label.starts_with("Morph: ") && label.contains(words))
-    })
+/// Words of the large view, if it shows.
+fn words_of_frame(window: &Window) -> Option<String> {
+    let mut images = window.harness.query_all_by_role(Role::Image);
+    images.find_map(|node| Some(node.accesskit_node().label()?.strip_prefix("Morph: ")?.to_owned()))
+}
+
+/// Number of the frame in the large view, and number of all frames.
+fn frame(window: &Window) -> Option<[usize; 2]> {
+    let words = words_of_frame(window)?;
+    let mut numbers = words.split(' ').filter_map(|word| word.parse().ok());
+    Some([numbers.next()?, numbers.next()?])
 }
 
 #[test]
@@ -86,12 +93,15 @@ fn a_click_finds_the_morph_between_two_maps_and_the_slider_goes_through_its_prov
     assert_eq!(frames.len(), 49);
     assert!(frames.iter().all(|frame| verdict(&mesh, frame).planar));
     assert_eq!([&frames[0], &frames[48]], [&map_of(&window, METHODS[0]), &map_of(&window, METHODS[1])]);
-    assert!(says(&window, "Frame 1 of 49 · planar: proved one-to-one"), "{:?}", window.words());
-    assert!(window.shows("Frame 1 of 49 · planar: proved one-to-one") && window.shows("Angle distortion"));
+    assert_eq!(frame(&window), Some([1, 49]), "{:?}", window.words());
+    let words = words_of_frame(&window).expect("a frame");
+    assert!(words.contains(&tour.legs[0].verdicts[0].summary()) && window.shows(&words), "{words}");
+    assert_message("morph-window-first-frame", &words);
+    assert!(window.shows(Quantity::Angle.title()));
     for (share, number) in [(0.5, 25), (1.0, 49), (0.013, 2), (0.0, 1)] {
         window.editor_mut().handle(Request::Morph(MorphRequest::Seek(share)));
         window.settle();
-        assert!(says(&window, &format!("Frame {number} of 49")), "{share}: {:?}", window.words());
+        assert_eq!(frame(&window), Some([number, 49]), "{share}: {:?}", window.words());
         assert_eq!(view(&window).bounds_drawn(), Some(frames[number - 1].bounds()));
     }
     // By mouse.
@@ -106,10 +116,10 @@ fn a_click_finds_the_morph_between_two_maps_and_the_slider_goes_through_its_prov
     window.step();
     for number in [2, 3] {
         window.key(Key::ArrowRight);
-        assert!(says(&window, &format!("Frame {number} of 49")), "{:?}", window.words());
+        assert_eq!(frame(&window), Some([number, 49]), "{:?}", window.words());
     }
     window.key(Key::ArrowLeft);
-    assert!(says(&window, "Frame 2 of 49"), "{:?}", window.words());
+    assert_eq!(frame(&window), Some([2, 49]), "{:?}", window.words());
 }
 
 #[test]
@@ -150,7 +160,7 @@ fn it_plays_to_its_end_and_again_from_its_beginning() {
     window.step();
     window.frame_after(5.0, []);
     window.frame_after(0.1, []);
-    assert!(!view(&window).is_playing() && says(&window, "Frame 49 of 49"), "{}", view(&window).share());
+    assert!(!view(&window).is_playing() && frame(&window) == Some([49, 49]), "{}", view(&window).share());
     window.harness.get_by_role_and_label(Role::Button, "Play the morph").click();
     window.step();
     window.frame_after(0.1, []);
@@ -168,9 +178,10 @@ fn where_the_document_changes_the_morph_goes_and_comes_again_between_the_new_map
     assert!(matches!(window.editor().session.morph(), MorphState::Waiting | MorphState::Done(_)));
     window.step();
     assert!(!matches!(window.editor().session.morph(), MorphState::Done(_)), "maps of other pins are none of these");
-    assert!(!says(&window, "Frame"), "and nothing old shows: {:?}", window.words());
+    assert_eq!(words_of_frame(&window), None, "and nothing old shows: {:?}", window.words());
     assert_eq!(view(&window).bounds_drawn(), None, "nor is it kept");
-    assert!(window.shows("The morph waits until the change is finished"), "{:?}", window.words());
+    assert!(window.editor().session.is_in_gesture());
+    assert_message("morph-window-waits-for-a-gesture", &window.text_with("waits"));
     window.editor_mut().session.handle(Action::EndGesture);
     window.settle();
     let after = tour(&window);
@@ -191,9 +202,9 @@ fn escape_and_the_switch_lead_back_to_the_cells() {
     assert!(!view(&window).is_shown() && window.editor().plane.comparison.is_shown());
     assert_eq!(window.editor().session.morph_between(), None);
     window.click("Morph");
-    assert!(says(&window, "Frame 1 of 49"));
+    assert_eq!(frame(&window), Some([1, 49]));
     window.click("Morph");
-    assert!(!view(&window).is_shown() && !says(&window, "Frame"));
+    assert!(!view(&window).is_shown() && words_of_frame(&window).is_none());
     window.click("Morph");
     window.click("Leave the comparison");
     assert!(!window.editor().plane.comparison.is_shown() && window.editor().session.morph_between().is_none());
@@ -216,10 +227,11 @@ fn without_two_planar_maps_it_says_what_there_is_to_do() {
     window.editor_mut().session.handle(Action::CompareMethods(variants(&["natural", "levy", "lscm"])));
     window.settle();
     window.click("Morph");
-    let words = "A morph needs two planar maps";
-    assert!(window.shows(words), "{:?}", window.words());
-    let remedy = "Choose methods with planar maps under Methods, such as Convex boundary or Auto";
-    window.harness.get_by_role_and_label(Role::Label, &format!("{words}. {remedy}"));
+    assert!(matches!(window.editor().session.morph(), MorphState::Waiting));
+    assert!(window.editor().session.morph_ends().len() < 2);
+    let [first, second] = ["two", "Choose"].map(|word| window.text_with(word));
+    window.harness.get_by_role_and_label(Role::Label, &format!("{first}. {second}"));
+    assert_message("morph-window-needs-two-maps", &[first, second].join("\n"));
     window.click("Export the comparison");
     assert!(!window.is_enabled("Animated picture…"));
 }
@@ -234,12 +246,13 @@ fn while_something_is_dragged_the_morph_waits_for_the_end_of_that() {
         let target = DVec2::new(-0.1 * f64::from(step), 0.1);
         window.editor_mut().session.handle(Action::MovePin { vertex: VertexId::new(0), target });
         window.step();
-        assert!(!says(&window, "Frame"));
-        window.harness.get_by_role_and_label(Role::Label, "The morph waits until the change is finished");
+        assert_eq!(words_of_frame(&window), None);
+        assert!(window.editor().session.is_in_gesture());
+        window.harness.get_by_role_and_label(Role::Label, &window.text_with("waits"));
     }
     window.editor_mut().session.handle(Action::EndGesture);
     window.settle();
-    assert!(says(&window, "Frame 1 of 49"), "{:?}", window.words());
+    assert_eq!(frame(&window), Some([1, 49]), "{:?}", window.words());
 }
 
 #[test]
@@ -248,19 +261,21 @@ fn a_morph_that_would_take_more_than_half_of_the_memory_is_not_sought() {
     // 49 frames of 25 vertices of 16 bytes.
     window.editor_mut().session.heed_memory(2 * 49 * 25 * 16 - 1);
     window.click("Morph");
-    let words = "49 frames between maps need 19.1 KiB, more than half of the machine's memory of 38.3 KiB";
-    assert!(window.shows(words), "{:?}", window.words());
+    let MorphState::TooLarge(shortage) = window.editor().session.morph() else { panic!("{:?}", window.words()) };
+    assert_eq!((shortage.frames, shortage.needed), (49, 49 * 25 * 16));
+    assert!(window.shows(&shortage.to_string()), "{:?}", window.words());
+    assert_message("morph-window-too-large-for-memory", &window.text_with("KiB"));
     window.click("Morph");
     window.editor_mut().session.heed_memory(2 * 49 * 25 * 16);
     window.click("Morph");
-    assert!(says(&window, "Frame 1 of 49"), "{:?}", window.words());
+    assert_eq!(frame(&window), Some([1, 49]), "{:?}", window.words());
 }
 
 #[test]
 fn the_morph_that_shows_is_written_as_an_animated_picture() {
     let mut window = morphing();
     window.menu(&["Export the comparison", "Animated picture…"]);
-    assert!(window.shows("Export the morph as an animated picture"));
+    assert!(window.editor().files.dialogs.is_open());
     window.click("Export");
     let path = window.path("sheet-morph.png");
     let file = BufReader::new(File::open(path).expect("it was written"));

@@ -37,7 +37,7 @@ fn each_pane_has_a_shading_of_its_own_in_its_bar() {
     assert_ne!(scale(Pane::Mesh), scale(Pane::Plane));
     let titles = |title: &str| window.words().iter().filter(|words| *words == title).count();
     // Once in the menu of the pane's bar, and once over the legend in the pane.
-    assert_eq!([titles("Angle distortion"), titles("Area distortion")], [2, 2]);
+    assert_eq!([ShadingMode::Angle, ShadingMode::Area].map(|shading| titles(shading.title())), [2, 2]);
 }
 
 #[test]
@@ -49,7 +49,8 @@ fn panes_that_are_coloured_alike_share_colours_and_one_legend() {
         std::sync::Arc::as_ptr(&window.editor().pane_shading.paint(pane).expect("painted").faces)
     };
     assert_eq!(faces(&window, Pane::Mesh), faces(&window, Pane::Plane));
-    assert_eq!(window.words().iter().filter(|words| *words == "Area distortion").count(), 3, "two menus, one legend");
+    let title = ShadingMode::Area.title();
+    assert_eq!(window.words().iter().filter(|words| *words == title).count(), 3, "two menus, one legend");
     window.choose("Shading of the mesh", "Plain");
     window.choose("Shading of the embedding", "Checker");
     assert_eq!(faces(&window, Pane::Mesh), faces(&window, Pane::Plane), "neither has a number for each face");

@@ -9,7 +9,8 @@ use freebound_core::mesh::{Seams, VertexId};
 
 use crate::charts::with_sheets;
 use crate::harness::{Window, sheet, write_obj};
-use crate::seams::{AROUND, at, column, front, last, seams, window};
+use crate::seams::{AROUND, at, column, front, hints_at, last, seams, side_of, window};
+use freebound_testkit::assert_message;
 
 /// Cuts the barrel around its middle row into an upper and a lower chart.
 fn cut_around(window: &mut Window) {
@@ -65,9 +66,8 @@ fn a_vertex_on_the_seam_of_any_chart_says_that_it_is_and_others_do_not() {
             assert_eq!(here.len(), 1, "row {row} of chart {chart}");
             window.editor_mut().selection.select(here);
             window.settle();
-            let words = format!("{} of the file, on a seam, at the side of face ", at(5, row));
-            assert_eq!(window.shows(&words), row == 3, "row {row} of chart {chart}: {:?}", window.words());
-            assert_eq!(window.shows("on a seam"), row == 3, "row {row} of chart {chart}: {:?}", window.words());
+            let is_said = [side_of(&window, at(5, row)).is_some(), window.shows(" side ")];
+            assert_eq!(is_said, [row == 3; 2], "row {row} of chart {chart}: {:?}", window.words());
         }
     }
 }
@@ -127,18 +127,17 @@ fn what_a_click_would_cut_follows_the_pointer_and_shift_and_undo() {
     let k = front(&window);
     crate::seams::click(&mut window, at(k, 0), Modifiers::NONE);
     crate::seams::click(&mut window, at(k, 4), Modifiers::NONE);
-    let cut = |edges: u32, to: u32| format!("Click: cut {edges} edges to {}.", at(k, to));
     window.harness.hover_at(crate::seams::place(&window, at(k, 6)));
     window.settle();
-    assert!(window.shows(&cut(2, 6)), "{:?}", window.words());
+    assert!(hints_at(&window, 2, at(k, 6)), "{:?}", window.words());
     window.frame([egui::Event::ModifiersChanged(Modifiers::SHIFT)]);
-    assert!(window.shows("No seam leads from"), "{:?}", window.words());
+    assert_message("seam-numbers-window-no-seam-there", &window.text_with("No "));
     window.harness.hover_at(crate::seams::place(&window, at(k, 2)));
     window.step();
     window.step();
-    assert!(window.shows("Click: erase 2 edges of the seam."), "{:?}", window.words());
+    assert_message("seam-numbers-window-hint-that-erases", &window.text_with("Click"));
     window.frame([egui::Event::ModifiersChanged(Modifiers::NONE)]);
     window.press(Modifiers::COMMAND, Key::Z);
     window.settle();
-    assert!(window.shows(&cut(2, 2)), "{:?}", window.words());
+    assert!(hints_at(&window, 2, at(k, 2)), "{:?}", window.words());
 }

@@ -5,49 +5,56 @@ use std::time::Duration;
 use eframe::egui;
 use egui::{Key, Modifiers};
 use freebound::session::Action;
-use freebound::ui::{Request, SeamRule, Tool};
+use freebound::ui::{Request, SeamRule, Tool, sentence};
 use freebound_core::problem::{Family, Settings};
+use freebound_io::LabelError;
 
 use crate::harness::{Window, sheet, write_obj};
 use crate::seams::{cube, seams};
+use freebound_testkit::assert_message;
 
 fn with_box() -> Window {
     Window::with_mesh("box.obj", &cube())
+}
+
+/// Result of a rule by materials for a file without any.
+fn no_materials() -> String {
+    sentence(&LabelError::NoMaterials.to_string())
 }
 
 #[test]
 fn the_menu_says_where_a_file_has_no_materials_whatever_tool_is_in_hand() {
     let mut window = with_box();
     window.menu(&["Edit", "Seams", "Cut along borders of materials"]);
-    assert!(seams(&window).is_empty() && window.shows("no materials"), "{:?}", window.words());
+    assert!(seams(&window).is_empty() && window.shows(&no_materials()), "{:?}", window.words());
 }
 
 #[test]
 fn what_came_of_a_rule_is_forgotten_with_the_tool_the_file_and_other_seams() {
     let mut window = with_box();
-    let no_materials = |window: &mut Window| {
+    let cut = |window: &mut Window| {
         window.editor_mut().handle(Request::CutByRule(SeamRule::Materials));
         window.settle();
-        assert!(window.shows("no materials"), "{:?}", window.words());
+        assert!(window.shows(&no_materials()), "{:?}", window.words());
     };
     window.key(Key::X);
-    no_materials(&mut window);
+    cut(&mut window);
     window.key(Key::V);
     window.key(Key::X);
-    assert!(!window.shows("no materials"), "another tool was taken up");
-    no_materials(&mut window);
+    assert!(!window.shows(&no_materials()), "another tool was taken up");
+    cut(&mut window);
     let other = window.path("other.obj");
     write_obj(&other, &sheet(4, 0.0));
     window.open(&other);
     assert_eq!(window.editor().tools.tool(), Tool::Seam);
-    assert!(!window.shows("no materials"), "another file is open");
+    assert!(!window.shows(&no_materials()), "another file is open");
     let mut window = with_box();
     window.key(Key::X);
     window.editor_mut().handle(Request::CutByRule(SeamRule::Sharp(60.0)));
     window.settle();
-    assert!(window.shows("12 edges more"), "{:?}", window.words());
+    assert_message("seam-rules-window-edges-of-a-rule", &window.text_with("12 edges"));
     window.press(Modifiers::COMMAND, Key::Z);
-    assert!(!window.shows("12 edges more"), "they are gone");
+    assert!(!window.shows("12 edges"), "they are gone");
 }
 
 #[test]

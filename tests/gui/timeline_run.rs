@@ -5,11 +5,12 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::Queryable;
 use freebound::examples::Example;
-use freebound::session::{Action, StopConditions};
+use freebound::session::{Action, RunStop, Status, StopConditions};
 use freebound_core::problem::{Family, Growth, Method, Pin, Settings, Treatment};
 
-use crate::harness::{SIZE, Window, sheet};
+use crate::harness::{Pill, SIZE, Window, sheet};
 use crate::timeline::{at_first_start, shown, step_count};
+use freebound_testkit::assert_message;
 
 fn stop(window: &Window) -> StopConditions {
     window.editor().session.stop_conditions()
@@ -18,15 +19,15 @@ fn stop(window: &Window) -> StopConditions {
 #[test]
 fn a_newcomer_repairs_the_first_fold_in_under_five_keys() {
     let mut window = at_first_start(SIZE);
-    assert!(window.verdict().contains("flipped"), "{}", window.verdict());
-    assert!(window.shows("Press Space to take a step."));
+    assert_eq!(window.pill(), Pill::Bad, "{}", window.verdict());
+    assert_message("timeline-run-window-first-hint", &window.text_with("Space"));
     let mut keys = 0;
     while !window.is_proved() {
         window.key(Key::Space);
         keys += 1;
         assert!(keys < 5, "{}", window.verdict());
     }
-    assert!(!window.shows("Press Space"), "whoever has done it need not be told");
+    assert!(!window.shows("Space"), "whoever has done it need not be told");
     assert_eq!(step_count(&window), keys + 1);
 }
 
@@ -34,9 +35,9 @@ fn a_newcomer_repairs_the_first_fold_in_under_five_keys() {
 fn a_low_window_has_the_hint_too() {
     let mut window = at_first_start(Vec2::new(640.0, 420.0));
     assert!(!window.editor().timeline.curves_shown());
-    assert!(window.shows("Press Space to take a step."));
+    assert!(window.shows("Space"));
     window.key(Key::Space);
-    assert!(!window.shows("Press Space"));
+    assert!(!window.shows("Space"));
 }
 
 #[test]
@@ -128,7 +129,8 @@ fn a_key_that_is_held_down_leaves_no_steps_behind() {
 #[test]
 fn the_stop_menu_says_where_a_run_comes_to_rest() {
     let mut window = at_first_start(SIZE);
-    assert!(window.shows("Stop: planar, stalled"));
+    assert_eq!(stop(&window), StopConditions::default());
+    assert_message("timeline-run-window-stop-by-default", &window.text_with("Stop: "));
     window.click("Stop conditions");
     for name in ["it is planar", "it stalls", "the boundary crosses", "it reaches step"] {
         window.harness.get_by_role_and_label(Role::CheckBox, name).click();
@@ -139,10 +141,12 @@ fn the_stop_menu_says_where_a_run_comes_to_rest() {
     window.key(Key::Enter);
     assert_eq!(step_count(&window), 1, "neither menu nor typing takes a step");
     window.key(Key::Escape);
-    assert!(window.shows("Stop: crossing, step 5"), "{:?}", window.words());
+    assert_eq!(stop(&window).at_step, Some(5));
+    assert_message("timeline-run-window-stop-as-chosen", &window.text_with("Stop: "));
     window.click("Run");
     assert_eq!(step_count(&window), 6);
-    assert!(window.shows("the chosen step is reached"), "{:?}", window.words());
+    assert_eq!(window.editor().session.stopped(), Some(RunStop::AtStep));
+    assert!(window.shows(RunStop::AtStep.words()), "{:?}", window.words());
 }
 
 #[test]
@@ -155,9 +159,10 @@ fn a_drag_of_a_folded_sheet_shows_a_preview_and_says_so() {
     let to = from + Vec2::new(30.0, 12.0);
     window.begin_drag(from, to, Modifiers::NONE);
     window.settle_while_held();
-    assert!(window.verdict().starts_with("preview, not repaired · "), "{}", window.verdict());
+    let is_preview = |window: &Window| matches!(window.editor().session.status(), Status::Preview(_));
+    assert!(is_preview(&window) && window.pill() == Pill::Stale, "{}", window.verdict());
     window.end_drag(to);
-    assert!(!window.verdict().contains("preview"), "{}", window.verdict());
+    assert!(!is_preview(&window) && window.pill() != Pill::Stale, "{}", window.verdict());
     assert!(window.editor().session.document().targets.contains_key(&vertex));
 }
 

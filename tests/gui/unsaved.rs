@@ -9,6 +9,7 @@ use freebound_core::mesh::{TriMesh, VertexId};
 use glam::DVec2;
 
 use crate::harness::{SIZE, Window, sheet, write_obj};
+use freebound_testkit::assert_message;
 
 fn window() -> Window {
     Window::with_mesh("sheet.obj", &sheet(6, 0.3))
@@ -25,7 +26,8 @@ fn quitting_with_unsaved_work_asks_and_cancel_stays() {
     edit(&mut window);
     window.press(Modifiers::COMMAND, Key::Q);
     assert!(!window.editor().gpu.is_quitting());
-    assert!(window.shows("Save the project sheet"));
+    assert!(window.editor().files.unsaved.is_asked());
+    assert_message("unsaved-window-question", &window.text_with("sheet.obj?"));
     window.click("Cancel");
     assert!(!window.editor().gpu.is_quitting() && !window.editor().files.unsaved.is_asked());
     window.press(Modifiers::COMMAND, Key::Q);
@@ -163,7 +165,10 @@ fn what_a_session_left_is_offered_and_recovered() {
     // Dropped without closing, as if the session had crashed.
     drop(first);
     let mut second = Window::start(SIZE, start());
-    assert!(second.shows("was not saved when the program ended"), "{:?}", second.words());
+    assert_eq!(second.editor().session.recoverable().len(), 1);
+    // The age of the copy follows.
+    let words = second.text_with("ended");
+    assert_message("unsaved-window-recovery", words.split(". ").next().unwrap_or_default());
     second.click("Recover");
     assert_eq!(*second.editor().session.document(), document);
     assert!(second.editor().session.has_unsaved_work());
@@ -181,13 +186,15 @@ fn hollow() -> TriMesh {
 #[test]
 fn faces_that_point_inward_are_said_and_turned_by_a_click() {
     let mut window = Window::with_mesh("hollow.obj", &hollow());
-    assert!(window.shows("The faces point inward"));
+    let asks = |window: &Window| window.has_button("Reverse them");
+    assert!(asks(&window) && window.editor().session.model().expect("open").prepared.faces_point_inward);
+    assert_message("unsaved-window-faces-point-inward", &window.text_with("inward"));
     let before = window.editor().session.model().expect("open").mesh().triangles[0];
     window.click("Reverse them");
-    assert!(!window.shows("The faces point inward"));
+    assert!(!asks(&window));
     assert_ne!(window.editor().session.model().expect("open").mesh().triangles[0], before);
     window.press(Modifiers::COMMAND, Key::Z);
-    assert!(window.shows("The faces point inward"));
+    assert!(asks(&window));
     window.click("Leave them");
-    assert!(!window.shows("The faces point inward"));
+    assert!(!asks(&window));
 }

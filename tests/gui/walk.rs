@@ -10,14 +10,14 @@ use std::time::Duration;
 use eframe::egui;
 use egui::accesskit::{Role, Toggled};
 use egui::{Event, Key, Modifiers, Pos2, Rect, Vec2};
-use egui_kittest::kittest::{NodeT, Queryable};
-use freebound::session::Action;
+use egui_kittest::kittest::{AccessKitNode, NodeT, Queryable};
+use freebound::session::{Action, Status};
 use freebound::ui::{BINDINGS, Pane, Tab};
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::{Embedding, Settings};
 use freebound_core::verify::{Verdict, verdict};
 
-use crate::harness::{Window, sheet};
+use crate::harness::{Pill, Window, sheet};
 use crate::presses::{button, click, key};
 use freebound_testkit::Random;
 
@@ -53,8 +53,31 @@ struct Walk {
     held: Option<Event>,
     /// Latest actions, for the failure message.
     done: Vec<String>,
-    /// First words of all texts of the pill.
-    said: BTreeSet<String>,
+    /// Topics of the pill's texts so far.
+    said: BTreeSet<Said>,
+}
+
+/// Topic of a text of the pill.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Said {
+    Planar,
+    Defects,
+    Movement,
+    Preview,
+}
+
+impl Said {
+    fn of(window: &Window) -> Option<Self> {
+        pill(window)?;
+        let editor = window.editor();
+        let is_preview = matches!(editor.session.status(), Status::Preview(_));
+        match window.pill() {
+            Pill::Proved | Pill::Unmet => Some(Self::Planar),
+            Pill::Bad => Some(Self::Defects),
+            Pill::AtWork => editor.plane.is_moving(&editor.session).then_some(Self::Movement),
+            Pill::Stale => is_preview.then_some(Self::Preview),
+        }
+    }
 }
 
 impl Walk {
@@ -168,9 +191,7 @@ impl Walk {
         self.window.frame_after(seconds, events);
         let found = disagreements(&self.window, is_quiet);
         assert!(found.is_empty(), "{found:#?}\nafter {:#?}", self.done);
-        let kind = pill(&self.window).map(|pill| pill.split([':', ',', ' ']).next().unwrap_or_default().to_owned());
-        // A number counts defects.
-        self.said.extend(kind.map(|kind| if kind.parse::<usize>().is_ok() { "defects".to_owned() } else { kind }));
+        self.said.extend(Said::of(&self.window));
     }
 
     /// Performs some actions at once, split into frames at random.
@@ -201,8 +222,8 @@ fn disagreements(window: &Window, is_quiet: bool) -> Vec<String> {
     let plane = &editor.plane;
     let pill = pill(window);
     let drawn = plane.scene().map(|scene| &scene.outcome);
-    let is_live = |pill: &str| pill.starts_with("Planar: proved") && editor.shows_preview();
-    if pill.as_deref().is_some_and(is_live) {
+    let kind = pill.as_ref().map(|_| window.pill());
+    if kind == Some(Pill::Proved) && editor.shows_preview() {
         // The drawn embedding under a dragged pin: its whole verdict equals the pill's.
         let disk = editor.session.model().and_then(|model| model.disk().cloned());
         let sheet = plane.drawn().filter(|_| !plane.is_easing());
@@ -214,10 +235,10 @@ fn disagreements(window: &Window, is_quiet: bool) -> Vec<String> {
     } else if let Some(pill) = pill.as_deref() {
         let at_rest = drawn.filter(|_| !plane.is_easing() && !editor.shows_preview());
         let verdict = at_rest.map(|outcome| &outcome.step.verdict);
-        let is_proved = pill.starts_with("Planar");
+        let is_proved = matches!(kind, Some(Pill::Proved | Pill::Unmet));
         check(!is_proved || verdict.is_some_and(|v| v.planar), &|| format!("{pill:?} over a sheet that is not planar"));
-        let counts = pill.split(" · ").all(|part| counts_of(part).is_some());
-        let agrees = |v: &Verdict| pill.split(" · ").all(|part| counts_of(part).is_some_and(|count| count.is_of(v)));
+        let counts = kind == Some(Pill::Bad);
+        let agrees = |v: &Verdict| window.numbers_of_verdict() == counts_of(v);
         check(!counts || verdict.is_some_and(agrees), &|| format!("{pill:?} over {verdict:?}"));
         let sheet = plane.drawn().filter(|sheet| !sheet.is_stage());
         let is_drawn = |outcome: &Arc<Outcome>| {
@@ -237,10 +258,15 @@ fn disagreements(window: &Window, is_quiet: bool) -> Vec<String> {
     }
     let is_open = editor.layout.tab() == Tab::Defects && editor.layout.panels_shown();
     if let Some(outcome) = drawn.filter(|_| is_open && is_quiet) {
-        let says = window.shows("Planar: proved one-to-one");
+        let is_proof = |words: &String| words.starts_with("Planar") && words.ends_with("one-to-one");
+        let says = window.words().iter().any(is_proof);
         check(says == outcome.step.verdict.planar, &|| "the Defects panel is of another sheet".to_owned());
-        let words = format!("{} flipped face", outcome.step.verdict.flipped_faces.len());
-        check(says || window.shows(&words), &|| format!("the Defects panel does not say {words:?}"));
+        let start = format!("{} flipped ", outcome.step.verdict.flipped_faces.len());
+        let is_count = |node: &AccessKitNode<'_>| {
+            node.label().or_else(|| node.value()).is_some_and(|name| name.starts_with(&start))
+        };
+        let has_count = window.harness.query_all_by(is_count).next().is_some();
+        check(says || has_count, &|| format!("the Defects panel has no number {start:?}"));
     }
     if is_quiet {
         found.extend(session_disagreements(window, pill.as_deref()));
@@ -254,15 +280,18 @@ fn session_disagreements(window: &Window, pill: Option<&str>) -> Vec<String> {
     let (session, timeline) = (&editor.session, editor.session.timeline());
     let drawn = editor.plane.scene().map(|scene| scene.outcome_revision);
     if let Some(pill) = pill {
-        let is_of_step = !editor.shows_preview() && pill.starts_with("Planar")
-            || pill.contains("flipped") && !pill.contains("preview");
+        let is_of_step = match window.pill() {
+            Pill::Proved | Pill::Unmet => !editor.shows_preview(),
+            Pill::Bad => true,
+            Pill::Stale | Pill::AtWork => false,
+        };
         let is_there = drawn == Some(session.outcome_revision()) && session.is_current();
         if is_of_step && !is_there {
             found.push(format!("{pill:?}, but the session is elsewhere"));
         }
-        if let Some(to) = pill.strip_prefix("moving ").and_then(|words| words.rsplit(' ').next())
-            && to.parse() != Ok(timeline.shown().unwrap_or(usize::MAX))
-        {
+        // The number of a movement is the step that it leads to.
+        let to = window.numbers_of_verdict().last().copied();
+        if window.pill() == Pill::AtWork && to.is_some() && to != timeline.shown() {
             found.push(format!("{pill:?}, and step {:?} is wanted", timeline.shown()));
         }
     }
@@ -278,7 +307,8 @@ fn session_disagreements(window: &Window, pill: Option<&str>) -> Vec<String> {
             found.push(format!("there is no step of chip {name:?}"));
             continue;
         };
-        if name.contains("planar") != record.planar {
+        let defects = name.split(", ").nth(1).and_then(|state| state.split(' ').next()?.parse::<usize>().ok());
+        if (defects.is_none(), defects.unwrap_or(0)) != (record.planar, record.defect_count()) {
             found.push(format!("chip {name:?} of a step with {} defects", record.defect_count()));
         }
     }
@@ -297,33 +327,24 @@ fn pill(window: &Window) -> Option<String> {
     Some(label.trim_start_matches("Verdict: ").to_owned())
 }
 
-/// Number of defects of a kind, as named by the pill.
-struct Counts(usize, String);
-
-fn counts_of(words: &str) -> Option<Counts> {
-    let (number, kind) = words.split_once(' ')?;
-    Some(Counts(number.parse().ok()?, kind.to_owned()))
-}
-
-impl Counts {
-    fn is_of(&self, verdict: &Verdict) -> bool {
-        self.0
-            == match self.1.as_str() {
-                "flipped" => verdict.flipped_faces.len(),
-                "concave" => verdict.concave_polygons.len(),
-                "crossing" | "crossings" => verdict.boundary_crossings.len(),
-                "overwound" => verdict.overwound_vertices.len(),
-                _ => return false,
-            }
-    }
+/// Numbers of defects by kind, in the order of the pill, without zeros.
+fn counts_of(verdict: &Verdict) -> Vec<usize> {
+    let counts = [
+        verdict.flipped_faces.len(),
+        verdict.concave_polygons.len(),
+        verdict.crossed_holes.len(),
+        verdict.boundary_crossings.len(),
+        verdict.overwound_vertices.len(),
+    ];
+    counts.into_iter().filter(|&count| count > 0).collect()
 }
 
 fn from_environment<T: std::str::FromStr>(name: &str, otherwise: T) -> T {
     std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(otherwise)
 }
 
-/// Walks, and returns the first words of the pill's texts.
-fn walk(seed: u64, actions: u32) -> BTreeSet<String> {
+/// Walks, and returns the topics of the pill's texts.
+fn walk(seed: u64, actions: u32) -> BTreeSet<Said> {
     let mut walk = Walk::new(seed);
     for i in 0..actions {
         if i == actions / 2 {
@@ -346,7 +367,7 @@ fn walk(seed: u64, actions: u32) -> BTreeSet<String> {
 #[test]
 fn the_window_agrees_with_itself_whatever_is_pressed() {
     let said = walk(from_environment("FREEBOUND_WALK_SEED", 1), from_environment("FREEBOUND_WALK", ACTIONS));
-    for words in ["Planar", "defects", "moving", "preview"] {
-        assert!(said.contains(words), "the way led nowhere where the pill says {words:?}: {said:?}");
+    for wanted in [Said::Planar, Said::Defects, Said::Movement, Said::Preview] {
+        assert!(said.contains(&wanted), "the way led nowhere where the pill says {wanted:?}: {said:?}");
     }
 }

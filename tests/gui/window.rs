@@ -66,7 +66,8 @@ const STATES: [State; 30] = [
     ("the stop conditions", |window| window.click("Stop conditions")),
     ("the numbers of a step", |window| {
         steps(window);
-        window.harness.get_by_label("Step 3: mean value, planar").hover();
+        let name = window.name_of(Role::Button, "Step 3: ");
+        window.harness.get_by_role_and_label(Role::Button, &name).hover();
         window.settle();
     }),
     ("what few need of a method", |window| {

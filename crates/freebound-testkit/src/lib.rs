@@ -6,6 +6,7 @@
 //! | `corpus.rs`, `manifest.rs` | the corpus of third-party meshes, beside the project; tests over it |
 //! | `data.rs` | the files of `tests/data`: eight meshes and three sets of constraints |
 //! | `deep.rs` | disks whose inside is far from a small boundary: stacked, tube, hand |
+//! | `message.rs` | the snapshot of all messages |
 //! | `sheet.rs` | an irregular sheet of any size |
 //! | `head.rs` | a closed head of quads |
 //! | `quads.rs` | sheets of quads and of hexagons, gentle to rough |
@@ -47,6 +48,7 @@ mod head;
 mod landmarks;
 mod manifest;
 pub mod many_parts;
+mod message;
 pub mod oracle;
 mod paint;
 mod plain;
@@ -71,6 +73,7 @@ pub use delaunay::{coord, triangulate};
 pub use head::head;
 pub use landmarks::{PlacedLandmark, landmarks};
 pub use manifest::{Entry, corpus_disks, corpus_entry, csv_rows, manifest, steps};
+pub use message::assert_message;
 pub use plain::{band, disk, fan, grid, shaped, sheet, tetrahedron, tower, write_obj};
 pub use portrait::{PORTRAIT_SIZE, picture_from_sculpture, plane, portrait, sculpture_from_plane};
 pub use practice::{bumpy_ball, scan, table};

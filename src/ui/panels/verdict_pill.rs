@@ -195,6 +195,8 @@ fn show_pill(ui: &mut egui::Ui, pill: &Pill) -> egui::Response {
 mod tests {
     use std::time::{Duration, Instant};
 
+    use freebound_testkit::assert_message;
+
     use super::*;
     use crate::examples::Example;
     use crate::session::RecentFiles;
@@ -243,20 +245,26 @@ mod tests {
         editor.gpu.note_work(true, a_while_ago());
         let (pill, busy) = shown(&editor);
         assert!(matches!(busy, Some(Busy::Solving(_))), "{busy:?}");
-        let words = pill.expect("the preview says what it is").words;
-        assert!(words.starts_with("preview, not repaired"), "{words}");
+        let pill = pill.expect("the preview says what it is");
+        assert_eq!(pill.sign, Sign::Warning, "{}", pill.words);
+        // The verdict on the preview, which may be on its way, follows the dot.
+        assert_message("verdict-pill-preview", pill.words.split(" · ").next().unwrap_or_default());
     }
 
     #[test]
     fn a_planar_sheet_under_a_pin_is_proved_and_says_what_is_in_the_way() {
         let mut editor = dragging(Method::Auto);
-        let words = pill(&editor).expect("there is one").words;
-        assert_eq!(words, "Planar: proved");
+        let obstacle =
+            |editor: &Editor| editor.session.preview().and_then(|preview| preview.live).map(|live| live.obstacle);
+        let free = pill(&editor).expect("there is one");
+        assert_eq!((free.sign, obstacle(&editor)), (Sign::Good, Some(None)));
         let over = editor.session.document().targets[&VertexId::new(20)].uv;
         editor.session.handle(Action::MovePin { vertex: VertexId::new(10), target: over });
         wait(&mut editor, |editor| !editor.session.is_following());
-        let words = pill(&editor).expect("there is one").words;
-        assert_eq!(words, "Planar: proved · v20 is in the way");
+        let held = pill(&editor).expect("there is one");
+        let in_the_way = Blocker::Pin(VertexId::new(20));
+        assert_eq!((held.sign, obstacle(&editor)), (Sign::Good, Some(Some(in_the_way))));
+        assert_message("verdict-pill-live-drag", &[free.words, held.words].join("\n"));
     }
 
     #[test]

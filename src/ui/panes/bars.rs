@@ -156,18 +156,15 @@ fn message_buttons(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Requ
 
 #[cfg(test)]
 mod tests {
+    use freebound_testkit::assert_message;
+
     use super::*;
 
     #[test]
     fn a_time_is_said_in_its_largest_unit() {
-        for (seconds, words) in [
-            (3, "less than a minute ago"),
-            (60, "1 minute ago"),
-            (3_599, "59 minutes ago"),
-            (2 * 3_600 + 5, "2 hours ago"),
-            (3 * 86_400, "3 days ago"),
-        ] {
-            assert_eq!(ago(Duration::from_secs(seconds)), words);
-        }
+        let times = [3, 60, 3_599, 2 * 3_600 + 5, 3 * 86_400].map(|seconds| ago(Duration::from_secs(seconds)));
+        let numbers = times.each_ref().map(|words| words.split(' ').next()?.parse::<u32>().ok());
+        assert_eq!(numbers, [None, Some(1), Some(59), Some(2), Some(3)]);
+        assert_message("bars-times", &times.join("\n"));
     }
 }

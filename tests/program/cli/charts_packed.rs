@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::charts::triangles;
 use super::program::{Program, obj_text};
 use freebound_testkit::many_parts::interleaved;
-use freebound_testkit::{Random, grid};
+use freebound_testkit::{Random, assert_message, grid};
 
 #[test]
 fn charts_are_packed_into_the_picture_with_their_gap_at_one_density() {
@@ -80,12 +80,12 @@ fn a_chart_is_packed_as_many_times_as_large_as_is_asked_for() {
         assert!((reported / asked - 1.0).abs() < 1e-9, "{reported} {asked}");
     }
     let other = program.run(&[&arguments[..], &["--chart-size", "3=2"]].concat()).expect(2);
-    assert!(other.stderr.contains("--chart-size 3: the mesh has charts 0 to 2"), "{}", other.stderr);
+    assert_message("charts-packed-size-of-no-chart", &other.stderr);
     let twice = program.run(&[&arguments[..], &["--chart-size", "0=2,0=3"]].concat()).expect(2);
-    assert!(twice.stderr.contains("--chart-size 0: the chart has two sizes"), "{}", twice.stderr);
+    assert_message("charts-packed-two-sizes", &twice.stderr);
     let pin = format!("{}:2,2", first_vertex(&report["charts"][1]).number());
     let held = program.run(&[&arguments[..], &["--pin", &pin, "--chart-size", "0=2,1=3"]].concat()).expect(2);
-    assert!(held.stderr.contains("--chart-size 1: the chart is pinned"), "{}", held.stderr);
+    assert_message("charts-packed-size-of-a-pinned-chart", &held.stderr);
     for wrong in ["0", "0=0", "0=-1", "0=nan", "x=1", "0=1000"] {
         program.run(&[&arguments[..], &["--chart-size", wrong]].concat()).expect(2);
     }

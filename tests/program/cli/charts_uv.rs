@@ -3,11 +3,12 @@
 use freebound_core::mesh::{Charts, PolygonMesh, Preparation, Repaired, parts};
 use freebound_io::{MeshFile, NO_TEXTURE, Texture, read_mesh, write_obj};
 use glam::DVec2;
+use serde_json::json;
 
 use super::charts::{assert_one_to_one, charts_proved};
 use super::program::Program;
 use freebound_testkit::many_parts::{interleaved, torus};
-use freebound_testkit::{Random, band, grid, quad_sheet};
+use freebound_testkit::{Random, assert_message, band, grid, quad_sheet};
 
 /// Mesh with grouped faces: corners share a coordinate if they have equal vertex and group.
 pub(crate) fn grouped(polygons: PolygonMesh, group: impl Fn(usize) -> usize) -> MeshFile {
@@ -74,8 +75,9 @@ fn each_chart_of_a_layout_is_flattened_packed_and_proved() {
     // The torus in twelve patches; most seams meet inside the surface.
     let file = grouped((&torus(8, 12)).into(), |face| face / 2 % 8 / 4 * 6 + face / 16 / 2);
     write(&program, "in.obj", &file);
-    let run = program.run(&["flatten", "in.obj", "--charts", "uv", "-o", "out.obj"]).expect(0);
-    assert!(run.stdout.contains("12 charts, each planar, and apart: proved one-to-one"), "{}", run.stdout);
+    let run = program.run(&["flatten", "in.obj", "--charts", "uv", "-o", "out.obj", "--report", "-"]).expect(0);
+    let atlas = &run.json()["atlas"];
+    assert_eq!((&atlas["planar"], atlas["charts"].as_array().map(Vec::len)), (&json!(true), Some(12)));
     assert_eq!(charts_proved(&program, "out.obj"), 12);
     let written = read_mesh(&program.path("out.obj")).expect("written");
     assert_one_to_one(&written);
@@ -114,9 +116,11 @@ fn a_chart_with_a_hole_is_cut_where_that_is_asked_for() {
     // A cylinder, whose two boundary loops wind around it.
     let ring = band(12, 0);
     write(&program, "in.obj", &grouped(interleaved(&[(&ring).into(), (&grid(2, 2)).into()], &mut Random(2)), |_| 0));
-    let refused = program.run(&["flatten", "in.obj", "--charts", "uv", "--holes", "cut"]).expect(3);
-    assert!(refused.stderr.contains("several-boundary-loops"), "{}", refused.stderr);
-    assert!(refused.stderr.contains("--repair all --cut auto"), "{}", refused.stderr);
+    let refused = program.run(&["flatten", "in.obj", "--charts", "uv", "--holes", "cut", "--report", "-"]).expect(3);
+    let error = &refused.json()["error"];
+    let faults = error["faults"].as_array().expect("a list");
+    assert!(faults.iter().any(|fault| fault["kind"] == "several-boundary-loops"), "{error:#}");
+    assert_message("charts-uv-hole-that-is-not-cut", &refused.stderr);
     program.run(&["flatten", "in.obj", "--charts", "uv", "--holes", "cut", "--cut", "auto", "-o", "out.obj"]).expect(0);
     assert_eq!(charts_proved(&program, "out.obj"), 2);
 }
@@ -145,14 +149,11 @@ fn a_file_without_all_coordinates_has_no_charts_of_them() {
     let mut file = grouped((&grid(2, 2)).into(), |_| 0);
     write(&program, "none.obj", &MeshFile { texture: None, ..file.clone() });
     let run = program.run(&["flatten", "none.obj", "--charts", "uv"]).expect(2);
-    assert!(
-        run.stderr.contains("no texture coordinates") && run.stderr.contains("remove --charts uv"),
-        "{}",
-        run.stderr
-    );
+    assert_message("charts-uv-no-texture-coordinates", &run.stderr);
     let texture = file.texture.as_mut().expect("coordinates");
     texture.corners[4] = NO_TEXTURE;
     write(&program, "some.obj", &file);
-    let run = program.run(&["flatten", "some.obj", "--charts", "uv"]).expect(3);
-    assert!(run.stderr.contains("the first is face 1"), "{}", run.stderr);
+    let run = program.run(&["flatten", "some.obj", "--charts", "uv", "--report", "-"]).expect(3);
+    let error = &run.json()["error"];
+    assert_eq!([&error["kind"], &error["faults"][0]["faces"]], [&json!("texture-coordinates"), &json!([1])]);
 }

@@ -4,6 +4,9 @@ use std::collections::BTreeSet;
 use std::fs;
 
 use freebound::examples::Example;
+use freebound::view::Quantity;
+use freebound_core::problem::NamedOption as _;
+use freebound_io::Column;
 use freebound_io::figure::has_glyph;
 use serde_json::Value;
 
@@ -27,7 +30,8 @@ fn the_picture_has_every_method_with_its_numbers_at_one_scale() {
     for name in list.split(',') {
         assert!(words.contains(&name), "{name} in {words:?}");
     }
-    assert!(words.contains(&"Area distortion") && words.iter().any(|line| line.starts_with("angle ")), "{words:?}");
+    assert!(words.contains(&Quantity::Area.title()), "{words:?}");
+    assert!(words.iter().any(|line| line.split(' ').next() == Some(Column::Angle.name())), "{words:?}");
     assert!(words.iter().flat_map(|line| line.chars()).all(has_glyph), "{words:?}");
     assert!(!svg.contains("NaN") && !svg.contains("inf"));
     let [r, g, b] = freebound_io::figure::colours::FLIPPED;

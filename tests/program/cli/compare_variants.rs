@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 use std::str::FromStr;
 
 use freebound_core::problem::{BoundaryShape, Family, Method, NamedOption, Settings, Variant};
+use freebound_io::Column;
 
 use super::compare::{methods, names, tent};
-use freebound_testkit::csv_rows;
+use freebound_testkit::{assert_message, csv_rows};
 
 #[test]
 fn every_variant_has_a_name_that_stands_for_it() {
@@ -28,19 +29,19 @@ fn every_variant_has_a_name_that_stands_for_it() {
         }
     }
     assert_eq!(names.len(), count);
-    for (wrong, word) in [
-        ("best", "choose from auto"),
-        ("natural/uniform", "need a convex boundary"),
-        ("natural/odd", "choose one of conformal"),
-        ("lscm/mean-value", "no choice of weights"),
-        ("natural@square", "no boundary shape"),
-        ("convex@ring", "choose from circle"),
-        ("convex@polygon:0", "\"0\" is not a point"),
-        ("lee@polygon:0 0; 0 1; 1 0", "clockwise"),
-        ("", "unknown method"),
+    for (wrong, topic) in [
+        ("best", "unknown-method"),
+        ("natural/uniform", "weights-of-a-convex-boundary"),
+        ("natural/odd", "unknown-weights"),
+        ("lscm/mean-value", "no-choice-of-weights"),
+        ("natural@square", "no-choice-of-shape"),
+        ("convex@ring", "unknown-shape"),
+        ("convex@polygon:0", "no-point"),
+        ("lee@polygon:0 0; 0 1; 1 0", "clockwise-polygon"),
+        ("", "no-method"),
     ] {
         let error = Variant::from_str(wrong).expect_err(wrong);
-        assert!(error.contains(word), "{wrong}: {error}");
+        assert_message(&format!("compare-variants-{topic}"), &error);
     }
 }
 
@@ -72,17 +73,19 @@ fn weights_that_no_method_takes_are_refused_and_the_table_says_which_are_used() 
         |list: &'static str, family: &'static str| ["compare", "tent.obj", "--methods", list, "--family", family];
     for family in ["uniform", "shape-preserving"] {
         let run = program.run(&with("natural,lscm", family)).expect(2);
-        assert!(run.stderr.contains(&format!("natural does not support {family} weights")), "{}", run.stderr);
+        assert_message(&format!("compare-variants-natural-with-{family}"), &run.stderr);
     }
     let run = program.run(&with("natural/mean-value,lscm", "wachspress")).expect(2);
-    assert!(run.stderr.contains("all name their own weights"), "{}", run.stderr);
+    assert_message("compare-variants-all-name-weights", &run.stderr);
     let arguments = with("natural,convex,lscm", "uniform");
     let run = program.run(&arguments).expect(0);
     let begin = |row: &str| row.split_whitespace().take(2).map(str::to_owned).collect::<Vec<_>>();
     let rows: Vec<Vec<String>> = run.stdout.lines().map(begin).collect();
-    for row in [["Method", "Weights"], ["natural", "conformal"], ["convex/uniform", "uniform"], ["lscm", "–"]] {
+    for row in [["natural", "conformal"], ["convex/uniform", "uniform"], ["lscm", "–"]] {
         assert!(rows.iter().any(|other| *other == row), "{row:?} is not in\n{}", run.stdout);
     }
+    let head = run.stdout.lines().find(|line| line.starts_with(Column::Method.labels().title)).expect("a head");
+    assert_message("compare-variants-head-of-the-table", &head.split_whitespace().collect::<Vec<_>>().join(" "));
     let csv = csv_rows(&program.run(&[&arguments[..], &["--csv", "-"]].concat()).expect(0).stdout);
     let at = csv[0].iter().position(|head| head == "family").expect("a column");
     assert_eq!(csv[1..].iter().map(|row| row[at].as_str()).collect::<Vec<_>>(), ["conformal", "uniform", ""]);
@@ -100,5 +103,5 @@ fn what_is_asked_for_counts_even_where_it_is_usual_for_another_method() {
     assert_eq!(slim(&Settings::default()), 20);
     let twice = ["compare", "tent.obj", "--methods", "lee,lee/mean-value"];
     let run = program.run(&twice).expect(2);
-    assert!(run.stderr.contains("would run twice"), "{}", run.stderr);
+    assert_message("compare-variants-run-twice", &run.stderr);
 }

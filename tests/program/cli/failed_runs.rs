@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::program::{Program, Run};
 use super::report_schema::TENT;
+use freebound_testkit::assert_message;
 
 /// Runs `flatten` on a text, with an earlier report at the path of the new one.
 fn flattened(text: &str, options: &[&str]) -> (Run, Option<Value>) {
@@ -23,7 +24,7 @@ fn the_faults_of_a_mesh_stand_in_the_report_with_their_elements_and_remedies() {
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 9 9 9\nf 1 2 3\nf 2 1 4\nf 1 2 5\n";
     let (run, report) = flattened(text, &[]);
     let run = run.expect(3);
-    assert!(run.stderr.starts_with("freebound: in.obj: the mesh cannot be flattened\n"), "{}", run.stderr);
+    assert_message("failed-runs-faults-of-a-mesh", &run.stderr);
     let report = report.expect("a report");
     assert_eq!([&report["schema"], &report["mesh"]["path"]], [&json!(2), &json!("in.obj")]);
     let error = &report["error"];
@@ -33,22 +34,19 @@ fn the_faults_of_a_mesh_stand_in_the_report_with_their_elements_and_remedies() {
     let of = |kind: &str| faults.iter().find(|fault| fault["kind"] == kind).unwrap_or_else(|| panic!("{error:#}"));
     assert_eq!(of("unreferenced-vertices")["vertices"], json!([5]));
     assert_eq!(of("non-manifold-edges")["edges"], json!([[0, 1]]));
-    assert_eq!(of("unreferenced-vertices")["remedy"], "delete these vertices");
+    let remedies: Vec<String> = faults.iter().map(|fault| format!("{}: {}", fault["kind"], fault["remedy"])).collect();
+    assert_message("failed-runs-remedies-of-a-mesh", &remedies.join("\n"));
 }
 
 #[test]
 fn the_lines_of_a_broken_file_stand_in_the_report() {
     let (run, report) = flattened("v 0 0 0\nv 1 0 x\nv 1 1 0\nf 1 2\nf 1 2 3\n", &[]);
     let run = run.expect(3);
-    let lines: Vec<&str> = run.stderr.lines().collect();
-    assert!(
-        lines[0].starts_with("freebound: in.obj: line 2: ") && lines[1].starts_with("in.obj: line 4: "),
-        "{lines:?}"
-    );
+    assert_message("failed-runs-lines-of-a-broken-file", &run.stderr);
     let error = &report.expect("a report")["error"];
     let found: Vec<&Value> = error["faults"].as_array().unwrap().iter().map(|fault| &fault["line"]).collect();
     assert_eq!(found, [&json!(2), &json!(4)]);
-    assert!(error["remedy"].as_str().unwrap().contains("export the file again"), "{error}");
+    assert!(run.stderr.trim_end().ends_with(error["remedy"].as_str().unwrap()), "{error}");
 }
 
 #[test]
@@ -79,22 +77,33 @@ fn every_message_names_the_file_first() {
         program.write(name, text);
     }
     program.write("pins.txt", "0 0 0\n1 1 0\n");
-    let cases: [(&[&str], i32, &str); 11] = [
-        (&["flatten", "missing.obj"], 3, "missing.obj: cannot be read: "),
-        (&["flatten", "empty.obj"], 3, "empty.obj: the file has no faces; "),
-        (&["flatten", "mesh.dae"], 3, "mesh.dae: unsupported format: COLLADA; export the mesh as OBJ or PLY"),
-        (&["flatten", "tent.obj", "--constraints", "bad.txt"], 3, "bad.txt: line 1: "),
-        (&["flatten", "tent.obj", "--constraints", "gone.txt"], 3, "gone.txt: the constraints cannot be read: "),
-        (&["flatten", "tent.obj", "--picture", "text.png"], 3, "text.png: the picture cannot be read: "),
-        (&["flatten", "tent.obj", "-o", "no/out.obj"], 1, "no/out.obj: cannot be written: "),
-        (&["flatten", "tent.obj", "--pin", "7:0,0"], 2, "tent.obj: vertex v7 is pinned"),
-        (&["flatten", "tent.obj", "--pin", "0:0,0", "--pin", "0:0,1"], 2, "tent.obj: vertex v0 is pinned twice"),
-        (&["flatten", "tent.obj", "--constraints", "pins.txt", "--pin", "1:1,1"], 2, "pins.txt: line 2: vertex v1"),
-        (&["flatten", "tent.obj", "--constraints", "pins.txt", "--pin", "2:1,0"], 2, "pins.txt: line 2: vertex v1"),
+    let unusable: [(&[&str], &str, &str); 6] = [
+        (&["missing.obj"], "missing.obj", "unreadable"),
+        (&["empty.obj"], "empty.obj", "no-faces"),
+        (&["mesh.dae"], "mesh.dae", "format-not-read"),
+        (&["tent.obj", "--constraints", "bad.txt"], "bad.txt", "constraints"),
+        (&["tent.obj", "--constraints", "gone.txt"], "gone.txt", "constraints"),
+        (&["tent.obj", "--picture", "text.png"], "text.png", "picture"),
     ];
-    for (arguments, status, words) in cases {
-        let run = program.run(arguments).expect(status);
-        assert!(run.stderr.starts_with(&format!("freebound: {words}")), "{arguments:?}: {}", run.stderr);
+    let assert_first = |run: &Run, file: &str| {
+        assert!(run.stderr.starts_with(&format!("freebound: {file}: ")), "{file}: {}", run.stderr);
+    };
+    for (arguments, file, kind) in unusable {
+        let run = program.run(&[&["flatten"], arguments, &["--report", "-"]].concat()).expect(3);
+        assert_eq!(run.json()["error"]["kind"], kind, "{arguments:?}");
+        assert_first(&run, file);
+    }
+    assert_first(&program.run(&["flatten", "tent.obj", "-o", "no/out.obj"]).expect(1), "no/out.obj");
+    let wrong: [(&[&str], &str, &str); 4] = [
+        (&["--pin", "7:0,0"], "tent.obj", "no-such-vertex"),
+        (&["--pin", "0:0,0", "--pin", "0:0,1"], "tent.obj", "pinned-twice"),
+        (&["--constraints", "pins.txt", "--pin", "1:1,1"], "pins.txt", "vertex-in-file-and-option"),
+        (&["--constraints", "pins.txt", "--pin", "2:1,0"], "pins.txt", "target-in-file-and-option"),
+    ];
+    for (arguments, file, topic) in wrong {
+        let run = program.run(&[&["flatten", "tent.obj"], arguments].concat()).expect(2);
+        assert_first(&run, file);
+        assert_message(&format!("failed-runs-{topic}"), &run.stderr);
     }
 }
 
@@ -110,7 +119,7 @@ fn triangle_soup_is_told_to_merge_its_vertices() {
     text += "f 1 2 3\nf 4 5 6\n";
     let (run, report) = flattened(&text, &[]);
     let run = run.expect(3);
-    assert!(run.stderr.contains("merge coincident vertices"), "{}", run.stderr);
+    assert_message("failed-runs-triangle-soup", &run.stderr);
     let fault = &report.expect("a report")["error"]["faults"][0];
     assert_eq!([&fault["kind"], &fault["vertices"]], [&json!("coincident-vertices"), &json!([3, 4])]);
 }

@@ -184,7 +184,7 @@ fn an_error_names_the_file_asked_for_and_none_that_is_written_aside() {
     ];
     for (option, path) in cases {
         let run = program.run(&["flatten", "in.obj", option, path]).expect(1);
-        assert!(run.stderr.contains(&format!("freebound: {path}: cannot be written: ")), "{}", run.stderr);
-        assert!(!run.stderr.contains(".freebound-") && !run.stderr.contains("at path"), "{}", run.stderr);
+        let reason = run.stderr.strip_prefix(&format!("freebound: {path}: "));
+        assert!(reason.is_some_and(|reason| !reason.contains(['/', '\\'])), "{}", run.stderr);
     }
 }

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::program::{Program, argument, obj_text};
 use freebound_testkit::surfaces::without_faces;
-use freebound_testkit::{Random, band, corpus_entry, corpus_test, quad_sheet};
+use freebound_testkit::{Random, assert_message, band, corpus_entry, corpus_test, quad_sheet};
 
 /// Bent sheet of quads with two holes, one of two quads.
 fn sheet() -> PolygonMesh {
@@ -32,7 +32,8 @@ fn a_file_with_holes_comes_back_with_coordinates_and_nothing_else() {
     let text = format!("# two holes\n{}l 1 2 3\n", obj_text(&sheet()));
     program.write("sheet.obj", &text);
     let run = program.run(&["flatten", "sheet.obj", "-o", "out.obj", "--report", "out.json"]).expect(0);
-    assert!(run.stdout.contains("2 holes filled"), "{}", run.stdout);
+    let repairs = run.stdout.lines().find(|line| line.starts_with("mesh:")).expect("a line on the mesh");
+    assert_message("holes-filled", repairs);
     let written = fs::read_to_string(program.path("out.obj")).unwrap();
     assert_eq!(without_texture(&written), text.lines().collect::<Vec<_>>());
     assert_eq!(lines(&written, "vt").len(), 49, "one for each vertex of the file");
@@ -43,8 +44,11 @@ fn a_file_with_holes_comes_back_with_coordinates_and_nothing_else() {
     let check = program.run(&["check", "out.obj", "--report", "-"]).expect(0).json();
     assert_eq!(check["atlas"]["planar"], json!(true));
     assert_eq!(check["atlas"]["charts"][0]["boundary_loops"], json!(3));
-    let words = program.run(&["check", "sheet.obj"]).expect(0).stdout;
-    assert!(words.contains("a disk with 2 holes, 49 vertices, 66 faces"), "{words}");
+    let diagnosis = program.run(&["check", "sheet.obj"]).expect(0).stdout;
+    let (surface, _) = diagnosis.split_once(',').expect("numbers after the kind of the surface");
+    assert_message("holes-disk-with-holes", surface);
+    let check = program.run(&["check", "sheet.obj", "--report", "-"]).expect(0).json();
+    assert_eq!([&check["mesh"]["vertices"], &check["mesh"]["faces"]], [&json!(49), &json!(66)]);
 }
 
 #[test]
@@ -108,8 +112,9 @@ fn the_same_holes_give_the_same_bytes_whatever_the_threads() {
 fn holes_are_cut_where_that_is_asked_for() {
     let program = Program::new();
     program.write("ring.obj", &obj_text(&(&band(8, 0)).into()));
-    let refused = program.run(&["flatten", "ring.obj", "--holes", "cut"]).expect(3);
-    assert!(refused.stderr.contains("several-boundary-loops"), "{}", refused.stderr);
+    let refused = program.run(&["flatten", "ring.obj", "--holes", "cut", "--report", "-"]).expect(3).json();
+    let faults = refused["error"]["faults"].as_array().unwrap();
+    assert!(faults.iter().any(|fault| fault["kind"] == "several-boundary-loops"), "{refused:#}");
     program.run(&["flatten", "ring.obj", "--repair", "none"]).expect(3);
     let report =
         program.run(&["flatten", "ring.obj", "--holes", "cut", "--cut", "auto", "--report", "-"]).expect(0).json();
@@ -122,9 +127,8 @@ fn holes_are_cut_where_that_is_asked_for() {
 fn a_pin_on_what_fills_a_hole_is_refused() {
     let program = Program::new();
     program.write("sheet.obj", &obj_text(&sheet()));
-    let run = program.run(&["flatten", "sheet.obj", "--pin", "49:0,0"]);
-    assert!(run.stderr.contains("only 49 vertices"), "{}", run.stderr);
-    assert_ne!(run.status, Some(0));
+    let run = program.run(&["flatten", "sheet.obj", "--pin", "49:0,0"]).expect(2);
+    assert_message("holes-pin-on-a-filling", &run.stderr);
 }
 
 corpus_test! {

@@ -27,7 +27,7 @@ use serde_json::Value;
 use super::program::Program;
 use super::report_schema::{Schema, TENT};
 use freebound_testkit::oracle::examine;
-use freebound_testkit::{sheet, write_obj};
+use freebound_testkit::{assert_message, sheet, write_obj};
 
 /// Mesh file.
 const IN: &str = "sheet.obj";
@@ -168,8 +168,8 @@ fn between_two_maps_the_picture_goes_there_and_back_through_frames_that_the_orac
     let least = tour.legs[0].frames.iter().map(|frame| least_ratio(mesh, frame)).fold(f64::INFINITY, f64::min);
     let reported = leg["least_determinant"].as_f64().unwrap();
     assert!((reported - least).abs() < 1e-9 * least && reported > 0.0, "{reported} and {least}");
-    let words = "morph natural to convex/uniform: 4 of 4 frames proved one-to-one, route ";
-    assert!(run.stdout.contains(words), "{}", run.stdout);
+    let line = run.stdout.lines().find(|line| line.starts_with("morph")).expect("a line on the morph");
+    assert_message("morph-between-two-maps", &line.split(", ").take(2).collect::<Vec<_>>().join(", "));
 }
 
 #[test]
@@ -189,7 +189,8 @@ fn several_planar_maps_are_visited_in_their_order_and_the_others_are_named() {
     let legs = morph["legs"].as_array().unwrap();
     let ends: Vec<[&str; 2]> = legs.iter().map(|leg| ["from", "to"].map(|end| leg[end].as_str().unwrap())).collect();
     assert_eq!(ends, stops.windows(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>());
-    assert!(run.stdout.contains("morph without virtual-boundary: no map"), "{}", run.stdout);
+    let names_it = |line: &&str| line.starts_with("morph") && line.contains("virtual-boundary");
+    assert_message("morph-without-a-map", run.stdout.lines().find(names_it).expect("a line on the method"));
     let found = decoded(&fs::read(program.path("m.png")).unwrap());
     let count = if legs.len() == 1 { 4 } else { 2 * legs.len() + 1 };
     assert_eq!(found.frames.len(), count, "{morph}");
@@ -203,8 +204,7 @@ fn fewer_than_two_planar_maps_are_an_error_with_a_remedy_and_nothing_is_written(
     let list = "virtual-boundary,auto";
     let files = ["--morph", "m.png", "--csv", "all.csv", "--report", "r.json"];
     let run = program.run(&[&["compare", "tent.obj", "--methods", list], &pins[..], &files[..]].concat()).expect(4);
-    assert!(run.stderr.contains("only one method has one (virtual-boundary: no map)"), "{}", run.stderr);
-    assert!(run.stderr.contains("use --methods to choose planar maps"), "{}", run.stderr);
+    assert_message("morph-needs-two-maps", &run.stderr);
     assert_eq!(run.stdout, "");
     assert_eq!(program.files(), ["r.json", "tent.obj"], "nothing but the report of that");
     let report = report(&program, "r.json");
@@ -212,25 +212,34 @@ fn fewer_than_two_planar_maps_are_an_error_with_a_remedy_and_nothing_is_written(
     let error = &report["error"];
     assert_eq!((&error["kind"], &error["exit_status"]), (&Value::from("no-morph"), &Value::from(4)));
     let remedy = error["remedy"].as_str().expect("a remedy");
-    assert!(remedy.starts_with("use --methods to choose planar maps"), "{remedy}");
+    assert!(remedy.contains("--methods") && run.stderr.contains(remedy), "{remedy}");
 }
 
 #[test]
 fn wrong_use_of_a_morph_ends_with_2_and_writes_nothing() {
     let program = with_sheet();
-    let cases: [(&[&str], &str); 7] = [
-        (&["--methods", "natural", "--morph", "m.png"], "--morph needs the maps of at least two methods"),
+    let refused = |arguments: &[&str]| {
+        let run = program.run(&[&["compare", IN], arguments].concat()).expect(2);
+        assert_eq!(program.files(), [IN], "{arguments:?}");
+        run.stderr
+    };
+    let malformed: [(&[&str], &str); 3] = [
         (&["--methods", "natural,convex", "--frames", "5"], "--morph"),
         (&["--methods", "natural,convex", "--morph", "m.png", "--frames", "2"], "3..=1000"),
         (&["--methods", "natural,convex", "--morph", "m.png", "--frames", "1001"], "3..=1000"),
-        (&["--methods", "natural,convex", "--morph", "m.png", "--png", "m.png"], "both write"),
-        (&["--methods", "natural,convex", "--morph", IN], "would overwrite the mesh"),
-        (&["--methods", "natural,convex", "--morph", "-", "--csv", "-"], "cannot both use it"),
     ];
-    for (arguments, word) in cases {
-        let run = program.run(&[&["compare", IN], arguments].concat()).expect(2);
-        assert!(run.stderr.contains(word), "{arguments:?}: {}", run.stderr);
-        assert_eq!(program.files(), [IN], "{arguments:?}");
+    for (arguments, word) in malformed {
+        let stderr = refused(arguments);
+        assert!(stderr.contains(word), "{arguments:?}: {stderr}");
+    }
+    let impossible: [(&str, &[&str]); 4] = [
+        ("one-method", &["--methods", "natural", "--morph", "m.png"]),
+        ("one-file-twice", &["--methods", "natural,convex", "--morph", "m.png", "--png", "m.png"]),
+        ("over-the-mesh", &["--methods", "natural,convex", "--morph", IN]),
+        ("one-stream-twice", &["--methods", "natural,convex", "--morph", "-", "--csv", "-"]),
+    ];
+    for (case, arguments) in impossible {
+        assert_message(&format!("morph-{case}"), &refused(arguments));
     }
 }
 

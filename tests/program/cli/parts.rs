@@ -6,7 +6,7 @@ use freebound_io::read_mesh;
 use serde_json::json;
 
 use super::program::{Program, obj_text};
-use freebound_testkit::tetrahedron;
+use freebound_testkit::{assert_message, tetrahedron};
 
 /// A tetrahedron, two sheets of two triangles each, and a larger one of four. The first sheet has texture
 /// coordinates.
@@ -82,7 +82,7 @@ fn parts_that_there_are_not_are_refused_with_how_many_there_are() {
     let program = Program::new();
     program.write("in.obj", &text());
     let refused = program.run(&["flatten", "in.obj", "--parts", "1,4"]).expect(2);
-    assert!(refused.stderr.contains("there is no part 4: the mesh has 4, numbered from 0"), "{}", refused.stderr);
+    assert_message("parts-no-such-part", &refused.stderr);
     for odd in ["", "one", "1;2", "-1"] {
         program.run(&["flatten", "in.obj", &format!("--parts={odd}")]).expect(2);
     }

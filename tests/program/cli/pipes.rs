@@ -7,6 +7,7 @@ use std::process::Stdio;
 use super::program::{Program, Run};
 use super::report_schema::TENT;
 use crate::house::sources::sources;
+use freebound_testkit::assert_message;
 
 /// Commands that write to standard output, with their exit status.
 const COMMANDS: [(&[&str], i32); 5] = [
@@ -38,12 +39,13 @@ fn a_closed_pipe_ends_quietly_with_the_status_of_the_work() {
 #[test]
 fn a_full_disk_is_an_error_that_names_standard_output() {
     let program = program();
-    for (arguments, _) in COMMANDS {
+    let messages = COMMANDS.map(|(arguments, _)| {
         let full = File::options().write(true).open("/dev/full").unwrap();
         let run = Run::from(program.command(arguments).stdout(full).output().unwrap());
         assert_eq!(run.status, Some(1), "{arguments:?}: {}", run.stderr);
-        assert!(run.stderr.contains("standard output") && !run.stderr.contains("panicked"), "{}", run.stderr);
-    }
+        run.stderr
+    });
+    assert_message("pipes-full-disk", &messages.concat());
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Conflicting files of a run, and standard input and output.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write as _;
 use std::process::Stdio;
@@ -9,6 +10,7 @@ use image::RgbImage;
 
 use super::program::{Program, Run};
 use super::report_schema::TENT;
+use freebound_testkit::assert_message;
 
 /// Folder with every kind of input.
 fn inputs() -> Program {
@@ -29,6 +31,7 @@ fn no_input_is_written_over() {
     let files = ["in.obj", "looks.mtl", "pins.txt", "skin.png", "dents.png", "photo.png"];
     let contents = || files.map(|file| fs::read(program.path(file)).unwrap());
     let before = contents();
+    let mut messages = BTreeSet::new();
     for file in files {
         for path in [file.to_owned(), format!("./{file}"), format!("folder/../{file}")] {
             for option in ["-o", "--svg", "--png", "--report"] {
@@ -39,12 +42,13 @@ fn no_input_is_written_over() {
                     _ => {}
                 }
                 let run = program.run(&arguments).expect(2);
-                let words = format!("{option} would overwrite");
-                assert!(run.stderr.contains(file) && run.stderr.contains(&words), "{arguments:?}: {}", run.stderr);
+                assert!(run.stderr.contains(file) && run.stderr.contains(option), "{arguments:?}: {}", run.stderr);
                 assert_eq!(run.stdout, "", "nothing is computed before");
+                messages.insert(run.stderr);
             }
         }
     }
+    assert_message("places-over-the-inputs", &String::from_iter(messages));
     program.run(&["check", "in.obj", "--report", "in.obj"]).expect(2);
     assert!(before == contents());
 }
@@ -56,10 +60,9 @@ fn links_to_an_input_are_the_input() {
     std::os::unix::fs::symlink(program.path("in.obj"), program.path("soft.obj")).unwrap();
     fs::hard_link(program.path("in.obj"), program.path("hard.obj")).unwrap();
     let before = fs::read(program.path("in.obj")).unwrap();
-    for [input, output] in [["in.obj", "soft.obj"], ["in.obj", "hard.obj"], ["soft.obj", "in.obj"]] {
-        let run = program.run(&["flatten", input, "-o", output]).expect(2);
-        assert!(run.stderr.contains("-o would overwrite the mesh"), "{}", run.stderr);
-    }
+    let links = [["in.obj", "soft.obj"], ["in.obj", "hard.obj"], ["soft.obj", "in.obj"]];
+    let messages = links.map(|[input, output]| program.run(&["flatten", input, "-o", output]).expect(2).stderr);
+    assert_message("places-links-to-the-mesh", &messages.concat());
     assert!(before == fs::read(program.path("in.obj")).unwrap());
 }
 
@@ -71,20 +74,20 @@ fn steps_do_not_replace_an_input() {
     program.write("steps/steps.csv", "0 0 0\n");
     let arguments = ["flatten", "in.obj", "--constraints", "steps/steps.csv", "--steps", "./steps"];
     let run = program.run(&arguments).expect(2);
-    assert!(run.stderr.contains("--steps would overwrite the constraints"), "{}", run.stderr);
+    assert_message("places-steps-over-the-constraints", &run.stderr);
 }
 
 #[test]
 fn two_results_do_not_go_to_one_place() {
     let program = inputs();
-    for (options, words) in [
-        (&["-o", "a.out", "--svg", "./a.out"][..], "-o and --svg would both write this file"),
-        (&["-o", "-", "--report", "-"], "standard output: -o and --report cannot both use it"),
-        (&["--svg", "-", "--png", "-"], "standard output: --svg and --png cannot both use it"),
-        (&["-o", "-", "--picture", "photo.png"], "standard output: --picture needs a folder for its files"),
+    for (case, options) in [
+        ("one-file-twice", &["-o", "a.out", "--svg", "./a.out"][..]),
+        ("mesh-and-report-on-one-stream", &["-o", "-", "--report", "-"]),
+        ("drawings-on-one-stream", &["--svg", "-", "--png", "-"]),
+        ("picture-beside-a-stream", &["-o", "-", "--picture", "photo.png"]),
     ] {
         let run = program.run(&[&["flatten", "in.obj"], options].concat()).expect(2);
-        assert!(run.stderr.contains(words), "{options:?}: {}", run.stderr);
+        assert_message(&format!("places-{case}"), &run.stderr);
     }
     assert_eq!(program.files(), inputs().files(), "told before anything is written");
     // The null device conflicts with nothing.
@@ -96,17 +99,20 @@ fn two_results_do_not_go_to_one_place() {
 fn a_result_does_not_lie_where_the_steps_go() {
     let program = inputs();
     fs::create_dir(program.path("folder")).unwrap();
+    let mut messages = BTreeSet::new();
     for is_there in [false, true] {
         for path in ["steps/step-000-natural.svg", "./steps/steps.csv", "folder/../steps/step-123-relax.svg", "steps"] {
             for option in ["-o", "--svg", "--png", "--report"] {
                 let run = program.run(&["flatten", "in.obj", option, path, "--steps", "steps"]).expect(2);
-                let words = format!("{option} and --steps would both write this file");
-                assert!(run.stderr.contains(&words), "{option} {path}: {}", run.stderr);
+                let is_named = [option, "--steps", path].iter().all(|word| run.stderr.contains(word));
+                assert!(is_named, "{option} {path}: {}", run.stderr);
+                messages.insert(run.stderr);
             }
         }
         assert_eq!(program.path("steps").is_dir(), is_there, "nothing is computed before");
         fs::create_dir_all(program.path("steps")).unwrap();
     }
+    assert_message("places-results-among-the-steps", &String::from_iter(messages));
     // A drawing with another name conflicts with no step.
     program.run(&["flatten", "in.obj", "--svg", "steps/last.svg", "--steps", "steps"]).expect(0);
     assert!(program.path("steps/last.svg").is_file() && program.path("steps/steps.csv").is_file());
@@ -124,11 +130,13 @@ fn a_result_does_not_lie_where_copies_beside_the_mesh_go() {
         (picture, "out/photo.png"),
         (picture, "./out/flat.mtl"),
     ];
-    let asserted = |options: &[&str], path: &str| {
+    let mut messages = BTreeSet::new();
+    let mut asserted = |options: &[&str], path: &str| {
         for option in ["--report", "--svg", "--png"] {
             let run = program.run(&[&["flatten", "in.obj", option, path], options].concat()).expect(2);
-            let words = format!("{option} and {} would both write this file", options[2]);
-            assert!(run.stderr.contains(&words), "{option} {path} {options:?}: {}", run.stderr);
+            let is_named = [option, options[2]].iter().all(|word| run.stderr.contains(word));
+            assert!(is_named, "{option} {path} {options:?}: {}", run.stderr);
+            messages.insert(run.stderr);
         }
     };
     for (options, path) in cases {
@@ -144,6 +152,7 @@ fn a_result_does_not_lie_where_copies_beside_the_mesh_go() {
     // If the first name is taken by another file, the copy gets the second name.
     program.write("out/looks.mtl", "newmtl another\n");
     asserted(materials, "out/flat-looks.mtl");
+    assert_message("places-results-among-copies", &String::from_iter(messages));
     let report = ["flatten", "in.obj", "--report", "out/flat.json"];
     program.run(&[&report, materials].concat()).expect(0);
 }
@@ -154,7 +163,7 @@ fn copies_do_not_lie_where_the_steps_go() {
     fs::copy(program.path("photo.png"), program.path("step-000-natural.svg")).unwrap();
     let arguments = ["--picture", "step-000-natural.svg", "-o", "steps/flat.obj", "--steps", "steps"];
     let run = program.run(&[&["flatten", "in.obj"], &arguments[..]].concat()).expect(2);
-    assert!(run.stderr.contains("--steps and --picture would both write this file"), "{}", run.stderr);
+    assert_message("places-copies-among-the-steps", &run.stderr);
     assert!(!program.path("steps").exists());
 }
 
@@ -172,6 +181,7 @@ fn the_file_that_standard_input_comes_from_is_not_written_over() {
     program.write("s.obj", TENT);
     fs::hard_link(program.path("s.obj"), program.path("hard.obj")).unwrap();
     let before = fs::read(program.path("s.obj")).unwrap();
+    let mut messages = BTreeSet::new();
     for path in ["s.obj", "./s.obj", "hard.obj"] {
         for arguments in [
             &["flatten", "-", "-o", path][..],
@@ -181,10 +191,11 @@ fn the_file_that_standard_input_comes_from_is_not_written_over() {
         ] {
             let run = fed_from(&program, "s.obj", arguments).expect(2);
             let option = arguments[2];
-            let words = format!("{option} would overwrite the mesh, the source of standard input");
-            assert!(run.stderr.contains(&words) && run.stderr.contains(path), "{arguments:?}: {}", run.stderr);
+            assert!(run.stderr.contains(option) && run.stderr.contains(path), "{arguments:?}: {}", run.stderr);
+            messages.insert(run.stderr);
         }
     }
+    assert_message("places-over-the-source-of-standard-input", &String::from_iter(messages));
     assert!(before == fs::read(program.path("s.obj")).unwrap());
     fed_from(&program, "s.obj", &["flatten", "-", "-o", "other.obj"]).expect(0);
 }
@@ -204,12 +215,12 @@ fn a_mesh_goes_in_and_out_without_a_file() {
     let through = fed(&program, &["flatten", "-", "-o", "-"], TENT).expect(0);
     assert_eq!(through.stdout, fs::read_to_string(program.path("out.obj")).unwrap());
     let report = fed(&program, &["flatten", "-", "--report", "-"], TENT).expect(0).json();
-    assert_eq!(report["mesh"]["path"], "standard input");
+    assert_message("places-path-of-standard-input", report["mesh"]["path"].as_str().expect("a path"));
     let drawing = fed(&program, &["flatten", "-", "--svg", "-"], TENT).expect(0).stdout;
     assert!(drawing.starts_with("<svg ") || drawing.starts_with("<?xml"), "{drawing:.80}");
     fed(&program, &["check", "-"], &through.stdout).expect(0);
     let run = fed(&program, &["flatten", "-"], "f 1 2 3\n").expect(3);
-    assert!(run.stderr.starts_with("freebound: standard input: line 1: vertex 1 is out of range"), "{}", run.stderr);
+    assert_message("places-fault-of-standard-input", &run.stderr);
     assert_eq!(program.files(), ["in.obj", "out.json", "out.obj"]);
 }
 

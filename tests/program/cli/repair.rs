@@ -1,13 +1,14 @@
 //! `freebound flatten` on meshes that are not disks: default repairs, and repairs on request.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::mesh::{DiskMesh, Repair, VertexId};
 use freebound_io::read_mesh;
 use serde_json::{Value, json};
 
 use super::program::{Program, obj_text};
-use freebound_testkit::{band, tetrahedron};
+use freebound_testkit::{assert_message, band, tetrahedron};
 
 fn repairs(report: &Value) -> &Value {
     &report["mesh"]["repairs"]
@@ -23,7 +24,8 @@ fn harmless_faults_are_no_reason_to_refuse_a_mesh_unless_none_may_be_mended() {
          f 2 3 4\nf 2 4 5\nf 4 2 3\nf 3 6 6 7\nf 3 7 4 8\nf 3 8 4\n",
     );
     let run = program.run(&["flatten", "odd.obj", "-o", "out.obj", "--report", "out.json"]).expect(0);
-    assert!(run.stdout.contains("1 duplicate face left out"), "{}", run.stdout);
+    let line = run.stdout.lines().find(|line| line.starts_with("mesh")).expect("a line on repairs");
+    assert_message("repair-of-harmless-faults", line);
     let text = std::fs::read_to_string(program.path("out.json")).expect("written");
     let report: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(report["verdict"]["planar"], json!(true));
@@ -55,7 +57,7 @@ fn a_closed_surface_is_refused_with_the_way_on_and_cut_open_where_that_is_asked_
     let program = Program::new();
     program.write("closed.obj", &obj_text(&(&tetrahedron()).into()));
     let refused = program.run(&["flatten", "closed.obj"]).expect(3);
-    assert!(refused.stderr.contains("--repair all --cut auto: 3 edges cut open"), "{}", refused.stderr);
+    assert_message("repair-closed-surface", &refused.stderr);
     let run = program.run(&["flatten", "closed.obj", "--cut", "auto", "-o", "out.obj", "--report", "-"]);
     let report = run.expect(0).json();
     assert_eq!(repairs(&report), &json!([{"repair": "cut", "count": 3}]));
@@ -108,8 +110,11 @@ fn check_names_faces_as_the_file_counts_them() {
     let quad = |z: u32| format!("v 0 0 {z}\nv 1 0 {z}\nv 1 1 {z}\nv 0 1 {z}\n");
     let text = [quad(0), quad(1), "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n".to_owned()].concat();
     program.write("in.obj", &(text + "f 1/1 2/2 3/3 4/4\nf 5/1 6/2 7/3 8/4\n"));
-    let run = program.run(&["check", "in.obj"]).expect(4);
-    assert!(run.stdout.contains("1 pair of faces of different charts overlaps (0 and 1)"), "{}", run.stdout);
+    let run = program.run(&["check", "in.obj", "--report", "out.json"]).expect(4);
+    assert_message("repair-overlapping-charts", &run.stdout);
+    let text = std::fs::read_to_string(program.path("out.json")).expect("written");
+    let report: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(report["atlas"]["overlapping_faces"], json!([[0, 1]]));
 }
 
 /// Two triangles side by side with a small gap along their common edge; the second has the opposite orientation.
@@ -145,15 +150,13 @@ fn repairs_are_chosen_one_by_one_and_an_unknown_one_is_refused_with_the_names_of
     assert!(refused.stderr.contains("mixed-orientation"), "{}", refused.stderr);
     program.run(&["flatten", "apart.obj", "--weld", "0.002", "--repair", "turn-faces"]).expect(0);
     let unknown = program.run(&["flatten", "apart.obj", "--repair", "safe,turn"]).expect(2);
-    assert!(
-        unknown.stderr.contains("unknown repair \"turn\": choose from none, safe, all, drop-"),
-        "{}",
-        unknown.stderr
-    );
-    for odd in ["-1", "nan", "inf", "1cm"] {
-        let refused = program.run(&["flatten", "apart.obj", "--weld", odd]).expect(2);
-        assert!(refused.stderr.contains("write a distance of 0 or more"), "{odd}: {}", refused.stderr);
+    assert_message("repair-unknown", &unknown.stderr);
+    for repair in Repair::CHOSEN {
+        assert!(unknown.stderr.contains(repair.name()), "{repair:?}: {}", unknown.stderr);
     }
+    let odd = ["-1", "nan", "inf", "1cm"];
+    let messages = odd.map(|odd| program.run(&["flatten", "apart.obj", "--weld", odd]).expect(2).stderr);
+    assert_message("repair-odd-distances", &messages.concat());
 }
 
 #[test]
@@ -191,29 +194,27 @@ fn welding_excuses_no_fault_of_the_file_where_nothing_may_be_repaired() {
 fn a_pin_of_a_vertex_that_was_joined_is_refused_with_the_vertex_to_pin() {
     let program = Program::new();
     let far = "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 7 8 9\n";
+    let mut messages = BTreeSet::new();
     for text in [APART.to_owned(), format!("{APART}{far}")] {
         program.write("in.obj", &text);
         let arguments = ["flatten", "in.obj", "--weld", "0.01", "--repair", "all", "--pin", "3:0,0"];
-        let refused = program.run(&arguments).expect(2);
-        let message = "in.obj: vertex v3 is pinned, but was joined with vertex v1: pin v1";
-        assert!(refused.stderr.contains(message), "{}", refused.stderr);
+        messages.insert(program.run(&arguments).expect(2).stderr);
         let pinned = [&arguments[..6], &["--pin", "1:0,0"]].concat();
         program.run(&pinned).expect(0);
     }
     program.write("in.obj", &APART.replace(".001", "").replace("v  ", "v 0 "));
-    let refused = program.run(&["flatten", "in.obj", "--repair", "all", "--pin", "3:0,0"]).expect(2);
-    assert!(refused.stderr.contains("was joined with vertex v1: pin v1"), "welded in place: {}", refused.stderr);
+    // Welded in place.
+    messages.insert(program.run(&["flatten", "in.obj", "--repair", "all", "--pin", "3:0,0"]).expect(2).stderr);
+    assert_message("repair-pin-of-a-joined-vertex", &String::from_iter(messages));
 }
 
 #[test]
 fn a_distance_that_leaves_no_face_is_refused_by_name() {
     let program = Program::new();
     program.write("apart.obj", APART);
-    for repairs in ["none", "safe", "all"] {
-        let refused = program.run(&["flatten", "apart.obj", "--weld", "5", "--repair", repairs]).expect(2);
-        let message = "apart.obj: --weld: no face is left if vertices within 5 are joined: choose a smaller distance";
-        assert!(refused.stderr.contains(message), "{}", refused.stderr);
-    }
+    let refused = |repairs| program.run(&["flatten", "apart.obj", "--weld", "5", "--repair", repairs]).expect(2).stderr;
+    let messages = BTreeSet::from(["none", "safe", "all"].map(refused));
+    assert_message("repair-distance-leaves-no-face", &String::from_iter(messages));
 }
 
 #[test]

@@ -10,7 +10,7 @@ use serde_json::json;
 
 use super::program::{Program, obj_text};
 use freebound_testkit::cubes::{cross, cube, edge};
-use freebound_testkit::{Random, band, quad_sheet};
+use freebound_testkit::{Random, assert_message, band, quad_sheet};
 
 /// Seam file of a cross, with comments.
 const CROSS: &str = "\u{feff}# a cross\n0 4\r\n5 1  # upright\n\n 2\t6\n3 7\n5 7\n7 6\n6 4\n6 4\n";
@@ -110,19 +110,18 @@ fn creases_materials_and_groups_are_seams_by_name() {
         let report = run.expect(0).json();
         assert_eq!(report["charts"].as_array().map(Vec::len), Some(charts), "{seams}");
     }
-    let refused = program.run(&["flatten", "cube.obj", "--seams", "sharp=91"]).expect(3);
-    assert!(refused.stderr.contains("closed"), "{}", refused.stderr);
+    let refused = program.run(&["flatten", "cube.obj", "--seams", "sharp=91", "--report", "-"]).expect(3).json();
+    let faults = refused["error"]["faults"].as_array().expect("faults");
+    assert!(faults.iter().any(|fault| fault["kind"] == "closed"), "{faults:?}");
 }
 
 #[test]
 fn seams_that_the_file_does_not_have_are_named() {
     let program = Program::new();
     program.write("sheet.obj", &obj_text(&quad_sheet(3, 2, 0.1, &mut Random(1))));
-    for (seams, why) in
-        [("materials", "no materials to its faces: remove --seams materials"), ("groups", "neither groups nor objects")]
-    {
+    for seams in ["materials", "groups"] {
         let refused = program.run(&["flatten", "sheet.obj", "--seams", seams]).expect(2);
-        assert!(refused.stderr.contains(why), "{}", refused.stderr);
+        assert_message(&format!("seams-without-{seams}"), &refused.stderr);
     }
     for wrong in ["sharp=0", "sharp=181", "sharp=x", "blunt", "materials=3"] {
         program.run(&["flatten", "sheet.obj", "--seams", wrong]).expect(2);
@@ -133,23 +132,22 @@ fn seams_that_the_file_does_not_have_are_named() {
 fn an_edge_that_is_none_is_refused_with_its_line() {
     let program = Program::new();
     program.write("sheet.obj", &obj_text(&quad_sheet(3, 2, 0.1, &mut Random(1))));
-    for (text, why) in [
-        ("0 1\n# x\n0 5\n", "edges.txt: line 3: no edge joins vertices v0 and v5"),
-        ("0 12\n", "line 1: there is no vertex v12: the mesh has 12"),
-    ] {
+    for (case, text, line) in [("no-such-edge", "0 1\n# x\n0 5\n", 3), ("no-such-vertex", "0 12\n", 1)] {
         program.write("edges.txt", text);
-        let run = program.run(&["flatten", "sheet.obj", "--cut", "edges.txt", "--report", "out.json"]).expect(3);
-        assert!(run.stderr.contains(why), "{}", run.stderr);
-        let report = fs::read_to_string(program.path("out.json")).expect("written");
-        assert!(report.contains("\"kind\": \"edges\"") && report.contains("\"line\": "), "{report}");
+        let run = program.run(&["flatten", "sheet.obj", "--cut", "edges.txt", "--report", "-"]).expect(3);
+        assert_message(&format!("seams-{case}"), &run.stderr);
+        let error = &run.json()["error"];
+        assert_eq!([&error["kind"], &error["faults"][0]["line"]], [&json!("edges"), &json!(line)]);
     }
-    let gone = program.run(&["flatten", "sheet.obj", "--cut", "gone.txt"]).expect(3);
-    assert!(gone.stderr.contains("gone.txt: the edges cannot be read"), "{}", gone.stderr);
+    let gone = program.run(&["flatten", "sheet.obj", "--cut", "gone.txt", "--report", "-"]).expect(3);
+    let error = &gone.json()["error"];
+    assert_eq!([&error["kind"], &error["faults"]], [&json!("edges"), &json!([])]);
+    assert!(gone.stderr.contains("gone.txt"), "{}", gone.stderr);
     let over = program.run(&["flatten", "sheet.obj", "--cut", "edges.txt", "-o", "edges.txt"]).expect(2);
-    assert!(over.stderr.contains("would overwrite the edges"), "{}", over.stderr);
+    assert_message("seams-over-the-edges", &over.stderr);
     program.write("long.txt", &"# a comment\n".repeat(100_000));
     let long = program.run(&["flatten", "sheet.obj", "--cut", "long.txt"]).expect(3);
-    assert!(long.stderr.contains("choose an edges file"), "{}", long.stderr);
+    assert_message("seams-edges-file-is-too-long", &long.stderr);
 }
 
 #[test]
@@ -219,15 +217,13 @@ fn the_way_on_names_what_is_to_be_added_to_the_options_that_are_given() {
     let program = Program::new();
     program.write("mixed.obj", MIXED);
     program.write("seam.txt", "2 5\n");
-    let added = |given: &[&str]| {
-        let arguments: Vec<&str> = ["flatten", "mixed.obj"].iter().chain(given).copied().collect();
-        let refused = program.run(&arguments).expect(3);
-        let (_, way) = refused.stderr.split_once("to repair the mesh, add ").expect("a way on");
-        way.split(':').next().expect("options").to_owned()
+    let way_on = |arguments: &[&str]| {
+        let refused = program.run(arguments).expect(3);
+        refused.stderr.lines().next_back().expect("a way on").to_owned()
     };
-    assert_eq!(added(&["--cut", "seam.txt"]), "--repair all");
-    assert_eq!(added(&["--seams", "sharp=91"]), "--repair all --cut auto");
+    assert_message("seams-way-on-of-a-cut", &way_on(&["flatten", "mixed.obj", "--cut", "seam.txt"]));
+    assert_message("seams-way-on-of-creases", &way_on(&["flatten", "mixed.obj", "--seams", "sharp=91"]));
     program.write("cube.obj", &obj_text(&cube()));
-    let refused = program.run(&["flatten", "cube.obj", "--seams", "sharp=91", "--repair", "all"]).expect(3);
-    assert!(refused.stderr.contains("to repair the mesh, add --cut auto: "), "{}", refused.stderr);
+    let arguments = ["flatten", "cube.obj", "--seams", "sharp=91", "--repair", "all"];
+    assert_message("seams-way-on-of-repairs", &way_on(&arguments));
 }

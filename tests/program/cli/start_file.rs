@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 
 use super::charts_uv::{grouped, write};
 use super::program::{Program, coordinates_by_vertex, textured_text};
-use freebound_testkit::grid;
 use freebound_testkit::surfaces::bump;
+use freebound_testkit::{assert_message, grid};
 
 /// Pins that pull the corners of the bumpy sheet apart and move a vertex in its middle.
 const FIVE: [&str; 10] =
@@ -31,6 +31,12 @@ fn coordinates(program: &Program, name: &str) -> Vec<DVec2> {
 
 fn report(program: &Program, options: &[&str]) -> Value {
     program.run(&[&["flatten", "in.obj", "--report", "-"], options].concat()).expect(0).json()
+}
+
+/// Note of the second step that it began from scratch.
+fn restart(report: &Value) -> &str {
+    let note = report["steps"][1]["note"].as_str().expect("a note");
+    note.split("; ").find(|words| words.starts_with("restarted")).expect("a restart")
 }
 
 #[test]
@@ -94,8 +100,7 @@ fn a_file_with_split_edges_is_read_by_the_numbers_of_vertices() {
     assert_eq!(report["steps"][0]["stage"], json!("given"));
     // The flipped face stays flipped without its new vertices.
     assert_eq!(report["steps"][0]["flipped_faces"].as_u64().map(|count| count > 0), Some(true));
-    let note = report["steps"][1]["note"].as_str().expect("a note");
-    assert!(note.contains("restarted from scratch: the layout of the file is not one-to-one"), "{note}");
+    assert_message("start-file-folds-without-its-new-vertices", restart(&report));
     assert_eq!(report["pins"]["unmet"], json!([]));
 }
 
@@ -109,26 +114,19 @@ fn other(program: &Program, name: &str, mesh: &TriMesh, layout: impl Fn(usize) -
 #[test]
 fn what_is_no_layout_of_the_mesh_is_named_with_what_to_do() {
     let program = with_five();
-    let refused = |options: &[&str], status: i32, words: &[&str]| {
-        let run = program.run(&[&["flatten", "in.obj"], options].concat()).expect(status);
-        for word in words {
-            assert!(run.stderr.contains(word), "{word}: {}", run.stderr);
-        }
-    };
-    refused(&["--start", "missing.obj"], 3, &["missing.obj"]);
-    refused(&["--start", "in.obj"], 2, &["in.obj", "no texture coordinates", "remove --start"]);
+    let gone = program.run(&["flatten", "in.obj", "--start", "missing.obj", "--report", "-"]).expect(3);
+    assert_eq!(gone.json()["error"]["kind"], json!("unreadable"));
+    assert!(gone.stderr.contains("missing.obj"), "{}", gone.stderr);
+    let refused = |options: &[&str]| program.run(&[&["flatten", "in.obj"], options].concat()).expect(2).stderr;
+    assert_message("start-file-without-a-layout", &refused(&["--start", "in.obj"]));
     other(&program, "small.obj", &grid(2, 2), |v| DVec2::new((v % 3) as f64, (v / 3) as f64));
-    refused(
-        &["--start", "small.obj"],
-        2,
-        &["small.obj", "no texture coordinates for vertex v", "a layout of this mesh"],
-    );
+    assert_message("start-file-of-another-mesh", &refused(&["--start", "small.obj"]));
     write(&program, "torn.obj", &grouped((&bump(6)).into(), |face| face / 2 % 6 / 3));
-    refused(&["--start", "torn.obj"], 2, &["torn.obj: vertex v", "several texture coordinates", "--charts uv"]);
-    refused(&["--start", "five.obj", "-o", "five.obj"], 2, &["five.obj", "the layout to start from"]);
-    refused(&["--start", "five.obj", "--method", "lscm"], 2, &["--method lscm does not use --start"]);
+    assert_message("start-file-is-cut", &refused(&["--start", "torn.obj"]));
+    assert_message("start-file-is-written", &refused(&["--start", "five.obj", "-o", "five.obj"]));
+    assert_message("start-file-is-not-used", &refused(&["--start", "five.obj", "--method", "lscm"]));
     let both = program.run(&["flatten", "-", "--start", "-"]).expect(2);
-    assert!(both.stderr.contains("cannot be both the mesh and --start"), "{}", both.stderr);
+    assert_message("start-file-is-the-stream-of-the-mesh", &both.stderr);
 }
 
 #[test]
@@ -138,6 +136,5 @@ fn a_layout_that_folds_is_shown_and_solved_afresh() {
     other(&program, "heap.obj", &mesh, |v| DVec2::new((v * 7 % 13) as f64, (v * 5 % 11) as f64));
     let report = report(&program, &[&FIVE[..], &["--start", "heap.obj"]].concat());
     assert!(report["steps"][0]["flipped_faces"].as_u64() > Some(0));
-    let note = report["steps"][1]["note"].as_str().expect("a note");
-    assert!(note.contains("restarted from scratch: the layout of the file is not one-to-one"), "{note}");
+    assert_message("start-file-folds", restart(&report));
 }

@@ -14,7 +14,9 @@ fn the_files_of_tests_data_are_what_their_makers_make() {
         assert!(*bytes == read, "{name}: {remedy}");
         assert!(bytes.len() < 60_000, "{name}: {} bytes", bytes.len());
     }
-    assert_eq!(fs::read_dir(data_folder()).unwrap().count(), files.len(), "a file without a maker");
+    // The folder of the messages has no maker.
+    let found = fs::read_dir(data_folder()).unwrap().filter(|entry| entry.as_ref().is_ok_and(|e| e.path().is_file()));
+    assert_eq!(found.count(), files.len(), "a file without a maker");
 }
 
 #[test]

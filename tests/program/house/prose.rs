@@ -222,3 +222,58 @@ fn literals_are_found_whole() {
     let found: Vec<String> = literals(text).into_iter().map(|(_, text)| text).collect();
     assert_eq!(found, ["one", "two three\""]);
 }
+
+/// Comparisons of text in a test.
+const COMPARISONS: [&str; 5] = ["contains(\"", "starts_with(\"", "ends_with(\"", "matches(\"", "find(\""];
+
+/// True if a text has three words in a row that begin with a lower-case letter.
+fn is_prose(text: &str) -> bool {
+    let is_word = |word: &&str| word.len() > 1 && word.chars().all(|letter| letter.is_ascii_lowercase());
+    let mut run = 0;
+    text.split(' ').any(|word| {
+        run = if is_word(&word) { run + 1 } else { 0 };
+        run == 3
+    })
+}
+
+#[test]
+fn tests_compare_english_in_the_snapshot_alone() {
+    let (mut found, mut count) = (Vec::new(), 0);
+    for source in sources(&TESTS) {
+        for comparison in COMPARISONS {
+            for (at, _) in source.text.match_indices(comparison) {
+                let text = source.text[at + comparison.len()..].split('"').next().unwrap_or_default();
+                count += 1;
+                if is_prose(text) {
+                    let line = source.text[..at].matches('\n').count() + 1;
+                    found.push(format!("{}:{line}: {text}", source.path));
+                }
+            }
+        }
+    }
+    assert!(count > 100, "only {count} comparisons were found");
+    assert!(found.is_empty(), "use assert_message, or compare data:\n{}", found.join("\n"));
+}
+
+#[test]
+fn every_message_of_the_snapshot_is_asserted() {
+    let snapshots = files(&root().join("tests/data/messages"), "snap");
+    assert!(snapshots.len() > 200, "only {} messages are in the snapshot", snapshots.len());
+    let names: Vec<String> = sources(&TESTS)
+        .iter()
+        .chain(&sources(&["src"]))
+        .flat_map(|source| source.text.split('"').map(str::to_owned).collect::<Vec<_>>())
+        .filter(|text| text.contains('-') && !text.contains(' '))
+        .collect();
+    let is_asserted = |name: &str| {
+        names.iter().any(|text| {
+            text == name || text.split_once('{').is_some_and(|(start, _)| !start.is_empty() && name.starts_with(start))
+        })
+    };
+    let left: Vec<String> = snapshots
+        .iter()
+        .map(|path| path.file_stem().expect("a file").to_string_lossy().into_owned())
+        .filter(|name| !is_asserted(name))
+        .collect();
+    assert!(left.is_empty(), "no test asserts these messages: delete them\n{}", left.join("\n"));
+}

@@ -139,7 +139,8 @@ fn no_parameter_is_a_tuple_of_unlike_things() {
 #[test]
 fn offences_are_found_in_every_form() {
     let fields = (0..13).map(|i| format!("    /// One.\n    pub f{i}: usize,\n")).collect::<Vec<_>>().concat();
-    assert_eq!(crowded_structs(&format!("pub struct Crowd<'a> {{\n{fields}}}\n")), ["Crowd<'a> has 13 fields"]);
+    let crowded = crowded_structs(&format!("pub struct Crowd<'a> {{\n{fields}}}\n"));
+    assert!(matches!(&crowded[..], [what] if what.starts_with("Crowd<'a>") && what.contains(" 13 ")), "{crowded:?}");
     assert!(crowded_structs(&format!("#[derive(Serialize)]\n/// Wire.\nstruct Wire {{\n{fields}}}\n")).is_empty());
     for text in [
         "fn f((a, b): (f64, usize)) {}",

@@ -14,7 +14,7 @@ use freebound_io::{OutputKind, read_mesh};
 use glam::DVec2;
 use tempfile::TempDir;
 
-use freebound_testkit::{Random, grid, write_obj};
+use freebound_testkit::{Random, assert_message, grid, write_obj};
 
 /// Time limit for the background before a test fails.
 const PATIENCE: Duration = Duration::from_secs(90);
@@ -130,7 +130,9 @@ fn saving_before_anything_is_open_says_what_to_do() {
     let mut session = session();
     let folder = tempfile::tempdir().unwrap();
     settled(&mut session, save(&folder, "a.obj", OutputKind::Obj));
-    assert!(session.messages()[0].text.contains("open a mesh"));
+    let [message] = session.messages() else { panic!("{:?}", session.messages()) };
+    assert_eq!((message.place, message.severity), (MessagePlace::Embedding, Severity::Error));
+    assert_message("basics-nothing-to-save", &message.text);
     assert!(!folder.path().join("a.obj").exists());
 }
 

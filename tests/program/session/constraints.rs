@@ -13,7 +13,8 @@ use freebound_core::problem::{Control, Family, Method, Pins, Settings, Stage};
 use glam::DVec2;
 
 use super::basics::{session, settle, settled};
-use freebound_testkit::{grid, write_obj};
+use super::documents::words_of;
+use freebound_testkit::{assert_message, grid, write_obj};
 
 pub(crate) fn id(number: u32) -> VertexId {
     VertexId::new(number)
@@ -192,7 +193,7 @@ fn without_new_vertices_the_best_planar_step_stays_and_the_unmet_constraints_are
     assert!(!session.can_run() && !session.can_relax());
     let message = session.messages().last().expect("it is said");
     assert_eq!(message.vertices, unmet);
-    assert!(message.remedy.as_ref().is_some_and(|remedy| remedy.contains("allow new vertices")), "{message:?}");
+    assert_message("constraints-session-unmet", &words_of(message));
 }
 
 /// Polls until the targets have been checked.

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use freebound::session::{Action, MessagePlace, SaveRequest, Session, Severity};
+use freebound::session::{Action, Message, MessagePlace, SaveRequest, Session, Severity};
 use freebound_core::geom::{Picture, VAxis};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Fit, Target};
@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3};
 use tempfile::TempDir;
 
 use super::basics::{session, settled};
-use freebound_testkit::{corpus_disks, corpus_test, grid, write_obj};
+use freebound_testkit::{assert_message, corpus_disks, corpus_test, grid, write_obj};
 
 pub(crate) fn id(number: u32) -> VertexId {
     VertexId::new(number)
@@ -53,8 +53,16 @@ fn targets(session: &Session) -> Vec<DVec2> {
 }
 
 pub(crate) fn errors(session: &Session) -> Vec<&str> {
-    let is_error = |m: &&freebound::session::Message| m.severity == Severity::Error;
+    let is_error = |m: &&Message| m.severity == Severity::Error;
     session.messages().iter().filter(is_error).map(|m| m.text.as_str()).collect()
+}
+
+/// Text of a message, and its remedy on a line of its own.
+pub(crate) fn words_of(message: &Message) -> String {
+    match &message.remedy {
+        Some(remedy) => format!("{}\n{remedy}", message.text),
+        None => message.text.clone(),
+    }
 }
 
 #[test]
@@ -125,7 +133,9 @@ fn a_fault_in_a_constraint_file_names_its_line_and_changes_nothing() {
     let path = folder.path().join("marks.txt");
     std::fs::write(&path, "8 0.5 0.25\n\n35 1 1\n").unwrap();
     settled(&mut session, Action::ImportConstraints(path));
-    assert!(errors(&session)[0].contains("line 3: there is no vertex v35"), "{:?}", session.messages());
+    let message = session.messages().last().expect("said");
+    assert_eq!((message.place, message.severity), (MessagePlace::Embedding, Severity::Error));
+    assert_message("documents-fault-in-constraints", &words_of(message));
     assert!(session.document().targets.is_empty() && !session.history().can_undo());
 }
 
@@ -210,8 +220,10 @@ fn a_pin_that_nothing_can_hold_is_not_placed() {
 fn fitting_one_target_is_refused() {
     let (_folder, mut session) = with_dome();
     place(&mut session, 3, Target::hard(DVec2::X));
+    let before = session.document().clone();
     settled(&mut session, Action::FitTargets);
-    assert!(errors(&session)[0].contains("two pins"));
+    assert!(errors(&session).len() == 1 && *session.document() == before, "{:?}", session.messages());
+    assert_message("documents-fit-of-one-target", &words_of(&session.messages()[0]));
 }
 
 #[test]

@@ -13,8 +13,9 @@ use glam::{DVec2, DVec3};
 use tempfile::TempDir;
 
 use super::basics::{session, settle, settled};
+use super::documents::errors;
 use crate::cli::program::obj_text;
-use freebound_testkit::{grid, write_obj};
+use freebound_testkit::{assert_message, grid, write_obj};
 
 /// Gap between two sheets.
 const GAP: f64 = 1.0 / 2_097_152.0;
@@ -192,10 +193,12 @@ fn nothing_is_written_by_the_numbers_of_another_form() {
     let (pins, project) = (folder.path().join("now.txt"), folder.path().join("now.freebound"));
     session.handle(Action::Undo);
     session.handle(Action::Undo);
+    let before = errors(&session).len();
     session.handle(Action::ExportConstraints(pins.clone()));
     session.handle(Action::SaveProject(project.clone()));
-    let said = session.messages().iter().filter(|message| message.text.contains("nothing was written"));
-    assert_eq!(said.count(), 2);
+    let said = errors(&session).split_off(before);
+    assert!(said.len() == 2 && said[0] == said[1], "{said:?}");
+    assert_message("forms-nothing-is-written", said[0]);
     settle(&mut session);
     assert!(!pins.exists() && !project.exists());
     settled(&mut session, Action::SaveProject(project.clone()));

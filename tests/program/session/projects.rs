@@ -10,12 +10,13 @@ use freebound_core::pipeline::Target;
 use freebound_core::problem::{
     BoundaryShape, Family, GaugeSize, Growth, Method, NamedOption as _, Settings, Spacing, Treatment,
 };
-use freebound_io::{FileStamp, PathStyle, ProjectFile, ProjectSource, ProjectView};
+use freebound_io::{FileStamp, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView};
 use glam::DVec2;
 use tempfile::TempDir;
 
 use super::basics::{opened, session, settle, settled};
-use super::documents::{errors, id, place, with_dome, write_dome, write_picture};
+use super::documents::{errors, id, place, with_dome, words_of, write_dome, write_picture};
+use freebound_testkit::assert_message;
 
 fn project_in(folder: &TempDir) -> PathBuf {
     folder.path().join("work.freebound")
@@ -236,8 +237,7 @@ fn a_changed_mesh_is_said_and_pins_that_it_has_no_vertices_for_are_counted() {
     let session = reopened(&project_in(&folder));
     assert_eq!(session.document().targets.len(), 2, "vertex 30 is gone");
     let said = errors(&session);
-    assert!(said[0].contains("mesh has changed") && said[0].contains("dome.obj"), "{said:?}");
-    assert!(said[1].starts_with("1 of the project's 3 pins"), "{said:?}");
+    assert_message("projects-changed-mesh", &said[..2].join("\n"));
     assert!(session.project_path().is_none(), "saving asks where, so that the pins stay in the file");
 }
 
@@ -249,11 +249,11 @@ fn a_missing_and_a_changed_picture_are_said() {
     write_picture(&picture, 5, 4);
     let session = reopened(&project_in(&folder));
     assert!(session.document().picture.is_some());
-    assert!(errors(&session)[0].contains("picture has changed") && errors(&session)[0].contains("ä b.png"));
+    assert_message("projects-changed-picture", errors(&session)[0]);
     fs::remove_file(&picture).unwrap();
     let session = reopened(&project_in(&folder));
     assert!(session.document().picture.is_none() && session.document().targets.len() == 3);
-    assert!(errors(&session)[0].contains("does not exist") && errors(&session)[0].contains("ä b.png"));
+    assert_message("projects-missing-picture", errors(&session)[0]);
 }
 
 #[test]
@@ -269,15 +269,17 @@ fn saving_a_project_without_its_picture_keeps_the_picture_s_name_in_the_file() {
     assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().picture, before);
 }
 
-/// Messages on a project file with this text.
-fn said_of(text: &str) -> (String, Option<String>) {
+/// Error of a project file with this text, and the message on it.
+fn said_of(text: &str) -> (ProjectError, String) {
     let folder = tempfile::tempdir().unwrap();
     fs::write(project_in(&folder), text).unwrap();
     let session = reopened(&project_in(&folder));
     assert!(session.model().is_none(), "nothing is guessed: {text}");
     let message = &session.messages()[0];
     assert_eq!(message.severity, Severity::Error);
-    (message.text.clone(), message.remedy.clone())
+    let error = ProjectFile::read(&project_in(&folder)).expect_err("it is wrong");
+    assert_eq!((&message.text, message.remedy.as_deref()), (&error.to_string(), Some(error.remedy())));
+    (error, words_of(message))
 }
 
 #[test]
@@ -286,43 +288,40 @@ fn faults_of_a_project_name_line_and_field() {
     let pin =
         |fields: &str| format!("{{\"freebound_project\": 1, {mesh},\n\"pins\": [\n{{\"vertex\": 1, {fields}}}\n]}}");
     let cases = [
-        (pin("\"u\": \"x\", \"v\": 0, \"hold\": \"hard\""), "line 3, pins[0].u: invalid type"),
-        (pin("\"u\": 0, \"v\": 0, \"hold\": \"soft\""), "line 3, pins[0].hold: unknown variant `soft`"),
-        (
-            pin("\"u\": 0, \"v\": 0, \"hold\": \"weighted\", \"weight\": -2"),
-            "line 3, pins[0].weight: the weight -2 is not",
-        ),
-        (pin("\"u\": 0, \"hold\": \"hard\""), "line 3, pins[0]: missing field `v`"),
-        (pin("\"u\": 1e999, \"v\": 0, \"hold\": \"hard\""), "line 3, pins[0].u: number out of range"),
-        (
-            format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"family\": \"nonsense\"\n}}"),
-            "line 4, family: invalid value: string \"nonsense\", expected one of conformal, mean-value",
-        ),
-        ("{\n\"freebound_project\": 1,\n\"mesh\": {},\n\"pins\": []\n}".to_owned(), "line 3, mesh: name either"),
-        ("{\n\"freebound_project\": 1\n}".to_owned(), "line 3, the project: missing field `mesh`"),
-        (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"max_steps\": -3}}"), "line 4, max_steps: "),
-        (
-            format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"method\": \"best\"\n}}"),
-            "line 4, method: invalid value: string \"best\", expected one of auto, natural",
-        ),
-        (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"pins\": ["), "line 4, pins: EOF while parsing a list"),
+        (pin("\"u\": \"x\", \"v\": 0, \"hold\": \"hard\""), 3, Some("pins[0].u")),
+        (pin("\"u\": 0, \"v\": 0, \"hold\": \"soft\""), 3, Some("pins[0].hold")),
+        (pin("\"u\": 0, \"v\": 0, \"hold\": \"weighted\", \"weight\": -2"), 3, Some("pins[0].weight")),
+        (pin("\"u\": 0, \"hold\": \"hard\""), 3, Some("pins[0]")),
+        (pin("\"u\": 1e999, \"v\": 0, \"hold\": \"hard\""), 3, Some("pins[0].u")),
+        (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"family\": \"nonsense\"\n}}"), 4, Some("family")),
+        ("{\n\"freebound_project\": 1,\n\"mesh\": {},\n\"pins\": []\n}".to_owned(), 3, Some("mesh")),
+        ("{\n\"freebound_project\": 1\n}".to_owned(), 3, None),
+        (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"max_steps\": -3}}"), 4, Some("max_steps")),
+        (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"method\": \"best\"\n}}"), 4, Some("method")),
+        (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"pins\": ["), 4, Some("pins")),
     ];
-    for (text, expected) in cases {
-        let (found, remedy) = said_of(&text);
-        let (file, fault) = found.split_once(": ").expect("the file comes first");
-        assert!(fault.starts_with(expected), "{found}\nand not\n{expected}\nof\n{text}");
-        assert!(file.ends_with("work.freebound") && remedy.is_some());
+    let mut messages = Vec::new();
+    for (text, number, expected) in cases {
+        let (error, words) = said_of(&text);
+        let ProjectError::Malformed { path, line, field, .. } = &error else { panic!("{error}") };
+        assert!(*line == number && expected.is_none_or(|expected| field == expected), "{error}\nof\n{text}");
+        assert!(path.ends_with("work.freebound"), "{error}");
+        messages.push(words);
     }
+    assert_message("projects-faults", &messages.join("\n"));
 }
 
 #[test]
 fn a_newer_project_is_refused_by_name_and_other_files_are_no_projects() {
-    let (text, remedy) = said_of("{\"freebound_project\": 2, \"mesh\": 7}");
-    assert!(text.contains("project format 2 is too new"), "{text}");
-    assert!(remedy.is_some_and(|remedy| remedy.contains("newer version")));
+    let (error, words) = said_of("{\"freebound_project\": 2, \"mesh\": 7}");
+    assert!(matches!(error, ProjectError::Newer { version: 2, .. }), "{error}");
+    let mut messages = vec![words];
     for other in ["", "v 1 2 3\n", "{}", "[1, 2]", "{\"freebound_project\": 0}"] {
-        assert!(said_of(other).0.contains("not a Freebound project"), "{other}");
+        let (error, words) = said_of(other);
+        assert!(matches!(error, ProjectError::NotAProject { .. }), "{other}: {error}");
+        messages.push(words);
     }
+    assert_message("projects-newer-and-others", &messages.join("\n"));
 }
 
 #[test]

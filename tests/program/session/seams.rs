@@ -1,11 +1,12 @@
 //! Seams in a session: an edit that is undone and redone, saved and opened again.
 
-use freebound::session::{Action, Session};
+use freebound::session::{Action, Session, Severity};
 use freebound_core::mesh::{Seams, VertexId};
 use tempfile::TempDir;
 
 use super::basics::{session, settled};
-use freebound_testkit::{grid, write_obj};
+use super::documents::words_of;
+use freebound_testkit::{assert_message, grid, write_obj};
 
 /// Session with a sheet of 4×2 squares, in a temporary folder.
 fn with_sheet() -> (TempDir, Session) {
@@ -59,8 +60,7 @@ fn a_project_with_seams_opens_as_it_was() {
     assert_eq!((chart_count(&again), again.seams()), (2, &across()));
     std::fs::write(&path, text.replace("2 7", "2-7")).expect("written");
     settled(&mut again, Action::Open(path));
-    let message = &again.messages().iter().next().expect("a fault").text;
-    assert!(message.contains("\"2-7\" is not an edge"), "{message}");
+    assert_message("seams-session-fault-in-project", &again.messages().first().expect("a fault").text);
 }
 
 /// Pins from an exported constraint file: vertex and u.
@@ -170,7 +170,8 @@ fn seams_are_written_to_a_file_and_read_from_it() {
     let (folder, mut session) = with_sheet();
     let path = folder.path().join("seams.txt");
     settled(&mut session, Action::ExportSeams(path.clone()));
-    assert!(session.messages().iter().any(|message| message.text.contains("no seams to write")));
+    assert!(!path.exists());
+    assert_message("seams-session-nothing-to-write", &session.messages().last().expect("said").text);
     settled(&mut session, Action::SetSeams(across()));
     settled(&mut session, Action::ExportSeams(path.clone()));
     assert_eq!(std::fs::read_to_string(&path).expect("written").lines().skip(1).collect::<Vec<_>>(), ["2 7", "7 12"]);
@@ -179,8 +180,9 @@ fn seams_are_written_to_a_file_and_read_from_it() {
     assert_eq!(session.seams(), &across().with([edge(3, 8)]), "those that there were stay");
     std::fs::write(&path, "0 1\n0 7\n").expect("written");
     settled(&mut session, Action::ImportSeams(path));
-    let said = session.messages().iter().find(|message| message.text.contains("line 2: no edge joins vertices"));
-    assert_eq!(said.expect("it is told").vertices.len(), 2);
+    let said = session.messages().last().expect("it is told");
+    assert_eq!((said.severity, said.vertices.len()), (Severity::Error, 2));
+    assert_message("seams-session-no-edge", &words_of(said));
     assert_eq!(session.seams().edges().len(), 3);
 }
 
@@ -228,8 +230,8 @@ fn seams_of_a_project_that_the_mesh_does_not_have_are_told_and_the_project_keeps
     std::fs::write(&path, text.replace("\"2 7\"", "\"2 14\"").replace("\"0 1\"", "\"3 900\"")).expect("written");
     let mut again = super::basics::session();
     settled(&mut again, Action::Open(path));
-    let told: Vec<&str> = again.messages().iter().map(|message| message.text.as_str()).collect();
-    assert_eq!(told, ["2 of the project's 3 seam edges are left out (v2–v14 and 1 more): the mesh has no such edges"]);
+    let [message] = again.messages() else { panic!("{:?}", again.messages()) };
+    assert_message("seams-session-left-out", &words_of(message));
     assert_eq!(again.seams(), &Seams::default().with([edge(7, 12)]));
     assert_eq!(again.model().expect("open").prepared.form, again.document().form);
     assert!(again.project_path().is_none(), "saving asks for another place");

@@ -5,10 +5,11 @@ use std::fs;
 use std::time::{Duration, Instant};
 
 use freebound_core::mesh::{PolygonMesh, VertexId};
-use freebound_io::{MeshFile, ReadError, TextureError, read_mesh, read_stream};
+use freebound_io::{MeshFile, ParseFaultKind, ReadError, TextureError, read_mesh, read_stream};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
+use crate::obj::{assert_faults, bad_number, out_of_range, too_many, unexpected};
 use freebound_testkit::ply::{Encoding, PlyMaker};
 use freebound_testkit::{Random, grid, quad_sheet};
 
@@ -16,9 +17,9 @@ fn read(bytes: &[u8]) -> MeshFile {
     read_stream(bytes).unwrap_or_else(|error| panic!("{error}: {}", String::from_utf8_lossy(bytes)))
 }
 
-fn fault(bytes: &[u8]) -> String {
+fn fault(bytes: &[u8]) -> ReadError {
     let start = Instant::now();
-    let error = read_stream(bytes).expect_err("it is wrong").to_string();
+    let error = read_stream(bytes).expect_err("it is wrong");
     assert!(start.elapsed() < Duration::from_millis(200), "{error}: {:?}", start.elapsed());
     error
 }
@@ -76,23 +77,21 @@ fn off_files_are_read_whatever_else_stands_on_their_lines() {
 
 #[test]
 fn faults_of_off_files_are_named_with_their_lines() {
-    for (text, message) in [
-        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "line 6: vertex 3 is out of range: there are 3"),
-        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "line 6: vertex -1 is out of range: there are 3"),
-        ("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "line 4: 2 numbers, but 3 are needed"),
-        ("OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "line 4: a position that is infinite or not a number"),
-        ("OFF\n3 1 0\n0 0 0\n1 1 0\n0 1 0\n3 0 1\n", "line 6: 2 numbers, but 3 are needed"),
-        ("OFF\n3 1 0\n0 0 0\n1 1 0\n0 1 0\n2 0 1\n", "line 6: a face has 2 corners, but three are needed"),
-        ("OFF\n3 1 0\n0 0 0\n1 1 0\n", "line 5: the file ends too early"),
-        ("OFF\n3000000000 1 0\n0 0 0\n", "line 2: the file declares 3000000000 of \"vertex\", but ends earlier"),
-        ("OFF\n3 18446744073709551615 0\n", "line 2: \"1844674407370955161"),
-        ("OFF\n3 -4 0\n", "line 2: \"-4\" is not a number"),
-        ("OFF\n", "line 2: the file ends too early"),
-        ("OFF\n0 0 0\n", "the file has no faces"),
-    ] {
-        let found = fault(text.as_bytes());
-        assert!(found.starts_with(message), "{text}: {found}");
-    }
+    let cases = [
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "line 6", out_of_range("vertex", 3, 3)),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "line 6", out_of_range("vertex", -1, 3)),
+        ("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "line 4", ParseFaultKind::TooFewNumbers { found: 2, needed: 3 }),
+        ("OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "line 4", ParseFaultKind::NotFinite),
+        ("OFF\n3 1 0\n0 0 0\n1 1 0\n0 1 0\n3 0 1\n", "line 6", ParseFaultKind::TooFewNumbers { found: 2, needed: 3 }),
+        ("OFF\n3 1 0\n0 0 0\n1 1 0\n0 1 0\n2 0 1\n", "line 6", ParseFaultKind::TooFewCorners(2)),
+        ("OFF\n3 1 0\n0 0 0\n1 1 0\n", "line 5", ParseFaultKind::EndsEarly),
+        ("OFF\n3000000000 1 0\n0 0 0\n", "line 2", too_many("vertex", 3_000_000_000)),
+        ("OFF\n3 18446744073709551615 0\n", "line 2", bad_number("18446744073709551615")),
+        ("OFF\n3 -4 0\n", "line 2", bad_number("-4")),
+        ("OFF\n", "line 2", ParseFaultKind::EndsEarly),
+    ];
+    assert_faults("formats-faults-of-off", cases.map(|(text, place, kind)| (fault(text.as_bytes()), place, kind)));
+    assert!(matches!(fault(b"OFF\n0 0 0\n"), ReadError::NoFaces { vertices: 0 }));
 }
 
 /// Binary STL file of triangles.
@@ -168,27 +167,23 @@ fn faults_of_stl_files_are_named_with_line_or_byte() {
     let of_file = |bytes: &[u8]| {
         let path = folder.path().join("bad.stl");
         fs::write(&path, bytes).expect("written");
-        read_mesh(&path).expect_err("it is wrong").to_string()
+        read_mesh(&path).expect_err("it is wrong")
     };
-    let too_many = |count| format!("byte 80: the file declares {count} of \"triangle\", but ends earlier");
-    assert_eq!(of_file(&bytes[..bytes.len() - 1]), too_many(2));
-    assert_eq!(of_file(&many), too_many(u32::MAX));
-    assert_eq!(of_file(&nowhere), "byte 146: a position that is infinite or not a number");
-    assert_eq!(of_file(&bytes[..60]), "byte 60: the file ends too early");
-    for (text, message) in [
-        (text.replace("1.0 0e0", "x 0e0"), "line 5: \"x\" is not a number"),
-        (text.replace("1.0 0e0", "inf 0e0"), "line 5: a position that is infinite or not a number"),
-        (
-            text.replacen("   vertex 0.0 1e0 0.0\n", "", 1),
-            "line 6: found \"endloop (2 corners)\", expected a triangle's third",
-        ),
-        (text.replace("endsolid of words\n", ""), "line 16: the file ends too early"),
-        (text[..120].to_owned(), "line 7: the file ends too early"),
-        ("solid nothing\nendsolid nothing\n".to_owned(), "the file has no faces"),
-    ] {
-        let found = fault(text.as_bytes());
-        assert!(found.starts_with(message), "{text}: {found}");
-    }
+    let of_text = |text: &str| fault(text.as_bytes());
+    let without_corner = text.replacen("   vertex 0.0 1e0 0.0\n", "", 1);
+    let cases = [
+        (of_file(&bytes[..bytes.len() - 1]), "byte 80", too_many("triangle", 2)),
+        (of_file(&many), "byte 80", too_many("triangle", u32::MAX.into())),
+        (of_file(&nowhere), "byte 146", ParseFaultKind::NotFinite),
+        (of_file(&bytes[..60]), "byte 60", ParseFaultKind::EndsEarly),
+        (of_text(&text.replace("1.0 0e0", "x 0e0")), "line 5", bad_number("x")),
+        (of_text(&text.replace("1.0 0e0", "inf 0e0")), "line 5", ParseFaultKind::NotFinite),
+        (of_text(&without_corner), "line 6", unexpected("endloop")),
+        (of_text(&text.replace("endsolid of words\n", "")), "line 16", ParseFaultKind::EndsEarly),
+        (of_text(&text[..120]), "line 7", ParseFaultKind::EndsEarly),
+    ];
+    assert_faults("formats-faults-of-stl", cases);
+    assert!(matches!(of_text("solid nothing\nendsolid nothing\n"), ReadError::NoFaces { vertices: 0 }));
 }
 
 #[test]
@@ -247,60 +242,37 @@ fn what_a_ply_header_says_is_not_believed_without_the_bytes() {
     let vertex = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
     let face = "element face 1\nproperty list uchar int vertex_indices\n";
     let triangle = "0 0 0\n1 0 0\n0 1 0\n";
-    for (text, message) in [
-        (
-            head("ascii", &format!("{}{face}", vertex.replace('3', "4000000000"))) + triangle,
-            "line 10: the file declares 4000000000 of \"vertex\"",
-        ),
-        (
-            head("ascii", &format!("{}{face}", vertex.replace('3', "18446744073709551615"))),
-            "line 10: the file declares",
-        ),
-        (
-            head("binary_little_endian", &format!("{}{face}", vertex.replace('3', "4000000000"))),
-            "byte 178: the file declares",
-        ),
-        (
-            head("ascii", &format!("{vertex}{face}")) + triangle + "4000000000 0 1 2",
-            "line 13: the file declares 4000000000 of \"list item\"",
-        ),
-        (head("ascii", &format!("{vertex}{face}")) + triangle + "3 0 1", "line 13: the file ends too early"),
-        (
-            head("ascii", &format!("{vertex}{face}")) + triangle + "3 0 1 3",
-            "line 13: vertex 3 is out of range: there are 3",
-        ),
-        (head("ascii", &format!("{vertex}{face}")) + triangle + "3 0 1 -1", "line 13: vertex -1 is out of range"),
-        (head("ascii", &format!("{vertex}{face}")) + triangle + "3 0 1 1.5", "line 13: \"1.5\" is not a number"),
-        (head("ascii", &format!("{vertex}{face}")) + triangle + "2 0 1", "line 13: a face has 2 corners"),
-        (
-            head("ascii", &format!("{vertex}{face}")) + &triangle.replace("1 0 0", "1 inf 0") + "3 0 1 2",
-            "line 11: a position that",
-        ),
-        (
-            head("ascii", &format!("{vertex}{face}")) + &triangle.replace("1 0 0", "1 x 0") + "3 0 1 2",
-            "line 11: \"x\" is not a number",
-        ),
-        (
-            head("ascii", &vertex.replace("float z", "float w")) + triangle,
-            "line 7: found \"element vertex\", expected its properties x",
-        ),
+    let both = head("ascii", &format!("{vertex}{face}"));
+    let many = |encoding: &str, count: &str| head(encoding, &format!("{}{face}", vertex.replace('3', count)));
+    let ending = |end: &str| both.clone() + triangle + end;
+    let with_second = |second: &str| both.clone() + &triangle.replace("1 0 0", second) + "3 0 1 2";
+    let cases = [
+        (many("ascii", "4000000000") + triangle, "line 10", too_many("vertex", 4_000_000_000)),
+        (many("ascii", "18446744073709551615"), "line 10", too_many("vertex", u64::MAX)),
+        (many("binary_little_endian", "4000000000"), "byte 178", too_many("vertex", 4_000_000_000)),
+        (ending("4000000000 0 1 2"), "line 13", too_many("list item", 4_000_000_000)),
+        (ending("3 0 1"), "line 13", ParseFaultKind::EndsEarly),
+        (ending("3 0 1 3"), "line 13", out_of_range("vertex", 3, 3)),
+        (ending("3 0 1 -1"), "line 13", out_of_range("vertex", -1, 3)),
+        (ending("3 0 1 1.5"), "line 13", bad_number("1.5")),
+        (ending("2 0 1"), "line 13", ParseFaultKind::TooFewCorners(2)),
+        (with_second("1 inf 0"), "line 11", ParseFaultKind::NotFinite),
+        (with_second("1 x 0"), "line 11", bad_number("x")),
+        (head("ascii", &vertex.replace("float z", "float w")) + triangle, "line 7", unexpected("element")),
         (
             head("ascii", &format!("{vertex}{}", face.replace("int v", "float v"))) + triangle,
-            "line 9: found \"element face\", expected its list",
+            "line 9",
+            unexpected("element"),
         ),
-        (head("ascii", "element odd 18446744073709551615\n"), "the file has no faces"),
-        (head("middle_endian", vertex), "line 2: found \"middle_endian\", expected ascii or"),
-        (head("ascii", "property float x\n"), "line 3: found \"x\", expected an element"),
-        (head("ascii", "element vertex many\n"), "line 3: \"many\" is not a number"),
-        (
-            head("ascii", "element vertex 3\nproperty list float int x\n"),
-            "line 4: found \"x\", expected a property of a PLY",
-        ),
-        (head("ascii", vertex).replace("end_header\n", ""), "line 6: the file ends too early"),
-    ] {
-        let found = fault(text.as_bytes());
-        assert!(found.starts_with(message), "{text}: {found}");
-    }
+        (head("middle_endian", vertex), "line 2", unexpected("middle_endian")),
+        (head("ascii", "property float x\n"), "line 3", unexpected("x")),
+        (head("ascii", "element vertex many\n"), "line 3", bad_number("many")),
+        (head("ascii", "element vertex 3\nproperty list float int x\n"), "line 4", unexpected("x")),
+        (head("ascii", vertex).replace("end_header\n", ""), "line 6", ParseFaultKind::EndsEarly),
+    ];
+    assert_faults("formats-faults-of-ply", cases.map(|(text, place, kind)| (fault(text.as_bytes()), place, kind)));
+    let odd = head("ascii", "element odd 18446744073709551615\n");
+    assert!(matches!(fault(odd.as_bytes()), ReadError::NoFaces { vertices: 0 }));
 }
 
 #[test]

@@ -2,10 +2,12 @@
 
 use std::time::{Duration, Instant};
 
-use freebound_io::{ReadError, read_mesh, read_stream};
+use freebound_io::{ParseFaultKind, ReadError, read_mesh, read_stream};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
+use crate::obj::{assert_faults, out_of_range, place_and_kind, too_many, unexpected};
+use freebound_testkit::assert_message;
 use freebound_testkit::glb::{GlbMaker, U16, bytes_of, plain};
 
 fn fault(bytes: &[u8]) -> ReadError {
@@ -23,59 +25,64 @@ fn changed(change: impl Fn(&mut Value)) -> Vec<u8> {
     maker.glb()
 }
 
+/// Change of a correct file, and place and kind of the fault.
+type Case<'a> = (&'a dyn Fn(&mut Value), &'a str, ParseFaultKind);
+
 #[test]
-fn faults_of_the_json_are_named_by_their_elements() {
-    type Case<'a> = (&'a dyn Fn(&mut Value), &'a str);
-    let cases: [Case<'_>; 24] = [
-        (&|j| j["asset"]["version"] = json!("1.0"), "unsupported format: glTF of a version other than 2"),
-        (&|j| j["asset"] = json!(3), "asset: invalid type: integer `3`"),
-        (&|j| j["accessors"][0]["count"] = json!(-1), "accessors[0].count: invalid value: integer `-1`"),
-        (&|j| j["accessors"][0]["count"] = json!(1_u64 << 60), "accessor 0: the file declares 1152921504606846976"),
-        (&|j| j["accessors"][0]["count"] = json!(10), "accessor 0: the data reach beyond the end of their container"),
-        (&|j| j["accessors"][0]["byteOffset"] = json!(u64::MAX), "accessor 0: the data reach beyond the end"),
-        (
-            &|j| j["accessors"][0]["componentType"] = json!(5130),
-            "accessor 0: found \"5130\", expected a type of numbers",
-        ),
-        (&|j| j["accessors"][0]["type"] = json!("VEC9"), "accessor 0: found \"VEC9\", expected a type of elements"),
-        (
-            &|j| j["accessors"][0]["type"] = json!("VEC2"),
-            "accessor 0: found \"9 elements of 2 numbers\", expected one element",
-        ),
-        (
-            &|j| j["accessors"][1]["count"] = json!(8),
-            "accessor 1: found \"8 elements of 2 numbers\", expected one element",
-        ),
-        (&|j| j["accessors"][0]["bufferView"] = json!(99), "accessor 0: view 99 is out of range: there are 3"),
-        (&|j| j["bufferViews"][0]["buffer"] = json!(7), "accessor 0: buffer 7 is out of range: there are 1"),
-        (&|j| j["bufferViews"][0]["byteLength"] = json!(u64::MAX), "accessor 0: the data reach beyond"),
-        (&|j| j["bufferViews"][0]["byteStride"] = json!(4), "accessor 0: found \"4\", expected a stride of at least"),
-        (&|j| j["bufferViews"][0]["byteStride"] = json!(u64::MAX), "accessor 0: the data reach beyond"),
-        (&|j| j["accessors"][2]["componentType"] = json!(5126), "accessor 2: the data reach beyond"),
-        (&|j| j["meshes"][0]["primitives"][0]["indices"] = json!(0), "accessor 0: found \"numbers\", expected indices"),
-        (
-            &|j| j["meshes"][0]["primitives"][0]["indices"] = json!(9),
-            "accessor 9: accessor 9 is out of range: there are 3",
-        ),
-        (&|j| j["nodes"][0]["mesh"] = json!(3), "node 0: mesh 3 is out of range: there are 1"),
-        (&|j| j["nodes"][0]["children"] = json!([0]), "node 0: the node is the child of two nodes, or of itself"),
-        (&|j| j["nodes"][0]["children"] = json!([5]), "node 5: node 5 is out of range: there are 1"),
-        (&|j| j["scene"] = json!(2), "scene 2: scene 2 is out of range: there are 0"),
+fn faults_of_accessors_are_named_by_their_elements() {
+    let cases: [Case<'_>; 16] = [
+        (&|j| j["accessors"][0]["count"] = json!(1_u64 << 60), "accessor 0", too_many("element", 1 << 60)),
+        (&|j| j["accessors"][0]["count"] = json!(10), "accessor 0", ParseFaultKind::BeyondEnd),
+        (&|j| j["accessors"][0]["byteOffset"] = json!(u64::MAX), "accessor 0", ParseFaultKind::BeyondEnd),
+        (&|j| j["accessors"][0]["componentType"] = json!(5130), "accessor 0", unexpected("5130")),
+        (&|j| j["accessors"][0]["type"] = json!("VEC9"), "accessor 0", unexpected("VEC9")),
+        (&|j| j["accessors"][0]["type"] = json!("VEC2"), "accessor 0", unexpected("9")),
+        (&|j| j["accessors"][1]["count"] = json!(8), "accessor 1", unexpected("8")),
+        (&|j| j["accessors"][0]["bufferView"] = json!(99), "accessor 0", out_of_range("view", 99, 3)),
+        (&|j| j["bufferViews"][0]["buffer"] = json!(7), "accessor 0", out_of_range("buffer", 7, 1)),
+        (&|j| j["bufferViews"][0]["byteLength"] = json!(u64::MAX), "accessor 0", ParseFaultKind::BeyondEnd),
+        (&|j| j["bufferViews"][0]["byteStride"] = json!(4), "accessor 0", unexpected("4")),
+        (&|j| j["bufferViews"][0]["byteStride"] = json!(u64::MAX), "accessor 0", ParseFaultKind::BeyondEnd),
+        (&|j| j["accessors"][2]["componentType"] = json!(5126), "accessor 2", ParseFaultKind::BeyondEnd),
+        (&|j| j["meshes"][0]["primitives"][0]["indices"] = json!(0), "accessor 0", unexpected("numbers")),
+        (&|j| j["meshes"][0]["primitives"][0]["indices"] = json!(9), "accessor 9", out_of_range("accessor", 9, 3)),
         (
             &|j| j["nodes"][0] = json!({"mesh": 0, "scale": [1e308, 1, 1], "translation": [1.7e308, 0, 0]}),
-            "accessor 0: a position that is infinite",
-        ),
-        (
-            &|j| j["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]),
-            "the file needs the unsupported extension KHR_draco",
+            "accessor 0",
+            ParseFaultKind::NotFinite,
         ),
     ];
-    for (change, message) in cases {
-        let found = fault(&changed(change)).to_string();
-        assert!(found.starts_with(message), "{found}, not {message}");
-    }
+    let faults = cases.map(|(change, place, kind)| (fault(&changed(change)), place, kind));
+    assert_faults("gltf-hostile-accessors", faults);
+}
+
+#[test]
+fn faults_of_nodes_are_named_by_their_elements() {
+    let cases: [Case<'_>; 4] = [
+        (&|j| j["nodes"][0]["mesh"] = json!(3), "node 0", out_of_range("mesh", 3, 1)),
+        (&|j| j["nodes"][0]["children"] = json!([0]), "node 0", ParseFaultKind::SecondParent),
+        (&|j| j["nodes"][0]["children"] = json!([5]), "node 5", out_of_range("node", 5, 1)),
+        (&|j| j["scene"] = json!(2), "scene 2", out_of_range("scene", 2, 0)),
+    ];
+    let faults = cases.map(|(change, place, kind)| (fault(&changed(change)), place, kind));
+    assert_faults("gltf-hostile-nodes", faults);
     let nothing = fault(&changed(|j| j["meshes"][0]["primitives"] = json!([])));
     assert!(matches!(nothing, ReadError::NoFaces { .. }));
+}
+
+#[test]
+fn json_of_another_form_version_or_extension_is_refused() {
+    let version = fault(&changed(|j| j["asset"]["version"] = json!("1.0")));
+    assert!(matches!(version, ReadError::NotReadYet(_)), "{version}");
+    let asset = fault(&changed(|j| j["asset"] = json!(3)));
+    assert!(matches!(&asset, ReadError::Json { field, .. } if field == "asset"), "{asset}");
+    let count = fault(&changed(|j| j["accessors"][0]["count"] = json!(-1)));
+    assert!(matches!(&count, ReadError::Json { field, .. } if field == "accessors[0].count"), "{count}");
+    let extension = "KHR_draco_mesh_compression";
+    let compressed = fault(&changed(|j| j["extensionsRequired"] = json!([extension])));
+    assert!(matches!(&compressed, ReadError::NeedsExtension(name) if name == extension), "{compressed}");
+    let messages = [version, asset, count, compressed].map(|error| error.to_string());
+    assert_message("gltf-hostile-json", &messages.join("\n"));
 }
 
 #[test]
@@ -86,8 +93,8 @@ fn nodes_in_a_ring_and_nodes_with_two_parents_are_refused() {
         json!([{"children": [1, 1]}, {"mesh": 0}]),
         json!([{"mesh": 0}, {"children": [2]}, {"children": [1]}]),
     ] {
-        let found = fault(&changed(|j| j["nodes"] = nodes.clone())).to_string();
-        assert!(found.ends_with("the node is the child of two nodes, or of itself"), "{nodes}: {found}");
+        let (place, kind) = place_and_kind(&fault(&changed(|j| j["nodes"] = nodes.clone())));
+        assert_eq!(kind, ParseFaultKind::SecondParent, "{nodes}: {place}");
     }
 }
 
@@ -96,47 +103,48 @@ fn numbers_that_are_none_and_indices_of_no_vertex_are_refused() {
     let mut maker = plain(2, U16);
     let at = maker.binary.windows(4).position(|four| four == 1.1_f32.to_le_bytes()).expect("a position");
     maker.binary[at..at + 4].copy_from_slice(&f32::NAN.to_le_bytes());
-    assert_eq!(fault(&maker.glb()).to_string(), "accessor 0: a position that is infinite or not a number");
+    assert_eq!(place_and_kind(&fault(&maker.glb())), ("accessor 0".to_owned(), ParseFaultKind::NotFinite));
     let mut maker = plain(2, U16);
     let last = maker.binary.len() - 2;
     maker.binary[last..].copy_from_slice(&[9, 0]);
-    assert_eq!(fault(&maker.glb()).to_string(), "accessor 2: vertex 9 is out of range: there are 9");
+    assert_eq!(place_and_kind(&fault(&maker.glb())), ("accessor 2".to_owned(), out_of_range("vertex", 9, 9)));
 }
 
 #[test]
 fn sparse_elements_out_of_order_or_out_of_range_are_refused() {
-    for (places, count, message) in [
-        ([3, 0, 3, 0], 2, "found \"3\", expected a place beyond"),
-        ([9, 0, 10, 0], 2, "found \"9\", expected a place beyond"),
-        ([1, 0, 2, 0], 3, "the data reach beyond"),
-        ([1, 0, 2, 0], 1_u64 << 40, "the file declares 1099511627776"),
-    ] {
+    let cases = [
+        ([3, 0, 3, 0], 2, unexpected("3")),
+        ([9, 0, 10, 0], 2, unexpected("9")),
+        ([1, 0, 2, 0], 3, ParseFaultKind::BeyondEnd),
+        ([1, 0, 2, 0], 1_u64 << 40, too_many("element", 1 << 40)),
+    ];
+    let faults = cases.map(|(places, count, kind)| {
         let mut maker = plain(2, U16);
         let (places, values) = (maker.view(&places, None), maker.view(&bytes_of(&[0.5; 6]), None));
         maker.json["accessors"][0]["sparse"] = json!({
             "count": count, "indices": {"bufferView": places, "componentType": U16}, "values": {"bufferView": values},
         });
-        let found = fault(&maker.glb()).to_string();
-        assert!(found.starts_with(&format!("accessor 0: {message}")), "{found}");
-    }
+        (fault(&maker.glb()), "accessor 0", kind)
+    });
+    assert_faults("gltf-hostile-sparse-elements", faults);
 }
 
 #[test]
 fn what_a_binary_header_says_is_not_believed_without_the_bytes() {
     let glb = plain(2, U16).glb();
     let with = |at: usize, bytes: &[u8]| [&glb[..at], bytes, &glb[at + bytes.len()..]].concat();
-    for (bytes, message) in [
-        (with(4, &[1]), "unsupported format: glTF of a version other than 2"),
-        (with(8, &[255; 4]), "byte 8: the file declares 4294967295 of \"byte\", but ends earlier"),
-        (with(12, &[255; 4]), "byte 12: the file declares 4294967295 of \"byte\", but ends earlier"),
-        (with(16, b"XXXX"), "byte 12: found \"a chunk\", expected a JSON chunk"),
-        (with(20, b"]"), "JSON: expected value at line 1 column 1"),
-        (glb[..9].to_vec(), "byte 9: the file ends too early"),
-        (glb[..12].to_vec(), "byte 8: the file declares"),
-    ] {
-        let found = fault(&bytes).to_string();
-        assert!(found.starts_with(message), "{found}, not {message}");
-    }
+    let version = fault(&with(4, &[1]));
+    assert!(matches!(version, ReadError::NotReadYet(_)), "{version}");
+    let json = fault(&with(20, b"]"));
+    assert!(matches!(&json, ReadError::Json { field, .. } if field == "JSON"), "{json}");
+    let cases = [
+        (with(8, &[255; 4]), "byte 8", too_many("byte", u32::MAX.into())),
+        (with(12, &[255; 4]), "byte 12", too_many("byte", u32::MAX.into())),
+        (with(16, b"XXXX"), "byte 12", unexpected("a")),
+        (glb[..9].to_vec(), "byte 9", ParseFaultKind::EndsEarly),
+        (glb[..12].to_vec(), "byte 8", too_many("byte", glb.len() as u64)),
+    ];
+    assert_faults("gltf-hostile-header", cases.map(|(bytes, place, kind)| (fault(&bytes), place, kind)));
     for length in 0..glb.len() {
         read_stream(&glb[..length]).expect_err("it is cut short");
     }
@@ -144,19 +152,25 @@ fn what_a_binary_header_says_is_not_believed_without_the_bytes() {
 
 #[test]
 fn buffers_that_are_nowhere_or_elsewhere_are_refused() {
-    for (uri, message) in [
-        ("https://example.org/a.bin", "buffer 0: https://example.org/a.bin cannot be read: "),
-        ("/dev/zero", "buffer 0: /dev/zero cannot be read: "),
-        ("data:application/octet-stream;base64,!!", "buffer 0: data:application/octet-stream;base64,!! cannot be"),
-        ("data:application/octet-stream,abc", "buffer 0: data:application/octet-stream,abc cannot be read: not base64"),
-        ("data:;base64,AAAA", "buffer 0: the file declares"),
+    let mut messages = Vec::new();
+    for uri in [
+        "https://example.org/a.bin",
+        "/dev/zero",
+        "data:application/octet-stream;base64,!!",
+        "data:application/octet-stream,abc",
     ] {
         let text = plain(2, U16).finished(Some(uri.to_owned())).to_string();
-        let found = fault(text.as_bytes()).to_string();
-        assert!(found.starts_with(message), "{found}");
+        let error = fault(text.as_bytes());
+        assert!(matches!(&error, ReadError::Beside { buffer: 0, uri: named, .. } if named == uri), "{error}");
+        messages.push(error.to_string());
     }
-    let without = plain(2, U16).finished(None).to_string();
-    assert!(fault(without.as_bytes()).to_string().starts_with("buffer 0: its content cannot be read"));
+    let without = fault(plain(2, U16).finished(None).to_string().as_bytes());
+    assert!(matches!(without, ReadError::Beside { buffer: 0, .. }), "{without}");
+    messages.push(without.to_string());
+    assert_message("gltf-hostile-buffers", &messages.join("\n"));
+    let short = plain(2, U16).finished(Some("data:;base64,AAAA".to_owned())).to_string();
+    let (place, kind) = place_and_kind(&fault(short.as_bytes()));
+    assert!(place == "buffer 0" && matches!(kind, ParseFaultKind::TooMany { .. }), "{place}: {kind}");
 }
 
 #[test]
@@ -194,8 +208,9 @@ fn one_file_is_not_read_for_any_number_of_buffers() {
     json["buffers"] = vec![json!({"uri": "a.bin", "byteLength": 100}); 17].into();
     let path = folder.path().join("a.gltf");
     std::fs::write(&path, json.to_string()).expect("written");
-    let error = read_mesh(&path).expect_err("it is wrong").to_string();
-    assert!(error.starts_with("buffer 16: a.bin cannot be read: more than 16 buffers have it"), "{error}");
+    let error = read_mesh(&path).expect_err("it is wrong");
+    assert!(matches!(&error, ReadError::Beside { buffer: 16, uri, .. } if uri == "a.bin"), "{error}");
+    assert_message("gltf-hostile-too-many-buffers", &error.to_string());
 }
 
 /// Value in a JSON tree, on a path chosen by numbers.

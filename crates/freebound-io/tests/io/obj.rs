@@ -6,14 +6,68 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use freebound_core::mesh::VertexId;
-use freebound_io::{MAX_PARSE_FAULTS, ReadError, read_mesh, read_mesh_with, read_stream, read_stream_with};
+use freebound_io::{
+    MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, read_mesh, read_mesh_with, read_stream, read_stream_with,
+};
 use glam::DVec3;
 use proptest::prelude::*;
 
-use freebound_testkit::{Random, corpus_test, manifest};
+use freebound_testkit::{Random, assert_message, corpus_test, manifest};
 
 /// Four vertices, three texture coordinates and two normals to refer to.
 pub(crate) const ELEMENTS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\n";
+
+/// Fault of a word that is no number.
+pub(crate) fn bad_number(word: &str) -> ParseFaultKind {
+    ParseFaultKind::BadNumber(word.to_owned())
+}
+
+/// Fault of a word that is no corner of a face.
+fn bad_corner(word: &str) -> ParseFaultKind {
+    ParseFaultKind::BadCorner(word.to_owned())
+}
+
+/// Fault of a file that declares more elements than it has.
+pub(crate) fn too_many(element: &str, count: u64) -> ParseFaultKind {
+    ParseFaultKind::TooMany { element: element.to_owned(), count }
+}
+
+/// Fault of an index of no element.
+pub(crate) fn out_of_range(element: &'static str, index: i64, count: usize) -> ParseFaultKind {
+    ParseFaultKind::IndexOutOfRange { element, index, count }
+}
+
+/// Fault of an unexpected text that begins with this word.
+pub(crate) fn unexpected(word: &str) -> ParseFaultKind {
+    ParseFaultKind::Unexpected { found: word.to_owned(), expected: "" }
+}
+
+/// Place and kind of the only fault of a file. Of an unexpected text only the first word is kept.
+pub(crate) fn place_and_kind(error: &ReadError) -> (String, ParseFaultKind) {
+    let (place, kind) = match error {
+        ReadError::Parse { faults, .. } => {
+            let [fault] = &faults[..] else { panic!("{error}") };
+            (format!("line {}", fault.line), &fault.kind)
+        }
+        ReadError::Bytes { byte, kind } => (format!("byte {byte}"), kind),
+        ReadError::Element { element, kind } => (element.clone(), kind),
+        _ => panic!("{error}"),
+    };
+    match kind {
+        ParseFaultKind::Unexpected { found, .. } => (place, unexpected(found.split(' ').next().unwrap_or_default())),
+        kind => (place, kind.clone()),
+    }
+}
+
+/// Asserts the places and the kinds of faults, and their messages.
+pub(crate) fn assert_faults<'a>(topic: &str, cases: impl IntoIterator<Item = (ReadError, &'a str, ParseFaultKind)>) {
+    let mut messages = Vec::new();
+    for (error, place, kind) in cases {
+        assert_eq!(place_and_kind(&error), (place.to_owned(), kind), "{error}");
+        messages.push(error.to_string());
+    }
+    assert_message(topic, &messages.join("\n"));
+}
 
 /// Corners of the faces of `ELEMENTS` with more lines after it.
 fn faces(lines: &str) -> Vec<Vec<u32>> {
@@ -116,12 +170,12 @@ fn statements_are_kept_with_the_face_they_stand_before() {
     assert_eq!(found, expected.map(|(face, keyword, rest)| (face, keyword.to_owned(), rest.to_owned())));
 }
 
-/// Parse faults of a text, as messages.
-fn faults(text: &str) -> Vec<String> {
+/// Parse faults of a text.
+fn faults(text: &str) -> Vec<ParseFault> {
     match read_stream(text.as_bytes()) {
         Err(ReadError::Parse { faults, total }) => {
             assert_eq!(faults.len(), total.min(MAX_PARSE_FAULTS));
-            faults.iter().map(ToString::to_string).collect()
+            faults
         }
         other => panic!("{text}: {other:?}"),
     }
@@ -129,55 +183,59 @@ fn faults(text: &str) -> Vec<String> {
 
 #[test]
 fn faces_that_name_what_never_comes_know_their_lines() {
-    let lines = faults(&format!("{ELEMENTS}f 1 2 99\nf 1 3 99\n\nf 1 2 \\\n99\nf 2 3 99\n"));
-    let line = |number| format!("line {number}: vertex 99 is out of range: there are 4");
-    assert_eq!(lines, [10, 11, 13, 15].map(line));
+    let found = faults(&format!("{ELEMENTS}f 1 2 99\nf 1 3 99\n\nf 1 2 \\\n99\nf 2 3 99\n"));
+    assert_eq!(found, [10, 11, 13, 15].map(|line| ParseFault { line, kind: out_of_range("vertex", 99, 4) }));
 }
 
 #[test]
 fn malformed_lines_are_named_with_their_numbers() {
-    for (line, message) in [
-        ("v 1 2", "2 numbers, but 3 are needed"),
-        ("v", "0 numbers, but 3 are needed"),
-        ("v 1 X0.5 3", "\"X0.5\" is not a number"),
-        ("v 1,5 2 3", "\"1,5\" is not a number"),
-        ("v 1 2 0x10", "\"0x10\" is not a number"),
-        ("vt", "0 numbers, but 2 are needed"),
-        ("vt u v", "\"u\" is not a number"),
-        ("f", "a face has 0 corners, but three are needed"),
-        ("f 1", "a face has 1 corner, but three are needed"),
-        ("f 1 2", "a face has 2 corners, but three are needed"),
-        ("f 1 2 #3", "a face has 2 corners, but three are needed"),
-        ("f 0 1 2", "index 0: OBJ files count from 1"),
-        ("f 1 2 5", "vertex 5 is out of range: there are 4"),
-        ("f 1 2 99999999999999999999", "vertex 9223372036854775807 is out of range: there are 4"),
-        ("f -1 -2 -5", "vertex -5 is out of range: there are 4"),
-        ("f 1/4 2/1 3/1", "texture coordinate 4 is out of range: there are 3"),
-        ("f 1/0 2/1 3/1", "index 0: OBJ files count from 1"),
-        ("f 1/-4 2/1 3/1", "texture coordinate -4 is out of range: there are 3"),
-        ("f 1 2 x", "\"x\" is not a corner of a face"),
-        ("f 1 2 3.5", "\"3.5\" is not a corner of a face"),
-        ("f 1 2 3/1/1/1", "\"3/1/1/1\" is not a corner of a face"),
-        ("f 1 2 /3", "\"/3\" is not a corner of a face"),
-        ("f 1 2 3/x", "\"3/x\" is not a corner of a face"),
-        ("f 1 2 3//x", "\"3//x\" is not a corner of a face"),
-        ("f 1 2 -", "\"-\" is not a corner of a face"),
+    let mut messages = Vec::new();
+    for (line, kind) in [
+        ("v 1 2", ParseFaultKind::TooFewNumbers { found: 2, needed: 3 }),
+        ("v", ParseFaultKind::TooFewNumbers { found: 0, needed: 3 }),
+        ("v 1 X0.5 3", bad_number("X0.5")),
+        ("v 1,5 2 3", bad_number("1,5")),
+        ("v 1 2 0x10", bad_number("0x10")),
+        ("vt", ParseFaultKind::TooFewNumbers { found: 0, needed: 2 }),
+        ("vt u v", bad_number("u")),
+        ("f", ParseFaultKind::TooFewCorners(0)),
+        ("f 1", ParseFaultKind::TooFewCorners(1)),
+        ("f 1 2", ParseFaultKind::TooFewCorners(2)),
+        ("f 1 2 #3", ParseFaultKind::TooFewCorners(2)),
+        ("f 0 1 2", ParseFaultKind::IndexZero),
+        ("f 1 2 5", out_of_range("vertex", 5, 4)),
+        ("f 1 2 99999999999999999999", out_of_range("vertex", i64::MAX, 4)),
+        ("f -1 -2 -5", out_of_range("vertex", -5, 4)),
+        ("f 1/4 2/1 3/1", out_of_range("texture coordinate", 4, 3)),
+        ("f 1/0 2/1 3/1", ParseFaultKind::IndexZero),
+        ("f 1/-4 2/1 3/1", out_of_range("texture coordinate", -4, 3)),
+        ("f 1 2 x", bad_corner("x")),
+        ("f 1 2 3.5", bad_corner("3.5")),
+        ("f 1 2 3/1/1/1", bad_corner("3/1/1/1")),
+        ("f 1 2 /3", bad_corner("/3")),
+        ("f 1 2 3/x", bad_corner("3/x")),
+        ("f 1 2 3//x", bad_corner("3//x")),
+        ("f 1 2 -", bad_corner("-")),
     ] {
         // The first faulty line ends the file; the second does not.
-        assert_eq!(faults(&format!("{ELEMENTS}f 1 2 3\n{line}")), [format!("line 11: {message}")], "{line}");
-        assert_eq!(faults(&format!("{ELEMENTS}{line}\nf 1 2 3\n")), [format!("line 10: {message}")], "{line}");
+        let at_end = faults(&format!("{ELEMENTS}f 1 2 3\n{line}"));
+        assert_eq!(at_end, [ParseFault { line: 11, kind: kind.clone() }], "{line}");
+        let within = faults(&format!("{ELEMENTS}{line}\nf 1 2 3\n"));
+        assert_eq!(within, [ParseFault { line: 10, kind }], "{line}");
+        messages.push(within[0].to_string());
     }
+    assert_message("obj-malformed-lines", &messages.join("\n"));
 }
 
 #[test]
 fn all_faults_are_collected_by_line() {
     let text = format!("f 1 2 7\n{ELEMENTS}f 1 2\nf 1 2 \\\n3 x\nv 1 2 z\nf 6 1 2");
     let expected = [
-        "line 1: vertex 7 is out of range: there are 5",
-        "line 11: a face has 2 corners, but three are needed",
-        "line 12: \"x\" is not a corner of a face",
-        "line 14: \"z\" is not a number",
-        "line 15: vertex 6 is out of range: there are 5",
+        ParseFault { line: 1, kind: out_of_range("vertex", 7, 5) },
+        ParseFault { line: 11, kind: ParseFaultKind::TooFewCorners(2) },
+        ParseFault { line: 12, kind: bad_corner("x") },
+        ParseFault { line: 14, kind: bad_number("z") },
+        ParseFault { line: 15, kind: out_of_range("vertex", 6, 5) },
     ];
     assert_eq!(faults(&text), expected);
 }
@@ -186,10 +244,12 @@ fn all_faults_are_collected_by_line() {
 fn faults_beyond_the_limit_are_counted() {
     let text = format!("{ELEMENTS}{}{}", "f 9 1 2\n".repeat(15), "f 1 2\n".repeat(40));
     let Err(error) = read_stream(text.as_bytes()) else { panic!("it is wrong") };
+    let ReadError::Parse { faults, total } = &error else { panic!("{error}") };
+    assert_eq!((faults.len(), *total), (MAX_PARSE_FAULTS, 55));
+    assert_eq!(faults[0], ParseFault { line: 10, kind: out_of_range("vertex", 9, 4) });
     let message = error.to_string();
     assert_eq!(message.lines().count(), MAX_PARSE_FAULTS + 1);
-    assert!(message.ends_with("and 35 more faults"), "{message}");
-    assert!(message.starts_with("line 10: vertex 9"), "{message}");
+    assert_message("obj-faults-beyond-the-limit", &message);
 }
 
 #[test]
@@ -205,21 +265,22 @@ fn a_file_without_faces_is_named() {
 #[test]
 fn other_formats_are_named_by_extension_and_by_content() {
     let folder = tempfile::tempdir().expect("a folder");
+    let mut messages = Vec::new();
     for (extension, format) in [("FBX", "FBX"), ("dae", "COLLADA"), ("usdz", "USD")] {
         let path = folder.path().join(format!("mesh.{extension}"));
         std::fs::write(&path, "whatever").expect("written");
         let error = read_mesh(&path).expect_err("it is not read yet");
-        assert_eq!(error.to_string(), format!("unsupported format: {format}"));
+        assert!(matches!(error, ReadError::NotReadYet(name) if name == format), "{error}");
+        messages.push(error.to_string());
     }
-    for (content, format) in [
-        (&b"4OFF\n3 1 0\n"[..], "OFF without exactly three coordinates"),
-        (b"# comment\nOFF BINARY\n", "binary OFF"),
-        (b"<?xml version=\"1.0\"?>\n", "XML"),
-        (b"glTF\x01\0\0\0\0\0\0\0", "glTF of a version other than 2"),
-    ] {
+    for content in
+        [&b"4OFF\n3 1 0\n"[..], b"# comment\nOFF BINARY\n", b"<?xml version=\"1.0\"?>\n", b"glTF\x01\0\0\0\0\0\0\0"]
+    {
         let error = read_stream(content).expect_err("not read");
-        assert_eq!(error.to_string(), format!("unsupported format: {format}"));
+        assert!(matches!(error, ReadError::NotReadYet(_)), "{error}");
+        messages.push(error.to_string());
     }
+    assert_message("obj-other-formats", &messages.join("\n"));
 }
 
 #[test]
@@ -228,7 +289,6 @@ fn a_folder_and_a_missing_file_are_errors() {
     for path in [folder.path(), &folder.path().join("missing.obj")] {
         let error = read_mesh(path).expect_err("no file");
         assert!(matches!(error, ReadError::Unreadable(_)), "{error}");
-        assert!(error.to_string().starts_with("cannot be read: "), "{error}");
     }
 }
 
@@ -307,6 +367,7 @@ fn a_stream_that_breaks_off_is_an_error() {
         Pieces { bytes: ELEMENTS.as_bytes(), sizes: vec![7], next: 0, breaks: Some(io::ErrorKind::ConnectionReset) };
     let error = read_stream(reader).expect_err("it broke off");
     assert!(matches!(error, ReadError::Unreadable(_)), "{error}");
+    assert_message("obj-stream-that-breaks-off", &error.to_string());
 }
 
 #[test]

@@ -3,9 +3,10 @@
 use std::time::Duration;
 
 use eframe::egui;
+use freebound_testkit::assert_message;
 
 use crate::examples::Example;
-use crate::session::{Action, RecentFiles};
+use crate::session::{Action, MessagePlace, RecentFiles, Severity};
 use crate::ui::editor::Editor;
 
 #[test]
@@ -33,7 +34,8 @@ fn a_sheet_that_cannot_be_drawn_is_said_once_and_not_waited_for() {
     editor.plane.job.make(editor.session.outcome_revision(), |_| panic!("on purpose"));
     rest(&mut editor);
     rest(&mut editor);
-    let texts: Vec<&str> = editor.session.messages().iter().map(|message| message.text.as_str()).collect();
-    assert_eq!(texts, ["drawing stopped unexpectedly"]);
+    let [message] = editor.session.messages() else { panic!("{:?}", editor.session.messages()) };
+    assert_eq!((message.severity, message.place), (Severity::Error, MessagePlace::Embedding));
+    assert_message("tests-drawing-has-stopped", &message.text);
     assert_eq!(editor.plane.scene().map(|scene| scene.outcome_revision), Some(before), "what was drawn stays");
 }

@@ -12,7 +12,7 @@ use proptest::prelude::*;
 
 use crate::linear::shapes::finger;
 use freebound_testkit::surfaces::irregular_cube;
-use freebound_testkit::{Random, grid};
+use freebound_testkit::{Random, assert_message, grid};
 
 /// Returns all steps of a run, and its ending.
 fn steps_of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Result<(Vec<Step>, Ending), SolveError> {
@@ -155,6 +155,12 @@ fn a_step_that_is_cancelled_anywhere_leaves_the_way_as_it_was() {
     assert!(whole.last().unwrap().unmet().is_empty());
 }
 
+/// Remark on a step that contains a word.
+fn remark_with<'a>(step: &'a Step, word: &str) -> &'a str {
+    let note = step.candidate.note.as_deref().unwrap_or_default();
+    note.split("; ").find(|remark| remark.contains(word)).expect("it is said")
+}
+
 fn from_cache(pins: Pins, cache: &SolverCache) -> Flattener {
     let settings = one_to_one(Method::Continuation);
     Flattener::with_options(Options { settings, pins, cache: Some(cache.clone()), ..Options::default() })
@@ -168,7 +174,7 @@ fn the_planar_start_is_among_the_steps_and_serves_other_targets_on_the_mesh() {
     assert!(fitted > 0 && steps[fitted].candidate.stage == Stage::Continuation);
     assert!(steps[..fitted].iter().all(|step| step.is_of_planar_start() && !step.unmet().is_empty()));
     assert!(steps[fitted - 1].verdict.planar, "no end, as the constraints are not met");
-    assert!(steps[0].candidate.note.as_ref().is_some_and(|note| note.contains("constraints ignored")));
+    assert_message("continuation-constraints-ignored", remark_with(&steps[0], "ignored"));
     let kept = SolverCache { planar_start: steps[fitted].candidate.planar_start.clone(), prepared: None };
     let mut run = from_cache(pins, &kept);
     let mut shorter: Vec<Step> = Vec::new();
@@ -227,15 +233,13 @@ fn a_ladder_goes_on_from_an_embedding_that_is_one_to_one_and_begins_afresh_where
     assert!(on[0].max_move.unwrap() < 3.0 * way.length(), "{:?}", on[0].max_move);
     let mut folded = before.clone();
     folded[inner] += 10.0 * way;
+    let mut said = Vec::new();
     for bad in [folded, Embedding::default()] {
         let from_scratch = run(&bad);
-        assert_ne!(from_scratch[0].candidate.stage, Stage::Continuation);
-        assert!(
-            from_scratch[0].candidate.note.as_ref().is_some_and(|note| note.contains("from scratch")),
-            "{:?}",
-            from_scratch[0].candidate.note
-        );
+        assert!(from_scratch[0].candidate.stage != Stage::Continuation && !from_scratch[0].is_continued);
+        said.push(remark_with(&from_scratch[0], "restarted").to_owned());
     }
+    assert_message("continuation-from-scratch", &said.join("\n"));
     // Two pins only fix position, size and rotation, and other methods do not use continuation.
     let two: Pins = pins.iter().take(2).map(|(&v, pin)| (v, *pin)).collect();
     for (settings, pins) in [(Settings::default(), two), (one_to_one(Method::Natural), pins.clone())] {

@@ -110,6 +110,11 @@ corpus_test! {
     }
 }
 
+/// True for a natural boundary with the default weights.
+fn is_natural_by_default_weights(step: &Step) -> bool {
+    step.candidate.stage == Stage::Natural && step.candidate.family == Family::default()
+}
+
 corpus_test! {
     fn a_free_boundary_is_looked_for_before_one_is_bent() {
         let mesh = corpus_entry("bunny_disk.obj").disk();
@@ -123,7 +128,7 @@ corpus_test! {
             .expect("for some pins these weights cross the boundary");
         let last = steps.last().unwrap();
         assert!(last.verdict.planar && !last.candidate.has_convex_boundary());
-        assert!(steps.iter().any(|step| step.candidate.note.as_ref().is_some_and(|note| note.contains("restarted with"))));
+        assert!(steps.iter().any(is_natural_by_default_weights));
     }
 }
 
@@ -137,8 +142,7 @@ corpus_test! {
         );
         assert!(matches!(alone, Err(SolveError::Singular { .. })), "{alone:?}");
         let steps = steps_of(&mesh, Settings::new(Method::Auto, Family::Wachspress), &Pins::new());
-        let note = steps[0].candidate.note.clone().unwrap_or_default();
-        assert!(note.contains("singular") && note.contains("restarted with"), "{note}");
+        assert!(is_natural_by_default_weights(&steps[0]) && steps[0].candidate.note.is_some());
         assert!(steps.last().unwrap().verdict.planar);
     }
 }

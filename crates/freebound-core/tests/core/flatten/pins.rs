@@ -162,8 +162,8 @@ fn pins_that_cannot_be_are_named() {
 fn choices_that_do_not_go_together_are_named() {
     let triangle = disk(TriMesh::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]]));
     let square = Settings::new(Method::Convex(BoundaryShape::Square), Family::Uniform);
-    let too_short = SolveError::BoundaryTooShort { shape: "a square", found: 3, needed: 4 };
-    assert_eq!(solve(&triangle, &square, &Pins::new()), Err(too_short));
+    let too_short = solve(&triangle, &square, &Pins::new());
+    assert!(matches!(too_short, Err(SolveError::BoundaryTooShort { found: 3, needed: 4, .. })), "{too_short:?}");
     let circle = Settings { method: Method::Convex(BoundaryShape::Circle), ..square };
     assert!(solve(&triangle, &circle, &Pins::new()).is_ok(), "a circle takes a single triangle");
     for family in [Family::Uniform, Family::ShapePreserving] {
