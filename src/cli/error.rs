@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter};
 use std::path::Path;
 
 use crate::session::{Model, MorphShortage};
-use freebound_core::mesh::{Diagnosis, Done, Repairs};
+use freebound_core::mesh::{Diagnosis, Done, Repair, Repairs};
 use freebound_core::problem::{Cause, Method, NamedOption as _, SolveError};
 use freebound_io::{ConstraintsError, EdgesError, MemoryShortage, PictureError, ReadError, TextureError, WriteError};
 
@@ -158,7 +158,12 @@ impl Display for Remedy {
         if self.done.is_empty() {
             return f.write_str("\nthese faults are harmless: drop --repair none to flatten the mesh");
         }
-        let done: Vec<String> = self.done.iter().map(ToString::to_string).collect();
+        // The number of edges depends on the seams, which are not found yet.
+        let words = |done: &Done| match done.repair {
+            Repair::Cut => "surface cut open along seams".to_owned(),
+            _ => done.to_string(),
+        };
+        let done: Vec<String> = self.done.iter().map(words).collect();
         write!(f, "\nto repair the mesh, add {}: {}", self.options.join(" "), done.join(", "))
     }
 }

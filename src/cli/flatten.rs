@@ -24,13 +24,27 @@ use crate::session::{Model, example_picture};
 use freebound_core::geom::PictureFrame;
 use freebound_core::mesh::FaceId;
 use freebound_core::pipeline::{Fit, PipelineOptions, Targets, hard_targets};
-use freebound_core::problem::NamedOption as _;
+use freebound_core::problem::{NamedOption as _, Settings};
 use freebound_io::{Materials, OutputKind, PictureFile, Precision, WriteError};
 
 /// Folder for the example, relative to the current folder.
 const FOLDER: &str = "freebound-example";
 
+/// Rounds of relaxing of an unwrapped mesh that needed no seams.
+const UNWRAP_ROUNDS: usize = 40;
+
 pub(super) fn run(arguments: &FlattenArguments) -> Result<CommandOutcome, CommandError> {
+    run_with(arguments, None)
+}
+
+/// Runs `unwrap`.
+pub(super) fn unwrap(arguments: &FlattenArguments) -> Result<CommandOutcome, CommandError> {
+    run_with(arguments, Some(UNWRAP_ROUNDS))
+}
+
+/// Flattens a mesh. `usual_rounds` of relaxing follow if the arguments do not say otherwise and a part of the mesh has
+/// no map from the search for automatic seams.
+fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result<CommandOutcome, CommandError> {
     let FlattenArguments { input, solve, .. } = arguments;
     if let Some((option, why)) = arguments.idle_option() {
         let name = arguments.settings().method.name();
@@ -57,9 +71,13 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<CommandOutcome, Comman
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
         let packing = arguments.packing(picture.as_ref());
         let aspect = picture.as_ref().map(PictureFile::aspect).or(solve.aspect);
+        let settings = arguments.settings();
+        let has_map = model.automatic_seams.as_ref().is_some_and(|seams| seams.corners.iter().all(Option::is_some));
+        let relax_rounds = settings.relax_rounds.or(usual_rounds.filter(|_| !has_map));
         let options = PipelineOptions {
             preparation: model.prepared.form.clone(),
-            settings: arguments.settings(),
+            distortion: None,
+            settings: Settings { relax_rounds, ..settings },
             frame: PictureFrame { aspect: aspect.unwrap_or(1.0), ..PictureFrame::default() },
             has_picture: aspect.is_some(),
             sizes: sizes(&arguments.chart_size, &model, &targets)?,

@@ -17,7 +17,7 @@ use freebound_core::flatten::Flattener;
 use freebound_core::pipeline::{Fit, PipelineOptions, Problem, SolvedProblem};
 use freebound_core::problem::{Control, Phase, SolveError};
 use freebound_core::verify::{Conflict, conflicts};
-use freebound_io::{Materials, Output, OutputKind, PictureFile, Precision, StepReport, StepsFolder};
+use freebound_io::{Materials, Output, OutputKind, PictureFile, Precision, SeamsReport, StepReport, StepsFolder};
 
 /// Flattening without a screen of a mesh that is read.
 pub(super) struct HeadlessJob<'a> {
@@ -53,7 +53,7 @@ impl HeadlessJob<'_> {
         warn_of_conflicts(model, &problem)?;
         let SolvedChart { solved, records } = solve(model, problem, folder.as_mut(), progress)?;
         let mut output = model.finished(&solved.outcome, records, self.fit);
-        output.report.seconds.read = read;
+        report_seams(&mut output, model, read);
         self.write(&mut output, folder, start, progress)?;
         self.conclude(&output, || summary(&output.report, &ending_words(&solved, &output)))
     }
@@ -89,7 +89,7 @@ impl HeadlessJob<'_> {
             .collect();
         let before = Instant::now();
         let mut output = finished_atlas(&charts, self.options.packing, self.options.arrangement);
-        output.report.seconds.read = read;
+        report_seams(&mut output, model, read);
         output.report.seconds.verify = before.elapsed().as_secs_f64();
         self.write(&mut output, None, start, progress)?;
         self.conclude(&output, || atlas_summary(&output.report))
@@ -158,6 +158,14 @@ impl HeadlessJob<'_> {
         let are_met = report.pins.iter().chain(of_charts).all(|pins| pins.unmet.is_empty());
         Ok(if output.is_planar() && are_met { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
     }
+}
+
+/// Reports the automatic seams of a mesh, which were found while it was read, within `read` seconds.
+fn report_seams(output: &mut Output<'_>, model: &Model, read: f64) {
+    let seams = model.automatic_seams.as_deref();
+    output.report.seams = seams.map(SeamsReport::of);
+    output.report.seconds.cut = seams.map_or(0.0, |seams| seams.seconds);
+    output.report.seconds.read = read - output.report.seconds.cut;
 }
 
 /// Warns of conflicting constraints on a mesh or chart.

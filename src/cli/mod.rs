@@ -5,7 +5,7 @@
 //! | `mod`         | runs a command; list of methods and families                             |
 //! | `args/`       | arguments of the program                                                 |
 //! | `typed`       | parsers for values of options                                            |
-//! | `flatten`     | command `flatten`; the example if no window can be opened                |
+//! | `flatten`     | commands `flatten` and `unwrap`; the example if no window can be opened                |
 //! | `job`         | flattening of one chart or several, with outputs and summary             |
 //! | `check`       | command `check`: diagnosis of a mesh, verdict on its texture coordinates |
 //! | `compare`     | command `compare`: several methods on one mesh                           |
@@ -62,7 +62,7 @@ use freebound_core::problem::{Family, Labels, Method, NamedOption};
 
 pub use args::{
     Arguments, CompareArguments, ComparisonFile, Cut, ExampleArguments, FlattenArguments, MeshArguments, SeamKind,
-    SolveArguments, StartOf, StudyArguments, Subcommands, ThreadArguments, TypedShape,
+    SolveArguments, StartOf, StudyArguments, Subcommands, ThreadArguments, TypedShape, UnwrapArguments,
 };
 pub use error::{CommandError, CommandOutcome, Remedy};
 pub use figures::pairs;
@@ -74,6 +74,9 @@ pub fn run(command: &Subcommands) -> ExitCode {
     progress::stop_on_interrupt();
     let (outcome, subject) = match command {
         Subcommands::Flatten(arguments) => (flatten::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
+        Subcommands::Unwrap(arguments) => {
+            (flatten::unwrap(&arguments.flatten), Some((&arguments.flatten.input.mesh, &arguments.flatten.report)))
+        }
         Subcommands::Compare(arguments) => (compare::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
         Subcommands::Check(arguments) => (check::run(arguments), Some((&arguments.mesh, &arguments.report))),
         Subcommands::Figures(arguments) => (figures::run(&arguments.folder), None),

@@ -50,7 +50,7 @@ impl InputSpec<'_> {
         }
         progress.enter("reading");
         let read = read_model(&input.mesh, MemoryLimit::typed(input.large))?;
-        let model = with_parts(formed(&read, input)?, input.parts.as_ref())?;
+        let model = with_parts(formed(&read, input, progress)?, input.parts.as_ref())?;
         places.spare_materials(&model.source, &input.mesh)?;
         let picture = picture.map(PictureFile::read).transpose()?;
         disk_of(&model)?;

@@ -120,7 +120,7 @@ impl OutputPaths {
         }
         match &input.cut {
             Cut::Along(edges) => self.spare(edges, "the edges"),
-            Cut::None | Cut::Auto => Ok(()),
+            Cut::None | Cut::Auto | Cut::Shortest => Ok(()),
         }
     }
 

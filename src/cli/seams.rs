@@ -2,8 +2,11 @@
 
 use super::args::{Cut, MeshArguments, SeamKind};
 use super::error::CommandError;
+use super::progress::{INTERRUPTED, ProgressLine};
 use crate::session::Model;
+use freebound_core::cutting::SeamOptions;
 use freebound_core::mesh::{Preparation, VertexId};
+use freebound_core::problem::Control;
 use freebound_io::{LabelError, TextureError, read_edges};
 
 /// Mesh in the requested preparation. `model` is read, but not prepared.
@@ -11,7 +14,7 @@ use freebound_io::{LabelError, TextureError, read_edges};
 /// # Errors
 ///
 /// [`CommandError`] if seams need data that the file lacks, or a file of edges cannot be used.
-pub(super) fn formed(model: &Model, arguments: &MeshArguments) -> Result<Model, CommandError> {
+pub(super) fn formed(model: &Model, arguments: &MeshArguments, progress: &ProgressLine) -> Result<Model, CommandError> {
     let mut form = arguments.form();
     if form.seams.of_texture {
         check_texture(model)?;
@@ -24,7 +27,23 @@ pub(super) fn formed(model: &Model, arguments: &MeshArguments) -> Result<Model, 
     for kind in &arguments.seams {
         form.seams = form.seams.with(edges_of(&uncut, *kind)?);
     }
-    Ok(model.in_form(form))
+    cut(model.in_form(form), arguments, progress)
+}
+
+/// Model cut along automatic seams, if they are requested. `model` is cut along the shortest paths, if it is cut.
+fn cut(model: Model, arguments: &MeshArguments, progress: &ProgressLine) -> Result<Model, CommandError> {
+    if matches!(arguments.cut, Cut::None | Cut::Shortest) {
+        return match arguments.distortion {
+            Some(_) => Err(CommandError::Usage("--distortion needs automatic seams: add --cut auto".into())),
+            None => Ok(model),
+        };
+    }
+    let usual = (!model.prepared.is_plain_disk()).then_some(SeamOptions::DISTORTION);
+    let Some(bound) = arguments.distortion.or(usual) else { return Ok(model) };
+    progress.enter("cutting");
+    let control = Control::new(&INTERRUPTED, &|_| {});
+    let seams = model.find_seams(SeamOptions::new(bound), control)?;
+    Ok(model.cut_along(seams))
 }
 
 fn edges_of(model: &Model, kind: SeamKind) -> Result<Vec<[VertexId; 2]>, CommandError> {

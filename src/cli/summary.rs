@@ -13,7 +13,7 @@ use freebound_core::problem::{Method, NamedOption as _, SolveError, Stage};
 use freebound_core::verify::{Conflict, Verdict};
 use freebound_io::{
     ChartNumber, ChartReport, Column, ComparisonReport, ComparisonSeconds, MeshReport, MorphReport, Output, Report,
-    Seconds,
+    SeamsReport, Seconds,
 };
 
 /// Maximum number of vertices, conflicts or charts that are listed. The others are only counted.
@@ -144,6 +144,7 @@ fn first_words(mesh: &MeshReport) -> String {
 pub(super) fn atlas_summary(report: &Report) -> String {
     let mut lines = vec![first_words(&report.mesh)];
     lines.extend(mesh_words(&report.mesh));
+    lines.extend(seams_words(report));
     let family = report.family.map(|family| format!(", {family} weights")).unwrap_or_default();
     if let Some(atlas) = &report.atlas {
         let holds = if atlas.planar_in_f32 { "; holds in 32 bits" } else { "; does not hold in 32 bits" };
@@ -220,9 +221,17 @@ fn chart_words(chart: &ChartReport, packing: Option<PackingSummary>) -> String {
     format!("chart of face {face}: {faces}, {steps}{stage}; symmetric Dirichlet energy {energy:.3}{density}{pins}")
 }
 
+/// Line on automatic seams, if some were cut.
+fn seams_words(report: &Report) -> Option<String> {
+    let seams = report.seams.filter(|seams| seams.length > 0.0)?;
+    let SeamsReport { length, relative_length, bound } = seams;
+    Some(format!("seams: {length:.4} long, {relative_length:.2} √area; wanted energy: at most {bound}"))
+}
+
 fn seconds_words(seconds: &Seconds) -> String {
+    let cut = if seconds.cut > 0.0 { format!(", cut {:.3}", seconds.cut) } else { String::new() };
     format!(
-        "{:.3} s: read {:.3}, solve {:.3}, verify {:.3}, write {:.3}",
+        "{:.3} s: read {:.3}{cut}, solve {:.3}, verify {:.3}, write {:.3}",
         seconds.total, seconds.read, seconds.solve, seconds.verify, seconds.write
     )
 }
@@ -231,6 +240,7 @@ fn seconds_words(seconds: &Seconds) -> String {
 pub(super) fn summary(report: &Report, verdict: &str) -> String {
     let mut lines = vec![first_words(&report.mesh)];
     lines.extend(mesh_words(&report.mesh));
+    lines.extend(seams_words(report));
     let family = report.family.map(|family| format!(", {family} weights")).unwrap_or_default();
     // Without a linear system there is no residual.
     let residual = report.steps.last().and_then(|step| step.residual).filter(|residual| residual.is_finite());

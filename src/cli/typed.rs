@@ -7,6 +7,7 @@ use glam::{DVec2, UVec2};
 
 use super::args::SeamKind;
 use crate::session::Model;
+use freebound_core::cutting::SeamOptions;
 use freebound_core::geom::PackingOptions;
 use freebound_core::mesh::{VertexId, WeldDistance};
 use freebound_core::pipeline::Target;
@@ -61,6 +62,12 @@ pub(super) fn parse_aspect(text: &str) -> Result<f64, String> {
 pub(super) fn parse_weld_distance(text: &str) -> Result<WeldDistance, String> {
     let parsed = text.trim().parse().ok().and_then(WeldDistance::new);
     parsed.ok_or_else(|| "write a distance of 0 or more, for example 0.001".to_owned())
+}
+
+/// Parses a bound on the mean symmetric Dirichlet energy.
+pub(super) fn parse_distortion(text: &str) -> Result<f64, String> {
+    let parsed = text.trim().parse().ok().filter(|bound: &f64| bound.is_finite() && *bound > SeamOptions::ISOMETRIC);
+    parsed.ok_or_else(|| "write an energy above 4, which is an isometric map, for example 4.1".to_owned())
 }
 
 /// Size of a chart relative to the others.

@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::examples::Example;
+use freebound_core::cutting::SeamOptions;
 use freebound_core::flatten::Options;
 use freebound_core::geom::PackingOptions;
 use freebound_core::mesh::{DiskMesh, PartFaces, Preparation, Repaired, TriMesh, VertexId};
-use freebound_core::pipeline::{Arrangement, Fit, Outcome, PreparedMesh, Problem, SolvedChart, atlas};
-use freebound_core::problem::{Embedding, Settings, Start};
+use freebound_core::pipeline::{Arrangement, AutomaticSeams, Fit, Outcome, PreparedMesh, Problem, SolvedChart, atlas};
+use freebound_core::problem::{Control, Embedding, Method, Settings, SolveError, Start};
 use freebound_io::{
     FileStamp, LayoutError, MeshFile, Output, PictureFile, ReadError, ResultSource, StepReport, Texture,
     read_mesh_with, read_stream_with,
@@ -32,6 +33,9 @@ pub struct Model {
     pub source: Arc<MeshFile>,
     /// The mesh or its chart, prepared for flattening.
     pub prepared: PreparedMesh,
+    /// Automatic seams that the mesh is cut along, with their map. A run of `auto` without pins
+    /// and without another start begins with this map.
+    pub automatic_seams: Option<Arc<AutomaticSeams>>,
     /// Texture coordinates of another file, which replace the file's own as the start of a run.
     pub layout_file: Option<Arc<LayoutFile>>,
 }
@@ -101,6 +105,7 @@ impl Model {
             example: None,
             source: Arc::new(source),
             prepared: PreparedMesh::default(),
+            automatic_seams: None,
             layout_file: None,
         }
     }
@@ -113,7 +118,25 @@ impl Model {
         let source = if is_turned { Arc::new(self.source.turned()) } else { Arc::clone(&self.source) };
         let labels = if form.seams.of_texture { source.texture_labels().ok() } else { None };
         let prepared = PreparedMesh::new(&source.polygons, labels.as_deref(), form);
-        Self { source, prepared, layout_file: None, ..self.clone() }
+        Self { source, prepared, automatic_seams: None, layout_file: None, ..self.clone() }
+    }
+
+    /// Model that is cut along automatic seams.
+    #[must_use = "the mesh itself stays as it is"]
+    pub fn cut_along(&self, seams: AutomaticSeams) -> Self {
+        let form = seams.cut_in(&self.prepared.form);
+        Self { automatic_seams: Some(Arc::new(seams)), ..self.in_form(form) }
+    }
+
+    /// Finds automatic seams for the mesh in its preparation.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    pub fn find_seams(&self, options: SeamOptions, control: Control<'_>) -> Result<AutomaticSeams, SolveError> {
+        let form = &self.prepared.form;
+        let labels = if form.seams.of_texture { self.source.texture_labels().ok() } else { None };
+        AutomaticSeams::find(&self.source.polygons, labels.as_deref(), form, options, control)
     }
 
     /// Copy that asks for another preparation. Its faces are unchanged.
@@ -236,10 +259,21 @@ impl Model {
     ///
     /// [`LayoutError`] if the layout is asked for and is not there.
     pub fn flattener_options(&self, problem: &Problem) -> Result<Options, LayoutError> {
+        // The map leaves the place of pins open.
+        let is_usable = problem.settings.method == Method::Auto && problem.targets.is_empty();
         Ok(match problem.settings.start {
             Start::File => problem.options_from(&self.layout()?),
-            Start::FromScratch => problem.options(),
+            Start::FromScratch => match self.map_of_seams().filter(|_| is_usable) {
+                Some(map) => problem.options_with_map(map),
+                None => problem.options(),
+            },
         })
+    }
+
+    /// Map of the mesh or chart that was found with automatic seams.
+    fn map_of_seams(&self) -> Option<Embedding> {
+        let seams = self.automatic_seams.as_ref()?;
+        self.prepared.map_of_corners(&self.source.polygons, &seams.corners)
     }
 
     /// The origin of results on this mesh with these settings.

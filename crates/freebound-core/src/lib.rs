@@ -25,6 +25,7 @@
 //! ```
 
 pub mod bijective;
+pub mod cutting;
 pub mod flatten;
 pub mod geom;
 pub mod linalg;

@@ -89,7 +89,7 @@ pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };
 pub use report::{
-    ChartReport, MeshReport, REPORT_SCHEMA, Report, Seconds, ShapeReport, verdict_as_in_file, write_report,
+    ChartReport, MeshReport, REPORT_SCHEMA, Report, SeamsReport, Seconds, ShapeReport, verdict_as_in_file, write_report,
 };
 pub use stamp::FileStamp;
 pub use step_report::StepReport;

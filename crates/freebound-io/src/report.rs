@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{Precision, RoundingReport, StepReport, peak_memory_bytes};
 use freebound_core::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
-use freebound_core::pipeline::{PackingSummary, PinsSummary, Placement};
+use freebound_core::pipeline::{AutomaticSeams, PackingSummary, PinsSummary, Placement};
 use freebound_core::problem::{BoundaryShape, Family, Method, Settings, Spacing};
 use freebound_core::verify::{AtlasVerdict, DistortionSummary, Verdict};
 
@@ -59,6 +59,9 @@ pub struct Report {
     /// Exact verdict on a layout of several charts, or of one chart with holes. Replaces `verdict`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub atlas: Option<AtlasVerdict>,
+    /// Automatic seams; absent if none were looked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seams: Option<SeamsReport>,
     /// Charts, in the order of the verdict on all of them; absent for a single chart.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub charts: Vec<ChartReport>,
@@ -90,6 +93,24 @@ impl Report {
             peak_memory_bytes: peak_memory_bytes(),
             ..Self::default()
         }
+    }
+}
+
+/// Automatic seams of a mesh.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct SeamsReport {
+    /// Length of the seams, in units of the mesh.
+    pub length: f64,
+    /// Length of the seams relative to the root of the area.
+    pub relative_length: f64,
+    /// Bound on the mean symmetric Dirichlet energy of each part.
+    pub bound: f64,
+}
+
+impl SeamsReport {
+    /// Report on seams.
+    pub fn of(seams: &AutomaticSeams) -> Self {
+        Self { length: seams.length, relative_length: seams.relative_length(), bound: seams.bound }
     }
 }
 
@@ -220,6 +241,8 @@ pub struct ChartReport {
 pub struct Seconds {
     /// Reading and diagnosing the mesh.
     pub read: f64,
+    /// Search for automatic seams.
+    pub cut: f64,
     /// Solving.
     pub solve: f64,
     /// Verdict and distortion.

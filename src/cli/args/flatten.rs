@@ -93,6 +93,19 @@ pub struct FlattenArguments {
     pub steps: Option<PathBuf>,
 }
 
+/// Arguments of `unwrap`: those of `flatten` with other defaults.
+#[derive(Debug, Args)]
+#[command(
+    mut_arg("repair", |arg| arg.default_value("all")),
+    mut_arg("cut", |arg| arg.default_value("auto")),
+    mut_arg("distortion", |arg| arg.default_value("4.1"))
+)]
+pub struct UnwrapArguments {
+    /// The mesh, its outputs and all settings.
+    #[command(flatten)]
+    pub flatten: FlattenArguments,
+}
+
 impl FlattenArguments {
     /// Packing options of several charts, for the size of this picture if there is one.
     pub fn packing(&self, picture: Option<&PictureFile>) -> PackingOptions {

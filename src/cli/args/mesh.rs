@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::builder::{OsStringValueParser, TypedValueParser as _};
 use clap::{Args, ValueEnum};
 
-use crate::cli::typed::{Parts, parse_parts, parse_seam_kind, parse_weld_distance};
+use crate::cli::typed::{Parts, parse_distortion, parse_parts, parse_seam_kind, parse_weld_distance};
 use freebound_core::mesh::{HoleTreatment, Preparation, Repairs, WeldDistance};
 
 /// The mesh, and what is made of its faces.
@@ -30,11 +30,17 @@ pub struct MeshArguments {
     pub holes: Holes,
     /// Cut surfaces that are not disks: never, automatically, or along the edges of a file.
     ///
-    /// `auto` cuts closed surfaces, surfaces with handles and one-sided surfaces along short paths, creases first. A
-    /// file has lines `a b`, two vertices numbered from 0. Its edges are cut first; then `auto` cuts the rest if
-    /// needed.
-    #[arg(long, value_name = "none|auto|FILE", default_value = "none", value_parser = OsStringValueParser::new().map(Cut::from))]
+    /// `auto` finds short seams whose map meets the bound of `--distortion`. `shortest` only makes disks: it cuts along
+    /// short paths, creases first. A file has lines `a b`, two vertices numbered from 0. Its edges are cut first; then
+    /// `auto` cuts the rest if needed.
+    #[arg(long, value_name = "none|auto|shortest|FILE", default_value = "none", value_parser = OsStringValueParser::new().map(Cut::from))]
     pub cut: Cut,
+    /// Largest mean symmetric Dirichlet energy of each part, for `--cut auto`; 4 is an isometric map.
+    ///
+    /// Seams become longer until the map meets this bound. Default: 4.1, or none for a disk without
+    /// holes.
+    #[arg(long, value_name = "ENERGY", value_parser = parse_distortion)]
+    pub distortion: Option<f64>,
     /// Cut along these edges too: sharp edges, borders of materials, borders of groups.
     ///
     /// `sharp` takes edges with an angle of 60 degrees or more between the faces; `sharp=DEGREES` sets the angle.
@@ -83,8 +89,10 @@ pub enum Holes {
 pub enum Cut {
     /// The surface is not cut.
     None,
-    /// The surface is cut if it is not a disk.
+    /// The surface is cut along short seams of low distortion if it is not a disk.
     Auto,
+    /// The surface is cut along short paths if it is not a disk.
+    Shortest,
     /// The surface is cut along the edges of a file, then if it is not a disk.
     Along(PathBuf),
 }
@@ -94,6 +102,7 @@ impl From<OsString> for Cut {
         match text.to_str() {
             Some("none") => Self::None,
             Some("auto") => Self::Auto,
+            Some("shortest") => Self::Shortest,
             _ => Self::Along(text.into()),
         }
     }

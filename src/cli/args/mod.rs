@@ -26,7 +26,7 @@ use clap::{Args, Parser, Subcommand};
 use crate::examples::ExampleFiles;
 
 pub use compare::{CompareArguments, ComparisonFile};
-pub use flatten::FlattenArguments;
+pub use flatten::{FlattenArguments, UnwrapArguments};
 pub use mesh::{Cut, MeshArguments, SeamKind};
 pub use shape::TypedShape;
 pub use solve::{SolveArguments, StartOf};
@@ -62,6 +62,13 @@ const FLATTEN_LONG_HELP: &str = "Examples:
 Exit status: 0 planar and proved, 1 internal error, 2 wrong use, 3 unusable input,
 4 not planar, a constraint not met, or the method failed, 130 interrupted.";
 
+const UNWRAP_HELP: &str = "Examples:
+  freebound unwrap model.obj -o unwrapped.obj
+  freebound unwrap model.glb -o unwrapped.glb --distortion 4.05
+
+Exit status: 0 planar and proved, 1 internal error, 2 wrong use, 3 unusable input,
+4 not planar, a constraint not met, or the method failed, 130 interrupted.";
+
 const STUDY_HELP: &str = "Exit status: 0 all runs completed, with any results, 1 internal error, 2 wrong use, \
                           3 unusable input, 130 interrupted.";
 
@@ -74,6 +81,11 @@ pub enum Subcommands {
     /// Flatten a mesh, prove the result, and write it as texture coordinates.
     #[command(after_help = FLATTEN_HELP, after_long_help = FLATTEN_LONG_HELP)]
     Flatten(Box<FlattenArguments>),
+    /// Cut any mesh open along short seams, flatten it with little distortion, pack and prove its charts.
+    ///
+    /// All options are those of `flatten`. Other defaults: all repairs, automatic seams, and relaxing.
+    #[command(after_help = UNWRAP_HELP)]
+    Unwrap(Box<UnwrapArguments>),
     /// Run several methods on a mesh and compare their results.
     #[command(after_help = COMPARE_HELP)]
     Compare(Box<CompareArguments>),

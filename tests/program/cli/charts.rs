@@ -65,7 +65,7 @@ fn every_part_becomes_a_chart_and_the_layout_is_one_to_one() {
     for seed in 0..3 {
         let program = Program::new();
         let source = mixed(&program, seed);
-        let arguments = ["flatten", "in.obj", "--cut", "auto", "--report", "out.json"];
+        let arguments = ["flatten", "in.obj", "--cut", "shortest", "--report", "out.json"];
         for name in ["out.obj", "out.ply"] {
             program.run(&[&arguments[..], &["-o", name]].concat()).expect(0);
             assert_eq!(charts_proved(&program, name), 8);
@@ -93,8 +93,10 @@ fn the_bytes_are_the_same_for_any_number_of_threads() {
     mixed(&program, 8);
     let files = |threads: &str| {
         let outputs = ["-o", "out.obj", "--svg", "out.svg", "--png", "out.png", "--report", "out.json"];
-        program.run(&[&["flatten", "in.obj", "--cut", "auto", "--threads", threads], &outputs[..]].concat()).expect(0);
-        program.run(&["flatten", "in.obj", "--cut", "auto", "--threads", threads, "-o", "out.ply"]).expect(0);
+        program
+            .run(&[&["flatten", "in.obj", "--cut", "shortest", "--threads", threads], &outputs[..]].concat())
+            .expect(0);
+        program.run(&["flatten", "in.obj", "--cut", "shortest", "--threads", threads, "-o", "out.ply"]).expect(0);
         let mut report = report_of(&program, "out.json");
         report["seconds"] = json!(null);
         report["peak_memory_bytes"] = json!(null);
@@ -260,7 +262,7 @@ fn what_means_nothing_to_several_charts_is_refused_and_so_are_pins_of_no_face() 
 fn a_drawing_shows_all_charts_and_is_a_page_as_the_picture() {
     let program = Program::new();
     mixed(&program, 2);
-    program.run(&["flatten", "in.obj", "--cut", "auto", "--svg", "out.svg", "--pack", "512x256"]).expect(0);
+    program.run(&["flatten", "in.obj", "--cut", "shortest", "--svg", "out.svg", "--pack", "512x256"]).expect(0);
     let elements = xml_elements(&fs::read_to_string(program.path("out.svg")).expect("written"));
     assert!(elements[0].contains(r#"viewBox="0 0 1000 500""#), "{}", elements[0]);
     assert_eq!(elements.iter().filter(|element| element.contains(r#"class="boundary""#)).count(), 8);
@@ -273,7 +275,7 @@ corpus_test! {
     fn every_bad_file_is_mended_cut_and_proved_or_refused_with_the_reason() {
         for entry in manifest().iter().filter(|entry| entry.file.starts_with("bad/")) {
             let program = Program::new();
-            let arguments = ["flatten", argument(&entry.path), "--repair", "all", "--cut", "auto", "-o", "out.obj"];
+            let arguments = ["flatten", argument(&entry.path), "--repair", "all", "--cut", "shortest", "-o", "out.obj"];
             if UNUSABLE.iter().any(|name| entry.file.ends_with(name)) {
                 let report = program.run(&[&arguments[..], &["--report", "-"]].concat()).expect(3).json();
                 assert!(report["error"]["remedy"].is_string(), "{}: {report:#}", entry.file);
@@ -292,7 +294,7 @@ fn assert_the_options_for_bad_files_change_no_byte_of_a_disk(disks: Vec<Entry>) 
     for entry in disks {
         let program = Program::new();
         program.run(&["flatten", argument(&entry.path), "-o", "plain.obj"]).expect(0);
-        let options = ["--repair", "all", "--cut", "auto", "--pack", "512x512", "-o", "mended.obj"];
+        let options = ["--repair", "all", "--cut", "shortest", "--pack", "512x512", "-o", "mended.obj"];
         program.run(&[&["flatten", argument(&entry.path)], &options[..]].concat()).expect(0);
         let [plain, with_all_repairs] =
             ["plain.obj", "mended.obj"].map(|name| fs::read(program.path(name)).expect("written"));

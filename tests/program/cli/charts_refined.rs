@@ -63,7 +63,7 @@ const PINS: [&str; 16] = [
 ];
 
 fn run(program: &Program, output: &str) -> Value {
-    let arguments = ["flatten", "in.obj", "--holes", "cut", "--cut", "auto", "-o", output, "--report", "-"];
+    let arguments = ["flatten", "in.obj", "--holes", "cut", "--cut", "shortest", "-o", output, "--report", "-"];
     program.run(&[&arguments[..], &PINS].concat()).expect(0).json()
 }
 

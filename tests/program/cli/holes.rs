@@ -117,9 +117,9 @@ fn holes_are_cut_where_that_is_asked_for() {
     assert!(faults.iter().any(|fault| fault["kind"] == "several-boundary-loops"), "{refused:#}");
     program.run(&["flatten", "ring.obj", "--repair", "none"]).expect(3);
     let report =
-        program.run(&["flatten", "ring.obj", "--holes", "cut", "--cut", "auto", "--report", "-"]).expect(0).json();
+        program.run(&["flatten", "ring.obj", "--holes", "cut", "--cut", "shortest", "--report", "-"]).expect(0).json();
     assert_eq!(report["mesh"]["repairs"], json!([{"repair": "cut", "count": 1}]));
-    let report = program.run(&["flatten", "ring.obj", "--cut", "auto", "--report", "-"]).expect(0).json();
+    let report = program.run(&["flatten", "ring.obj", "--cut", "shortest", "--report", "-"]).expect(0).json();
     assert_eq!(report["mesh"]["repairs"], json!([{"repair": "fill-holes", "count": 1}]));
 }
 
@@ -174,6 +174,7 @@ fn charts_with_holes_are_filled_each_by_itself() {
         assert_eq!(check["atlas"]["charts"][chart]["boundary_loops"], json!(3));
     }
     // With the other treatment both are cut.
-    let cut = program.run(&["flatten", "two.obj", "--holes", "cut", "--cut", "auto", "--report", "-"]).expect(0).json();
+    let cut =
+        program.run(&["flatten", "two.obj", "--holes", "cut", "--cut", "shortest", "--report", "-"]).expect(0).json();
     assert_eq!(cut["mesh"]["repairs"][0]["repair"], json!("cut"));
 }

@@ -44,3 +44,4 @@ pub(crate) mod start_session;
 pub(crate) mod steps;
 pub(crate) mod study;
 pub(crate) mod summary;
+pub(crate) mod unwrap;

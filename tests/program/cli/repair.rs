@@ -58,7 +58,7 @@ fn a_closed_surface_is_refused_with_the_way_on_and_cut_open_where_that_is_asked_
     program.write("closed.obj", &obj_text(&(&tetrahedron()).into()));
     let refused = program.run(&["flatten", "closed.obj"]).expect(3);
     assert_message("repair-closed-surface", &refused.stderr);
-    let run = program.run(&["flatten", "closed.obj", "--cut", "auto", "-o", "out.obj", "--report", "-"]);
+    let run = program.run(&["flatten", "closed.obj", "--cut", "shortest", "-o", "out.obj", "--report", "-"]);
     let report = run.expect(0).json();
     assert_eq!(repairs(&report), &json!([{"repair": "cut", "count": 3}]));
     // The proof applies to the file: its seams make it the disk that was flattened.
@@ -74,7 +74,7 @@ fn a_closed_surface_is_refused_with_the_way_on_and_cut_open_where_that_is_asked_
 fn a_pin_on_the_side_of_a_cut_that_is_new_is_met() {
     let program = Program::new();
     program.write("ring.obj", &obj_text(&(&band(8, 0)).into()));
-    let arguments = ["flatten", "ring.obj", "--holes", "cut", "--cut", "auto", "--report", "-"];
+    let arguments = ["flatten", "ring.obj", "--holes", "cut", "--cut", "shortest", "--report", "-"];
     let report = program.run(&[&arguments[..], &["--pin", "0:0,0", "--pin", "16:1,0"]].concat()).expect(0).json();
     assert_eq!(report["pins"]["unmet"], json!([]));
     assert_eq!(report["pins"]["count"], json!(2));
@@ -95,7 +95,7 @@ fn a_soup_with_a_pole_is_written_with_coordinates_at_every_corner_and_proves_aga
         count += 4;
     }
     program.write("soup.obj", &text);
-    program.run(&["flatten", "soup.obj", "--repair", "all", "--cut", "auto", "-o", "out.obj"]).expect(0);
+    program.run(&["flatten", "soup.obj", "--repair", "all", "--cut", "shortest", "-o", "out.obj"]).expect(0);
     let written = std::fs::read_to_string(program.path("out.obj")).expect("written");
     let faces = || written.lines().filter(|line| line.starts_with("f "));
     let is_mapped = |face: &str| face.split(' ').skip(1).all(|corner| corner.contains('/'));

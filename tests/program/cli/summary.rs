@@ -44,9 +44,9 @@ fn of_several_charts_the_one_is_named_whose_areas_differ_most() {
     for (case, first, second, face) in
         [("first", &tower(), &flat, 0), ("second", &flat, &tower(), flat.triangles.len())]
     {
-        let line = areas(&with_both(first, second), &["--relax", "0", "--cut", "auto"]).expect("a line on areas");
+        let line = areas(&with_both(first, second), &["--relax", "0", "--cut", "shortest"]).expect("a line on areas");
         assert!(line.split(' ').any(|word| word == face.to_string()), "{line}");
         assert_message(&format!("summary-areas-of-the-{case}-chart"), &line);
     }
-    assert_eq!(areas(&with_both(&flat, &flat), &["--cut", "auto"]), None, "nothing is distorted");
+    assert_eq!(areas(&with_both(&flat, &flat), &["--cut", "shortest"]), None, "nothing is distorted");
 }

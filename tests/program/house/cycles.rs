@@ -19,7 +19,7 @@ const HOPS: usize = 12;
 const CORE: &str = "crates/freebound-core/src";
 
 /// Folders of the library: each imports from those of the lines above it, and from itself.
-const ORDER: [&[&str]; 10] = [
+const ORDER: [&[&str]; 11] = [
     &["geom", "mesh", "parallel"],
     &["linalg"],
     &["problem"],
@@ -29,6 +29,7 @@ const ORDER: [&[&str]; 10] = [
     &["nonlinear"],
     &["bijective"],
     &["flatten"],
+    &["cutting"],
     &["pipeline"],
 ];
 

@@ -236,6 +236,12 @@ fn area_factor(mesh: &DiskMesh, embedding: &Embedding, control: Control<'_>) -> 
     let flat = |face| double_area(mesh.face(FaceId::from_index(face)).map(|v| embedding[v] * in_plane)).abs();
     // The order of summation does not depend on the number of threads.
     let surface: f64 = control.each(count, surface)?.iter().sum();
+    // A surface without area counts with the area of its mollified shape.
+    let mollified = |face| {
+        let [a, b, c] = mesh.shape(mesh.face(FaceId::from_index(face))).map(|x| x * in_space);
+        (b - a).cross(c - a).length()
+    };
+    let surface = if surface > 0.0 { surface } else { control.each(count, mollified)?.iter().sum() };
     let flat: f64 = control.each(count, flat)?.iter().sum();
     Ok((surface / flat).sqrt() * (in_plane / in_space))
 }

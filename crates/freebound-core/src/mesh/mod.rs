@@ -38,7 +38,7 @@ mod scale;
 mod topology;
 mod triangles;
 mod triangulate;
-mod union;
+pub(crate) mod union;
 mod volume;
 
 pub use diagnosis::{Diagnosis, diagnose};

@@ -2,16 +2,16 @@
 
 /// Disjoint sets of `0..len` (the lower root wins, path halving).
 #[derive(Clone, Debug)]
-pub(super) struct DisjointSets {
+pub(crate) struct DisjointSets {
     parent: Vec<u32>,
 }
 
 impl DisjointSets {
-    pub(super) fn new(len: usize) -> Self {
+    pub(crate) fn new(len: usize) -> Self {
         Self { parent: (0..u32::try_from(len).expect("fewer than 2^32 members")).collect() }
     }
 
-    pub(super) fn find(&mut self, member: u32) -> u32 {
+    pub(crate) fn find(&mut self, member: u32) -> u32 {
         let mut at = member as usize;
         loop {
             let up = self.parent[at];
@@ -25,12 +25,12 @@ impl DisjointSets {
     }
 
     /// Roots of the sets, one per set, ascending.
-    pub(super) fn roots(&self) -> impl Iterator<Item = u32> + '_ {
+    pub(crate) fn roots(&self) -> impl Iterator<Item = u32> + '_ {
         (0..).zip(&self.parent).filter(|&(member, &up)| member == up).map(|(member, _)| member)
     }
 
     /// Joins two sets; the lower root represents both. Returns true if the sets were different.
-    pub(super) fn join(&mut self, a: u32, b: u32) -> bool {
+    pub(crate) fn join(&mut self, a: u32, b: u32) -> bool {
         let (a, b) = (self.find(a), self.find(b));
         self.parent[a.max(b) as usize] = a.min(b);
         a != b

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `prepared_mesh` | a mesh repaired, cut and filled: a disk, several charts, or faults |
 //! | `options` | all options of a run, collected before anything is built |
+//! | `automatic_seams` | short seams whose map keeps the distortion below a bound |
 //! | `targets` | the user's pins in texture coordinates |
 //! | `problem` | settings, frame and targets of one chart |
 //! | `run` | one chart from its problem to its last step |
@@ -18,6 +19,7 @@
 //! | `study/` | the iteration on many random trials (paper §7) |
 
 mod atlas;
+mod automatic_seams;
 mod laid_chart;
 mod options;
 mod outcome;
@@ -30,6 +32,7 @@ mod targets;
 mod unwrap;
 
 pub use atlas::{Arrangement, Atlas, ChartSummary, SolvedChart, atlas};
+pub use automatic_seams::AutomaticSeams;
 pub use laid_chart::{JoinedCharts, LaidChart, joined, prove_atlas};
 pub use options::PipelineOptions;
 pub use outcome::{Outcome, pins_summary, upright};

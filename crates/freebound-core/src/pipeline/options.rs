@@ -12,6 +12,9 @@ use crate::problem::Settings;
 pub struct PipelineOptions {
     /// Repairs, cuts, seams, holes and parts.
     pub preparation: Preparation,
+    /// Bound on the mean symmetric Dirichlet energy of each part, for automatic seams: 4 is an isometric map. Seams
+    /// are found if the preparation allows cuts. Default: none, the shortest cut.
+    pub distortion: Option<f64>,
     /// Method and its settings.
     pub settings: Settings,
     /// Position of texture coordinates in the plane.

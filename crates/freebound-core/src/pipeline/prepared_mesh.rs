@@ -63,7 +63,8 @@ impl PreparedMesh {
     /// [`turned`](PolygonMesh::turned) returns.
     pub fn new(polygons: &PolygonMesh, labels: Option<&[u32]>, form: Preparation) -> Self {
         let repaired = |form: &Preparation| form.repaired_along(polygons, labels);
-        let is_cut_along = !form.seams.edges().is_empty() && !is_refused_uncut(polygons, form.repair);
+        let lists_edges = !form.seams.edges().is_empty() || !form.seams.automatic().is_empty();
+        let is_cut_along = lists_edges && !is_refused_uncut(polygons, form.repair);
         let has_seams = labels.is_some() || is_cut_along;
         let found = if has_seams { cut_surface(repaired(&form)) } else { surface_of(polygons, &form) };
         let remedy = match &found.surface {

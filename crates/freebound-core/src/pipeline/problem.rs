@@ -53,6 +53,11 @@ impl Problem {
         Options { layout: Some(Arc::new(self.in_plane(layout))), ..self.options() }
     }
 
+    /// Options of a flattener that starts from a planar map, which leaves position, rotation and size open.
+    pub fn options_with_map(&self, map: Embedding) -> Options {
+        Options { layout: Some(Arc::new(map)), layout_is_free: true, ..self.options() }
+    }
+
     /// Position of a layout in the plane. The layout has v up.
     fn in_plane(&self, layout: &Embedding) -> Embedding {
         let upright = upright(layout, self.frame.v_axis);

@@ -2,12 +2,17 @@
 
 use glam::DVec2;
 
-use crate::mesh::{Diagnosis, Done, PolygonMesh, TriMesh, VertexId, parts};
+use crate::mesh::{Diagnosis, DiskMesh, Done, PolygonMesh, TriMesh, VertexId, parts};
 use crate::parallel::prelude::*;
-use crate::problem::{Control, Embedding, SolveError};
+use crate::problem::{Control, Embedding, Method, SolveError};
 use crate::verify::{AtlasVerdict, atlas_verdict};
 
-use super::{ChartSummary, Fit, LaidChart, PipelineOptions, PreparedMesh, SolvedChart, Surface, atlas, prove_atlas};
+use super::{
+    AutomaticSeams, ChartSummary, Fit, LaidChart, PipelineOptions, PreparedMesh, Problem, SolvedChart, SolvedProblem,
+    Surface, atlas, prove_atlas,
+};
+use crate::cutting::SeamOptions;
+use crate::flatten::Flattener;
 
 /// Corner of a face that has no texture coordinate, because its part was left out.
 pub const NO_COORDINATE: u32 = u32::MAX;
@@ -49,10 +54,12 @@ pub enum UnwrapError {
 }
 
 impl PipelineOptions {
-    /// Options for any mesh: all repairs are allowed, and surfaces that are no disks are cut open.
+    /// Options for any mesh: all repairs are allowed. Surfaces that are no disks are cut open along short seams, with
+    /// an energy of at most [`SeamOptions::DISTORTION`].
     pub fn for_any_mesh() -> Self {
         let options = Self::default();
-        Self { preparation: options.preparation.with_all_repairs(), ..options }
+        let distortion = Some(SeamOptions::DISTORTION);
+        Self { preparation: options.preparation.with_all_repairs(), distortion, ..options }
     }
 }
 
@@ -97,13 +104,22 @@ pub fn unwrap_with(
     options.settings.new_vertices = false;
     let turned = options.preparation.faces_turned.then(|| mesh.turned());
     let mesh = turned.as_ref().unwrap_or(mesh);
-    let prepared = PreparedMesh::new(mesh, None, options.preparation.clone());
+    let mut prepared = PreparedMesh::new(mesh, None, options.preparation.clone());
+    let mut seams = None;
+    if let Some(bound) = options.distortion.filter(|_| options.preparation.cut) {
+        let form = &options.preparation;
+        let found = AutomaticSeams::find(mesh, None, form, SeamOptions::new(bound), control);
+        let found = found.map_err(|error| UnwrapError::Solve { chart: 0, error })?;
+        prepared = PreparedMesh::new(mesh, None, found.cut_in(form));
+        seams = Some(found);
+    }
+    let seams = seams.as_ref();
     if let Surface::Faulty(_, diagnosis) = &prepared.surface {
         return Err(UnwrapError::NotASurface(Box::new(diagnosis.as_ref().clone())));
     }
     let unwrapped = match &prepared.chart {
-        Some(_) => unwrap_charts(mesh, &prepared, &options, control)?,
-        None => unwrap_disk(mesh, &prepared, &options, control)?,
+        Some(_) => unwrap_charts(mesh, &prepared, seams, &options, control)?,
+        None => unwrap_disk(mesh, &prepared, seams, &options, control)?,
     };
     let has_met_pins = unwrapped.charts.iter().all(|chart| chart.pins.unmet.is_empty());
     if unwrapped.verdict.planar && has_met_pins {
@@ -116,11 +132,13 @@ pub fn unwrap_with(
 fn unwrap_disk(
     mesh: &PolygonMesh,
     prepared: &PreparedMesh,
+    seams: Option<&AutomaticSeams>,
     options: &PipelineOptions,
     control: Control<'_>,
 ) -> Result<Unwrapped, UnwrapError> {
     let disk = prepared.disk().expect("faulty surfaces were refused");
-    let solved = options.problem().solve_on(disk, None, control);
+    let map = seams.and_then(|seams| prepared.map_of_corners(mesh, &seams.corners));
+    let solved = solved_on(disk, options.problem(), map, control);
     let solved = solved.map_err(|error| UnwrapError::Solve { chart: 0, error })?;
     let (coordinates, placement, verdict) = solved.outcome.output(disk, Fit::Unit);
     let picture = DVec2::new(options.frame.aspect, 1.0) * f64::from(options.packing.picture[1]);
@@ -140,6 +158,7 @@ fn unwrap_disk(
 fn unwrap_charts(
     mesh: &PolygonMesh,
     prepared: &PreparedMesh,
+    seams: Option<&AutomaticSeams>,
     options: &PipelineOptions,
     control: Control<'_>,
 ) -> Result<Unwrapped, UnwrapError> {
@@ -150,7 +169,8 @@ fn unwrap_charts(
         let Surface::Disk(disk) = &prepared.surface else {
             return Err(UnwrapError::NotASurface(Box::default()));
         };
-        problem.solve_on(disk, None, control).map_err(|error| UnwrapError::Solve { chart, error })
+        let map = seams.and_then(|seams| prepared.map_of_corners(mesh, &seams.corners));
+        solved_on(disk, problem, map, control).map_err(|error| UnwrapError::Solve { chart, error })
     };
     let work: Vec<_> = charts.iter().zip(problems).enumerate().collect();
     let solved: Vec<Result<_, UnwrapError>> = work.into_par_iter().map(solve).collect();
@@ -177,6 +197,19 @@ fn unwrap_charts(
     let corners = whole.vertices_at_corners(mesh).into_iter().map(number).collect();
     let (verdict, charts) = (laid.verdict, laid.summaries);
     Ok(Unwrapped { coordinates: coordinates.into(), corners, verdict, charts, repairs: done(prepared) })
+}
+
+/// Solution of a disk or chart, from the map of its automatic seams if there is one.
+fn solved_on(
+    disk: &DiskMesh,
+    problem: Problem,
+    map: Option<Embedding>,
+    control: Control<'_>,
+) -> Result<SolvedProblem, SolveError> {
+    // The map leaves the place of pins open.
+    let is_usable = problem.settings.method == Method::Auto && problem.targets.is_empty();
+    let options = map.filter(|_| is_usable).map_or_else(|| problem.options(), |map| problem.options_with_map(map));
+    problem.solve(disk, Flattener::with_options(options), control, |_| Ok(()))
 }
 
 fn done(prepared: &PreparedMesh) -> Vec<Done> {

@@ -44,6 +44,8 @@ pub enum Stage {
     Cut,
     /// The given layout, unchanged.
     Given,
+    /// The map with which automatic seams were found.
+    Seams,
 }
 
 impl Stage {
@@ -91,6 +93,7 @@ impl Stage {
             Self::Relax => "relax",
             Self::Cut => "cut",
             Self::Given => "given",
+            Self::Seams => "seams",
         }
     }
 
@@ -113,6 +116,7 @@ impl Stage {
             Self::Relax => "relaxed",
             Self::Cut => "cut polygons",
             Self::Given => "file's layout",
+            Self::Seams => "automatic seams",
             other => other.name(),
         }
     }
@@ -154,7 +158,9 @@ impl Stage {
             Self::Stretch(_) => Err(NoEquation::OfStretch),
             Self::Schnyder => Err(NoEquation::OnGrid),
             Self::Abf | Self::AbfPlusPlus => Err(NoEquation::OfAngles),
-            Self::Slim | Self::Continuation | Self::Matchmaker | Self::Relax | Self::Cut => Err(NoEquation::OfEnergy),
+            Self::Slim | Self::Continuation | Self::Matchmaker | Self::Relax | Self::Cut | Self::Seams => {
+                Err(NoEquation::OfEnergy)
+            }
             Self::Given => Err(NoEquation::OfFile),
         }
     }

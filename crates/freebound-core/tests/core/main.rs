@@ -3,6 +3,7 @@
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
 mod bijective;
+mod cutting;
 mod flatten;
 mod geom;
 mod linalg;

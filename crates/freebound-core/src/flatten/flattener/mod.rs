@@ -93,9 +93,9 @@ impl Flattener {
 
     /// Makes a flattener. Methods that do not continue from a layout ignore [`Options::layout`].
     pub fn with_options(options: Options) -> Self {
-        let Options { settings, pins, output_frame, layout, cache } = options;
+        let Options { settings, pins, output_frame, layout, layout_is_free, cache } = options;
         let start = layout.filter(|_| settings.method.continues_from_layout());
-        let asked = Task { start, ..Task::new(settings, pins, Arc::new(output_frame)) };
+        let asked = Task { start, start_is_free: layout_is_free, ..Task::new(settings, pins, Arc::new(output_frame)) };
         let units = asked.units();
         let task = Arc::new(asked.in_units(&units));
         let (keeps_factors, cache) = (cache.is_some(), cache.unwrap_or_default());
@@ -283,7 +283,7 @@ impl Flattener {
         // A mirror image is one-to-one, but not a goal of the flattener.
         let is_upright = !step.verdict.mirrored || phase.task.settings.method != Method::Auto;
         let is_met = phase.aim == PhaseGoal::PlanarStart || step.unmet().is_empty();
-        let is_given = step.candidate.stage == Stage::Given;
+        let is_given = matches!(step.candidate.stage, Stage::Given | Stage::Seams);
         // The filling of holes of a given layout may fold without harm.
         let is_proved = (step.verdict.is_one_to_one() || (is_given && step.verdict.planar)) && is_upright;
         // Polygons may be concave on the way from a planar start to the constraints: relaxing makes them convex

@@ -24,6 +24,9 @@ pub struct Options {
     /// is returned unchanged. If it meets two constraints, it is not moved to fit the others. It is relaxed only if
     /// rounds are given.
     pub layout: Option<Arc<Embedding>>,
+    /// True if the layout leaves position, rotation and size open: its map is placed and relaxed like one that is
+    /// computed from the surface alone. Default: false.
+    pub layout_is_free: bool,
     /// Results of earlier flatteners on the same mesh, for reuse. With a cache, steps keep the factors of linear
     /// solves for further flatteners; without a cache, factors are dropped after use. Default: none.
     pub cache: Option<SolverCache>,

@@ -83,7 +83,7 @@ impl Flattener {
         self.notes.say(placing);
         candidate.note = self.notes.take();
         let set_aside = if is_start { self.asked.held() } else { Pins::new() };
-        let lies_as_given = task.start.is_some();
+        let lies_as_given = task.lies_as_given();
         let (index, is_continued) = (self.step_count, self.strategy.phase().is_continued());
         let step = Step {
             candidate,

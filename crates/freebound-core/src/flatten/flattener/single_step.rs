@@ -22,7 +22,8 @@ impl RunStage for Given {
         let began = Instant::now();
         let start = from.task.start.as_ref().ok_or(SolveError::NotPlanar)?;
         let pins = if from.task.is_constrained() { from.task.held() } else { Pins::new() };
-        Ok(Candidate::one_to_one(Stage::Given, start.as_ref().clone(), &pins).since(began))
+        let stage = if from.task.start_is_free { Stage::Seams } else { Stage::Given };
+        Ok(Candidate::one_to_one(stage, start.as_ref().clone(), &pins).since(began))
     }
 
     fn has_more(&self, task: &Task, latest: Option<&StepState>) -> bool {

@@ -46,7 +46,8 @@ impl Strategy {
         let start = || {
             let settings = Settings { size: task.settings.size, ..Settings::default() };
             let frame = Arc::clone(&task.frame);
-            let task = Task { start: Some(Arc::clone(layout)), ..Task::new(settings, Pins::new(), frame) };
+            let start = Some(Arc::clone(layout));
+            let task = Task { start, start_is_free: task.start_is_free, ..Task::new(settings, Pins::new(), frame) };
             from_layout(PhaseState::new(&Arc::new(task), PhaseGoal::PlanarStart, GIVEN, &cache))
         };
         let to_constraints = |sequences| {
@@ -333,7 +334,7 @@ impl PhaseState {
             let always = self.task.settings.relax_rounds.unwrap_or_else(own);
             // An embedding in its requested place is not relaxed, to stay close to the layout.
             let is_in_place = step.is_of_planar_start() || step.unmet().is_empty();
-            let stays = self.is_from_layout && is_in_place;
+            let stays = self.is_from_layout && is_in_place && !self.task.start_is_free;
             let until_it_serves = if stays { 0 } else { self.rounds_until_it_serves() };
             self.relax.begin(Rounds { always, until_it_serves });
             self.relax.look_at_start(step);

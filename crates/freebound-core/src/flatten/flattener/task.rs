@@ -27,13 +27,15 @@ pub(super) struct Task {
     pub(super) frame: Arc<UvFrame>,
     /// Layout to start from, one position per vertex.
     pub(super) start: Option<Arc<Embedding>>,
+    /// True if the layout leaves position, rotation and size open.
+    pub(super) start_is_free: bool,
 }
 
 impl Task {
     /// Task with these pins, or without pins if the method does not use them.
     pub(super) fn new(settings: Settings, pins: Pins, frame: Arc<UvFrame>) -> Self {
         let pins = if settings.method.uses_pins() { pins } else { Pins::new() };
-        Self { settings, pins, frame, start: None }
+        Self { settings, pins, frame, start: None, start_is_free: false }
     }
 
     /// Units of the solves. Placement, and pictures that are not square, round the written numbers. In these cases the
@@ -51,7 +53,8 @@ impl Task {
             if units.is_plane() { Arc::clone(start) } else { Arc::new(units.embedding(start)) }
         };
         let start = self.start.as_ref().map(in_units);
-        Self { settings: units.settings(self.settings.clone()), pins: units.pins(&self.pins), frame, start }
+        let (settings, pins) = (units.settings(self.settings.clone()), units.pins(&self.pins));
+        Self { settings, pins, frame, start, start_is_free: self.start_is_free }
     }
 
     /// True if the pins are constraints. Up to two hard pins only fix the similarity.
@@ -136,7 +139,7 @@ impl Task {
             return Ok(None);
         }
         candidate.solution.gauge_completed = is_open;
-        if self.pins.is_empty() && self.is_start(mesh, embedding) {
+        if self.pins.is_empty() && self.lies_as_given() && self.is_start(mesh, embedding) {
             candidate.solution.pins = gauge_in(mesh, embedding);
             return Ok(None);
         }
@@ -171,6 +174,11 @@ impl Task {
         Ok(placed.way.is_none().then(|| "not yet moved to its place: rounding there would fold it".to_owned()))
     }
 
+    /// True if the map has to stay at the place of the initial layout.
+    pub(super) fn lies_as_given(&self) -> bool {
+        self.start.is_some() && !self.start_is_free
+    }
+
     /// True if an embedding equals the initial layout to the last bit. Unreferenced vertices are ignored.
     fn is_start(&self, mesh: &DiskMesh, embedding: &Embedding) -> bool {
         self.start.as_deref().is_some_and(|start| {
@@ -188,7 +196,9 @@ impl Task {
     ) -> Result<Option<Placing>, SolveError> {
         let embedding = &candidate.solution.embedding;
         match &self.start {
-            Some(start) if self.has_open_gauge() => Ok(Some(Placing::over(mesh, [embedding, start], &self.pins))),
+            Some(start) if self.has_open_gauge() && !self.start_is_free => {
+                Ok(Some(Placing::over(mesh, [embedding, start], &self.pins)))
+            }
             _ => {
                 let free = Free { size: self.settings.size, turns: self.turns(mesh, candidate, control)? };
                 Placing::of_gauge(Placement { mesh, embedding, free, control }, &self.pins)

@@ -94,20 +94,27 @@ impl Charts {
 
     /// Extracts a chart with its own vertices and fills its holes if holes are to be filled.
     pub fn chart(&self, chart: usize) -> Chart {
-        let part = compact(&self.whole.polygons, &self.faces[chart]);
-        let repaired = Repaired {
-            corner_of: part.corner_of.iter().map(|&corner| self.whole.corner_of[corner as usize]).collect(),
-            face_of: self.faces[chart].iter().map(|&face| self.whole.face_of[face as usize]).collect(),
+        let Chart { repaired, vertex_of } = self.whole.of_faces(&self.faces[chart]);
+        Chart { repaired: repaired.filled(), vertex_of }
+    }
+}
+
+impl Repaired {
+    /// Extracts faces with their own vertices.
+    pub(super) fn of_faces(&self, faces: &[u32]) -> Chart {
+        let part = compact(&self.polygons, faces);
+        let repaired = Self {
+            corner_of: part.corner_of.iter().map(|&corner| self.corner_of[corner as usize]).collect(),
+            face_of: faces.iter().map(|&face| self.face_of[face as usize]).collect(),
             polygons: part.polygons,
             stand_ins: Vec::new(),
             joined: HashMap::new(),
-            fills: self.whole.fills,
+            fills: self.fills,
             filling: Filling::default(),
             left_out: Vec::new(),
-            keeps_last: self.whole.keeps_last,
-            done: self.whole.done.clone(),
+            keeps_last: self.keeps_last,
+            done: self.done.clone(),
         };
-        let repaired = repaired.filled();
         Chart { repaired, vertex_of: part.vertex_of }
     }
 }

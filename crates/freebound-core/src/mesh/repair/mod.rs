@@ -15,6 +15,7 @@
 //! | `seams.rs` | cutting of a surface along given seams |
 //! | `borders.rs` | edges that seams usually follow: creases, and borders between faces of two kinds |
 //! | `stretches.rs` | seams as lines between their ends and junctions |
+//! | `open.rs` | connected parts, and a part opened along seams |
 //! | `charts.rs` | parts of a mesh that are disks |
 //! | `paths.rs` | shortest paths along edges, for seams that the user draws |
 //! | `ways.rs` | shortest paths along edges, and the cost of cutting an edge |
@@ -32,6 +33,7 @@ mod join;
 mod kept;
 mod kinds;
 mod leave_out;
+mod open;
 mod paths;
 mod seams;
 mod sides;

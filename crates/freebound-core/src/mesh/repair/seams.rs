@@ -15,12 +15,25 @@ pub struct Seams {
     pub of_texture: bool,
     /// Listed edges by the file's vertices, the smaller number first.
     edges: Arc<BTreeSet<[VertexId; 2]>>,
+    /// Edges that an automatic cut opens, by the file's vertices, the smaller number first.
+    automatic: Arc<BTreeSet<[VertexId; 2]>>,
 }
 
 impl Seams {
     /// Listed edges by the file's vertices, the smaller number first.
     pub fn edges(&self) -> &BTreeSet<[VertexId; 2]> {
         &self.edges
+    }
+
+    /// Edges that an automatic cut opens, by the file's vertices, the smaller number first.
+    pub fn automatic(&self) -> &BTreeSet<[VertexId; 2]> {
+        &self.automatic
+    }
+
+    /// Replaces the edges that an automatic cut opens.
+    #[must_use = "the seams themselves stay as they are"]
+    pub fn with_automatic(&self, edges: impl IntoIterator<Item = [VertexId; 2]>) -> Self {
+        Self { automatic: Arc::new(edges.into_iter().map(ascending).collect()), ..self.clone() }
     }
 
     /// Adds edges to the list. Their ends may be in any order; edges with equal ends are ignored.
@@ -51,18 +64,18 @@ impl Seams {
 
     /// True if there are no seams.
     pub fn is_empty(&self) -> bool {
-        !self.of_texture && self.edges.is_empty()
+        !self.of_texture && self.edges.is_empty() && self.automatic.is_empty()
     }
 }
 
 impl Repaired {
-    /// Cuts each edge that is listed, or whose faces have different labels at its ends.
+    /// Cuts each edge that is listed or automatic, or whose faces have different labels at its ends.
     ///
     /// `labels` has one label per corner of the given mesh `source`. If several edges became one, any of them being
     /// listed is enough. A vertex stays whole if a seam ends there inside the surface, so a seam with a single edge
     /// opens nothing. Faces of a formerly one-sided surface are flipped if it has two sides now.
     pub(super) fn cut_along(&mut self, seams: &Seams, labels: Option<&[u32]>, source: &PolygonMesh) {
-        if !self.is_sound() || (labels.is_none() && seams.edges.is_empty()) {
+        if !self.is_sound() || (labels.is_none() && seams.edges.is_empty() && seams.automatic.is_empty()) {
             return;
         }
         let sides = Sides::new(&self.polygons);
@@ -72,8 +85,12 @@ impl Repaired {
             |on: &[u32]| -> Vec<[u32; 2]> { on.windows(2).flat_map(|pair| sides.across(pair[0], pair[1])).collect() };
         let is_alike =
             |on: &[u32]| labels.is_none_or(|labels| across(on).iter().all(|[a, b]| labels[of(*a)] == labels[of(*b)]));
-        let is_whole = |on: &[u32]| on.len() == 1 || (is_alike(on) && !on.iter().any(|&side| is_listed(side)));
-        let seam: Vec<Vec<[u32; 2]>> = sides.table.edges().filter(|on| !is_whole(on)).map(across).collect();
+        let is_automatic = |side: u32| seams.automatic.contains(&sides.edge_in_file(self, source, side));
+        let is_wished = |on: &[u32]| !is_alike(on) || on.iter().any(|&side| is_listed(side));
+        let is_whole = |on: &[u32]| on.len() == 1 || !(is_wished(on) || on.iter().any(|&side| is_automatic(side)));
+        // The sides of each seam, and true if it was wished.
+        let seam: Vec<(Vec<[u32; 2]>, bool)> =
+            sides.table.edges().filter(|on| !is_whole(on)).map(|on| (across(on), is_wished(on))).collect();
         if !seam.is_empty() {
             let fans = self.with_touching(sides.fans(is_whole), &sides);
             let is_one_sided = sides.one_sided();
@@ -81,8 +98,10 @@ impl Repaired {
             let corners = &self.polygons.corners;
             let is_open =
                 |across: &Vec<[u32; 2]>| across.iter().any(|[a, b]| corners[*a as usize] != corners[*b as usize]);
-            let count = seam.iter().filter(|across| is_open(across)).count();
-            self.note(Repair::CutSeams, count);
+            let count = |wished: bool| seam.iter().filter(|(across, is)| *is == wished && is_open(across)).count();
+            let [wished, automatic] = [count(true), count(false)];
+            self.note(Repair::CutSeams, wished);
+            self.note(Repair::Cut, automatic);
             self.turn_faces_that_were(&is_one_sided);
         }
     }

@@ -1,0 +1,16 @@
+//! Automatic seams: the shortest cut found whose map keeps the distortion below a bound.
+//!
+//! | file | contents |
+//! |---|---|
+//! | `surface.rs` | one connected part, its edges and boundary loops |
+//! | `scale_factor.rs` | scale factors of the conformal map that is flat apart from the cut |
+//! | `graph.rs` | cut graph: handles, boundary loops and cones joined by short seams |
+//! | `search.rs` | search for the cheapest cut whose map meets a bound |
+
+mod graph;
+mod scale_factor;
+mod search;
+mod surface;
+
+pub use search::SeamOptions;
+pub(crate) use search::{PartCut, cut_part};

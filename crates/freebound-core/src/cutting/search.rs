@@ -1,0 +1,553 @@
+//! Search for the cheapest cut whose map meets a bound on its distortion.
+//!
+//! A *prediction* of the energy steers the search: 8 Var(u) over 4, with u the conformal scale factors (see
+//! `scale_factor`). It costs one solve. The energy itself is *measured* a few times: the surface is cut, flattened and
+//! relaxed. Relaxing trades angles for areas, so the measured excess over 4 is some 0.3 of the predicted one. The ratio
+//! depends on the surface, and little on the cut. So each round of the search corrects it.
+//!
+//! # Cut for a prediction
+//!
+//! 1. Cones in a greedy sequence: the next cone is where |u| is greatest if the map is free at the cones before
+//!    (M. Ben-Chen, C. Gotsman, G. Bunin 2008). The cut is a Steiner tree through the fewest cones that suffice.
+//! 2. Exchange: the cone whose removal saves most for its loss is removed, cones that gain most for their cost are
+//!    added until the prediction is met again, and the cheaper cut is kept.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::AtomicBool;
+
+use super::graph::CutGraph;
+use super::scale_factor::{ConformalSystem, ScaleFactors};
+use super::surface::{CutSurface, Paths};
+use crate::flatten::{Flattener, Options};
+use crate::mesh::{Repaired, VertexId};
+use crate::parallel::prelude::*;
+use crate::problem::{Control, Embedding, Settings, SolveError};
+use crate::verify::distortion;
+
+/// Most rounds of relaxing of a measured map.
+const RELAX_ROUNDS: usize = 40;
+
+/// Ratios of measured and predicted excess that the first round tries.
+const FIRST_RATIOS: [f64; 2] = [0.38, 0.31];
+
+/// Share of the allowed excess that a later round aims at.
+const AIM: f64 = 0.95;
+
+/// Share of the allowed excess that is close enough to end the search.
+const CLOSE: f64 = 0.88;
+
+/// Share of the allowed excess at which the relaxing of a large surface ends.
+const ENOUGH: f64 = 0.98;
+
+/// Factor between the two predictions that a round tries.
+const BESIDE: f64 = 0.9;
+
+/// Margin of a prediction within its bracket, relative to the bracket.
+const MARGIN: f64 = 0.2;
+
+/// Number of faces from which one cut is tried at a time, and search and relaxing end once the bound is met.
+const LARGE: usize = 30_000;
+
+/// Most rounds, if a map meets the bound.
+const ROUNDS: usize = 4;
+
+/// Most rounds while no map meets the bound.
+const ROUNDS_TO_MEET: usize = 10;
+
+/// Factor of the prediction from one round to the next while no map meets the bound, at most and at least.
+const STRICTER: f64 = 0.6;
+const STRICTEST: f64 = 0.1;
+
+/// Ratio of measured and predicted excess from which relaxing is stuck.
+const STUCK: f64 = 8.0;
+
+/// Most candidates for a new cone that are compared.
+const CANDIDATES: usize = 16;
+
+/// Power of a path's cost by which the gain of a cone is divided.
+const POWER: f64 = 0.3;
+
+/// Most exchanges.
+const EXCHANGES: usize = 24;
+
+/// Number of exchanges in a row that may be in vain.
+const VAIN_EXCHANGES: usize = 3;
+
+/// Number of cones whose removal is tried in an exchange.
+const TRIES: usize = 3;
+
+/// Most cones whose worth an exchange finds.
+const MOST_TRIED: usize = 64;
+
+/// Relative decrease of the cost that counts.
+const CHEAPER: f64 = 1e-6;
+
+/// Number of cones after which the greedy sequence grows by one more at a time.
+const CONES_PER_BATCH: usize = 16;
+
+/// Most cones of a greedy sequence.
+const MOST_CONES: usize = 4096;
+
+/// Settings of the search for seams.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeamOptions {
+    /// Bound on the mean symmetric Dirichlet energy; 4 is an isometric map.
+    pub bound: f64,
+    /// Rounds of relaxing of each measured map.
+    pub rounds: usize,
+}
+
+impl SeamOptions {
+    /// Energy of an isometric map, which no bound can be below.
+    pub const ISOMETRIC: f64 = 4.0;
+
+    /// Default bound on the energy.
+    pub const DISTORTION: f64 = 4.1;
+
+    /// Least bound: below it seams would run through all of a curved surface.
+    pub const LEAST: f64 = 4.0001;
+
+    /// Options for a bound on the mean symmetric Dirichlet energy, at least [`LEAST`](Self::LEAST).
+    pub fn new(bound: f64) -> Self {
+        Self { bound: bound.max(Self::LEAST), rounds: RELAX_ROUNDS }
+    }
+}
+
+/// Cut of one part, with a map that is planar along it.
+#[derive(Clone, Debug)]
+pub(crate) struct PartCut {
+    /// True for each edge that is a seam, in the order of the part's edge table.
+    pub(crate) is_seam: Vec<bool>,
+    /// Length of the seams.
+    pub(crate) length: f64,
+    /// Vertex of the map at each corner of the part.
+    pub(crate) corners: Vec<VertexId>,
+    /// Map of the part.
+    pub(crate) embedding: Embedding,
+}
+
+/// Cut with its map.
+#[derive(Clone, Debug)]
+struct Measured<'a> {
+    graph: CutGraph<'a>,
+    predicted: f64,
+    energy: f64,
+    corners: Vec<VertexId>,
+    embedding: Embedding,
+}
+
+impl Measured<'_> {
+    /// Energy above that of an isometric map.
+    fn excess(&self) -> f64 {
+        self.energy - SeamOptions::ISOMETRIC
+    }
+
+    /// True if this cut meets the bound at a lower cost, or comes nearer to it if none meets it.
+    fn is_better_than(&self, other: &Self, allowed: f64) -> bool {
+        match (other.excess() <= allowed, self.excess() <= allowed) {
+            (true, true) => self.graph.cost() < other.graph.cost(),
+            (false, false) => self.energy < other.energy,
+            (before, now) => now && !before,
+        }
+    }
+}
+
+/// Predictions between which the bound is just met.
+struct Bracket {
+    allowed: f64,
+    /// Largest prediction whose map met the bound; 0 if there is none.
+    met: f64,
+    /// Smallest prediction whose map did not; infinite if there is none.
+    failed: f64,
+}
+
+impl Bracket {
+    fn new(allowed: f64) -> Self {
+        Self { allowed, met: 0.0, failed: f64::INFINITY }
+    }
+
+    fn observe(&mut self, found: &Measured<'_>) {
+        if found.excess() <= self.allowed {
+            self.met = self.met.max(found.predicted);
+        } else {
+            self.failed = self.failed.min(found.predicted);
+        }
+    }
+
+    /// Predictions to try next: as the ratio of the best cut suggests, and another one beside it.
+    fn next_aims(&self, best: &Measured<'_>, round: usize) -> Vec<f64> {
+        let aim = AIM * self.allowed * best.predicted / best.excess().max(f64::MIN_POSITIVE);
+        if self.met == 0.0 {
+            let aim = aim.max(STRICTEST * self.failed);
+            let aim = if round == 0 { aim } else { aim.min(STRICTER * self.failed) };
+            return vec![aim, BESIDE * aim];
+        }
+        if self.failed.is_infinite() {
+            return vec![aim, BESIDE * aim];
+        }
+        // Predictions are not exact: a map can meet the bound above one that does not.
+        let [low, high] = [self.met.min(self.failed), self.met.max(self.failed)];
+        let margin = MARGIN * (high - low);
+        vec![aim.clamp(low + margin, high - margin), f64::midpoint(low, high)]
+    }
+}
+
+/// Finds a cut of one part.
+///
+/// # Errors
+///
+/// Errors of the solves; [`SolveError::NotPlanar`] if no cut makes the part a disk; [`SolveError::Cancelled`].
+pub(crate) fn cut_part(part: &Repaired, options: SeamOptions, control: Control<'_>) -> Result<PartCut, SolveError> {
+    let surface = CutSurface::new(part, |_| 1.0);
+    let system = ConformalSystem::new(&surface, control.cancel())?;
+    let mut search =
+        Search { surface: &surface, system: &system, options, control, cones: Vec::new(), is_complete: false };
+    search.run()
+}
+
+struct Search<'a> {
+    surface: &'a CutSurface<'a>,
+    system: &'a ConformalSystem,
+    options: SeamOptions,
+    control: Control<'a>,
+    /// Greedy sequence of cones.
+    cones: Vec<u32>,
+    /// True if the sequence cannot be continued.
+    is_complete: bool,
+}
+
+impl<'a> Search<'a> {
+    fn cancel(&self) -> &'a AtomicBool {
+        self.control.cancel()
+    }
+
+    fn run(&mut self) -> Result<PartCut, SolveError> {
+        let mut start = CutGraph::topological(self.surface, self.control)?;
+        if start.free_vertices().is_empty() {
+            self.open_sphere(&mut start)?;
+        }
+        start.shorten(self.control)?;
+        let allowed = self.options.bound - SeamOptions::ISOMETRIC;
+        let mut bracket = Bracket::new(allowed);
+        let mut best: Option<Measured<'_>> = None;
+        let mut aims: Vec<f64> = FIRST_RATIOS.iter().map(|ratio| allowed / ratio).collect();
+        let mut known: Vec<Vec<bool>> = Vec::new();
+        for round in 0..ROUNDS_TO_MEET {
+            let cuts = self.cuts_for(&start, &aims)?;
+            let fresh: Vec<CutGraph<'_>> = cuts.into_iter().filter(|cut| !known.contains(&cut.is_seam)).collect();
+            if fresh.is_empty() {
+                break;
+            }
+            known.extend(fresh.iter().map(|cut| cut.is_seam.clone()));
+            let this = &*self;
+            let measured: Vec<Result<Measured<'_>, SolveError>> =
+                fresh.into_par_iter().with_max_len(1).map(|cut| this.measured(cut)).collect();
+            for found in measured {
+                let found = match found {
+                    Ok(found) => found,
+                    Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
+                    // Another cut may serve.
+                    Err(_) => continue,
+                };
+                bracket.observe(&found);
+                if best.as_ref().is_none_or(|best| found.is_better_than(best, allowed)) {
+                    best = Some(found);
+                }
+            }
+            let Some(best) = &best else {
+                for aim in &mut aims {
+                    *aim *= STRICTER;
+                }
+                continue;
+            };
+            let share = best.excess() / allowed;
+            // The relaxing of a large surface ends early, so that its share says little.
+            let is_large = self.surface.triangles.len() > LARGE;
+            let is_last = is_large || round + 1 >= ROUNDS || best.graph.cost() <= start.cost();
+            // Where relaxing gets stuck, for example at needles, longer seams hardly help.
+            let is_stuck = round + 1 >= ROUNDS && best.excess() > STUCK * best.predicted;
+            if (share <= 1.0 && (share > CLOSE || is_last)) || best.predicted <= 0.0 || is_stuck {
+                break;
+            }
+            aims = bracket.next_aims(best, round);
+        }
+        let best = best.filter(|best| best.energy.is_finite());
+        let Measured { graph, corners, embedding, .. } = best.ok_or(SolveError::NotPlanar)?;
+        let length = graph.length();
+        Ok(PartCut { is_seam: graph.is_seam, length, corners, embedding })
+    }
+
+    /// Different cuts for predictions. A large surface gets one.
+    fn cuts_for(&mut self, start: &CutGraph<'a>, aims: &[f64]) -> Result<Vec<CutGraph<'a>>, SolveError> {
+        let aims = if self.surface.triangles.len() > LARGE { &aims[..1] } else { aims };
+        for &most in aims {
+            self.extend_sequence(start, most)?;
+        }
+        let this = &*self;
+        let cuts: Vec<Result<CutGraph<'a>, SolveError>> =
+            aims.par_iter().with_max_len(1).map(|&most| this.cut_for(start, most)).collect();
+        let mut different: Vec<CutGraph<'a>> = Vec::new();
+        for cut in cuts {
+            let cut = cut?;
+            if different.iter().all(|other| other.is_seam != cut.is_seam) {
+                different.push(cut);
+            }
+        }
+        Ok(different)
+    }
+
+    /// Joins two far cones of a closed surface.
+    fn open_sphere(&self, graph: &mut CutGraph<'_>) -> Result<(), SolveError> {
+        let nodes = self.system.node_count();
+        let mut is_fixed = vec![false; nodes];
+        is_fixed[0] = true;
+        let grounded = self.system.solve(is_fixed, self.cancel())?;
+        let u = grounded.solved(&self.system.evened(), self.cancel())?;
+        let mean = u.iter().sum::<f64>() / u.len() as f64;
+        let first = extreme((0..nodes).map(|node| (u[node] - mean).abs()));
+        let mut is_fixed = vec![false; nodes];
+        is_fixed[first] = true;
+        let u = self.system.solve(is_fixed, self.cancel())?.u;
+        let second = extreme(u.iter().map(|u| u.abs()));
+        let [from, to] = [first, second].map(|node| self.system.vertex_of[node]);
+        graph.add_cone(from, []);
+        graph.add_cone(to, self.surface.path(&[from], |v| v == to).unwrap_or_default());
+        if graph.has_enough() {
+            return Ok(());
+        }
+        // On the smallest surfaces two cones are neighbours.
+        let third = self.surface.path(&[from, to], |v| v != from && v != to).unwrap_or_default();
+        let end = third.first().map(|&edge| self.surface.edges[edge as usize].ends);
+        let end = end.into_iter().flatten().find(|&v| v != from && v != to);
+        if let Some(end) = end {
+            graph.add_cone(end, third);
+        }
+        Ok(())
+    }
+
+    fn nodes_of(&self, vertices: impl IntoIterator<Item = u32>) -> Vec<bool> {
+        let mut is_in = vec![false; self.system.node_count()];
+        for vertex in vertices {
+            is_in[self.system.node_of[vertex as usize] as usize] = true;
+        }
+        is_in
+    }
+
+    /// Scale factors for a cut.
+    fn factors(&self, graph: &CutGraph<'_>) -> Result<ScaleFactors, SolveError> {
+        Ok(self.system.solve(self.nodes_of(graph.free_vertices()), self.cancel())?)
+    }
+
+    fn excess(&self, factors: &ScaleFactors) -> f64 {
+        8.0 * self.system.variance(&factors.u)
+    }
+
+    /// Predicted excess of the energy over 4.
+    fn predicted(&self, graph: &CutGraph<'_>) -> Result<f64, SolveError> {
+        Ok(self.excess(&self.factors(graph)?))
+    }
+
+    /// Continues the greedy sequence until a map that is free at its cones alone is predicted to have at most this
+    /// excess.
+    fn extend_sequence(&mut self, start: &CutGraph<'_>, most: f64) -> Result<(), SolveError> {
+        while !self.is_complete && self.cones.len() < MOST_CONES {
+            self.control.go_on()?;
+            let mut is_fixed = self.nodes_of(start.anchors().into_iter().chain(self.cones.iter().copied()));
+            if !is_fixed.contains(&true) {
+                is_fixed = self.nodes_of([start.free_vertices()[0]]);
+            }
+            let factors = self.system.solve(is_fixed, self.cancel())?;
+            if self.excess(&factors) <= most {
+                return Ok(());
+            }
+            let peaks = self.peaks(&factors);
+            self.is_complete = peaks.is_empty();
+            let count = (1 + self.cones.len() / CONES_PER_BATCH).min(peaks.len());
+            self.cones.extend(peaks[..count].iter().map(|&node| self.system.vertex_of[node]));
+        }
+        Ok(())
+    }
+
+    /// Cut through the first cones of the sequence.
+    fn through(&self, start: &CutGraph<'a>, count: usize) -> Result<CutGraph<'a>, SolveError> {
+        let mut graph = start.clone();
+        graph.connect(&self.cones[..count]);
+        graph.shorten(self.control)?;
+        Ok(graph)
+    }
+
+    /// Cut through the fewest cones of the sequence for which the prediction is at most `most`.
+    fn spread(&self, start: &CutGraph<'a>, most: f64) -> Result<CutGraph<'a>, SolveError> {
+        let (mut low, mut high) = (0, self.cones.len());
+        while low < high {
+            let middle = usize::midpoint(low, high);
+            if self.predicted(&self.through(start, middle)?)? <= most {
+                high = middle;
+            } else {
+                low = middle + 1;
+            }
+        }
+        self.through(start, high)
+    }
+
+    /// Adds cones until the prediction is at most `most`.
+    fn grow(&self, graph: &mut CutGraph<'_>, most: f64) -> Result<(), SolveError> {
+        loop {
+            self.control.go_on()?;
+            let factors = self.factors(graph)?;
+            if self.excess(&factors) <= most || graph.cones().len() >= MOST_CONES {
+                return Ok(());
+            }
+            let paths = self.surface.paths(&graph.free_vertices());
+            let best = self.best_cones(&factors, &paths)?;
+            if best.is_empty() {
+                return Ok(());
+            }
+            let count = (1 + graph.cones().len() / CONES_PER_BATCH).min(best.len());
+            for &cone in &best[..count] {
+                graph.add_cone(cone, paths.to(self.surface, cone));
+            }
+            graph.shorten(self.control)?;
+        }
+    }
+
+    /// Candidates for cones, those with the largest gain for the cost of their path first.
+    fn best_cones(&self, factors: &ScaleFactors, paths: &Paths) -> Result<Vec<u32>, SolveError> {
+        let before = self.system.variance(&factors.u);
+        let score = |node: usize| {
+            let vertex = self.system.vertex_of[node];
+            let gain = before - self.system.variance(&factors.with_fixed(node, self.cancel())?);
+            Ok((vertex, gain / paths.far[vertex as usize].powf(POWER)))
+        };
+        let scored: Vec<Result<(u32, f64), SolveError>> = self.peaks(factors).into_par_iter().map(score).collect();
+        let mut scored = scored.into_iter().collect::<Result<Vec<_>, _>>()?;
+        // Where no cone lowers the variance by itself, the highest peak comes first.
+        scored.sort_by(|a, b| b.1.max(0.0).total_cmp(&a.1.max(0.0)));
+        Ok(scored.into_iter().map(|(vertex, _)| vertex).collect())
+    }
+
+    /// Nodes where |u| has a local maximum, the largest first.
+    fn peaks(&self, factors: &ScaleFactors) -> Vec<usize> {
+        let node = |v: u32| self.system.node_of[v as usize] as usize;
+        let size = |node: usize| factors.u[node].abs();
+        let is_peak = |&at: &usize| {
+            let vertex = self.system.vertex_of[at];
+            let edges = self.surface.at(vertex);
+            let is_higher = |&edge: &u32| size(node(self.surface.other_end(edge, vertex))) <= size(at);
+            !factors.is_fixed(at) && !edges.is_empty() && edges.iter().all(is_higher)
+        };
+        let mut peaks: Vec<usize> = (0..self.system.node_count()).filter(is_peak).collect();
+        peaks.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
+        peaks.truncate(CANDIDATES);
+        peaks
+    }
+
+    /// Exchanges cones while the cut becomes cheaper and the prediction stays at most `most`.
+    fn exchange(&self, graph: &mut CutGraph<'a>, most: f64) -> Result<(), SolveError> {
+        let mut worth = BTreeMap::new();
+        for cone in graph.cones() {
+            worth.insert(cone, f64::INFINITY);
+        }
+        let mut failures = 0;
+        for _ in 0..EXCHANGES {
+            self.control.go_on()?;
+            let before = self.predicted(graph)?;
+            let mut cones: Vec<u32> = graph.cones();
+            let known = |cone: &u32| worth.get(cone).copied().unwrap_or(f64::INFINITY);
+            cones.sort_by(|a, b| known(b).total_cmp(&known(a)).then(a.cmp(b)));
+            // Worths that are not known are infinite and come first.
+            let fresh = cones.iter().filter(|cone| known(cone).is_infinite()).count();
+            cones.truncate(fresh.clamp(2 * TRIES, MOST_TRIED));
+            let without = |&cone: &u32| {
+                let mut without = graph.clone();
+                without.remove_cone(cone);
+                let saved = if without.has_enough() { graph.cost() - without.cost() } else { 0.0 };
+                let loss = if saved > 0.0 { self.predicted(&without)? - before } else { 0.0 };
+                Ok((cone, without, if saved > 0.0 { saved / loss.max(f64::MIN_POSITIVE) } else { 0.0 }))
+            };
+            let tried: Vec<Result<_, SolveError>> = cones.par_iter().with_max_len(1).map(without).collect();
+            let mut tried = tried.into_iter().collect::<Result<Vec<_>, _>>()?;
+            for (cone, _, worth_now) in &tried {
+                worth.insert(*cone, worth_now.min(f64::MAX));
+            }
+            tried.retain(|(_, _, worth)| *worth > 0.0);
+            tried.sort_by(|a, b| b.2.total_cmp(&a.2).then(a.0.cmp(&b.0)));
+            tried.truncate(TRIES);
+            let regrown = |(cone, mut without, _): (u32, CutGraph<'a>, f64)| {
+                without.shorten(self.control)?;
+                self.grow(&mut without, most)?;
+                Ok((cone, without))
+            };
+            let regrown: Vec<Result<_, SolveError>> = tried.into_par_iter().with_max_len(1).map(regrown).collect();
+            let regrown: Vec<(u32, CutGraph<'a>)> = regrown.into_iter().collect::<Result<Vec<_>, _>>()?;
+            for (cone, _) in &regrown {
+                // A cone that was tried in vain comes last the next time.
+                worth.insert(*cone, 0.0);
+            }
+            let regrown_count = regrown.len();
+            let mut met = Vec::new();
+            for (_, cut) in regrown {
+                // Where no further cone helps, the prediction stays too high.
+                if self.predicted(&cut)? <= most.max(before) {
+                    met.push(cut);
+                }
+            }
+            let best = met.into_iter().min_by(|a, b| a.cost().total_cmp(&b.cost()));
+            match best.filter(|best| best.cost() < (1.0 - CHEAPER) * graph.cost()) {
+                Some(best) => {
+                    *graph = best;
+                    failures = 0;
+                }
+                None => failures += 1,
+            }
+            if failures > VAIN_EXCHANGES || regrown_count == 0 {
+                break;
+            }
+        }
+        graph.shorten_all(self.control)
+    }
+
+    /// Cut for a prediction of at most `most`.
+    fn cut_for(&self, start: &CutGraph<'a>, most: f64) -> Result<CutGraph<'a>, SolveError> {
+        let mut graph = self.spread(start, most)?;
+        self.grow(&mut graph, most)?;
+        self.exchange(&mut graph, most)?;
+        // Shorter paths may have raised the prediction.
+        self.grow(&mut graph, most)?;
+        Ok(graph)
+    }
+
+    /// Map of the surface along a cut.
+    fn measured(&self, graph: CutGraph<'a>) -> Result<Measured<'a>, SolveError> {
+        let predicted = self.predicted(&graph)?;
+        let (disk, corners) = self.surface.opened(&graph.is_seam)?;
+        let disk = disk.without_polygons();
+        let settings = Settings { relax_rounds: Some(self.options.rounds), ..Settings::default() };
+        let mut flattener = Flattener::with_options(Options { settings, ..Options::default() });
+        let enough = SeamOptions::ISOMETRIC + ENOUGH * (self.options.bound - SeamOptions::ISOMETRIC);
+        let is_large = disk.face_count() > LARGE;
+        let mut last = None;
+        let step = loop {
+            let step = match flattener.step(&disk, self.control) {
+                Ok(step) => step,
+                Err(error) => break last.filter(|_| error != SolveError::Cancelled).ok_or(error)?,
+            };
+            let energy = step.candidate.progress.map_or(f64::INFINITY, |progress| progress.energy);
+            let is_enough = is_large && step.verdict.planar && energy <= enough;
+            if is_enough || flattener.ending().is_some() {
+                break step;
+            }
+            last = Some(step);
+        };
+        let is_planar = step.verdict.planar;
+        let embedding = step.candidate.solution.embedding;
+        let mean = distortion(&disk, &embedding).summary.symmetric_dirichlet.mean;
+        let energy = if is_planar { mean } else { f64::INFINITY };
+        Ok(Measured { graph, predicted, energy, corners, embedding })
+    }
+}
+
+/// Index of the greatest number, the first of several.
+fn extreme(numbers: impl Iterator<Item = f64>) -> usize {
+    numbers.enumerate().fold((0, f64::NEG_INFINITY), |best, (at, x)| if x > best.1 { (at, x) } else { best }).0
+}

@@ -1,0 +1,322 @@
+//! Surface to be cut: one connected part, its edges with lengths and costs, and its boundary loops.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use crate::mesh::union::DisjointSets;
+use crate::mesh::{DiskMesh, Repaired, VertexId};
+use crate::problem::SolveError;
+
+/// Length of a boundary loop, relative to √area, below which a cut need not reach the loop: it is filled as a hole.
+const SMALL_LOOP: f64 = 0.3;
+
+/// Edge of the surface.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Edge {
+    pub(super) ends: [u32; 2],
+    pub(super) length: f64,
+    /// Length times the factor of a seam here; 0 on the boundary.
+    pub(super) cost: f64,
+    pub(super) is_boundary: bool,
+}
+
+/// Part of a mesh: connected, oriented, each edge with at most two faces.
+#[derive(Debug)]
+pub(crate) struct CutSurface<'a> {
+    part: &'a Repaired,
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Edges of the polygons, in the order of their edge table. Diagonals of polygons are no edges.
+    pub(super) edges: Vec<Edge>,
+    /// Edges at each vertex, vertex by vertex.
+    at: Vec<u32>,
+    /// Start of each vertex's edges in `at`, and the end of the last.
+    starts: Vec<u32>,
+    /// Boundary loop of each vertex, if it lies on one.
+    pub(super) loop_of: Vec<Option<u32>>,
+    /// True for each boundary loop that a cut has to reach.
+    pub(super) is_required: Vec<bool>,
+    pub(super) area: f64,
+}
+
+impl<'a> CutSurface<'a> {
+    /// Takes a repaired mesh of one part. `cost_factor` gives the cost of a seam relative to its length, by the
+    /// number of the edge.
+    pub(crate) fn new(part: &'a Repaired, cost_factor: impl Fn(usize) -> f64) -> Self {
+        let polygons = part.polygons();
+        let mesh = polygons.triangulate();
+        let triangles = mesh.triangles.iter().map(|face| face.map(VertexId::number)).collect();
+        let position = |v: u32| polygons.positions[v as usize];
+        let edges: Vec<Edge> = part
+            .edges_with_sides()
+            .into_iter()
+            .enumerate()
+            .map(|(number, (ends, side_count))| {
+                let ends = ends.map(VertexId::number);
+                let length = position(ends[0]).distance(position(ends[1]));
+                let is_boundary = side_count == 1;
+                // A boundary is open already.
+                let cost = if is_boundary { 0.0 } else { length * cost_factor(number) };
+                Edge { ends, length, cost, is_boundary }
+            })
+            .collect();
+        let (at, starts) = by_vertex(&edges, polygons.positions.len());
+        let area = mesh.area();
+        let mut surface =
+            Self { part, triangles, edges, at, starts, loop_of: Vec::new(), is_required: Vec::new(), area };
+        surface.find_loops();
+        surface
+    }
+
+    fn find_loops(&mut self) {
+        let mut sets = DisjointSets::new(self.vertex_count());
+        let boundary = || self.edges.iter().filter(|edge| edge.is_boundary);
+        for edge in boundary() {
+            sets.join(edge.ends[0], edge.ends[1]);
+        }
+        let mut loop_of = vec![None; self.vertex_count()];
+        let (mut of_root, mut lengths) = (vec![None; self.vertex_count()], Vec::new());
+        for edge in boundary() {
+            let root = sets.find(edge.ends[0]) as usize;
+            let number = *of_root[root].get_or_insert_with(|| {
+                lengths.push(0.0);
+                u32::try_from(lengths.len() - 1).expect("loops fit")
+            });
+            lengths[number as usize] += edge.length;
+            edge.ends.iter().for_each(|&v| loop_of[v as usize] = Some(number));
+        }
+        let is_long = |length: &f64| !self.part.fills_holes() || *length >= SMALL_LOOP * self.area.sqrt();
+        self.is_required = lengths.iter().map(is_long).collect();
+        self.loop_of = loop_of;
+    }
+
+    pub(super) fn vertex_count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    pub(super) fn position(&self, vertex: u32) -> glam::DVec3 {
+        self.part.polygons().positions[vertex as usize]
+    }
+
+    /// Edges at a vertex.
+    pub(super) fn at(&self, vertex: u32) -> &[u32] {
+        &self.at[self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize]
+    }
+
+    /// End of an edge other than `vertex`.
+    pub(super) fn other_end(&self, edge: u32, vertex: u32) -> u32 {
+        let [a, b] = self.edges[edge as usize].ends;
+        if a == vertex { b } else { a }
+    }
+
+    /// Edges between two faces, with the faces. Faces have the numbers of the polygons; a hole that is filled counts
+    /// as a face, numbered after the others.
+    pub(super) fn faces_beside(&self) -> Vec<(u32, [u32; 2])> {
+        let face_count = u32::try_from(self.part.polygons().face_count()).expect("faces fit");
+        let beside = |(number, faces): (u32, Vec<u32>)| match faces[..] {
+            [a, b] => Some((number, [a, b])),
+            [a] => {
+                let of = self.loop_of[self.edges[number as usize].ends[0] as usize]?;
+                (!self.is_required[of as usize]).then_some((number, [a, face_count + of]))
+            }
+            _ => None,
+        };
+        (0..).zip(self.part.faces_of_edges()).filter_map(beside).collect()
+    }
+
+    /// Genus: the number of handles.
+    pub(super) fn genus(&self) -> usize {
+        let used = (0..self.vertex_count()).filter(|&v| self.starts[v] < self.starts[v + 1]).count();
+        let faces = self.part.polygons().face_count();
+        (2 + self.edges.len()).saturating_sub(self.is_required.len() + used + faces) / 2
+    }
+
+    /// The surface opened along seams, with small holes filled, as a disk.
+    /// Returns the disk, and its vertex at each corner of the part.
+    pub(super) fn opened(&self, is_seam: &[bool]) -> Result<(DiskMesh, Vec<VertexId>), SolveError> {
+        let opened = self.part.opened_along(is_seam);
+        let corners = opened.polygons().corners.clone();
+        DiskMesh::try_from(opened.triangulate()).map(|disk| (disk, corners)).map_err(|_| SolveError::NotPlanar)
+    }
+
+    /// Part of the mesh that is cut.
+    pub(super) fn part(&self) -> &Repaired {
+        self.part
+    }
+
+    /// Cheapest paths from the given vertices to all others. Whenever a goal is reached, `take` gets the path to it,
+    /// listed backwards; the path's vertices become starts. The search ends if `take` returns false.
+    pub(super) fn paths_through(
+        &self,
+        from: &[u32],
+        is_goal: impl Fn(u32) -> bool,
+        mut take: impl FnMut(u32, Vec<u32>) -> bool,
+    ) -> Paths {
+        let mut far = vec![f64::INFINITY; self.vertex_count()];
+        let mut back = vec![u32::MAX; self.vertex_count()];
+        let mut is_start = vec![false; self.vertex_count()];
+        let mut queue = Queue::new();
+        for &vertex in from {
+            is_start[vertex as usize] = true;
+            far[vertex as usize] = 0.0;
+            queue.push(Reverse((0, vertex)));
+        }
+        while let Some(Reverse((bits, vertex))) = queue.pop() {
+            if bits != far[vertex as usize].to_bits() {
+                continue;
+            }
+            if !is_start[vertex as usize] && is_goal(vertex) {
+                let path = path_back(&back, self, vertex);
+                for &end in path.iter().flat_map(|&edge| &self.edges[edge as usize].ends) {
+                    is_start[end as usize] = true;
+                    if far[end as usize] > 0.0 {
+                        (far[end as usize], back[end as usize]) = (0.0, u32::MAX);
+                        queue.push(Reverse((0, end)));
+                    }
+                }
+                if !take(vertex, path) {
+                    break;
+                }
+                // It is in the queue again as a start, unless it was at distance 0.
+                if bits > 0 {
+                    continue;
+                }
+            }
+            for &edge in self.at(vertex) {
+                let (to, there) = (self.other_end(edge, vertex), f64::from_bits(bits) + self.edges[edge as usize].cost);
+                if there < far[to as usize] {
+                    (far[to as usize], back[to as usize]) = (there, edge);
+                    queue.push(Reverse((there.to_bits(), to)));
+                }
+            }
+        }
+        Paths { far, back }
+    }
+
+    /// Cheapest paths from the given vertices to all others.
+    pub(super) fn paths(&self, from: &[u32]) -> Paths {
+        self.paths_through(from, |_| false, |_, _| true)
+    }
+
+    /// Edges of the cheapest path from some vertices to the nearest goal.
+    pub(super) fn path(&self, from: &[u32], is_goal: impl Fn(u32) -> bool) -> Option<Vec<u32>> {
+        let mut found = None;
+        self.paths_through(from, is_goal, |_, path| {
+            found = Some(path);
+            false
+        });
+        found
+    }
+}
+
+/// Working memory of searches that stay near their start.
+#[derive(Debug)]
+pub(super) struct Nearby {
+    far: Vec<f64>,
+    back: Vec<u32>,
+    reached: Vec<u32>,
+}
+
+impl Nearby {
+    pub(super) fn new(surface: &CutSurface<'_>) -> Self {
+        let count = surface.vertex_count();
+        Self { far: vec![f64::INFINITY; count], back: vec![u32::MAX; count], reached: Vec::new() }
+    }
+
+    /// Edges of the cheapest path from some vertices to the nearest goal, if it costs at most `most`; listed
+    /// backwards from the goal.
+    pub(super) fn path(
+        &mut self,
+        surface: &CutSurface<'_>,
+        from: &[u32],
+        most: f64,
+        is_goal: impl Fn(u32) -> bool,
+    ) -> Option<Vec<u32>> {
+        let mut queue = BinaryHeap::new();
+        for &vertex in from {
+            self.reach(vertex, 0.0, u32::MAX, &mut queue);
+        }
+        let mut path = None;
+        while let Some(Reverse((bits, vertex))) = queue.pop() {
+            let here = f64::from_bits(bits);
+            if bits != self.far[vertex as usize].to_bits() {
+                continue;
+            }
+            if is_goal(vertex) {
+                path = Some(path_back(&self.back, surface, vertex));
+                break;
+            }
+            for &edge in surface.at(vertex) {
+                let (to, there) = (surface.other_end(edge, vertex), here + surface.edges[edge as usize].cost);
+                if there < self.far[to as usize] && there <= most {
+                    self.reach(to, there, edge, &mut queue);
+                }
+            }
+        }
+        for vertex in self.reached.drain(..) {
+            (self.far[vertex as usize], self.back[vertex as usize]) = (f64::INFINITY, u32::MAX);
+        }
+        path
+    }
+
+    fn reach(&mut self, vertex: u32, far: f64, back: u32, queue: &mut Queue) {
+        if self.far[vertex as usize].is_infinite() {
+            self.reached.push(vertex);
+        }
+        (self.far[vertex as usize], self.back[vertex as usize]) = (far, back);
+        queue.push(Reverse((far.to_bits(), vertex)));
+    }
+}
+
+/// Vertices by distance, the nearest first. Non-negative floats sort like their bit patterns.
+type Queue = BinaryHeap<Reverse<(u64, u32)>>;
+
+/// Edges of a path, listed backwards from its last vertex. `back` holds the last edge of the path to each vertex.
+fn path_back(back: &[u32], surface: &CutSurface<'_>, vertex: u32) -> Vec<u32> {
+    let (mut at, mut path) = (vertex, Vec::new());
+    while back[at as usize] != u32::MAX {
+        path.push(back[at as usize]);
+        at = surface.other_end(back[at as usize], at);
+    }
+    path
+}
+
+/// Cheapest paths from a set of vertices.
+#[derive(Debug)]
+pub(super) struct Paths {
+    /// Cost of the path to each vertex.
+    pub(super) far: Vec<f64>,
+    /// Last edge of the path to each vertex, or `u32::MAX`.
+    back: Vec<u32>,
+}
+
+impl Paths {
+    /// Last edge of the path to a vertex.
+    pub(super) fn last_edge(&self, vertex: u32) -> Option<u32> {
+        Some(self.back[vertex as usize]).filter(|&edge| edge != u32::MAX)
+    }
+
+    /// Edges of the path to a vertex, listed backwards from it.
+    pub(super) fn to(&self, surface: &CutSurface<'_>, vertex: u32) -> Vec<u32> {
+        path_back(&self.back, surface, vertex)
+    }
+}
+
+/// Edges at each vertex, and the start of each vertex's edges.
+fn by_vertex(edges: &[Edge], vertex_count: usize) -> (Vec<u32>, Vec<u32>) {
+    let mut starts = vec![0_u32; vertex_count + 1];
+    for &end in edges.iter().flat_map(|edge| &edge.ends) {
+        starts[end as usize + 1] += 1;
+    }
+    for v in 1..starts.len() {
+        starts[v] += starts[v - 1];
+    }
+    let mut cursor = starts.clone();
+    let mut at = vec![0; 2 * edges.len()];
+    for (number, edge) in (0..).zip(edges) {
+        for &end in &edge.ends {
+            at[cursor[end as usize] as usize] = number;
+            cursor[end as usize] += 1;
+        }
+    }
+    (at, starts)
+}

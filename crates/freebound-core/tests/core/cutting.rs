@@ -1,0 +1,264 @@
+//! Automatic seams: short cuts whose maps keep the distortion below a bound.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::atomic::AtomicBool;
+
+use freebound_core::cutting::SeamOptions;
+use freebound_core::mesh::{HoleTreatment, PolygonMesh, Preparation, TriMesh, VertexId};
+use freebound_core::pipeline::{AutomaticSeams, PreparedMesh};
+use freebound_core::problem::{Control, Embedding, SolveError};
+use freebound_core::verify::{distortion, verdict};
+use freebound_core::{PipelineOptions, UnwrapError, unwrap};
+use freebound_testkit::cubes::cube;
+use freebound_testkit::many_parts::{ball, torus};
+use freebound_testkit::{bumpy_ball, fan, grid, shaped, tetrahedron};
+use glam::{DVec2, DVec3};
+
+fn polygons(mesh: &TriMesh) -> PolygonMesh {
+    let positions: Vec<[f64; 3]> = mesh.positions.iter().map(DVec3::to_array).collect();
+    let faces: Vec<[u32; 3]> = mesh.triangles.iter().map(|face| face.map(VertexId::number)).collect();
+    PolygonMesh::from_arrays(&positions, &faces.iter().map(<[u32; 3]>::as_slice).collect::<Vec<_>>())
+}
+
+fn form() -> Preparation {
+    Preparation::default().with_all_repairs()
+}
+
+fn seams_of(mesh: &PolygonMesh, bound: f64) -> AutomaticSeams {
+    AutomaticSeams::find(mesh, None, &form(), SeamOptions::new(bound), Control::unattended()).expect("not cancelled")
+}
+
+/// Chart of a mesh along its seams, with the map that was found with them: its mean energy and number of seam edges.
+fn energy_along(mesh: &PolygonMesh, seams: &AutomaticSeams) -> f64 {
+    let prepared = PreparedMesh::new(mesh, None, seams.cut_in(&form()));
+    let disk = prepared.disk().expect("one disk");
+    let map: Embedding = prepared.map_of_corners(mesh, &seams.corners).expect("every corner has one position");
+    assert!(verdict(disk, &map).planar, "{:?}", verdict(disk, &map));
+    distortion(disk, &map).summary.symmetric_dirichlet.mean
+}
+
+#[test]
+fn a_cube_gets_the_seven_seams_of_an_exact_net() {
+    let seams = seams_of(&cube(), 4.1);
+    assert_eq!(seams.edges.len(), 7);
+    assert!((energy_along(&cube(), &seams) - 4.0).abs() < 1e-6);
+}
+
+#[test]
+fn the_smallest_closed_surface_is_opened_to_a_disk() {
+    let mesh = polygons(&tetrahedron());
+    let seams = seams_of(&mesh, 4.1);
+    // Without a seam to one corner of the four, the corner stays curved.
+    assert_eq!(seams.edges.len(), 3);
+    assert!((energy_along(&mesh, &seams) - 4.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_smaller_bound_gets_longer_seams_and_every_bound_is_met() {
+    let mesh = bumpy_ball();
+    let mut before = 0.0;
+    for bound in [5.0, 4.4, 4.2, 4.1] {
+        let seams = seams_of(&mesh, bound);
+        let energy = energy_along(&mesh, &seams);
+        assert!(energy <= bound, "{energy} for {bound}");
+        assert!(seams.length > before, "{} after {before}", seams.length);
+        before = seams.length;
+    }
+}
+
+#[test]
+fn seams_of_a_ball_are_a_tree_and_those_of_a_torus_have_two_loops() {
+    for (mesh, loops) in [(ball(24, 12), 0), (torus(16, 32), 2)] {
+        let seams = seams_of(&polygons(&mesh), 4.1);
+        let vertices: BTreeSet<VertexId> = seams.edges.iter().flatten().copied().collect();
+        // Edges − vertices + components: the independent loops of a graph.
+        assert_eq!(seams.edges.len() + components(&seams.edges), vertices.len() + loops);
+        assert_eq!(components(&seams.edges), 1);
+        assert!(energy_along(&polygons(&mesh), &seams) <= 4.1);
+    }
+}
+
+/// Number of connected components of a graph without isolated vertices.
+fn components(edges: &[[VertexId; 2]]) -> usize {
+    let mut neighbours: BTreeMap<VertexId, Vec<VertexId>> = BTreeMap::new();
+    for &[a, b] in edges {
+        neighbours.entry(a).or_default().push(b);
+        neighbours.entry(b).or_default().push(a);
+    }
+    let mut left: BTreeSet<VertexId> = neighbours.keys().copied().collect();
+    let mut count = 0;
+    while let Some(first) = left.pop_first() {
+        count += 1;
+        let mut stack = vec![first];
+        while let Some(vertex) = stack.pop() {
+            stack.extend(neighbours[&vertex].iter().filter(|other| left.remove(other)));
+        }
+    }
+    count
+}
+
+#[test]
+fn a_surface_that_is_nearly_flat_is_not_cut() {
+    let sheet = shaped(12, 12, |x, y| DVec3::new(x, y, 0.05 * (3.0 * x).sin()));
+    let seams = seams_of(&polygons(&sheet), 4.1);
+    assert!(seams.edges.is_empty() && seams.corners.iter().all(Option::is_some));
+}
+
+#[test]
+fn a_tube_is_opened_from_end_to_end() {
+    let turn = |x: f64| (std::f64::consts::TAU * x).sin_cos();
+    // The last column of vertices coincides with the first.
+    let tube = shaped(24, 6, |x, y| DVec3::new(turn(x / 24.0).1, turn(x / 24.0).0, 0.5 * y));
+    let mesh = polygons(&tube);
+    let welded: Vec<VertexId> = (0..mesh.positions.len())
+        .map(|v| VertexId::from_index((0..=v).find(|&w| mesh.positions[w].distance(mesh.positions[v]) < 1e-9).unwrap()))
+        .collect();
+    let corners = mesh.corners.iter().map(|v| welded[v.index()]).collect();
+    let mesh = PolygonMesh { corners, ..mesh };
+    let seams = seams_of(&mesh, 4.1);
+    assert_eq!(seams.edges.len(), 6, "{:?}", seams.edges);
+    assert!((energy_along(&mesh, &seams) - 4.0).abs() < 1e-6);
+}
+
+/// A ball without the faces around its south pole.
+fn ball_with_hole(around: u32, rows: u32) -> PolygonMesh {
+    let mesh = polygons(&ball(around, rows));
+    let south = VertexId::new((rows - 1) * around);
+    let is_open = |face: usize| mesh.face(face).contains(&south);
+    freebound_testkit::surfaces::without_faces(&mesh, is_open)
+}
+
+#[test]
+fn a_cut_reaches_a_long_boundary() {
+    let mesh = ball_with_hole(24, 12);
+    let seams = seams_of(&mesh, 4.3);
+    assert!(energy_along(&mesh, &seams) <= 4.3);
+    // The first ring of vertices.
+    assert!(seams.edges.iter().flatten().any(|vertex| vertex.number() < 24));
+}
+
+#[test]
+fn a_surface_with_a_small_hole_alone_is_opened_like_a_closed_one() {
+    let mesh = ball_with_hole(24, 60);
+    let seams = seams_of(&mesh, 4.3);
+    assert!(!seams.edges.is_empty() && energy_along(&mesh, &seams) <= 4.3);
+}
+
+#[test]
+fn holes_that_are_to_be_cut_are_reached_however_small_they_are() {
+    let mesh = ball_with_hole(24, 60);
+    let form = Preparation { holes: HoleTreatment::Cut, ..form() };
+    let options = SeamOptions::new(4.3);
+    let seams = AutomaticSeams::find(&mesh, None, &form, options, Control::unattended()).expect("not cancelled");
+    assert!(seams.edges.iter().flatten().any(|vertex| vertex.number() < 24));
+}
+
+#[test]
+fn a_disk_of_high_distortion_gets_seams_too() {
+    let mesh = ball_with_hole(24, 12);
+    let bound = Some(4.2);
+    let unwrapped = unwrap(&mesh, &PipelineOptions { distortion: bound, ..PipelineOptions::for_any_mesh() });
+    let unwrapped = unwrapped.map_err(|error| error.to_string()).expect("planar");
+    assert!(unwrapped.charts[0].distortion.symmetric_dirichlet.mean <= 4.2);
+    let whole = unwrap(&mesh, &PipelineOptions { distortion: None, ..PipelineOptions::for_any_mesh() });
+    let whole = whole.map_err(|error| error.to_string()).expect("planar");
+    assert!(whole.charts[0].distortion.symmetric_dirichlet.mean > 4.2);
+}
+
+#[test]
+fn seams_by_hand_are_kept_and_completed() {
+    let mesh = polygons(&ball(16, 8));
+    let by_hand =
+        [[VertexId::from_index(0), VertexId::from_index(1)], [VertexId::from_index(1), VertexId::from_index(2)]];
+    let form = Preparation { seams: form().seams.with(by_hand), ..form() };
+    let seams =
+        AutomaticSeams::find(&mesh, None, &form, SeamOptions::new(4.2), Control::unattended()).expect("not cancelled");
+    assert!(by_hand.iter().all(|edge| !seams.edges.contains(edge)), "they are cut already");
+    let prepared = PreparedMesh::new(&mesh, None, seams.cut_in(&form));
+    assert!(prepared.disk().is_some());
+    assert!(by_hand.iter().all(|edge| prepared.form.seams.edges().contains(edge)));
+}
+
+#[test]
+fn the_bits_are_the_same_for_any_number_of_threads() {
+    let mesh = bumpy_ball();
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let seams = pool.install(|| seams_of(&mesh, 4.2));
+        let bits = |at: &Option<DVec2>| at.map(|at| at.to_array().map(f64::to_bits));
+        (seams.edges, seams.corners.iter().map(bits).collect::<Vec<_>>())
+    };
+    assert_eq!(on(1), on(3));
+}
+
+#[test]
+fn a_raised_flag_cancels_the_search() {
+    let cancel = AtomicBool::new(true);
+    let control = Control::new(&cancel, &|_| {});
+    let found = AutomaticSeams::find(&bumpy_ball(), None, &form(), SeamOptions::new(4.1), control);
+    assert_eq!(found.err(), Some(SolveError::Cancelled));
+}
+
+#[test]
+fn a_one_sided_surface_falls_back_to_the_shortest_cut() {
+    let band = polygons(&freebound_testkit::band(12, 1));
+    let seams = seams_of(&band, 4.1);
+    assert!(seams.edges.is_empty());
+    match unwrap(&band, &PipelineOptions::for_any_mesh()) {
+        Ok(unwrapped) => assert!(unwrapped.verdict.planar),
+        Err(error) => panic!("a band is cut across: {error}"),
+    }
+}
+
+#[test]
+fn a_part_without_area_never_makes_a_run_fail() {
+    // A square, and a triangle whose corners are on one line.
+    let positions = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [3.0, 0.0, 0.0],
+        [3.5, 0.0, 0.0],
+        [4.0, 0.0, 0.0],
+    ];
+    let faces: [&[u32]; 3] = [&[0, 1, 2], &[0, 2, 3], &[4, 5, 6]];
+    let mesh = PolygonMesh::from_arrays(&positions, &faces);
+    let unwrapped = unwrap(&mesh, &PipelineOptions::for_any_mesh());
+    let unwrapped = unwrapped.map_err(|error: UnwrapError| error.to_string()).expect("planar");
+    assert_eq!(unwrapped.charts.len(), 2);
+    assert!(unwrapped.verdict.planar && unwrapped.verdict.planar_in_f32);
+}
+
+#[test]
+fn parts_that_need_no_cut_keep_their_map_and_others_get_their_own_seams() {
+    let (flat, round) = (grid(4, 4), ball(16, 8));
+    let cone = fan(7);
+    let meshes = [&flat, &round, &cone].map(polygons);
+    let mesh = freebound_testkit::many_parts::interleaved(&meshes, &mut freebound_testkit::Random(5));
+    let seams = seams_of(&mesh, 4.1);
+    let unwrapped = unwrap(&mesh, &PipelineOptions::for_any_mesh()).expect("planar");
+    assert_eq!(unwrapped.charts.len(), 3);
+    assert!(!seams.edges.is_empty());
+    assert!(unwrapped.charts.iter().all(|chart| chart.distortion.symmetric_dirichlet.mean <= 4.1 + 1e-9));
+}
+
+#[test]
+fn a_torus_with_a_hole_anywhere_is_opened_to_one_disk() {
+    let whole = polygons(&torus(12, 24));
+    for centre in [0, 40, 150, 280] {
+        let centre = VertexId::new(centre);
+        let mesh = freebound_testkit::surfaces::without_faces(&whole, |face| whole.face(face).contains(&centre));
+        for holes in [HoleTreatment::Fill, HoleTreatment::Cut] {
+            let form = Preparation { holes, ..form() };
+            let options = SeamOptions::new(4.2);
+            let seams =
+                AutomaticSeams::find(&mesh, None, &form, options, Control::unattended()).expect("not cancelled");
+            assert!(seams.corners.iter().all(Option::is_some), "hole at {centre}, {holes:?}");
+            let prepared = PreparedMesh::new(&mesh, None, seams.cut_in(&form));
+            let disk = prepared.disk().expect("one disk");
+            let map = prepared.map_of_corners(&mesh, &seams.corners).expect("a map");
+            assert!(distortion(disk, &map).summary.symmetric_dirichlet.mean <= 4.2);
+        }
+    }
+}
