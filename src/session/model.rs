@@ -11,7 +11,7 @@ use freebound_core::flatten::Options;
 use freebound_core::geom::PackingOptions;
 use freebound_core::mesh::{DiskMesh, PartFaces, Preparation, Repaired, TriMesh, VertexId};
 use freebound_core::pipeline::{Arrangement, AutomaticSeams, Fit, Outcome, PreparedMesh, Problem, SolvedChart, atlas};
-use freebound_core::problem::{Control, Embedding, Method, Settings, SolveError, Start};
+use freebound_core::problem::{Control, Embedding, Settings, SolveError, Start};
 use freebound_io::{
     FileStamp, LayoutError, MeshFile, Output, PictureFile, ReadError, ResultSource, StepReport, Texture,
     read_mesh_with, read_stream_with,
@@ -259,14 +259,9 @@ impl Model {
     ///
     /// [`LayoutError`] if the layout is asked for and is not there.
     pub fn flattener_options(&self, problem: &Problem) -> Result<Options, LayoutError> {
-        // The map leaves the place of pins open.
-        let is_usable = problem.settings.method == Method::Auto && problem.targets.is_empty();
         Ok(match problem.settings.start {
             Start::File => problem.options_from(&self.layout()?),
-            Start::FromScratch => match self.map_of_seams().filter(|_| is_usable) {
-                Some(map) => problem.options_with_map(map),
-                None => problem.options(),
-            },
+            Start::FromScratch => problem.options_with_map(self.map_of_seams()),
         })
     }
 

@@ -41,7 +41,7 @@ fn what_came_of_a_rule_is_forgotten_with_the_tool_the_file_and_other_seams() {
     cut(&mut window);
     window.key(Key::V);
     window.key(Key::X);
-    assert!(!window.shows(&no_materials()), "another tool was taken up");
+    assert!(!window.shows(&no_materials()), "another tool was selected");
     cut(&mut window);
     let other = window.path("other.obj");
     write_obj(&other, &sheet(4, 0.0));

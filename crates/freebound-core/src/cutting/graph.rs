@@ -65,17 +65,11 @@ impl<'a> CutGraph<'a> {
         Ok(graph)
     }
 
-    /// Vertices of the boundary loops that the graph has to reach.
-    fn required(&self) -> Vec<u32> {
-        let of_loop = |v: u32| self.surface.loop_of[v as usize];
-        let is_required = |&v: &u32| of_loop(v).is_some_and(|of| self.surface.is_required[of as usize]);
-        (0..).take(self.surface.vertex_count()).filter(is_required).collect()
-    }
-
     /// Loops around the handles, by the shortest paths from the long boundary loops, or from one vertex.
     fn open_handles(&mut self) {
         let surface = self.surface;
-        let required = self.required();
+        // No cone has been added yet: these are the vertices of the long boundary loops.
+        let required = self.anchors();
         let paths =
             if required.is_empty() { surface.paths(&surface.edges[0].ends[..1]) } else { surface.paths(&required) };
         let mut is_of_tree = vec![false; surface.edges.len()];
@@ -151,7 +145,7 @@ impl<'a> CutGraph<'a> {
     /// Connects the long boundary loops with the rest.
     fn join_loops(&mut self, control: Control<'_>) -> Result<(), SolveError> {
         let surface = self.surface;
-        let is_required = |v: u32| surface.loop_of[v as usize].is_some_and(|of| surface.is_required[of as usize]);
+        let is_required = |v: u32| surface.is_on_required_loop(v);
         loop {
             control.go_on()?;
             let required: Vec<u32> =
@@ -177,16 +171,12 @@ impl<'a> CutGraph<'a> {
 
     /// True if the map is free at a vertex: at seams, cones and long boundary loops.
     pub(super) fn is_free(&self, vertex: u32) -> bool {
-        let of = self.surface.loop_of[vertex as usize];
-        self.is_in(vertex) || of.is_some_and(|of| self.surface.is_required[of as usize])
+        self.is_in(vertex) || self.surface.is_on_required_loop(vertex)
     }
 
     /// Cones, and vertices of long boundary loops.
     pub(super) fn anchors(&self) -> Vec<u32> {
-        let is_anchor = |&v: &u32| {
-            let of = self.surface.loop_of[v as usize];
-            self.is_cone[v as usize] || of.is_some_and(|of| self.surface.is_required[of as usize])
-        };
+        let is_anchor = |&v: &u32| self.is_cone[v as usize] || self.surface.is_on_required_loop(v);
         (0..).take(self.degree.len()).filter(is_anchor).collect()
     }
 

@@ -89,6 +89,11 @@ impl<'a> CutSurface<'a> {
         self.loop_of = loop_of;
     }
 
+    /// True if a vertex lies on a boundary loop that a cut has to reach.
+    pub(super) fn is_on_required_loop(&self, vertex: u32) -> bool {
+        self.loop_of[vertex as usize].is_some_and(|of| self.is_required[of as usize])
+    }
+
     pub(super) fn vertex_count(&self) -> usize {
         self.starts.len() - 1
     }

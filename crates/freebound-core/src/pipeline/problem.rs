@@ -53,9 +53,12 @@ impl Problem {
         Options { layout: Some(Arc::new(self.in_plane(layout))), ..self.options() }
     }
 
-    /// Options of a flattener that starts from a planar map, which leaves position, rotation and size open.
-    pub fn options_with_map(&self, map: Embedding) -> Options {
-        Options { layout: Some(Arc::new(map)), layout_is_free: true, ..self.options() }
+    /// Options of a flattener that starts from a planar map, which leaves position, rotation and size open. The map
+    /// is used by [`Method::Auto`] without pins alone.
+    pub fn options_with_map(&self, map: Option<Embedding>) -> Options {
+        let is_usable = self.settings.method == Method::Auto && self.targets.is_empty();
+        let layout = map.filter(|_| is_usable).map(Arc::new);
+        Options { layout_is_free: layout.is_some(), layout, ..self.options() }
     }
 
     /// Position of a layout in the plane. The layout has v up.

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::mesh::{Diagnosis, DiskMesh, Done, PolygonMesh, TriMesh, VertexId, parts};
 use crate::parallel::prelude::*;
-use crate::problem::{Control, Embedding, Method, SolveError};
+use crate::problem::{Control, Embedding, SolveError};
 use crate::verify::{AtlasVerdict, atlas_verdict};
 
 use super::{
@@ -104,16 +104,12 @@ pub fn unwrap_with(
     options.settings.new_vertices = false;
     let turned = options.preparation.faces_turned.then(|| mesh.turned());
     let mesh = turned.as_ref().unwrap_or(mesh);
-    let mut prepared = PreparedMesh::new(mesh, None, options.preparation.clone());
-    let mut seams = None;
-    if let Some(bound) = options.distortion.filter(|_| options.preparation.cut) {
-        let form = &options.preparation;
-        let found = AutomaticSeams::find(mesh, None, form, SeamOptions::new(bound), control);
-        let found = found.map_err(|error| UnwrapError::Solve { chart: 0, error })?;
-        prepared = PreparedMesh::new(mesh, None, found.cut_in(form));
-        seams = Some(found);
-    }
+    let form = &options.preparation;
+    let find = |bound| AutomaticSeams::find(mesh, None, form, SeamOptions::new(bound), control);
+    let seams = options.distortion.filter(|_| form.cut).map(find).transpose();
+    let seams = seams.map_err(|error| UnwrapError::Solve { chart: 0, error })?;
     let seams = seams.as_ref();
+    let prepared = PreparedMesh::new(mesh, None, seams.map_or_else(|| form.clone(), |seams| seams.cut_in(form)));
     if let Surface::Faulty(_, diagnosis) = &prepared.surface {
         return Err(UnwrapError::NotASurface(Box::new(diagnosis.as_ref().clone())));
     }
@@ -206,9 +202,7 @@ fn solved_on(
     map: Option<Embedding>,
     control: Control<'_>,
 ) -> Result<SolvedProblem, SolveError> {
-    // The map leaves the place of pins open.
-    let is_usable = problem.settings.method == Method::Auto && problem.targets.is_empty();
-    let options = map.filter(|_| is_usable).map_or_else(|| problem.options(), |map| problem.options_with_map(map));
+    let options = problem.options_with_map(map);
     problem.solve(disk, Flattener::with_options(options), control, |_| Ok(()))
 }
 
