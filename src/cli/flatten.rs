@@ -72,7 +72,7 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
         let packing = arguments.packing(picture.as_ref());
         let aspect = picture.as_ref().map(PictureFile::aspect).or(solve.aspect);
         let settings = arguments.settings();
-        let has_map = model.automatic_seams.as_ref().is_some_and(|seams| seams.corners.iter().all(Option::is_some));
+        let has_map = model.automatic_seams().is_some_and(|seams| seams.corners.iter().all(Option::is_some));
         let relax_rounds = settings.relax_rounds.or(usual_rounds.filter(|_| !has_map));
         let options = PipelineOptions {
             preparation: model.prepared.form.clone(),

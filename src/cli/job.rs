@@ -162,7 +162,7 @@ impl HeadlessJob<'_> {
 
 /// Reports the automatic seams of a mesh, which were found while it was read, within `read` seconds.
 fn report_seams(output: &mut Output<'_>, model: &Model, read: f64) {
-    let seams = model.automatic_seams.as_deref();
+    let seams = model.automatic_seams();
     output.report.seams = seams.map(SeamsReport::of);
     output.report.seconds.cut = seams.map_or(0.0, |seams| seams.seconds);
     output.report.seconds.read = read - output.report.seconds.cut;

@@ -7,7 +7,7 @@ use crate::session::Model;
 use freebound_core::cutting::SeamOptions;
 use freebound_core::mesh::{Preparation, VertexId};
 use freebound_core::problem::Control;
-use freebound_io::{LabelError, TextureError, read_edges};
+use freebound_io::{LabelError, TextureError, read_edge_costs, read_edges};
 
 /// Mesh in the requested preparation. `model` is read, but not prepared.
 ///
@@ -24,6 +24,9 @@ pub(super) fn formed(model: &Model, arguments: &MeshArguments, progress: &Progre
     if let Cut::Along(path) = &arguments.cut {
         form.seams = form.seams.with(read_edges(path, &model.source.polygons)?);
     }
+    if let Some(path) = &arguments.cut_weights {
+        form.seams = form.seams.with_costs(read_edge_costs(path, &model.source.polygons)?);
+    }
     for kind in &arguments.seams {
         form.seams = form.seams.with(edges_of(&uncut, *kind)?);
     }
@@ -33,8 +36,10 @@ pub(super) fn formed(model: &Model, arguments: &MeshArguments, progress: &Progre
 /// Model cut along automatic seams, if they are requested. `model` is cut along the shortest paths, if it is cut.
 fn cut(model: Model, arguments: &MeshArguments, progress: &ProgressLine) -> Result<Model, CommandError> {
     if matches!(arguments.cut, Cut::None | Cut::Shortest) {
-        return match arguments.distortion {
-            Some(_) => Err(CommandError::Usage("--distortion needs automatic seams: add --cut auto".into())),
+        let idle =
+            arguments.distortion.map(|_| "--distortion").or(arguments.cut_weights.as_ref().map(|_| "--cut-weights"));
+        return match idle {
+            Some(option) => Err(CommandError::Usage(format!("{option} needs automatic seams: add --cut auto"))),
             None => Ok(model),
         };
     }
@@ -42,7 +47,7 @@ fn cut(model: Model, arguments: &MeshArguments, progress: &ProgressLine) -> Resu
     let Some(bound) = arguments.distortion.or(usual) else { return Ok(model) };
     progress.enter("cutting");
     let control = Control::new(&INTERRUPTED, &|_| {});
-    let seams = model.find_seams(SeamOptions::new(bound), control)?;
+    let seams = model.find_seams(&model.prepared.form, SeamOptions::new(bound), control, &|_| {})?;
     Ok(model.cut_along(seams))
 }
 

@@ -62,8 +62,20 @@ pub enum Action {
     SetVAxis(VAxis),
     /// Reverses the orientation of all faces, which swaps the inside and the outside of the mesh.
     TurnFaces,
-    /// Applies all available repairs and cuts the mesh to a disk.
-    Mend,
+    /// Repairs the mesh and cuts it along short seams whose map keeps a bound on the mean symmetric Dirichlet energy.
+    /// Default: the bound of the last cut, or 4.1.
+    Unwrap(Option<f64>),
+    /// Sets the cost of edges for automatic seams, relative to their length, and cuts the mesh along the seams that
+    /// are cheapest then.
+    PaintSeams {
+        /// Edges, by vertices of the file.
+        edges: Vec<[VertexId; 2]>,
+        /// Their cost. Default of an edge: 1.
+        cost: f64,
+    },
+    /// Finds the seams of [`Unwrap`](Self::Unwrap) for a bound and shows them, but does not cut the mesh. `None` ends
+    /// the preview.
+    PreviewSeams(Option<f64>),
     /// Replaces the seams that the mesh is cut along. Each seam edge has to be an edge of the file.
     SetSeams(Seams),
     /// Sets the treatment of holes.

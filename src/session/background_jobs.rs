@@ -95,6 +95,8 @@ impl BackgroundJobs {
     /// Drops all jobs except [`FORMING`], so that the mesh still gets the preparation of the document.
     pub(super) fn stop(&mut self) {
         self.under_way.cancel_but(|what| *what == FORMING);
+        // The preparation itself still arrives; only the map along its seams is given up.
+        self.under_way.interrupt();
         self.arrived.clear();
         self.is_stopped = true;
     }

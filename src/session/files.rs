@@ -63,6 +63,11 @@ impl Files {
         self.table.saved.as_ref() == Some(document)
     }
 
+    /// Notes that a document differs from its saved state by nothing that the user did.
+    pub(super) fn note_unchanged(&mut self, document: &Document) {
+        self.table.saved = Some(document.clone());
+    }
+
     pub(super) fn is_loading(&self) -> bool {
         self.loading.is_busy()
     }

@@ -34,7 +34,10 @@ impl Session {
         self.charts.forget();
         self.forget_steps();
         self.messages.clear();
-        self.tell_faults();
+        self.unwrapping.cancel();
+        if !(is_mesh && self.unwrap_opened()) {
+            self.tell_faults();
+        }
         for remark in remarks {
             self.messages.say(remark);
         }

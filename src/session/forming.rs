@@ -8,7 +8,7 @@ use super::open_mesh::Near;
 use super::reshaping::Reshaped;
 use super::{Command, Document, MessagePlace, Session};
 use freebound_core::mesh::{HoleTreatment, Preparation, WeldDistance, near_vertices};
-use freebound_core::problem::{Method, Settings, Start};
+use freebound_core::problem::{Control, Method, Settings, Start};
 
 /// Name of the job that counts vertices near each other.
 const COUNTING: &str = "counting near vertices";
@@ -20,13 +20,6 @@ impl Session {
             let form = self.document.form.clone();
             self.mesh.turn_wanted();
             self.edit(vec![Command::SetForm(Preparation { faces_turned: !form.faces_turned, ..form })]);
-        }
-    }
-
-    /// Applies all available repairs and cuts the mesh to a disk.
-    pub(super) fn mend(&mut self) {
-        if self.model().is_some_and(|model| model.prepared.remedy.is_some()) {
-            self.want_form(self.form_to_be().with_all_repairs());
         }
     }
 
@@ -120,11 +113,13 @@ impl Session {
         }
         self.jobs.go_on();
         if !self.jobs.is_under_way(FORMING) {
-            let formed = move |number: Option<usize>| match number {
+            let formed = move |number: Option<usize>, control: Control<'_>| match number {
                 Some(number) => model.of_chart(number),
-                None => model.in_form(form).with_chart(chart),
+                None => model.in_form(form).mapped(control).with_chart(chart),
             };
-            self.jobs.send(FORMING, move |_| BackgroundJob::Formed(Box::new(formed(wanted))));
+            self.jobs.send(FORMING, move |cancel| {
+                BackgroundJob::Formed(Box::new(formed(wanted, Control::new(cancel, &|_| {}))))
+            });
         }
         false
     }
@@ -162,7 +157,10 @@ impl Session {
         let is_free = self.has_form_as_wanted() && !self.jobs.is_under_way(RESHAPING);
         let wanted = self.mesh.wanted().filter(|_| is_free);
         if let (Some(form), Some(model)) = (wanted.cloned(), self.model().cloned()) {
-            self.jobs.send(RESHAPING, move |_| BackgroundJob::Reshaped(Box::new(Reshaped::new(model, form))));
+            self.jobs.send(RESHAPING, move |cancel| {
+                let control = Control::new(cancel, &|_| {});
+                BackgroundJob::Reshaped(Box::new(Reshaped::new(model, form, control)))
+            });
         }
     }
 

@@ -147,6 +147,11 @@ impl Messages {
         self.list.retain(|message| message.place != MessagePlace::Mesh);
     }
 
+    /// Removes reports of written files.
+    pub(super) fn forget_written(&mut self) {
+        self.list.retain(|message| message.severity != Severity::Note || message.files.is_empty());
+    }
+
     /// Removes success messages.
     pub(super) fn forget_notes(&mut self) {
         self.list.retain(|message| message.severity != Severity::Note);

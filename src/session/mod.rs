@@ -17,6 +17,7 @@
 //! | `forming`            | wanted preparation of the mesh, and its shown chart                    |
 //! | `reshaping`          | mesh in another preparation, with its pins                             |
 //! | `seams`              | seams that the user draws, and their files                             |
+//! | `unwrapping`         | part: automatic seams, found in the background                         |
 //! | `v_axis`             | part: last reversal of v                                               |
 //! | `runs`               | runs that solve the document                                           |
 //! | `filing`             | opening and saving                                                     |
@@ -103,6 +104,7 @@ mod status;
 mod stop;
 mod target_checks;
 mod timeline;
+mod unwrapping;
 mod v_axis;
 
 pub use action::{Action, SaveRequest, UndoGroup};
@@ -127,3 +129,4 @@ pub use state::Session;
 pub use status::{Busy, Status};
 pub use stop::{RunStop, StopConditions};
 pub use timeline::{StepDistortion, TIMELINE_BUDGET, Timeline};
+pub use unwrapping::SeamSearch;

@@ -10,12 +10,18 @@ use freebound_core::cutting::SeamOptions;
 use freebound_core::flatten::Options;
 use freebound_core::geom::PackingOptions;
 use freebound_core::mesh::{DiskMesh, PartFaces, Preparation, Repaired, TriMesh, VertexId};
-use freebound_core::pipeline::{Arrangement, AutomaticSeams, Fit, Outcome, PreparedMesh, Problem, SolvedChart, atlas};
+use freebound_core::pipeline::{
+    Arrangement, AutomaticSeams, Fit, MeshToCut, Outcome, PreparedMesh, Problem, SeamReport, SolvedChart, Surface,
+    atlas,
+};
 use freebound_core::problem::{Control, Embedding, Settings, SolveError, Start};
 use freebound_io::{
     FileStamp, LayoutError, MeshFile, Output, PictureFile, ReadError, ResultSource, StepReport, Texture,
     read_mesh_with, read_stream_with,
 };
+
+/// Most automatic seams that a model keeps, with their maps.
+const MOST_SEAMS: usize = 8;
 
 /// Opened mesh, which may have faults that prevent flattening.
 #[derive(Clone, Debug)]
@@ -33,9 +39,8 @@ pub struct Model {
     pub source: Arc<MeshFile>,
     /// The mesh or its chart, prepared for flattening.
     pub prepared: PreparedMesh,
-    /// Automatic seams that the mesh is cut along, with their map. A run of `auto` without pins
-    /// and without another start begins with this map.
-    pub automatic_seams: Option<Arc<AutomaticSeams>>,
+    /// Automatic seams that were found for preparations of the mesh, the newest last, with their maps.
+    seams_found: Vec<Arc<AutomaticSeams>>,
     /// Texture coordinates of another file, which replace the file's own as the start of a run.
     pub layout_file: Option<Arc<LayoutFile>>,
 }
@@ -105,7 +110,7 @@ impl Model {
             example: None,
             source: Arc::new(source),
             prepared: PreparedMesh::default(),
-            automatic_seams: None,
+            seams_found: Vec::new(),
             layout_file: None,
         }
     }
@@ -114,29 +119,89 @@ impl Model {
     /// texture coordinates are cut only if all corners have texture coordinates.
     #[must_use = "the mesh itself stays as it is"]
     pub fn in_form(&self, form: Preparation) -> Self {
-        let is_turned = form.faces_turned != self.prepared.form.faces_turned;
-        let source = if is_turned { Arc::new(self.source.turned()) } else { Arc::clone(&self.source) };
-        let labels = if form.seams.of_texture { source.texture_labels().ok() } else { None };
+        let source = self.source_in(&form);
+        let labels = labels_for(&source, &form);
         let prepared = PreparedMesh::new(&source.polygons, labels.as_deref(), form);
-        Self { source, prepared, automatic_seams: None, layout_file: None, ..self.clone() }
+        Self { source, prepared, layout_file: None, ..self.clone() }
+    }
+
+    /// File with its faces reversed as a preparation asks for.
+    fn source_in(&self, form: &Preparation) -> Arc<MeshFile> {
+        let is_turned = form.faces_turned != self.prepared.form.faces_turned;
+        if is_turned { Arc::new(self.source.turned()) } else { Arc::clone(&self.source) }
     }
 
     /// Model that is cut along automatic seams.
     #[must_use = "the mesh itself stays as it is"]
     pub fn cut_along(&self, seams: AutomaticSeams) -> Self {
-        let form = seams.cut_in(&self.prepared.form);
-        Self { automatic_seams: Some(Arc::new(seams)), ..self.in_form(form) }
+        let form = seams.form.clone();
+        self.knowing(Arc::new(seams)).in_form(form)
     }
 
-    /// Finds automatic seams for the mesh in its preparation.
+    /// Model that knows automatic seams. It is not cut along them.
+    #[must_use = "the mesh itself stays as it is"]
+    pub(super) fn knowing(&self, seams: Arc<AutomaticSeams>) -> Self {
+        let mut seams_found = self.seams_found.clone();
+        seams_found.retain(|known| known.form != seams.form);
+        seams_found.push(seams);
+        if seams_found.len() > MOST_SEAMS {
+            // The mesh may be cut along the oldest.
+            let oldest = seams_found.iter().position(|known| known.form != self.prepared.form);
+            seams_found.remove(oldest.unwrap_or(0));
+        }
+        Self { seams_found, ..self.clone() }
+    }
+
+    /// Model that knows the map of its automatic seams. The map is computed if it is not known. A model without such
+    /// seams, and a computation that is cancelled or fails, change nothing.
+    #[must_use = "the mesh itself stays as it is"]
+    pub(super) fn mapped(self, control: Control<'_>) -> Self {
+        let form = &self.prepared.form;
+        let Some(bound) = form.seams.bound().filter(|_| self.automatic_seams().is_none()) else { return self };
+        let labels = labels_for(&self.source, form);
+        let to_cut = MeshToCut { mesh: &self.source.polygons, labels: labels.as_deref(), form };
+        match AutomaticSeams::along(to_cut, SeamOptions::new(bound), control) {
+            Ok(seams) => self.knowing(Arc::new(seams)),
+            Err(_) => self,
+        }
+    }
+
+    /// Automatic seams that the mesh is cut along, with their map. A run of `auto` without pins and without another
+    /// start begins with this map.
+    pub fn automatic_seams(&self) -> Option<&AutomaticSeams> {
+        self.seams_of(&self.prepared.form).map(AsRef::as_ref)
+    }
+
+    /// Automatic seams that were found for a preparation that cuts along them.
+    fn seams_of(&self, form: &Preparation) -> Option<&Arc<AutomaticSeams>> {
+        self.seams_found.iter().find(|known| known.form == *form)
+    }
+
+    /// Automatic seams that were found for a preparation without them and a bound.
+    pub(super) fn known_seams(&self, form: &Preparation, bound: f64) -> Option<&Arc<AutomaticSeams>> {
+        let is_for = |known: &&Arc<AutomaticSeams>| {
+            let seams = known.form.seams.without_automatic();
+            known.bound.to_bits() == bound.to_bits() && Preparation { seams, ..known.form.clone() } == *form
+        };
+        self.seams_found.iter().find(is_for)
+    }
+
+    /// Finds automatic seams for the mesh in a preparation. `report` receives each improvement of a part.
     ///
     /// # Errors
     ///
     /// [`SolveError::Cancelled`].
-    pub fn find_seams(&self, options: SeamOptions, control: Control<'_>) -> Result<AutomaticSeams, SolveError> {
-        let form = &self.prepared.form;
-        let labels = if form.seams.of_texture { self.source.texture_labels().ok() } else { None };
-        AutomaticSeams::find(&self.source.polygons, labels.as_deref(), form, options, control)
+    pub fn find_seams(
+        &self,
+        form: &Preparation,
+        options: SeamOptions,
+        control: Control<'_>,
+        report: SeamReport<'_>,
+    ) -> Result<AutomaticSeams, SolveError> {
+        let source = self.source_in(form);
+        let labels = labels_for(&source, form);
+        let to_cut = MeshToCut { mesh: &source.polygons, labels: labels.as_deref(), form };
+        AutomaticSeams::find(to_cut, options, control, report)
     }
 
     /// Copy that asks for another preparation. Its faces are unchanged.
@@ -248,6 +313,11 @@ impl Model {
         (settings.start == Start::File && settings.method.continues_from_layout()).then(from_file)
     }
 
+    /// True if faults prevent flattening.
+    pub fn is_faulty(&self) -> bool {
+        matches!(self.prepared.surface, Surface::Faulty(..))
+    }
+
     /// Disk of the mesh, if it is one.
     pub fn disk(&self) -> Option<&Arc<DiskMesh>> {
         self.prepared.disk()
@@ -267,7 +337,7 @@ impl Model {
 
     /// Map of the mesh or chart that was found with automatic seams.
     fn map_of_seams(&self) -> Option<Embedding> {
-        let seams = self.automatic_seams.as_ref()?;
+        let seams = self.automatic_seams()?;
         self.prepared.map_of_corners(&self.source.polygons, &seams.corners)
     }
 
@@ -311,6 +381,11 @@ pub fn finished_atlas<'a>(charts: &[SolvedModel<'a>], options: PackingOptions, a
     let laid = atlas(&solved, options, arrangement);
     let steps = charts.iter().map(|of| of.steps.to_vec()).collect();
     charts[0].model.result_source(&charts[0].outcome.problem.settings).finished_atlas(&solved, laid, steps)
+}
+
+/// Labels of the corners by texture coordinates, if a preparation cuts along their seams.
+fn labels_for(source: &MeshFile, form: &Preparation) -> Option<Vec<u32>> {
+    if form.seams.of_texture { source.texture_labels().ok() } else { None }
 }
 
 fn flow(is_enough: &dyn Fn() -> bool) -> ControlFlow<()> {

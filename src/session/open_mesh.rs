@@ -72,6 +72,11 @@ impl OpenMesh {
         self.other.clone()
     }
 
+    /// Replaces the open mesh by one that knows more about it.
+    pub(super) fn learn(&mut self, model: Arc<Model>) {
+        self.model = Some(model);
+    }
+
     /// The open mesh.
     pub(super) fn model(&self) -> Option<&Arc<Model>> {
         self.model.as_ref()

@@ -9,6 +9,7 @@ use super::{Document, Message, MessagePlace, Model};
 use crate::examples::Example;
 use freebound_core::mesh::{FaceId, Preparation, VertexId};
 use freebound_core::pipeline::{Target, Targets};
+use freebound_core::problem::Control;
 use freebound_io::{
     FileStamp, MemoryShortage, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectSource, ProjectView,
     ReadError, RecoveryNote, check_memory, material_picture,
@@ -157,11 +158,11 @@ fn project_mesh(
     match source {
         ProjectSource::Example(name) => {
             let example = example_called(name).ok_or_else(|| OpenError::NoExample { name: name.clone() })?;
-            Ok((Model::example(example).in_form(form), None))
+            Ok((Model::example(example).in_form(form).mapped(Control::unattended()), None))
         }
         ProjectSource::File { path, .. } if !path.exists() => Err(OpenError::NoMesh { mesh: path.clone() }),
         ProjectSource::File { path, stamp } => {
-            let mesh = read_model(path, form, memory)?;
+            let mesh = read_model(path, form, memory)?.mapped(Control::unattended());
             let change = change_remark(path, stamp.as_ref(), &mesh);
             Ok((mesh, change))
         }

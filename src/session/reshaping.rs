@@ -11,6 +11,7 @@ use std::sync::Arc;
 use super::{ChartEdits, Document, Model, Shape};
 use freebound_core::mesh::{FaceId, Preparation, Repaired, VertexId};
 use freebound_core::pipeline::Targets;
+use freebound_core::problem::Control;
 
 /// Open mesh in another preparation, with the same orientation of its faces.
 pub(super) struct Reshaped {
@@ -25,8 +26,8 @@ pub(super) struct Reshaped {
 }
 
 impl Reshaped {
-    pub(super) fn new(before: Arc<Model>, form: Preparation) -> Self {
-        let now = before.in_form(form);
+    pub(super) fn new(before: Arc<Model>, form: Preparation, control: Control<'_>) -> Self {
+        let now = before.in_form(form).mapped(control);
         let [were, are] = [at_corners(&before), at_corners(&now)];
         // Show the new chart that holds the first face of the shown chart.
         let first = before.prepared.chart.as_ref().map(|of| of.charts.first_face(of.number));

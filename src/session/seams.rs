@@ -42,9 +42,9 @@ impl Session {
         }
     }
 
-    /// Writes the seams to a file of edges.
+    /// Writes the seams, those by hand and automatic ones, to a file of edges.
     pub(super) fn export_seams(&mut self, path: PathBuf) {
-        let seams = self.seams().clone();
+        let seams = self.seams().all_listed();
         if seams.edges().is_empty() {
             return self.complain("there are no seams to write: draw one with the Seam tool first", None);
         }

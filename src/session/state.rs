@@ -12,6 +12,7 @@ use super::morphing::Morphing;
 use super::open_mesh::OpenMesh;
 use super::solving::Solving;
 use super::target_checks::TargetChecks;
+use super::unwrapping::Unwrapping;
 use super::v_axis::TurnedV;
 use super::{Action, Command, Document, History, Messages, RecentFiles, TIMELINE_BUDGET, Wake};
 
@@ -32,6 +33,7 @@ pub struct Session {
     pub(super) files: Files,
     pub(super) messages: Messages,
     pub(super) turned_v: TurnedV,
+    pub(super) unwrapping: Unwrapping,
 }
 
 impl std::fmt::Debug for Session {
@@ -57,6 +59,7 @@ impl Session {
             files: Files::new(&wake, recent),
             messages: Messages::default(),
             turned_v: TurnedV::default(),
+            unwrapping: Unwrapping::new(&wake),
             solving: Solving::new(wake, TIMELINE_BUDGET),
         }
     }
@@ -110,7 +113,9 @@ impl Session {
             Action::RemovePicture => self.edit(vec![Command::SetPicture(None)]),
             Action::SetVAxis(v_axis) => self.set_v_axis(v_axis),
             Action::TurnFaces => self.turn_faces(),
-            Action::Mend => self.mend(),
+            Action::Unwrap(bound) => self.unwrap(bound),
+            Action::PaintSeams { edges, cost } => self.paint_seams(&edges, cost),
+            Action::PreviewSeams(bound) => self.preview_seams(bound),
             Action::SetHoles(holes) => self.set_holes(holes),
             Action::TakeLayout => self.take_layout(),
             Action::AllowRepair(repair) => self.want_form(self.form_to_be().with_repair(repair)),
@@ -149,6 +154,7 @@ impl Session {
             self.take_opened(opened);
         }
         self.poll_jobs();
+        self.poll_unwrapping();
         self.poll_solving();
         self.poll_charts();
         self.poll_atlas();
@@ -163,10 +169,12 @@ impl Session {
         }
     }
 
-    /// Undoes the last edit. A preparation in progress is dropped instead.
+    /// Undoes the last edit. A preparation or a search for seams in progress is dropped instead.
     fn undo(&mut self) {
         if self.mesh.wanted().is_some() {
             self.mesh.want(None);
+        } else if self.unwrapping.is_busy() {
+            self.stop_unwrapping();
         } else {
             self.travel(History::undo);
         }
@@ -176,6 +184,7 @@ impl Session {
     fn redo(&mut self) {
         if self.history.can_redo() {
             self.mesh.want(None);
+            self.unwrapping.cancel();
         }
         self.travel(History::redo);
     }
@@ -204,6 +213,7 @@ impl Session {
         self.files.cancel_loading();
         self.drag.stop_following();
         self.jobs.stop();
+        self.stop_unwrapping();
         self.mesh.want(None);
         self.charts.forget_asked();
         self.solving.pause();

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::unwrapping::SEARCHING;
 use super::{Preview, Session};
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::Phase;
@@ -69,6 +70,8 @@ impl Session {
     pub fn busy(&self) -> Option<Busy> {
         if self.files.is_loading() {
             Some(Busy::Loading)
+        } else if self.unwrapping.is_busy() {
+            Some(Busy::Job(SEARCHING))
         } else if let Some(what) = self.jobs.words() {
             Some(Busy::Job(what))
         } else if self.charts.is_asked() {

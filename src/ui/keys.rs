@@ -42,6 +42,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(CTRL, Key::Q, "Quit", || Request::Quit),
     bind(CTRL, Key::Enter, "Solve from scratch, ignoring the current map", || Request::Do(Action::Solve)),
     bind(NONE, Key::R, "Relax: lower the distortion of a planar embedding", || Request::Do(Action::Relax)),
+    bind(NONE, Key::U, "Unwrap: repair the mesh and cut it along short seams", || Request::Do(Action::Unwrap(None))),
     bind(SHIFT, Key::D, "Previous defect", || Request::StepDefect(-1)),
     bind(NONE, Key::D, "Next defect", || Request::StepDefect(1)),
     bind(NONE, Key::PageUp, "Previous chart", || Request::StepChart(-1)),

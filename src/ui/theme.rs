@@ -57,6 +57,10 @@ pub struct Theme {
     pub boundary: Srgb,
     /// Seams of the mesh.
     pub seam: Srgb,
+    /// Edges that automatic seams avoid.
+    pub kept_whole: Srgb,
+    /// Seams that the mesh is not cut along yet.
+    pub seam_to_be: Srgb,
     /// Outline of the compared step.
     pub ghost: Srgb,
     /// Hull of a virtual boundary.
@@ -144,6 +148,8 @@ const fn theme(tone: Column) -> Theme {
         separator: tone.colour(0x00DD_DDD9, 0x0038_3A3F),
         boundary: tone.srgb(0x003A_3A38, 0x00EC_ECE8),
         seam: tone.srgb(0x00B0_006D, 0x00FF_6FB5),
+        kept_whole: tone.srgb(0x0010_8A4A, 0x004A_D991),
+        seam_to_be: tone.srgb(0x002F_5BD8, 0x007B_9BFF),
         ghost: tone.srgb(0x006F_8CE4, 0x006F_8BEA),
         hull: tone.srgb(0x00C9_3A3A, 0x00FF_7070),
         pocket: pocket.with_alpha(tone.of(170, 110)),

@@ -107,6 +107,16 @@ impl SurfacePicker {
         self.bvh.first_hit(Ray { origin: eye, direction }, limit, |number| self.corners(number), other).is_none()
     }
 
+    /// Position of each vertex in the pane. `None` for vertices behind the near plane.
+    pub fn spots(&self, camera: &OrbitCamera, pane_size: DVec2) -> Vec<Option<DVec2>> {
+        let clip_from_world = camera.clip_from_world(pane_size);
+        let spot = |position: &DVec3| {
+            let clip = clip_from_world * position.extend(1.0);
+            pane_from_clip(clip, pane_size).filter(|_| clip.z >= 0.0)
+        };
+        self.positions.iter().map(spot).collect()
+    }
+
     fn corners(&self, number: u32) -> [DVec3; 3] {
         self.triangles[number as usize].map(|v| self.positions[v.index()])
     }

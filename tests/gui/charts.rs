@@ -134,12 +134,12 @@ fn the_selection_does_not_go_over_to_another_chart() {
 }
 
 #[test]
-fn there_is_no_tab_of_charts_where_there_is_one_chart() {
+fn the_tab_of_the_charts_stays_where_there_is_one_chart_and_offers_to_unwrap_it() {
     let mut window = with_sheets();
     let path = window.path("one.obj");
     crate::harness::write_obj(&path, &sheet(5, 0.3));
     window.open(&path);
     window.step();
-    assert_ne!(window.editor().layout.tab(), Tab::Charts);
-    assert!(!window.has_button("Charts 3") && !window.has_button("Charts"));
+    assert_eq!(window.editor().layout.tab(), Tab::Charts);
+    assert!(!window.has_button("Charts 3") && window.has_button("Charts") && window.has_button("Unwrap"));
 }

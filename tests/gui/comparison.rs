@@ -305,6 +305,7 @@ fn the_comparison_follows_another_mesh_and_says_where_there_is_nothing_to_compar
         .unwrap();
     let bad = window.path("bad.obj");
     window.open(&bad);
+    window.give_faults_back();
     assert!(window.is_faulty() && cells(&window).is_empty(), "{:?}", window.words());
     assert_message("comparison-window-nothing-to-compare", &window.text_with("prevent"));
 }

@@ -59,6 +59,20 @@ impl Window {
         Self { folder, ..Self::with_file(&path) }
     }
 
+    /// Window with a mesh that has faults. Opening the mesh unwrapped it, and undo gave its faults back.
+    pub(crate) fn with_faulty(name: &str, mesh: &TriMesh) -> Self {
+        let mut window = Self::with_mesh(name, mesh);
+        window.give_faults_back();
+        window
+    }
+
+    /// Undoes the unwrapping of a mesh that was opened.
+    pub(crate) fn give_faults_back(&mut self) {
+        assert!(self.is_proved(), "{}", self.verdict());
+        self.press(egui::Modifiers::COMMAND, egui::Key::Z);
+        assert!(self.is_faulty(), "{}", self.verdict());
+    }
+
     /// Window with a built-in mesh, opened from a file of its name.
     pub(crate) fn with_example(example: Example) -> Self {
         Self::with_mesh(&format!("{}.obj", example.name()), &example.mesh())

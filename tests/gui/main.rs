@@ -47,6 +47,7 @@ mod timeline_run;
 mod toast;
 mod tour;
 mod unsaved;
+mod unwrapping;
 mod walk;
 mod window;
 mod without_pins;

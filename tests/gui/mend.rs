@@ -21,14 +21,13 @@ fn done(window: &Window) -> Vec<(Repair, usize)> {
 
 #[test]
 fn a_mesh_that_can_be_mended_says_how_and_is_mended_by_one_click() {
-    let mut window = Window::with_mesh("closed.obj", &tetrahedron());
-    assert!(window.is_faulty(), "{}", window.verdict());
+    let mut window = Window::with_faulty("closed.obj", &tetrahedron());
     let remedy = window.editor().session.model().and_then(|model| model.prepared.remedy.clone()).expect("a remedy");
     assert_eq!(remedy.done().first().map(|done| (done.repair, done.count)), Some((Repair::Cut, 3)));
     assert_message("mend-window-offer-to-repair", &window.text_with("repaired"));
-    window.click("Repair all");
+    window.click("Unwrap");
     assert!(window.is_proved(), "{}", window.verdict());
-    assert!(!window.has_button("Repair all") && !window.has_button("Dismiss"), "{:?}", window.words());
+    assert!(!window.has_button("Show faults") && !window.has_button("Dismiss"), "{:?}", window.words());
     window.press(Modifiers::COMMAND, Key::Z);
     assert!(window.is_faulty(), "{}", window.verdict());
     window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
@@ -41,7 +40,7 @@ fn the_panel_of_defects_leads_from_each_element_of_a_fault_to_the_next() {
     for face in [10, 20, 30] {
         mesh.triangles[face].reverse();
     }
-    let mut window = Window::with_mesh("turned.obj", &mesh);
+    let mut window = Window::with_faulty("turned.obj", &mesh);
     window.click("Defects");
     let model = window.editor().session.model().cloned().expect("open");
     let Surface::Faulty(_, diagnosis) = &model.prepared.surface else { panic!("faces are turned over") };
@@ -61,7 +60,7 @@ fn the_panel_of_defects_leads_from_each_element_of_a_fault_to_the_next() {
     assert!(window.shows("1 of 3"), "{:?}", window.words());
     window.click("Previous of mixed orientation");
     assert_eq!(selected(&window), corners(30));
-    window.click("Repair all faults");
+    window.click("Unwrap");
     assert!(window.is_proved(), "{}", window.verdict());
     assert!(done(&window).contains(&(Repair::TurnFaces, 3)), "{:?}", done(&window));
 }
@@ -86,7 +85,7 @@ fn what_is_harmless_is_told_beside_the_verdict() {
 fn each_fault_has_a_remedy_of_its_own_and_what_is_left_is_told() {
     let mut mesh = tetrahedron();
     mesh.triangles[2].swap(0, 1);
-    let mut window = Window::with_mesh("odd.obj", &mesh);
+    let mut window = Window::with_faulty("odd.obj", &mesh);
     window.click("Defects");
     assert!(window.has_button("Turn faces over") && window.has_button("Cut open"), "{:?}", window.words());
     window.click("Turn faces over");
@@ -138,7 +137,7 @@ fn a_part_that_cannot_be_flattened_is_left_out_and_kept_again() {
     let (sheet, first) = (sheet(4, 0.3), mesh.vertex_count());
     mesh.positions.extend(sheet.positions.iter().map(|place| *place + DVec3::Z * 9.0));
     mesh.triangles.extend(sheet.triangles.iter().map(|face| face.map(|v| VertexId::from_index(v.index() + first))));
-    let mut window = Window::with_mesh("two.obj", &mesh);
+    let mut window = Window::with_faulty("two.obj", &mesh);
     window.click("Defects");
     assert!(!window.is_proved(), "{}", window.verdict());
     let clicked = |window: &mut Window, name: &str| {

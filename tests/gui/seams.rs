@@ -209,8 +209,7 @@ fn a_seam_leads_from_chart_to_chart() {
 
 #[test]
 fn a_closed_figure_flattens_once_a_seam_opens_it() {
-    let mut window = Window::with_mesh("closed.obj", &tetrahedron());
-    assert!(window.is_faulty(), "{}", window.verdict());
+    let mut window = Window::with_faulty("closed.obj", &tetrahedron());
     window.key(Key::X);
     for (vertex, erases) in [(0, false), (1, false), (2, false)] {
         let vertex = VertexId::new(vertex);

@@ -91,6 +91,8 @@ fn shortcuts_do_what_the_table_says() {
             Request::Do(Action::Relax) => {
                 steps(&window).0 > 3 && window.is_proved() && window.outcome().step.candidate.stage == Stage::Relax
             }
+            // The sheet has little distortion without seams.
+            Request::Do(Action::Unwrap(None)) => editor.session.seams().bound().is_some(),
             Request::Do(Action::Step) => steps(&window) == (4, Some(3)),
             // The map is planar, so there is nothing to run.
             Request::RunOrPause => steps(&window).0 == 3 && !editor.session.is_running(),

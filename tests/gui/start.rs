@@ -87,6 +87,7 @@ fn a_layout_with_seams_cuts_the_mesh_along_them_in_the_same_edit() {
     assert!(window.outcome().step.candidate.stage == Stage::Given && window.is_proved());
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!((charts(&window), start(&window)), (None, Start::FromScratch));
+    window.click("Charts");
     window.choose("Definition of charts", "File's texture seams");
     assert_eq!((charts(&window), start(&window)), (Some(2), Start::FromScratch));
     assert_eq!(window.outcome().step.candidate.stage, Stage::Natural);

@@ -226,7 +226,7 @@ fn what_is_no_disk_has_no_timeline() {
     let cap = sheet(4, 0.3);
     let mut triangles = cap.triangles.clone();
     triangles[3].reverse();
-    let mut window = Window::with_mesh(
+    let mut window = Window::with_faulty(
         "turned.obj",
         &TriMesh::new(cap.positions, &triangles.iter().map(|t| t.map(VertexId::number)).collect::<Vec<_>>()),
     );

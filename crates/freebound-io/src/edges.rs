@@ -1,4 +1,5 @@
-//! Edges files: one edge of a seam per line, "a b", the numbers of its two vertices; a # starts a comment.
+//! Edges files: one edge of a seam per line, "a b", the numbers of its two vertices; a # starts a comment. A file of
+//! costs has lines "a b cost".
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -53,6 +54,12 @@ pub enum EdgeFault {
     /// The line has the wrong form.
     #[error("write \"a b\", the two vertex numbers of an edge, not \"{0}\"")]
     Form(String),
+    /// The line of a file of costs has the wrong form.
+    #[error("write \"a b cost\", the two vertex numbers of an edge and its cost, not \"{0}\"")]
+    CostForm(String),
+    /// The cost is no number in its range.
+    #[error("\"{0}\" is not a cost: write a number from 0.001 to 1000000; 1 is the usual cost")]
+    BadCost(String),
     /// The vertex number is negative, malformed, or beyond 32 bits.
     #[error("\"{0}\" is not a vertex number; vertices are numbered from 0")]
     BadVertex(String),
@@ -89,6 +96,35 @@ impl EdgesError {
 ///
 /// If the file cannot be read, or for the first faulty line.
 pub fn read_edges(path: &Path, mesh: &PolygonMesh) -> Result<Vec<[VertexId; 2]>, EdgesError> {
+    let text = read_text(path, mesh)?;
+    parse_edges(&text, mesh).map_err(|(line, kind)| EdgesError::Line { path: path.to_owned(), line, kind })
+}
+
+/// Reads the costs of edges of a mesh from a file. A seam costs its length times the cost of its edges. Default of an
+/// edge that is not listed: 1.
+///
+/// # Errors
+///
+/// If the file cannot be read, or for the first faulty line.
+pub fn read_edge_costs(path: &Path, mesh: &PolygonMesh) -> Result<Vec<([VertexId; 2], f64)>, EdgesError> {
+    let text = read_text(path, mesh)?;
+    let cost = |rest: &str| {
+        let cost = rest.parse().ok().filter(|cost| Seams::COSTS.contains(cost));
+        cost.ok_or_else(|| EdgeFault::BadCost(rest.to_owned()))
+    };
+    let line = |text: &str| {
+        let (ends, rest) = text.rsplit_once(char::is_whitespace).ok_or_else(|| EdgeFault::CostForm(text.to_owned()))?;
+        let edge = parse_line(ends, mesh.positions.len()).map_err(|fault| match fault {
+            EdgeFault::Form(_) => EdgeFault::CostForm(text.to_owned()),
+            other => other,
+        })?;
+        Ok((edge, cost(rest)?))
+    };
+    let parsed = parse_lines(&text, mesh, line, |(edge, _)| *edge);
+    parsed.map_err(|(line, kind)| EdgesError::Line { path: path.to_owned(), line, kind })
+}
+
+fn read_text(path: &Path, mesh: &PolygonMesh) -> Result<String, EdgesError> {
     let most = FEW_BYTES + BYTES_PER_CORNER * mesh.corners.len() as u64;
     let failed = |source| EdgesError::File { path: path.to_owned(), source };
     let mut bytes = Vec::new();
@@ -96,8 +132,7 @@ pub fn read_edges(path: &Path, mesh: &PolygonMesh) -> Result<Vec<[VertexId; 2]>,
     if bytes.len() as u64 > most {
         return Err(EdgesError::TooLong { path: path.to_owned(), most });
     }
-    let text = String::from_utf8(bytes).map_err(|error| failed(io::Error::new(io::ErrorKind::InvalidData, error)))?;
-    parse_edges(&text, mesh).map_err(|(line, kind)| EdgesError::Line { path: path.to_owned(), line, kind })
+    String::from_utf8(bytes).map_err(|error| failed(io::Error::new(io::ErrorKind::InvalidData, error)))
 }
 
 /// Parses the text of an edges file. An edge may be listed more than once.
@@ -106,7 +141,17 @@ pub fn read_edges(path: &Path, mesh: &PolygonMesh) -> Result<Vec<[VertexId; 2]>,
 ///
 /// The first faulty line, counted from 1.
 pub fn parse_edges(text: &str, mesh: &PolygonMesh) -> Result<Vec<[VertexId; 2]>, (u64, EdgeFault)> {
-    let mut edges = Vec::new();
+    parse_lines(text, mesh, |line| parse_line(line, mesh.positions.len()), |edge| *edge)
+}
+
+/// Parses all lines by `parse`, and checks that the mesh has the edge of each, by `edge_of`.
+fn parse_lines<T>(
+    text: &str,
+    mesh: &PolygonMesh,
+    parse: impl Fn(&str) -> Result<T, EdgeFault>,
+    edge_of: impl Fn(&T) -> [VertexId; 2],
+) -> Result<Vec<T>, (u64, EdgeFault)> {
+    let mut found = Vec::new();
     let mut lines: HashMap<[VertexId; 2], u64> = HashMap::new();
     let mut fault = None;
     // Some editors put a byte-order mark at the start of a text.
@@ -115,9 +160,10 @@ pub fn parse_edges(text: &str, mesh: &PolygonMesh) -> Result<Vec<[VertexId; 2]>,
         if text.is_empty() {
             continue;
         }
-        match parse_line(text, mesh.positions.len()) {
-            Ok([a, b]) => {
-                edges.push([a, b]);
+        match parse(text) {
+            Ok(parsed) => {
+                let [a, b] = edge_of(&parsed);
+                found.push(parsed);
                 lines.entry([a.min(b), a.max(b)]).or_insert(line);
             }
             Err(kind) => {
@@ -127,11 +173,11 @@ pub fn parse_edges(text: &str, mesh: &PolygonMesh) -> Result<Vec<[VertexId; 2]>,
         }
     }
     // The missing edges are on lines before any other fault, so they are reported first.
-    let missing = Seams::default().with(edges.iter().copied()).missing_in(mesh);
+    let missing = Seams::default().with(found.iter().map(&edge_of)).missing_in(mesh);
     let missing = missing.into_iter().map(|ends| (ends, lines[&ends])).min_by_key(|&(_, line)| line);
     match missing.map(|(ends, line)| (line, EdgeFault::NoSuchEdge(ends))).or(fault) {
         Some(fault) => Err(fault),
-        None => Ok(edges),
+        None => Ok(found),
     }
 }
 

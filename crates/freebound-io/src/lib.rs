@@ -69,7 +69,7 @@ pub use comparison::{
     MethodReport, MethodSeconds, MorphReport, ResultReport, TimedStep, VerdictCounts,
 };
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
-pub use edges::{EdgeFault, EdgesError, parse_edges, read_edges, write_edges};
+pub use edges::{EdgeFault, EdgesError, parse_edges, read_edge_costs, read_edges, write_edges};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use finished::ResultSource;
 pub use gltf::write_glb;

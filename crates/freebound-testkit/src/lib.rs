@@ -60,6 +60,7 @@ mod relief;
 mod sculpt;
 mod seamed;
 mod sheet;
+pub mod solids;
 pub mod surfaces;
 
 pub use freebound_core::geom::Random;
@@ -74,7 +75,7 @@ pub use head::head;
 pub use landmarks::{PlacedLandmark, landmarks};
 pub use manifest::{Entry, corpus_disks, corpus_entry, csv_rows, manifest, steps};
 pub use message::assert_message;
-pub use plain::{band, disk, fan, grid, shaped, sheet, tetrahedron, tower, write_obj};
+pub use plain::{band, disk, fan, grid, rolled_strip, shaped, sheet, tetrahedron, tower, write_obj};
 pub use portrait::{PORTRAIT_SIZE, picture_from_sculpture, plane, portrait, sculpture_from_plane};
 pub use practice::{bumpy_ball, scan, table};
 pub use quads::{honeycomb, quad_sheet};

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use std::collections::BTreeMap;
+
 use freebound_core::mesh::{DiskMesh, TriMesh};
 use freebound_io::MeshFile;
 use glam::DVec3;
@@ -20,6 +22,31 @@ pub fn grid(columns: u32, rows: u32) -> TriMesh {
             triangles.push([v, v + 1, v + stride + 1]);
             triangles.push([v, v + stride + 1, v + stride]);
         }
+    }
+    TriMesh::new(positions, &triangles)
+}
+
+/// A flat strip of unit squares rolled up in square turns, with a gap of one square between them. `sides` is the number
+/// of straight parts.
+pub fn rolled_strip(sides: u32) -> TriMesh {
+    let mut cells = vec![[0_i32, 0]];
+    let ways = [[1, 0], [0, 1], [-1, 0], [0, -1]];
+    for side in 0..sides {
+        let [x, y] = ways[side as usize % 4];
+        for _ in 0..2 + side / 2 * 2 {
+            let [from_x, from_y] = cells[cells.len() - 1];
+            cells.push([from_x + x, from_y + y]);
+        }
+    }
+    let (mut positions, mut triangles, mut numbers) = (Vec::new(), Vec::new(), BTreeMap::new());
+    for [x, y] in cells {
+        let [a, b, c, d] = [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]].map(|[x, y]| {
+            *numbers.entry([x, y]).or_insert_with(|| {
+                positions.push(DVec3::new(f64::from(x), f64::from(y), 0.0));
+                u32::try_from(positions.len() - 1).expect("vertices fit")
+            })
+        });
+        triangles.extend([[a, b, c], [a, c, d]]);
     }
     TriMesh::new(positions, &triangles)
 }

@@ -9,7 +9,7 @@ use glam::{DVec2, UVec2};
 use super::solve::ONLY_ON_SHAPES;
 use super::{MeshArguments, SolveArguments, TypedShape};
 use crate::cli::typed::{ChartSize, choice, parse_chart_size, parse_pixels};
-use freebound_core::geom::PackingOptions;
+use freebound_core::geom::{PackingOptions, Rotations};
 use freebound_core::pipeline::{Arrangement, Fit};
 use freebound_core::problem::{Method, NamedOption as _, Settings};
 use freebound_io::{OutputKind, PictureFile, Precision};
@@ -61,6 +61,9 @@ pub struct FlattenArguments {
     /// Smallest distance between packed charts, in pixels of the packed picture. Default: 4.
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(0..=1024), hide_short_help = true)]
     pub gap: Option<u32>,
+    /// Rotations of packed charts. Default: free.
+    #[arg(long, value_parser = choice::<Rotations>(), hide_short_help = true)]
+    pub rotations: Option<Rotations>,
     /// Relative sizes of packed charts, for example `0=2,3=0.5`.
     ///
     /// Charts are numbered from 0, as in the report. A chart without an entry has size 1.
@@ -110,7 +113,8 @@ impl FlattenArguments {
     /// Packing options of several charts, for the size of this picture if there is one.
     pub fn packing(&self, picture: Option<&PictureFile>) -> PackingOptions {
         let options = PackingOptions::default();
-        let options = PackingOptions { gap: self.gap.unwrap_or(options.gap), ..options };
+        let (gap, rotations) = (self.gap.unwrap_or(options.gap), self.rotations.unwrap_or(options.rotations));
+        let options = PackingOptions { gap, rotations, ..options };
         let of_picture = picture.map(|picture| UVec2::new(picture.pixels.width, picture.pixels.height));
         let of_aspect = self
             .solve
@@ -123,7 +127,7 @@ impl FlattenArguments {
 
     /// Arrangement of the charts. Charts of a layout to start from stay in place unless packing is requested.
     pub fn arrangement(&self) -> Arrangement {
-        let is_packed = self.pack.is_some() || self.gap.is_some();
+        let is_packed = self.pack.is_some() || self.gap.is_some() || self.rotations.is_some();
         if self.solve.start.is_some() && !is_packed { Arrangement::AsGiven } else { Arrangement::Packed }
     }
 

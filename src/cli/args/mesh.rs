@@ -41,6 +41,12 @@ pub struct MeshArguments {
     /// holes.
     #[arg(long, value_name = "ENERGY", value_parser = parse_distortion)]
     pub distortion: Option<f64>,
+    /// Costs of edges for `--cut auto`: a file with lines `a b cost`, vertices numbered from 0.
+    ///
+    /// A seam costs its length times the cost of its edges, from 0.001 to 1000000. Seams avoid edges with a cost of 1000
+    /// or more. Default of an edge: 1.
+    #[arg(long, value_name = "FILE", hide_short_help = true)]
+    pub cut_weights: Option<PathBuf>,
     /// Cut along these edges too: sharp edges, borders of materials, borders of groups.
     ///
     /// `sharp` takes edges with an angle of 60 degrees or more between the faces; `sharp=DEGREES` sets the angle.

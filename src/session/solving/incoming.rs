@@ -53,7 +53,7 @@ impl Solving {
         let is_first = outcome.step.index == 0;
         if is_first {
             // Reports of written files no longer match the screen.
-            messages.forget_notes();
+            messages.forget_written();
             self.kept.prepared.clone_from(&outcome.step.candidate.prepared);
             self.timeline = self.timeline.begun_anew();
         }

@@ -61,7 +61,7 @@ impl Solving {
     pub(in crate::session) fn show_again(&mut self, solved: Solved, task: Task, messages: &mut Messages) {
         self.give_up_all();
         self.forget_message(messages);
-        messages.forget_notes();
+        messages.forget_written();
         self.failed = None;
         let Some(newest) = solved.newest() else { return };
         let stages: Vec<Stage> = solved.timeline.records().iter().map(|record| record.stage.clone()).collect();

@@ -15,6 +15,7 @@
 //! | `sides.rs` | side of a seam that a vertex is on |
 //! | `seam_chain.rs` | the clicks that draw a seam, and their undo |
 //! | `seam_intent.rs` | effect of a click of the seam tool |
+//! | `seam_hover.rs` | the seam under the pointer |
 //! | `seam_actions.rs` | handling of requests to the seam tool |
 //! | `seam_tool.rs` | the seam being drawn, and shortest paths from its last vertex |
 //! | `element.rs` | elements of the mesh by name |
@@ -54,6 +55,7 @@ mod requests;
 pub(super) mod scene;
 mod seam_actions;
 mod seam_chain;
+mod seam_hover;
 pub(super) mod seam_intent;
 pub(super) mod seam_rules;
 pub(super) mod seam_tool;
@@ -190,6 +192,9 @@ impl Editor {
         self.go_on_with_seam();
         self.take_seams_by_rule();
         self.foresee_seam();
+        let scene = self.plane.drawn().map(|plane| &plane.mesh).or(self.mesh.scene()).map(Arc::clone);
+        let scene = scene.filter(|scene| self.is_of_session(scene));
+        self.tools.seam_hover.refresh(scene.as_ref(), self.pointer.vertex());
         if self.mesh.poll(&self.session) {
             self.begin_with_mesh();
         }

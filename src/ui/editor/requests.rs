@@ -37,6 +37,7 @@ impl Editor {
             Request::EndSeam => drop(self.tools.seam.end()),
             Request::SetCreases(share) => self.tools.seam.set_creases(share),
             Request::ToggleErasing => self.tools.seam.toggle_erases(),
+            Request::TogglePainting => self.tools.seam.toggle_paints(),
             Request::TakeVertex(vertex) => self.take_vertex(vertex),
             Request::SetShading(shading) => self.shade(shading),
             Request::SetPaneShading(pane, shading) => self.shade_pane(pane, shading),

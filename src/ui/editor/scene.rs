@@ -130,6 +130,11 @@ impl MeshScene {
         self.refinement.as_ref().map(|refinement| refinement.disk()).or(given)
     }
 
+    /// True if a ray meets the mesh or a chart around it.
+    pub(in crate::ui) fn hits(&self, ray: Ray) -> bool {
+        self.picker.hit(ray).is_some() || self.other_chart_at(ray).is_some()
+    }
+
     /// Other chart that a ray meets first, unless a face of the chart on the screen is nearer.
     pub(in crate::ui) fn other_chart_at(&self, ray: Ray) -> Option<usize> {
         let (chart, distance) = self.around.as_ref()?.chart_at(ray)?;

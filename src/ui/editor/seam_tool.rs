@@ -8,7 +8,7 @@
 //! A single function in `seam_intent.rs` computes the effect of a click for the preview, the status bar and the
 //! click.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::fmt;
 use std::sync::Arc;
 
@@ -19,13 +19,16 @@ use super::seam_chain::Chain;
 use super::seam_intent::Foreseen;
 use super::seam_rules::SeamRules;
 use crate::session::{JobFailure, Model, Session, Wake};
-use crate::ui::state::SeamClick;
+use crate::ui::state::{Edge, SeamClick};
 use crate::view::{OrbitCamera, SurfacePicker, Visibility};
 use freebound_core::mesh::{EdgePaths, PathTree, Repairs, VertexId};
 use freebound_io::MeshFile;
 
 /// Default weight of creases in the length of paths.
 pub(in crate::ui) const CREASES: f64 = 0.5;
+
+/// Radius of the brush, points.
+pub(in crate::ui) const BRUSH: f64 = 18.0;
 
 /// Mesh of the file before any cuts.
 #[derive(Debug)]
@@ -35,6 +38,8 @@ pub(in crate::ui) struct SeamGround {
     scale: f64,
     picker: SurfacePicker,
     paths: Arc<EdgePaths>,
+    /// All edges, the smaller number first, ascending.
+    edges: Vec<Edge>,
 }
 
 /// Inputs that a ground depends on.
@@ -59,8 +64,12 @@ pub struct SeamTool {
     pub(in crate::ui) rules: SeamRules,
     /// Weight of creases in the length of paths, 0 to 1.
     creases: f64,
-    /// True if clicks close seams.
+    /// True if clicks close seams, and the brush takes paint away.
     erases: bool,
+    /// True if drags over the mesh paint where no automatic seam may run.
+    paints: bool,
+    /// Edges of the stroke being painted.
+    stroke: BTreeSet<Edge>,
     /// Chain of clicks of the seam being drawn.
     pub(super) chain: Chain,
     /// Clicks that wait for the paths.
@@ -89,11 +98,22 @@ impl fmt::Debug for SeamTool {
 impl SeamGround {
     fn new(source: Arc<MeshFile>, key: GroundKey) -> Self {
         let mesh = source.polygons.triangulate();
+        let polygons = &source.polygons;
+        let side = |corners: &[VertexId], k: usize| {
+            let [a, b] = [corners[k], corners[(k + 1) % corners.len()]];
+            [a.min(b), a.max(b)]
+        };
+        let faces = (0..polygons.face_count()).map(|face| polygons.face(face));
+        let mut edges: Vec<Edge> =
+            faces.flat_map(|corners| (0..corners.len()).map(move |k| side(corners, k))).collect();
+        edges.sort_unstable();
+        edges.dedup();
         let positions: Vec<DVec3> = mesh.positions.iter().map(|&at| at * key.scale).collect();
         Self {
             picker: SurfacePicker::new(&positions, &mesh.triangles),
             paths: Arc::new(EdgePaths::new(&source.polygons, key.repair)),
             scale: key.scale,
+            edges,
             source,
         }
     }
@@ -108,6 +128,20 @@ impl SeamGround {
         self.picker.is_visible(vertex, camera.eye())
     }
 
+    /// Visible edges under the brush, whose middle is at the pointer.
+    fn edges_under(&self, camera: &OrbitCamera, size: DVec2, pointer: DVec2) -> Vec<Edge> {
+        let spots: Vec<Option<DVec2>> = self.picker.spots(camera, size);
+        let is_near = |edge: &Edge| match edge.map(|end| spots[end.index()]) {
+            [Some(a), Some(b)] => {
+                let along = (pointer - a).dot(b - a) / (b - a).length_squared().max(f64::MIN_POSITIVE);
+                a.lerp(b, along.clamp(0.0, 1.0)).distance(pointer) <= BRUSH
+            }
+            _ => false,
+        };
+        let near = self.edges.iter().copied().filter(is_near);
+        near.filter(|edge| edge.iter().any(|&end| self.shows(end, camera))).collect()
+    }
+
     /// Vertex of the file nearest to the pointer, among visible vertices.
     pub(in crate::ui) fn vertex_at(&self, camera: &OrbitCamera, size: DVec2, pointer: DVec2) -> Option<VertexId> {
         self.picker.nearest_vertex(camera, size, pointer, Visibility::Visible).map(|pick| pick.vertex)
@@ -120,6 +154,8 @@ impl SeamTool {
             rules: SeamRules::new(wake),
             creases: CREASES,
             erases: false,
+            paints: false,
+            stroke: BTreeSet::new(),
             chain: Chain::default(),
             clicks: VecDeque::new(),
             under: None,
@@ -138,6 +174,32 @@ impl SeamTool {
 
     pub(super) fn set_creases(&mut self, share: f64) {
         self.creases = share.clamp(0.0, 1.0);
+    }
+
+    /// True if drags over the mesh paint where no automatic seam may run.
+    pub fn paints(&self) -> bool {
+        self.paints
+    }
+
+    pub(super) fn toggle_paints(&mut self) {
+        self.paints = !self.paints;
+        self.end();
+    }
+
+    /// Edges of the stroke being painted.
+    pub(in crate::ui) fn stroke(&self) -> &BTreeSet<Edge> {
+        &self.stroke
+    }
+
+    /// Adds the edges under the brush to the stroke.
+    pub(in crate::ui) fn paint(&mut self, camera: &OrbitCamera, size: DVec2, pointer: DVec2) {
+        let edges = self.ground().map(|ground| ground.edges_under(camera, size, pointer));
+        self.stroke.extend(edges.unwrap_or_default());
+    }
+
+    /// Ends the stroke and returns its edges.
+    pub(in crate::ui) fn end_stroke(&mut self) -> Vec<Edge> {
+        std::mem::take(&mut self.stroke).into_iter().collect()
     }
 
     pub fn erases(&self) -> bool {
@@ -173,6 +235,7 @@ impl SeamTool {
     /// Ends the seam being drawn. Returns true if there was one.
     pub(super) fn end(&mut self) -> bool {
         self.clicks.clear();
+        self.stroke.clear();
         self.tree_job.cancel();
         self.chain.end()
     }

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use eframe::egui;
 use glam::DVec2;
 
+use super::seam_hover::SeamHover;
 use super::seam_tool::SeamTool;
 use crate::session::Wake;
 use crate::ui::state::{Half, Intent, Pane, PinDrag, Tool};
@@ -157,6 +158,8 @@ pub struct ToolState {
     tool: Tool,
     /// Seam being drawn.
     pub seam: SeamTool,
+    /// Seam under the pointer.
+    pub seam_hover: SeamHover,
     pair: Option<Half>,
     intent: Intent,
     /// Pin kind that the user chose for the next constraint.
@@ -170,6 +173,7 @@ impl ToolState {
         Self {
             tool: Tool::default(),
             seam: SeamTool::new(wake),
+            seam_hover: SeamHover::default(),
             pair: None,
             intent: Intent::default(),
             kind: None,

@@ -4,10 +4,12 @@ use eframe::egui::{self, Color32, DragValue, Pos2, Rect, RichText, Role, Sense, 
 use glam::DVec2;
 
 use super::menu::grouped;
+use super::seams_section::seams_section;
 use super::surface::charts_row;
 use crate::session::{Action, AtlasView, ChartState, Session};
 use crate::ui::{Control, Editor, Request, counted, keys_of, pairs, remark, sentence, theme_of};
-use freebound_core::geom::{Bounds, PackingOptions};
+use freebound_core::geom::{Bounds, PackingOptions, Rotations};
+use freebound_core::problem::NamedOption;
 
 /// Height of a row of the list, points.
 const ROW: f32 = 22.0;
@@ -46,7 +48,10 @@ impl Row {
 
 pub(super) fn charts_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let session = &editor.session;
+    seams_section(ui, editor, requests);
+    pairs(ui, "charts", [12.0, 4.0], |ui| charts_row(ui, session, requests));
     let Some(charts) = session.charts() else { return };
+    ui.separator();
     let mut rows: Vec<Row> = (0..charts.count())
         .map(|chart| Row { chart, faces: charts.faces(chart).len(), state: session.chart_state(chart) })
         .collect();
@@ -54,7 +59,6 @@ pub(super) fn charts_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     let side = ui.available_width().min(ui.available_height() * 0.45).max(80.0);
     layout(ui, session, side, requests);
     verdict(ui, session, &rows);
-    pairs(ui, "charts", [12.0, 4.0], |ui| charts_row(ui, session, requests));
     packing(ui, session, requests);
     size(ui, session, requests);
     ui.separator();
@@ -86,7 +90,10 @@ fn layout(ui: &mut egui::Ui, session: &Session, side: f32, requests: &mut Vec<Re
         let is_marked = Some(chart) == shown || Some(chart) == under;
         let colour = if Some(chart) == shown { theme.accent } else { theme.text };
         let stroke = Stroke::new(if is_marked { 2.0 } else { 1.0 }, colour);
-        painter.add(egui::Shape::closed_line(outline.iter().map(|&uv| place.of(uv)).collect(), stroke));
+        // Joined lines would have long spikes at the tips of seams.
+        for (&from, &to) in outline.iter().zip(outline.iter().cycle().skip(1)) {
+            painter.line_segment([place.of(from), place.of(to)], stroke);
+        }
     }
     if let Some(chart) = under {
         ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
@@ -187,6 +194,17 @@ fn packing(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
         has_ended |= field.has_ended();
         field.on_hover_text("Minimum distance between charts, in pixels of the picture");
         ui.label("px");
+        ui.label("Rotation");
+        let rotations = crate::ui::list(ui, "Rotation of charts", 72.0, options.rotations.labels().title, |ui| {
+            for &rotations in Rotations::ALL {
+                let label = ui.selectable_label(options.rotations == rotations, rotations.labels().title);
+                if label.on_hover_text(rotations.labels().tip()).clicked() && options.rotations != rotations {
+                    options.rotations = rotations;
+                    has_ended = true;
+                }
+            }
+        });
+        rotations.on_hover_text("Rotations of packed charts");
     });
     if has_ended {
         ui.data_mut(|data| data.remove::<PackingOptions>(kept));

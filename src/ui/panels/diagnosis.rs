@@ -21,8 +21,8 @@ pub(super) fn faults(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Re
     egui::ScrollArea::vertical().show(ui, |ui| {
         if let Some(remedy) = &model.prepared.remedy {
             let done: Vec<String> = remedy.done().iter().map(ToString::to_string).collect();
-            let tip = "Repair the mesh so that it is a disk. The file is not changed; undo reverts the repair";
-            ui.button("Repair all faults").on_hover_text(tip).asks(Action::Mend, requests);
+            let tip = "Repair the mesh and cut it along short seams (U). The file is not changed; undo reverts this";
+            ui.button("Unwrap").on_hover_text(tip).asks(Action::Unwrap(None), requests);
             ui.weak(sentence(&done.join(", ")));
         }
         for fault in &diagnosis.faults {

@@ -205,6 +205,7 @@ fn edit_menu(menu: &mut Menu<'_>) {
     }
     menu.part("Seams", |menu| {
         let has_model = session.model().is_some();
+        menu.item(session.can_unwrap(), "Unwrap: find short seams", Action::Unwrap(None));
         let degrees = editor.tools.seam.rules.degrees;
         let sharp = format!("Cut along sharp edges: {degrees:.0}° or more");
         menu.item(has_model, &sharp, Request::CutByRule(SeamRule::Sharp(degrees)));
@@ -213,7 +214,8 @@ fn edit_menu(menu: &mut Menu<'_>) {
         menu.ui.separator();
         let has_seams = !session.seams().edges().is_empty();
         menu.item(has_model, "Import seams…", Request::Ask(FileDialogKind::ImportSeams));
-        menu.item(has_seams, "Export seams…", Request::Ask(FileDialogKind::ExportSeams));
+        let can_export = has_seams || !session.seams().automatic().is_empty();
+        menu.item(can_export, "Export seams…", Request::Ask(FileDialogKind::ExportSeams));
         menu.ui.separator();
         menu.item(has_seams, "Clear seams", Request::ClearSeams);
     });

@@ -11,6 +11,7 @@
 //! | `parts.rs` | parts of a mesh, each kept or left out: in the defects tab |
 //! | `welding.rs` | welding of vertices within a distance: in the defects tab |
 //! | `surface.rs` | rows of tabs: charts and holes of the mesh, and the start of the map |
+//! | `seams_section.rs` | unwrapping and the seams: in the tab of the charts |
 //! | `compare_panel.rs` | numbers of two compared steps |
 //! | `picture_panel.rs` | picture section of the pins tab |
 //! | `equation_table.rs` | terms of a vertex's equation, as a table and in the embedding pane |
@@ -38,6 +39,7 @@ pub(super) mod method_panel;
 mod parts;
 mod picture_panel;
 mod pins_panel;
+mod seams_section;
 pub(super) mod status;
 mod surface;
 pub(super) mod toast;
@@ -80,16 +82,11 @@ pub(super) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Re
 /// Panel at the right: a row of tabs and the contents of the open tab.
 pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let charts = editor.session.charts().map(|charts| charts.count());
-    if charts.is_none() && editor.layout.tab() == Tab::Charts {
-        editor.layout.offer_tab(Tab::Method);
-    }
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
-        if charts.is_some() {
-            // Narrower buttons, so that the fifth tab fits into the row.
-            ui.spacing_mut().button_padding.x = 4.0;
-        }
-        for tab in Tab::ALL.into_iter().filter(|tab| *tab != Tab::Charts || charts.is_some()) {
+        // Narrow buttons, so that the fifth tab fits into the row.
+        ui.spacing_mut().button_padding.x = 4.0;
+        for tab in Tab::ALL {
             let count = match tab {
                 Tab::Charts => charts.unwrap_or_default(),
                 Tab::Pins => editor.session.document().targets.len(),

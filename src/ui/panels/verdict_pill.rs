@@ -2,6 +2,7 @@
 
 use eframe::egui::{self, RichText, Role};
 
+use super::seams_section::progress_words;
 use crate::session::{Action, Busy, LivePreview, Preview, Status};
 use crate::ui::icons::{self, Sign};
 use crate::ui::{Control, Editor, Offer, Request, Tab, counted, theme_of};
@@ -43,7 +44,8 @@ pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: 
     let Some(busy) = busy else { return };
     Offer::new("Stop", "Stop the work in the background", Action::Cancel).show(ui, requests);
     if pill.is_none() {
-        ui.label(RichText::new(busy_words(busy)).color(theme_of(ui).weak_text));
+        let words = editor.session.seam_search().map_or_else(|| busy_words(busy), |search| progress_words(&search));
+        ui.label(RichText::new(words).color(theme_of(ui).weak_text));
     }
     ui.add(egui::Spinner::new().size(12.0));
 }
@@ -69,6 +71,9 @@ fn busy_words(busy: Busy) -> String {
 fn pill(editor: &Editor) -> Option<Pill> {
     let session = &editor.session;
     let model = session.model()?;
+    if model.is_faulty() && session.seam_search().is_some() {
+        return Some(Pill::new(Sign::Working, "unwrapping…", "Short seams are being found"));
+    }
     if let Surface::Faulty(_, diagnosis) = &model.prepared.surface {
         let words = counted(diagnosis.faults.len(), "fault", "faults");
         return Some(Pill::new(Sign::Bad, words, "The bars above the mesh and the Defects tab list the faults"));

@@ -49,17 +49,16 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
         let words = "The faces point inward: the mesh shows from behind, with its picture mirrored";
         warning(ui, words, offers, requests);
     }
-    if let Some(remedy) =
-        session.model().and_then(|model| model.prepared.remedy.as_ref()).filter(|_| pane == Pane::Mesh)
-    {
+    let remedy = session.model().and_then(|model| model.prepared.remedy.as_ref());
+    if let Some(remedy) = remedy.filter(|_| pane == Pane::Mesh && session.seam_search().is_none()) {
         let done: Vec<String> = remedy.done().iter().map(ToString::to_string).collect();
         let words = match &done[..] {
             [] => "All faults of the mesh are harmless: it can be flattened without repair".to_owned(),
             _ => format!("The mesh can be repaired: {}", done.join(", ")),
         };
-        let tip = "Repair the mesh so that it is a disk. The file is not changed; undo reverts the repair";
+        let tip = "Repair the mesh and cut it along short seams (U). The file is not changed; undo reverts this";
         let offers = [
-            Offer::new("Repair all", tip, Action::Mend),
+            Offer::new("Unwrap", tip, Action::Unwrap(None)),
             Offer::new("Show faults", "List every fault, with links to its elements", Request::ShowTab(Tab::Defects)),
         ];
         warning(ui, &words, offers, requests);

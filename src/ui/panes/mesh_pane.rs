@@ -15,7 +15,7 @@ use crate::ui::editor::scene::MeshScene;
 use crate::ui::state::{Viewport, in_pane, size_of};
 use crate::ui::{Control, Editor, Pane, Request, ShadingMode, Theme, Tool, theme_of};
 use crate::view::{EdgeList, OrbitCamera, Visibility};
-use freebound_core::mesh::VertexId;
+use freebound_core::mesh::{Seams, VertexId};
 
 /// Opacity of the mark of a selected vertex that the mesh hides.
 const HIDDEN: f32 = 0.4;
@@ -43,7 +43,10 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     };
     // A double click ends a seam, and must not move the pivot.
     let sets_pivot = editor.tools.tool() != Tool::Seam;
-    navigate(ui, &response, &scene, &mut camera, sets_pivot);
+    match paint(ui, &response, editor, &scene, camera) {
+        Some(painted) => requests.extend(painted),
+        None => navigate(ui, &response, &scene, &mut camera, sets_pivot),
+    }
     if editor.mesh.pane.camera() != Some(camera) {
         editor.mesh.pane.set_camera(camera);
         ui.ctx().request_repaint();
@@ -83,6 +86,36 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     magnifier::over_mesh(ui, view, editor, &scene, requests);
 }
 
+/// Drag that paints where no automatic seam may run, or takes paint away. `None` if there is no such drag.
+fn paint(
+    ui: &egui::Ui,
+    response: &Response,
+    editor: &mut Editor,
+    scene: &MeshScene,
+    camera: OrbitCamera,
+) -> Option<Vec<Request>> {
+    if editor.tools.tool() != Tool::Seam || !editor.tools.seam.paints() {
+        return None;
+    }
+    let (size, has_shift) = (size_of(response.rect), ui.input(|input| input.modifiers.shift));
+    let is_stroke = !editor.tools.seam.stroke().is_empty();
+    let pointer = response.interact_pointer_pos().map(|at| in_pane(response.rect, at));
+    let begins = response.drag_started_by(egui::PointerButton::Primary)
+        && pointer.is_some_and(|at| scene.hits(camera.ray(at, size)));
+    if let Some(at) = pointer.filter(|_| begins || is_stroke || response.clicked()) {
+        editor.tools.seam.paint(&camera, size, at);
+    }
+    let mut requests = Vec::new();
+    if response.drag_stopped() || response.clicked() {
+        let edges = editor.tools.seam.end_stroke();
+        let cost = if editor.tools.seam.erases() == has_shift { Seams::AVOIDED } else { 1.0 };
+        if !edges.is_empty() {
+            requests.push(Action::PaintSeams { edges, cost }.into());
+        }
+    }
+    (begins || is_stroke || !requests.is_empty()).then_some(requests)
+}
+
 /// Pointer over a chart that is not on the screen: a click shows that chart.
 fn other_chart(ui: &egui::Ui, response: &Response, chart: usize, requests: &mut Vec<Request>) {
     ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
@@ -120,10 +153,22 @@ fn navigate(ui: &egui::Ui, response: &Response, scene: &MeshScene, camera: &mut 
 
 pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, theme: &Theme) -> MeshFrame {
     let plane = editor.plane.result().map(|plane| Arc::clone(&plane.arrays));
+    let shows_given = editor.mesh.scene().is_some_and(|given| std::ptr::eq(Arc::as_ptr(given), scene));
+    let mut lines = vec![boundary_line(scene, theme), seam_line(&scene.seams, theme)];
+    if shows_given {
+        let line = |edges: &Arc<EdgeList>, colour, width_in_points| LineLayer {
+            edges: Arc::clone(edges),
+            colour,
+            width_in_points,
+        };
+        let is_drawing = editor.tools.tool() == Tool::Seam;
+        lines.extend(editor.mesh.kept_whole().filter(|_| is_drawing).map(|edges| line(edges, theme.kept_whole, 2.0)));
+        lines.extend(editor.mesh.seams_to_be().map(|edges| line(edges, theme.seam_to_be, 2.5)));
+    }
     MeshFrame {
         mesh: Arc::clone(&scene.arrays),
         around: scene.around.as_ref().map(|around| around.surroundings.clone()),
-        lines: vec![boundary_line(scene, theme), seam_line(&scene.seams, theme)],
+        lines,
         around_lines: scene.around.iter().map(|around| seam_line(&around.seams, theme)).collect(),
         picture: picture_layer(editor),
         paint: editor
@@ -186,6 +231,20 @@ pub(super) fn new_vertex_mark(painter: &egui::Painter, at: Pos2, theme: &Theme) 
     painter.circle_filled(at, 1.75, theme.accent);
 }
 
+/// Both sides of the seam under the pointer, where the mesh does not hide them.
+fn seam_under_pointer(
+    painter: &egui::Painter,
+    editor: &Editor,
+    theme: &Theme,
+    seen: impl Fn(VertexId) -> Option<Pos2>,
+) {
+    for side in editor.tools.seam_hover.sides() {
+        if let [Some(a), Some(b)] = side.map(&seen) {
+            painter.line_segment([a, b], pane::seam_stroke(theme));
+        }
+    }
+}
+
 /// Marks over the mesh: pins, selection, hover and defects.
 fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &MeshScene) {
     let theme = theme_of(ui);
@@ -203,6 +262,7 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
             painter.line_segment([a, b], egui::Stroke::new(4.0, theme.crossing));
         }
     }
+    seam_under_pointer(&painter, editor, theme, seen);
     for outline in pane::concave(editor, scene) {
         let corners: Vec<(Pos2, bool)> = outline.iter().filter_map(|&corner| place(corner)).collect();
         if corners.len() == outline.len() && corners.iter().any(|(_, is_seen)| *is_seen) {

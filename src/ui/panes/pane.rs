@@ -44,6 +44,11 @@ pub(super) fn small_state(ui: &egui::Ui, rect: Rect, words: &str) {
     ui.painter_at(rect).galley(at, galley, theme.weak_text);
 }
 
+/// Line of the seam under the pointer.
+pub(super) fn seam_stroke(theme: &Theme) -> Stroke {
+    Stroke::new(3.5, theme.selection)
+}
+
 /// Ring around a vertex.
 pub(super) fn halo(painter: &egui::Painter, at: Pos2, colour: Color32, radius: f32) {
     painter.circle_stroke(at, radius + 1.5, Stroke::new(1.5, Color32::from_black_alpha(90)));

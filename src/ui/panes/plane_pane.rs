@@ -89,6 +89,9 @@ fn pick(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut Editor, plane: 
 fn waiting_words(editor: &Editor) -> Vec<&'static str> {
     match editor.session.model().map(|model| &model.prepared.surface) {
         None => vec!["The embedding appears here"],
+        Some(Surface::Faulty(..)) if editor.session.seam_search().is_some() => {
+            vec!["Unwrapping…", "The map appears here once short seams are found"]
+        }
         Some(Surface::Faulty(..)) => {
             vec![
                 "This mesh has faults that prevent flattening",
@@ -175,6 +178,11 @@ fn marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &Pl
     }
     for &vertex in editor.selection.vertices().iter().take(MARKS_SHOWN) {
         pane::halo(&over, spot(vertex), theme.selection, 6.0);
+    }
+    if editor.is_of_session(&plane.mesh) {
+        for side in editor.tools.seam_hover.sides() {
+            over.line_segment(side.map(spot), pane::seam_stroke(theme));
+        }
     }
     if let Some(vertex) = editor.pointer.vertex() {
         // At a cut, mark the copies on both sides.

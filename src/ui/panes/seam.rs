@@ -5,7 +5,7 @@ use eframe::egui::{self, Pos2, Shape, Stroke, WidgetInfo};
 use super::pane;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
 use crate::ui::editor::seam_intent::SeamIntent;
-use crate::ui::editor::seam_tool::CREASES;
+use crate::ui::editor::seam_tool::{BRUSH, CREASES};
 use crate::ui::state::{Edge, Viewport};
 use crate::ui::theme::on_screen;
 use crate::ui::timeline::lasting_menu;
@@ -50,6 +50,14 @@ impl Editor {
     /// Hint for the status bar.
     pub(in crate::ui) fn seam_words(&self, has_shift: bool) -> String {
         let seam = &self.tools.seam;
+        if seam.paints() {
+            let words = if seam.erases() == has_shift {
+                "Drag over the mesh: no automatic seam runs there. Shift takes paint away. Drag beside it to orbit."
+            } else {
+                "Drag over paint to take it away. Drag beside the mesh to orbit."
+            };
+            return words.to_owned();
+        }
         let edges = |edges: &[Edge]| counted(edges.len(), "edge", "edges");
         match (seam.foreseen(), seam.under(), seam.last()) {
             (Some(SeamIntent::Begin), Some(vertex), _) => format!("Click: start the seam at {vertex}."),
@@ -81,6 +89,9 @@ fn has_shift(ui: &egui::Ui) -> bool {
 
 /// Request of a click.
 pub(super) fn clicked(ui: &egui::Ui, editor: &Editor) -> Vec<Request> {
+    if editor.tools.seam.paints() {
+        return Vec::new();
+    }
     editor.seam_click(has_shift(ui)).map(Request::ClickSeam).into_iter().collect()
 }
 
@@ -117,6 +128,9 @@ pub(super) fn over_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &mut
     let Some(ground) = editor.tools.seam.ground() else { return };
     let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
     let spot = |vertex: VertexId| view.spot(ground.place(vertex)?);
+    if editor.tools.seam.paints() {
+        return brush(ui, &painter, editor, theme, spot);
+    }
     let (path, closes) = change(editor);
     for (place, edge) in path.iter().enumerate() {
         if let [Some(a), Some(b)] = edge.map(spot) {
@@ -128,6 +142,26 @@ pub(super) fn over_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &mut
     }
     if let Some(at) = editor.tools.seam.under().and_then(spot) {
         pane::halo(&painter, at, theme.selection, 5.0);
+    }
+}
+
+/// Stroke of the brush, and the ring under the pointer.
+fn brush(
+    ui: &egui::Ui,
+    painter: &egui::Painter,
+    editor: &Editor,
+    theme: &Theme,
+    spot: impl Fn(VertexId) -> Option<Pos2>,
+) {
+    let stroke = Stroke::new(CLOSE_WIDTH, on_screen(theme.kept_whole));
+    for edge in editor.tools.seam.stroke() {
+        if let [Some(a), Some(b)] = edge.map(&spot) {
+            painter.line_segment([a, b], stroke);
+        }
+    }
+    if let Some(at) = ui.input(|input| input.pointer.latest_pos()).filter(|at| painter.clip_rect().contains(*at)) {
+        #[expect(clippy::cast_possible_truncation, reason = "a few points")]
+        painter.circle_stroke(at, BRUSH as f32, Stroke::new(1.5, on_screen(theme.kept_whole)));
     }
 }
 
@@ -173,6 +207,10 @@ pub(super) fn strip(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
                        previous click. Shift does so for one click";
             let erase = ui.selectable_label(editor.tools.seam.erases(), "Erase").on_hover_text(tip);
             erase.asks(Request::ToggleErasing, requests);
+            let tip = "Paint over the mesh where no automatic seam may run; the seams move away. Erase takes paint \
+                       away. Drag beside the mesh to orbit";
+            let paint = ui.selectable_label(editor.tools.seam.paints(), "Keep whole").on_hover_text(tip);
+            paint.asks(Request::TogglePainting, requests);
             rules(ui, editor, requests);
             let tip = "Erase all seams that were drawn or chosen; undo restores them";
             let clear = Offer::new("Clear seams", tip, Request::ClearSeams);
@@ -217,7 +255,7 @@ fn rules(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         ui.separator();
         let tip = "Also cut along the edges of a file. Each line has the numbers of two vertices, from 0";
         Offer::new("Import seams…", tip, Request::Ask(FileDialogKind::ImportSeams)).show(ui, requests);
-        let has_seams = !editor.session.seams().edges().is_empty();
+        let has_seams = !editor.session.seams().all_listed().edges().is_empty();
         let export = Offer::new(
             "Export seams…",
             "Write the edges of the seams to a file",

@@ -63,6 +63,8 @@ pub enum Request {
     SetCreases(f64),
     /// Switches clicks of the seam tool between cutting and closing seams.
     ToggleErasing,
+    /// Starts or ends painting where no automatic seam may run.
+    TogglePainting,
     /// Sets the shading of the pane under the pointer, or of both panes if it is over neither.
     SetShading(ShadingMode),
     /// Sets the shading of one pane.

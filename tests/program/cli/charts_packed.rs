@@ -101,3 +101,20 @@ fn assert_apart(file: &MeshFile, pixels: &[[DVec2; 3]], gap: f64) {
         }
     }
 }
+
+#[test]
+fn free_rotations_leave_no_less_room_than_quarter_turns_and_none_keeps_every_chart_upright() {
+    let program = Program::new();
+    let parts = [grid(9, 1), grid(7, 2), grid(5, 3), grid(1, 8)].map(|mesh| PolygonMesh::from(&mesh));
+    program.write("in.obj", &obj_text(&interleaved(&parts, &mut Random(5))));
+    let density = |rotations: &str| {
+        let arguments = ["flatten", "in.obj", "-o", "out.obj", "--report", "-", "--rotations", rotations];
+        let run = program.command(&arguments).output().expect("it runs");
+        let report: Value = serde_json::from_slice(&run.stdout).expect("JSON");
+        assert_eq!(report["atlas"]["planar"], json!(true));
+        report["packing"]["density"].as_f64().expect("a number")
+    };
+    let [free, quarter, none] = ["free", "quarter", "none"].map(density);
+    assert!(free >= 0.98 * quarter && quarter >= none, "{free} {quarter} {none}");
+    program.run(&["flatten", "in.obj", "--rotations", "some"]).expect(2);
+}

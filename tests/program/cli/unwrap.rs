@@ -1,5 +1,9 @@
 //! Command `unwrap`: any mesh, cut open along short seams of low distortion.
 
+use std::fmt::Write as _;
+
+use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_io::read_mesh;
 use freebound_testkit::assert_message;
 use serde_json::json;
 
@@ -113,4 +117,60 @@ fn the_file_is_the_same_for_any_number_of_threads() {
     }
     let [one, two, five] = ["1.obj", "2.obj", "5.obj"].map(|name| std::fs::read(program.path(name)).expect("written"));
     assert!(one == two && two == five);
+}
+
+#[test]
+fn seams_avoid_the_edges_that_a_file_makes_costly() {
+    let program = Program::new();
+    program.run(&["example", "ball", "."]).expect(0);
+    let mesh = read_mesh(&program.path("ball.obj")).expect("a mesh");
+    let length = |options: &[&str]| {
+        let report = report(&program, &[&["unwrap", "ball.obj", "-o", "flat.obj"], options].concat());
+        report["seams"]["length"].as_f64().expect("a length")
+    };
+    let plain = length(&[]);
+    // Every edge of the upper half.
+    let above = |vertex: &VertexId| mesh.polygons.positions[vertex.index()].z > 0.0;
+    let mut lines = String::from("# costs\n");
+    for face in 0..mesh.polygons.face_count() {
+        let corners = mesh.polygons.face(face);
+        for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)).filter(|(a, b)| above(a) && above(b)) {
+            writeln!(lines, "{} {} 1000", a.number(), b.number()).expect("memory");
+        }
+    }
+    std::fs::write(program.path("costs.txt"), lines).expect("written");
+    assert_ne!(length(&["--cut-weights", "costs.txt"]), plain);
+    let flat = read_mesh(&program.path("flat.obj")).expect("a mesh").texture_mesh().expect("coordinates");
+    let disk = DiskMesh::try_from(flat.mesh).expect("one chart");
+    let is_high = |vertex: &&VertexId| disk.position(**vertex).z > 0.3;
+    assert_eq!(disk.boundary_loop().iter().filter(is_high).count(), 0);
+}
+
+#[test]
+fn a_faulty_file_of_costs_is_refused_with_its_line() {
+    for (line, fault) in [("0 1", "form"), ("0 1 x", "cost"), ("0 1 0", "low"), ("0 0 2", "twice"), ("0 9999 2", "far")]
+    {
+        let program = Program::new();
+        program.run(&["example", "ball", "."]).expect(0);
+        std::fs::write(program.path("costs.txt"), format!("# costs\n{line}\n")).expect("written");
+        let run = program.run(&["unwrap", "ball.obj", "-o", "flat.obj", "--cut-weights", "costs.txt"]);
+        assert_message(&format!("unwrap-costs-{fault}"), &run.expect(3).stderr);
+        assert!(!program.path("flat.obj").exists());
+    }
+    let program = Program::new();
+    program.run(&["example", "dome", "."]).expect(0);
+    std::fs::write(program.path("costs.txt"), "0 1 2\n").expect("written");
+    let idle = program.run(&["flatten", "dome.obj", "--cut-weights", "costs.txt"]);
+    assert_message("unwrap-costs-idle", &idle.expect(2).stderr);
+}
+
+#[test]
+fn a_part_whose_corners_coincide_is_drawn_beside_the_others() {
+    let program = Program::new();
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 5 5\nv 5 5 5\nv 5 5 5\nf 1 2 3 4\nf 5 6 7\n";
+    std::fs::write(program.path("point.obj"), text).expect("written");
+    let report = report(&program, &["unwrap", "point.obj", "-o", "flat.obj"]);
+    assert_eq!(report["atlas"]["planar"], json!(true));
+    assert_eq!(report["charts"].as_array().map(Vec::len), Some(2));
+    program.run(&["check", "flat.obj"]).expect(0);
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use freebound::session::{Action, ChartState, SaveRequest, Session};
-use freebound_core::geom::{PackingOptions, VAxis};
+use freebound_core::geom::{PackingOptions, Rotations, VAxis};
 use freebound_core::mesh::{VertexId, parts};
 use freebound_core::pipeline::{Fit, Outcome, Target, Targets};
 use freebound_core::problem::{Method, Settings};
@@ -161,7 +161,10 @@ fn a_project_brings_chart_pins_and_packing_back() {
     let second = (first + 2) % 5;
     settled(&mut session, Action::ShowChart(second));
     pin(&mut session, DVec2::splat(0.6));
-    settled(&mut session, Action::SetPacking(PackingOptions { picture: [512, 256], gap: 7, turns: true }));
+    settled(
+        &mut session,
+        Action::SetPacking(PackingOptions { picture: [512, 256], gap: 7, rotations: Rotations::Quarter }),
+    );
     settled(&mut session, Action::SetChartSize { chart: (first + 1) % 5, size: 2.5 });
     let path = file(&folder, "work.freebound");
     settled(&mut session, Action::SaveProject(path.clone()));

@@ -11,14 +11,21 @@ use super::documents::errors;
 use crate::cli::program::obj_text;
 use freebound_testkit::{tetrahedron, write_obj};
 
-/// Session with a tetrahedron, in a temporary folder.
+/// Session with a tetrahedron in a temporary folder. Opening it unwrapped it; undo gave its fault back.
 fn with_closed() -> (TempDir, Session) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("closed.obj");
     write_obj(&path, &tetrahedron());
     let mut session = session();
     settled(&mut session, Action::Open(path));
+    settled(&mut session, Action::Undo);
     (folder, session)
+}
+
+/// Preparation without its automatic seams.
+fn without_seams(session: &Session) -> Preparation {
+    let form = session.document().form.clone();
+    Preparation { seams: form.seams.without_automatic(), ..form }
 }
 
 fn is_faulty(session: &Session) -> bool {
@@ -32,9 +39,9 @@ fn mending_is_an_edit_that_is_undone_and_repeated() {
     assert_eq!(errors(&session).len(), 1);
     let remedy = session.model().expect("open").prepared.remedy.clone().expect("it can be cut");
     assert_eq!(remedy.done()[0].repair, Repair::Cut);
-    settled(&mut session, Action::Mend);
+    settled(&mut session, Action::Unwrap(None));
     assert!(!is_faulty(&session) && session.is_current() && errors(&session).is_empty());
-    assert_eq!(session.document().form, Preparation::default().with_all_repairs());
+    assert_eq!(without_seams(&session), Preparation::default().with_all_repairs());
     let solved = session.outcome().expect("solved").step.candidate.solution.embedding.clone();
     settled(&mut session, Action::Undo);
     assert!(is_faulty(&session) && session.outcome().is_none());
@@ -44,25 +51,25 @@ fn mending_is_an_edit_that_is_undone_and_repeated() {
 }
 
 #[test]
-fn mending_does_nothing_where_nothing_is_wrong_or_nothing_can_be_done() {
+fn a_mesh_that_no_repair_helps_is_not_unwrapped_and_says_so() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut lost = freebound_testkit::grid(3, 2);
     lost.positions[4].y = f64::NAN;
-    for (name, mesh) in [("lost.obj", lost), ("sheet.obj", freebound_testkit::grid(3, 2))] {
-        let path = folder.path().join(name);
-        write_obj(&path, &mesh);
-        let mut session = session();
-        settled(&mut session, Action::Open(path));
-        settled(&mut session, Action::Mend);
-        assert!(!session.history().can_undo(), "{name}");
-        assert_eq!(session.document().form, Preparation::default(), "{name}");
-    }
+    let path = folder.path().join("lost.obj");
+    write_obj(&path, &lost);
+    let mut session = session();
+    settled(&mut session, Action::Open(path));
+    let told = errors(&session).len();
+    settled(&mut session, Action::Unwrap(None));
+    assert!(!session.history().can_undo() && !session.can_unwrap());
+    assert_eq!(session.document().form, Preparation::default());
+    assert_eq!(errors(&session).len(), told + 1);
 }
 
 #[test]
 fn a_project_of_a_mended_mesh_opens_as_it_was_pins_of_new_vertices_too() {
     let (folder, mut session) = with_closed();
-    settled(&mut session, Action::Mend);
+    settled(&mut session, Action::Unwrap(None));
     let first_new = u32::try_from(tetrahedron().vertex_count()).expect("few");
     settled(&mut session, Action::Fix([0, first_new].map(freebound_core::mesh::VertexId::new).to_vec()));
     let solved = session.outcome().expect("solved").step.candidate.solution.embedding.clone();
@@ -71,7 +78,7 @@ fn a_project_of_a_mended_mesh_opens_as_it_was_pins_of_new_vertices_too() {
     let mut again = super::basics::session();
     settled(&mut again, Action::Open(path));
     assert!(again.messages().iter().all(|message| message.place != MessagePlace::Mesh), "{:?}", again.messages());
-    assert_eq!(again.document().form, Preparation::default().with_all_repairs());
+    assert_eq!(again.document().form, session.document().form);
     assert_eq!(again.document().targets.len(), 2);
     assert_eq!(again.outcome().expect("solved").step.candidate.solution.embedding, solved);
 }
@@ -79,7 +86,7 @@ fn a_project_of_a_mended_mesh_opens_as_it_was_pins_of_new_vertices_too() {
 #[test]
 fn turning_a_mended_mesh_keeps_it_mended_and_every_vertex_its_number() {
     let (_folder, mut session) = with_closed();
-    settled(&mut session, Action::Mend);
+    settled(&mut session, Action::Unwrap(None));
     let places = |session: &Session| {
         let model = session.model().expect("open").clone();
         (model.prepared.repaired.clone().expect("mended").done().to_vec(), model.mesh().positions.clone())
@@ -94,10 +101,8 @@ fn turning_a_mended_mesh_keeps_it_mended_and_every_vertex_its_number() {
     settled(&mut session, Action::Undo);
     settled(&mut session, Action::TurnFaces);
     assert!(!is_faulty(&session) && session.is_current());
-    assert_eq!(
-        session.document().form,
-        Preparation { faces_turned: true, ..Preparation::default().with_all_repairs() }
-    );
+    let turned = Preparation { faces_turned: true, ..Preparation::default().with_all_repairs() };
+    assert_eq!(without_seams(&session), turned);
     settled(&mut session, Action::Undo);
     settled(&mut session, Action::Undo);
     assert!(is_faulty(&session));
@@ -128,6 +133,7 @@ fn a_single_remedy_is_an_edit_that_leaves_the_other_faults_and_is_kept_in_a_proj
     write_obj(&path, &mesh);
     let mut session = session();
     settled(&mut session, Action::Open(path));
+    settled(&mut session, Action::Undo);
     settled(&mut session, Action::AllowRepair(Repair::TurnFaces));
     let faults = |session: &Session| match &session.model().expect("open").prepared.surface {
         Surface::Faulty(_, diagnosis) => diagnosis.faults.iter().map(Fault::name).collect(),

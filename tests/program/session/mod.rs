@@ -21,6 +21,7 @@ pub(crate) mod recovery;
 pub(crate) mod run;
 pub(crate) mod seams;
 pub(crate) mod timeline;
+pub(crate) mod unwrapping;
 pub(crate) mod upright;
 pub(crate) mod view_beside;
 pub(crate) mod wishes;

@@ -13,4 +13,4 @@ mod search;
 mod surface;
 
 pub use search::SeamOptions;
-pub(crate) use search::{PartCut, cut_part};
+pub(crate) use search::{BestCut, PartCut, PartToCut};

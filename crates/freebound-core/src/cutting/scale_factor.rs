@@ -103,6 +103,11 @@ impl ConformalSystem {
         Ok(ScaleFactors { u, is_fixed, factor })
     }
 
+    /// Nodes whose angle defect is larger than `least`, radians.
+    pub(super) fn curved_nodes(&self, least: f64) -> impl Iterator<Item = usize> {
+        self.curvature.iter().enumerate().filter(move |(_, defect)| defect.abs() > least).map(|(node, _)| node)
+    }
+
     /// Replaces the curvature by its difference from an even distribution over the surface, of the same total.
     pub(super) fn evened(&self) -> Vec<f64> {
         let total: f64 = self.curvature.iter().sum();

@@ -3,7 +3,8 @@
 //! A *prediction* of the energy steers the search: 8 Var(u) over 4, with u the conformal scale factors (see
 //! `scale_factor`). It costs one solve. The energy itself is *measured* a few times: the surface is cut, flattened and
 //! relaxed. Relaxing trades angles for areas, so the measured excess over 4 is some 0.3 of the predicted one. The ratio
-//! depends on the surface, and little on the cut. So each round of the search corrects it.
+//! depends on the surface, and little on the cut. So each round of the search corrects it. If costs keep cones away
+//! from some vertices, the excess that stays even if the map is free at all other vertices does not count.
 //!
 //! # Cut for a prediction
 //!
@@ -11,6 +12,11 @@
 //!    (M. Ben-Chen, C. Gotsman, G. Bunin 2008). The cut is a Steiner tree through the fewest cones that suffice.
 //! 2. Exchange: the cone whose removal saves most for its loss is removed, cones that gain most for their cost are
 //!    added until the prediction is met again, and the cheaper cut is kept.
+//!
+//! # Exact development
+//!
+//! A surface whose curvature lies at vertices of sharp edges alone, such as a box or a cylinder with caps, is developed
+//! without distortion by a cut through all of these vertices. This cut is taken unless it costs much more.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
@@ -58,8 +64,21 @@ const ROUNDS_TO_MEET: usize = 10;
 const STRICTER: f64 = 0.6;
 const STRICTEST: f64 = 0.1;
 
-/// Ratio of measured and predicted excess from which relaxing is stuck.
+/// Ratio of measured and predicted excess from which the search is stuck: some 25 times the usual ratio. What is left is
+/// not due to curvature, but keeps parts of the map from overlapping.
 const STUCK: f64 = 8.0;
+
+/// Angle between the normals of two faces from which their edge is sharp, degrees.
+const SHARP: f64 = 25.0;
+
+/// Angle defect from which a vertex has curvature, radians.
+const CURVED: f64 = 1e-5;
+
+/// Cost of an exact development, at most, relative to the cost of a cut that meets the bound.
+const DEVELOPED: f64 = 2.5;
+
+/// Energy of an exact development above that of an isometric map, at most.
+const ISOMETRY: f64 = 1e-6;
 
 /// Most candidates for a new cone that are compared.
 const CANDIDATES: usize = 16;
@@ -132,14 +151,16 @@ struct Measured<'a> {
     graph: CutGraph<'a>,
     predicted: f64,
     energy: f64,
+    /// Energy that remains because vertices are avoided.
+    unavoidable: f64,
     corners: Vec<VertexId>,
     embedding: Embedding,
 }
 
 impl Measured<'_> {
-    /// Energy above that of an isometric map.
+    /// Energy above that of an isometric map, without the unavoidable energy.
     fn excess(&self) -> f64 {
-        self.energy - SeamOptions::ISOMETRIC
+        self.energy - SeamOptions::ISOMETRIC - self.unavoidable
     }
 
     /// True if this cut meets the bound at a lower cost, or comes nearer to it if none meets it.
@@ -192,17 +213,60 @@ impl Bracket {
     }
 }
 
-/// Finds a cut of one part.
-///
-/// # Errors
-///
-/// Errors of the solves; [`SolveError::NotPlanar`] if no cut makes the part a disk; [`SolveError::Cancelled`].
-pub(crate) fn cut_part(part: &Repaired, options: SeamOptions, control: Control<'_>) -> Result<PartCut, SolveError> {
-    let surface = CutSurface::new(part, |_| 1.0);
-    let system = ConformalSystem::new(&surface, control.cancel())?;
-    let mut search =
-        Search { surface: &surface, system: &system, options, control, cones: Vec::new(), is_complete: false };
-    search.run()
+/// Best cut so far of a running search.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BestCut<'a> {
+    /// True for each edge that is a seam, in the order of the part's edge table.
+    pub(crate) is_seam: &'a [bool],
+    /// Length of the seams.
+    pub(crate) length: f64,
+    /// Mean symmetric Dirichlet energy of its map.
+    pub(crate) energy: f64,
+}
+
+/// Part of a mesh that is to be cut.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PartToCut<'a> {
+    pub(crate) part: &'a Repaired,
+    /// Cost of a seam relative to its length, for each edge in the order of the part's edge table.
+    pub(crate) costs: &'a [f64],
+    pub(crate) options: SeamOptions,
+    pub(crate) control: Control<'a>,
+}
+
+impl PartToCut<'_> {
+    /// Finds a cut. `report` receives each cut that is better than those before.
+    ///
+    /// # Errors
+    ///
+    /// Errors of the solves; [`SolveError::NotPlanar`] if no cut makes the part a disk; [`SolveError::Cancelled`].
+    pub(crate) fn cut(&self, report: &dyn Fn(BestCut<'_>)) -> Result<PartCut, SolveError> {
+        let surface = CutSurface::new(self.part, self.costs);
+        let system = ConformalSystem::new(&surface, self.control.cancel())?;
+        let mut search = Search {
+            surface: &surface,
+            system: &system,
+            options: self.options,
+            control: self.control,
+            floor: 0.0,
+            cones: Vec::new(),
+            is_complete: false,
+        };
+        search.find_floor()?;
+        search.run(report)
+    }
+
+    /// Maps the part along given seams.
+    ///
+    /// # Errors
+    ///
+    /// Errors of the solves, if the seams do not make the part a disk for example; [`SolveError::Cancelled`].
+    pub(crate) fn map_along(&self, is_seam: Vec<bool>) -> Result<PartCut, SolveError> {
+        let surface = CutSurface::new(self.part, self.costs);
+        let mapped = mapped(&surface, &is_seam, self.options, self.control)?;
+        let length = surface.length_of(&is_seam);
+        Ok(PartCut { is_seam, length, corners: mapped.corners, embedding: mapped.embedding })
+    }
 }
 
 struct Search<'a> {
@@ -210,6 +274,8 @@ struct Search<'a> {
     system: &'a ConformalSystem,
     options: SeamOptions,
     control: Control<'a>,
+    /// Excess that is predicted if the map is free at all vertices that are not avoided.
+    floor: f64,
     /// Greedy sequence of cones.
     cones: Vec<u32>,
     /// True if the sequence cannot be continued.
@@ -221,7 +287,7 @@ impl<'a> Search<'a> {
         self.control.cancel()
     }
 
-    fn run(&mut self) -> Result<PartCut, SolveError> {
+    fn run(&mut self, report: &dyn Fn(BestCut<'_>)) -> Result<PartCut, SolveError> {
         let mut start = CutGraph::topological(self.surface, self.control)?;
         if start.free_vertices().is_empty() {
             self.open_sphere(&mut start)?;
@@ -251,6 +317,8 @@ impl<'a> Search<'a> {
                 };
                 bracket.observe(&found);
                 if best.as_ref().is_none_or(|best| found.is_better_than(best, allowed)) {
+                    let Measured { graph, energy, .. } = &found;
+                    report(BestCut { is_seam: &graph.is_seam, length: graph.length(), energy: *energy });
                     best = Some(found);
                 }
             }
@@ -264,28 +332,66 @@ impl<'a> Search<'a> {
             // The relaxing of a large surface ends early, so that its share says little.
             let is_large = self.surface.triangles.len() > LARGE;
             let is_last = is_large || round + 1 >= ROUNDS || best.graph.cost() <= start.cost();
-            // Where relaxing gets stuck, for example at needles, longer seams hardly help.
-            let is_stuck = round + 1 >= ROUNDS && best.excess() > STUCK * best.predicted;
+            // Longer seams hardly help a map that would overlap itself without distortion.
+            let is_stuck = round > 0 && best.excess() > STUCK * best.predicted;
             if (share <= 1.0 && (share > CLOSE || is_last)) || best.predicted <= 0.0 || is_stuck {
                 break;
             }
             aims = bracket.next_aims(best, round);
         }
         let best = best.filter(|best| best.energy.is_finite());
-        let Measured { graph, corners, embedding, .. } = best.ok_or(SolveError::NotPlanar)?;
+        let developed = self.development(&start, best.as_ref())?;
+        let Measured { graph, corners, embedding, .. } = developed.or(best).ok_or(SolveError::NotPlanar)?;
         let length = graph.length();
         Ok(PartCut { is_seam: graph.is_seam, length, corners, embedding })
+    }
+
+    /// Exact development: an isometric map along a cut through all vertices with curvature. `None` unless each of them
+    /// lies on a sharp edge or alone, as on parts of machines, and unless its cost is at most [`DEVELOPED`] times that
+    /// of the best other cut.
+    fn development(
+        &self,
+        start: &CutGraph<'a>,
+        best: Option<&Measured<'_>>,
+    ) -> Result<Option<Measured<'a>>, SolveError> {
+        let is_on_sharp_edge = self.surface.on_sharp_edges(SHARP);
+        let curved = self.system.curved_nodes(CURVED).map(|node| self.system.vertex_of[node]);
+        let curved: Vec<u32> = curved.filter(|&vertex| !self.surface.is_on_required_loop(vertex)).collect();
+        let is_curved = self.nodes_of(curved.iter().copied());
+        let is_smooth = |vertex: u32| {
+            is_curved[self.system.node_of[vertex as usize] as usize] && !is_on_sharp_edge[vertex as usize]
+        };
+        // The apex of a cone is curved and has no such neighbour.
+        let is_alone =
+            |vertex: u32| self.surface.at(vertex).iter().all(|&edge| !is_smooth(self.surface.other_end(edge, vertex)));
+        let is_natural = |&vertex: &u32| {
+            (is_on_sharp_edge[vertex as usize] || is_alone(vertex)) && !self.surface.is_avoided[vertex as usize]
+        };
+        if curved.is_empty() || curved.len() > MOST_CONES || !curved.iter().all(is_natural) {
+            return Ok(None);
+        }
+        let mut graph = start.clone();
+        graph.connect(&curved);
+        graph.shorten(self.control)?;
+        if best.is_some_and(|best| graph.cost() > DEVELOPED * best.graph.cost()) {
+            return Ok(None);
+        }
+        let found = match self.measured(graph) {
+            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
+            found => found.ok(),
+        };
+        Ok(found.filter(|found| found.energy - SeamOptions::ISOMETRIC <= ISOMETRY))
     }
 
     /// Different cuts for predictions. A large surface gets one.
     fn cuts_for(&mut self, start: &CutGraph<'a>, aims: &[f64]) -> Result<Vec<CutGraph<'a>>, SolveError> {
         let aims = if self.surface.triangles.len() > LARGE { &aims[..1] } else { aims };
         for &most in aims {
-            self.extend_sequence(start, most)?;
+            self.extend_sequence(start, self.floor + most)?;
         }
         let this = &*self;
         let cuts: Vec<Result<CutGraph<'a>, SolveError>> =
-            aims.par_iter().with_max_len(1).map(|&most| this.cut_for(start, most)).collect();
+            aims.par_iter().with_max_len(1).map(|&most| this.cut_for(start, this.floor + most)).collect();
         let mut different: Vec<CutGraph<'a>> = Vec::new();
         for cut in cuts {
             let cut = cut?;
@@ -296,6 +402,22 @@ impl<'a> Search<'a> {
         Ok(different)
     }
 
+    /// Finds the excess that no cut outside the avoided vertices can remove.
+    fn find_floor(&mut self) -> Result<(), SolveError> {
+        let is_free =
+            |node: usize| self.is_allowed(node) || self.surface.is_on_required_loop(self.system.vertex_of[node]);
+        let is_allowed: Vec<bool> = (0..self.system.node_count()).map(is_free).collect();
+        if is_allowed.contains(&false) && is_allowed.contains(&true) {
+            self.floor = self.excess(&self.system.solve(is_allowed, self.cancel())?);
+        }
+        Ok(())
+    }
+
+    /// True if a node may become a cone.
+    fn is_allowed(&self, node: usize) -> bool {
+        !self.surface.is_avoided[self.system.vertex_of[node] as usize]
+    }
+
     /// Joins two far cones of a closed surface.
     fn open_sphere(&self, graph: &mut CutGraph<'_>) -> Result<(), SolveError> {
         let nodes = self.system.node_count();
@@ -304,11 +426,14 @@ impl<'a> Search<'a> {
         let grounded = self.system.solve(is_fixed, self.cancel())?;
         let u = grounded.solved(&self.system.evened(), self.cancel())?;
         let mean = u.iter().sum::<f64>() / u.len() as f64;
-        let first = extreme((0..nodes).map(|node| (u[node] - mean).abs()));
+        // A closed surface has to be cut somewhere.
+        let has_choice = (0..nodes).filter(|&node| self.is_allowed(node)).count() > 1;
+        let is_allowed = |node: usize| f64::from(u8::from(!has_choice || self.is_allowed(node)));
+        let first = extreme((0..nodes).map(|node| is_allowed(node) * (u[node] - mean).abs()));
         let mut is_fixed = vec![false; nodes];
         is_fixed[first] = true;
         let u = self.system.solve(is_fixed, self.cancel())?.u;
-        let second = extreme(u.iter().map(|u| u.abs()));
+        let second = extreme((0..nodes).map(|node| is_allowed(node) * u[node].abs()));
         let [from, to] = [first, second].map(|node| self.system.vertex_of[node]);
         graph.add_cone(from, []);
         graph.add_cone(to, self.surface.path(&[from], |v| v == to).unwrap_or_default());
@@ -429,12 +554,12 @@ impl<'a> Search<'a> {
     /// Nodes where |u| has a local maximum, the largest first.
     fn peaks(&self, factors: &ScaleFactors) -> Vec<usize> {
         let node = |v: u32| self.system.node_of[v as usize] as usize;
-        let size = |node: usize| factors.u[node].abs();
+        let size = |node: usize| if self.is_allowed(node) { factors.u[node].abs() } else { 0.0 };
         let is_peak = |&at: &usize| {
             let vertex = self.system.vertex_of[at];
             let edges = self.surface.at(vertex);
             let is_higher = |&edge: &u32| size(node(self.surface.other_end(edge, vertex))) <= size(at);
-            !factors.is_fixed(at) && !edges.is_empty() && edges.iter().all(is_higher)
+            self.is_allowed(at) && !factors.is_fixed(at) && !edges.is_empty() && edges.iter().all(is_higher)
         };
         let mut peaks: Vec<usize> = (0..self.system.node_count()).filter(is_peak).collect();
         peaks.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
@@ -519,32 +644,51 @@ impl<'a> Search<'a> {
 
     /// Map of the surface along a cut.
     fn measured(&self, graph: CutGraph<'a>) -> Result<Measured<'a>, SolveError> {
-        let predicted = self.predicted(&graph)?;
-        let (disk, corners) = self.surface.opened(&graph.is_seam)?;
-        let disk = disk.without_polygons();
-        let settings = Settings { relax_rounds: Some(self.options.rounds), ..Settings::default() };
-        let mut flattener = Flattener::with_options(Options { settings, ..Options::default() });
-        let enough = SeamOptions::ISOMETRIC + ENOUGH * (self.options.bound - SeamOptions::ISOMETRIC);
-        let is_large = disk.face_count() > LARGE;
-        let mut last = None;
-        let step = loop {
-            let step = match flattener.step(&disk, self.control) {
-                Ok(step) => step,
-                Err(error) => break last.filter(|_| error != SolveError::Cancelled).ok_or(error)?,
-            };
-            let energy = step.candidate.progress.map_or(f64::INFINITY, |progress| progress.energy);
-            let is_enough = is_large && step.verdict.planar && energy <= enough;
-            if is_enough || flattener.ending().is_some() {
-                break step;
-            }
-            last = Some(step);
-        };
-        let is_planar = step.verdict.planar;
-        let embedding = step.candidate.solution.embedding;
-        let mean = distortion(&disk, &embedding).summary.symmetric_dirichlet.mean;
-        let energy = if is_planar { mean } else { f64::INFINITY };
-        Ok(Measured { graph, predicted, energy, corners, embedding })
+        let predicted = self.predicted(&graph)? - self.floor;
+        let unavoidable = FIRST_RATIOS[0] * self.floor;
+        let Mapped { energy, corners, embedding } = mapped(self.surface, &graph.is_seam, self.options, self.control)?;
+        Ok(Measured { graph, predicted, energy, unavoidable, corners, embedding })
     }
+}
+
+/// Map of a surface along seams.
+struct Mapped {
+    /// Mean symmetric Dirichlet energy; infinite if the map is not planar.
+    energy: f64,
+    corners: Vec<VertexId>,
+    embedding: Embedding,
+}
+
+/// Flattens and relaxes a surface along seams.
+fn mapped(
+    surface: &CutSurface<'_>,
+    is_seam: &[bool],
+    options: SeamOptions,
+    control: Control<'_>,
+) -> Result<Mapped, SolveError> {
+    let (disk, corners) = surface.opened(is_seam)?;
+    let disk = disk.without_polygons();
+    let settings = Settings { relax_rounds: Some(options.rounds), ..Settings::default() };
+    let mut flattener = Flattener::with_options(Options { settings, ..Options::default() });
+    let enough = SeamOptions::ISOMETRIC + ENOUGH * (options.bound - SeamOptions::ISOMETRIC);
+    let is_large = disk.face_count() > LARGE;
+    let mut last = None;
+    let step = loop {
+        let step = match flattener.step(&disk, control) {
+            Ok(step) => step,
+            Err(error) => break last.filter(|_| error != SolveError::Cancelled).ok_or(error)?,
+        };
+        let energy = step.candidate.progress.map_or(f64::INFINITY, |progress| progress.energy);
+        let is_enough = is_large && step.verdict.planar && energy <= enough;
+        if is_enough || flattener.ending().is_some() {
+            break step;
+        }
+        last = Some(step);
+    };
+    let is_planar = step.verdict.planar;
+    let embedding = step.candidate.solution.embedding;
+    let mean = distortion(&disk, &embedding).summary.symmetric_dirichlet.mean;
+    Ok(Mapped { energy: if is_planar { mean } else { f64::INFINITY }, corners, embedding })
 }
 
 /// Index of the greatest number, the first of several.

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use crate::mesh::union::DisjointSets;
-use crate::mesh::{DiskMesh, Repaired, VertexId};
+use crate::mesh::{DiskMesh, Repaired, Seams, VertexId};
 use crate::problem::SolveError;
 
 /// Length of a boundary loop, relative to √area, below which a cut need not reach the loop: it is filled as a hole.
@@ -35,13 +35,15 @@ pub(crate) struct CutSurface<'a> {
     pub(super) loop_of: Vec<Option<u32>>,
     /// True for each boundary loop that a cut has to reach.
     pub(super) is_required: Vec<bool>,
+    /// True for each vertex inside a region that seams avoid: each of its edges costs [`Seams::AVOIDED`] or more.
+    pub(super) is_avoided: Vec<bool>,
     pub(super) area: f64,
 }
 
 impl<'a> CutSurface<'a> {
-    /// Takes a repaired mesh of one part. `cost_factor` gives the cost of a seam relative to its length, by the
-    /// number of the edge.
-    pub(crate) fn new(part: &'a Repaired, cost_factor: impl Fn(usize) -> f64) -> Self {
+    /// Takes a repaired mesh of one part. `costs` has the cost of a seam relative to its length for each edge, in the
+    /// order of the part's edge table.
+    pub(crate) fn new(part: &'a Repaired, costs: &[f64]) -> Self {
         let polygons = part.polygons();
         let mesh = polygons.triangulate();
         let triangles = mesh.triangles.iter().map(|face| face.map(VertexId::number)).collect();
@@ -49,20 +51,34 @@ impl<'a> CutSurface<'a> {
         let edges: Vec<Edge> = part
             .edges_with_sides()
             .into_iter()
-            .enumerate()
-            .map(|(number, (ends, side_count))| {
+            .zip(costs)
+            .map(|((ends, side_count), factor)| {
                 let ends = ends.map(VertexId::number);
                 let length = position(ends[0]).distance(position(ends[1]));
                 let is_boundary = side_count == 1;
                 // A boundary is open already.
-                let cost = if is_boundary { 0.0 } else { length * cost_factor(number) };
+                let cost = if is_boundary { 0.0 } else { length * factor };
                 Edge { ends, length, cost, is_boundary }
             })
             .collect();
         let (at, starts) = by_vertex(&edges, polygons.positions.len());
         let area = mesh.area();
-        let mut surface =
-            Self { part, triangles, edges, at, starts, loop_of: Vec::new(), is_required: Vec::new(), area };
+        let mut surface = Self {
+            part,
+            triangles,
+            edges,
+            at,
+            starts,
+            loop_of: Vec::new(),
+            is_required: Vec::new(),
+            is_avoided: Vec::new(),
+            area,
+        };
+        let is_avoided = |v: u32| {
+            let edges = surface.at(v);
+            !edges.is_empty() && edges.iter().all(|&edge| costs[edge as usize] >= Seams::AVOIDED)
+        };
+        surface.is_avoided = (0..).take(surface.vertex_count()).map(is_avoided).collect();
         surface.find_loops();
         surface
     }
@@ -126,6 +142,34 @@ impl<'a> CutSurface<'a> {
             _ => None,
         };
         (0..).zip(self.part.faces_of_edges()).filter_map(beside).collect()
+    }
+
+    /// Length of the edges that are seams.
+    pub(super) fn length_of(&self, is_seam: &[bool]) -> f64 {
+        self.edges.iter().zip(is_seam).filter(|(_, is_seam)| **is_seam).map(|(edge, _)| edge.length).sum()
+    }
+
+    /// True for each vertex with an edge whose faces have normals that differ by `degrees` or more.
+    pub(super) fn on_sharp_edges(&self, degrees: f64) -> Vec<bool> {
+        let polygons = self.part.polygons();
+        let normal = |face: u32| {
+            let corners = polygons.face(face as usize);
+            let spans = corners[1..].windows(2).map(|pair| {
+                let [a, b, c] = [corners[0], pair[0], pair[1]].map(|vertex| polygons.positions[vertex.index()]);
+                (b - a).cross(c - a)
+            });
+            spans.sum::<glam::DVec3>().normalize_or_zero()
+        };
+        let most = degrees.to_radians().cos();
+        let mut is_on = vec![false; self.vertex_count()];
+        for (edge, faces) in self.edges.iter().zip(self.part.faces_of_edges()) {
+            if let [a, b] = faces[..]
+                && normal(a).dot(normal(b)) <= most
+            {
+                edge.ends.iter().for_each(|&end| is_on[end as usize] = true);
+            }
+        }
+        is_on
     }
 
     /// Genus: the number of handles.

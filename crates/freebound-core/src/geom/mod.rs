@@ -9,7 +9,7 @@
 //! | `convex_polygon.rs` | convex polygon given by the user |
 //! | `visibility_kernel.rs` | kernel of a polygon: the points that see all of it |
 //! | `hull.rs`, `rectangle.rs` | convex hull and point-in-hull test; rectangle of least area around points |
-//! | `packing.rs` | boxes packed into a picture |
+//! | `packing/` | shapes of charts packed into a picture |
 //! | `triangulation.rs` | triangulations of points and of the outside of a polygon |
 //! | `similarity.rs` | similarity that best fits pairs of points; test for mirrored pairs |
 //! | `power.rs` | powers of two as factors |
@@ -43,7 +43,7 @@ pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, folds_back, is_simpl
 pub use hull::{convex_hull, is_inside_hull};
 pub use order_along_direction::order_along;
 pub use orient::{Orientation, double_area, orientation};
-pub use packing::{Packed, Packing, PackingOptions, pack};
+pub use packing::{ChartShape, Packed, Packing, PackingOptions, Rotations, pack};
 pub use picture::Picture;
 pub use picture_frame::{PictureFrame, VAxis};
 pub use polygon::{is_down, turning_number, winding_number};

@@ -1,4 +1,4 @@
-//! Lengths of a disk: their unit, and their mollification if faces have no area.
+//! Lengths of a disk: their unit, their mollification if faces have no area, and the rest shapes of faces.
 //!
 //! # Equation
 //!
@@ -15,12 +15,15 @@
 //! Source: N. Sharp, K. Crane, "A Laplacian for Nonmanifold Triangle Meshes", 2020, §4.5. δ is 10⁻⁵ of the mean length
 //! of a side. A mesh whose faces all have an area keeps its lengths to the last bit.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::{DiskMesh, FaceId, TriMesh, VertexId};
 
 /// Margin δ, relative to the mean length of a side.
 const MARGIN: f64 = 1e-5;
+
+/// Smallest ratio of height to longest side of a rest shape.
+pub(crate) const THINNEST: f64 = 1e-4;
 
 /// Conversion of positions to lengths.
 #[derive(Clone, Copy, Debug)]
@@ -60,6 +63,15 @@ impl DiskMesh {
         let corners = corners.map(|v| self.position(v));
         if self.mollification() > 0.0 { mollified(corners, self.mollification()) } else { corners }
     }
+
+    /// Rest shape of three vertices: their triangle laid out in the plane, times `scale`, with a height of at least
+    /// [`THINNEST`] of its longest side. Energies and distortion compare images with it.
+    ///
+    /// The image of a needle opens and closes with any move of its neighbours. Measured by its own height, it would
+    /// outweigh all other faces.
+    pub(crate) fn rest_shape(&self, corners: [VertexId; 3], scale: f64) -> [DVec2; 3] {
+        with_least_height(laid_flat(self.shape(corners).map(|x| scale * x)))
+    }
 }
 
 /// Mollification ε of a mesh that has faces without area.
@@ -98,4 +110,29 @@ fn area(mut sides: [f64; 3]) -> f64 {
     sides.sort_by(f64::total_cmp);
     let [c, b, a] = sides;
     0.25 * ((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))).max(0.0).sqrt()
+}
+
+/// Lays out a triangle of space in the plane, its first side along the x-axis.
+pub(crate) fn laid_flat([a, b, c]: [DVec3; 3]) -> [DVec2; 3] {
+    let (first, second) = (b - a, c - a);
+    let length = first.length();
+    if length == 0.0 {
+        return [DVec2::ZERO, DVec2::ZERO, DVec2::new(second.length(), 0.0)];
+    }
+    let along = first.dot(second) / length;
+    [DVec2::ZERO, DVec2::new(length, 0.0), DVec2::new(along, first.cross(second).length() / length)]
+}
+
+/// Triangle with its height over the longest side raised to [`THINNEST`] of that side, if it is lower and not 0.
+fn with_least_height(corners: [DVec2; 3]) -> [DVec2; 3] {
+    let side = |k: usize| corners[(k + 1) % 3] - corners[k];
+    let is_longer = |k: usize, than: usize| side(k).length_squared() > side(than).length_squared();
+    let longest = (1..3).fold(0, |longest, k| if is_longer(k, longest) { k } else { longest });
+    let double_area = (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]);
+    let lack = THINNEST - double_area / side(longest).length_squared();
+    let mut raised = corners;
+    if double_area > 0.0 && lack > 0.0 {
+        raised[(longest + 2) % 3] += lack * side(longest).perp();
+    }
+    raised
 }

@@ -47,7 +47,7 @@ pub use edges::EdgeTable;
 pub use fault::{Elements, FaceList, Fault};
 pub use holes::{FIRST_HOLE, Hole};
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
-pub(crate) use measure::triangle_of_sides;
+pub(crate) use measure::{THINNEST, laid_flat, triangle_of_sides};
 pub use parts::{Part, parts};
 pub use polygon::PolygonMesh;
 pub use polygons::Polygon;

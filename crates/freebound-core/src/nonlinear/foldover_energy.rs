@@ -24,6 +24,8 @@
 
 use glam::DVec2;
 
+use super::energy_problem::Damped;
+
 /// Resistance of an element to distortion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stiffness {
@@ -215,6 +217,31 @@ impl Element {
         let (by_alpha, by_beta) = (self.weight * by.p * alpha, self.weight * by.q * beta);
         let gradient = self.gradients.map(|g| by_alpha.rotate(g) + by_beta.rotate(conjugate(g)));
         EnergyModel { gradient: flat(gradient), hessian }
+    }
+
+    /// Adds a stiffness against strain of the image to a model of the element. The stiffness is a multiple of the
+    /// element's symmetric Dirichlet energy.
+    ///
+    /// With d the move of the points and a = ∂d/∂z, b = ∂d/∂z̄ on the image, the strain is (Re a, b), and 2 Re a is the
+    /// relative change of the area. Im a is a rotation, which stays free.
+    pub(crate) fn damped(&self, mut model: EnergyModel, z: [DVec2; 3], damped: Damped) -> EnergyModel {
+        let (damping, strains) = match damped {
+            Damped::Strain(damping) => (damping, 3),
+            Damped::Area(damping) => (damping, 1),
+        };
+        if damping == 0.0 {
+            return model;
+        }
+        let gradients = Self::new(self.corners, z, Stiffness { weight: 1.0, thinnest: 0.0 }).gradients;
+        let turned = gradients.map(|g| DVec2::new(g.y, g.x));
+        let rows = [gradients, gradients.map(conjugate), turned].map(flat);
+        let stiffness = damping * self.energy(z, Energy::SymmetricDirichlet);
+        for (i, entries) in model.hessian.iter_mut().enumerate() {
+            for row in &rows[..strains] {
+                entries.iter_mut().zip(row).for_each(|(entry, other)| *entry += stiffness * row[i] * other);
+            }
+        }
+        model
     }
 
     /// Longest step, in multiples of the direction, that keeps an unfolded triangle unfolded.

@@ -2,19 +2,16 @@
 //! triangles with them.
 
 use crate::parallel::prelude::*;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::Scaffold;
 use super::energy_problem::{EnergyProblem, Planning, Spring};
 use super::foldover_energy::{Element, Energy, Stiffness};
 use super::scaffold::outside_elements;
 use crate::geom::double_area;
-use crate::mesh::{DiskMesh, VertexId};
+use crate::mesh::{DiskMesh, THINNEST, VertexId};
 use crate::problem::{Embedding, PinKind, Pins, Progress, SolveError};
 use crate::weights::equations::length_scale;
-
-/// Smallest ratio of height to longest side; thinner faces are measured as if they had this ratio.
-pub(crate) const THINNEST: f64 = 1e-4;
 
 /// Smallest number of triangles per task.
 const TRIANGLES_PER_TASK: usize = 4096;
@@ -140,6 +137,11 @@ impl RestShape {
         self.measured(mesh, embedding, |element, z| element.energy(z, energy)).iter().sum()
     }
 
+    /// Number of elements of the mesh in the energy problem: triangles, and the filling of holes.
+    pub(crate) fn element_count(&self) -> usize {
+        self.shapes.len() + self.filling.len()
+    }
+
     /// Number of folded triangles in an embedding.
     pub(crate) fn folded_count(&self, mesh: &DiskMesh, embedding: &Embedding) -> usize {
         let is_folded = self.measured(mesh, embedding, |element, z| element.determinant(z) <= 0.0);
@@ -201,7 +203,7 @@ impl RestShape {
 impl Shape {
     /// Lays out a triangle in the plane, with its area as its share.
     fn new(mesh: &DiskMesh, scale: f64, corners: [VertexId; 3]) -> Self {
-        let flat = laid_flat(mesh.shape(corners).map(|x| scale * x));
+        let flat = mesh.rest_shape(corners, scale);
         Self { corners, flat, share: 0.5 * double_area(flat) }
     }
 }
@@ -264,15 +266,4 @@ pub(crate) fn mean_edge_length(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
         a.distance(b)
     };
     mesh.edges().map(length).sum::<f64>() / mesh.edge_count() as f64
-}
-
-/// Lays out a triangle of space in the plane, its first side along the x-axis.
-pub(crate) fn laid_flat([a, b, c]: [DVec3; 3]) -> [DVec2; 3] {
-    let (first, second) = (b - a, c - a);
-    let length = first.length();
-    if length == 0.0 {
-        return [DVec2::ZERO, DVec2::ZERO, DVec2::new(second.length(), 0.0)];
-    }
-    let along = first.dot(second) / length;
-    [DVec2::ZERO, DVec2::new(length, 0.0), DVec2::new(along, first.cross(second).length() / length)]
 }

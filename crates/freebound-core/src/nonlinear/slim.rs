@@ -46,9 +46,8 @@ use glam::DVec2;
 
 use super::energy_problem::{EnergyProblem, Planning};
 use super::foldover_energy::{Element, EnergyModel, Stiffness, conjugate, flat};
-use super::rest_shape::{THINNEST, laid_flat};
 use crate::geom::{Orientation, double_area, orientation};
-use crate::mesh::{DiskMesh, FaceId, VertexId};
+use crate::mesh::{DiskMesh, FaceId, THINNEST, VertexId};
 use crate::problem::{Control, Embedding, Progress, SolveError};
 use crate::weights::equations::length_scale;
 
@@ -151,7 +150,7 @@ impl Slim {
             return Err(SolveError::NotPlanar);
         }
         let scale = length_scale(mesh);
-        let flat = |face: usize| laid_flat(mesh.shape(mesh.face(FaceId::from_index(face))).map(|x| scale * x));
+        let flat = |face: usize| mesh.rest_shape(mesh.face(FaceId::from_index(face)), scale);
         let shapes: Vec<[DVec2; 3]> = control.each(mesh.face_count(), flat)?;
         let real_faces = mesh.mesh().real_face_count();
         let on_surface: f64 = shapes[..real_faces].iter().copied().map(double_area).sum();

@@ -2,9 +2,9 @@
 //!
 //! A chart with pins stays at its pins. All other charts are packed into the unit square. If a chart has pins, that
 //! square lies to its right. Packed charts share one density, in pixels per unit of length on the surface, times the
-//! size that the user gives to each chart. Each packed chart is turned so that its bounding box is small. Rounding
-//! can fold a turned chart; such a chart is packed without the turn. Charts that started from the layout of their
-//! file may stay there instead ([`Arrangement::AsGiven`]).
+//! size that the user gives to each chart. Charts are packed by their shapes, in any rotation unless options forbid
+//! it. Rounding can fold a turned chart; then charts are packed again with exact quarter turns. Charts that started
+//! from the layout of their file may stay there instead ([`Arrangement::AsGiven`]).
 
 use glam::DVec2;
 
@@ -12,11 +12,19 @@ use super::{
     Fit, LaidChart, Outcome, PackingSummary, PinsSummary, Placement, PreparedMesh, pins_summary, prove_atlas, upright,
 };
 use crate::flatten::true_area_factor;
-use crate::geom::{Bounds, Packing, PackingOptions, double_area, least_box_turn, pack};
+use crate::geom::{
+    Bounds, ChartShape, Packing, PackingOptions, Rotations, double_area, is_simple, pack, turning_number,
+};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::parallel::prelude::*;
 use crate::problem::Embedding;
 use crate::verify::{AtlasVerdict, DistortionSummary, distortion, verdict};
+
+/// Least extent of a packed chart without area, relative to the root of the area of all charts: about a pixel of the picture.
+const LEAST_EXTENT: f64 = 1e-3;
+
+/// Root of a chart's area, relative to that of all charts, at which the chart counts as one without area.
+const NO_AREA: f64 = 1e-9;
 
 /// Placement of charts without pins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -103,26 +111,28 @@ fn packed<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Atlas<'a> 
         charts.iter().map(|chart| chart.is_held().then(|| chart.in_place())).collect();
     let beside = first_column_beside(&laid);
     let free: Vec<usize> = (0..charts.len()).filter(|&chart| laid[chart].is_none()).collect();
-    let mut boxes: Vec<Boxed> = free.par_iter().map(|&chart| Boxed::new(&charts[chart], true)).collect();
-    let mut packing = pack_boxes(&boxes, options);
-    let place = |packing: &Packing, boxes: &[Boxed], k: usize| boxes[k].laid(&charts[free[k]], packing, k, beside);
+    let mut pieces: Vec<Piece> = free.par_iter().map(|&chart| Piece::new(&charts[chart])).collect();
+    let total = pieces.iter().map(|piece| piece.area).sum::<f64>().sqrt();
+    for (piece, &chart) in pieces.iter_mut().zip(&free) {
+        if piece.area.sqrt() <= NO_AREA * total && total.is_finite() {
+            piece.grow_to(LEAST_EXTENT * total, &charts[chart]);
+        }
+    }
+    let mut packing = pack_pieces(&pieces, options);
+    let place = |packing: &Packing, k: usize| pieces[k].laid(&charts[free[k]], packing, k, beside);
     let is_folded = |(k, &chart): (usize, &usize)| {
         let solved = &charts[chart];
         let proved =
             |coordinates: &Embedding| verdict(solved.outcome.step.candidate.mesh(solved.disk()), coordinates).planar;
-        solved.outcome.step.verdict.planar && !proved(&place(&packing, &boxes, k))
+        solved.outcome.step.verdict.planar && !proved(&place(&packing, k))
     };
-    let folded: Vec<usize> = free.par_iter().enumerate().filter(|&of| is_folded(of)).map(|(k, _)| k).collect();
-    if !folded.is_empty() {
-        for &k in &folded {
-            boxes[k] = Boxed::new(&charts[free[k]], false);
-        }
-        packing = pack_boxes(&boxes, options);
+    if options.rotations == Rotations::Free && free.par_iter().enumerate().any(is_folded) {
+        packing = pack_pieces(&pieces, PackingOptions { rotations: Rotations::Quarter, ..options });
     }
     for (k, &chart) in free.iter().enumerate() {
-        laid[chart] = Some(place(&packing, &boxes, k));
+        laid[chart] = Some(place(&packing, k));
     }
-    let covered = boxes.iter().map(|boxed| boxed.area).sum::<f64>() * packing.scale.powi(2);
+    let covered = pieces.iter().map(|piece| piece.area).sum::<f64>() * packing.scale.powi(2);
     let pixels = f64::from(packing.picture.x) * f64::from(packing.picture.y);
     let density = packing.scale;
     let packing =
@@ -137,40 +147,82 @@ fn first_column_beside(laid: &[Option<Embedding>]) -> f64 {
     if held.high.x.is_finite() { held.high.x.max(1.0).ceil() } else { 0.0 }
 }
 
-fn pack_boxes(boxes: &[Boxed], options: PackingOptions) -> Packing {
-    pack(&boxes.iter().map(|boxed| boxed.bounds.size()).collect::<Vec<_>>(), options)
+fn pack_pieces(pieces: &[Piece], options: PackingOptions) -> Packing {
+    let shapes: Vec<ChartShape> = pieces.iter().map(|piece| piece.shape.clone()).collect();
+    pack(&shapes, options, &|| false).expect("a packing that nobody cancels")
 }
 
-/// Chart turned to a small bounding box, at the area of its surface times the square of its size.
-struct Boxed {
-    /// Complex factor that turns and scales the embedding.
-    turn: DVec2,
-    bounds: Bounds,
+/// Chart at the area of its surface times the square of its size.
+struct Piece {
+    /// Factor that scales the embedding.
+    factor: f64,
+    shape: ChartShape,
     /// Area that the chart covers, at its size.
     area: f64,
 }
 
-impl Boxed {
-    fn new(chart: &SolvedChart<'_>, is_turned: bool) -> Self {
-        let embedding = &chart.outcome.step.candidate.solution.embedding;
-        let factor = true_area_factor(chart.outcome.step.candidate.mesh(chart.disk()), embedding) * chart.disk().unit();
+impl Piece {
+    fn new(chart: &SolvedChart<'_>) -> Self {
+        let step = &chart.outcome.step;
+        let (mesh, embedding) = (step.candidate.mesh(chart.disk()), &step.candidate.solution.embedding);
+        let factor = true_area_factor(mesh, embedding) * chart.disk().unit();
         let factor = if factor.is_finite() { factor } else { 1.0 } * chart.size();
-        let turn = factor * if is_turned { least_box_turn(embedding) } else { DVec2::X };
-        let bounds = Bounds::of(embedding.iter().map(|&z| turn.rotate(z)).filter(|z| z.is_finite()));
-        let bounds = if bounds.size().is_finite() { bounds } else { Bounds::at(DVec2::ZERO, DVec2::ZERO) };
-        Self { turn, bounds, area: chart.area() * chart.size().powi(2) }
+        let area = chart.area() * chart.size().powi(2);
+        Self { factor, shape: Self::shape(chart, factor), area }
     }
 
-    /// Texture coordinates of the chart as packed box `k`, shifted right by `beside`.
+    /// Scales a piece without area up, so that its box has a least extent: otherwise rounding would fold its faces.
+    fn grow_to(&mut self, least: f64, chart: &SolvedChart<'_>) {
+        let extent = Bounds::of(self.shape.vertices()).size().max_element();
+        if extent >= least || least == 0.0 {
+            return;
+        }
+        let unscaled = chart.outcome.step.candidate.solution.embedding.bounds().size().max_element();
+        if unscaled > 0.0 && unscaled.is_finite() {
+            self.factor = least / unscaled;
+            self.shape = Self::shape(chart, self.factor);
+        }
+    }
+
+    fn shape(chart: &SolvedChart<'_>, factor: f64) -> ChartShape {
+        let step = &chart.outcome.step;
+        let (mesh, embedding) = (step.candidate.mesh(chart.disk()), &step.candidate.solution.embedding);
+        let at = |vertex: &VertexId| embedding[*vertex] * factor;
+        if !embedding.iter().all(|z| (*z * factor).is_finite()) {
+            return triangles(mesh, at);
+        }
+        if step.verdict.planar { outline(mesh, at) } else { triangles(mesh, at) }
+    }
+
+    /// Texture coordinates of the chart as packed piece `k`, shifted right by `beside`.
     fn laid(&self, chart: &SolvedChart<'_>, packing: &Packing, k: usize, beside: f64) -> Embedding {
-        let (place, Bounds { low, high }) = (packing.places[k], self.bounds);
+        let place = packing.places[k];
         let coordinate = |&z: &DVec2| {
-            let z = self.turn.rotate(z);
-            let inside = if place.turned { DVec2::new(high.y - z.y, z.x - low.x) } else { z - low };
-            (place.low + inside * packing.scale) / packing.picture.as_dvec2() + DVec2::new(beside, 0.0)
+            place.position(z * self.factor, packing.scale) / packing.picture.as_dvec2() + DVec2::new(beside, 0.0)
         };
         chart.outcome.step.candidate.solution.embedding.iter().map(coordinate).collect()
     }
+}
+
+/// Shape between the boundary of a planar chart and its holes. A hole whose rim meets itself counts as filled.
+fn outline(mesh: &DiskMesh, at: impl Fn(&VertexId) -> DVec2) -> ChartShape {
+    let outer: Vec<DVec2> = mesh.boundary_loop().iter().map(&at).collect();
+    let rims = mesh.mesh().holes().into_iter().map(|hole| hole.rim.iter().map(&at).collect::<Vec<DVec2>>());
+    let winds_alike = |rim: &[DVec2]| turning_number(rim) == turning_number(&outer);
+    let holes = rims.filter(|rim| is_simple(rim)).map(|mut rim| {
+        if winds_alike(&rim) {
+            rim.reverse();
+        }
+        rim
+    });
+    let holes: Vec<Vec<DVec2>> = holes.collect();
+    ChartShape::new(std::iter::once(outer).chain(holes).collect())
+}
+
+/// Shape covered by the faces of a chart that may overlap itself. Faces that are not finite are left out.
+fn triangles(mesh: &DiskMesh, at: impl Fn(&VertexId) -> DVec2) -> ChartShape {
+    let faces = mesh.mesh().real_triangles().iter().map(|face| face.each_ref().map(&at));
+    ChartShape::of_triangles(faces.filter(|corners| corners.iter().all(|corner| corner.is_finite())))
 }
 
 impl<'a> SolvedChart<'a> {

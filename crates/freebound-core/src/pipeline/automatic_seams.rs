@@ -1,11 +1,13 @@
 //! Automatic seams of a whole mesh: a short cut of each part, for a map whose distortion is below a bound.
 
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use glam::DVec2;
 
 use super::PreparedMesh;
-use crate::cutting::{PartCut, SeamOptions, cut_part};
+use crate::cutting::{BestCut, PartCut, PartToCut, SeamOptions};
 use crate::mesh::{PolygonMesh, Preparation, Repair, Repaired, VertexId};
 use crate::parallel::prelude::*;
 use crate::problem::{Control, Embedding, SolveError};
@@ -13,8 +15,8 @@ use crate::problem::{Control, Embedding, SolveError};
 /// Seams of a mesh, and a map along them. The map of a part meets the bound if one of the cuts that were tried does.
 #[derive(Clone, Debug, Default)]
 pub struct AutomaticSeams {
-    /// Seams by vertices of the mesh. They are the edges to cut in addition to those of the preparation.
-    pub edges: Vec<[VertexId; 2]>,
+    /// Preparation that cuts the mesh along these seams, among others.
+    pub form: Preparation,
     /// Position of each corner of the mesh in the map of its part. `None` in parts that were not mapped.
     pub corners: Vec<Option<DVec2>>,
     /// Length of the seams, in units of the mesh.
@@ -27,56 +29,158 @@ pub struct AutomaticSeams {
     pub seconds: f64,
 }
 
+/// Best cut so far of one part, while the search for seams runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeamProgress {
+    /// Number of the part.
+    pub part: usize,
+    /// Number of all parts.
+    pub part_count: usize,
+    /// Seams of the part, by vertices of the mesh.
+    pub edges: Vec<[VertexId; 2]>,
+    /// Length of the seams, in units of the mesh.
+    pub length: f64,
+    /// Area of the whole surface, in squared units of the mesh.
+    pub area: f64,
+    /// Mean symmetric Dirichlet energy of the part's map.
+    pub energy: f64,
+    /// True if the search of the part has ended.
+    pub is_final: bool,
+}
+
+/// Receiver of the progress of a search. Several threads may call it at once.
+pub type SeamReport<'a> = &'a (dyn Fn(SeamProgress) + Sync);
+
+/// Mesh that is to be cut, with its preparation.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshToCut<'a> {
+    /// The mesh as it is in its file.
+    pub mesh: &'a PolygonMesh,
+    /// A label for each corner, if the preparation cuts along texture coordinates.
+    pub labels: Option<&'a [u32]>,
+    /// Preparation: repairs, seams to keep, and costs of edges.
+    pub form: &'a Preparation,
+}
+
 impl AutomaticSeams {
-    /// Finds seams for the parts of a mesh. `labels` has one label per corner if the preparation cuts along texture
-    /// coordinates. Seams of the preparation are cut first. A part that cannot be cut this way, such as a one-sided
-    /// surface, gets no seams.
+    /// Finds seams for the parts of a mesh. Seams of the preparation are cut first, and its costs steer the search. A part that cannot be cut
+    /// this way, such as a one-sided surface, gets no seams. `report` receives each improvement of a part.
     ///
     /// # Errors
     ///
     /// [`SolveError::Cancelled`].
     pub fn find(
-        mesh: &PolygonMesh,
-        labels: Option<&[u32]>,
-        form: &Preparation,
+        to_cut: MeshToCut<'_>,
         options: SeamOptions,
         control: Control<'_>,
+        report: SeamReport<'_>,
     ) -> Result<Self, SolveError> {
-        let start = Instant::now();
-        let nothing = Self { corners: vec![None; mesh.corners.len()], bound: options.bound, ..Self::default() };
-        let uncut = Preparation { cut: false, seams: form.seams.with_automatic([]), ..form.clone() };
-        let repaired = uncut.repaired_along(mesh, labels);
-        if !repaired.is_oriented() {
-            return Ok(nothing);
-        }
-        let parts = repaired.separate_parts();
-        let cut = |part: &Repaired| match cut_part(part, options, control) {
-            Ok(found) => Ok(Some(found)),
-            Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
-            Err(_) => Ok(None),
+        let (mesh, parts) = (to_cut.mesh, PartsToCut::new(to_cut));
+        let progress = |number: usize, best: BestCut<'_>, is_final: bool| SeamProgress {
+            part: number,
+            part_count: parts.parts.len(),
+            edges: parts.parts[number].seams_in(mesh, best.is_seam),
+            length: best.length,
+            area: parts.area,
+            energy: best.energy,
+            is_final,
         };
-        let found: Vec<Result<Option<PartCut>, SolveError>> = parts.par_iter().with_max_len(1).map(cut).collect();
-        let mut seams = Self { area: repaired.triangulate().area(), ..nothing };
-        for (part, found) in parts.iter().zip(found) {
-            let Some(found) = found? else { continue };
-            seams.edges.extend(part.seams_in(mesh, &found.is_seam));
-            seams.length += found.length;
-            for (corner, vertex) in found.corners.iter().enumerate() {
-                seams.corners[part.corner_of(corner)] = Some(found.embedding[*vertex]);
-            }
-        }
-        seams.seconds = start.elapsed().as_secs_f64();
-        Ok(seams)
+        parts.seams(options, control, |number, part| {
+            let last = Mutex::new(None);
+            let found = part.cut(&|best| {
+                report(progress(number, best, false));
+                *last.lock().unwrap_or_else(PoisonError::into_inner) = Some(best.energy);
+            })?;
+            let energy = last.into_inner().unwrap_or_else(PoisonError::into_inner).unwrap_or(f64::NAN);
+            let best = BestCut { is_seam: &found.is_seam, length: found.length, energy };
+            report(progress(number, best, true));
+            Ok(found)
+        })
+    }
+
+    /// Maps the parts of a mesh along the automatic seams of its preparation, which a search found before.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    pub fn along(to_cut: MeshToCut<'_>, options: SeamOptions, control: Control<'_>) -> Result<Self, SolveError> {
+        let MeshToCut { mesh, form, .. } = to_cut;
+        let automatic = form.seams.automatic();
+        let parts = PartsToCut::new(to_cut);
+        let seams = parts.seams(options, control, |number, part| {
+            part.map_along(parts.parts[number].by_edge_in(mesh, |edge| automatic.contains(&edge)))
+        })?;
+        // A part that could not be mapped keeps its seams.
+        Ok(Self { form: form.clone(), ..seams })
+    }
+
+    /// Seams by vertices of the mesh: edges to cut in addition to the other seams of the preparation.
+    pub fn edges(&self) -> &BTreeSet<[VertexId; 2]> {
+        self.form.seams.automatic()
     }
 
     /// Length of the seams relative to the root of the area.
     pub fn relative_length(&self) -> f64 {
         if self.area > 0.0 { self.length / self.area.sqrt() } else { 0.0 }
     }
+}
 
-    /// Preparation that cuts along these seams.
-    pub fn cut_in(&self, form: &Preparation) -> Preparation {
-        Preparation { seams: form.seams.with_automatic(self.edges.iter().copied()), ..form.clone() }
+/// Parts of a mesh, each to be cut.
+struct PartsToCut<'a> {
+    mesh: &'a PolygonMesh,
+    form: &'a Preparation,
+    parts: Vec<Repaired>,
+    /// Costs of the edges of each part.
+    costs: Vec<Vec<f64>>,
+    area: f64,
+}
+
+impl<'a> PartsToCut<'a> {
+    /// Parts of a mesh in its preparation, without the automatic seams.
+    fn new(MeshToCut { mesh, labels, form }: MeshToCut<'a>) -> Self {
+        let uncut = Preparation { cut: false, seams: form.seams.without_automatic(), ..form.clone() };
+        let repaired = uncut.repaired_along(mesh, labels);
+        let parts = if repaired.has_faces() { repaired.separate_parts() } else { Vec::new() };
+        let cost = |edge: [VertexId; 2]| form.seams.costs().get(&edge).copied().unwrap_or(1.0);
+        let costs = parts.iter().map(|part| part.by_edge_in(mesh, cost)).collect();
+        Self { mesh, form, parts, costs, area: repaired.triangulate().area() }
+    }
+
+    /// Seams of all parts. `cut` cuts one of them, by its number. A part that cannot be cut gets no seams.
+    fn seams(
+        &self,
+        options: SeamOptions,
+        control: Control<'_>,
+        cut: impl Fn(usize, PartToCut<'_>) -> Result<PartCut, SolveError> + Sync,
+    ) -> Result<AutomaticSeams, SolveError> {
+        let start = Instant::now();
+        let cut_one = |number: usize| {
+            if !self.parts[number].is_oriented() {
+                return Ok(None);
+            }
+            let part = PartToCut { part: &self.parts[number], costs: &self.costs[number], options, control };
+            match cut(number, part) {
+                Ok(found) => Ok(Some(found)),
+                Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
+                Err(_) => Ok(None),
+            }
+        };
+        let numbers = (0..self.parts.len()).into_par_iter().with_max_len(1);
+        let found: Vec<Result<Option<PartCut>, SolveError>> = numbers.map(cut_one).collect();
+        let corners = vec![None; self.mesh.corners.len()];
+        let mut seams = AutomaticSeams { corners, bound: options.bound, area: self.area, ..AutomaticSeams::default() };
+        let mut edges = Vec::new();
+        for (part, found) in self.parts.iter().zip(found) {
+            let Some(found) = found? else { continue };
+            edges.extend(part.seams_in(self.mesh, &found.is_seam));
+            seams.length += found.length;
+            for (corner, vertex) in found.corners.iter().enumerate() {
+                seams.corners[part.corner_of(corner)] = Some(found.embedding[*vertex]);
+            }
+        }
+        seams.form = Preparation { seams: self.form.seams.with_automatic(edges, options.bound), ..self.form.clone() };
+        seams.seconds = start.elapsed().as_secs_f64();
+        Ok(seams)
     }
 }
 

@@ -32,7 +32,7 @@ mod targets;
 mod unwrap;
 
 pub use atlas::{Arrangement, Atlas, ChartSummary, SolvedChart, atlas};
-pub use automatic_seams::AutomaticSeams;
+pub use automatic_seams::{AutomaticSeams, MeshToCut, SeamProgress, SeamReport};
 pub use laid_chart::{JoinedCharts, LaidChart, joined, prove_atlas};
 pub use options::PipelineOptions;
 pub use outcome::{Outcome, pins_summary, upright};

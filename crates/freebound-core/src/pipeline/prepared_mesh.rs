@@ -93,7 +93,7 @@ impl PreparedMesh {
         Self { repaired, chart, surface, faces_point_inward, ..self }
     }
 
-    /// Sides of the listed seam edges, by vertices of this mesh.
+    /// Sides of the listed and automatic seam edges, by vertices of this mesh.
     pub fn seam_sides(&self, polygons: &PolygonMesh) -> Vec<[VertexId; 2]> {
         match &self.repaired {
             Some(repaired) => repaired.seam_sides(&self.form.seams, polygons),

@@ -1,5 +1,6 @@
 //! Plain data about a result: placement, pins, packing.
 
+use crate::geom::Rotations;
 use crate::mesh::VertexId;
 use crate::problem::{Labels, NamedOption, Treatment};
 
@@ -90,6 +91,18 @@ pub enum Fit {
     Unit,
     /// Scaled to the area of the surface.
     True,
+}
+
+impl NamedOption for Rotations {
+    const ALL: &'static [Self] = &[Self::Free, Self::Quarter, Self::None];
+
+    fn labels(&self) -> Labels {
+        match self {
+            Self::Free => Labels::new("free", "Any").about("Charts may have any rotation"),
+            Self::Quarter => Labels::new("quarter", "By 90°").about("Charts may be rotated by multiples of 90°"),
+            Self::None => Labels::new("none", "None").about("Charts keep their orientation"),
+        }
+    }
 }
 
 impl NamedOption for Fit {

@@ -8,8 +8,8 @@ use crate::problem::{Control, Embedding, SolveError};
 use crate::verify::{AtlasVerdict, atlas_verdict};
 
 use super::{
-    AutomaticSeams, ChartSummary, Fit, LaidChart, PipelineOptions, PreparedMesh, Problem, SolvedChart, SolvedProblem,
-    Surface, atlas, prove_atlas,
+    AutomaticSeams, ChartSummary, Fit, LaidChart, MeshToCut, PipelineOptions, PreparedMesh, Problem, SolvedChart,
+    SolvedProblem, Surface, atlas, prove_atlas,
 };
 use crate::cutting::SeamOptions;
 use crate::flatten::Flattener;
@@ -105,11 +105,12 @@ pub fn unwrap_with(
     let turned = options.preparation.faces_turned.then(|| mesh.turned());
     let mesh = turned.as_ref().unwrap_or(mesh);
     let form = &options.preparation;
-    let find = |bound| AutomaticSeams::find(mesh, None, form, SeamOptions::new(bound), control);
+    let find =
+        |bound| AutomaticSeams::find(MeshToCut { mesh, labels: None, form }, SeamOptions::new(bound), control, &|_| {});
     let seams = options.distortion.filter(|_| form.cut).map(find).transpose();
     let seams = seams.map_err(|error| UnwrapError::Solve { chart: 0, error })?;
     let seams = seams.as_ref();
-    let prepared = PreparedMesh::new(mesh, None, seams.map_or_else(|| form.clone(), |seams| seams.cut_in(form)));
+    let prepared = PreparedMesh::new(mesh, None, seams.map_or(form, |seams| &seams.form).clone());
     if let Surface::Faulty(_, diagnosis) = &prepared.surface {
         return Err(UnwrapError::NotASurface(Box::new(diagnosis.as_ref().clone())));
     }

@@ -30,13 +30,16 @@
 //!
 //! # Degenerate faces
 //!
+//! A needle, a face whose height is less than 10⁻⁴ of its longest side, is measured as if it had that height. The energy
+//! of a step of relaxing has the same rest shapes and weights, so that it equals the mean of the report.
+//!
 //! Areas are unsigned: a flipped face counts as its mirror image does; that it is flipped the verdict tells. A face of
 //! area zero in the plane, or with a corner that is not finite, has area 0 and all else infinite. A face of area zero
 //! on the surface has no J; its values are all 1 and it does not count in any sum, percentile or maximum. No value is
 //! ever NaN. JSON has no infinity and shows `null` for it.
 
 use crate::parallel::prelude::*;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::Embedding;
@@ -88,14 +91,14 @@ pub struct DistortionSummary {
     pub symmetric_dirichlet: Mean,
 }
 
-/// Ratio of areas from which a map needs relaxing: a picture's pixel becomes a patch of ten by ten.
-const BADLY: f64 = 100.0;
-
 impl DistortionSummary {
+    /// Ratio of areas from which a map needs relaxing: a picture's pixel becomes a patch of ten by ten.
+    pub const BAD_RATIO_OF_AREAS: f64 = 100.0;
+
     /// Greatest ratio of a face's area in the plane to its area on the surface, or the other way round. `None` if the
     /// ratio does not call for relaxing.
     pub fn bad_ratio_of_areas(&self) -> Option<f64> {
-        Some(self.area.max).filter(|&ratio| ratio >= BADLY)
+        Some(self.area.max).filter(|&ratio| ratio >= Self::BAD_RATIO_OF_AREAS)
     }
 }
 
@@ -159,12 +162,9 @@ fn face_maps(disk: &DiskMesh, embedding: &Embedding) -> Vec<FaceMap> {
     let origin = embedding.iter().copied().find(|p| p.is_finite()).unwrap_or_default();
     let in_plane = reciprocal(embedding.iter().map(|&p| (p - origin).abs().max_element()).fold(0.0, extent));
     let map = |triangle: &[VertexId; 3]| {
-        let corners = disk.shape(*triangle);
+        let corners = disk.rest_shape(*triangle, in_space);
         let images = triangle.map(|v| embedding[v]);
-        FaceMap::new(
-            [1, 2].map(|k| (corners[k] - corners[0]) * in_space),
-            [1, 2].map(|k| (images[k] - images[0]) * in_plane),
-        )
+        FaceMap::new([1, 2].map(|k| corners[k] - corners[0]), [1, 2].map(|k| (images[k] - images[0]) * in_plane))
     };
     mesh.real_triangles().par_iter().with_min_len(FACES_PER_TASK).map(map).collect()
 }
@@ -178,8 +178,8 @@ fn reciprocal(extent: f64) -> f64 {
 
 impl FaceMap {
     /// Linear map that takes two edges of a face, from one corner, to two edges in the plane.
-    fn new([first, second]: [DVec3; 2], [first_in_plane, second_in_plane]: [DVec2; 2]) -> Self {
-        let double_area = first.cross(second).length();
+    fn new([first, second]: [DVec2; 2], [first_in_plane, second_in_plane]: [DVec2; 2]) -> Self {
+        let double_area = first.perp_dot(second);
         let length = first.length();
         // J takes (length, 0) and (along, height) to the edges in the plane.
         let (along, height) = (first.dot(second) / length, double_area / length);

@@ -1,17 +1,19 @@
 //! Automatic seams: short cuts whose maps keep the distortion below a bound.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
 use freebound_core::cutting::SeamOptions;
-use freebound_core::mesh::{HoleTreatment, PolygonMesh, Preparation, TriMesh, VertexId};
-use freebound_core::pipeline::{AutomaticSeams, PreparedMesh};
+use freebound_core::mesh::{HoleTreatment, PolygonMesh, Preparation, Seams, TriMesh, VertexId};
+use freebound_core::pipeline::{AutomaticSeams, MeshToCut, PreparedMesh, SeamProgress};
 use freebound_core::problem::{Control, Embedding, SolveError};
 use freebound_core::verify::{distortion, verdict};
 use freebound_core::{PipelineOptions, UnwrapError, unwrap};
 use freebound_testkit::cubes::cube;
-use freebound_testkit::many_parts::{ball, torus};
-use freebound_testkit::{bumpy_ball, fan, grid, shaped, tetrahedron};
+use freebound_testkit::many_parts::{ball, interleaved, torus};
+use freebound_testkit::solids::{cone, frustum, prism, regular_polygon};
+use freebound_testkit::{Random, bumpy_ball, fan, grid, shaped, tetrahedron};
 use glam::{DVec2, DVec3};
 
 fn polygons(mesh: &TriMesh) -> PolygonMesh {
@@ -20,17 +22,23 @@ fn polygons(mesh: &TriMesh) -> PolygonMesh {
     PolygonMesh::from_arrays(&positions, &faces.iter().map(<[u32; 3]>::as_slice).collect::<Vec<_>>())
 }
 
+/// Mesh without texture coordinates, to be cut.
+fn to_cut<'a>(mesh: &'a PolygonMesh, form: &'a Preparation) -> MeshToCut<'a> {
+    MeshToCut { mesh, labels: None, form }
+}
+
 fn form() -> Preparation {
     Preparation::default().with_all_repairs()
 }
 
 fn seams_of(mesh: &PolygonMesh, bound: f64) -> AutomaticSeams {
-    AutomaticSeams::find(mesh, None, &form(), SeamOptions::new(bound), Control::unattended()).expect("not cancelled")
+    AutomaticSeams::find(to_cut(mesh, &form()), SeamOptions::new(bound), Control::unattended(), &|_| {})
+        .expect("not cancelled")
 }
 
 /// Chart of a mesh along its seams, with the map that was found with them: its mean energy and number of seam edges.
 fn energy_along(mesh: &PolygonMesh, seams: &AutomaticSeams) -> f64 {
-    let prepared = PreparedMesh::new(mesh, None, seams.cut_in(&form()));
+    let prepared = PreparedMesh::new(mesh, None, seams.form.clone());
     let disk = prepared.disk().expect("one disk");
     let map: Embedding = prepared.map_of_corners(mesh, &seams.corners).expect("every corner has one position");
     assert!(verdict(disk, &map).planar, "{:?}", verdict(disk, &map));
@@ -40,7 +48,7 @@ fn energy_along(mesh: &PolygonMesh, seams: &AutomaticSeams) -> f64 {
 #[test]
 fn a_cube_gets_the_seven_seams_of_an_exact_net() {
     let seams = seams_of(&cube(), 4.1);
-    assert_eq!(seams.edges.len(), 7);
+    assert_eq!(seams.edges().len(), 7);
     assert!((energy_along(&cube(), &seams) - 4.0).abs() < 1e-6);
 }
 
@@ -49,7 +57,7 @@ fn the_smallest_closed_surface_is_opened_to_a_disk() {
     let mesh = polygons(&tetrahedron());
     let seams = seams_of(&mesh, 4.1);
     // Without a seam to one corner of the four, the corner stays curved.
-    assert_eq!(seams.edges.len(), 3);
+    assert_eq!(seams.edges().len(), 3);
     assert!((energy_along(&mesh, &seams) - 4.0).abs() < 1e-6);
 }
 
@@ -70,16 +78,16 @@ fn a_smaller_bound_gets_longer_seams_and_every_bound_is_met() {
 fn seams_of_a_ball_are_a_tree_and_those_of_a_torus_have_two_loops() {
     for (mesh, loops) in [(ball(24, 12), 0), (torus(16, 32), 2)] {
         let seams = seams_of(&polygons(&mesh), 4.1);
-        let vertices: BTreeSet<VertexId> = seams.edges.iter().flatten().copied().collect();
+        let vertices: BTreeSet<VertexId> = seams.edges().iter().flatten().copied().collect();
         // Edges − vertices + components: the independent loops of a graph.
-        assert_eq!(seams.edges.len() + components(&seams.edges), vertices.len() + loops);
-        assert_eq!(components(&seams.edges), 1);
+        assert_eq!(seams.edges().len() + components(seams.edges()), vertices.len() + loops);
+        assert_eq!(components(seams.edges()), 1);
         assert!(energy_along(&polygons(&mesh), &seams) <= 4.1);
     }
 }
 
 /// Number of connected components of a graph without isolated vertices.
-fn components(edges: &[[VertexId; 2]]) -> usize {
+fn components(edges: &BTreeSet<[VertexId; 2]>) -> usize {
     let mut neighbours: BTreeMap<VertexId, Vec<VertexId>> = BTreeMap::new();
     for &[a, b] in edges {
         neighbours.entry(a).or_default().push(b);
@@ -101,7 +109,7 @@ fn components(edges: &[[VertexId; 2]]) -> usize {
 fn a_surface_that_is_nearly_flat_is_not_cut() {
     let sheet = shaped(12, 12, |x, y| DVec3::new(x, y, 0.05 * (3.0 * x).sin()));
     let seams = seams_of(&polygons(&sheet), 4.1);
-    assert!(seams.edges.is_empty() && seams.corners.iter().all(Option::is_some));
+    assert!(seams.edges().is_empty() && seams.corners.iter().all(Option::is_some));
 }
 
 #[test]
@@ -116,7 +124,7 @@ fn a_tube_is_opened_from_end_to_end() {
     let corners = mesh.corners.iter().map(|v| welded[v.index()]).collect();
     let mesh = PolygonMesh { corners, ..mesh };
     let seams = seams_of(&mesh, 4.1);
-    assert_eq!(seams.edges.len(), 6, "{:?}", seams.edges);
+    assert_eq!(seams.edges().len(), 6, "{:?}", seams.edges());
     assert!((energy_along(&mesh, &seams) - 4.0).abs() < 1e-6);
 }
 
@@ -134,14 +142,14 @@ fn a_cut_reaches_a_long_boundary() {
     let seams = seams_of(&mesh, 4.3);
     assert!(energy_along(&mesh, &seams) <= 4.3);
     // The first ring of vertices.
-    assert!(seams.edges.iter().flatten().any(|vertex| vertex.number() < 24));
+    assert!(seams.edges().iter().flatten().any(|vertex| vertex.number() < 24));
 }
 
 #[test]
 fn a_surface_with_a_small_hole_alone_is_opened_like_a_closed_one() {
     let mesh = ball_with_hole(24, 60);
     let seams = seams_of(&mesh, 4.3);
-    assert!(!seams.edges.is_empty() && energy_along(&mesh, &seams) <= 4.3);
+    assert!(!seams.edges().is_empty() && energy_along(&mesh, &seams) <= 4.3);
 }
 
 #[test]
@@ -149,8 +157,9 @@ fn holes_that_are_to_be_cut_are_reached_however_small_they_are() {
     let mesh = ball_with_hole(24, 60);
     let form = Preparation { holes: HoleTreatment::Cut, ..form() };
     let options = SeamOptions::new(4.3);
-    let seams = AutomaticSeams::find(&mesh, None, &form, options, Control::unattended()).expect("not cancelled");
-    assert!(seams.edges.iter().flatten().any(|vertex| vertex.number() < 24));
+    let seams =
+        AutomaticSeams::find(to_cut(&mesh, &form), options, Control::unattended(), &|_| {}).expect("not cancelled");
+    assert!(seams.edges().iter().flatten().any(|vertex| vertex.number() < 24));
 }
 
 #[test]
@@ -171,12 +180,99 @@ fn seams_by_hand_are_kept_and_completed() {
     let by_hand =
         [[VertexId::from_index(0), VertexId::from_index(1)], [VertexId::from_index(1), VertexId::from_index(2)]];
     let form = Preparation { seams: form().seams.with(by_hand), ..form() };
-    let seams =
-        AutomaticSeams::find(&mesh, None, &form, SeamOptions::new(4.2), Control::unattended()).expect("not cancelled");
-    assert!(by_hand.iter().all(|edge| !seams.edges.contains(edge)), "they are cut already");
-    let prepared = PreparedMesh::new(&mesh, None, seams.cut_in(&form));
+    let seams = AutomaticSeams::find(to_cut(&mesh, &form), SeamOptions::new(4.2), Control::unattended(), &|_| {})
+        .expect("not cancelled");
+    assert!(by_hand.iter().all(|edge| !seams.edges().contains(edge)), "they are cut already");
+    let prepared = PreparedMesh::new(&mesh, None, seams.form.clone());
     assert!(prepared.disk().is_some());
     assert!(by_hand.iter().all(|edge| prepared.form.seams.edges().contains(edge)));
+}
+
+/// Seams of a mesh with costs of its edges.
+fn seams_with_costs(mesh: &PolygonMesh, costs: impl IntoIterator<Item = ([VertexId; 2], f64)>) -> AutomaticSeams {
+    let form = Preparation { seams: form().seams.with_costs(costs), ..form() };
+    let found = AutomaticSeams::find(to_cut(mesh, &form), SeamOptions::new(4.2), Control::unattended(), &|_| {});
+    found.expect("not cancelled")
+}
+
+#[test]
+fn seams_avoid_costly_edges_and_follow_cheap_ones() {
+    let mesh = bumpy_ball();
+    let plain = seams_of(&mesh, 4.2);
+    let avoided: BTreeSet<[VertexId; 2]> = plain.edges().iter().copied().take(plain.edges().len() / 2).collect();
+    let others = seams_with_costs(&mesh, avoided.iter().map(|&edge| (edge, Seams::AVOIDED)));
+    assert!(others.edges().is_disjoint(&avoided));
+    assert!(energy_along(&mesh, &others) <= 4.2);
+    let ring: BTreeSet<[VertexId; 2]> = others.edges().difference(plain.edges()).copied().collect();
+    let led = seams_with_costs(&mesh, ring.iter().map(|&edge| (edge, 0.01)));
+    let share = |seams: &AutomaticSeams| seams.edges().intersection(&ring).count();
+    assert!(share(&led) > ring.len() / 2, "{} of {}", share(&led), ring.len());
+}
+
+/// Solid with the length of the shortest cut that develops it, found by hand.
+fn developable_solids() -> Vec<(&'static str, PolygonMesh, f64)> {
+    let circle = regular_polygon(24, 1.0);
+    let side = circle[0].distance(circle[1]);
+    let small = regular_polygon(24, 0.5);
+    let rise = (1.5_f64.powi(2) + 0.5_f64.powi(2)).sqrt();
+    let steps = [(0, 0), (3, 0), (3, 1), (2, 1), (2, 2), (1, 2), (1, 3), (0, 3)];
+    let steps: Vec<DVec2> = steps.iter().map(|&(x, y)| DVec2::new(f64::from(x), f64::from(y))).collect();
+    vec![
+        ("cube", cube(), 7.0),
+        // Each cap hangs on by one edge.
+        ("cylinder", prism(&circle, 3.0), 2.0 * 23.0 * side + 3.0),
+        ("cone", cone(&circle, 2.0), 23.0 * side + 5.0_f64.sqrt()),
+        ("frustum", frustum(&circle, &small, 1.5), 23.0 * 1.5 * side + rise),
+        // Each end hangs on by its longest edge.
+        ("stairs", prism(&steps, 2.0), 2.0 * 9.0 + 2.0),
+    ]
+}
+
+#[test]
+fn boxes_cylinders_and_cones_are_developed_exactly_along_the_shortest_cut() {
+    for (name, solid, shortest) in developable_solids() {
+        let seams = seams_of(&solid, 4.1);
+        assert!(energy_along(&solid, &seams) - 4.0 <= 1e-6, "{name}: {}", energy_along(&solid, &seams));
+        assert!(seams.length <= 1.1 * shortest, "{name}: {} for {shortest}", seams.length);
+    }
+}
+
+#[test]
+fn a_cost_of_one_is_no_cost_and_the_others_are_clamped() {
+    let edge = [VertexId::new(3), VertexId::new(1)];
+    let seams = Seams::default().with_costs([(edge, 2.0)]);
+    assert_eq!(
+        seams.costs().iter().map(|(edge, cost)| (*edge, *cost)).collect::<Vec<_>>(),
+        [([edge[1], edge[0]], 2.0)]
+    );
+    assert!(seams.with_costs([(edge, 1.0)]).is_default());
+    assert!(seams.with_costs([(edge, f64::NAN)]).is_default());
+    assert_eq!(seams.with_costs([(edge, 0.0)]).costs().values().next(), Some(Seams::COSTS.start()));
+}
+
+#[test]
+fn the_map_along_known_seams_is_the_map_of_their_search() {
+    let mesh = bumpy_ball();
+    let found = seams_of(&mesh, 4.2);
+    let again = AutomaticSeams::along(to_cut(&mesh, &found.form), SeamOptions::new(4.2), Control::unattended());
+    let again = again.expect("not cancelled");
+    assert_eq!((&again.form, &again.corners), (&found.form, &found.corners));
+    assert!((again.length - found.length).abs() <= 1e-12 * found.length);
+}
+
+#[test]
+fn every_better_cut_is_reported_and_the_last_report_is_the_result() {
+    let mesh = bumpy_ball();
+    let reports = Mutex::new(Vec::new());
+    let keep = |news: SeamProgress| reports.lock().expect("no panic").push(news);
+    let found = AutomaticSeams::find(to_cut(&mesh, &form()), SeamOptions::new(4.1), Control::unattended(), &keep);
+    let found = found.expect("not cancelled");
+    let reports = reports.into_inner().expect("no panic");
+    let (last, before) = reports.split_last().expect("reports");
+    assert!(last.is_final && !before.is_empty() && before.iter().all(|news| !news.is_final));
+    assert!(reports.iter().all(|news| (news.part, news.part_count) == (0, 1)));
+    assert_eq!(last.edges.iter().copied().collect::<BTreeSet<_>>(), *found.edges());
+    assert!((last.energy - energy_along(&mesh, &found)).abs() < 1e-9);
 }
 
 #[test]
@@ -186,7 +282,7 @@ fn the_bits_are_the_same_for_any_number_of_threads() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let seams = pool.install(|| seams_of(&mesh, 4.2));
         let bits = |at: &Option<DVec2>| at.map(|at| at.to_array().map(f64::to_bits));
-        (seams.edges, seams.corners.iter().map(bits).collect::<Vec<_>>())
+        (seams.edges().clone(), seams.corners.iter().map(bits).collect::<Vec<_>>())
     };
     assert_eq!(on(1), on(3));
 }
@@ -195,15 +291,24 @@ fn the_bits_are_the_same_for_any_number_of_threads() {
 fn a_raised_flag_cancels_the_search() {
     let cancel = AtomicBool::new(true);
     let control = Control::new(&cancel, &|_| {});
-    let found = AutomaticSeams::find(&bumpy_ball(), None, &form(), SeamOptions::new(4.1), control);
+    let found = AutomaticSeams::find(to_cut(&bumpy_ball(), &form()), SeamOptions::new(4.1), control, &|_| {});
     assert_eq!(found.err(), Some(SolveError::Cancelled));
+}
+
+#[test]
+fn a_one_sided_part_does_not_keep_the_other_parts_from_their_seams() {
+    let parts = [polygons(&freebound_testkit::band(12, 1)), bumpy_ball()];
+    let both = interleaved(&parts, &mut Random(3));
+    let (alone, beside) = (seams_of(&parts[1], 4.3), seams_of(&both, 4.3));
+    assert!(!alone.edges().is_empty());
+    assert!((beside.length - alone.length).abs() < 0.2 * alone.length, "{} and {}", beside.length, alone.length);
 }
 
 #[test]
 fn a_one_sided_surface_falls_back_to_the_shortest_cut() {
     let band = polygons(&freebound_testkit::band(12, 1));
     let seams = seams_of(&band, 4.1);
-    assert!(seams.edges.is_empty());
+    assert!(seams.edges().is_empty());
     match unwrap(&band, &PipelineOptions::for_any_mesh()) {
         Ok(unwrapped) => assert!(unwrapped.verdict.planar),
         Err(error) => panic!("a band is cut across: {error}"),
@@ -239,7 +344,7 @@ fn parts_that_need_no_cut_keep_their_map_and_others_get_their_own_seams() {
     let seams = seams_of(&mesh, 4.1);
     let unwrapped = unwrap(&mesh, &PipelineOptions::for_any_mesh()).expect("planar");
     assert_eq!(unwrapped.charts.len(), 3);
-    assert!(!seams.edges.is_empty());
+    assert!(!seams.edges().is_empty());
     assert!(unwrapped.charts.iter().all(|chart| chart.distortion.symmetric_dirichlet.mean <= 4.1 + 1e-9));
 }
 
@@ -252,10 +357,10 @@ fn a_torus_with_a_hole_anywhere_is_opened_to_one_disk() {
         for holes in [HoleTreatment::Fill, HoleTreatment::Cut] {
             let form = Preparation { holes, ..form() };
             let options = SeamOptions::new(4.2);
-            let seams =
-                AutomaticSeams::find(&mesh, None, &form, options, Control::unattended()).expect("not cancelled");
+            let seams = AutomaticSeams::find(to_cut(&mesh, &form), options, Control::unattended(), &|_| {})
+                .expect("not cancelled");
             assert!(seams.corners.iter().all(Option::is_some), "hole at {centre}, {holes:?}");
-            let prepared = PreparedMesh::new(&mesh, None, seams.cut_in(&form));
+            let prepared = PreparedMesh::new(&mesh, None, seams.form.clone());
             let disk = prepared.disk().expect("one disk");
             let map = prepared.map_of_corners(&mesh, &seams.corners).expect("a map");
             assert!(distortion(disk, &map).summary.symmetric_dirichlet.mean <= 4.2);

@@ -97,6 +97,21 @@ struct SeamFields {
     of_texture: bool,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     edges: Vec<EdgeText>,
+    /// Automatic seams, and the bound on the energy for which they were found.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    automatic: Vec<EdgeText>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    distortion: Option<f64>,
+    /// Costs of edges for automatic seams.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    costs: Vec<CostFields>,
+}
+
+/// Cost of an edge for automatic seams, relative to its length.
+#[derive(Serialize, Deserialize)]
+struct CostFields {
+    edge: EdgeText,
+    cost: f64,
 }
 
 /// Edge as the numbers of its two vertices in one string, so that each edge takes one line.
@@ -124,16 +139,29 @@ impl From<EdgeText> for String {
 
 /// Seams: a flag for the seams of the texture coordinates, and a list of edges.
 pub(super) mod seam_list {
-    use super::{Deserialize, Deserializer, EdgeText, SeamFields, Seams, Serialize as _, Serializer};
+    use super::{
+        CostFields, Deserialize, Deserializer, EdgeText, Error as _, SeamFields, Seams, Serialize as _, Serializer,
+    };
 
     pub(in super::super) fn serialize<S: Serializer>(seams: &Seams, serializer: S) -> Result<S::Ok, S::Error> {
         let edges = seams.edges().iter().copied().map(EdgeText).collect();
-        SeamFields { of_texture: seams.of_texture, edges }.serialize(serializer)
+        let automatic = seams.automatic().iter().copied().map(EdgeText).collect();
+        let costs = seams.costs().iter().map(|(&edge, &cost)| CostFields { edge: EdgeText(edge), cost }).collect();
+        let (of_texture, distortion) = (seams.of_texture, seams.bound());
+        SeamFields { of_texture, edges, automatic, distortion, costs }.serialize(serializer)
     }
 
     pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Seams, D::Error> {
-        let SeamFields { of_texture, edges } = SeamFields::deserialize(deserializer)?;
-        let mut seams = Seams::default().with(edges.into_iter().map(|EdgeText(ends)| ends));
+        let SeamFields { of_texture, edges, automatic, distortion, costs } = SeamFields::deserialize(deserializer)?;
+        let ends = |list: Vec<EdgeText>| list.into_iter().map(|EdgeText(ends)| ends);
+        let mut seams = Seams::default().with(ends(edges));
+        if let Some(bound) = distortion {
+            seams = seams.with_automatic(ends(automatic), bound);
+        }
+        if let Some(wrong) = costs.iter().find(|of| !Seams::COSTS.contains(&of.cost)) {
+            return Err(D::Error::custom(format!("the cost {} of an edge is not within 0.001 to 1000000", wrong.cost)));
+        }
+        seams = seams.with_costs(costs.into_iter().map(|CostFields { edge: EdgeText(ends), cost }| (ends, cost)));
         seams.of_texture = of_texture;
         Ok(seams)
     }

@@ -60,7 +60,7 @@ pub struct ProjectFile {
     #[serde(default)]
     pub cut: bool,
     /// Seams along which the mesh is cut first.
-    #[serde(default, skip_serializing_if = "Seams::is_empty", with = "seam_list")]
+    #[serde(default, skip_serializing_if = "Seams::is_default", with = "seam_list")]
     pub seams: Seams,
     /// Parts that are left out, by the number of their first face.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

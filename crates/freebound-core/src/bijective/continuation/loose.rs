@@ -71,7 +71,7 @@ impl Continuation {
         else {
             return Ok(false);
         };
-        problem.descend(&mut points, downhill(LOOSE_STEPS), control)?;
+        problem.descend(&mut points, downhill(LOOSE_STEPS), None, control)?;
         control.go_on()?;
         let z = Embedding::of_mesh(mesh, &points);
         let is_taken = self.sheet.is_one_to_one(mesh, &z);

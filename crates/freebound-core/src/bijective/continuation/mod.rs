@@ -242,7 +242,7 @@ impl Continuation {
     ) -> Result<bool, SolveError> {
         let mut z = self.moved(points, moves, 1.0);
         let limits = Limits { unfolding: Unfolding::Alone, ..downhill(UNFOLD_STEPS) };
-        let is_unfolded = problem.descend(&mut z, limits, control)?.least_determinant > 0.0;
+        let is_unfolded = problem.descend(&mut z, limits, None, control)?.least_determinant > 0.0;
         let z = Embedding::of_mesh(mesh, &z);
         control.go_on()?;
         Ok(is_unfolded && self.sheet.is_one_to_one(mesh, &z) && self.settle(mesh, z, problem, control)?)
@@ -287,7 +287,7 @@ impl Continuation {
             return Ok(false);
         };
         let mut z = settled.points.clone();
-        settled.problem.descend(&mut z, downhill(SETTLE_STEPS), control)?;
+        settled.problem.descend(&mut z, downhill(SETTLE_STEPS), None, control)?;
         control.go_on()?;
         let lower = Embedding::of_mesh(mesh, &z);
         let is_lower_sound = self.sheet.is_one_to_one(mesh, &lower);

@@ -272,7 +272,7 @@ impl DragSolver {
         let mut z = patch.z().to_vec();
         let unfolding = Unfolding::Freely;
         let limits = Limits { unfolded: Energy::Foldover(0.0), steps: 1, unfolding, tolerance: 0.0 };
-        match patch.problem().descend(&mut z, limits, control) {
+        match patch.problem().descend(&mut z, limits, None, control) {
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
             Err(_) => {}
             Ok(_) => {

@@ -19,10 +19,9 @@ use super::retriangulate::{Hole, OUTSIDE, Patchwork, Triangle};
 use super::simplify::{Parts, sides_of, without};
 use super::triangulate::shortest_triangulation;
 use crate::geom::{Orientation, double_area, orientation};
-use crate::mesh::{DiskMesh, FaceId, VertexId};
+use crate::mesh::{DiskMesh, FaceId, THINNEST, VertexId, laid_flat};
 use crate::nonlinear::energy_problem::{EnergyProblem, Limits, Planning, Unfolding};
 use crate::nonlinear::foldover_energy::{Element, Energy, Stiffness, energy_of};
-use crate::nonlinear::rest_shape::{THINNEST, laid_flat};
 use crate::nonlinear::scaffold::{FRAME_POINTS, THINNEST as THINNEST_OUTSIDE, outside_of};
 use crate::problem::{Control, Phase, Pins, SolveError};
 
@@ -238,7 +237,7 @@ impl<'a> Room<'a> {
         let problem = EnergyProblem::new(z.len(), elements, Vec::new(), is_held, planning)?;
         let unfolding = Unfolding::BesideBarriers;
         let limits = Limits { unfolded: Energy::SymmetricDirichlet, steps: STEPS, unfolding, tolerance: TOLERANCE };
-        match problem.descend(&mut z, limits, control) {
+        match problem.descend(&mut z, limits, None, control) {
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
             // No descent direction except for rounding.
             Err(_) => return Ok(false),

@@ -10,9 +10,8 @@ use glam::{DVec2, DVec3};
 
 use super::surface::{Guide, Ring, Surface};
 use crate::geom::{Orientation, double_area, orientation};
-use crate::mesh::VertexId;
+use crate::mesh::{THINNEST, VertexId, laid_flat};
 use crate::nonlinear::foldover_energy::{Element, Energy, Stiffness};
-use crate::nonlinear::rest_shape::{THINNEST, laid_flat};
 
 /// Most neighbours of a vertex that can be removed.
 const MOST_NEIGHBOURS: usize = 12;

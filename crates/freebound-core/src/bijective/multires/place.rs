@@ -3,8 +3,8 @@
 use glam::{DVec2, DVec3};
 
 use crate::geom::{Orientation, centre_of_gravity, kernel, orientation};
+use crate::mesh::{THINNEST, laid_flat};
 use crate::nonlinear::foldover_energy::{Element, Energy, Stiffness};
-use crate::nonlinear::rest_shape::{THINNEST, laid_flat};
 
 /// Newton steps of a vertex that is put back, with its neighbours held.
 const STEPS: usize = 4;

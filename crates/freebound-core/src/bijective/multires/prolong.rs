@@ -10,9 +10,8 @@ use super::level::Level;
 use super::place::{Room, resistance};
 use super::relaxation_sweep::Sweeps;
 use crate::geom::{double_area, outside_triangles};
-use crate::mesh::{DiskMesh, VertexId};
+use crate::mesh::{DiskMesh, VertexId, laid_flat};
 use crate::nonlinear::foldover_energy::Element;
-use crate::nonlinear::rest_shape::laid_flat;
 use crate::nonlinear::scaffold::{FRAME_POINTS, frame_around};
 use crate::problem::{Control, Embedding, Phase, Pins, SolveError};
 

@@ -19,13 +19,15 @@ mod coarse;
 
 use std::sync::Arc;
 
+use glam::DVec2;
+
 pub(crate) use coarse::Relaxed;
 
 use super::Advance;
 use crate::linalg::EliminationOrder;
 use crate::mesh::DiskMesh;
 use crate::nonlinear::Scaffold;
-use crate::nonlinear::energy_problem::{Limits, Planning, Unfolding};
+use crate::nonlinear::energy_problem::{Damping, Limits, PassableOutside, Planning, Unfolding};
 use crate::nonlinear::foldover_energy::Energy;
 use crate::nonlinear::rest_shape::{RestShape, Surrounded};
 use crate::nonlinear::scaffold::{FRAME_POINTS, outside_of};
@@ -84,6 +86,8 @@ pub(crate) struct Relaxing {
     standing: DistortionState,
     /// Elimination order of the previous round, for reuse.
     order: Option<EliminationOrder>,
+    /// Damping of single faces after the previous round.
+    damping: Damping,
     stall: Stall,
     measure: Measure,
     /// True if the last round gained next to nothing.
@@ -108,6 +112,7 @@ impl Relaxing {
             pins: pins.clone(),
             embedding,
             order: None,
+            damping: Damping::default(),
             stall: Stall::default(),
             measure: Measure::AsItBegins,
             has_converged: false,
@@ -125,9 +130,8 @@ impl Relaxing {
     pub(crate) fn round(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Advance, SolveError> {
         self.go_by_way_of_coarse(mesh, control)?;
         self.coarse_from = f64::INFINITY;
-        let outside =
-            outside_of(mesh, &self.embedding, std::iter::empty(), FRAME_POINTS).ok_or(SolveError::NotPlanar)?;
-        match self.descend(mesh, &outside, control) {
+        let mut outside = scaffold_of(mesh, &self.embedding).ok_or(SolveError::NotPlanar)?;
+        match self.descend(mesh, &mut outside, control) {
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
             Ok(()) => {}
             // No descent direction except for rounding: the energy is as low as possible.
@@ -139,16 +143,9 @@ impl Relaxing {
 
     /// Minimises the energy of mesh and outside. Accepts the result only if it is one-to-one, and planar if the start
     /// was.
-    fn descend(&mut self, mesh: &DiskMesh, outside: &Scaffold, control: Control<'_>) -> Result<(), SolveError> {
-        let surrounded = Surrounded { embedding: &self.embedding, outside, weight: OUTSIDE_WEIGHT };
+    fn descend(&mut self, mesh: &DiskMesh, outside: &mut Scaffold, control: Control<'_>) -> Result<(), SolveError> {
         let all = self.with_ears.as_ref().unwrap_or(&self.rest);
-        let planning = Planning { order: self.order.as_ref(), control };
-        let (problem, mut z) = all.problem(mesh, surrounded, &self.pins, planning)?;
         let is_drawn = self.is_drawn();
-        let problem = match self.measure {
-            Measure::AsItBegins => problem,
-            Measure::AtOwnSize => problem.measured_at_own_size(mesh.real_faces().len()),
-        };
         let DistortionState { inner: before, movable: movable_before, .. } = self.standing;
         let folded = if before.least_determinant > 0.0 { 0 } else { all.folded_count(mesh, &self.embedding) };
         let is_steep = movable_before.least_determinant < STEEP;
@@ -156,9 +153,8 @@ impl Relaxing {
         let steps = if is_steep { STEEP_ROUND_STEPS } else { ROUND_STEPS };
         let unfolding = Unfolding::BesideBarriers;
         let limits = Limits { unfolded, steps, unfolding, tolerance: 0.1 * self.measure.tolerance() };
-        let gain = problem.descend(&mut z, limits, control)?.gain;
-        let pull = problem.pull(&z);
-        let z = Embedding::of_mesh(mesh, &z);
+        let lowered = self.lowered(mesh, outside.clone(), limits, control)?;
+        let Lowered { embedding: z, gain, pull, order, damping, .. } = lowered;
         // The energy being minimised includes a small share of the outside; the energy of the faces must not rise for
         // it.
         let is_drawn = is_steep || is_drawn;
@@ -172,9 +168,9 @@ impl Relaxing {
             && if must_be_planar { self.sheet.is_planar(mesh, &z) } else { self.sheet.is_one_to_one(mesh, &z) };
         let is_unfolding = is_taken && folded > 0 && all.folded_count(mesh, &z) < folded;
         if is_taken {
-            (self.embedding, self.standing) = (z, standing);
+            (self.embedding, self.standing, *outside) = (z, standing, lowered.outside);
         }
-        self.order = problem.order();
+        (self.order, self.damping) = (order, damping);
         let is_still_steep = self.standing.movable.least_determinant < STEEP;
         self.has_converged =
             !is_taken || (gain < self.measure.tolerance() && is_still_steep == is_steep && !is_unfolding);
@@ -187,6 +183,63 @@ impl Relaxing {
             (self.measure, self.stall, self.has_converged) = (Measure::AtOwnSize, Stall::default(), false);
         }
         Ok(())
+    }
+
+    /// Runs the Newton steps of a round. Triangulates the outside again whenever a step has folded it.
+    fn lowered(
+        &self,
+        mesh: &DiskMesh,
+        outside: Scaffold,
+        limits: Limits,
+        control: Control<'_>,
+    ) -> Result<Lowered, SolveError> {
+        let embedding = self.embedding.clone();
+        let damping = self.damping.clone();
+        let mut lowered =
+            Lowered { embedding, outside, steps_left: limits.steps, gain: 0.0, pull: 0.0, order: None, damping };
+        loop {
+            match self.lower(mesh, &mut lowered, limits, control) {
+                Ok(true) => {}
+                Err(error) if error == SolveError::Cancelled || lowered.order.is_none() => return Err(error),
+                // The steps before an error are good.
+                Ok(false) | Err(_) => break,
+            }
+            lowered.outside = scaffold_of(mesh, &lowered.embedding).ok_or(SolveError::NotPlanar)?;
+            if lowered.steps_left == 0 {
+                break;
+            }
+        }
+        Ok(lowered)
+    }
+
+    /// Runs Newton steps within a triangulated outside. The last step may fold the outside; returns true if it did.
+    fn lower(
+        &self,
+        mesh: &DiskMesh,
+        lowered: &mut Lowered,
+        limits: Limits,
+        control: Control<'_>,
+    ) -> Result<bool, SolveError> {
+        let all = self.with_ears.as_ref().unwrap_or(&self.rest);
+        let surrounded =
+            Surrounded { embedding: &lowered.embedding, outside: &lowered.outside, weight: OUTSIDE_WEIGHT };
+        let planning = Planning { order: lowered.order.as_ref().or(self.order.as_ref()), control };
+        let (problem, mut z) = all.problem(mesh, surrounded, &self.pins, planning)?;
+        let problem = match self.measure {
+            Measure::AsItBegins => problem,
+            Measure::AtOwnSize => problem.measured_at_own_size(mesh.real_faces().len()),
+        };
+        let is_simple = |z: &[DVec2]| self.sheet.is_one_to_one(mesh, &Embedding::of_mesh(mesh, z));
+        let mut damping = std::mem::take(&mut lowered.damping);
+        damping.forget_outside();
+        let passable = PassableOutside { first: all.element_count(), is_simple: &is_simple, damping: &mut damping };
+        let limits = Limits { steps: lowered.steps_left, ..limits };
+        let descent = problem.descend(&mut z, limits, Some(passable), control)?;
+        lowered.embedding = Embedding::of_mesh(mesh, &z);
+        lowered.steps_left -= descent.steps;
+        lowered.gain = 1.0 - (1.0 - lowered.gain) * (1.0 - descent.gain);
+        (lowered.pull, lowered.order, lowered.damping) = (problem.pull(&z), problem.order(), damping);
+        Ok(descent.has_passed)
     }
 
     fn standing_of(&self, mesh: &DiskMesh, embedding: &Embedding) -> DistortionState {
@@ -203,6 +256,27 @@ impl Relaxing {
         let is_boundary_free = mesh.boundary_loop().iter().any(|vertex| !self.pins.contains_key(vertex));
         is_boundary_free && !self.is_drawn() && self.with_ears.is_none()
     }
+}
+
+/// Scaffold of an embedding within a frame.
+fn scaffold_of(mesh: &DiskMesh, embedding: &Embedding) -> Option<Scaffold> {
+    outside_of(mesh, embedding, std::iter::empty(), FRAME_POINTS)
+}
+
+/// Result of the Newton steps of a round.
+struct Lowered {
+    embedding: Embedding,
+    /// Outside of the embedding.
+    outside: Scaffold,
+    /// Steps that may follow.
+    steps_left: usize,
+    /// Relative decrease of the energy.
+    gain: f64,
+    /// Energy of the springs.
+    pull: f64,
+    order: Option<EliminationOrder>,
+    /// Damping of single elements.
+    damping: Damping,
 }
 
 /// Distortion of an embedding.

@@ -1,7 +1,8 @@
 //! Relaxing of a planar embedding: rounds of lower distortion.
 //!
 //! `auto` continues with them until the embedding is *usable*: planar in 32 bits, as most programs read it, and of
-//! moderate energy, so that a picture on it keeps some texels everywhere. A given planar layout stays unchanged.
+//! moderate energy, and without a face that shrank to a hundredth, so that a picture on it keeps some texels
+//! everywhere. A given planar layout stays unchanged.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -11,7 +12,8 @@ use super::stage::{Attained, PhaseGoal, RunStage, StageFailure, StageInput, Step
 use super::task::Task;
 use super::{Candidate, Step};
 use crate::bijective::relaxing::Relaxing;
-use crate::problem::{Control, Pins, SolveError, Stage};
+use crate::problem::{Control, PinKind, Pins, Progress, SolveError, Stage};
+use crate::verify::DistortionSummary;
 
 /// Largest mean symmetric Dirichlet energy that is moderate. The minimum is 4.
 const MODERATE_ENERGY: f64 = 20.0;
@@ -48,6 +50,8 @@ enum Shortfall {
     Digits { is_far: bool },
     /// High energy.
     Energy(f64),
+    /// Face whose area on the surface is so many times its area in the plane.
+    Shrunk(f64),
 }
 
 impl Shortfall {
@@ -61,14 +65,23 @@ impl Shortfall {
             let is_far = bounds.middle().abs().max_element() > far * bounds.size().max_element();
             return Some(Self::Digits { is_far });
         }
-        let energy = step.candidate.progress.filter(|_| !step.is_of_planar_start()).map(|progress| progress.energy);
-        energy.filter(|&energy| energy > MODERATE_ENERGY).map(Self::Energy)
+        let Progress { energy, least_determinant, .. } =
+            step.candidate.progress.filter(|_| !step.is_of_planar_start())?;
+        // Relaxing would pull the map away from soft pins, for the sake of a few faces.
+        let has_soft_pins = step.candidate.solution.pins.values().any(|pin| matches!(pin.kind, PinKind::Soft(_)));
+        let shrunk = if has_soft_pins { 0.0 } else { least_determinant.recip() };
+        if energy > MODERATE_ENERGY {
+            Some(Self::Energy(energy))
+        } else {
+            (shrunk >= DistortionSummary::BAD_RATIO_OF_AREAS).then_some(Self::Shrunk(shrunk))
+        }
     }
 
     fn words(self) -> String {
         match self {
             Self::Digits { .. } => "it does not hold in 32 bits".to_owned(),
             Self::Energy(energy) => format!("its energy is {energy:.0}, over {MODERATE_ENERGY}"),
+            Self::Shrunk(ratio) => format!("a face shrank to 1/{ratio:.0} of its area"),
         }
     }
 }

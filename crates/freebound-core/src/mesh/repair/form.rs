@@ -7,7 +7,7 @@ use super::{PartFaces, Repair, Repaired, Repairs, Seams};
 use crate::mesh::PolygonMesh;
 
 /// Settings for the preparation of a file's faces before they are flattened.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Preparation {
     /// True if all faces are reversed: the other side becomes the outside.
     pub faces_turned: bool,

@@ -132,7 +132,7 @@ impl Repaired {
     }
 
     /// True if every corner has a vertex, and every face has three or more corners.
-    fn has_faces(&self) -> bool {
+    pub(crate) fn has_faces(&self) -> bool {
         let is_face = |face: usize| self.polygons.corner_range(face).len() >= 3;
         self.is_sound() && (0..self.polygons.face_count()).all(is_face)
     }

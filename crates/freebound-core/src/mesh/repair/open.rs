@@ -36,6 +36,12 @@ impl Repaired {
         seams.map(|(on, _)| sides.edge_in_file(self, source, on[0])).collect()
     }
 
+    /// Value of each edge, in the order of the edge table, by its ends in the given mesh `source`.
+    pub(crate) fn by_edge_in<T>(&self, source: &PolygonMesh, value: impl Fn([VertexId; 2]) -> T) -> Vec<T> {
+        let sides = Sides::new(&self.polygons);
+        sides.table.edges().map(|on| value(sides.edge_in_file(self, source, on[0]))).collect()
+    }
+
     /// True if each edge has at most two sides, which run in opposite directions.
     pub(crate) fn is_oriented(&self) -> bool {
         let sides = Sides::new(&self.polygons);

@@ -1,6 +1,6 @@
 //! Cutting of a surface along seams: listed edges, and edges whose two sides have different texture coordinates.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::sides::{Sides, ascending};
@@ -9,7 +9,7 @@ use crate::mesh::union::DisjointSets;
 use crate::mesh::{PolygonMesh, VertexId};
 
 /// Seams along which a surface is cut, beyond the cuts that make disks.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct Seams {
     /// True to cut along the seams of the file's texture coordinates, if all corners have coordinates.
     pub of_texture: bool,
@@ -17,9 +17,34 @@ pub struct Seams {
     edges: Arc<BTreeSet<[VertexId; 2]>>,
     /// Edges that an automatic cut opens, by the file's vertices, the smaller number first.
     automatic: Arc<BTreeSet<[VertexId; 2]>>,
+    /// Bound on the mean symmetric Dirichlet energy for which the automatic seams were found.
+    bound: Option<f64>,
+    /// Cost of automatic seams relative to their length, by the file's vertices, the smaller number first. Default: 1.
+    costs: Arc<BTreeMap<[VertexId; 2], f64>>,
+}
+
+impl PartialEq for Seams {
+    fn eq(&self, other: &Self) -> bool {
+        // Lists are often shared, and long.
+        fn are_equal<T: PartialEq>(a: &Arc<T>, b: &Arc<T>) -> bool {
+            Arc::ptr_eq(a, b) || a == b
+        }
+        self.of_texture == other.of_texture
+            && self.bound == other.bound
+            && are_equal(&self.edges, &other.edges)
+            && are_equal(&self.automatic, &other.automatic)
+            && are_equal(&self.costs, &other.costs)
+    }
 }
 
 impl Seams {
+    /// Cost of an edge that automatic seams avoid: they cross it only if no other cut makes a disk, or if the detour
+    /// is a thousand times longer.
+    pub const AVOIDED: f64 = 1000.0;
+
+    /// Range of the cost of an edge.
+    pub const COSTS: std::ops::RangeInclusive<f64> = 1e-3..=1e6;
+
     /// Listed edges by the file's vertices, the smaller number first.
     pub fn edges(&self) -> &BTreeSet<[VertexId; 2]> {
         &self.edges
@@ -30,10 +55,50 @@ impl Seams {
         &self.automatic
     }
 
-    /// Replaces the edges that an automatic cut opens.
+    /// Bound on the mean symmetric Dirichlet energy for which the automatic seams were found. `None` if there was no
+    /// search.
+    pub fn bound(&self) -> Option<f64> {
+        self.bound
+    }
+
+    /// Replaces the edges that an automatic cut opens. `bound` is the bound on the mean symmetric Dirichlet energy for
+    /// which they were found.
     #[must_use = "the seams themselves stay as they are"]
-    pub fn with_automatic(&self, edges: impl IntoIterator<Item = [VertexId; 2]>) -> Self {
-        Self { automatic: Arc::new(edges.into_iter().map(ascending).collect()), ..self.clone() }
+    pub fn with_automatic(&self, edges: impl IntoIterator<Item = [VertexId; 2]>, bound: f64) -> Self {
+        Self { automatic: Arc::new(edges.into_iter().map(ascending).collect()), bound: Some(bound), ..self.clone() }
+    }
+
+    /// Removes the edges of an automatic cut.
+    #[must_use = "the seams themselves stay as they are"]
+    pub fn without_automatic(&self) -> Self {
+        Self { automatic: Arc::default(), bound: None, ..self.clone() }
+    }
+
+    /// Seams that list the automatic edges too.
+    #[must_use = "the seams themselves stay as they are"]
+    pub fn all_listed(&self) -> Self {
+        self.with(self.automatic.iter().copied()).without_automatic()
+    }
+
+    /// Costs of automatic seams relative to their length, by the file's vertices, the smaller number first. An edge
+    /// that is not listed costs 1.
+    pub fn costs(&self) -> &BTreeMap<[VertexId; 2], f64> {
+        &self.costs
+    }
+
+    /// Sets the cost of edges. A cost of 1 removes the entry; others are clamped to [`COSTS`](Self::COSTS).
+    #[must_use = "the seams themselves stay as they are"]
+    pub fn with_costs(&self, costs: impl IntoIterator<Item = ([VertexId; 2], f64)>) -> Self {
+        let mut all = BTreeMap::clone(&self.costs);
+        for (edge, cost) in costs {
+            let cost = cost.clamp(*Self::COSTS.start(), *Self::COSTS.end());
+            if cost.to_bits() == 1.0_f64.to_bits() || cost.is_nan() {
+                all.remove(&ascending(edge));
+            } else {
+                all.insert(ascending(edge), cost);
+            }
+        }
+        Self { costs: Arc::new(all), ..self.clone() }
     }
 
     /// Adds edges to the list. Their ends may be in any order; edges with equal ends are ignored.
@@ -60,6 +125,23 @@ impl Seams {
             }
         }
         missing.into_iter().collect()
+    }
+
+    /// Replaces all costs by those of other seams.
+    #[must_use = "the seams themselves stay as they are"]
+    pub fn with_costs_of(&self, other: &Self) -> Self {
+        Self { costs: Arc::clone(&other.costs), ..self.clone() }
+    }
+
+    /// Removes all costs.
+    #[must_use = "the seams themselves stay as they are"]
+    pub fn without_costs(&self) -> Self {
+        Self { costs: Arc::default(), ..self.clone() }
+    }
+
+    /// True if no edge has a cost and there are no seams.
+    pub fn is_default(&self) -> bool {
+        self.is_empty() && self.bound.is_none() && self.costs.is_empty()
     }
 
     /// True if there are no seams.

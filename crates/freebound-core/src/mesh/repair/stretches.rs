@@ -56,11 +56,13 @@ impl Seams {
 }
 
 impl Repaired {
-    /// Sides that are listed edges of the given mesh `source`: both sides of each edge, by vertices of the repaired
-    /// mesh.
+    /// Sides that are listed or automatic edges of the given mesh `source`: both sides of each edge, by vertices of
+    /// the repaired mesh.
     pub fn seam_sides(&self, seams: &Seams, source: &PolygonMesh) -> Vec<[VertexId; 2]> {
         let mut is_on_seam = vec![false; source.positions.len()];
-        let ends = seams.edges().iter().flatten().filter(|end| end.index() < source.positions.len());
+        let is_seam = |edge: &[VertexId; 2]| seams.edges().contains(edge) || seams.automatic().contains(edge);
+        let ends =
+            seams.edges().iter().chain(seams.automatic()).flatten().filter(|end| end.index() < source.positions.len());
         ends.for_each(|end| is_on_seam[end.index()] = true);
         let mut sides = Vec::new();
         for face in 0..self.polygons.face_count() {
@@ -68,7 +70,7 @@ impl Repaired {
             for corner in corners.clone() {
                 let side = [corner, if corner + 1 < corners.end { corner + 1 } else { corners.start }];
                 let edge = self.edge_in_file(source, face, side);
-                if edge.iter().all(|end| is_on_seam[end.index()]) && seams.edges().contains(&edge) {
+                if edge.iter().all(|end| is_on_seam[end.index()]) && is_seam(&edge) {
                     sides.push(side.map(|corner| self.polygons.corners[corner]));
                 }
             }

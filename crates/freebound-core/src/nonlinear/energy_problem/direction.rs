@@ -5,9 +5,8 @@
 
 use glam::DVec2;
 
-use super::super::foldover_energy::Energy;
+use super::super::foldover_energy::{Element, Energy};
 use super::EnergyProblem;
-use super::descent::Energies;
 use crate::linalg::{FactorPrecision, LinalgError, RoughFactor};
 use crate::problem::{Control, SolveError};
 
@@ -114,7 +113,8 @@ impl EnergyProblem {
         shift: &[DVec2],
         control: Control<'_>,
     ) -> Result<Vec<DVec2>, SolveError> {
-        let (gradient, hessian) = self.linearise(z, &Energies::all(Energy::Foldover(0.0)), Some(shift), control)?;
+        let model = |_: usize, element: &Element| element.model(Self::corners(element, z), Energy::Foldover(0.0));
+        let (gradient, hessian) = self.assembled(z, model, Some(shift), control)?;
         let mut moves = self.direction(&gradient, hessian, &mut self.no_memory(), control)?;
         for (move_, shift) in moves.iter_mut().zip(shift) {
             *move_ += *shift;
@@ -126,8 +126,10 @@ impl EnergyProblem {
 #[cfg(test)]
 mod tests {
     use super::super::Planning;
+    use super::super::damping::Damping;
+    use super::super::descent::Energies;
     use super::*;
-    use crate::nonlinear::foldover_energy::{Element, Stiffness};
+    use crate::nonlinear::foldover_energy::Stiffness;
 
     const SIDE: u32 = 9;
 
@@ -158,8 +160,9 @@ mod tests {
     #[test]
     fn a_direction_of_either_precision_promises_the_same_energy() {
         let (problem, z) = sheared();
-        let (gradient, hessian) =
-            problem.linearise(&z, &Energies::all(Energy::SymmetricDirichlet), None, Control::unattended()).unwrap();
+        let (gradient, hessian) = problem
+            .linearise(&z, &Energies::all(Energy::SymmetricDirichlet), &Damping::default(), Control::unattended())
+            .unwrap();
         let [single, double] = [FactorPrecision::Single, FactorPrecision::Double].map(|precision| {
             let mut memory = Memory { factor: None, precision };
             let direction = problem.direction(&gradient, hessian.clone(), &mut memory, Control::unattended()).unwrap();
@@ -173,8 +176,9 @@ mod tests {
     #[test]
     fn where_single_precision_is_no_good_double_takes_over_for_good() {
         let (problem, z) = sheared();
-        let (gradient, mut hessian) =
-            problem.linearise(&z, &Energies::all(Energy::SymmetricDirichlet), None, Control::unattended()).unwrap();
+        let (gradient, mut hessian) = problem
+            .linearise(&z, &Energies::all(Energy::SymmetricDirichlet), &Damping::default(), Control::unattended())
+            .unwrap();
         // Indefinite: no diagonal shift that rounding could call for repairs it.
         let place = problem.diagonal[40] as usize;
         hessian[place] *= -0.1;

@@ -12,12 +12,14 @@
 //! | file | contents |
 //! |---|---|
 //! | `assembly.rs` | gradient and Hessian of all elements |
+//! | `damping.rs` | stiffness of elements that would limit the step of all others |
 //! | `descent.rs` | Newton steps with a line search |
 //! | `direction.rs` | linear systems of the Hessian |
 //! | `own_size.rs` | energy of elements that are measured at their own size |
 //! | `reweighted.rs` | a step of SLIM |
 
 mod assembly;
+mod damping;
 mod descent;
 mod direction;
 mod own_size;
@@ -32,8 +34,9 @@ use crate::linalg::{Analysis, EliminationOrder, Kind};
 use crate::linear::block_pattern::{HELD, Neighbours, number};
 use crate::problem::{Control, SolveError};
 use assembly::elements_of_parts;
+pub(crate) use damping::{Damped, Damping};
 use descent::Energies;
-pub(crate) use descent::{Limits, Unfolding};
+pub(crate) use descent::{Limits, PassableOutside, Unfolding};
 
 /// Number of elements whose energies one task sums. The sum does not depend on the number of threads.
 const CHUNK: usize = 2048;
@@ -140,13 +143,18 @@ impl EnergyProblem {
 
     /// Energy; infinite if a triangle with a barrier is folded.
     fn energy(&self, z: &[DVec2], energies: &Energies) -> f64 {
+        self.energy_of_first(self.elements.len(), z, energies)
+    }
+
+    /// Energy of the first `count` elements and of the springs.
+    fn energy_of_first(&self, count: usize, z: &[DVec2], energies: &Energies) -> f64 {
         let own = energies.own_count();
         let of_own = if own > 0 { self.own_sums(z).energy() } else { 0.0 };
         let of_chunk = |(chunk, elements): (usize, &[Element])| -> f64 {
             let numbered = (own + chunk * CHUNK..).zip(elements);
             numbered.map(|(at, element)| element.energy(Self::corners(element, z), energies.of(at))).sum()
         };
-        let sums: Vec<f64> = self.elements[own..].par_chunks(CHUNK).enumerate().map(of_chunk).collect();
+        let sums: Vec<f64> = self.elements[own..count].par_chunks(CHUNK).enumerate().map(of_chunk).collect();
         of_own + sums.iter().sum::<f64>() + self.pull(z)
     }
 
@@ -178,15 +186,19 @@ impl EnergyProblem {
         reduce(self.elements[..count].par_iter().with_min_len(CHUNK).map(of), || f64::INFINITY, f64::min)
     }
 
-    /// Returns the gradient by unknown and the Hessian's values. With `shift`, the gradient is that of the model at
-    /// points moved by `shift`.
+    /// Returns the gradient by unknown and the Hessian's values.
     fn linearise(
         &self,
         z: &[DVec2],
         energies: &Energies,
-        shift: Option<&[DVec2]>,
+        damping: &Damping,
         control: Control<'_>,
     ) -> Result<(Vec<f64>, Vec<f64>), SolveError> {
-        self.assembled(z, |at, element| element.model(Self::corners(element, z), energies.of(at)), shift, control)
+        let model = |at: usize, element: &Element| {
+            let corners = Self::corners(element, z);
+            let model = element.model(corners, energies.of(at));
+            element.damped(model, corners, damping.of(at))
+        };
+        self.assembled(z, model, None, control)
     }
 }

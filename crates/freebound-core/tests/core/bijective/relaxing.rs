@@ -2,12 +2,14 @@
 
 use freebound_core::flatten::{Ending, Flattener, Step};
 use freebound_core::mesh::{DiskMesh, TriMesh, VertexId};
-use freebound_core::problem::{Control, Embedding, Family, Method, Pin, Pins, Settings, Stage, hard_pins};
+use freebound_core::problem::{
+    BoundaryShape, Control, Embedding, Family, Method, Pin, Pins, Settings, Stage, hard_pins,
+};
 use freebound_core::verify::distortion;
 use glam::{DVec2, DVec3};
 
 use freebound_testkit::surfaces::bump;
-use freebound_testkit::{assert_message, disk, grid};
+use freebound_testkit::{assert_message, disk, grid, rolled_strip, shaped};
 
 fn steps(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> (Vec<Step>, Ending) {
     let mut steps = Vec::new();
@@ -95,6 +97,59 @@ fn steepness(mesh: &DiskMesh, embedding: &Embedding, pins: &Pins) -> f64 {
     let slope = |vertex, along: DVec2| (energy(vertex, STEP * along) - energy(vertex, -STEP * along)) / (2.0 * STEP);
     let free = mesh.vertices().filter(|vertex| !pins.contains_key(vertex));
     free.map(|vertex| slope(vertex, DVec2::X).powi(2) + slope(vertex, DVec2::Y).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Energies of rounds of relaxing that start with the boundary on a circle.
+fn energies_from_circle(mesh: &DiskMesh, rounds: usize) -> Vec<f64> {
+    let method = Method::Convex(BoundaryShape::Circle);
+    let settings = Settings { relax_rounds: Some(rounds), ..Settings::new(method, Family::MeanValue) };
+    let (steps, ending) = steps(mesh, settings, &Pins::new());
+    assert!(ending == Ending::Planar && steps.iter().all(|step| step.verdict.planar), "{ending:?}");
+    steps.iter().filter_map(|step| step.candidate.progress).map(|progress| progress.energy).collect()
+}
+
+#[test]
+fn a_rolled_up_strip_unrolls_from_a_disk_in_one_round() {
+    // The boundary turns inward and outward on the way. A triangulated outside that must not fold forbids that, and
+    // the first round ends at 88.
+    let energies = energies_from_circle(&disk(rolled_strip(18)), 1);
+    assert!(energies[0] < 5.0, "{energies:?}");
+}
+
+#[test]
+fn a_rolled_up_strip_ends_isometric() {
+    // Rounds that make small steps count as converged at 4.048.
+    let energies = energies_from_circle(&disk(rolled_strip(10)), 30);
+    assert!(energies.last().is_some_and(|&energy| energy < 4.005), "{energies:?}");
+}
+
+#[test]
+fn a_rounds_energy_is_the_mean_of_the_report_even_with_needles() {
+    // Every fourth row of faces is 10⁻⁶ high. By their own shapes they double the mean energy of the report.
+    let low = |y: f64| y - (y / 4.0).floor() * (1.0 - 1e-6);
+    let mesh = disk(shaped(3, 12, |x, y| DVec3::new(x, low(y), 0.2 * (x * y).sin())));
+    let settings = Settings { relax_rounds: Some(4), ..Settings::default() };
+    let (steps, _) = steps(&mesh, settings, &Pins::new());
+    let rounds = steps.iter().filter(|step| step.candidate.stage == Stage::Relax);
+    let of_both = rounds.map(|step| {
+        let reported = distortion(&mesh, &step.candidate.solution.embedding).summary.symmetric_dirichlet.mean;
+        [step.candidate.progress.expect("numbers").energy, reported]
+    });
+    let of_both: Vec<[f64; 2]> = of_both.collect();
+    assert!(!of_both.is_empty());
+    assert!(of_both.iter().all(|[energy, reported]| (energy - reported).abs() < 1e-9 * reported), "{of_both:?}");
+}
+
+#[test]
+fn auto_relaxes_a_map_of_low_energy_if_a_face_shrank_to_a_hundredth() {
+    // The tip of a spike on a wide sheet: a small part of the surface, so that the mean stays low.
+    let height = |x: f64, y: f64| 8.0 * (-0.25 * ((x - 16.0).powi(2) + (y - 16.0).powi(2))).exp();
+    let mesh = disk(shaped(32, 32, |x, y| DVec3::new(x, y, height(x, y))));
+    let (steps, _) = steps(&mesh, Settings::default(), &Pins::new());
+    let of = |step: &Step| distortion(&mesh, &step.candidate.solution.embedding).summary;
+    let (first, last) = (of(&steps[0]), of(steps.last().expect("a step")));
+    assert!(steps[0].verdict.planar && first.symmetric_dirichlet.mean < 20.0, "{first:?}");
+    assert!(first.area.max >= 100.0 && last.area.max < 100.0, "{} to {}", first.area.max, last.area.max);
 }
 
 #[test]

@@ -4,3 +4,4 @@ pub(crate) mod closed_polygon;
 pub(crate) mod convex_polygon;
 pub(crate) mod packing;
 pub(crate) mod plane;
+pub(crate) mod rectangle;
