@@ -45,8 +45,6 @@ pub struct SeamSearch {
     pub relative_length: f64,
     /// Greatest mean symmetric Dirichlet energy of a part along its best seams.
     pub energy: f64,
-    /// Best seams so far, by vertices of the file.
-    pub edges: Vec<[VertexId; 2]>,
 }
 
 /// Search for automatic seams.
@@ -119,8 +117,13 @@ impl Unwrapping {
             part_count: parts.first().map_or(0, |part| part.part_count),
             relative_length: parts.iter().map(|part| part.length / part.area.sqrt()).sum(),
             energy: parts.iter().map(|part| part.energy).fold(f64::NAN, f64::max),
-            edges: parts.iter().flat_map(|part| part.edges.iter().copied()).collect(),
         })
+    }
+
+    /// Best seams so far, by vertices of the file. `None` if there is no search.
+    fn best_edges(&self) -> Option<Vec<[VertexId; 2]>> {
+        self.search.key()?;
+        Some(locked(&self.progress).iter().flat_map(|part| part.edges.iter().copied()).collect())
     }
 }
 
@@ -287,8 +290,8 @@ impl Session {
     /// Seams of a search, or of the bound of a moving slider, that the mesh is not cut along yet. By vertices of the
     /// file.
     pub fn seams_to_be(&self) -> Option<Vec<[VertexId; 2]>> {
-        if let Some(search) = self.unwrapping.state() {
-            return Some(search.edges);
+        if let Some(edges) = self.unwrapping.best_edges() {
+            return Some(edges);
         }
         let (model, bound) = (self.model()?, self.unwrapping.previewed?);
         let form = Preparation { seams: self.with_paint().without_automatic(), ..self.without_automatic_seams(model) };

@@ -15,6 +15,8 @@
 
 use glam::DVec2;
 
+use crate::geom::Bounds;
+
 /// Cells that a chart with its margin touches.
 #[derive(Clone, Debug)]
 pub(crate) struct Mask {
@@ -52,7 +54,7 @@ impl Mask {
         count: impl Fn(f64) -> usize,
         mark_row: impl Fn(&mut Self, &Stadium, usize),
     ) -> Self {
-        let (low, high) = bounds(edges);
+        let Bounds { low, high } = bounds(edges);
         let [width, height] = (high - low + 2.0 * radius).to_array().map(count);
         let mut cells = Self::empty(width, height);
         let mut crossings = Vec::new();
@@ -137,9 +139,8 @@ fn cell(coordinate: f64, cells: usize) -> usize {
 }
 
 /// Bounding box of edges.
-pub(crate) fn bounds(edges: &[[DVec2; 2]]) -> (DVec2, DVec2) {
-    let start = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    edges.iter().flatten().fold(start, |(low, high), &point| (low.min(point), high.max(point)))
+pub(crate) fn bounds(edges: &[[DVec2; 2]]) -> Bounds {
+    Bounds::of(edges.iter().flatten().copied())
 }
 
 /// Points within a radius of a segment.

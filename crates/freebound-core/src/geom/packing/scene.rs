@@ -9,6 +9,7 @@
 use glam::DVec2;
 
 use super::mask::{Mask, bounds};
+use crate::geom::Bounds;
 
 /// Rounding of a position in pixels, relative to the page and to the chart's distance from the origin.
 ///
@@ -109,7 +110,7 @@ impl Scene {
 
     /// Half of the gap, and more than rounding can move a point of the chart, in cells.
     fn margin(&self, edges: &[[DVec2; 2]], grid: Grid) -> f64 {
-        let (low, high) = bounds(edges);
+        let Bounds { low, high } = bounds(edges);
         let farthest = low.abs().max(high.abs()).max_element();
         let page = self.picture.max_element() / grid.cell;
         self.gap / 2.0 / grid.cell + (page + farthest) * ROUNDING
@@ -118,14 +119,12 @@ impl Scene {
     /// Translation in pixels that brings a turned and scaled chart to the cells of its mask at a column and row.
     pub(crate) fn low(&self, pose: Pose, grid: Grid, cell: DVec2) -> DVec2 {
         let edges = self.edges(pose, grid.cell);
-        let (low, _) = bounds(&edges);
-        (cell + self.margin(&edges, grid) - low) * grid.cell
+        (cell + self.margin(&edges, grid) - bounds(&edges).low) * grid.cell
     }
 
     /// Size of a chart with its gap in pixels.
     fn size(&self, pose: Pose) -> DVec2 {
-        let (low, high) = bounds(&self.edges(pose, 1.0));
-        high - low + self.gap
+        bounds(&self.edges(pose, 1.0)).size() + self.gap
     }
 
     /// Place of a chart whose mask has its lower left cell at a column and row.

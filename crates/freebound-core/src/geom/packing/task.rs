@@ -7,7 +7,7 @@ use super::orders::{Effort, OrderSearch};
 use super::refine::{self, Freedom, Refinement, Refiner};
 use super::scene::{Chart, Cover, Grid, Layout, Place, Pose, Scene};
 use super::{ChartShape, Packed, Rotations, single, turns};
-use crate::geom::least_box_turn;
+use crate::geom::{Bounds, least_box_turn};
 
 /// Number of cells of the finest grid, at most, unless a cell of a pixel needs more.
 const FINEST_CELLS: f64 = (1_u64 << 22) as f64;
@@ -45,11 +45,8 @@ const ROUNDING: f64 = 1.0 / (1_u64 << 40) as f64;
 
 /// Area by which scales are chosen: charts without area count as thin.
 fn nominal_area(shapes: &[ChartShape]) -> f64 {
-    let of_shape = |shape: &ChartShape| {
-        let start = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        let (low, high) = shape.vertices().fold(start, |(low, high), point| (low.min(point), high.max(point)));
-        shape.area().max((high - low).max_element().powi(2) * THINNEST)
-    };
+    let of_shape =
+        |shape: &ChartShape| shape.area().max(Bounds::of(shape.vertices()).size().max_element().powi(2) * THINNEST);
     shapes.iter().map(of_shape).sum()
 }
 

@@ -2,6 +2,8 @@
 
 use glam::DVec2;
 
+use crate::geom::Bounds;
+
 /// Turn by 22.5°.
 const EIGHTH: DVec2 = DVec2::new(0.923_879_532_511_286_7, 0.382_683_432_365_089_8);
 
@@ -10,10 +12,7 @@ pub(crate) const QUARTERS: [DVec2; 4] = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2
 
 /// Width and height of the bounding box of turned points.
 pub(crate) fn size_of(points: &[DVec2], turn: DVec2) -> DVec2 {
-    let start = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let turned = points.iter().map(|&point| turn.rotate(point));
-    let (low, high) = turned.fold(start, |(low, high), point| (low.min(point), high.max(point)));
-    high - low
+    Bounds::of(points.iter().map(|&point| turn.rotate(point))).size()
 }
 
 /// Quarter turns of a turn, then of turns by multiples of 22.5° from it; `steps` of these, at most 4.
