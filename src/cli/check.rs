@@ -14,7 +14,7 @@ use super::summary::{deliver, mesh_words};
 use crate::session::Model;
 use freebound_core::mesh::{DiskMesh, Preparation, parts};
 use freebound_core::pipeline::{PreparedMesh, Surface};
-use freebound_core::verify::{atlas_verdict, distortion, verdict};
+use freebound_core::verify::{distortion, equal_outlines, stacked_atlas_verdict, verdict};
 use freebound_io::{MeshReport, Report, Seconds, TextureError, TextureMesh, verdict_as_in_file};
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandError> {
@@ -132,7 +132,10 @@ fn check_charts(
     })?;
     let read = start.elapsed().as_secs_f64();
     go_on()?;
-    let mut verdict = atlas_verdict(&charts, &texture.embedding).as_in_file(&texture.mesh);
+    let stacked_on =
+        if arguments.stacked { equal_outlines(&charts, &texture.embedding) } else { vec![None; charts.len()] };
+    let verdict = stacked_atlas_verdict(&charts, &texture.embedding, &stacked_on);
+    let mut verdict = verdict.as_in_file(&texture.mesh);
     verdict.planar_in_f32 |= verdict.planar && is_of_32_bits;
     go_on()?;
     let in_f32 = if verdict.planar_in_f32 { "; holds in 32 bits" } else { "; does not hold in 32 bits" };

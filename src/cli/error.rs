@@ -6,7 +6,9 @@ use std::path::Path;
 use crate::session::{Model, MorphShortage};
 use freebound_core::mesh::{Diagnosis, Done, Repair, Repairs};
 use freebound_core::problem::{Cause, Method, NamedOption as _, SolveError};
-use freebound_io::{ConstraintsError, EdgesError, MemoryShortage, PictureError, ReadError, TextureError, WriteError};
+use freebound_io::{
+    ConstraintsError, EdgesError, LayoutToPackError, MemoryShortage, PictureError, ReadError, TextureError, WriteError,
+};
 
 /// Exit status of an internal or system error.
 const INTERNAL: u8 = 1;
@@ -22,6 +24,9 @@ pub(super) const FALLS_SHORT: u8 = 4;
 
 /// Remedy if only some corners have texture coordinates.
 pub(super) const TEXTURE_REMEDY: &str = "give every corner texture coordinates, or none";
+
+/// Remedy if there is no layout to pack.
+pub(super) const LAYOUT_REMEDY: &str = "make texture coordinates with freebound unwrap";
 
 /// Remedy if a file may take too much memory.
 pub(super) const MEMORY_REMEDY: &str = "add --large to read it anyway";
@@ -84,6 +89,14 @@ pub enum CommandError {
         path: String,
         /// Fault of the texture coordinates.
         error: TextureError,
+    },
+    /// The texture coordinates cannot be packed.
+    #[error("{path}: {error}; {LAYOUT_REMEDY}")]
+    LayoutToPack {
+        /// Name of the file.
+        path: String,
+        /// Fault of the texture coordinates.
+        error: LayoutToPackError,
     },
     /// The mesh is not a disk.
     #[error("{path}: the mesh cannot be flattened\n{diagnosis}{}", remedy.as_ref().map(Remedy::to_string).unwrap_or_default())]
@@ -188,6 +201,7 @@ impl CommandError {
             | Self::Edges(_)
             | Self::Picture(_)
             | Self::Texture { .. }
+            | Self::LayoutToPack { .. }
             | Self::NotADisk { .. } => UNUSABLE_INPUT,
             Self::NoMorph { .. } | Self::MorphMemory { .. } => FALLS_SHORT,
             Self::Write(error) if error.is_not_finite() => FALLS_SHORT,

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use super::awaited::{forget, may_be_replaced};
 use super::error::{
-    CommandError, FALLS_SHORT, FRAMES_REMEDY, MEMORY_REMEDY, METHOD_REMEDY, MORPH_REMEDY, TEXTURE_REMEDY,
-    UNUSABLE_INPUT, WRONG_USE, message_of, name_of_input,
+    CommandError, FALLS_SHORT, FRAMES_REMEDY, LAYOUT_REMEDY, MEMORY_REMEDY, METHOD_REMEDY, MORPH_REMEDY,
+    TEXTURE_REMEDY, UNUSABLE_INPUT, WRONG_USE, message_of, name_of_input,
 };
 use super::report_file::put_report;
 use super::say::warn;
-use freebound_io::{ErrorReport, ErrorWords, FaultReport, ReadError};
+use freebound_io::{ErrorReport, ErrorWords, FaultReport, LayoutToPackError, ReadError};
 
 /// Mesh of a run, and path of its report.
 #[derive(Clone, Copy)]
@@ -49,12 +49,20 @@ fn remedy_and_faults(failure: &CommandError) -> (Option<&'static str>, Vec<Fault
         CommandError::Constraints(error) => (None, FaultReport::of_constraints(error)),
         CommandError::Edges(error) => (None, FaultReport::of_edges(error)),
         CommandError::Texture { error, .. } => (Some(TEXTURE_REMEDY), FaultReport::of_texture(error)),
+        CommandError::LayoutToPack { error, .. } => (Some(LAYOUT_REMEDY), faults_of_layout(error)),
         CommandError::NotADisk { diagnosis, .. } => (None, FaultReport::of_diagnosis(diagnosis)),
         CommandError::Memory { .. } => (Some(MEMORY_REMEDY), Vec::new()),
         CommandError::Method { .. } => (Some(METHOD_REMEDY), Vec::new()),
         CommandError::NoMorph { .. } => (Some(MORPH_REMEDY), Vec::new()),
         CommandError::MorphMemory { .. } => (Some(FRAMES_REMEDY), Vec::new()),
         _ => (None, Vec::new()),
+    }
+}
+
+fn faults_of_layout(error: &LayoutToPackError) -> Vec<FaultReport> {
+    match error {
+        LayoutToPackError::Texture(error) => FaultReport::of_texture(error),
+        _ => Vec::new(),
     }
 }
 
@@ -72,7 +80,7 @@ fn kind_of(failure: &CommandError) -> &'static str {
         CommandError::Constraints(_) => "constraints",
         CommandError::Edges(_) => "edges",
         CommandError::Picture(_) => "picture",
-        CommandError::Texture { .. } => "texture-coordinates",
+        CommandError::Texture { .. } | CommandError::LayoutToPack { .. } => "texture-coordinates",
         CommandError::NotADisk { .. } => "not-a-disk",
         CommandError::Solve(error) | CommandError::Method { error, .. } => error.name(),
         CommandError::NoMorph { .. } => "no-morph",

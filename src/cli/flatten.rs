@@ -18,10 +18,11 @@ use super::places::OutputPaths;
 use super::progress::{ProgressLine, stop_on_interrupt};
 use super::say::say;
 use super::threads::set_threads;
+use super::tiles::ChartTiles;
 use super::typed::ChartSize;
 use crate::examples::Example;
 use crate::session::{Model, example_picture};
-use freebound_core::geom::PictureFrame;
+use freebound_core::geom::{PackingOptions, PictureFrame};
 use freebound_core::mesh::FaceId;
 use freebound_core::pipeline::{Fit, PipelineOptions, Targets, hard_targets};
 use freebound_core::problem::{NamedOption as _, Settings};
@@ -69,7 +70,9 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
         let wanted = InputSpec { input, solve, picture: arguments.picture.as_deref() };
         let LoadedMesh { model, picture, targets } = wanted.open(&places, &progress)?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
-        let packing = arguments.packing(picture.as_ref());
+        let tiles = ChartTiles::new(arguments.tiles, &model)?;
+        let packing = PackingOptions { tiles: tiles.count, ..arguments.packing(picture.as_ref()) };
+        let locked = locked(&arguments.lock, &model)?;
         let aspect = picture.as_ref().map(PictureFile::aspect).or(solve.aspect);
         let settings = arguments.settings();
         let has_map = model.automatic_seams().is_some_and(|seams| seams.corners.iter().all(Option::is_some));
@@ -80,7 +83,8 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
             settings: Settings { relax_rounds, ..settings },
             frame: PictureFrame { aspect: aspect.unwrap_or(1.0), ..PictureFrame::default() },
             has_picture: aspect.is_some(),
-            sizes: sizes(&arguments.chart_size, &model, &targets)?,
+            sizes: sizes(&arguments.chart_size, &model, &targets, &locked)?,
+            tiles: tiles.of_chart,
             targets,
             packing,
             arrangement: arguments.arrangement(),
@@ -95,13 +99,14 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
             materials: if arguments.copy_materials { Materials::Copied } else { Materials::Stay },
             report: arguments.report.as_deref(),
             steps: arguments.steps.as_deref(),
+            locked,
         };
         job.run(&model, start, &progress)
     })
 }
 
 /// Rejects names of formats that can be read but not written.
-fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), CommandError> {
+pub(super) fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), CommandError> {
     let extension = output.and_then(Path::extension).unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     if matches!(extension.as_str(), "gltf" | "off" | "stl") {
         let text = format!("-o: .{extension} files cannot be written: end the name in .obj, .ply or .glb");
@@ -110,9 +115,24 @@ fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// Relative sizes of charts, by their first faces. Sizes of charts with targets are rejected, because these charts are
-/// not packed.
-fn sizes(given: &[ChartSize], model: &Model, targets: &Targets) -> Result<BTreeMap<FaceId, f64>, CommandError> {
+/// Numbers of locked charts.
+fn locked(given: &[usize], model: &Model) -> Result<BTreeSet<usize>, CommandError> {
+    let last = model.chart_count() - 1;
+    match given.iter().find(|&&chart| chart > last) {
+        Some(chart) if last == 0 => Err(CommandError::Usage(format!("--lock {chart}: the mesh has only chart 0"))),
+        Some(chart) => Err(CommandError::Usage(format!("--lock {chart}: the mesh has charts 0 to {last}"))),
+        None => Ok(given.iter().copied().collect()),
+    }
+}
+
+/// Relative sizes of charts, by their first faces. Sizes of charts with targets and of locked charts are rejected,
+/// because these charts are not packed.
+fn sizes(
+    given: &[ChartSize],
+    model: &Model,
+    targets: &Targets,
+    locked: &BTreeSet<usize>,
+) -> Result<BTreeMap<FaceId, f64>, CommandError> {
     let count = model.chart_count();
     let charts = model.prepared.chart.as_ref().map(|of| &of.charts);
     let first_face = |chart: usize| {
@@ -132,6 +152,7 @@ fn sizes(given: &[ChartSize], model: &Model, targets: &Targets) -> Result<BTreeM
         let is_twice = sizes.insert(first_face(chart)?, size).is_some();
         let faults = [
             (is_twice, "the chart has two sizes: remove one of them"),
+            (locked.contains(&chart), "the chart is locked, so it is not packed: remove its size or its lock"),
             (held.contains(&chart), "the chart is pinned, so it is not packed: remove its size or its pins"),
         ];
         if let Some((_, why)) = faults.into_iter().find(|(is_so, _)| *is_so) {
@@ -187,6 +208,7 @@ fn flatten_example() -> Result<CommandOutcome, CommandError> {
         materials: Materials::Stay,
         report: Some(&report),
         steps: None,
+        locked: BTreeSet::new(),
     };
     let progress = ProgressLine::default();
     let status = progress.follow(|| job.run(&Model::example(Example::Face), Instant::now(), &progress))?;

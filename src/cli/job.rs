@@ -1,5 +1,6 @@
 //! Flattening without a screen, of one chart or several: solve, prove, write, print the summary.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -15,7 +16,7 @@ use super::summary::{atlas_summary, deliver, ending_words, step_words, summary, 
 use crate::session::{Model, SolvedModel, finished_atlas};
 use freebound_core::flatten::Flattener;
 use freebound_core::pipeline::{Fit, PipelineOptions, Problem, SolvedProblem};
-use freebound_core::problem::{Control, Phase, SolveError};
+use freebound_core::problem::{Control, Embedding, Phase, SolveError};
 use freebound_core::verify::{Conflict, conflicts};
 use freebound_io::{Materials, Output, OutputKind, PictureFile, Precision, SeamsReport, StepReport, StepsFolder};
 
@@ -34,6 +35,8 @@ pub(super) struct HeadlessJob<'a> {
     pub(super) materials: Materials,
     pub(super) report: Option<&'a Path>,
     pub(super) steps: Option<&'a Path>,
+    /// Numbers of the charts that stay where the layout to start from has them.
+    pub(super) locked: BTreeSet<usize>,
 }
 
 impl HeadlessJob<'_> {
@@ -45,7 +48,7 @@ impl HeadlessJob<'_> {
         progress: &ProgressLine,
     ) -> Result<CommandOutcome, CommandError> {
         let read = start.elapsed().as_secs_f64();
-        if model.prepared.chart.is_some() {
+        if model.prepared.chart.is_some() || self.options.packing.density.is_some() {
             return self.run_atlas(model, start, progress);
         }
         let mut folder = self.steps.map(StepsFolder::begin).transpose()?;
@@ -58,7 +61,7 @@ impl HeadlessJob<'_> {
         self.conclude(&output, || summary(&output.report, &ending_words(&solved, &output)))
     }
 
-    /// Flattens a mesh with several charts, which are solved in parallel.
+    /// Flattens a mesh whose charts are packed. They are solved in parallel.
     fn run_atlas(
         &self,
         model: &Model,
@@ -66,7 +69,7 @@ impl HeadlessJob<'_> {
         progress: &ProgressLine,
     ) -> Result<CommandOutcome, CommandError> {
         let read = start.elapsed().as_secs_f64();
-        self.refuse_idle_options()?;
+        self.refuse_idle_options(model)?;
         let models: Vec<Model> = (0..model.chart_count()).into_par_iter().map(|chart| model.of_chart(chart)).collect();
         let prepared: Vec<_> = models.iter().map(|model| &model.prepared).collect();
         let problems = self.options.problems(&prepared);
@@ -77,14 +80,21 @@ impl HeadlessJob<'_> {
         // Report the first failure in the order of the charts, independent of the threads.
         let solved: Vec<SolvedChart> = solved.into_iter().collect::<Result<_, _>>()?;
         progress.enter("packing");
+        let layouts = self.layouts_of_locked(&models)?;
         let charts: Vec<SolvedModel<'_>> = models
             .iter()
             .zip(&solved)
-            .map(|(model, solved)| SolvedModel {
-                model,
-                outcome: &solved.solved.outcome,
-                steps: &solved.records,
-                size: model.prepared.chart.as_ref().map_or(1.0, |of| self.options.size_of(&of.charts, of.number)),
+            .enumerate()
+            .map(|(number, (model, solved))| {
+                let of = model.prepared.chart.as_ref();
+                SolvedModel {
+                    model,
+                    outcome: &solved.solved.outcome,
+                    steps: &solved.records,
+                    size: of.map_or(1.0, |of| self.options.size_of(&of.charts, of.number)),
+                    tile: of.and_then(|of| self.options.tile_of(&of.charts, of.number)),
+                    locked: layouts.get(&number),
+                }
             })
             .collect();
         let before = Instant::now();
@@ -95,8 +105,17 @@ impl HeadlessJob<'_> {
         self.conclude(&output, || atlas_summary(&output.report))
     }
 
-    /// Rejects options that do not apply to several charts.
-    fn refuse_idle_options(&self) -> Result<(), CommandError> {
+    /// Layouts of the locked charts, by their numbers.
+    fn layouts_of_locked(&self, models: &[Model]) -> Result<BTreeMap<usize, Embedding>, CommandError> {
+        let layout = |&chart: &usize| {
+            let model = &models[chart];
+            Ok((chart, model.layout().map_err(|error| failure_of_layout(model, error))?))
+        };
+        self.locked.iter().map(layout).collect()
+    }
+
+    /// Rejects options that do not apply to packed charts.
+    fn refuse_idle_options(&self, model: &Model) -> Result<(), CommandError> {
         let of_size = self.fit == Fit::True || self.svg_fit == Fit::True;
         let cases = [
             (of_size, "--fit true and --svg-scale true", "charts are packed into the unit square"),
@@ -104,7 +123,12 @@ impl HeadlessJob<'_> {
         ];
         match cases.into_iter().find(|(given, ..)| *given) {
             Some((_, option, why)) => {
-                Err(CommandError::Usage(format!("the mesh has several charts: remove {option}: {why}")))
+                let has = if model.prepared.chart.is_some() {
+                    "the mesh has several charts"
+                } else {
+                    "--density packs the mesh"
+                };
+                Err(CommandError::Usage(format!("{has}: remove {option}: {why}")))
             }
             None => Ok(()),
         }
@@ -156,7 +180,8 @@ impl HeadlessJob<'_> {
         }
         let of_charts = report.charts.iter().map(|chart| &chart.pins);
         let are_met = report.pins.iter().chain(of_charts).all(|pins| pins.unmet.is_empty());
-        Ok(if output.is_planar() && are_met { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
+        let has_density = report.packing.is_none_or(|packing| packing.unmet_density().is_none());
+        Ok(if output.is_planar() && are_met && has_density { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
     }
 }
 

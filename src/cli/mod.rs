@@ -7,6 +7,7 @@
 //! | `typed`       | parsers for values of options                                            |
 //! | `flatten`     | commands `flatten` and `unwrap`; the example if no window can be opened                |
 //! | `job`         | flattening of one chart or several, with outputs and summary             |
+//! | `pack`        | command `pack`: new places for the charts of an existing layout          |
 //! | `check`       | command `check`: diagnosis of a mesh, verdict on its texture coordinates |
 //! | `compare`     | command `compare`: several methods on one mesh                           |
 //! | `morph`       | planar morph through the maps of compared methods                        |
@@ -42,6 +43,7 @@ mod flatten;
 mod job;
 mod morph;
 mod opened;
+mod pack;
 mod parts;
 mod pins;
 mod places;
@@ -53,6 +55,7 @@ mod standard;
 mod study;
 mod summary;
 mod threads;
+mod tiles;
 mod typed;
 
 use std::process::ExitCode;
@@ -61,8 +64,8 @@ use self::failed::ReportTarget;
 use freebound_core::problem::{Family, Labels, Method, NamedOption};
 
 pub use args::{
-    Arguments, CompareArguments, ComparisonFile, Cut, ExampleArguments, FlattenArguments, MeshArguments, SeamKind,
-    SolveArguments, StartOf, StudyArguments, Subcommands, ThreadArguments, TypedShape, UnwrapArguments,
+    Arguments, CompareArguments, ComparisonFile, Cut, ExampleArguments, FlattenArguments, MeshArguments, PackArguments,
+    SeamKind, SolveArguments, StartOf, StudyArguments, Subcommands, ThreadArguments, TypedShape, UnwrapArguments,
 };
 pub use error::{CommandError, CommandOutcome, Remedy};
 pub use figures::pairs;
@@ -77,6 +80,7 @@ pub fn run(command: &Subcommands) -> ExitCode {
         Subcommands::Unwrap(arguments) => {
             (flatten::unwrap(&arguments.flatten), Some((&arguments.flatten.input.mesh, &arguments.flatten.report)))
         }
+        Subcommands::Pack(arguments) => (pack::run(arguments), Some((&arguments.mesh, &arguments.report))),
         Subcommands::Compare(arguments) => (compare::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
         Subcommands::Check(arguments) => (check::run(arguments), Some((&arguments.mesh, &arguments.report))),
         Subcommands::Figures(arguments) => (figures::run(&arguments.folder), None),

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::args::{
-    CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments, SolveArguments, StartOf, StudyArguments,
+    CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments, PackArguments, SolveArguments, StartOf,
+    StudyArguments,
 };
 use super::error::CommandError;
 use super::error::is_standard;
@@ -40,6 +41,13 @@ impl OutputPaths {
         let outputs = arguments.outputs().into_iter().map(|(_, option, path)| (option, path));
         let files = outputs.chain(report).map(|(option, path)| OutputPath { option, path: path.to_owned() });
         Self { files: files.collect(), steps: None }
+    }
+
+    pub(super) fn of_pack(arguments: &PackArguments) -> Self {
+        let PackArguments { output, svg, report, .. } = arguments;
+        let asked = [("-o", output), ("--svg", svg), ("--report", report)];
+        let place = |(option, path): (_, &Option<PathBuf>)| Some(OutputPath { option, path: path.clone()? });
+        Self { files: asked.into_iter().filter_map(place).collect(), steps: None }
     }
 
     pub(super) fn of_check(arguments: &CheckArguments) -> Self {
@@ -86,7 +94,26 @@ impl OutputPaths {
             }
             None => return Ok(()),
         };
-        for copy in &copies {
+        self.spare_files(option, &copies)
+    }
+
+    /// Rejects outputs that clash with copies of the mesh's materials.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError`] if outputs clash with copies, or a file to be copied cannot be read.
+    pub(super) fn spare_copied_materials(
+        &self,
+        arguments: &PackArguments,
+        source: &MeshFile,
+    ) -> Result<(), CommandError> {
+        let Some(mesh) = arguments.output.as_deref() else { return Ok(()) };
+        self.spare_files("--copy-materials", &copies_of_materials(source, &arguments.mesh, mesh)?)
+    }
+
+    /// Rejects other outputs that clash with the files that an option copies.
+    fn spare_files(&self, option: &'static str, copies: &[PathBuf]) -> Result<(), CommandError> {
+        for copy in copies {
             let others = self.files.iter().filter(|place| place.option != option);
             if let Some(place) = others.into_iter().find(|place| clash(&place.path, copy)) {
                 return Err(both_write(copy, [place.option, option]));

@@ -7,8 +7,9 @@ use super::error::is_standard;
 use super::report_file::put_report;
 use super::say::{say, warn};
 use freebound_core::flatten::{Ending, Step};
-use freebound_core::mesh::VertexId;
-use freebound_core::pipeline::{PackingSummary, PinsSummary, Placement, SolvedProblem};
+use freebound_core::geom::PackingOptions;
+use freebound_core::mesh::{Diagnosis, VertexId};
+use freebound_core::pipeline::{PackingSummary, PinsSummary, Placement, SolvedProblem, StackedOn};
 use freebound_core::problem::{Method, NamedOption as _, SolveError, Stage};
 use freebound_core::verify::{Conflict, Verdict};
 use freebound_io::{
@@ -163,13 +164,48 @@ pub(super) fn atlas_summary(report: &Report) -> String {
         lines.push(format!("and {} more charts, less distorted", charts.len() - NAMED));
     }
     lines.extend(relaxing_words_of_charts(report));
-    lines.extend(report.packing.map(|PackingSummary { picture: [width, height], gap, density, covered }| {
-        let percent = 100.0 * covered;
-        format!(
-            "packed into {width} x {height} pixels, {gap} apart: {percent:.0} % covered, {density:.4} pixels per unit"
-        )
-    }));
+    lines.extend(packing_words(report));
     lines.push(seconds_words(&report.seconds));
+    lines.join("\n")
+}
+
+/// Lines on the packing, if charts were packed.
+fn packing_words(report: &Report) -> Vec<String> {
+    let Some(packing) = report.packing else { return Vec::new() };
+    let PackingSummary { picture: [width, height], gap, density, tiles, covered, .. } = packing;
+    let percent = 100.0 * covered;
+    let size = format!("{width} x {height} pixels");
+    let size = if tiles > 1 { format!("{tiles} tiles of {size}") } else { size };
+    let unmet = |density| {
+        format!("density {density} does not fit into {} pixels a side: lower --density", PackingOptions::LONGEST_SIDE)
+    };
+    let packed = format!("packed into {size}, {gap} apart: {percent:.0} % covered, {density:.4} pixels per unit");
+    std::iter::once(packed).chain(packing.unmet_density().map(unmet)).collect()
+}
+
+/// Summary of a layout that was packed again. `faults` keep its charts from being proved.
+pub(super) fn pack_summary(report: &Report, faults: Option<&Diagnosis>) -> String {
+    let MeshReport { path, vertices, faces, .. } = &report.mesh;
+    let charts = match report.packed_charts.len() {
+        1 => "1 chart".to_owned(),
+        count => format!("{count} charts"),
+    };
+    let mut lines = vec![format!("{path}: {vertices} vertices, {faces} faces, {charts}")];
+    lines.extend(report.atlas.as_ref().map(|atlas| {
+        let holds = if atlas.planar_in_f32 { "; holds in 32 bits" } else { "; does not hold in 32 bits" };
+        format!("pack: {}{}", atlas.summary(), if atlas.planar { holds } else { "" })
+    }));
+    lines.extend(faults.map(|faults| format!("pack: not proved: a chart is no surface with a boundary\n{faults}")));
+    lines.extend(rounding_words(report));
+    let folded = report.packed_charts.iter().filter(|chart| !chart.was_planar).count();
+    lines.extend(match folded {
+        0 => None,
+        1 => Some("1 chart was not planar in the given layout".to_owned()),
+        _ => Some(format!("{folded} charts were not planar in the given layout")),
+    });
+    lines.extend(packing_words(report));
+    let Seconds { read, verify, write, total, .. } = report.seconds;
+    lines.push(format!("{total:.3} s: read {read:.3}, pack and verify {verify:.3}, write {write:.3}"));
     lines.join("\n")
 }
 
@@ -218,7 +254,16 @@ fn chart_words(chart: &ChartReport, packing: Option<PackingSummary>) -> String {
     // Most charts have the common density of the packing.
     let is_own = packing.is_none_or(|packing| (chart.density / packing.density - 1.0).abs() > 1e-6);
     let density = if is_own { format!("; {:.4} pixels per unit", chart.density) } else { String::new() };
-    format!("chart of face {face}: {faces}, {steps}{stage}; symmetric Dirichlet energy {energy:.3}{density}{pins}")
+    let tile = chart.tile.filter(|_| packing.is_some_and(|packing| packing.tiles > 1));
+    let tile = tile.map(|tile| format!("; tile {tile}")).unwrap_or_default();
+    let locked = if chart.placement == Placement::Locked { "; locked" } else { "" };
+    let stacked = chart.stacked.map(|StackedOn { chart, mirrored }| {
+        let how = if mirrored { "mirrored on" } else { "stacked on" };
+        format!("; {how} chart {chart}")
+    });
+    let stacked = stacked.unwrap_or_default();
+    let words = format!("chart of face {face}: {faces}, {steps}{stage}; symmetric Dirichlet energy {energy:.3}");
+    format!("{words}{density}{tile}{locked}{stacked}{pins}")
 }
 
 /// Line on automatic seams, if some were cut.

@@ -90,6 +90,34 @@ pub(super) fn parse_chart_size(text: &str) -> Result<ChartSize, String> {
     parsed().ok_or_else(|| format!("write CHART=SIZE, for example 0=2, with a size from {low} to {high}"))
 }
 
+/// Parses a density in pixels per unit of length.
+pub(super) fn parse_density(text: &str) -> Result<f64, String> {
+    let parsed = text.trim().parse().ok().filter(|density: &f64| density.is_finite() && *density > 0.0);
+    parsed.ok_or_else(|| "write pixels per unit of length, a number above 0, for example 512".to_owned())
+}
+
+/// Tiles that charts are packed into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TileRule {
+    /// At most so many tiles.
+    UpTo(u32),
+    /// A tile for each material of the file.
+    Materials,
+    /// A tile for each group of the file.
+    Groups,
+}
+
+/// Parses a number of tiles, "materials" or "groups".
+pub(super) fn parse_tiles(text: &str) -> Result<TileRule, String> {
+    let number = || text.trim().parse().ok().filter(|count| (1..=PackingOptions::MOST_TILES).contains(count));
+    let rule = match text {
+        "materials" => Some(TileRule::Materials),
+        "groups" => Some(TileRule::Groups),
+        _ => number().map(TileRule::UpTo),
+    };
+    rule.ok_or_else(|| format!("write materials, groups or a number from 1 to {}", PackingOptions::MOST_TILES))
+}
+
 /// Parses "sharp", "sharp=degrees", "materials" or "groups".
 pub(super) fn parse_seam_kind(text: &str) -> Result<SeamKind, String> {
     let parsed = || match text.split_once('=') {

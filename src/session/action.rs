@@ -105,6 +105,13 @@ pub enum Action {
         /// Relative size, within [`PackingOptions::SIZES`].
         size: f64,
     },
+    /// Locks a chart where it lies in the layout of all charts, or unlocks it.
+    LockChart {
+        /// The chart.
+        chart: usize,
+        /// True to lock the chart.
+        lock: bool,
+    },
     /// Places a constraint: pins a vertex, or replaces its pin.
     Place {
         /// The vertex.

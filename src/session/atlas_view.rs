@@ -7,7 +7,8 @@ use glam::DVec2;
 
 use super::{Background, Model, SolvedModel, Wake, finished_atlas};
 use freebound_core::geom::PackingOptions;
-use freebound_core::pipeline::{Arrangement, Outcome, PackingSummary};
+use freebound_core::pipeline::{Arrangement, LaidChart, Outcome, PackingSummary, StackedOn};
+use freebound_core::problem::Embedding;
 use freebound_core::verify::AtlasVerdict;
 use freebound_io::{Output, StepReport};
 
@@ -26,6 +27,7 @@ pub(super) struct ChartResult {
     pub(super) outcome: Arc<Outcome>,
     pub(super) steps: Vec<StepReport>,
     pub(super) size: f64,
+    pub(super) locked: Option<Arc<Embedding>>,
 }
 
 /// Layout in the form in which it would be written.
@@ -39,6 +41,12 @@ pub struct AtlasView {
     pub packing: Option<PackingSummary>,
     /// Density of each chart: pixels of the picture per unit of length on the surface.
     pub densities: Vec<f64>,
+    /// UDIM number of the tile of each chart, if it has one.
+    pub tiles: Vec<Option<u32>>,
+    /// Place of each chart on another. `None` for a chart with a place of its own.
+    pub stacked: Vec<Option<StackedOn>>,
+    /// Texture coordinates of the vertices of each chart, v up.
+    pub coordinates: Vec<Embedding>,
 }
 
 /// Layout of all charts, computed in the background and kept with its key.
@@ -54,22 +62,30 @@ pub(super) struct AtlasViews {
 pub(super) struct AtlasKey {
     pub(super) outcomes: Vec<Arc<Outcome>>,
     pub(super) sizes: Vec<f64>,
+    pub(super) locks: Vec<Option<Arc<Embedding>>>,
     pub(super) options: PackingOptions,
 }
 
 impl AtlasKey {
     pub(super) fn is(&self, other: &Self) -> bool {
         let mut outcomes = self.outcomes.iter().zip(&other.outcomes);
+        let mut locks = self.locks.iter().zip(&other.locks);
+        let is_same_lock = |(own, other): (&Option<Arc<Embedding>>, &Option<Arc<Embedding>>)| match (own, other) {
+            (Some(own), Some(other)) => Arc::ptr_eq(own, other),
+            (own, other) => own.is_none() && other.is_none(),
+        };
         self.options == other.options
             && self.sizes == other.sizes
             && self.outcomes.len() == other.outcomes.len()
+            && locks.all(is_same_lock)
             && outcomes.all(|(own, other)| Arc::ptr_eq(own, other))
     }
 }
 
 impl ChartResult {
     fn chart(&self) -> SolvedModel<'_> {
-        SolvedModel { model: &self.model, outcome: &self.outcome, steps: &self.steps, size: self.size }
+        let Self { model, outcome, steps, size, locked } = self;
+        SolvedModel { model, outcome, steps, size: *size, tile: None, locked: locked.as_deref() }
     }
 }
 
@@ -87,10 +103,18 @@ impl SolvedAtlas {
 
     fn view(&self) -> AtlasView {
         let output = self.output();
-        let outline = |chart: &freebound_core::pipeline::LaidChart<'_>| {
+        let outline = |chart: &LaidChart<'_>| {
             chart.mesh.boundary_loop().iter().map(|&vertex| chart.coordinates[vertex]).collect()
         };
+        // New vertices follow behind those of the chart.
+        let of_chart = |(of, laid): (&ChartResult, &LaidChart<'_>)| {
+            let count = of.model.prepared.chart.as_ref().map_or(0, |of| of.chart.vertex_of.len());
+            laid.coordinates.iter().take(count).copied().collect()
+        };
         AtlasView {
+            coordinates: self.charts.iter().zip(&output.charts).map(of_chart).collect(),
+            tiles: output.report.charts.iter().map(|chart| chart.tile).collect(),
+            stacked: output.report.charts.iter().map(|chart| chart.stacked).collect(),
             outlines: output.charts.iter().map(outline).collect(),
             packing: output.report.packing,
             densities: output.report.charts.iter().map(|chart| chart.density).collect(),

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use super::atlas_view::{AtlasKey, ChartResult, SolvedAtlas};
-use super::{AtlasView, ChartState, Command, Model, Session, Timeline};
+use super::{AtlasView, ChartState, Command, LockState, Model, Session, Timeline};
 use freebound_core::geom::PackingOptions;
 use freebound_core::mesh::Charts;
 use freebound_core::pipeline::Outcome;
+use freebound_core::problem::Embedding;
 
 impl Session {
     /// Charts of the open mesh, if it has several.
@@ -78,6 +79,44 @@ impl Session {
         }
     }
 
+    /// Locks a chart where it lies in the layout, or unlocks it, as an edit. No chart is solved again. A chart that
+    /// cannot be locked, see [`lock_state`](Self::lock_state), stays unlocked.
+    pub(super) fn lock_chart(&mut self, chart: usize, lock: bool) {
+        let Some(charts) = self.charts().filter(|charts| chart < charts.count()) else { return };
+        let first_face = charts.first_face(chart);
+        let place = match (self.lock_state(chart), lock) {
+            (LockState::Open, true) => self.atlas().map(|atlas| Arc::new(atlas.coordinates[chart].clone())),
+            (LockState::Locked, false) => None,
+            _ => return,
+        };
+        self.apply(Command::SetLock { first_face, place });
+    }
+
+    /// Lock of a chart, or the reason why it cannot be locked.
+    pub fn lock_state(&self, chart: usize) -> LockState {
+        let Some(of) = self.model().and_then(|model| model.prepared.chart.as_ref()) else { return LockState::NoPlace };
+        if chart >= of.charts.count() {
+            return LockState::NoPlace;
+        }
+        let has_pins = !self.document().edits_of(chart, of).targets.is_empty();
+        let is_locked = self.document().lock_of(&of.charts, chart).is_some();
+        match self.atlas() {
+            _ if is_locked => LockState::Locked,
+            _ if has_pins => LockState::Pinned,
+            Some(atlas) if atlas.stacked[chart].is_some() => LockState::Stacked,
+            Some(atlas) if atlas.coordinates[chart].iter().all(|uv| uv.is_finite()) => LockState::Open,
+            _ => LockState::NoPlace,
+        }
+    }
+
+    /// Coordinates where each chart is locked.
+    fn locks(&self) -> Vec<Option<Arc<Embedding>>> {
+        let of = |charts: &Arc<Charts>| {
+            (0..charts.count()).map(|number| self.document.lock_of(charts, number).cloned()).collect()
+        };
+        self.charts().map(of).unwrap_or_default()
+    }
+
     /// Relative size of each chart in the packing.
     pub fn sizes(&self) -> Vec<f64> {
         let of =
@@ -131,7 +170,8 @@ impl Session {
         let solved = |(model, outcome, timeline): (&Arc<Model>, Arc<Outcome>, &Timeline)| {
             let steps = timeline.records()[..=outcome.step.index].to_vec();
             let size = model.prepared.chart.as_ref().map_or(1.0, |of| self.document().size_of(&of.charts, of.number));
-            ChartResult { model: Arc::clone(model), outcome, steps, size }
+            let locked = model.prepared.chart.as_ref().and_then(|of| self.document().lock_of(&of.charts, of.number));
+            ChartResult { model: Arc::clone(model), outcome, steps, size, locked: locked.cloned() }
         };
         let charts: Vec<ChartResult> = self.solved_charts().map(solved).collect();
         match self.charts().map_or(0, |charts| charts.count()) - charts.len() {
@@ -160,7 +200,7 @@ impl Session {
     fn to_be_made(&self) -> Option<AtlasKey> {
         let outcomes: Vec<Arc<Outcome>> = self.solved_charts().map(|(_, outcome, _)| outcome).collect();
         let is_whole = self.charts().is_some_and(|charts| charts.count() == outcomes.len());
-        is_whole.then(|| AtlasKey { outcomes, sizes: self.sizes(), options: self.packing() })
+        is_whole.then(|| AtlasKey { outcomes, sizes: self.sizes(), locks: self.locks(), options: self.packing() })
     }
 
     /// Computes the layout of all charts in the background, once each of them is solved.

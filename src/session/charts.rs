@@ -26,6 +26,21 @@ pub enum ChartState {
     Failed,
 }
 
+/// Lock of a chart, or the reason why the chart cannot be locked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LockState {
+    /// The chart is packed, and can be locked.
+    Open,
+    /// The chart stays where it was locked.
+    Locked,
+    /// Pins place the chart.
+    Pinned,
+    /// The chart shares the place of another.
+    Stacked,
+    /// There is no layout of all charts, or the chart has no finite coordinates in it.
+    NoPlace,
+}
+
 /// Charts that are not shown.
 pub(super) struct OtherCharts {
     wake: Wake,

@@ -8,7 +8,7 @@ use crate::examples::Example;
 use freebound_core::geom::{PackingOptions, PictureFrame, VAxis};
 use freebound_core::mesh::{Charts, FaceId, Preparation, VertexId};
 use freebound_core::pipeline::{ChartOf, Problem, Target, Targets, hard_targets, pins_in_plane};
-use freebound_core::problem::{Pins, Settings};
+use freebound_core::problem::{Embedding, Pins, Settings};
 use freebound_io::PictureFile;
 
 /// Document that the user edits. It is small, because mesh and pictures are immutable and stored elsewhere.
@@ -33,6 +33,8 @@ pub struct Document {
     /// Sizes of charts relative to the others, by their first faces in the file. Default: 1. Sizes outside
     /// [`PackingOptions::SIZES`] are clamped.
     pub sizes: BTreeMap<FaceId, f64>,
+    /// Texture coordinates of the vertices of locked charts, v up, by the charts' first faces in the file.
+    pub locked: BTreeMap<FaceId, Arc<Embedding>>,
     /// Edits of charts that are not shown.
     pub elsewhere: BTreeMap<usize, ChartEdits>,
     /// Number of relaxation rounds that the user requested. They follow the end of each run, also after edits of pins,
@@ -115,6 +117,12 @@ impl Document {
         self.sizes.get(&charts.first_face(number)).copied().unwrap_or(1.0)
     }
 
+    /// Coordinates where a chart is locked. Coordinates of a chart with another number of vertices do not count.
+    pub(super) fn lock_of(&self, charts: &Charts, number: usize) -> Option<&Arc<Embedding>> {
+        let place = self.locked.get(&charts.first_face(number))?;
+        (place.len() == charts.chart(number).vertex_of.len()).then_some(place)
+    }
+
     /// Stores the edits of a chart that is not shown. Default edits get no entry.
     pub(super) fn put_elsewhere(&mut self, chart: usize, edits: ChartEdits) {
         if edits != ChartEdits::default() {
@@ -168,6 +176,13 @@ pub enum Command {
         /// Size relative to the others. `None` means the default size.
         size: Option<f64>,
     },
+    /// Locks a chart, or unlocks it.
+    SetLock {
+        /// First face of the chart, numbered in the file.
+        first_face: FaceId,
+        /// Texture coordinates where the chart stays. `None` unlocks the chart.
+        place: Option<Arc<Embedding>>,
+    },
     /// Sets the edits of a chart that is not shown.
     SetElsewhere {
         /// The chart.
@@ -214,6 +229,13 @@ impl Command {
                     None => document.sizes.remove(&first_face),
                 };
                 Self::SetSize { first_face, size: before }
+            }
+            Self::SetLock { first_face, place } => {
+                let before = match place {
+                    Some(place) => document.locked.insert(first_face, place),
+                    None => document.locked.remove(&first_face),
+                };
+                Self::SetLock { first_face, place: before }
             }
             Self::SetElsewhere { chart, edits } => {
                 let before = document.elsewhere.remove(&chart).unwrap_or_default();

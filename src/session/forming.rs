@@ -7,7 +7,7 @@ use super::background_jobs::{BackgroundJob, FORMING, RESHAPING};
 use super::open_mesh::Near;
 use super::reshaping::Reshaped;
 use super::{Command, Document, MessagePlace, Session};
-use freebound_core::mesh::{HoleTreatment, Preparation, WeldDistance, near_vertices};
+use freebound_core::mesh::{FaceId, HoleTreatment, Preparation, WeldDistance, near_vertices};
 use freebound_core::problem::{Control, Method, Settings, Start};
 
 /// Name of the job that counts vertices near each other.
@@ -19,7 +19,11 @@ impl Session {
         if self.model().is_some() {
             let form = self.document.form.clone();
             self.mesh.turn_wanted();
-            self.edit(vec![Command::SetForm(Preparation { faces_turned: !form.faces_turned, ..form })]);
+            // Turned charts are mirror images, so they cannot lie where they were locked.
+            let unlock = |&first_face: &FaceId| Command::SetLock { first_face, place: None };
+            let mut commands: Vec<Command> = self.document.locked.keys().map(unlock).collect();
+            commands.push(Command::SetForm(Preparation { faces_turned: !form.faces_turned, ..form }));
+            self.edit(commands);
         }
     }
 

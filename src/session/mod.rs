@@ -110,7 +110,7 @@ mod v_axis;
 pub use action::{Action, SaveRequest, UndoGroup};
 pub use atlas_view::AtlasView;
 pub use background::{Background, JobFailure, Wake};
-pub use charts::ChartState;
+pub use charts::{ChartState, LockState};
 pub use comparing::{Contender, ContenderState};
 pub use comparison::{Compared, comparison_report};
 pub use document::{ChartEdits, Command, Document, Shape};

@@ -368,6 +368,10 @@ pub struct SolvedModel<'a> {
     pub steps: &'a [StepReport],
     /// Size relative to the other packed charts.
     pub size: f64,
+    /// Tile in which the chart must be packed. Default: any.
+    pub tile: Option<u32>,
+    /// Texture coordinates where the chart stays, v up. Default: the chart is packed.
+    pub locked: Option<&'a Embedding>,
 }
 
 /// Lays out and proves all charts of a mesh, ready to be written.
@@ -376,7 +380,13 @@ pub struct SolvedModel<'a> {
 ///
 /// If there is no chart, a model is not a chart of several, or a chart is not a disk.
 pub fn finished_atlas<'a>(charts: &[SolvedModel<'a>], options: PackingOptions, arrangement: Arrangement) -> Output<'a> {
-    let solved = |of: &SolvedModel<'a>| SolvedChart { chart: &of.model.prepared, outcome: of.outcome, size: of.size };
+    let solved = |&SolvedModel { model, outcome, size, tile, locked, .. }: &SolvedModel<'a>| SolvedChart {
+        chart: &model.prepared,
+        outcome,
+        size,
+        tile,
+        locked,
+    };
     let solved: Vec<SolvedChart<'a>> = charts.iter().map(solved).collect();
     let laid = atlas(&solved, options, arrangement);
     let steps = charts.iter().map(|of| of.steps.to_vec()).collect();

@@ -3,13 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use super::messages::named;
 use super::model::example_picture;
 use super::{Document, Message, MessagePlace, Model};
 use crate::examples::Example;
 use freebound_core::mesh::{FaceId, Preparation, VertexId};
 use freebound_core::pipeline::{Target, Targets};
-use freebound_core::problem::Control;
+use freebound_core::problem::{Control, Embedding};
 use freebound_io::{
     FileStamp, MemoryShortage, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectSource, ProjectView,
     ReadError, RecoveryNote, check_memory, material_picture,
@@ -131,6 +133,7 @@ impl Opened {
             chart: project.chart,
             packing: project.packing,
             sizes: project.sizes.into_iter().map(|(face, size)| (FaceId::new(face), size)).collect(),
+            locked: project.locked.into_iter().map(|(face, place)| (FaceId::new(face), locked_place(place))).collect(),
             relaxed: project.relaxed,
             ..Document::default()
         };
@@ -141,6 +144,11 @@ impl Opened {
         view.selection.retain(|&vertex| (vertex as usize) < model.vertex_count());
         Ok(Self { model, document, view, origin, remarks, missing_picture, is_partial })
     }
+}
+
+/// Coordinates of a locked chart of a project.
+fn locked_place(place: Vec<[f64; 2]>) -> Arc<Embedding> {
+    Arc::new(place.into_iter().map(DVec2::from).collect())
 }
 
 /// Reads a mesh that takes at most half of `memory`, bytes.

@@ -3,8 +3,11 @@
 use std::collections::VecDeque;
 use std::path::PathBuf;
 
+use glam::DVec2;
+
 use super::{Background, Document, MessagePlace, Messages, Model, Wake};
 use freebound_core::mesh::Preparation;
+use freebound_core::problem::Embedding;
 use freebound_io::{PathStyle, PictureFile, ProjectFile, ProjectSource, WriteError};
 
 /// Request to save a project.
@@ -93,6 +96,8 @@ pub(super) fn project_of(model: &Model, document: &Document) -> Option<ProjectFi
     project.chart = document.chart;
     project.packing = document.packing;
     project.sizes = document.sizes.iter().map(|(face, &size)| (face.number(), size)).collect();
+    let place = |place: &Embedding| place.iter().map(|uv: &DVec2| uv.to_array()).collect();
+    project.locked = document.locked.iter().map(|(face, locked)| (face.number(), place(locked))).collect();
     let relaxed = document.elsewhere.iter().filter(|(_, edits)| edits.relaxed > 0);
     project.relaxed_elsewhere = relaxed.map(|(&chart, edits)| (chart, edits.relaxed)).collect();
     Some(project)

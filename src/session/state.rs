@@ -128,6 +128,7 @@ impl Session {
             Action::ShowChart(number) => self.show_chart(number),
             Action::SetPacking(options) => self.set_packing(options),
             Action::SetChartSize { chart, size } => self.set_chart_size(chart, size),
+            Action::LockChart { chart, lock } => self.lock_chart(chart, lock),
             Action::MirrorTargets => self.mirror_targets(),
             Action::FitTargets => self.fit_targets(),
             Action::ImportConstraints(path) => self.import_constraints(path),

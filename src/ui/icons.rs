@@ -82,6 +82,19 @@ pub(super) fn order(painter: &egui::Painter, rect: Rect, direction: Direction, c
     painter.add(Shape::convex_polygon(on_grid(rect, &points), colour, Stroke::NONE));
 }
 
+/// Padlock, closed or open.
+pub(super) fn lock(painter: &egui::Painter, rect: Rect, is_closed: bool, colour: Color32) {
+    let body = on_grid(rect, &[(5.0, 11.0), (19.0, 11.0), (19.0, 21.0), (5.0, 21.0)]);
+    let fill = if is_closed { colour } else { Color32::TRANSPARENT };
+    painter.add(Shape::convex_polygon(body, fill, Stroke::new(1.4, colour)));
+    let shackle: &[(f32, f32)] = if is_closed {
+        &[(8.0, 11.0), (8.0, 7.0), (10.0, 4.0), (14.0, 4.0), (16.0, 7.0), (16.0, 11.0)]
+    } else {
+        &[(8.0, 11.0), (8.0, 5.0), (10.0, 2.0), (14.0, 2.0), (16.0, 5.0), (16.0, 7.0)]
+    };
+    painter.add(Shape::line(on_grid(rect, shackle), Stroke::new(1.4, colour)));
+}
+
 /// Check mark.
 pub(super) fn check(painter: &egui::Painter, rect: Rect, colour: Color32) {
     let points = on_grid(rect, &[(4.0, 13.0), (10.0, 19.0), (20.0, 5.0)]);

@@ -47,6 +47,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::D, "Next defect", || Request::StepDefect(1)),
     bind(NONE, Key::PageUp, "Previous chart", || Request::StepChart(-1)),
     bind(NONE, Key::PageDown, "Next chart", || Request::StepChart(1)),
+    bind(NONE, Key::L, "Lock the chart where it lies, or unlock it", || Request::ToggleLock),
     bind(SHIFT, Key::Space, "Run or pause", || Request::RunOrPause),
     bind(NONE, Key::Space, "Take one step", || Request::Do(Action::Step)),
     bind(NONE, Key::ArrowLeft, "Previous step", || Request::GoToStep(StepTarget::Previous)),

@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use freebound::session::ChartState;
+use egui_kittest::kittest::Queryable as _;
+use freebound::session::{ChartState, LockState};
 use freebound::ui::{Tab, sentence};
 use freebound_core::mesh::{TriMesh, VertexId};
 
@@ -123,6 +124,52 @@ fn a_size_that_is_dragged_back_to_what_it_was_stays() {
     }
     window.end_drag(from);
     assert_eq!(window.editor().session.packing(), before);
+}
+
+#[test]
+fn the_lock_of_a_row_and_its_key_keep_a_chart_where_it_is() {
+    let mut window = with_sheets();
+    let place = |window: &Window| window.editor().session.atlas().expect("laid out").coordinates[0].clone();
+    let before = place(&window);
+    window.click("Lock chart 0");
+    until_laid_out(&mut window);
+    assert_eq!(window.editor().session.lock_state(0), LockState::Locked);
+    assert!(row(&window, 0).ends_with(", locked") && window.has_button("Unlock chart 0"));
+    window.fill_in(Role::SpinButton, "Gap between charts in pixels", "30");
+    window.press(Modifiers::NONE, Key::Enter);
+    until_laid_out(&mut window);
+    assert_eq!(place(&window), before);
+    let shown = chart(&window).expect("the largest");
+    window.press(Modifiers::NONE, Key::L);
+    assert_eq!(window.editor().session.lock_state(shown), LockState::Locked);
+    until_laid_out(&mut window);
+    window.press(Modifiers::NONE, Key::L);
+    until_laid_out(&mut window);
+    window.click("Unlock chart 0");
+    until_laid_out(&mut window);
+    assert!(window.editor().session.document().locked.is_empty());
+}
+
+#[test]
+fn a_fixed_density_starts_at_the_density_that_was_found() {
+    let mut window = with_sheets();
+    let toggle = |window: &mut Window| {
+        window.harness.get_by_role_and_label(Role::CheckBox, "Fixed density").click();
+        window.settle();
+    };
+    let found = window.editor().session.atlas().and_then(|atlas| atlas.packing).expect("packed").density;
+    toggle(&mut window);
+    assert_eq!(window.editor().session.packing().density, Some(found));
+    until_laid_out(&mut window);
+    window.fill_in(Role::SpinButton, "Largest number of tiles", "4");
+    window.press(Modifiers::NONE, Key::Enter);
+    until_laid_out(&mut window);
+    assert_eq!(window.editor().session.packing().tiles, 4);
+    toggle(&mut window);
+    until_laid_out(&mut window);
+    let packing = window.editor().session.atlas().and_then(|atlas| atlas.packing).expect("packed");
+    assert!(packing.tiles > 1 && packing.density > found, "{packing:?}");
+    assert!(row(&window, 0).contains("tile 100"), "{:?}", window.words());
 }
 
 #[test]

@@ -6,6 +6,7 @@ use std::time::Instant;
 use super::{
     ChartReport, Materials, MeshFile, MeshReport, Output, Report, Seconds, ShapeReport, StepReport, verdict_as_in_file,
 };
+use freebound_core::mesh::Repaired;
 use freebound_core::pipeline::{
     Atlas, ChartSummary, Fit, LaidChart, Outcome, Placement, PreparedMesh, Problem, SolvedChart, pins_summary, upright,
 };
@@ -79,7 +80,7 @@ impl<'a> ResultSource<'a> {
             source_path: self.path,
             materials: Materials::default(),
             repaired: prepared.repaired.as_deref(),
-            charts: vec![LaidChart { mesh, refinement, vertex_of: None, coordinates, verdict, held }],
+            charts: vec![LaidChart { mesh, refinement, vertex_of: None, coordinates, verdict, held, stacked: None }],
             report,
             picture: None,
             aspect: if is_on_picture { frame.aspect } else { 1.0 },
@@ -91,19 +92,20 @@ impl<'a> ResultSource<'a> {
     ///
     /// # Panics
     ///
-    /// If there is no chart, or the first is not one of several charts.
+    /// If there is no chart, or a chart has no disk.
     pub fn finished_atlas(
         self,
         charts: &[SolvedChart<'a>],
         atlas: Atlas<'a>,
         steps: Vec<Vec<StepReport>>,
     ) -> Output<'a> {
-        let of = charts[0].chart.chart.as_ref().expect("one chart of several");
-        let whole = of.charts.whole();
+        let whole = charts[0].chart.whole_repaired();
+        let polygons = whole.map_or(&self.file.polygons, Repaired::polygons);
         let disks = charts.iter().map(|chart| &**chart.chart.disk().expect("only a disk has an outcome"));
-        let mesh = MeshReport::of_disks(self.name, whole.polygons().positions.len(), disks);
+        let mesh = MeshReport::of_disks(self.name, polygons.positions.len(), disks);
         let settings = &charts[0].outcome.problem.settings;
         let solve = steps.iter().flatten().map(|step| step.seconds).sum();
+        let repairs = whole.map(|whole| whole.done().to_vec()).unwrap_or_default();
         let new_vertices = atlas.summaries.iter().map(|summary| summary.new_vertices).sum();
         let report = Report {
             method: Some(settings.method.clone()),
@@ -122,13 +124,13 @@ impl<'a> ResultSource<'a> {
             split_edges: atlas.split_edges,
             cut_polygons: atlas.cut_polygons,
             seconds: Seconds { solve, ..Seconds::default() },
-            ..Report::of_mesh(MeshReport { repairs: whole.done().to_vec(), ..mesh })
+            ..Report::of_mesh(MeshReport { repairs, ..mesh })
         };
         Output {
             source: self.file,
             source_path: self.path,
             materials: Materials::default(),
-            repaired: Some(whole),
+            repaired: whole,
             charts: atlas.charts,
             report,
             picture: None,
@@ -153,6 +155,8 @@ fn chart_report(summary: ChartSummary, steps: Vec<StepReport>) -> ChartReport {
         steps,
         distortion: summary.distortion,
         density: summary.density,
+        tile: summary.tile,
         new_vertices: summary.new_vertices,
+        stacked: summary.stacked,
     }
 }

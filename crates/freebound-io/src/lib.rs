@@ -14,6 +14,7 @@
 //! | `output`      | the table of formats; a finished flattening, written in any of them        |
 //! | `finished`    | outcomes and atlases as [`Output`], with their report                      |
 //! | `charts`      | texture coordinates of charts at the corners of one mesh file              |
+//! | `repacked`    | layouts with new places for their charts, ready to be written               |
 //! | `precision`   | rounding of the written coordinates, and the verdict on the rounded map    |
 //! | `report`      | report of a run (JSON)                                                     |
 //! | `comparison`  | report of several methods on one mesh (JSON), and its table                |
@@ -53,6 +54,7 @@ mod ply;
 mod precision;
 mod project;
 pub mod raster;
+mod repacked;
 mod report;
 mod stamp;
 mod step_report;
@@ -88,6 +90,7 @@ pub use precision::{Precision, RoundingReport};
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };
+pub use repacked::{LayoutPacking, LayoutToPackError, RepackedFile};
 pub use report::{
     ChartReport, MeshReport, REPORT_SCHEMA, Report, SeamsReport, Seconds, ShapeReport, verdict_as_in_file, write_report,
 };

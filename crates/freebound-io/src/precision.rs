@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{Output, OutputKind, verdict_as_in_file};
-use freebound_core::pipeline::prove_atlas;
+use freebound_core::pipeline::{prove_atlas, restack};
 use freebound_core::problem::{Labels, NamedOption};
 use freebound_core::verify::{Rounded, RoundingGrid, Verdict, rounded, verdict};
 
@@ -55,7 +55,8 @@ impl Output<'_> {
             }
         };
         let was_planar = self.is_planar();
-        let moved = self.charts.par_iter_mut().map(|chart| {
+        let apart = self.charts.par_iter_mut().filter(|chart| chart.stacked.is_none());
+        let moved = apart.map(|chart| {
             let held: BTreeSet<_> = chart.held.iter().copied().collect();
             let Rounded { embedding, moved } = rounded(chart.mesh, &chart.coordinates, grid, &held);
             let of_file = verdict(chart.mesh, &embedding);
@@ -65,6 +66,7 @@ impl Output<'_> {
             moved
         });
         let moved = moved.sum();
+        restack(&mut self.charts);
         if let Some(atlas) = &mut self.report.atlas {
             *atlas = prove_atlas(&self.charts);
             atlas.planar_in_f32 = atlas.planar;

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{Precision, RoundingReport, StepReport, peak_memory_bytes};
 use freebound_core::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
-use freebound_core::pipeline::{AutomaticSeams, PackingSummary, PinsSummary, Placement};
+use freebound_core::pipeline::{AutomaticSeams, PackingSummary, PinsSummary, Placement, RepackedChart, StackedOn};
 use freebound_core::problem::{BoundaryShape, Family, Method, Settings, Spacing};
 use freebound_core::verify::{AtlasVerdict, DistortionSummary, Verdict};
 
@@ -62,9 +62,12 @@ pub struct Report {
     /// Automatic seams; absent if none were looked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seams: Option<SeamsReport>,
-    /// Charts, in the order of the verdict on all of them; absent for a single chart.
+    /// Charts, in the order of the verdict on all of them; absent for a single chart that is not packed.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub charts: Vec<ChartReport>,
+    /// Charts of a given layout at their new places, in the order of their first faces; absent if it was not packed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub packed_charts: Vec<RepackedChart>,
     /// Packing of the charts; absent if none are packed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub packing: Option<PackingSummary>,
@@ -232,8 +235,14 @@ pub struct ChartReport {
     /// Pixels per unit of length on the surface, on average, of the picture that the chart is packed into or pinned
     /// to.
     pub density: f64,
+    /// UDIM number of the tile that holds the chart, if it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tile: Option<u32>,
     /// Number of vertices added to the chart.
     pub new_vertices: usize,
+    /// Chart whose place this chart shares. Absent for a chart with a place of its own.
+    #[serde(flatten)]
+    pub stacked: Option<StackedOn>,
 }
 
 /// Seconds of a run, by phase.

@@ -10,7 +10,7 @@ use super::finite::check_finite;
 use freebound_core::bijective::VirtualBoundary;
 use freebound_core::flatten::{Step, to_true_area};
 use freebound_core::geom::{Bounds, Similarity};
-use freebound_core::mesh::{DiskMesh, EdgeId, VertexId};
+use freebound_core::mesh::{DiskMesh, EdgeId, EdgeTable, FaceId, TriMesh, VertexId};
 use freebound_core::pipeline::{Fit, LaidChart};
 use freebound_core::problem::Embedding;
 
@@ -42,6 +42,45 @@ pub(super) fn write_svg(out: &mut impl Write, charts: &[LaidChart<'_>], aspect: 
     };
     let shown: Vec<_> = charts.iter().zip(&embeddings).map(|(chart, embedding)| proved_at(chart, embedding)).collect();
     Drawing::new(&shown, frame, None).write(out)
+}
+
+/// Layout of a mesh to be drawn.
+pub(super) struct LayoutDrawing<'a> {
+    /// Triangles over the coordinates.
+    pub(super) mesh: &'a TriMesh,
+    /// Texture coordinates, v up.
+    pub(super) coordinates: &'a Embedding,
+    /// Triangles that are drawn as flipped.
+    pub(super) flipped: Vec<FaceId>,
+    /// Width over height of the picture.
+    pub(super) aspect: f64,
+}
+
+/// Draws the layout of any mesh in the style of [`write_svg`], without other defects than flipped faces.
+pub(super) fn write_layout_svg(out: &mut impl Write, layout: &LayoutDrawing<'_>) -> io::Result<()> {
+    let LayoutDrawing { mesh, coordinates, flipped, aspect } = layout;
+    let plane: Embedding = coordinates.iter().map(|uv| uv * DVec2::new(*aspect, 1.0)).collect();
+    let drawing = Drawing::new(&[], Frame::of_picture(*aspect, plane.iter()), None);
+    let width = (0.2 * SIZE / (mesh.face_count() as f64).sqrt()).min(1.0);
+    let at = |vertex: VertexId| drawing.frame.place(plane[vertex]);
+    let page = drawing.frame.page();
+    check_finite(plane.iter().chain([&page]))?;
+    writeln!(
+        out,
+        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {} {}" stroke-linejoin="round" fill="none">"#,
+        page.x, page.y
+    )?;
+    let faces = mesh.triangles.iter().map(|corners| corners.map(at));
+    drawing.write_closed(out, &format!(r##"fill="#efece6" stroke="#8a8680" stroke-width="{width}""##), faces)?;
+    let flipped = flipped.iter().map(|face| mesh.triangles[face.index()].map(at));
+    drawing.write_closed(out, &format!(r##"fill="#d92d3a" stroke="#d92d3a" stroke-width="{width}""##), flipped)?;
+    write!(out, r##"<path class="boundary" stroke="#2c2b29" stroke-width="{}" d=""##, 2.0 * width)?;
+    for side in EdgeTable::new(mesh.vertex_count(), &mesh.triangles).edges().filter(|sides| sides.len() == 1) {
+        let (corners, corner) = (mesh.triangles[side[0] as usize / 3], side[0] as usize % 3);
+        drawing.write_line(out, &[corners[corner], corners[(corner + 1) % 3]].map(at))?;
+    }
+    writeln!(out, r#""/>"#)?;
+    writeln!(out, "</svg>")
 }
 
 /// Draws a step in the style of [`write_svg`]. A step of the virtual boundary also shows the outline of its solve:

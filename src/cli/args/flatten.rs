@@ -8,8 +8,8 @@ use glam::{DVec2, UVec2};
 
 use super::solve::ONLY_ON_SHAPES;
 use super::{MeshArguments, SolveArguments, TypedShape};
-use crate::cli::typed::{ChartSize, choice, parse_chart_size, parse_pixels};
-use freebound_core::geom::{PackingOptions, Rotations};
+use crate::cli::typed::{ChartSize, TileRule, choice, parse_chart_size, parse_density, parse_pixels, parse_tiles};
+use freebound_core::geom::{PackingOptions, Rotations, Stacking};
 use freebound_core::pipeline::{Arrangement, Fit};
 use freebound_core::problem::{Method, NamedOption as _, Settings};
 use freebound_io::{OutputKind, PictureFile, Precision};
@@ -64,6 +64,29 @@ pub struct FlattenArguments {
     /// Rotations of packed charts. Default: free.
     #[arg(long, value_parser = choice::<Rotations>(), hide_short_help = true)]
     pub rotations: Option<Rotations>,
+    /// Density of packed charts: pixels of the picture per unit of length of the mesh. Default: the largest that fits.
+    ///
+    /// The picture is doubled until the charts fit. So several files get one density. A mesh of one chart is packed
+    /// too.
+    #[arg(long, value_name = "PIXELS", value_parser = parse_density, hide_short_help = true)]
+    pub density: Option<f64>,
+    /// Tiles (UDIM) that charts are packed into: at most N, or one for each material or group.
+    ///
+    /// A tile is a unit square with a picture of its own. Tile 1001 + c + 10 r lies in column c and row r. With
+    /// `--density`, as few tiles as found are used. A chart belongs to the material of most of its area.
+    #[arg(long, value_name = "N|materials|groups", value_parser = parse_tiles, hide_short_help = true)]
+    pub tiles: Option<TileRule>,
+    /// Keep these charts where the layout of `--start` has them, and pack the others around them.
+    ///
+    /// Charts are numbered from 0, as in the report.
+    #[arg(long, value_name = "CHART,…", value_delimiter = ',', requires = "start", hide_short_help = true)]
+    pub lock: Vec<usize>,
+    /// Stack charts with congruent surfaces, so that they share one place. Default: none.
+    ///
+    /// With `mirrored` a chart may also be stacked as a mirror image. Its faces are then turned over in the picture.
+    /// Without a value: congruent.
+    #[arg(long, value_parser = choice::<Stacking>(), num_args = 0..=1, default_missing_value = Stacking::Congruent.name(), hide_short_help = true)]
+    pub stack: Option<Stacking>,
     /// Relative sizes of packed charts, for example `0=2,3=0.5`.
     ///
     /// Charts are numbered from 0, as in the report. A chart without an entry has size 1.
@@ -114,7 +137,8 @@ impl FlattenArguments {
     pub fn packing(&self, picture: Option<&PictureFile>) -> PackingOptions {
         let options = PackingOptions::default();
         let (gap, rotations) = (self.gap.unwrap_or(options.gap), self.rotations.unwrap_or(options.rotations));
-        let options = PackingOptions { gap, rotations, ..options };
+        let stack = self.stack.unwrap_or(options.stack);
+        let options = PackingOptions { gap, rotations, stack, density: self.density, ..options };
         let of_picture = picture.map(|picture| UVec2::new(picture.pixels.width, picture.pixels.height));
         let of_aspect = self
             .solve
@@ -127,7 +151,8 @@ impl FlattenArguments {
 
     /// Arrangement of the charts. Charts of a layout to start from stay in place unless packing is requested.
     pub fn arrangement(&self) -> Arrangement {
-        let is_packed = self.pack.is_some() || self.gap.is_some() || self.rotations.is_some();
+        let sizes = [self.pack.is_some(), self.gap.is_some(), self.rotations.is_some(), self.density.is_some()];
+        let is_packed = sizes.contains(&true) || self.tiles.is_some() || !self.lock.is_empty();
         if self.solve.start.is_some() && !is_packed { Arrangement::AsGiven } else { Arrangement::Packed }
     }
 

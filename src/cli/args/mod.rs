@@ -6,6 +6,7 @@
 //! | `mesh`    | arguments for the mesh and its preparation    |
 //! | `solve`   | arguments for pins and settings of the solver |
 //! | `flatten` | arguments of `flatten`                        |
+//! | `pack`    | arguments of `pack`                           |
 //! | `compare` | arguments of `compare`                        |
 //! | `shape`   | value for the shape of a boundary             |
 //! | `study`   | arguments of `study`                          |
@@ -14,6 +15,7 @@
 mod compare;
 mod flatten;
 mod mesh;
+mod pack;
 mod shape;
 mod solve;
 mod study;
@@ -28,6 +30,7 @@ use crate::examples::ExampleFiles;
 pub use compare::{CompareArguments, ComparisonFile};
 pub use flatten::{FlattenArguments, UnwrapArguments};
 pub use mesh::{Cut, MeshArguments, SeamKind};
+pub use pack::PackArguments;
 pub use shape::TypedShape;
 pub use solve::{SolveArguments, StartOf};
 pub use study::StudyArguments;
@@ -69,6 +72,13 @@ const UNWRAP_HELP: &str = "Examples:
 Exit status: 0 planar and proved, 1 internal error, 2 wrong use, 3 unusable input,
 4 not planar, a constraint not met, or the method failed, 130 interrupted.";
 
+const PACK_HELP: &str = "Examples:
+  freebound pack model.obj -o packed.obj --pack 2048x2048 --gap 8
+  freebound pack model.glb -o packed.glb --keep-sizes --stack
+
+Exit status: 0 planar and proved, 1 internal error, 2 wrong use, 3 unusable input,
+4 packed, but a chart folds or overlaps itself, 130 interrupted.";
+
 const STUDY_HELP: &str = "Exit status: 0 all runs completed, with any results, 1 internal error, 2 wrong use, \
                           3 unusable input, 130 interrupted.";
 
@@ -86,6 +96,11 @@ pub enum Subcommands {
     /// All options are those of `flatten`. Other defaults: all repairs, automatic seams, and relaxing.
     #[command(after_help = UNWRAP_HELP)]
     Unwrap(Box<UnwrapArguments>),
+    /// Pack the charts of existing texture coordinates again, without flattening.
+    ///
+    /// Every chart keeps its shape. Charts are the pieces of the layout that share edges.
+    #[command(after_help = PACK_HELP)]
+    Pack(Box<PackArguments>),
     /// Run several methods on a mesh and compare their results.
     #[command(after_help = COMPARE_HELP)]
     Compare(Box<CompareArguments>),
@@ -130,6 +145,12 @@ pub struct CheckArguments {
     /// Write a report to this file (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,
+    /// Accept charts that cover exactly one region, as `--stack` lays them out.
+    ///
+    /// Charts with equal boundaries, bit for bit, count as one when charts are tested for overlaps. Mirror images are
+    /// accepted, too.
+    #[arg(long)]
+    pub stacked: bool,
     /// Read the mesh even if that may need more than half of the machine's memory.
     #[arg(long)]
     pub large: bool,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::Editor;
-use crate::session::{Action, SaveRequest, UndoGroup};
+use crate::session::{Action, LockState, SaveRequest, UndoGroup};
 use crate::ui::dialogs::DialogChoice;
 use crate::ui::state::{FileDialogKind, Half, Pane, PendingClose, Request, StepTarget, Tool};
 use freebound_core::mesh::VertexId;
@@ -55,6 +55,7 @@ impl Editor {
             Request::GoTo(vertices) => self.go_to_vertices(vertices),
             Request::GoToDefect(place) => self.go_to_defect(place),
             Request::StepChart(by) => self.step_chart(by),
+            Request::ToggleLock => self.toggle_lock(),
             Request::StepDefect(by) => self.step_defect(by),
             Request::Select(vertices) => self.selection.select(vertices),
             Request::AddToSelection(vertices) => self.selection.add(vertices),
@@ -165,6 +166,13 @@ impl Editor {
         if let Some((count, now)) = count.zip(self.session.chart_on_screen()) {
             let count = count.cast_signed();
             self.act(Action::ShowChart((now.cast_signed() + by).rem_euclid(count).cast_unsigned()));
+        }
+    }
+
+    fn toggle_lock(&mut self) {
+        if let Some(chart) = self.session.chart_on_screen() {
+            let lock = self.session.lock_state(chart) != LockState::Locked;
+            self.act(Action::LockChart { chart, lock });
         }
     }
 

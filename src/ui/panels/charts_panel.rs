@@ -1,27 +1,94 @@
 //! Tab of the charts, for a mesh with several: their layout, a list with the worst first, and packing options.
 
+use std::collections::BTreeSet;
+
 use eframe::egui::{self, Color32, DragValue, Pos2, Rect, RichText, Role, Sense, Stroke, Vec2, WidgetInfo};
 use glam::DVec2;
 
 use super::menu::grouped;
 use super::seams_section::seams_section;
 use super::surface::charts_row;
-use crate::session::{Action, AtlasView, ChartState, Session};
-use crate::ui::{Control, Editor, Request, counted, keys_of, pairs, remark, sentence, theme_of};
-use freebound_core::geom::{Bounds, PackingOptions, Rotations};
+use crate::session::{Action, AtlasView, ChartState, LockState, Session};
+use crate::ui::{Control, Editor, Request, counted, five_digits, icons, keys_of, pairs, remark, sentence, theme_of};
+use freebound_core::geom::{Bounds, PackingOptions, corner_of_tile};
+use freebound_core::mesh::Charts;
+use freebound_core::pipeline::{PackingSummary, StackedOn};
 use freebound_core::problem::NamedOption;
 
-/// Height of a row of the list, points.
-const ROW: f32 = 22.0;
+/// Height of a row of the list, points: two lines.
+const ROW: f32 = 38.0;
+
+/// Width of the button at the left of a row, points.
+const LOCK: f32 = 22.0;
+
+/// UDIM number of the first tile.
+const FIRST_TILE: u32 = 1001;
+
+/// Range of a fixed density, pixels per unit of length.
+const DENSITIES: std::ops::RangeInclusive<f64> = 1e-9..=1e9;
+
+/// Most tiles that the panel offers.
+const MOST_TILES: u32 = 99;
 
 /// Row of a chart in the list.
 struct Row {
     chart: usize,
     faces: usize,
     state: ChartState,
+    lock: LockState,
+    place: Option<RowPlace>,
+}
+
+/// Place of a chart in the layout of all charts.
+struct RowPlace {
+    /// Pixels of the picture per unit of length.
+    density: f64,
+    tile: Option<u32>,
+    stacked: Option<StackedOn>,
+}
+
+impl RowPlace {
+    /// Density, tile and stack in a few words.
+    fn words(&self) -> String {
+        let tile = self.tile.map(|tile| format!(", tile {tile}"));
+        let on = self.stacked.map(|StackedOn { chart, mirrored }| {
+            format!(", {} chart {chart}", if mirrored { "mirrored on" } else { "on" })
+        });
+        format!("{} px per unit{}{}", five_digits(self.density), tile.unwrap_or_default(), on.unwrap_or_default())
+    }
 }
 
 impl Row {
+    fn new(session: &Session, charts: &Charts, chart: usize) -> Self {
+        let place = session.atlas().map(|atlas| RowPlace {
+            density: atlas.densities[chart],
+            tile: atlas.tiles[chart],
+            stacked: atlas.stacked[chart],
+        });
+        let (faces, state) = (charts.faces(chart).len(), session.chart_state(chart));
+        Self { chart, faces, state, lock: session.lock_state(chart), place }
+    }
+
+    /// Name for tooltips and screen readers.
+    fn name(&self, words: &str, place: &str) -> String {
+        let place = if place.is_empty() { String::new() } else { format!(", {place}") };
+        let locked = if self.lock == LockState::Locked { ", locked" } else { "" };
+        format!("Chart {}, {}, {words}{place}{locked}", self.chart, counted(self.faces, "face", "faces"))
+    }
+
+    /// Tooltip of the row's lock.
+    fn lock_tip(&self) -> String {
+        match (self.lock, self.place.as_ref().and_then(|place| place.stacked)) {
+            (LockState::Locked, _) => "Unlock this chart, so that it is packed with the others".to_owned(),
+            (LockState::Open, _) => "Lock this chart: the others are packed around it".to_owned(),
+            (LockState::Pinned, _) => "This chart has pins, which hold it already".to_owned(),
+            (LockState::Stacked, Some(on)) => format!("This chart lies on chart {}: lock that chart", on.chart),
+            (LockState::Stacked | LockState::NoPlace, _) => {
+                "A chart can be locked once all charts are packed".to_owned()
+            }
+        }
+    }
+
     /// Sort key: failed charts first, then charts that are not planar, then by decreasing distortion. Charts being
     /// solved come last.
     fn weight(&self) -> f64 {
@@ -52,11 +119,9 @@ pub(super) fn charts_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     pairs(ui, "charts", [12.0, 4.0], |ui| charts_row(ui, session, requests));
     let Some(charts) = session.charts() else { return };
     ui.separator();
-    let mut rows: Vec<Row> = (0..charts.count())
-        .map(|chart| Row { chart, faces: charts.faces(chart).len(), state: session.chart_state(chart) })
-        .collect();
+    let mut rows: Vec<Row> = (0..charts.count()).map(|chart| Row::new(session, charts, chart)).collect();
     rows.sort_by(|a, b| b.weight().total_cmp(&a.weight()).then(a.chart.cmp(&b.chart)));
-    let side = ui.available_width().min(ui.available_height() * 0.45).max(80.0);
+    let side = ui.available_width().min(ui.available_height() * 0.28).max(80.0);
     layout(ui, session, side, requests);
     verdict(ui, session, &rows);
     packing(ui, session, requests);
@@ -71,7 +136,7 @@ fn layout(ui: &mut egui::Ui, session: &Session, side: f32, requests: &mut Vec<Re
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), side), Sense::click());
     let response = response.named(Role::Image, "Layout of all charts in the picture");
     let painter = ui.painter_at(rect);
-    let Some(AtlasView { outlines, .. }) = session.atlas() else {
+    let Some(AtlasView { outlines, tiles, stacked, .. }) = session.atlas() else {
         let words = "The layout appears here when all charts are solved";
         painter.text(
             rect.center(),
@@ -83,7 +148,7 @@ fn layout(ui: &mut egui::Ui, session: &Session, side: f32, requests: &mut Vec<Re
         return;
     };
     let place = Place::new(rect, outlines, session.packing());
-    painter.rect_stroke(place.rect_of(Bounds::UNIT), 0.0, Stroke::new(1.0, theme.weak_text), egui::StrokeKind::Outside);
+    frames(&painter, &place, tiles, theme.weak_text);
     let shown = session.chart_on_screen();
     let under = response.hover_pos().and_then(|at| place.chart_at(outlines, at));
     for (chart, outline) in outlines.iter().enumerate() {
@@ -97,8 +162,25 @@ fn layout(ui: &mut egui::Ui, session: &Session, side: f32, requests: &mut Vec<Re
     }
     if let Some(chart) = under {
         ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
-        let tip = format!("Chart {chart}: click to work on it");
+        let on_it = stacked.iter().flatten().filter(|on| on.chart == chart).count();
+        let stack = if on_it > 0 { format!(", with {on_it} stacked on it") } else { String::new() };
+        let tip = format!("Chart {chart}{stack}: click to work on it");
         response.on_hover_text_at_pointer(tip).asks(Action::ShowChart(chart), requests);
+    }
+}
+
+/// Draws the frames of all tiles with charts, and their UDIM numbers if there are several.
+fn frames(painter: &egui::Painter, place: &Place, tiles: &[Option<u32>], colour: Color32) {
+    let tiles: BTreeSet<u32> = tiles.iter().flatten().copied().chain([FIRST_TILE]).collect();
+    for &tile in &tiles {
+        let low = corner_of_tile((tile - FIRST_TILE) as usize);
+        let rect = place.rect_of(Bounds { low, high: low + 1.0 });
+        painter.rect_stroke(rect, 0.0, Stroke::new(1.0, colour), egui::StrokeKind::Inside);
+        if tiles.len() > 1 {
+            let at = rect.left_bottom() + Vec2::new(3.0, -2.0);
+            let font = egui::FontId::proportional(10.0);
+            painter.text(at, egui::Align2::LEFT_BOTTOM, tile.to_string(), font, colour);
+        }
     }
 }
 
@@ -112,6 +194,7 @@ struct Place {
 impl Place {
     fn new(rect: Rect, outlines: &[Vec<DVec2>], packing: PackingOptions) -> Self {
         let all = Bounds::of(outlines.iter().flatten().copied().filter(|uv| uv.is_finite())).union(Bounds::UNIT);
+        let all = Bounds { low: all.low.floor(), high: all.high.ceil() };
         let [width, height] = packing.picture.map(f64::from);
         let aspect = DVec2::new(width / height, 1.0);
         let size = DVec2::new(rect.width().into(), rect.height().into()) - 2.0;
@@ -153,60 +236,44 @@ fn verdict(ui: &mut egui::Ui, session: &Session, rows: &[Row]) {
         None if waiting > 0 => {
             ui.label(format!("{} of {} charts solved", rows.len() - waiting, rows.len()));
         }
+        None if rows.iter().all(|row| matches!(row.state, ChartState::Solved(_))) => {
+            ui.label("Packing…");
+        }
         None => {
             ui.label(counted(rows.len(), "chart", "charts"));
         }
     }
     if let Some(packing) = session.atlas().and_then(|atlas| atlas.packing) {
-        let percent = 100.0 * packing.covered;
-        remark(ui, format!("{percent:.0} % covered, {:.4} pixels per unit of length", packing.density));
+        let words = remark(ui, packing_words(&packing, session.packing().picture));
+        words.on_hover_text("The packing is up to date: charts are packed again after every change");
     }
 }
 
-/// Fields for the size of the picture that charts are packed into, and the gap between charts. An edit applies when
-/// the drag or the typing ends.
+/// Covered share, density, number of tiles, and the picture if it was doubled.
+fn packing_words(packing: &PackingSummary, asked: [u32; 2]) -> String {
+    let PackingSummary { picture, density, tiles, covered, .. } = *packing;
+    let percent = 100.0 * covered;
+    let tiles = if tiles > 1 { format!(" of {tiles} tiles") } else { String::new() };
+    let [width, height] = picture;
+    let doubled = if picture == asked { String::new() } else { format!("; doubled to {width} × {height} px") };
+    let unmet = if packing.unmet_density().is_some() { "; the fixed density does not fit" } else { "" };
+    format!("{percent:.0} % covered{tiles}, {density:.4} pixels per unit of length{doubled}{unmet}")
+}
+
+/// Fields for the packing of charts. An edit applies when the drag or the typing ends.
 fn packing(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     let kept = ui.scope_id().with("packing");
     let before = session.packing();
     let mut options: PackingOptions = ui.data(|data| data.get_temp(kept)).unwrap_or(before);
     let has_picture = session.document().picture.is_some();
-    let mut has_ended = false;
-    ui.horizontal_wrapped(|ui| {
-        ui.label("Picture");
-        let tip =
-            if has_picture { "The size of the open picture" } else { "Size in pixels that the charts are packed into" };
-        let mut side = |ui: &mut egui::Ui, pixels: &mut u32, name: &str| {
-            let value = DragValue::new(pixels).range(1..=PackingOptions::LONGEST_SIDE);
-            let field = ui.add_enabled(!has_picture, value).named(Role::SpinButton, name);
-            has_ended |= field.has_ended();
-            field.on_hover_text(tip).on_disabled_hover_text(tip);
-        };
-        let [width, height] = &mut options.picture;
-        side(ui, width, "Width of the picture in pixels");
-        ui.label("×");
-        side(ui, height, "Height of the picture in pixels");
-        ui.label("px");
-    });
-    ui.horizontal_wrapped(|ui| {
-        ui.label("Gap");
-        let value = DragValue::new(&mut options.gap).range(0..=PackingOptions::WIDEST_GAP);
-        let field = ui.add(value).named(Role::SpinButton, "Gap between charts in pixels");
-        has_ended |= field.has_ended();
-        field.on_hover_text("Minimum distance between charts, in pixels of the picture");
-        ui.label("px");
-        ui.label("Rotation");
-        let rotations = crate::ui::list(ui, "Rotation of charts", 72.0, options.rotations.labels().title, |ui| {
-            for &rotations in Rotations::ALL {
-                let label = ui.selectable_label(options.rotations == rotations, rotations.labels().title);
-                if label.on_hover_text(rotations.labels().tip()).clicked() && options.rotations != rotations {
-                    options.rotations = rotations;
-                    has_ended = true;
-                }
-            }
-        });
-        rotations.on_hover_text("Rotations of packed charts");
-    });
-    if has_ended {
+    let found = session.atlas().and_then(|atlas| atlas.packing).map(|packing| packing.density);
+    let ended = [
+        picture_fields(ui, &mut options.picture, has_picture),
+        gap_and_rotations(ui, &mut options),
+        stack_and_tiles(ui, &mut options),
+        density_field(ui, &mut options.density, found),
+    ];
+    if ended.contains(&true) {
         ui.data_mut(|data| data.remove::<PackingOptions>(kept));
         if options != before {
             // The size of the open picture is no setting of the user.
@@ -220,6 +287,98 @@ fn packing(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     }
 }
 
+/// Fields for the size of the picture that charts are packed into. True if an edit has ended.
+fn picture_fields(ui: &mut egui::Ui, [width, height]: &mut [u32; 2], has_picture: bool) -> bool {
+    let mut has_ended = false;
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Picture");
+        let tip =
+            if has_picture { "The size of the open picture" } else { "Size in pixels that the charts are packed into" };
+        let mut side = |ui: &mut egui::Ui, pixels: &mut u32, name: &str| {
+            let value = DragValue::new(pixels).range(1..=PackingOptions::LONGEST_SIDE);
+            let field = ui.add_enabled(!has_picture, value).named(Role::SpinButton, name);
+            has_ended |= field.has_ended();
+            field.on_hover_text(tip).on_disabled_hover_text(tip);
+        };
+        side(ui, width, "Width of the picture in pixels");
+        ui.label("×");
+        side(ui, height, "Height of the picture in pixels");
+        ui.label("px");
+    });
+    has_ended
+}
+
+/// Field for the gap between charts, and list of their rotations. True if an edit has ended.
+fn gap_and_rotations(ui: &mut egui::Ui, options: &mut PackingOptions) -> bool {
+    let mut has_ended = false;
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Gap");
+        let value = DragValue::new(&mut options.gap).range(0..=PackingOptions::WIDEST_GAP);
+        let field = ui.add(value).named(Role::SpinButton, "Gap between charts in pixels");
+        has_ended |= field.has_ended();
+        field.on_hover_text("Minimum distance between charts, in pixels of the picture");
+        ui.label("px");
+        ui.label("Rotation");
+        has_ended |= choice(ui, "Rotation of charts", "Rotations of packed charts", &mut options.rotations);
+    });
+    has_ended
+}
+
+/// List of charts that share a place, and field for the number of tiles. True if an edit has ended.
+fn stack_and_tiles(ui: &mut egui::Ui, options: &mut PackingOptions) -> bool {
+    let mut has_ended = false;
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Stack");
+        let tip = "Charts with congruent surfaces that share one place in the picture";
+        has_ended |= choice(ui, "Stacking of charts", tip, &mut options.stack);
+        ui.label("Tiles");
+        let value = DragValue::new(&mut options.tiles).range(1..=MOST_TILES).speed(0.05);
+        let field = ui.add(value).named(Role::SpinButton, "Largest number of tiles");
+        has_ended |= field.has_ended();
+        field.on_hover_text("Largest number of tiles (UDIM), each a picture of its own");
+    });
+    has_ended
+}
+
+/// Drop-down list of an option. True if another entry was clicked.
+fn choice<T: NamedOption + PartialEq + Copy + 'static>(ui: &mut egui::Ui, name: &str, tip: &str, now: &mut T) -> bool {
+    let before = *now;
+    let list = crate::ui::list(ui, name, 72.0, before.labels().title, |ui| {
+        for &option in T::ALL {
+            let label = ui.selectable_label(before == option, option.labels().title);
+            if label.on_hover_text(option.labels().tip()).clicked() {
+                *now = option;
+            }
+        }
+    });
+    list.on_hover_text(tip);
+    *now != before
+}
+
+/// Switch and field for a fixed density. It starts at the density that was `found`. True if an edit has ended.
+fn density_field(ui: &mut egui::Ui, density: &mut Option<f64>, found: Option<f64>) -> bool {
+    let mut has_ended = false;
+    ui.horizontal_wrapped(|ui| {
+        let mut is_fixed = density.is_some();
+        let start = found.filter(|found| found.is_finite() && *found > 0.0);
+        let switch = ui.add_enabled(is_fixed || start.is_some(), egui::Checkbox::new(&mut is_fixed, "Fixed density"));
+        let tip = "Pixels per unit of length stay, and the picture is doubled until the charts fit";
+        if switch.on_hover_text(tip).on_disabled_hover_text("A density is known once all charts are packed").changed() {
+            *density = if is_fixed { start } else { None };
+            has_ended = true;
+        }
+        if let Some(density) = density {
+            let speed = *density * 0.005;
+            let value = DragValue::new(density).range(DENSITIES).speed(speed).max_decimals(4);
+            let field = ui.add(value).named(Role::SpinButton, "Density in pixels per unit of length");
+            has_ended |= field.has_ended();
+            field.on_hover_text("Pixels of the picture per unit of length of the mesh");
+            ui.label("px per unit");
+        }
+    });
+    has_ended
+}
+
 /// Field for the relative size of the chart on the screen, and its pixel density. An edit applies when the drag or
 /// the typing ends.
 fn size(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
@@ -227,8 +386,11 @@ fn size(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     let kept = ui.scope_id().with(("size", chart));
     let before = session.sizes().get(chart).copied().unwrap_or(1.0);
     let mut size: f64 = ui.data(|data| data.get_temp(kept)).unwrap_or(before);
-    let is_held = !session.document().targets.is_empty();
-    let tip = if is_held {
+    let lock = session.lock_state(chart);
+    let is_held = matches!(lock, LockState::Pinned | LockState::Locked);
+    let tip = if lock == LockState::Locked {
+        "This chart is locked, so it is not packed"
+    } else if is_held {
         "This chart has pins, so it is not packed"
     } else {
         "Size of this chart in the layout, relative to the others"
@@ -257,7 +419,8 @@ fn size(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
 /// List of the charts, the worst first.
 fn list(ui: &mut egui::Ui, session: &Session, rows: &[Row], requests: &mut Vec<Request>) {
     let keys = [-1, 1].map(|by| keys_of(ui.ctx(), &Request::StepChart(by)));
-    remark(ui, format!("Click a chart to work on it ({} and {})", keys[0], keys[1]));
+    let lock = keys_of(ui.ctx(), &Request::ToggleLock);
+    remark(ui, format!("Click a chart to work on it ({} and {}), lock it with {lock}", keys[0], keys[1]));
     let shown = session.chart_on_screen();
     egui::ScrollArea::vertical().auto_shrink(false).show_rows(ui, ROW, rows.len(), |ui, range| {
         for row in &rows[range] {
@@ -269,9 +432,9 @@ fn list(ui: &mut egui::Ui, session: &Session, rows: &[Row], requests: &mut Vec<R
 fn row_of(ui: &mut egui::Ui, row: &Row, is_shown: bool, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::click());
-    let faces = format!("{} f", grouped(row.faces));
     let words = row.words();
-    let name = format!("Chart {}, {}, {words}", row.chart, counted(row.faces, "face", "faces"));
+    let place = row.place.as_ref().map(RowPlace::words).unwrap_or_default();
+    let name = row.name(&words, &place);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_shown, &name));
     if is_shown || response.hovered() || response.has_focus() {
         let share = if is_shown { 0.22 } else { 0.10 };
@@ -283,24 +446,44 @@ fn row_of(ui: &mut egui::Ui, row: &Row, is_shown: bool, requests: &mut Vec<Reque
         ChartState::Solved(_) => theme.planar,
         ChartState::Solving => theme.weak_text,
     };
-    let inner = rect.shrink2(Vec2::new(4.0, 0.0));
-    let line = format!("Chart {}  {faces}", row.chart);
-    let galley = |ui: &egui::Ui, words: &str, colour| {
+    let inner = Rect::from_min_max(rect.min + Vec2::new(LOCK + 4.0, 0.0), rect.max - Vec2::new(4.0, 0.0));
+    let line = format!("Chart {}  {} f", row.chart, grouped(row.faces));
+    let galley = |ui: &egui::Ui, words: &str, style: egui::TextStyle, colour| {
         let job = RichText::new(words).color(colour);
-        egui::WidgetText::from(job).into_galley(
-            ui,
-            Some(egui::TextWrapMode::Truncate),
-            inner.width(),
-            egui::TextStyle::Body,
-        )
+        egui::WidgetText::from(job).into_galley(ui, Some(egui::TextWrapMode::Truncate), inner.width(), style)
     };
-    let left = galley(ui, &line, theme.text);
-    let right = galley(ui, &words, colour);
-    let middle = |height: f32| inner.center().y - height / 2.0;
-    let start =
-        Pos2::new((inner.right() - right.size().x).max(inner.left() + left.size().x + 8.0), middle(right.size().y));
+    let left = galley(ui, &line, egui::TextStyle::Body, theme.text);
+    let right = galley(ui, &words, egui::TextStyle::Body, colour);
+    let below = galley(ui, &place, egui::TextStyle::Small, theme.weak_text);
+    let top = inner.top() + 2.0;
+    let start = Pos2::new((inner.right() - right.size().x).max(inner.left() + left.size().x + 8.0), top);
     let painter = ui.painter_at(inner);
-    painter.galley(Pos2::new(inner.left(), middle(left.size().y)), left, theme.text);
+    painter.galley(Pos2::new(inner.left(), top), left, theme.text);
     painter.galley(start, right, colour);
+    painter.galley(Pos2::new(inner.left(), inner.bottom() - below.size().y - 3.0), below, theme.weak_text);
+    let to_lock = Rect::from_min_size(rect.min, Vec2::new(LOCK, ROW));
+    lock_button(ui, row, to_lock, requests);
     response.on_hover_text(name).asks(Action::ShowChart(row.chart), requests);
+}
+
+/// Padlock at the left of a row.
+fn lock_button(ui: &egui::Ui, row: &Row, rect: Rect, requests: &mut Vec<Request>) {
+    let theme = theme_of(ui);
+    let is_locked = row.lock == LockState::Locked;
+    let can_change = matches!(row.lock, LockState::Open | LockState::Locked);
+    let sense = if can_change { Sense::click() } else { Sense::hover() };
+    let response = ui.interact(rect, ui.scope_id().with(("lock", row.chart)), sense);
+    let name = format!("{} chart {}", if is_locked { "Unlock" } else { "Lock" }, row.chart);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, can_change, is_locked, &name));
+    if can_change && (response.hovered() || response.has_focus()) {
+        ui.painter().rect_filled(rect.shrink(2.0), 3.0, theme.accent.gamma_multiply(0.2));
+    }
+    let colour = match row.lock {
+        LockState::Locked => theme.accent,
+        LockState::Open => theme.text.gamma_multiply(0.6),
+        _ => theme.weak_text.gamma_multiply(0.4),
+    };
+    icons::lock(ui.painter(), Rect::from_center_size(rect.center(), Vec2::splat(14.0)), is_locked, colour);
+    let lock = Action::LockChart { chart: row.chart, lock: !is_locked };
+    response.on_hover_text(row.lock_tip()).asks(lock, requests);
 }

@@ -60,7 +60,8 @@ impl Group {
             | Request::RunOrPause
             | Request::GoToStep(_)
             | Request::StepDefect(_)
-            | Request::StepChart(_) => Self::Step,
+            | Request::StepChart(_)
+            | Request::ToggleLock => Self::Step,
             Request::Ask(_)
             | Request::SaveProject
             | Request::ToggleExports

@@ -6,7 +6,7 @@ use super::advice::advice;
 use super::floating::EXPORTS;
 use super::verdict_pill::verdict_pill;
 use crate::examples::Example;
-use crate::session::Action;
+use crate::session::{Action, LockState};
 use crate::ui::{
     Control, Editor, FileDialogKind, Pane, Request, SeamRule, ShadingMode, StepTarget, Tab, Tool, icons, keys_of,
     theme_of,
@@ -259,6 +259,10 @@ fn view_menu(menu: &mut Menu<'_>) {
     if editor.session.charts().is_some() {
         menu.item(true, "Next chart", Request::StepChart(1));
         menu.item(true, "Previous chart", Request::StepChart(-1));
+        let state = editor.session.chart_on_screen().map(|chart| editor.session.lock_state(chart));
+        let words = if state == Some(LockState::Locked) { "Unlock the chart" } else { "Lock the chart" };
+        let can_change = matches!(state, Some(LockState::Open | LockState::Locked));
+        menu.item(can_change, words, Request::ToggleLock);
     }
     menu.ui.separator();
     menu.part("Theme", |menu| {

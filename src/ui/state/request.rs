@@ -99,6 +99,8 @@ pub enum Request {
     StepDefect(isize),
     /// Shows another chart: 1 is the next, −1 the previous.
     StepChart(isize),
+    /// Locks the chart on the screen where it lies in the layout of all charts, or unlocks it.
+    ToggleLock,
     /// Selects exactly these vertices.
     Select(Vec<VertexId>),
     /// Adds vertices to the selection.

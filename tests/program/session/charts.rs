@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use freebound::session::{Action, ChartState, SaveRequest, Session};
-use freebound_core::geom::{PackingOptions, Rotations, VAxis};
+use freebound::session::{Action, ChartState, LockState, SaveRequest, Session};
+use freebound_core::geom::{PackingOptions, Rotations, Stacking, VAxis};
 use freebound_core::mesh::{VertexId, parts};
 use freebound_core::pipeline::{Fit, Outcome, Target, Targets};
 use freebound_core::problem::{Method, Settings};
@@ -163,7 +163,12 @@ fn a_project_brings_chart_pins_and_packing_back() {
     pin(&mut session, DVec2::splat(0.6));
     settled(
         &mut session,
-        Action::SetPacking(PackingOptions { picture: [512, 256], gap: 7, rotations: Rotations::Quarter }),
+        Action::SetPacking(PackingOptions {
+            picture: [512, 256],
+            gap: 7,
+            rotations: Rotations::Quarter,
+            ..PackingOptions::default()
+        }),
     );
     settled(&mut session, Action::SetChartSize { chart: (first + 1) % 5, size: 2.5 });
     let path = file(&folder, "work.freebound");
@@ -212,6 +217,93 @@ fn a_chart_gets_more_of_the_picture_without_being_solved_again() {
     }
     settled(&mut session, Action::SetChartSize { chart: 5, size: 2.0 });
     assert_eq!(session.sizes(), vec![1.0; 5]);
+}
+
+/// Sets packing options and waits for the layout.
+fn pack(session: &mut Session, options: PackingOptions) {
+    settled(session, Action::SetPacking(options));
+    until_laid_out(session);
+}
+
+#[test]
+fn stacking_density_and_tiles_are_edits_that_a_project_brings_back() {
+    let (folder, mut session) = with_disks();
+    let opening = session.packing();
+    let found = session.atlas().unwrap().packing.expect("packed").density;
+    let options = PackingOptions {
+        stack: Stacking::Mirrored,
+        density: Some(1.25 * found),
+        tiles: 9,
+        ..PackingOptions::default()
+    };
+    pack(&mut session, options);
+    let packing = session.atlas().unwrap().packing.expect("packed");
+    assert!((packing.density / (1.25 * found) - 1.0).abs() < 1e-12, "{packing:?}");
+    assert!(packing.tiles > 1 && packing.picture == opening.picture, "{packing:?}");
+    assert!(session.atlas().unwrap().tiles.iter().flatten().any(|&tile| tile > 1001));
+    let path = file(&folder, "tiles.freebound");
+    settled(&mut session, Action::SaveProject(path.clone()));
+    let mut again = super::basics::session();
+    settled(&mut again, Action::Open(path));
+    assert_eq!(again.packing(), options);
+    until_laid_out(&mut again);
+    assert_eq!(again.atlas().unwrap().coordinates, session.atlas().unwrap().coordinates);
+    settled(&mut session, Action::Undo);
+    assert_eq!(session.packing(), opening);
+    settled(&mut session, Action::Redo);
+    assert_eq!(session.packing(), options);
+}
+
+#[test]
+fn a_locked_chart_stays_while_others_are_packed_around_it() {
+    for picture in [[1024, 1024], [1024, 512]] {
+        let (folder, mut session) = with_disks();
+        pack(&mut session, PackingOptions { picture, ..PackingOptions::default() });
+        let before = session.atlas().unwrap().coordinates[2].clone();
+        assert_eq!(session.lock_state(2), LockState::Open);
+        settled(&mut session, Action::LockChart { chart: 2, lock: true });
+        assert_eq!(session.lock_state(2), LockState::Locked);
+        pack(&mut session, PackingOptions { picture, gap: 20, ..PackingOptions::default() });
+        let atlas = session.atlas().unwrap();
+        assert_eq!(atlas.coordinates[2], before, "bit for bit");
+        assert!(atlas.verdict.planar, "{}", atlas.verdict.summary());
+        let path = file(&folder, "locked.freebound");
+        settled(&mut session, Action::SaveProject(path.clone()));
+        let mut again = super::basics::session();
+        settled(&mut again, Action::Open(path));
+        assert_eq!(again.document(), session.document());
+        until_laid_out(&mut again);
+        assert_eq!(again.atlas().unwrap().coordinates, session.atlas().unwrap().coordinates);
+        settled(&mut session, Action::Undo);
+        settled(&mut session, Action::Undo);
+        until_laid_out(&mut session);
+        assert_eq!(session.lock_state(2), LockState::Open);
+        settled(&mut session, Action::Redo);
+        assert_eq!(session.lock_state(2), LockState::Locked);
+        settled(&mut session, Action::LockChart { chart: 2, lock: false });
+        until_laid_out(&mut session);
+        assert_eq!(session.lock_state(2), LockState::Open);
+        settled(&mut session, Action::LockChart { chart: 5, lock: true });
+        assert!(session.document().locked.is_empty());
+    }
+}
+
+#[test]
+fn a_chart_with_pins_cannot_be_locked_and_turned_faces_unlock_charts() {
+    let (_folder, mut session) = with_disks();
+    let shown = session.chart_on_screen().expect("one of five");
+    let other = (shown + 1) % 5;
+    settled(&mut session, Action::LockChart { chart: other, lock: true });
+    pin(&mut session, DVec2::splat(0.1));
+    until_laid_out(&mut session);
+    assert_eq!(session.lock_state(shown), LockState::Pinned);
+    settled(&mut session, Action::LockChart { chart: shown, lock: true });
+    assert_eq!(session.document().locked.len(), 1);
+    settled(&mut session, Action::TurnFaces);
+    assert!(session.document().locked.is_empty());
+    settled(&mut session, Action::Undo);
+    assert_eq!(session.lock_state(other), LockState::Locked);
+    until_laid_out(&mut session);
 }
 
 #[test]

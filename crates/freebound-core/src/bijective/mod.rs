@@ -5,6 +5,7 @@
 //! | `virtual_boundary`, `lee` | mesh and outside embedded together (paper §5); layers around the mesh |
 //! | `continuation/`, `relaxing/`, `advance` | moving to the constraints; lowering distortion; result of both |
 //! | `matchmaker/`, `clearance` | new vertices along paths; new vertices inside a pinned boundary |
+//! | `convexity` | concave polygons of a one-to-one map made convex |
 //! | `multires/` | coarsening of a disk, and prolongation back to the mesh |
 //! | `drag/` | an embedding under a dragged pin, proved at every frame |
 //! | `morph/` | a planar morph between two embeddings |
@@ -13,6 +14,7 @@
 mod advance;
 pub(crate) mod clearance;
 pub(crate) mod continuation;
+pub(crate) mod convexity;
 mod drag;
 mod lee;
 pub(crate) mod matchmaker;

@@ -191,11 +191,6 @@ impl<'a> CutGraph<'a> {
         self.surface.is_required.contains(&true) || self.seams().nth(1).is_some()
     }
 
-    /// Length of all seams.
-    pub(super) fn length(&self) -> f64 {
-        self.seams().map(|edge| self.surface.edges[edge].length).sum()
-    }
-
     /// Cost of all seams.
     pub(super) fn cost(&self) -> f64 {
         self.seams().map(|edge| self.surface.edges[edge].cost).sum()

@@ -5,9 +5,13 @@
 //! | `surface.rs` | one connected part, its edges and boundary loops |
 //! | `scale_factor.rs` | scale factors of the conformal map that is flat apart from the cut |
 //! | `graph.rs` | cut graph: handles, boundary loops and cones joined by short seams |
+//! | `mapping.rs` | maps along seams |
+//! | `overlap.rs` | charts of a map that overlaps itself |
 //! | `search.rs` | search for the cheapest cut whose map meets a bound |
 
 mod graph;
+mod mapping;
+mod overlap;
 mod scale_factor;
 mod search;
 mod surface;

@@ -17,18 +17,22 @@
 //!
 //! A surface whose curvature lies at vertices of sharp edges alone, such as a box or a cylinder with caps, is developed
 //! without distortion by a cut through all of these vertices. This cut is taken unless it costs much more.
+//!
+//! # Overlap
+//!
+//! Some parts would overlap themselves without distortion, however long the seams: a ramp of many turns, or a sheet
+//! with many flaps. Their maps are divided into charts (see `mapping` and `overlap`).
 
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 
 use super::graph::CutGraph;
+use super::mapping::{LARGE, Mapped, Mapping, Trial};
 use super::scale_factor::{ConformalSystem, ScaleFactors};
 use super::surface::{CutSurface, Paths};
-use crate::flatten::{Flattener, Options};
 use crate::mesh::{Repaired, VertexId};
 use crate::parallel::prelude::*;
-use crate::problem::{Control, Embedding, Settings, SolveError};
-use crate::verify::distortion;
+use crate::problem::{Control, Embedding, SolveError};
 
 /// Most rounds of relaxing of a measured map.
 const RELAX_ROUNDS: usize = 40;
@@ -42,17 +46,11 @@ const AIM: f64 = 0.95;
 /// Share of the allowed excess that is close enough to end the search.
 const CLOSE: f64 = 0.88;
 
-/// Share of the allowed excess at which the relaxing of a large surface ends.
-const ENOUGH: f64 = 0.98;
-
 /// Factor between the two predictions that a round tries.
 const BESIDE: f64 = 0.9;
 
 /// Margin of a prediction within its bracket, relative to the bracket.
 const MARGIN: f64 = 0.2;
-
-/// Number of faces from which one cut is tried at a time, and search and relaxing end once the bound is met.
-const LARGE: usize = 30_000;
 
 /// Most rounds, if a map meets the bound.
 const ROUNDS: usize = 4;
@@ -64,8 +62,8 @@ const ROUNDS_TO_MEET: usize = 10;
 const STRICTER: f64 = 0.6;
 const STRICTEST: f64 = 0.1;
 
-/// Ratio of measured and predicted excess from which the search is stuck: some 25 times the usual ratio. What is left is
-/// not due to curvature, but keeps parts of the map from overlapping.
+/// Ratio of measured and predicted excess from which longer seams hardly help: some 25 times the usual ratio. What is
+/// left is not due to curvature, but keeps parts of the map from overlapping.
 const STUCK: f64 = 8.0;
 
 /// Angle between the normals of two faces from which their edge is sharp, degrees.
@@ -145,19 +143,29 @@ pub(crate) struct PartCut {
     pub(crate) embedding: Embedding,
 }
 
+impl PartCut {
+    fn new(surface: &CutSurface<'_>, map: Mapped) -> Self {
+        let Mapped { is_seam, corners, embedding, .. } = map;
+        Self { length: surface.length_of(&is_seam), is_seam, corners, embedding }
+    }
+}
+
 /// Cut with its map.
 #[derive(Clone, Debug)]
-struct Measured<'a> {
-    graph: CutGraph<'a>,
+struct Measured {
+    /// True for each edge that is a seam.
+    is_seam: Vec<bool>,
+    /// Cost of the seams.
+    cost: f64,
     predicted: f64,
     energy: f64,
     /// Energy that remains because vertices are avoided.
     unavoidable: f64,
-    corners: Vec<VertexId>,
-    embedding: Embedding,
+    /// One-to-one map. `None` if the map is too distorted, so that only its energy was found.
+    map: Option<Mapped>,
 }
 
-impl Measured<'_> {
+impl Measured {
     /// Energy above that of an isometric map, without the unavoidable energy.
     fn excess(&self) -> f64 {
         self.energy - SeamOptions::ISOMETRIC - self.unavoidable
@@ -166,7 +174,7 @@ impl Measured<'_> {
     /// True if this cut meets the bound at a lower cost, or comes nearer to it if none meets it.
     fn is_better_than(&self, other: &Self, allowed: f64) -> bool {
         match (other.excess() <= allowed, self.excess() <= allowed) {
-            (true, true) => self.graph.cost() < other.graph.cost(),
+            (true, true) => self.cost < other.cost,
             (false, false) => self.energy < other.energy,
             (before, now) => now && !before,
         }
@@ -187,7 +195,7 @@ impl Bracket {
         Self { allowed, met: 0.0, failed: f64::INFINITY }
     }
 
-    fn observe(&mut self, found: &Measured<'_>) {
+    fn observe(&mut self, found: &Measured) {
         if found.excess() <= self.allowed {
             self.met = self.met.max(found.predicted);
         } else {
@@ -196,7 +204,7 @@ impl Bracket {
     }
 
     /// Predictions to try next: as the ratio of the best cut suggests, and another one beside it.
-    fn next_aims(&self, best: &Measured<'_>, round: usize) -> Vec<f64> {
+    fn next_aims(&self, best: &Measured, round: usize) -> Vec<f64> {
         let aim = AIM * self.allowed * best.predicted / best.excess().max(f64::MIN_POSITIVE);
         if self.met == 0.0 {
             let aim = aim.max(STRICTEST * self.failed);
@@ -263,9 +271,8 @@ impl PartToCut<'_> {
     /// Errors of the solves, if the seams do not make the part a disk for example; [`SolveError::Cancelled`].
     pub(crate) fn map_along(&self, is_seam: Vec<bool>) -> Result<PartCut, SolveError> {
         let surface = CutSurface::new(self.part, self.costs);
-        let mapped = mapped(&surface, &is_seam, self.options, self.control)?;
-        let length = surface.length_of(&is_seam);
-        Ok(PartCut { is_seam, length, corners: mapped.corners, embedding: mapped.embedding })
+        let mapping = Mapping { surface: &surface, options: self.options, control: self.control };
+        Ok(PartCut::new(&surface, mapping.map(is_seam)?))
     }
 }
 
@@ -295,7 +302,7 @@ impl<'a> Search<'a> {
         start.shorten(self.control)?;
         let allowed = self.options.bound - SeamOptions::ISOMETRIC;
         let mut bracket = Bracket::new(allowed);
-        let mut best: Option<Measured<'_>> = None;
+        let mut best: Option<Measured> = None;
         let mut aims: Vec<f64> = FIRST_RATIOS.iter().map(|ratio| allowed / ratio).collect();
         let mut known: Vec<Vec<bool>> = Vec::new();
         for round in 0..ROUNDS_TO_MEET {
@@ -306,8 +313,8 @@ impl<'a> Search<'a> {
             }
             known.extend(fresh.iter().map(|cut| cut.is_seam.clone()));
             let this = &*self;
-            let measured: Vec<Result<Measured<'_>, SolveError>> =
-                fresh.into_par_iter().with_max_len(1).map(|cut| this.measured(cut)).collect();
+            let measured: Vec<Result<Measured, SolveError>> =
+                fresh.par_iter().with_max_len(1).map(|cut| this.measured(cut)).collect();
             for found in measured {
                 let found = match found {
                     Ok(found) => found,
@@ -317,8 +324,10 @@ impl<'a> Search<'a> {
                 };
                 bracket.observe(&found);
                 if best.as_ref().is_none_or(|best| found.is_better_than(best, allowed)) {
-                    let Measured { graph, energy, .. } = &found;
-                    report(BestCut { is_seam: &graph.is_seam, length: graph.length(), energy: *energy });
+                    let Measured { is_seam, energy, .. } = &found;
+                    if energy.is_finite() {
+                        report(BestCut { is_seam, length: self.surface.length_of(is_seam), energy: *energy });
+                    }
                     best = Some(found);
                 }
             }
@@ -331,29 +340,44 @@ impl<'a> Search<'a> {
             let share = best.excess() / allowed;
             // The relaxing of a large surface ends early, so that its share says little.
             let is_large = self.surface.triangles.len() > LARGE;
-            let is_last = is_large || round + 1 >= ROUNDS || best.graph.cost() <= start.cost();
-            // Longer seams hardly help a map that would overlap itself without distortion.
-            let is_stuck = round > 0 && best.excess() > STUCK * best.predicted;
+            let is_divided = best.map.as_ref().is_some_and(|map| map.is_divided);
+            let is_last = is_large || is_divided || round + 1 >= ROUNDS || best.cost <= start.cost();
+            let is_stuck = round > 0 && best.map.is_some() && best.excess() > STUCK * best.predicted;
             if (share <= 1.0 && (share > CLOSE || is_last)) || best.predicted <= 0.0 || is_stuck {
                 break;
             }
             aims = bracket.next_aims(best, round);
         }
-        let best = best.filter(|best| best.energy.is_finite());
+        let best = best.filter(|best| best.energy.is_finite() || best.map.is_none());
+        let best = best.map(|best| self.kept_apart(best, allowed)).transpose()?;
         let developed = self.development(&start, best.as_ref())?;
-        let Measured { graph, corners, embedding, .. } = developed.or(best).ok_or(SolveError::NotPlanar)?;
-        let length = graph.length();
-        Ok(PartCut { is_seam: graph.is_seam, length, corners, embedding })
+        let Measured { is_seam, map, .. } = developed.or(best).ok_or(SolveError::NotPlanar)?;
+        let map = match map {
+            Some(map) => map,
+            None => self.mapping().map(is_seam)?,
+        };
+        Ok(PartCut::new(self.surface, map))
+    }
+
+    /// Cut that meets the bound with more seams, where a map overlaps itself unless it is distorted.
+    fn kept_apart(&self, best: Measured, allowed: f64) -> Result<Measured, SolveError> {
+        if best.excess() <= allowed {
+            return Ok(best);
+        }
+        match self.mapping().tried_apart(&best.is_seam) {
+            Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
+            Ok(Trial::Map(map)) if best.map.is_none() || map.energy < best.energy => {
+                let cost = self.surface.cost_of(&map.is_seam);
+                Ok(Measured { is_seam: map.is_seam.clone(), cost, energy: map.energy, map: Some(map), ..best })
+            }
+            _ => Ok(best),
+        }
     }
 
     /// Exact development: an isometric map along a cut through all vertices with curvature. `None` unless each of them
     /// lies on a sharp edge or alone, as on parts of machines, and unless its cost is at most [`DEVELOPED`] times that
     /// of the best other cut.
-    fn development(
-        &self,
-        start: &CutGraph<'a>,
-        best: Option<&Measured<'_>>,
-    ) -> Result<Option<Measured<'a>>, SolveError> {
+    fn development(&self, start: &CutGraph<'a>, best: Option<&Measured>) -> Result<Option<Measured>, SolveError> {
         let is_on_sharp_edge = self.surface.on_sharp_edges(SHARP);
         let curved = self.system.curved_nodes(CURVED).map(|node| self.system.vertex_of[node]);
         let curved: Vec<u32> = curved.filter(|&vertex| !self.surface.is_on_required_loop(vertex)).collect();
@@ -373,14 +397,15 @@ impl<'a> Search<'a> {
         let mut graph = start.clone();
         graph.connect(&curved);
         graph.shorten(self.control)?;
-        if best.is_some_and(|best| graph.cost() > DEVELOPED * best.graph.cost()) {
+        if best.is_some_and(|best| graph.cost() > DEVELOPED * best.cost) {
             return Ok(None);
         }
-        let found = match self.measured(graph) {
+        let found = match self.measured(&graph) {
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
             found => found.ok(),
         };
-        Ok(found.filter(|found| found.energy - SeamOptions::ISOMETRIC <= ISOMETRY))
+        let is_clear = |found: &Measured| found.map.as_ref().is_some_and(|map| map.is_clear);
+        Ok(found.filter(|found| found.energy - SeamOptions::ISOMETRIC <= ISOMETRY && is_clear(found)))
     }
 
     /// Different cuts for predictions. A large surface gets one.
@@ -643,52 +668,23 @@ impl<'a> Search<'a> {
     }
 
     /// Map of the surface along a cut.
-    fn measured(&self, graph: CutGraph<'a>) -> Result<Measured<'a>, SolveError> {
-        let predicted = self.predicted(&graph)? - self.floor;
+    fn measured(&self, graph: &CutGraph<'a>) -> Result<Measured, SolveError> {
+        let predicted = self.predicted(graph)? - self.floor;
         let unavoidable = FIRST_RATIOS[0] * self.floor;
-        let Mapped { energy, corners, embedding } = mapped(self.surface, &graph.is_seam, self.options, self.control)?;
-        Ok(Measured { graph, predicted, energy, unavoidable, corners, embedding })
-    }
-}
-
-/// Map of a surface along seams.
-struct Mapped {
-    /// Mean symmetric Dirichlet energy; infinite if the map is not planar.
-    energy: f64,
-    corners: Vec<VertexId>,
-    embedding: Embedding,
-}
-
-/// Flattens and relaxes a surface along seams.
-fn mapped(
-    surface: &CutSurface<'_>,
-    is_seam: &[bool],
-    options: SeamOptions,
-    control: Control<'_>,
-) -> Result<Mapped, SolveError> {
-    let (disk, corners) = surface.opened(is_seam)?;
-    let disk = disk.without_polygons();
-    let settings = Settings { relax_rounds: Some(options.rounds), ..Settings::default() };
-    let mut flattener = Flattener::with_options(Options { settings, ..Options::default() });
-    let enough = SeamOptions::ISOMETRIC + ENOUGH * (options.bound - SeamOptions::ISOMETRIC);
-    let is_large = disk.face_count() > LARGE;
-    let mut last = None;
-    let step = loop {
-        let step = match flattener.step(&disk, control) {
-            Ok(step) => step,
-            Err(error) => break last.filter(|_| error != SolveError::Cancelled).ok_or(error)?,
+        let is_seam = graph.is_seam.clone();
+        let most = self.options.bound + unavoidable;
+        let (energy, is_seam, map) = match self.mapping().tried(is_seam, most)? {
+            Trial::Map(map) => (map.energy, map.is_seam.clone(), Some(map)),
+            Trial::TooDistorted(energy) => (energy, graph.is_seam.clone(), None),
+            Trial::Folded => (f64::INFINITY, graph.is_seam.clone(), None),
         };
-        let energy = step.candidate.progress.map_or(f64::INFINITY, |progress| progress.energy);
-        let is_enough = is_large && step.verdict.planar && energy <= enough;
-        if is_enough || flattener.ending().is_some() {
-            break step;
-        }
-        last = Some(step);
-    };
-    let is_planar = step.verdict.planar;
-    let embedding = step.candidate.solution.embedding;
-    let mean = distortion(&disk, &embedding).summary.symmetric_dirichlet.mean;
-    Ok(Mapped { energy: if is_planar { mean } else { f64::INFINITY }, corners, embedding })
+        let cost = self.surface.cost_of(&is_seam);
+        Ok(Measured { is_seam, cost, predicted, energy, unavoidable, map })
+    }
+
+    fn mapping(&self) -> Mapping<'a> {
+        Mapping { surface: self.surface, options: self.options, control: self.control }
+    }
 }
 
 /// Index of the greatest number, the first of several.

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use crate::mesh::union::DisjointSets;
-use crate::mesh::{DiskMesh, Repaired, Seams, VertexId};
+use crate::mesh::{Chart, DiskMesh, FaceId, Repaired, Seams, VertexId};
 use crate::problem::SolveError;
 
 /// Length of a boundary loop, relative to √area, below which a cut need not reach the loop: it is filled as a hole.
@@ -146,11 +146,20 @@ impl<'a> CutSurface<'a> {
 
     /// Length of the edges that are seams.
     pub(super) fn length_of(&self, is_seam: &[bool]) -> f64 {
-        self.edges.iter().zip(is_seam).filter(|(_, is_seam)| **is_seam).map(|(edge, _)| edge.length).sum()
+        self.seams(is_seam).map(|edge| edge.length).sum()
     }
 
-    /// True for each vertex with an edge whose faces have normals that differ by `degrees` or more.
-    pub(super) fn on_sharp_edges(&self, degrees: f64) -> Vec<bool> {
+    /// Cost of the edges that are seams.
+    pub(super) fn cost_of(&self, is_seam: &[bool]) -> f64 {
+        self.seams(is_seam).map(|edge| edge.cost).sum()
+    }
+
+    fn seams<'b>(&'b self, is_seam: &'b [bool]) -> impl Iterator<Item = &'b Edge> {
+        self.edges.iter().zip(is_seam).filter(|(_, is_seam)| **is_seam).map(|(edge, _)| edge)
+    }
+
+    /// True for each edge whose faces have normals that differ by `degrees` or more.
+    pub(super) fn sharp_edges(&self, degrees: f64) -> Vec<bool> {
         let polygons = self.part.polygons();
         let normal = |face: u32| {
             let corners = polygons.face(face as usize);
@@ -161,14 +170,15 @@ impl<'a> CutSurface<'a> {
             spans.sum::<glam::DVec3>().normalize_or_zero()
         };
         let most = degrees.to_radians().cos();
+        let is_sharp = |faces: &Vec<u32>| matches!(faces[..], [a, b] if normal(a).dot(normal(b)) <= most);
+        self.part.faces_of_edges().iter().map(is_sharp).collect()
+    }
+
+    /// True for each vertex of a sharp edge.
+    pub(super) fn on_sharp_edges(&self, degrees: f64) -> Vec<bool> {
         let mut is_on = vec![false; self.vertex_count()];
-        for (edge, faces) in self.edges.iter().zip(self.part.faces_of_edges()) {
-            if let [a, b] = faces[..]
-                && normal(a).dot(normal(b)) <= most
-            {
-                edge.ends.iter().for_each(|&end| is_on[end as usize] = true);
-            }
-        }
+        let sharp = self.edges.iter().zip(self.sharp_edges(degrees)).filter(|(_, is_sharp)| *is_sharp);
+        sharp.flat_map(|(edge, _)| edge.ends).for_each(|end| is_on[end as usize] = true);
         is_on
     }
 
@@ -179,12 +189,17 @@ impl<'a> CutSurface<'a> {
         (2 + self.edges.len()).saturating_sub(self.is_required.len() + used + faces) / 2
     }
 
-    /// The surface opened along seams, with small holes filled, as a disk.
-    /// Returns the disk, and its vertex at each corner of the part.
-    pub(super) fn opened(&self, is_seam: &[bool]) -> Result<(DiskMesh, Vec<VertexId>), SolveError> {
+    /// The surface opened along seams, with small holes filled.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotPlanar`] if a chart is no disk.
+    pub(super) fn opened(&self, is_seam: &[bool]) -> Result<Opened, SolveError> {
         let opened = self.part.opened_along(is_seam);
         let corners = opened.polygons().corners.clone();
-        DiskMesh::try_from(opened.triangulate()).map(|disk| (disk, corners)).map_err(|_| SolveError::NotPlanar)
+        let charts = opened.separate_charts().into_iter().map(|(chart, faces)| OpenedChart::new(chart, &faces));
+        let vertex_count = opened.polygons().positions.len();
+        Ok(Opened { charts: charts.collect::<Result<_, _>>()?, corners, vertex_count })
     }
 
     /// Part of the mesh that is cut.
@@ -254,6 +269,41 @@ impl<'a> CutSurface<'a> {
             false
         });
         found
+    }
+}
+
+/// Part opened along seams.
+#[derive(Debug)]
+pub(super) struct Opened {
+    pub(super) charts: Vec<OpenedChart>,
+    /// Vertex at each corner of the part.
+    pub(super) corners: Vec<VertexId>,
+    /// Number of vertices.
+    pub(super) vertex_count: usize,
+}
+
+/// Chart of an opened part.
+#[derive(Debug)]
+pub(super) struct OpenedChart {
+    /// Triangles of the chart, and those that fill its holes.
+    pub(super) disk: DiskMesh,
+    /// Disk with its polygons.
+    pub(super) polygons: DiskMesh,
+    /// Vertex of the opened part for each vertex of the chart. Vertices in holes have none and come last.
+    pub(super) vertex_of: Vec<VertexId>,
+    /// Face of the part for each triangle. Triangles in holes have none and come last.
+    pub(super) face_of: Vec<u32>,
+}
+
+impl OpenedChart {
+    /// Takes a chart, and its faces by their numbers in the part.
+    fn new(Chart { repaired, vertex_of }: Chart, faces: &[u32]) -> Result<Self, SolveError> {
+        let triangles = repaired.polygons().triangulate();
+        let face_of = (0..triangles.face_count())
+            .map(|triangle| faces[triangles.polygon(FaceId::from_index(triangle)) as usize])
+            .collect();
+        let polygons = DiskMesh::try_from(repaired.triangulate()).map_err(|_| SolveError::NotPlanar)?;
+        Ok(Self { disk: polygons.without_polygons(), polygons, vertex_of, face_of })
     }
 }
 

@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `orient.rs`, `order_along_direction.rs` | orientation of three points, order of points along a direction; exact |
 //! | `bounds.rs`, `clip.rs`, `box_tree.rs` | boxes; segments and polygons clipped to a box; pairs of boxes that meet |
+//! | `overlaps.rs` | pairs of triangles whose insides meet; exact |
 //! | `polygon.rs`, `crossings.rs` | turning and winding numbers of a closed polygon; pairs of its edges that meet |
 //! | `convex_polygon.rs` | convex polygon given by the user |
 //! | `visibility_kernel.rs` | kernel of a polygon: the points that see all of it |
@@ -24,6 +25,7 @@ mod crossings;
 mod hull;
 mod order_along_direction;
 mod orient;
+mod overlaps;
 mod packing;
 mod picture;
 mod picture_frame;
@@ -43,7 +45,10 @@ pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, folds_back, is_simpl
 pub use hull::{convex_hull, is_inside_hull};
 pub use order_along_direction::order_along;
 pub use orient::{Orientation, double_area, orientation};
-pub use packing::{ChartShape, Packed, Packing, PackingOptions, Rotations, pack};
+pub(crate) use overlaps::overlaps;
+pub use packing::{
+    ChartShape, Packed, Packing, PackingInput, PackingOptions, Rotations, Stacking, corner_of_tile, pack, pack_beside,
+};
 pub use picture::Picture;
 pub use picture_frame::{PictureFrame, VAxis};
 pub use polygon::{is_down, turning_number, winding_number};

@@ -9,6 +9,8 @@
 
 use std::fmt;
 
+use glam::DVec2;
+
 use crate::parallel::prelude::*;
 
 use super::area::is_zero_area;
@@ -98,6 +100,27 @@ impl TriMesh {
         if stays.iter().all(|&stays| stays) {
             return self;
         }
+        self.with_faces(&stays)
+    }
+
+    /// Removes triangles with two corners at exactly one point, both in space and at these places in the plane. Such
+    /// triangles arise if a polygon names a point twice by different vertices. They have no area in space or in the
+    /// plane. The remaining faces keep their numbers in the file.
+    #[must_use]
+    pub fn without_collapsed(self, places: &[DVec2]) -> Self {
+        let is_one_place = |a: VertexId, b: VertexId| {
+            self.positions[a.index()] == self.positions[b.index()] && places[a.index()] == places[b.index()]
+        };
+        let stays: Vec<bool> = self
+            .triangles
+            .iter()
+            .map(|&[a, b, c]| ![[a, b], [b, c], [c, a]].iter().any(|&[p, q]| is_one_place(p, q)))
+            .collect();
+        self.with_faces(&stays)
+    }
+
+    /// Keeps the triangles for which `stays` is true.
+    fn with_faces(self, stays: &[bool]) -> Self {
         let kept = || (0..self.face_count()).filter(|&face| stays[face]).map(FaceId::from_index);
         let polygon_of = Some(kept().map(|face| self.polygon(face)).collect());
         let triangles = kept().map(|face| self.triangles[face.index()]).collect();

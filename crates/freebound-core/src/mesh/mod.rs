@@ -12,6 +12,7 @@
 //! | `scale.rs` | scaling of extremely large and small meshes to the middle of the range of numbers |
 //! | `disk.rs` | a mesh proved to be a disk, with halfedges |
 //! | `polygons.rs`, `diagonals.rs` | polygons that a disk's triangles are cut from, and their other diagonals |
+//! | `congruence.rs` | isomorphism of two surfaces whose lengths agree |
 //! | `holes.rs` | virtual faces, which fill holes |
 //! | `repair/` | repair of faults, filling of holes, cutting of surfaces |
 //! | `refinement.rs` | a disk with new vertices on its edges |
@@ -20,6 +21,7 @@
 mod area;
 mod blockers;
 mod coincident;
+mod congruence;
 mod diagnosis;
 mod diagonals;
 mod disk;
@@ -41,6 +43,7 @@ mod triangulate;
 pub(crate) mod union;
 mod volume;
 
+pub(crate) use congruence::{MeasuredSurface, SurfaceFaces, SurfaceKey};
 pub use diagnosis::{Diagnosis, diagnose};
 pub use disk::DiskMesh;
 pub use edges::EdgeTable;

@@ -6,6 +6,7 @@
 //! | `energy_problem/` | elements, springs and unknowns; descent |
 //! | `scaffold` | the outside of an embedding, triangulated up to a frame |
 //! | `slim` | scalable locally injective mappings |
+//! | `unfolding` | maps without folds that may overlap themselves |
 //! | `angles/` | angle based flattening |
 
 pub(crate) mod angles;
@@ -14,6 +15,7 @@ pub mod foldover_energy;
 pub(crate) mod rest_shape;
 pub(crate) mod scaffold;
 pub mod slim;
+mod unfolding;
 
 pub use angles::{AngleMap, AngleSystem, angle_based};
 pub use scaffold::Scaffold;

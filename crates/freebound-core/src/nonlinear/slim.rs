@@ -80,6 +80,11 @@ impl Proxy {
         Self { mean: 0.5 * (first + second), along, rotation }
     }
 
+    /// Builds the proxy ½ |J − R|² with weights of 1, for a rotation R as a complex number of length 1.
+    pub(crate) fn rigid(rotation: DVec2) -> Self {
+        Self { mean: 1.0, along: DVec2::ZERO, rotation }
+    }
+
     /// Product W² v.
     fn weighted(&self, v: DVec2) -> DVec2 {
         self.mean * v + self.along.rotate(conjugate(v))
@@ -128,11 +133,11 @@ pub(crate) fn is_unfolded(mesh: &DiskMesh, embedding: &Embedding) -> bool {
 /// State of a SLIM iteration on a mesh.
 #[derive(Debug)]
 pub struct Slim {
-    problem: EnergyProblem,
+    pub(super) problem: EnergyProblem,
     /// Positions of the vertices, in units of about one mesh edge.
-    z: Vec<DVec2>,
+    pub(super) z: Vec<DVec2>,
     /// Scale from mesh units to these units, a power of two.
-    scale: f64,
+    pub(super) scale: f64,
     real_faces: usize,
     /// Twice the area of the surface, in units of `z`.
     area: f64,
@@ -149,14 +154,20 @@ impl Slim {
         if !is_unfolded(mesh, start) {
             return Err(SolveError::NotPlanar);
         }
+        let map = Self::at_origin(mesh, mesh.face_count(), control)?;
+        let in_plane: f64 = mesh.real_faces().map(|face| double_area(start.corners(mesh, face))).sum();
+        let size = (map.area / in_plane).sqrt();
+        Ok(Self { z: start.iter().map(|z| size * *z).collect(), ..map })
+    }
+
+    /// Problem of the first `count` faces of a surface, with all positions at the origin.
+    pub(super) fn at_origin(mesh: &DiskMesh, count: usize, control: Control<'_>) -> Result<Self, SolveError> {
         let scale = length_scale(mesh);
         let flat = |face: usize| mesh.rest_shape(mesh.face(FaceId::from_index(face)), scale);
-        let shapes: Vec<[DVec2; 3]> = control.each(mesh.face_count(), flat)?;
+        let shapes: Vec<[DVec2; 3]> = control.each(count, flat)?;
         let real_faces = mesh.mesh().real_face_count();
         let on_surface: f64 = shapes[..real_faces].iter().copied().map(double_area).sum();
-        let in_plane: f64 = mesh.real_faces().map(|face| double_area(start.corners(mesh, face))).sum();
-        let size = (on_surface / in_plane).sqrt();
-        let z: Vec<DVec2> = start.iter().map(|z| size * *z).collect();
+        let z = vec![DVec2::ZERO; mesh.vertex_count()];
         let element = |face: usize| {
             let kind = if face < real_faces { 1.0 } else { FILLING_WEIGHT };
             let weight = kind * double_area(shapes[face]) / on_surface;
@@ -166,7 +177,7 @@ impl Slim {
                 Stiffness { weight, thinnest: THINNEST },
             )
         };
-        let elements = control.each(mesh.face_count(), element)?;
+        let elements = control.each(count, element)?;
         let held = mesh.boundary_loop()[0].number();
         let planning = Planning { order: None, control };
         let problem = EnergyProblem::new(z.len(), elements, Vec::new(), |point| point == held, planning)?;

@@ -1,21 +1,29 @@
 //! Layout of several solved charts: placed beside each other and proved together.
 //!
-//! A chart with pins stays at its pins. All other charts are packed into the unit square. If a chart has pins, that
-//! square lies to its right. Packed charts share one density, in pixels per unit of length on the surface, times the
+//! A chart with pins stays at its pins, and a locked chart at given coordinates. All other charts are packed into the
+//! unit square, or into several squares (tiles). If a chart has pins, the square lies to its right. With locked charts
+//! or several tiles, the square stays, and charts are packed around those that stay; if these leave no room, the others
+//! lie to their right. Packed charts share one density, in pixels per unit of length on the surface, times the
 //! size that the user gives to each chart. Charts are packed by their shapes, in any rotation unless options forbid
 //! it. Rounding can fold a turned chart; then charts are packed again with exact quarter turns. Charts that started
-//! from the layout of their file may stay there instead ([`Arrangement::AsGiven`]).
+//! from the layout of their file may stay there instead ([`Arrangement::AsGiven`]). Charts with congruent surfaces may
+//! share a place ([`Stacking`]).
+
+use std::collections::BTreeSet;
 
 use glam::DVec2;
 
+use super::stacks::{Stackable, stacks};
 use super::{
-    Fit, LaidChart, Outcome, PackingSummary, PinsSummary, Placement, PreparedMesh, pins_summary, prove_atlas, upright,
+    Fit, LaidChart, Outcome, PackingSummary, PinsSummary, Placement, PreparedMesh, StackedChart, StackedOn,
+    pins_summary, prove_atlas, upright,
 };
 use crate::flatten::true_area_factor;
 use crate::geom::{
-    Bounds, ChartShape, Packing, PackingOptions, Rotations, double_area, is_simple, pack, turning_number,
+    Bounds, ChartShape, Packing, PackingInput, PackingOptions, Rotations, Similarity, Stacking, corner_of_tile,
+    double_area, is_simple, pack, pack_beside, turning_number,
 };
-use crate::mesh::{DiskMesh, FaceId, VertexId};
+use crate::mesh::{DiskMesh, FaceId, MeasuredSurface, SurfaceFaces, VertexId};
 use crate::parallel::prelude::*;
 use crate::problem::Embedding;
 use crate::verify::{AtlasVerdict, DistortionSummary, distortion, verdict};
@@ -26,14 +34,23 @@ const LEAST_EXTENT: f64 = 1e-3;
 /// Root of a chart's area, relative to that of all charts, at which the chart counts as one without area.
 const NO_AREA: f64 = 1e-9;
 
+/// Distance from given coordinates, relative to their extent, up to which a locked chart takes their numbers.
+const AGREEMENT: f64 = 1e-9;
+
+/// UDIM number of the tile at the origin.
+const FIRST_UDIM_TILE: u32 = 1001;
+
+/// Number of rows of tiles that have UDIM numbers of four digits.
+const MOST_UDIM_ROWS: f64 = 899.0;
+
 /// Placement of charts without pins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Arrangement {
     /// Packed into the unit square.
     #[default]
     Packed,
-    /// Kept at the layout that they started from. If a chart has another start or size, or charts overlap there, the
-    /// charts without pins are packed.
+    /// Kept at the layout that they started from. If a chart has another start or size, charts overlap there, or charts
+    /// may be stacked, the charts without pins are packed.
     AsGiven,
 }
 
@@ -46,6 +63,11 @@ pub struct SolvedChart<'a> {
     pub outcome: &'a Outcome,
     /// Size relative to the other packed charts. Default: 1.
     pub size: f64,
+    /// Tile in which the chart must be packed, below the number of tiles of the options. Default: any.
+    pub tile: Option<u32>,
+    /// Texture coordinates of each vertex of the chart's mesh, v up. The chart stays there, up to the nearest
+    /// similarity, and the others are packed around it. Pins have precedence. Default: the chart is packed.
+    pub locked: Option<&'a Embedding>,
 }
 
 /// Summary of one chart of an atlas. Vertices have their numbers in the whole repaired mesh.
@@ -65,8 +87,13 @@ pub struct ChartSummary {
     pub distortion: DistortionSummary,
     /// Average number of pixels of the picture per unit of length on the surface.
     pub density: f64,
+    /// UDIM number of the tile that holds the centre of the chart's box: 1001 + column + 10 · row. Absent left of and
+    /// below the first tile, and beyond the tenth column.
+    pub tile: Option<u32>,
     /// Number of vertices added to the mesh.
     pub new_vertices: usize,
+    /// Place on another chart. Absent for a chart with a place of its own.
+    pub stacked: Option<StackedOn>,
 }
 
 /// Charts laid out beside each other and proved together.
@@ -88,17 +115,20 @@ pub struct Atlas<'a> {
     pub cut_polygons: Vec<FaceId>,
 }
 
-/// Lays out charts and proves each of them and the whole. `charts` are all charts of one mesh, in order.
+/// Lays out charts and proves each of them and the whole. `charts` are all charts of one mesh, in order; a mesh of one
+/// chart is laid out too.
 ///
 /// # Panics
 ///
-/// If `charts` is empty, a chart has no disk, or a chart does not belong to a mesh of several charts.
+/// If `charts` is empty or a chart has no disk.
 pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions, arrangement: Arrangement) -> Atlas<'a> {
-    let is_placed =
-        |chart: &SolvedChart<'_>| chart.is_held() || (chart.outcome.step.lies_as_given && chart.has_usual_size());
-    if arrangement == Arrangement::AsGiven && charts.iter().all(is_placed) {
-        let laid = charts.par_iter().map(SolvedChart::in_place).collect();
-        let in_place = output(charts, laid, None, options);
+    let is_placed = |chart: &SolvedChart<'_>| {
+        chart.is_held() || chart.is_locked() || (chart.outcome.step.lies_as_given && chart.has_usual_size())
+    };
+    let is_as_given = arrangement == Arrangement::AsGiven && options.stack == Stacking::None;
+    if is_as_given && charts.iter().all(is_placed) {
+        let laid = charts.par_iter().map(|chart| chart.kept(options).unwrap_or_else(|| chart.in_place())).collect();
+        let in_place = output(charts, laid, vec![None; charts.len()], None, options);
         if in_place.verdict.overlapping_faces.is_empty() {
             return in_place;
         }
@@ -107,38 +137,126 @@ pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions, arrangemen
 }
 
 fn packed<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Atlas<'a> {
-    let mut laid: Vec<Option<Embedding>> =
-        charts.iter().map(|chart| chart.is_held().then(|| chart.in_place())).collect();
-    let beside = first_column_beside(&laid);
-    let free: Vec<usize> = (0..charts.len()).filter(|&chart| laid[chart].is_none()).collect();
-    let mut pieces: Vec<Piece> = free.par_iter().map(|&chart| Piece::new(&charts[chart])).collect();
-    let total = pieces.iter().map(|piece| piece.area).sum::<f64>().sqrt();
-    for (piece, &chart) in pieces.iter_mut().zip(&free) {
-        if piece.area.sqrt() <= NO_AREA * total && total.is_finite() {
-            piece.grow_to(LEAST_EXTENT * total, &charts[chart]);
+    let mut laid: Vec<Option<Embedding>> = charts.par_iter().map(|chart| chart.kept(options)).collect();
+    let stacked = stacked_charts(charts, options.stack);
+    let mut plan = PackingPlan::new(charts, &laid, &stacked, options);
+    let mut packing = plan.pack(options);
+    if packing.scale == 0.0 && !plan.fixed.is_empty() {
+        // The charts that stay leave no room.
+        plan = PackingPlan { fixed: Vec::new(), beside: first_column_beside(&laid), ..plan };
+        packing = plan.pack(options);
+    }
+    if options.rotations == Rotations::Free && plan.has_folds(&packing) {
+        packing = plan.pack(PackingOptions { rotations: Rotations::Quarter, ..options });
+    }
+    let summary = plan.summary(&packing, &laid, options);
+    for (k, &chart) in plan.free.iter().enumerate() {
+        laid[chart] = Some(plan.laid(&packing, k));
+    }
+    for (chart, on) in stacked.iter().enumerate().filter_map(|(chart, on)| Some((chart, on.as_ref()?))) {
+        laid[chart] = laid[on.on.chart].as_ref().map(|representative| on.coordinates(representative));
+    }
+    let coordinates = laid.into_iter().flatten().collect();
+    output(charts, coordinates, stacked, (!plan.free.is_empty()).then_some(summary), options)
+}
+
+fn stacked_charts(charts: &[SolvedChart<'_>], stacking: Stacking) -> Vec<Option<StackedChart>> {
+    if stacking == Stacking::None {
+        return vec![None; charts.len()];
+    }
+    stacks(&charts.par_iter().map(SolvedChart::stackable).collect::<Vec<_>>(), stacking)
+}
+
+/// Charts that are packed, and those that stay where they are.
+struct PackingPlan<'a, 'b> {
+    charts: &'b [SolvedChart<'a>],
+    /// Numbers of the charts that are packed.
+    free: Vec<usize>,
+    /// Charts that are packed, at their size.
+    pieces: Vec<Piece>,
+    /// Shapes of the charts that stay. Empty if the others are packed beside them.
+    fixed: Vec<ChartShape>,
+    /// Whole u at which the first tile begins.
+    beside: f64,
+}
+
+impl<'a, 'b> PackingPlan<'a, 'b> {
+    /// Charts of a mesh. `laid` has the coordinates of those that stay, and `stacked` those that lie on another. The
+    /// rest is packed around those that stay if some are locked or there are several tiles.
+    fn new(
+        charts: &'b [SolvedChart<'a>],
+        laid: &[Option<Embedding>],
+        stacked: &[Option<StackedChart>],
+        options: PackingOptions,
+    ) -> Self {
+        let is_free = |chart: &usize| laid[*chart].is_none() && stacked[*chart].is_none();
+        let free: Vec<usize> = (0..charts.len()).filter(is_free).collect();
+        let mut pieces: Vec<Piece> = free.par_iter().map(|&chart| Piece::new(&charts[chart])).collect();
+        let total = pieces.iter().map(|piece| piece.area).sum::<f64>().sqrt();
+        for (piece, &chart) in pieces.iter_mut().zip(&free) {
+            if piece.area.sqrt() <= NO_AREA * total && total.is_finite() {
+                piece.grow_to(LEAST_EXTENT * total, &charts[chart]);
+            }
+        }
+        if options.tiles <= 1 && !charts.iter().any(SolvedChart::is_locked) {
+            return Self { charts, free, pieces, fixed: Vec::new(), beside: first_column_beside(laid) };
+        }
+        let fixed = charts.par_iter().zip(laid).filter_map(|(chart, laid)| Some(chart.fixed_shape(laid.as_ref()?)));
+        Self { charts, free, pieces, fixed: fixed.collect(), beside: 0.0 }
+    }
+
+    fn pack(&self, options: PackingOptions) -> Packing {
+        let shapes: Vec<ChartShape> = self.pieces.iter().map(|piece| piece.shape.clone()).collect();
+        let tiles: Vec<Option<u32>> = self.free.iter().map(|&chart| self.charts[chart].tile).collect();
+        let input = PackingInput { shapes: &shapes, tiles: &tiles, fixed: &self.fixed };
+        pack_beside(input, options, &|| false).expect("a packing that nobody cancels")
+    }
+
+    /// Texture coordinates of packed chart `k`.
+    fn laid(&self, packing: &Packing, k: usize) -> Embedding {
+        self.pieces[k].laid(self.charts[self.free[k]].embedding(), packing, k, self.beside)
+    }
+
+    /// True if rounding folds a packed chart.
+    fn has_folds(&self, packing: &Packing) -> bool {
+        let is_folded = |(k, &chart): (usize, &usize)| {
+            let solved = &self.charts[chart];
+            let proved = |coordinates: &Embedding| {
+                verdict(solved.outcome.step.candidate.mesh(solved.disk()), coordinates).planar
+            };
+            solved.outcome.step.verdict.planar && !proved(&self.laid(packing, k))
+        };
+        self.free.par_iter().enumerate().any(is_folded)
+    }
+
+    /// Summary of a packing. `laid` has the coordinates of the charts that stay.
+    fn summary(&self, packing: &Packing, laid: &[Option<Embedding>], options: PackingOptions) -> PackingSummary {
+        let on_picture = packing.picture.as_dvec2();
+        let stay = || self.charts.iter().zip(laid).filter(|_| !self.fixed.is_empty());
+        let area =
+            |(chart, laid): (&SolvedChart<'_>, &Option<Embedding>)| Some(chart.area_on(laid.as_ref()?, on_picture));
+        let packed_area = self.pieces.iter().map(|piece| piece.area).sum::<f64>() * packing.scale.powi(2);
+        let area = packed_area + stay().filter_map(area).sum::<f64>();
+        let tiles = stay().filter_map(|(_, laid)| Some(udim_tile(laid.as_ref()?)? - FIRST_UDIM_TILE));
+        let tiles: BTreeSet<u32> = tiles.chain(packing.places.iter().map(|place| place.tile)).collect();
+        PackingSummary {
+            picture: packing.picture.to_array(),
+            gap: options.gap,
+            density: packing.scale,
+            wanted_density: options.density,
+            tiles: tiles.len(),
+            covered: area / (on_picture.x * on_picture.y * tiles.len().max(1) as f64),
         }
     }
-    let mut packing = pack_pieces(&pieces, options);
-    let place = |packing: &Packing, k: usize| pieces[k].laid(&charts[free[k]], packing, k, beside);
-    let is_folded = |(k, &chart): (usize, &usize)| {
-        let solved = &charts[chart];
-        let proved =
-            |coordinates: &Embedding| verdict(solved.outcome.step.candidate.mesh(solved.disk()), coordinates).planar;
-        solved.outcome.step.verdict.planar && !proved(&place(&packing, k))
-    };
-    if options.rotations == Rotations::Free && free.par_iter().enumerate().any(is_folded) {
-        packing = pack_pieces(&pieces, PackingOptions { rotations: Rotations::Quarter, ..options });
-    }
-    for (k, &chart) in free.iter().enumerate() {
-        laid[chart] = Some(place(&packing, k));
-    }
-    let covered = pieces.iter().map(|piece| piece.area).sum::<f64>() * packing.scale.powi(2);
-    let pixels = f64::from(packing.picture.x) * f64::from(packing.picture.y);
-    let density = packing.scale;
-    let packing =
-        PackingSummary { picture: packing.picture.to_array(), gap: options.gap, density, covered: covered / pixels };
-    let coordinates = laid.into_iter().flatten().collect();
-    output(charts, coordinates, (!free.is_empty()).then_some(packing), options)
+}
+
+/// UDIM number of the tile that holds the centre of the box of coordinates. `None` if it has no number.
+fn udim_tile(coordinates: &Embedding) -> Option<u32> {
+    let Bounds { low, high } = coordinates.bounds();
+    let [column, row] = ((low + high) / 2.0).floor().to_array();
+    let is_numbered = (0.0..10.0).contains(&column) && (0.0..MOST_UDIM_ROWS).contains(&row);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small whole numbers")]
+    is_numbered.then(|| FIRST_UDIM_TILE + column as u32 + 10 * row as u32)
 }
 
 /// Whole u at which packed charts begin: to the right of the charts with pins, or 0 if there are none.
@@ -147,18 +265,18 @@ fn first_column_beside(laid: &[Option<Embedding>]) -> f64 {
     if held.high.x.is_finite() { held.high.x.max(1.0).ceil() } else { 0.0 }
 }
 
-fn pack_pieces(pieces: &[Piece], options: PackingOptions) -> Packing {
-    let shapes: Vec<ChartShape> = pieces.iter().map(|piece| piece.shape.clone()).collect();
+pub(super) fn pack_pieces<'p>(pieces: impl IntoIterator<Item = &'p Piece>, options: PackingOptions) -> Packing {
+    let shapes: Vec<ChartShape> = pieces.into_iter().map(|piece| piece.shape.clone()).collect();
     pack(&shapes, options, &|| false).expect("a packing that nobody cancels")
 }
 
 /// Chart at the area of its surface times the square of its size.
-struct Piece {
+pub(super) struct Piece {
     /// Factor that scales the embedding.
-    factor: f64,
-    shape: ChartShape,
+    pub(super) factor: f64,
+    pub(super) shape: ChartShape,
     /// Area that the chart covers, at its size.
-    area: f64,
+    pub(super) area: f64,
 }
 
 impl Piece {
@@ -189,27 +307,32 @@ impl Piece {
         let (mesh, embedding) = (step.candidate.mesh(chart.disk()), &step.candidate.solution.embedding);
         let at = |vertex: &VertexId| embedding[*vertex] * factor;
         if !embedding.iter().all(|z| (*z * factor).is_finite()) {
-            return triangles(mesh, at);
+            return triangles_of(mesh.mesh().real_triangles(), at);
         }
-        if step.verdict.planar { outline(mesh, at) } else { triangles(mesh, at) }
+        if step.verdict.planar { outline(mesh, at) } else { triangles_of(mesh.mesh().real_triangles(), at) }
     }
 
-    /// Texture coordinates of the chart as packed piece `k`, shifted right by `beside`.
-    fn laid(&self, chart: &SolvedChart<'_>, packing: &Packing, k: usize, beside: f64) -> Embedding {
+    /// Texture coordinates of an embedding as packed piece `k`. The first tile begins at u = `beside`.
+    pub(super) fn laid(&self, embedding: &Embedding, packing: &Packing, k: usize, beside: f64) -> Embedding {
         let place = packing.places[k];
-        let coordinate = |&z: &DVec2| {
-            place.position(z * self.factor, packing.scale) / packing.picture.as_dvec2() + DVec2::new(beside, 0.0)
-        };
-        chart.outcome.step.candidate.solution.embedding.iter().map(coordinate).collect()
+        let corner = corner_of_tile(place.tile as usize) + DVec2::new(beside, 0.0);
+        let coordinate =
+            |&z: &DVec2| place.position(z * self.factor, packing.scale) / packing.picture.as_dvec2() + corner;
+        embedding.iter().map(coordinate).collect()
     }
 }
 
-/// Shape between the boundary of a planar chart and its holes. A hole whose rim meets itself counts as filled.
+/// Shape between the boundary of a planar chart and its holes.
 fn outline(mesh: &DiskMesh, at: impl Fn(&VertexId) -> DVec2) -> ChartShape {
     let outer: Vec<DVec2> = mesh.boundary_loop().iter().map(&at).collect();
     let rims = mesh.mesh().holes().into_iter().map(|hole| hole.rim.iter().map(&at).collect::<Vec<DVec2>>());
+    outline_of_loops(outer, rims)
+}
+
+/// Shape between an outer loop and holes, of any directions. A hole whose rim meets itself counts as filled.
+pub(super) fn outline_of_loops(outer: Vec<DVec2>, rims: impl IntoIterator<Item = Vec<DVec2>>) -> ChartShape {
     let winds_alike = |rim: &[DVec2]| turning_number(rim) == turning_number(&outer);
-    let holes = rims.filter(|rim| is_simple(rim)).map(|mut rim| {
+    let holes = rims.into_iter().filter(|rim| is_simple(rim)).map(|mut rim| {
         if winds_alike(&rim) {
             rim.reverse();
         }
@@ -220,21 +343,45 @@ fn outline(mesh: &DiskMesh, at: impl Fn(&VertexId) -> DVec2) -> ChartShape {
 }
 
 /// Shape covered by the faces of a chart that may overlap itself. Faces that are not finite are left out.
-fn triangles(mesh: &DiskMesh, at: impl Fn(&VertexId) -> DVec2) -> ChartShape {
-    let faces = mesh.mesh().real_triangles().iter().map(|face| face.each_ref().map(&at));
+pub(super) fn triangles_of(triangles: &[[VertexId; 3]], at: impl Fn(&VertexId) -> DVec2) -> ChartShape {
+    let faces = triangles.iter().map(|face| face.each_ref().map(&at));
     ChartShape::of_triangles(faces.filter(|corners| corners.iter().all(|corner| corner.is_finite())))
 }
 
 impl<'a> SolvedChart<'a> {
+    /// Chart of default size that is packed into any tile.
+    pub fn new(chart: &'a PreparedMesh, outcome: &'a Outcome) -> Self {
+        Self { chart, outcome, size: 1.0, tile: None, locked: None }
+    }
+
     /// Chart with final coordinates and their verdict.
     fn laid(&self, coordinates: Embedding) -> LaidChart<'a> {
         let step = &self.outcome.step;
         let mesh = step.candidate.mesh(self.chart.disk().expect("only a disk has an outcome"));
         let verdict = verdict(mesh, &coordinates);
-        let of = self.chart.chart.as_ref().expect("one chart of several");
-        let vertex_of = Some(&of.chart.vertex_of[..]);
+        let vertex_of = self.chart.chart.as_ref().map(|of| &of.chart.vertex_of[..]);
         let (refinement, held) = (step.candidate.refinement.as_deref(), self.outcome.held());
-        LaidChart { mesh, refinement, vertex_of, coordinates, verdict, held }
+        LaidChart { mesh, refinement, vertex_of, coordinates, verdict, held, stacked: None }
+    }
+
+    /// Surface of the chart, if the chart may share its place: it is not locked, and has no pins, a planar map and no
+    /// new vertices.
+    fn stackable(&self) -> Option<Stackable> {
+        let step = &self.outcome.step;
+        if self.is_held() || self.is_locked() || !step.verdict.planar || step.candidate.refinement.is_some() {
+            return None;
+        }
+        let disk = self.disk();
+        let positions: Vec<_> = disk.mesh().positions.iter().map(|position| *position * disk.unit()).collect();
+        let (triangles, outer) = (disk.mesh().real_triangles(), disk.boundary_loop());
+        let faces = SurfaceFaces { triangles, outer, area: self.area() };
+        let surface = MeasuredSurface::new(&positions, faces, disk.polygons(), None)?;
+        Some(Stackable { surface, size: self.size(), tile: self.tile })
+    }
+
+    /// Solution of the step to lay out.
+    fn embedding(&self) -> &'a Embedding {
+        &self.outcome.step.candidate.solution.embedding
     }
 
     fn disk(&self) -> &'a DiskMesh {
@@ -255,11 +402,16 @@ impl<'a> SolvedChart<'a> {
 
     /// Average number of pixels of a picture per unit of length on the surface.
     fn density(&self, coordinates: &Embedding, picture: DVec2) -> f64 {
+        (self.area_on(coordinates, picture) / self.area()).sqrt()
+    }
+
+    /// Area of the chart on a picture, in pixels.
+    fn area_on(&self, coordinates: &Embedding, picture: DVec2) -> f64 {
         let mesh = self.outcome.step.candidate.mesh(self.disk());
         let doubled = |face: FaceId| {
             double_area(mesh.mesh().triangles[face.index()].map(|vertex| coordinates[vertex] * picture)).abs()
         };
-        (mesh.real_faces().map(doubled).sum::<f64>() / 2.0 / self.area()).sqrt()
+        mesh.real_faces().map(doubled).sum::<f64>() / 2.0
     }
 
     /// True if the chart has the default size.
@@ -270,6 +422,58 @@ impl<'a> SolvedChart<'a> {
     /// True if pins place the chart.
     fn is_held(&self) -> bool {
         self.outcome.targets_in_use().next().is_some()
+    }
+
+    /// True if the chart is locked and no pins place it.
+    fn is_locked(&self) -> bool {
+        self.locked.is_some() && !self.is_held()
+    }
+
+    /// Coordinates of a chart that stays: on its pins, or where it is locked. `None` if the chart is packed.
+    fn kept(&self, options: PackingOptions) -> Option<Embedding> {
+        if self.is_held() { Some(self.in_place()) } else { self.locked.map(|given| self.laid_over(given, options)) }
+    }
+
+    /// Coordinates by the similarity of a plane that is nearest to given ones. Given numbers are taken as they are if
+    /// they agree with it. The given numbers are for the frame of the problem or for the picture that charts are packed
+    /// into: the one in which they agree better.
+    fn laid_over(&self, given: &Embedding, options: PackingOptions) -> Embedding {
+        let [width, height] = options.picture.map(f64::from);
+        let aspects = [self.outcome.problem.frame.aspect, width / height];
+        let fits = aspects.map(|aspect| self.fitted_in(DVec2::new(aspect, 1.0), given));
+        let [of_frame, of_picture] = fits;
+        if of_picture.1 < of_frame.1 { of_picture.0 } else { of_frame.0 }
+    }
+
+    /// Coordinates by the similarity that is nearest to given ones if they are multiplied by `plane`, and its largest
+    /// distance from them, relative to their extent.
+    fn fitted_in(&self, plane: DVec2, given: &Embedding) -> (Embedding, f64) {
+        let candidate = &self.outcome.step.candidate;
+        let (embedding, mesh) = (&candidate.solution.embedding, candidate.mesh(self.disk()));
+        let virtual_vertices: BTreeSet<VertexId> = mesh.virtual_vertices().into_iter().collect();
+        let is_given = |vertex: &VertexId| vertex.index() < given.len() && !virtual_vertices.contains(vertex);
+        let pair = |vertex: VertexId| [embedding[vertex], given[vertex] * plane];
+        let pairs: Vec<[DVec2; 2]> = mesh.vertices().filter(is_given).map(pair).collect();
+        let Some(similarity) = Similarity::fitting(&pairs) else { return (given.clone(), f64::INFINITY) };
+        let extent = Bounds::of(pairs.iter().map(|[_, to]| *to)).size().max_element();
+        let distances = pairs.iter().map(|[from, to]| similarity.apply(*from).distance(*to));
+        let distance = distances.fold(0.0, f64::max) / extent;
+        let agrees = distance <= AGREEMENT;
+        let laid = |vertex: VertexId| {
+            if agrees && is_given(&vertex) { given[vertex] } else { similarity.apply(embedding[vertex]) / plane }
+        };
+        (mesh.vertices().map(laid).collect(), distance)
+    }
+
+    /// Shape of the chart at coordinates that stay.
+    fn fixed_shape(&self, coordinates: &Embedding) -> ChartShape {
+        let mesh = self.outcome.step.candidate.mesh(self.disk());
+        let at = |vertex: &VertexId| coordinates[*vertex];
+        if verdict(mesh, coordinates).planar {
+            outline(mesh, at)
+        } else {
+            triangles_of(mesh.mesh().real_triangles(), at)
+        }
     }
 
     /// Coordinates placed by the chart's pins or by the given layout, v up.
@@ -316,7 +520,9 @@ impl<'a> SolvedChart<'a> {
             placement,
             distortion: summary,
             density: self.density(coordinates, picture),
+            tile: udim_tile(coordinates),
             new_vertices: self.outcome.new_vertex_count(),
+            stacked: None,
         }
     }
 }
@@ -330,6 +536,7 @@ fn in_order<T: Ord>(list: impl Iterator<Item = T>) -> Vec<T> {
 fn output<'a>(
     charts: &[SolvedChart<'a>],
     coordinates: Vec<Embedding>,
+    stacked: Vec<Option<StackedChart>>,
     packing: Option<PackingSummary>,
     options: PackingOptions,
 ) -> Atlas<'a> {
@@ -340,13 +547,23 @@ fn output<'a>(
     let picture = DVec2::new(aspect, 1.0) * height;
     let placement = |chart: &SolvedChart<'_>| match packing {
         _ if chart.is_held() => Placement::Pins,
+        _ if chart.is_locked() => Placement::Locked,
         Some(_) => Placement::Packed,
         None => Placement::File,
     };
-    let summary = |(chart, laid): (&SolvedChart<'_>, &Embedding)| chart.summary(laid, picture, placement(chart));
-    let summaries = charts.par_iter().zip(&coordinates).map(summary).collect();
-    let laid = |(chart, coordinates): (&SolvedChart<'a>, Embedding)| chart.laid(coordinates);
-    let laid: Vec<LaidChart<'a>> = charts.par_iter().zip(coordinates).map(laid).collect();
+    let summary = |((chart, laid), stacked): ((&SolvedChart<'_>, &Embedding), &Option<StackedChart>)| {
+        let stacked = stacked.as_ref().map(|stacked| stacked.on);
+        // The distortion of a mirror image is measured in the mirror.
+        let upright = stacked.filter(|on| on.mirrored).map(|_| laid.iter().map(|z| DVec2::new(-z.x, z.y)).collect());
+        let summary = chart.summary(upright.as_ref().unwrap_or(laid), picture, placement(chart));
+        ChartSummary { stacked, tile: udim_tile(laid), ..summary }
+    };
+    let summaries = charts.par_iter().zip(&coordinates).zip(&stacked).map(summary).collect();
+    let laid = |((chart, coordinates), stacked): ((&SolvedChart<'a>, Embedding), Option<StackedChart>)| LaidChart {
+        stacked,
+        ..chart.laid(coordinates)
+    };
+    let laid: Vec<LaidChart<'a>> = charts.par_iter().zip(coordinates).zip(stacked).map(laid).collect();
     Atlas {
         verdict: prove_atlas(&laid),
         charts: laid,

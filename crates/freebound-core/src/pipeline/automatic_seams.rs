@@ -195,7 +195,7 @@ impl PreparedMesh {
     /// Map of this mesh or chart from the positions of corners. `None` if a vertex has no position, or several.
     pub fn map_of_corners(&self, mesh: &PolygonMesh, corners: &[Option<DVec2>]) -> Option<Embedding> {
         let polygons = self.repaired.as_ref().map_or(mesh, |repaired| repaired.polygons());
-        let mut found: Vec<Option<DVec2>> = vec![None; self.mesh().vertex_count()];
+        let mut found: Vec<Option<DVec2>> = vec![None; polygons.positions.len()];
         for (corner, vertex) in polygons.corners.iter().enumerate() {
             let of = self.repaired.as_ref().map_or(corner, |repaired| repaired.corner_of(corner));
             let at = corners[of]?;
@@ -203,13 +203,7 @@ impl PreparedMesh {
                 return None;
             }
         }
-        for hole in self.mesh().holes() {
-            let rim: Vec<DVec2> = hole.rim.iter().filter_map(|vertex| found[vertex.index()]).collect();
-            let middle = rim.iter().sum::<DVec2>() / rim.len().max(1) as f64;
-            for vertex in self.mesh().triangles[hole.faces].iter().flatten() {
-                found[vertex.index()].get_or_insert(middle);
-            }
-        }
-        Some(found.into_iter().map(Option::unwrap_or_default).collect())
+        let on_surface = found.into_iter().map(Option::unwrap_or_default);
+        Some(Embedding::with_holes(self.mesh(), on_surface))
     }
 }

@@ -1,10 +1,12 @@
 //! Charts with final coordinates, and all of them joined to one proved mesh.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
-use crate::mesh::{DiskMesh, FaceId, Polygon, Refinement, TriMesh, VertexId, parts};
+use super::StackedChart;
+use crate::mesh::{DiskMesh, FaceId, Part, Polygon, Refinement, TriMesh, VertexId, parts};
+use crate::parallel::prelude::*;
 use crate::problem::Embedding;
-use crate::verify::{AtlasVerdict, Verdict, atlas_verdict};
+use crate::verify::{AtlasVerdict, Verdict, stacked_atlas_verdict, verdict};
 
 /// A chart with final coordinates. Most meshes have only one chart.
 #[derive(Debug)]
@@ -21,6 +23,8 @@ pub struct LaidChart<'a> {
     pub verdict: Verdict,
     /// Vertices with hard pins.
     pub held: Vec<VertexId>,
+    /// Place on another chart. Absent for a chart with a place of its own.
+    pub stacked: Option<StackedChart>,
 }
 
 /// Charts joined to one mesh. Vertices and faces of each chart follow those of the chart before.
@@ -58,7 +62,26 @@ pub fn joined(charts: &[LaidChart<'_>]) -> JoinedCharts {
     JoinedCharts { mesh, coordinates: coordinates.into(), flipped }
 }
 
-/// Verdict on the joined charts, with faces numbered as in the file.
+/// Lays every stacked chart on its representative again, and proves it there. Needed after coordinates change.
+///
+/// # Panics
+///
+/// If a chart is stacked on one that is not in the list.
+pub fn restack(charts: &mut [LaidChart<'_>]) {
+    let on = |chart: &LaidChart<'_>| {
+        let stacked = chart.stacked.as_ref()?;
+        Some(stacked.coordinates(&charts[stacked.on.chart].coordinates))
+    };
+    let coordinates: Vec<Option<Embedding>> = charts.iter().map(on).collect();
+    charts.par_iter_mut().zip(coordinates).for_each(|(chart, coordinates)| {
+        if let Some(coordinates) = coordinates {
+            chart.verdict = verdict(chart.mesh, &coordinates);
+            chart.coordinates = coordinates;
+        }
+    });
+}
+
+/// Verdict on the joined charts, with faces numbered as in the file. Charts that are stacked on purpose may overlap.
 ///
 /// # Panics
 ///
@@ -75,5 +98,25 @@ pub fn prove_atlas(charts: &[LaidChart<'_>]) -> AtlasVerdict {
     for part in &mut parts {
         part.keep_polygons(&whole);
     }
-    atlas_verdict(&parts, &coordinates).as_in_file(&mesh)
+    let face_counts = charts.iter().map(|chart| chart.mesh.mesh().real_face_count()).enumerate();
+    let charts_of_faces: Vec<usize> =
+        face_counts.flat_map(|(chart, faces)| std::iter::repeat_n(chart, faces)).collect();
+    let on = |chart: usize| Some(charts[chart].stacked.as_ref()?.on.chart);
+    let stacked_on = stacked_parts(&parts, |face| charts_of_faces[face.index()], on);
+    stacked_atlas_verdict(&parts, &coordinates, &stacked_on).as_in_file(&mesh)
+}
+
+/// Part whose place each part shares on purpose. `chart_of_face` is the chart of each triangle, and `on` is the chart
+/// whose place a chart shares.
+pub(super) fn stacked_parts(
+    parts: &[Part],
+    chart_of_face: impl Fn(FaceId) -> usize,
+    on: impl Fn(usize) -> Option<usize>,
+) -> Vec<Option<usize>> {
+    let chart_of = |part: &Part| chart_of_face(part.face_of()[0]);
+    let mut part_of = BTreeMap::new();
+    for (number, part) in parts.iter().enumerate() {
+        part_of.entry(chart_of(part)).or_insert(number);
+    }
+    parts.iter().map(|part| part_of.get(&on(chart_of(part))?).copied()).collect()
 }

@@ -14,18 +14,23 @@
 //! | `outcome` | a proved step with its distortion and its final coordinates |
 //! | `laid_chart` | charts with final coordinates, and their proof as one mesh |
 //! | `atlas` | layout of several charts: packing, placement, proof |
+//! | `stacks` | charts with congruent surfaces that share one place |
+//! | `repack`, `given_charts` | new places for the charts of a given layout, without flattening |
 //! | `unwrap` | the easy calls: any mesh to a proved atlas, and the proof of a given layout |
 //! | `summary` | plain data about a result |
 //! | `study/` | the iteration on many random trials (paper §7) |
 
 mod atlas;
 mod automatic_seams;
+mod given_charts;
 mod laid_chart;
 mod options;
 mod outcome;
 mod prepared_mesh;
 mod problem;
+mod repack;
 mod run;
+mod stacks;
 pub mod study;
 mod summary;
 mod targets;
@@ -33,12 +38,14 @@ mod unwrap;
 
 pub use atlas::{Arrangement, Atlas, ChartSummary, SolvedChart, atlas};
 pub use automatic_seams::{AutomaticSeams, MeshToCut, SeamProgress, SeamReport};
-pub use laid_chart::{JoinedCharts, LaidChart, joined, prove_atlas};
+pub use laid_chart::{JoinedCharts, LaidChart, joined, prove_atlas, restack};
 pub use options::PipelineOptions;
 pub use outcome::{Outcome, pins_summary, upright};
 pub use prepared_mesh::{ChartOf, PreparedMesh, Surface};
 pub use problem::Problem;
+pub use repack::{ChartSizes, GivenLayout, RepackError, Repacked, RepackedChart, repack};
 pub use run::SolvedProblem;
-pub use summary::{Fit, PackingSummary, PinsSummary, Placement, SoftPinSummary};
+pub use stacks::StackedChart;
+pub use summary::{Fit, PackingSummary, PinsSummary, Placement, SoftPinSummary, StackedOn};
 pub use targets::{Target, Targets, hard_targets, pins_in_plane};
 pub use unwrap::{NO_COORDINATE, UnwrapError, Unwrapped, unwrap, unwrap_with, verify};

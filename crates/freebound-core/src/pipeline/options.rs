@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Arrangement, PreparedMesh, Problem, Targets};
+use super::{Arrangement, Outcome, PreparedMesh, Problem, SolvedChart, Targets};
 use crate::geom::{PackingOptions, PictureFrame};
 use crate::mesh::{Charts, FaceId, Preparation};
 use crate::problem::Settings;
@@ -29,6 +29,8 @@ pub struct PipelineOptions {
     pub arrangement: Arrangement,
     /// Sizes of packed charts relative to the others, by their first faces. Default: 1.
     pub sizes: BTreeMap<FaceId, f64>,
+    /// Tiles in which charts must be packed, by their first faces. Default: any.
+    pub tiles: BTreeMap<FaceId, u32>,
 }
 
 impl PipelineOptions {
@@ -44,6 +46,11 @@ impl PipelineOptions {
 
     /// Problem of each chart, with the targets on its vertices. `charts` are all charts of one mesh, in order.
     pub fn problems(&self, charts: &[&PreparedMesh]) -> Vec<Problem> {
+        if let [chart] = charts
+            && chart.chart.is_none()
+        {
+            return vec![self.problem()];
+        }
         let mut of_chart = vec![Targets::new(); charts.len()];
         let all = charts.first().and_then(|chart| chart.chart.as_ref()).map(|of| &of.charts);
         for (&vertex, &target) in &self.targets {
@@ -54,6 +61,19 @@ impl PipelineOptions {
             }
         }
         of_chart.into_iter().map(|targets| self.problem_with(targets)).collect()
+    }
+
+    /// Solved chart with its size and its tile.
+    pub fn solved_chart<'a>(&self, chart: &'a PreparedMesh, outcome: &'a Outcome) -> SolvedChart<'a> {
+        let solved = SolvedChart::new(chart, outcome);
+        let Some(of) = &chart.chart else { return solved };
+        let (size, tile) = (self.size_of(&of.charts, of.number), self.tile_of(&of.charts, of.number));
+        SolvedChart { size, tile, ..solved }
+    }
+
+    /// Tile in which a chart must be packed, if one is given.
+    pub fn tile_of(&self, charts: &Charts, number: usize) -> Option<u32> {
+        self.tiles.get(&charts.first_face(number)).copied()
     }
 
     /// Size of a packed chart relative to the others.

@@ -1,6 +1,6 @@
 //! Plain data about a result: placement, pins, packing.
 
-use crate::geom::Rotations;
+use crate::geom::{Rotations, Stacking};
 use crate::mesh::VertexId;
 use crate::problem::{Labels, NamedOption, Treatment};
 
@@ -23,9 +23,11 @@ pub enum Placement {
     File,
     /// Packed into a picture with other charts.
     Packed,
+    /// At given texture coordinates, with the other charts packed around it.
+    Locked,
 }
 
-/// Packing of charts into a picture.
+/// Packing of charts into a picture or several.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PackingSummary {
@@ -35,8 +37,31 @@ pub struct PackingSummary {
     pub gap: u32,
     /// Pixels per unit of length on the surface, for charts of default size.
     pub density: f64,
-    /// Share of the picture that the charts cover, from 0 to 1.
+    /// Density that was asked for. Larger than `density` if the charts do not fit into the largest picture.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub wanted_density: Option<f64>,
+    /// Number of tiles that hold charts, each of them a picture.
+    pub tiles: usize,
+    /// Share of these tiles that the charts cover, from 0 to 1.
     pub covered: f64,
+}
+
+impl PackingSummary {
+    /// Density that was asked for, if the packed charts do not reach it.
+    pub fn unmet_density(&self) -> Option<f64> {
+        self.wanted_density.filter(|&wanted| self.density < wanted)
+    }
+}
+
+/// Place of a chart that lies on another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct StackedOn {
+    /// Number of the other chart, from 0.
+    #[cfg_attr(feature = "serde", serde(rename = "stacked_on"))]
+    pub chart: usize,
+    /// True if the chart is a mirror image of the other, so that all its faces are turned over.
+    pub mirrored: bool,
 }
 
 /// Pins of a run and their errors. All distances are in texture coordinates.
@@ -101,6 +126,18 @@ impl NamedOption for Rotations {
             Self::Free => Labels::new("free", "Any").about("Charts may have any rotation"),
             Self::Quarter => Labels::new("quarter", "By 90°").about("Charts may be rotated by multiples of 90°"),
             Self::None => Labels::new("none", "None").about("Charts keep their orientation"),
+        }
+    }
+}
+
+impl NamedOption for Stacking {
+    const ALL: &'static [Self] = &[Self::None, Self::Congruent, Self::Mirrored];
+
+    fn labels(&self) -> Labels {
+        match self {
+            Self::None => Labels::new("none", "None").about("Every chart has a place of its own"),
+            Self::Congruent => Labels::new("congruent", "Congruent").about("Congruent charts share a place"),
+            Self::Mirrored => Labels::new("mirrored", "Mirrored").about("Congruent and mirrored charts share a place"),
         }
     }
 }

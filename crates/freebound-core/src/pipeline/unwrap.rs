@@ -64,7 +64,8 @@ impl PipelineOptions {
 }
 
 /// Unwraps any mesh: repairs and cuts it as the options allow, flattens every chart, packs the charts into the unit
-/// square and proves the whole. Edges are never split: the mesh gets no new vertices from a method.
+/// square and proves the whole. A mesh of one chart is packed if the options give a density. Edges are never split: the
+/// mesh gets no new vertices from a method.
 ///
 /// # Errors
 ///
@@ -139,10 +140,16 @@ fn unwrap_disk(
     let solved = solved.map_err(|error| UnwrapError::Solve { chart: 0, error })?;
     let (coordinates, placement, verdict) = solved.outcome.output(disk, Fit::Unit);
     let picture = DVec2::new(options.frame.aspect, 1.0) * f64::from(options.packing.picture[1]);
-    let chart = SolvedChart { chart: prepared, outcome: &solved.outcome, size: 1.0 };
-    let summary = chart.summary(&coordinates, picture, placement);
-    let held = solved.outcome.held();
-    let laid = LaidChart { mesh: disk, refinement: None, vertex_of: None, coordinates, verdict, held };
+    let chart = SolvedChart::new(prepared, &solved.outcome);
+    let (laid, summary) = if options.packing.density.is_some() {
+        let mut packed = atlas(&[chart], options.packing, options.arrangement);
+        (packed.charts.remove(0), packed.summaries.remove(0))
+    } else {
+        let (summary, held) = (chart.summary(&coordinates, picture, placement), solved.outcome.held());
+        let laid =
+            LaidChart { mesh: disk, refinement: None, vertex_of: None, coordinates, verdict, held, stacked: None };
+        (laid, summary)
+    };
     let number = |vertex: Option<VertexId>| vertex.map_or(NO_COORDINATE, VertexId::number);
     let corners = match &prepared.repaired {
         Some(repaired) => repaired.vertices_at_corners(mesh).into_iter().map(number).collect(),
@@ -173,13 +180,8 @@ fn unwrap_charts(
     let solved: Vec<Result<_, UnwrapError>> = work.into_par_iter().map(solve).collect();
     // In the order of the charts: the first failure in time would depend on the threads.
     let solved = solved.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let of_size =
-        |prepared: &PreparedMesh| prepared.chart.as_ref().map_or(1.0, |of| options.size_of(&of.charts, of.number));
-    let to_lay: Vec<SolvedChart<'_>> = charts
-        .iter()
-        .zip(&solved)
-        .map(|(chart, solved)| SolvedChart { chart, outcome: &solved.outcome, size: of_size(chart) })
-        .collect();
+    let to_lay: Vec<SolvedChart<'_>> =
+        charts.iter().zip(&solved).map(|(chart, solved)| options.solved_chart(chart, &solved.outcome)).collect();
     let laid = atlas(&to_lay, options.packing, options.arrangement);
     let whole = prepared.whole_repaired().expect("several charts come of a repaired mesh");
     let mut numbers = vec![NO_COORDINATE; whole.polygons().positions.len()];

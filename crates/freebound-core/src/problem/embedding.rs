@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::SolveError;
 use crate::geom::Bounds;
-use crate::mesh::{DiskMesh, FaceId, VertexId};
+use crate::mesh::{DiskMesh, FaceId, TriMesh, VertexId};
 
 /// Planar positions of all vertices of a mesh, in the order of its vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,6 +47,22 @@ impl Embedding {
     }
 
     /// Moves unreferenced vertices to the first boundary vertex, so that they do not stretch the bounds.
+    /// Embedding from the positions of all vertices but those in holes, which come last: they get the middle of their
+    /// hole's rim.
+    pub(crate) fn with_holes(mesh: &TriMesh, positions: impl Iterator<Item = DVec2>) -> Self {
+        let mut positions: Vec<DVec2> = positions.collect();
+        let outside_holes = positions.len();
+        positions.resize(mesh.vertex_count(), DVec2::ZERO);
+        for hole in mesh.holes() {
+            let rim = hole.rim.iter().map(|vertex| positions[vertex.index()]);
+            let middle = rim.sum::<DVec2>() / hole.rim.len().max(1) as f64;
+            for vertex in mesh.triangles[hole.faces].iter().flatten().filter(|v| v.index() >= outside_holes) {
+                positions[vertex.index()] = middle;
+            }
+        }
+        Self(positions)
+    }
+
     pub(crate) fn gather_unused(&mut self, mesh: &DiskMesh) {
         if mesh.used_vertex_count() < mesh.vertex_count() {
             let begin = self[mesh.boundary_loop()[0]];

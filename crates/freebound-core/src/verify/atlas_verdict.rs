@@ -13,19 +13,25 @@
 //! Charts that are one-to-one do not overlap if no face of one meets the inside of a face of another. Two triangles
 //! have disjoint insides if and only if a side of one has the other on its outer side or on its line. Exact
 //! orientations decide this. Charts may touch.
+//!
+//! # Stacked charts
+//!
+//! A chart may be stacked on another on purpose. Both are one-to-one, and the boundary loops of both are the same
+//! polygons, bit for bit. A one-to-one chart covers the region that its outer loop bounds without the insides of its
+//! holes. So both cover the same region, and no face of another chart overlaps one of them unless it overlaps the other.
+//! The verdict therefore compares only charts that are not stacked. Charts with other loops do not count as stacked.
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::parallel::prelude::*;
 use glam::DVec2;
 
-use crate::geom::{Bounds, BoxTree, Orientation, is_simple, orientation, place_along_curve, turning_number};
-use crate::mesh::{FaceId, Part, Polygon, TriMesh};
+use crate::geom::{self, Orientation, is_simple, orientation, turning_number};
+use crate::mesh::{FaceId, Part, Polygon, TriMesh, VertexId};
 use crate::problem::Embedding;
 
 /// Largest number of listed pairs of overlapping faces.
 pub const OVERLAPS_LISTED: usize = 1000;
-
-/// Number of faces that are compared with the others between two checks of the number of pairs.
-const FACES_PER_ROUND: usize = 1 << 14;
 
 /// Verdict on a chart, with its defects. Faces are numbered as in the whole layout.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,19 +56,25 @@ pub struct ChartVerdict {
     pub is_bounded: bool,
     /// True if the chart is a mirror image.
     pub mirrored: bool,
+    /// Number of the chart whose place this chart shares on purpose. Absent for a chart with a place of its own.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub stacked_on: Option<usize>,
 }
 
 /// Verdict on a layout of charts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct AtlasVerdict {
-    /// True if each chart is one-to-one and no two charts overlap.
+    /// True if each chart is one-to-one and no two charts overlap, apart from charts that share a place on purpose.
     pub planar: bool,
     /// True if the layout is also planar with all coordinates rounded to 32 bits.
     #[cfg_attr(feature = "serde", serde(rename = "f32"))]
     pub planar_in_f32: bool,
     /// Verdict on each chart.
     pub charts: Vec<ChartVerdict>,
+    /// Number of places that several charts share on purpose.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "is_zero"))]
+    pub stacks: usize,
     /// Pairs of overlapping faces of different charts, at most [`OVERLAPS_LISTED`].
     pub overlapping_faces: Vec<[FaceId; 2]>,
     /// True if there are more pairs than listed.
@@ -76,9 +88,28 @@ pub struct AtlasVerdict {
 ///
 /// If the embedding lacks a vertex of a part.
 pub fn atlas_verdict(charts: &[Part], embedding: &Embedding) -> AtlasVerdict {
+    stacked_atlas_verdict(charts, embedding, &vec![None; charts.len()])
+}
+
+/// [`atlas_verdict`] for charts that share a place on purpose. `stacked_on` has the number of the chart whose place a
+/// chart shares, which has a place of its own. A chart whose boundary differs from that chart's counts as not stacked.
+///
+/// # Panics
+///
+/// If the embedding lacks a vertex of a part, or `stacked_on` lacks a chart.
+pub fn stacked_atlas_verdict(charts: &[Part], embedding: &Embedding, stacked_on: &[Option<usize>]) -> AtlasVerdict {
+    let outlines: Vec<Option<Outline>> = outlines_of_stacks(charts, embedding, stacked_on);
+    let is_alike = |(chart, on): (usize, usize)| stacked_on[on].is_none() && outlines[chart] == outlines[on];
+    let stacked_on: Vec<Option<usize>> =
+        stacked_on.iter().enumerate().map(|(chart, on)| on.filter(|&on| is_alike((chart, on)))).collect();
     let in_f32: Embedding = embedding.iter().map(|z| z.as_vec2().as_dvec2()).collect();
-    let found: Vec<ChartVerdict> = charts.par_iter().map(|chart| chart_verdict(chart, embedding)).collect();
-    let mut overlapping_faces = overlaps(charts, embedding, OVERLAPS_LISTED + 1);
+    let verdict_of =
+        |(chart, &stacked_on): (&Part, &Option<usize>)| ChartVerdict { stacked_on, ..chart_verdict(chart, embedding) };
+    let found: Vec<ChartVerdict> = charts.par_iter().zip(&stacked_on).map(verdict_of).collect();
+    let apart: Vec<&Part> =
+        charts.iter().zip(&stacked_on).filter(|(_, on)| on.is_none()).map(|(chart, _)| chart).collect();
+    let stacks = stacked_on.iter().flatten().collect::<BTreeSet<_>>().len();
+    let mut overlapping_faces = overlaps(&apart, embedding, OVERLAPS_LISTED + 1);
     let more_overlaps = overlapping_faces.len() > OVERLAPS_LISTED;
     overlapping_faces.truncate(OVERLAPS_LISTED);
     let planar = overlapping_faces.is_empty() && found.iter().all(|chart| chart.planar);
@@ -86,8 +117,58 @@ pub fn atlas_verdict(charts: &[Part], embedding: &Embedding) -> AtlasVerdict {
         let in_f32 = chart_verdict(chart, &in_f32);
         in_f32.planar && in_f32.mirrored == before.mirrored
     };
-    let planar_in_f32 = planar && charts.par_iter().zip(&found).all(kind) && overlaps(charts, &in_f32, 1).is_empty();
-    AtlasVerdict { planar, planar_in_f32, charts: found, overlapping_faces, more_overlaps }
+    let planar_in_f32 = planar && charts.par_iter().zip(&found).all(kind) && overlaps(&apart, &in_f32, 1).is_empty();
+    AtlasVerdict { planar, planar_in_f32, charts: found, stacks, overlapping_faces, more_overlaps }
+}
+
+/// Charts with the outline of an earlier chart, each with the number of the first such chart. Charts are compared by
+/// their boundary loops, bit for bit, as they lie or mirrored.
+pub fn equal_outlines(charts: &[Part], embedding: &Embedding) -> Vec<Option<usize>> {
+    let outlines: Vec<Outline> = charts.par_iter().map(|chart| outline(chart, embedding)).collect();
+    let mut first: BTreeMap<&Outline, usize> = BTreeMap::new();
+    outlines
+        .iter()
+        .enumerate()
+        .map(|(chart, of)| Some(*first.entry(of).or_insert(chart)).filter(|&on| on != chart))
+        .collect()
+}
+
+/// Boundary loops of a chart as bits, in a form that does not depend on the beginning or direction of a loop.
+type Outline = Vec<Vec<[u64; 2]>>;
+
+/// Outlines of all charts that are stacked or have charts on them.
+fn outlines_of_stacks(charts: &[Part], embedding: &Embedding, stacked_on: &[Option<usize>]) -> Vec<Option<Outline>> {
+    let lower: BTreeSet<usize> = stacked_on.iter().flatten().copied().collect();
+    let is_of_stack = |chart: usize| stacked_on[chart].is_some() || lower.contains(&chart);
+    let of = |(number, chart): (usize, &Part)| is_of_stack(number).then(|| outline(chart, embedding));
+    charts.par_iter().enumerate().map(of).collect()
+}
+
+fn outline(chart: &Part, embedding: &Embedding) -> Outline {
+    let bits =
+        |vertex: &VertexId| (embedding[chart.vertex_of()[vertex.index()]] + DVec2::ZERO).to_array().map(f64::to_bits);
+    let mut loops: Outline =
+        chart.loops().iter().map(|vertices| canonical(vertices.iter().map(bits).collect())).collect();
+    loops.sort_unstable();
+    loops
+}
+
+/// Cycle that begins at its least element and goes on in the direction of the lesser neighbour.
+fn canonical(mut cycle: Vec<[u64; 2]>) -> Vec<[u64; 2]> {
+    let rotated = |cycle: &mut Vec<[u64; 2]>| {
+        let least = (0..cycle.len()).min_by_key(|&at| cycle[at]).unwrap_or_default();
+        cycle.rotate_left(least);
+    };
+    rotated(&mut cycle);
+    let mut reversed: Vec<[u64; 2]> = cycle.iter().rev().copied().collect();
+    rotated(&mut reversed);
+    cycle.min(reversed)
+}
+
+#[cfg(feature = "serde")]
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+const fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 fn chart_verdict(chart: &Part, embedding: &Embedding) -> ChartVerdict {
@@ -120,73 +201,43 @@ fn chart_verdict(chart: &Part, embedding: &Embedding) -> ChartVerdict {
         crossed_loops,
         is_bounded,
         mirrored,
+        stacked_on: None,
     }
-}
-
-/// A face in the plane, counter-clockwise.
-struct Spot {
-    chart: usize,
-    face: FaceId,
-    corners: [DVec2; 3],
-    bounds: Bounds,
 }
 
 /// Pairs of overlapping faces of different charts, the lower face first, ascending; at most `most`.
-fn overlaps(charts: &[Part], embedding: &Embedding, most: usize) -> Vec<[FaceId; 2]> {
+fn overlaps(charts: &[&Part], embedding: &Embedding, most: usize) -> Vec<[FaceId; 2]> {
     if charts.len() < 2 {
         return Vec::new();
     }
-    let mut spots: Vec<Spot> =
-        charts.iter().enumerate().flat_map(|(number, chart)| spots_of(number, chart, embedding)).collect();
-    let whole = spots.iter().fold(Bounds::EMPTY, |whole, spot| whole.union(spot.bounds));
-    spots.sort_by_cached_key(|spot| (place_along_curve(whole, spot.bounds.middle()), spot.face));
-    let tree = BoxTree::new(spots.iter().map(|spot| spot.bounds));
-    let mut pairs: Vec<[FaceId; 2]> = Vec::new();
-    for begin in (0..spots.len()).step_by(FACES_PER_ROUND) {
-        let round = begin..(begin + FACES_PER_ROUND).min(spots.len());
-        let of_spot = |place: usize| {
-            let own = &spots[place];
-            let others = tree.later(place).map(|other| &spots[other]);
-            let over = others.filter(|other| other.chart != own.chart && own.lies_over(other));
-            over.map(|other| [own.face.min(other.face), own.face.max(other.face)]).take(most).collect::<Vec<_>>()
-        };
-        pairs.par_extend(round.into_par_iter().flat_map_iter(of_spot));
-        if pairs.len() >= most {
-            break;
-        }
-    }
+    let spots = charts.iter().enumerate().flat_map(|(number, chart)| spots_of(number, chart, embedding));
+    let (spots, triangles): (Vec<Spot>, Vec<[DVec2; 3]>) = spots.unzip();
+    let found = geom::overlaps(&triangles, |a, b| spots[a].chart != spots[b].chart, most);
+    let in_order = |[a, b]: [FaceId; 2]| [a.min(b), a.max(b)];
+    let mut pairs: Vec<[FaceId; 2]> =
+        found.into_iter().map(|pair| in_order(pair.map(|spot| spots[spot].face))).collect();
     pairs.sort_unstable();
-    pairs.truncate(most);
     pairs
 }
 
-/// Faces of a chart that have an area.
-fn spots_of<'a>(number: usize, chart: &'a Part, embedding: &'a Embedding) -> impl Iterator<Item = Spot> + 'a {
-    let places = |face: usize| chart.mesh().triangles[face].map(|v| embedding[chart.vertex_of()[v.index()]]);
-    (0..chart.mesh().face_count()).filter_map(move |face| {
+/// A face with its chart.
+struct Spot {
+    chart: usize,
+    face: FaceId,
+}
+
+/// Faces of a chart that have an area, with their corners counter-clockwise.
+fn spots_of<'a>(chart: usize, of: &'a Part, embedding: &'a Embedding) -> impl Iterator<Item = (Spot, [DVec2; 3])> + 'a {
+    let places = |face: usize| of.mesh().triangles[face].map(|v| embedding[of.vertex_of()[v.index()]]);
+    (0..of.mesh().face_count()).filter_map(move |face| {
         let [a, b, c] = places(face);
         let corners = match orientation(a, b, c)? {
             Orientation::CounterClockwise => [a, b, c],
             Orientation::Clockwise => [a, c, b],
             Orientation::Collinear => return None,
         };
-        Some(Spot { chart: number, face: chart.face_of()[face], corners, bounds: Bounds::of(corners) })
+        Some((Spot { chart, face: of.face_of()[face] }, corners))
     })
-}
-
-impl Spot {
-    /// True if the insides of two faces meet.
-    fn lies_over(&self, other: &Self) -> bool {
-        !self.has_beside(other) && !other.has_beside(self)
-    }
-
-    /// True if a side has the other face on its outer side or on its line.
-    fn has_beside(&self, other: &Self) -> bool {
-        let [a, b, c] = self.corners;
-        let is_inward =
-            |[from, to]: [DVec2; 2], z: DVec2| orientation(from, to, z) == Some(Orientation::CounterClockwise);
-        [[a, b], [b, c], [c, a]].into_iter().any(|side| !other.corners.iter().any(|&z| is_inward(side, z)))
-    }
 }
 
 impl ChartVerdict {
@@ -234,6 +285,10 @@ impl AtlasVerdict {
     pub fn summary(&self) -> String {
         let count = self.charts.len();
         let charts = if count == 1 { "1 chart".to_owned() } else { format!("{count} charts") };
+        let stacked = self.charts.iter().filter(|chart| chart.stacked_on.is_some()).count();
+        if self.planar && stacked > 0 {
+            return format!("{charts}, {stacked} stacked on others, each planar, stacks apart: each proved one-to-one");
+        }
         if self.planar {
             let each =
                 if count == 1 { "planar: proved one-to-one" } else { "each planar, and apart: proved one-to-one" };

@@ -18,7 +18,9 @@ mod rounding;
 mod uv_frame;
 pub(crate) mod verdict;
 
-pub use atlas_verdict::{AtlasVerdict, ChartVerdict, OVERLAPS_LISTED, atlas_verdict};
+pub use atlas_verdict::{
+    AtlasVerdict, ChartVerdict, OVERLAPS_LISTED, atlas_verdict, equal_outlines, stacked_atlas_verdict,
+};
 pub use conflicts::{CONFLICTS_LISTED, Conflict, conflicts};
 pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Mean, Spread, distortion};
 pub use hull_condition::{CornerKind, HullStanding, holes_turn_once, hull_standing, vertices_outside_hull};

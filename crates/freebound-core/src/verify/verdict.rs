@@ -181,11 +181,11 @@ pub(crate) fn planar_sense(mesh: &DiskMesh, embedding: &Embedding) -> Option<Ori
 }
 
 /// Polygons that turn the wrong way, or not at all, at a corner that is convex in space.
-fn concave_polygons<'a>(
+pub(crate) fn concave_polygons<'a, 'b>(
     mesh: &'a DiskMesh,
-    embedding: &'a Embedding,
+    embedding: &'b Embedding,
     upright: Orientation,
-) -> impl Iterator<Item = Polygon<'a>> {
+) -> impl Iterator<Item = Polygon<'a>> + use<'a, 'b> {
     let turns = move |ear: [VertexId; 3]| {
         let [a, b, c] = ear.map(|v| embedding[v]);
         orientation(a, b, c) == Some(upright)

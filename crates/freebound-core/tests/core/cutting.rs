@@ -275,6 +275,29 @@ fn every_better_cut_is_reported_and_the_last_report_is_the_result() {
     assert!((last.energy - energy_along(&mesh, &found)).abs() < 1e-9);
 }
 
+/// Bent sheet: an extruded profile of two legs and a chamfered corner, so that its caps are concave octagons.
+fn bent_sheet() -> PolygonMesh {
+    let outside = [[0.0, 0.0], [1.0, 0.0], [1.2, 0.2], [1.2, 1.2]];
+    let inside = [[1.1, 1.2], [1.1, 0.2], [1.0, 0.1], [0.0, 0.1]];
+    let profile: Vec<DVec2> = outside.into_iter().chain(inside).map(DVec2::from).collect();
+    prism(&profile, 2.0)
+}
+
+#[test]
+fn polygons_are_convex_in_the_map_of_a_search_and_its_energy_counts_that() {
+    let mesh = bent_sheet();
+    let reports = Mutex::new(Vec::new());
+    let keep = |news: SeamProgress| reports.lock().expect("no panic").push(news.energy);
+    let found = AutomaticSeams::find(to_cut(&mesh, &form()), SeamOptions::new(4.1), Control::unattended(), &keep);
+    let found = found.expect("not cancelled");
+    let energy = *reports.lock().expect("no panic").last().expect("reports");
+    assert!(4.0 < energy && energy <= 4.1, "{energy}");
+    assert!((energy - energy_along(&mesh, &found)).abs() < 1e-9);
+    let unwrapped = unwrap(&mesh, &PipelineOptions::for_any_mesh()).expect("planar");
+    let last = unwrapped.charts[0].distortion.symmetric_dirichlet.mean;
+    assert!((energy - last).abs() < 1e-9, "{energy} in the search, {last} at the end");
+}
+
 #[test]
 fn the_bits_are_the_same_for_any_number_of_threads() {
     let mesh = bumpy_ball();
@@ -366,4 +389,37 @@ fn a_torus_with_a_hole_anywhere_is_opened_to_one_disk() {
             assert!(distortion(disk, &map).summary.symmetric_dirichlet.mean <= 4.2);
         }
     }
+}
+
+/// Ramp between two radii that winds around the z-axis, with a small pitch: nearly flat, so that its development lies
+/// over itself.
+fn ramp(turns: f64, steps: u32) -> PolygonMesh {
+    let at = |step: u32, radius: f64| {
+        let angle = std::f64::consts::TAU * turns * f64::from(step) / f64::from(steps);
+        [radius * angle.cos(), radius * angle.sin(), 0.02 * angle]
+    };
+    let positions: Vec<[f64; 3]> = (0..=steps).flat_map(|step| [at(step, 0.2), at(step, 1.5)]).collect();
+    let faces: Vec<[u32; 3]> =
+        (0..steps).map(|step| 2 * step).flat_map(|low| [[low, low + 1, low + 3], [low, low + 3, low + 2]]).collect();
+    PolygonMesh::from_arrays(&positions, &faces.iter().map(<[u32; 3]>::as_slice).collect::<Vec<_>>())
+}
+
+#[test]
+fn a_ramp_of_many_turns_is_cut_into_charts_that_do_not_overlap() {
+    let mesh = ramp(3.5, 168);
+    let seams = seams_of(&mesh, 4.1);
+    let prepared = PreparedMesh::new(&mesh, None, seams.form.clone());
+    // Each chart winds less than once.
+    let count = prepared.chart_count();
+    assert!((4..=7).contains(&count), "{count} charts, seams {}", seams.length);
+    for chart in (0..count).map(|chart| prepared.of_chart(chart)) {
+        let disk = chart.disk().expect("a disk");
+        let map = chart.map_of_corners(&mesh, &seams.corners).expect("every corner has one position");
+        assert!(verdict(disk, &map).planar);
+        let energy = distortion(disk, &map).summary.symmetric_dirichlet.mean;
+        assert!(energy <= 4.1, "{energy}");
+    }
+    // A straight cut across the ramp is 1.3 long.
+    let length = 1.3 * (count - 1) as f64;
+    assert!(seams.length <= 1.1 * length, "{} for {length}", seams.length);
 }

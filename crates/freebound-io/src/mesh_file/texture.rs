@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::DVec2;
 
 use super::{MeshFile, NO_TEXTURE, Texture, TextureError};
-use freebound_core::mesh::{FaceId, TriMesh, VertexId};
+use freebound_core::mesh::{TriMesh, VertexId};
 use freebound_core::problem::Embedding;
 
 /// Mesh over texture vertices, with the embedding in the file.
@@ -98,7 +98,7 @@ impl MeshFile {
     }
 
     /// Texture coordinates, if all corners have one.
-    pub(super) fn complete_texture(&self) -> Result<&Texture, TextureError> {
+    pub(crate) fn complete_texture(&self) -> Result<&Texture, TextureError> {
         let texture = self.texture.as_ref().ok_or(TextureError::None)?;
         let lacks = |&face: &u32| {
             let places = self.polygons.corner_range(face as usize);
@@ -119,18 +119,6 @@ impl TextureMesh {
     /// Removes triangles with two corners at exactly one point, both in space and in the plane. Such triangles arise
     /// if a polygon names a point twice by different vertices. They have no area in space or in the plane.
     pub fn drop_collapsed_faces(&mut self) {
-        let TextureMesh { mesh, embedding, .. } = self;
-        let is_one_place = |a: VertexId, b: VertexId| {
-            mesh.positions[a.index()] == mesh.positions[b.index()] && embedding[a] == embedding[b]
-        };
-        let stays: Vec<bool> = mesh
-            .triangles
-            .iter()
-            .map(|&[a, b, c]| ![[a, b], [b, c], [c, a]].iter().any(|&[p, q]| is_one_place(p, q)))
-            .collect();
-        let kept = |face: &usize| stays[*face];
-        let faces = || (0..stays.len()).filter(kept);
-        mesh.polygon_of = Some(faces().map(|face| mesh.polygon(FaceId::from_index(face))).collect());
-        mesh.triangles = faces().map(|face| mesh.triangles[face]).collect();
+        self.mesh = std::mem::take(&mut self.mesh).without_collapsed(&self.embedding);
     }
 }

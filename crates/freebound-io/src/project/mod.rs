@@ -111,6 +111,9 @@ pub struct ProjectFile {
     /// Relative size of charts in the packing, by the number of their first face in the file. Default: 1.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub sizes: BTreeMap<u32, f64>,
+    /// Texture coordinates of the vertices of locked charts, v up, by the number of their first face in the file.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub locked: BTreeMap<u32, Vec<[f64; 2]>>,
     /// Targets of the user's pins.
     #[serde(default, rename = "pins", with = "pin_list")]
     pub targets: Targets,
@@ -232,6 +235,7 @@ impl ProjectFile {
             relaxed_elsewhere: BTreeMap::new(),
             packing: PackingOptions::default(),
             sizes: BTreeMap::new(),
+            locked: BTreeMap::new(),
             new_vertices: settings.new_vertices,
             start: settings.start,
             targets: Targets::new(),

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::relax::MODERATE_ENERGY;
 use super::stage::{Handover, RunStage, StageFailure, StageInput, StepState};
 use super::task::Task;
 use super::{Candidate, Ending, PlanarStart, Step};
@@ -14,6 +15,8 @@ use crate::problem::{Control, Embedding, Pins, SolveError, Stage};
 
 /// Rounds of relaxing afterwards: the first result is not the best.
 const ROUNDS: usize = 3;
+/// Rounds of relaxing afterwards if the planar start had a high energy: its boundary was far from the best.
+const ROUNDS_FROM_HIGH_ENERGY: usize = 5;
 /// Rounds of relaxing afterwards if springs have yet to pull.
 const ROUNDS_WITH_SPRINGS: usize = 30;
 
@@ -85,12 +88,14 @@ pub(super) struct Continue {
     stage: ContinuationPhase,
     /// True if the latest step left the embedding unchanged.
     has_stayed: bool,
+    /// True if the planar start had a high energy.
+    is_from_high_energy: bool,
 }
 
 impl Continue {
     /// Stage that returns its initial embedding unchanged if that meets all constraints.
     pub(super) fn staying() -> Self {
-        Self { stage: ContinuationPhase::Stay, has_stayed: false }
+        Self { stage: ContinuationPhase::Stay, ..Self::default() }
     }
 
     /// Initial embedding, if it meets all constraints.
@@ -133,6 +138,7 @@ impl RunStage for Continue {
             control.go_on()?;
             let frame = Arc::clone(&task.frame);
             let mut continuation = Box::new(Continuation::new(mesh, start, &held).with_output_frame(frame));
+            self.is_from_high_energy = continuation.progress(mesh).energy > MODERATE_ENERGY;
             let met = continuation.by_way_of_coarse(mesh, control)?;
             self.stage = ContinuationPhase::UnderWay(continuation);
             if let Some(advance) = met {
@@ -167,7 +173,11 @@ impl RunStage for Continue {
     }
 
     fn relax_rounds_after(&self, task: &Task, _: &Step) -> usize {
-        if self.has_stayed { 0 } else { rounds_after(task) }
+        match rounds_after(task) {
+            _ if self.has_stayed => 0,
+            ROUNDS if self.is_from_high_energy => ROUNDS_FROM_HIGH_ENERGY,
+            rounds => rounds,
+        }
     }
 
     fn ending(&self, _: &Task) -> Ending {

@@ -92,7 +92,7 @@ impl PhaseState {
 
 impl Flattener {
     /// Keeps a step as the planar start of flatteners with constraints, if their planar start would be this step. A
-    /// flattener without constraints takes equal steps until only the energy is lowered. A step is kept once. No step
+    /// flattener without constraints takes equal steps until it relaxes on for itself. A step is kept once. No step
     /// is kept if the mesh has polygons, because a planar start may leave them concave.
     pub(super) fn keep_start(&mut self, step: &mut Step, mesh: &DiskMesh) {
         let phase = self.strategy.phase();
@@ -102,7 +102,7 @@ impl Flattener {
         let is_alone =
             phase.aim == PhaseGoal::Constraints && pins.is_empty() && start.is_none() && self.units.is_plane();
         let is_alike = settings.method == Method::Auto && settings.resolves_to(&usual);
-        let is_end = step.verdict.planar && !step.verdict.mirrored && !phase.relax.goes_on_for_digits();
+        let is_end = step.verdict.planar && !step.verdict.mirrored && !phase.relax.goes_on_for_start();
         if is_alone && is_alike && is_end && !has_polygons && self.cache.planar_start.is_none() {
             let start = Arc::new(PlanarStart::new(&self.task, step.candidate.solution.embedding.clone()));
             self.cache.planar_start = Some(Arc::clone(&start));

@@ -62,7 +62,8 @@ impl Flattener {
             verdict = if is_kept { self.verdict_of(mesh, &candidate, control)? } else { verdict };
         }
         control.go_on()?;
-        if candidate.progress.is_none() && verdict.planar && self.strategy.phase().rounds_until_it_serves() > 0 {
+        let is_measured = verdict.planar || (is_start && verdict.is_one_to_one());
+        if candidate.progress.is_none() && is_measured && self.strategy.phase().rounds_until_it_serves() > 0 {
             let of = candidate.mesh(mesh);
             candidate.progress = Some(RestShape::progress_at_end(of, &candidate.solution.embedding));
         }

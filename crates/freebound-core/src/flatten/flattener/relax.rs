@@ -3,6 +3,9 @@
 //! `auto` continues with them until the embedding is *usable*: planar in 32 bits, as most programs read it, and of
 //! moderate energy, and without a face that shrank to a hundredth, so that a picture on it keeps some texels
 //! everywhere. A given planar layout stays unchanged.
+//!
+//! A planar start, from which constraints are met, need not be usable. Its rounds end as soon as it serves as a start:
+//! relaxing follows once, after the constraints are met.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -16,7 +19,11 @@ use crate::problem::{Control, PinKind, Pins, Progress, SolveError, Stage};
 use crate::verify::DistortionSummary;
 
 /// Largest mean symmetric Dirichlet energy that is moderate. The minimum is 4.
-const MODERATE_ENERGY: f64 = 20.0;
+pub(super) const MODERATE_ENERGY: f64 = 20.0;
+
+/// Largest energy of a planar start. Natural maps of heads reach 1,000. From maps of 50,000 constraints are met
+/// with the final energy of a relaxed start; far above, faces lose their digits.
+const MOST_ENERGY_OF_START: f64 = 1e4;
 
 /// Distance from the origin, in sizes of the embedding, beyond which it is far. Far numbers have fewer digits.
 const FAR: f64 = 8.0;
@@ -37,6 +44,8 @@ pub(super) struct Relax {
     left: Rounds,
     /// Reason why the latest embedding is not usable.
     lack: Option<Shortfall>,
+    /// True if constraints can be met from the latest embedding without further rounds.
+    serves_as_start: bool,
     /// True if a round has failed, so that no further one follows.
     has_failed: bool,
     /// True if constraints are met afterwards.
@@ -99,16 +108,26 @@ impl Relax {
 
     /// Examines the step that rounds may follow.
     pub(super) fn look_at_start(&mut self, step: &Step) {
-        self.lack = Shortfall::of(step);
+        self.examine(step);
         if step.candidate.refinement.as_deref().is_some_and(is_tangle) {
             // No number of rounds makes a tangle usable.
             self.left.until_it_serves = 0;
         }
     }
 
-    /// True if rounds follow for another reason than a high energy.
-    pub(super) fn goes_on_for_digits(&self) -> bool {
-        self.left.always > 0 || matches!(self.lack, Some(Shortfall::Digits { .. }))
+    fn examine(&mut self, step: &Step) {
+        let is_low = step.candidate.progress.is_some_and(|progress| progress.energy <= MOST_ENERGY_OF_START);
+        self.lack = Shortfall::of(step);
+        self.serves_as_start = is_low && !self.folds_in_32_bits();
+    }
+
+    fn folds_in_32_bits(&self) -> bool {
+        matches!(self.lack, Some(Shortfall::Digits { .. }))
+    }
+
+    /// True if a planar start would be relaxed further.
+    pub(super) fn goes_on_for_start(&self) -> bool {
+        self.folds_in_32_bits() || (self.left.always > 0 && !self.serves_as_start)
     }
 
     /// True if the latest embedding folds in 32 bits although it is not far from the origin.
@@ -158,7 +177,8 @@ impl RunStage for Relax {
         let may_serve = self.lack.is_some() && latest.is_none_or(|latest| latest.attained != Attained::AllButPolygons);
         // The filling of holes of a given layout may fold; relaxing cannot start from that.
         let may_begin = latest.is_none_or(|latest| latest.is_one_to_one || !latest.is_solved());
-        let is_wanted = self.left.always > 0 || (self.left.until_it_serves > 0 && may_serve);
+        let is_enough = self.is_before_constraints && self.serves_as_start;
+        let is_wanted = (self.left.always > 0 && !is_enough) || (self.left.until_it_serves > 0 && may_serve);
         is_wanted
             && may_begin
             && !self.has_failed
@@ -168,6 +188,6 @@ impl RunStage for Relax {
     fn observe(&mut self, step: &Step) {
         let left = if self.left.always > 0 { &mut self.left.always } else { &mut self.left.until_it_serves };
         *left = left.saturating_sub(1);
-        self.lack = Shortfall::of(step);
+        self.examine(step);
     }
 }

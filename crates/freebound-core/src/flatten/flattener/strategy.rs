@@ -327,7 +327,9 @@ impl PhaseState {
                 let method = &self.task.settings.method;
                 let is_for_planar = *method == Method::Auto || method.is_one_to_one();
                 let is_start = self.aim == PhaseGoal::PlanarStart;
-                let keeps_concave = !is_for_planar || is_start || step.verdict.concave_polygons.is_empty();
+                // The map of automatic seams has only polygons that cannot be convex, which are cut.
+                let is_cut = step.candidate.stage == Stage::Seams && self.task.cuts_polygons();
+                let keeps_concave = !is_for_planar || is_start || is_cut || step.verdict.concave_polygons.is_empty();
                 let to_convex = if keeps_concave { 0 } else { ROUNDS_TO_CONVEX };
                 self.stage(self.at).relax_rounds_after(&self.task, step).max(to_convex)
             };

@@ -4,6 +4,9 @@
 //! bays, holes and corners that other charts leave. Only corners of the region of possible places are compared: a
 //! place that can slide both ways along a row or a column touches less than one that cannot.
 
+use std::collections::BTreeMap;
+use std::ops::Range;
+
 use super::page::{Page, Spot, Stencil};
 
 /// Rule for the choice among possible places.
@@ -25,6 +28,15 @@ pub(crate) struct Placed {
     pub(crate) spot: Spot,
 }
 
+/// Chart that looks for a place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ChartToPlace<'a> {
+    /// Its turns.
+    pub(crate) stencils: &'a [Stencil],
+    /// Tiles in which it may lie.
+    pub(crate) tiles: &'a Range<usize>,
+}
+
 /// Finds places for charts on one page.
 pub(crate) struct Placer {
     page: Page,
@@ -32,40 +44,40 @@ pub(crate) struct Placer {
     fits: Vec<u64>,
     /// True for a row with a possible column.
     has_fit: Vec<bool>,
-    /// Row at which the search for a place starts, for each class of sizes.
-    floors: [usize; 128],
+    /// Row at which the search for a place starts, for each range of tiles and each class of sizes.
+    floors: BTreeMap<[usize; 3], usize>,
     /// Number of words that were read.
     pub(crate) work: u64,
 }
 
 impl Placer {
-    /// Placer on a free page.
-    pub(crate) fn new(columns: usize, rows: usize) -> Self {
-        let page = Page::new(columns, rows);
+    /// Placer on a page, of which cells may be taken.
+    pub(crate) fn new(page: Page) -> Self {
         let fits = vec![0; page.words() * page.height];
-        Self { has_fit: vec![false; page.height], fits, floors: [1; 128], page, work: 0 }
+        Self { has_fit: vec![false; page.height], fits, floors: BTreeMap::new(), page, work: 0 }
     }
 
-    /// Puts a chart at its best place; `stencils` are its turns. `None` if there is no place.
-    pub(crate) fn put(&mut self, stencils: &[Stencil], rule: Rule) -> Option<Placed> {
+    /// Puts a chart at its best place. `None` if there is no place.
+    pub(crate) fn put(&mut self, chart: ChartToPlace<'_>, rule: Rule) -> Option<Placed> {
         let best = match rule {
-            Rule::Contact => self.most_contact(stencils),
-            Rule::Lowest => self.lowest(stencils),
+            Rule::Contact => self.most_contact(chart),
+            Rule::Lowest => self.lowest(chart),
         }?;
-        self.page.take(&stencils[best.turn].mask, best.spot);
+        self.page.take(&chart.stencils[best.turn].mask, best.spot);
         Some(best)
     }
 
     /// Lowest place, searched from a little below the last place of a chart of about the same size. So the rows that
     /// are full are not read again for each of many charts.
-    fn lowest(&mut self, stencils: &[Stencil]) -> Option<Placed> {
+    fn lowest(&mut self, ChartToPlace { stencils, tiles }: ChartToPlace<'_>) -> Option<Placed> {
         let class = (stencils[0].count.max(1).pow(2)).ilog2() as usize;
-        let floor = self.floors[class];
+        let class = [tiles.start, tiles.end, class];
+        let floor = self.floors.get(&class).copied().unwrap_or(1);
         let mut best: Option<((usize, usize), Placed)> = None;
         let words = self.page.words();
         let mut found = vec![0; words];
         for (turn, stencil) in stencils.iter().enumerate() {
-            for row in floor..self.page.height.saturating_sub(stencil.mask.height) {
+            for row in self.page.starts(tiles.clone(), stencil.mask.height).filter(|&row| row >= floor) {
                 let top = row + stencil.mask.height;
                 if best.is_some_and(|(key, _)| key.0 < top) {
                     break;
@@ -82,15 +94,15 @@ impl Placer {
         }
         let (_, placed) = best?;
         let height = stencils[placed.turn].mask.height;
-        self.floors[class] = floor.max(placed.spot.row.saturating_sub(SLACK * height));
+        self.floors.insert(class, floor.max(placed.spot.row.saturating_sub(SLACK * height)));
         Some(placed)
     }
 
-    fn most_contact(&mut self, stencils: &[Stencil]) -> Option<Placed> {
+    fn most_contact(&mut self, ChartToPlace { stencils, tiles }: ChartToPlace<'_>) -> Option<Placed> {
         let mut best: Option<(f64, Placed)> = None;
         for (turn, stencil) in stencils.iter().enumerate() {
-            self.find_fits(stencil);
-            self.visit_corners(stencil, |page, spot, work| {
+            self.find_fits(stencil, tiles.clone());
+            self.visit_corners(|page, spot, work| {
                 let score = page.contact(stencil, spot, work) as f64 / stencil.rim_count as f64;
                 if best.is_none_or(|(most, _)| score > most) {
                     best = Some((score, Placed { turn, spot }));
@@ -100,20 +112,20 @@ impl Placer {
         best.map(|(_, placed)| placed)
     }
 
-    /// Computes all possible places of a stencil.
-    fn find_fits(&mut self, stencil: &Stencil) {
+    /// Computes all possible places of a stencil in these tiles.
+    fn find_fits(&mut self, stencil: &Stencil, tiles: Range<usize>) {
         let words = self.page.words();
         self.has_fit.fill(false);
-        for row in 1..self.page.height.saturating_sub(stencil.mask.height) {
+        for row in self.page.starts(tiles, stencil.mask.height) {
             let found = &mut self.fits[row * words..][..words];
             self.has_fit[row] = self.page.fits(stencil, row, found, &mut self.work);
         }
     }
 
     /// Visits possible places with an impossible neighbour in their row and one in their column.
-    fn visit_corners(&mut self, stencil: &Stencil, mut visit: impl FnMut(&Page, Spot, &mut u64)) {
+    fn visit_corners(&mut self, mut visit: impl FnMut(&Page, Spot, &mut u64)) {
         let words = self.page.words();
-        for row in 1..self.page.height.saturating_sub(stencil.mask.height) {
+        for row in 1..self.page.height - 1 {
             if !self.has_fit[row] {
                 continue;
             }

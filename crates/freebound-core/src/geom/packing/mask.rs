@@ -57,20 +57,41 @@ impl Mask {
         let Bounds { low, high } = bounds(edges);
         let [width, height] = (high - low + 2.0 * radius).to_array().map(count);
         let mut cells = Self::empty(width, height);
+        let moved = edges.iter().map(|edge| edge.map(|point| point - low + radius));
+        cells.add(moved, radius, mark_row);
+        cells
+    }
+
+    /// Marks all cells of the mask within `radius` of a shape, `radius > 0`, whose edges are given in the frame of the
+    /// mask. The shape may reach beyond the mask.
+    pub(crate) fn add_touched(&mut self, edges: &[[DVec2; 2]], radius: f64) {
+        self.add(edges.iter().copied(), radius, Self::mark_touched);
+    }
+
+    /// Marks the cells whose centres lie within `radius` of a shape, like [`add_touched`](Self::add_touched).
+    pub(crate) fn add_sampled(&mut self, edges: &[[DVec2; 2]], radius: f64) {
+        self.add(edges.iter().copied(), radius, Self::mark_sampled);
+    }
+
+    fn add(
+        &mut self,
+        edges: impl Iterator<Item = [DVec2; 2]>,
+        radius: f64,
+        mark_row: impl Fn(&mut Self, &Stadium, usize),
+    ) {
         let mut crossings = Vec::new();
-        for edge in edges {
-            let [from, to] = edge.map(|point| point - low + radius);
+        for [from, to] in edges {
             let stadium = Stadium::new(from, to, radius);
-            let first = cell(from.y.min(to.y) - radius, height);
-            let last = cell(from.y.max(to.y) + radius, height);
-            for row in first..=last {
-                mark_row(&mut cells, &stadium, row);
+            let [low, high] = [from.y.min(to.y) - radius, from.y.max(to.y) + radius];
+            if high >= 0.0 && low <= self.height as f64 {
+                for row in cell(low, self.height)..=cell(high, self.height) {
+                    mark_row(self, &stadium, row);
+                }
             }
-            push_crossings(from, to, &mut crossings);
+            push_crossings(from, to, self.height, &mut crossings);
         }
         crossings.sort_unstable();
-        cells.fill(&crossings);
-        cells
+        self.fill(&crossings);
     }
 
     /// Mask without marked cells.
@@ -101,7 +122,8 @@ impl Mask {
 
     /// Marks the cells of a row that a stadium touches.
     fn mark_touched(&mut self, stadium: &Stadium, row: usize) {
-        if let Some([left, right]) = stadium.interval(row as f64, (row + 1) as f64) {
+        let interval = stadium.interval(row as f64, (row + 1) as f64);
+        if let Some([left, right]) = interval.filter(|&[left, right]| right >= 0.0 && left <= self.width as f64) {
             self.mark(row, cell(left, self.width), cell(right, self.width));
         }
     }
@@ -193,12 +215,13 @@ struct Crossing {
     sign: i32,
 }
 
-/// Appends the crossings of an edge with all centre lines. An edge owns its lower end and not its upper end.
-fn push_crossings(from: DVec2, to: DVec2, crossings: &mut Vec<Crossing>) {
+/// Appends the crossings of an edge with the centre lines of the rows below `height`. An edge owns its lower end and
+/// not its upper end.
+fn push_crossings(from: DVec2, to: DVec2, height: usize, crossings: &mut Vec<Crossing>) {
     let (down, up, sign) = if from.y <= to.y { (from, to, 1) } else { (to, from, -1) };
     let row_from = |y: f64| (y - 0.5).ceil().max(0.0) as usize;
     // The cast clamps negative numbers to zero.
-    for row in row_from(down.y)..row_from(up.y) {
+    for row in row_from(down.y)..row_from(up.y).min(height) {
         let x = down.x + (up.x - down.x) * ((row as f64 + 0.5 - down.y) / (up.y - down.y));
         crossings.push(Crossing { row, column: (x - 0.5).ceil().max(0.0) as usize, sign });
     }

@@ -6,9 +6,10 @@
 
 use glam::DVec2;
 
-use super::greedy::{Placed, Placer, Rule};
-use super::page::Stencil;
-use super::scene::{Grid, Layout, Pose, Scene};
+use super::greedy::{ChartToPlace, Placed, Placer, Rule};
+use super::mask::Mask;
+use super::page::{Page, Stencil};
+use super::scene::{Grid, Layout, Pose, Scene, TileCell};
 use crate::geom::Random;
 
 /// Factor of the scale from one attempt to the next while no scale is known that fits.
@@ -43,6 +44,10 @@ pub(crate) struct OrderSearch<'a> {
     scene: &'a Scene,
     grid: Grid,
     effort: Effort,
+    /// Page without the charts.
+    page: Page,
+    /// Number of cells that fixed shapes leave.
+    room: usize,
     /// Factor of each chart's rank.
     ranks: Vec<f64>,
     random: Random,
@@ -54,20 +59,25 @@ impl<'a> OrderSearch<'a> {
     /// Search with a seed of its own.
     pub(crate) fn new(scene: &'a Scene, grid: Grid, effort: Effort, is_cancelled: &'a dyn Fn() -> bool) -> Self {
         let ranks = vec![1.0; scene.charts.len()];
-        Self { scene, grid, effort, ranks, random: Random(1), work: 0, is_cancelled }
+        let (mut page, taken) = (Page::new(grid), scene.taken(grid));
+        for (tile, mask) in taken.iter().enumerate() {
+            page.take_in(tile, mask);
+        }
+        let room = grid.columns * grid.rows * grid.tiles - taken.iter().map(Mask::count).sum::<usize>();
+        Self { scene, grid, effort, page, room, ranks, random: Random(1), work: 0, is_cancelled }
     }
 
-    /// Layout at the largest scale found between 0 and `highest`, starting at `first`. `None` if no scale was found
-    /// or the search was cancelled.
-    pub(crate) fn run(mut self, first: f64, highest: f64) -> Option<Layout> {
-        let found = self.descend(first)?;
-        let high = if found.scale < first { found.scale / DESCENT } else { highest };
+    /// Layout at the largest scale found between `lowest` and `highest`, starting at `first`. `None` if no scale was
+    /// found or the search was cancelled.
+    pub(crate) fn run(mut self, [lowest, first]: [f64; 2], highest: f64) -> Option<Layout> {
+        let found = self.descend([lowest, first])?;
+        let high = if found.scale < first { (found.scale / DESCENT).min(highest) } else { highest };
         let found = self.bisect(found, high)?;
         self.perturb(found, highest)
     }
 
-    /// First layout at a scale of `first` or less.
-    fn descend(&mut self, first: f64) -> Option<Layout> {
+    /// First layout at a scale of `first` or less, down to `lowest`.
+    fn descend(&mut self, [lowest, first]: [f64; 2]) -> Option<Layout> {
         let mut scale = first;
         for _ in 0..MOST_DESCENTS {
             if (self.is_cancelled)() {
@@ -76,7 +86,10 @@ impl<'a> OrderSearch<'a> {
             if let Some(layout) = self.layout(scale) {
                 return Some(layout);
             }
-            scale *= DESCENT;
+            if scale <= lowest {
+                return None;
+            }
+            scale = (scale * DESCENT).max(lowest);
         }
         None
     }
@@ -150,30 +163,32 @@ impl<'a> OrderSearch<'a> {
         if !self.has_room(stencils) {
             return None;
         }
-        let mut page = Placer::new(self.grid.columns, self.grid.rows);
+        let mut page = Placer::new(self.page.clone());
         let mut places = vec![None; order.len()];
         for &chart in order {
-            places[chart] = page.put(&stencils[chart], self.effort.rule);
+            let candidate = ChartToPlace { stencils: &stencils[chart], tiles: &self.scene.charts[chart].tiles };
+            places[chart] = page.put(candidate, self.effort.rule);
             if places[chart].is_none() {
                 self.ranks[chart] *= PROMOTION;
                 break;
             }
         }
-        self.work += page.work + (self.grid.columns * self.grid.rows / 16 + order.len()) as u64;
+        self.work += page.work + (self.grid.columns * self.grid.rows * self.grid.tiles / 16 + order.len()) as u64;
         places.into_iter().collect()
     }
 
-    /// True if the page has as many cells as all charts.
+    /// True if all tiles have as many free cells as all charts.
     fn has_room(&self, stencils: &[Vec<Stencil>]) -> bool {
         let least = |of: &Vec<Stencil>| of.iter().map(|stencil| stencil.count).min().unwrap_or(0);
-        stencils.iter().map(least).sum::<usize>() <= self.grid.columns * self.grid.rows
+        stencils.iter().map(least).sum::<usize>() <= self.room
     }
 
     fn found(&self, scale: f64, placed: &[Placed]) -> Layout {
         let place = |(chart, placed): (usize, &Placed)| {
             // The page has a border of one cell.
-            let cell = DVec2::new(placed.spot.column as f64, placed.spot.row as f64) - 1.0;
-            self.scene.place(Pose { chart, turn: placed.turn, scale }, self.grid, cell)
+            let [tile, row] = self.page.tile_of(placed.spot.row);
+            let cell = DVec2::new((placed.spot.column - 1) as f64, row as f64);
+            self.scene.place(Pose { chart, turn: placed.turn, scale }, self.grid, TileCell { tile, cell })
         };
         Layout { scale, places: placed.iter().enumerate().map(place).collect() }
     }

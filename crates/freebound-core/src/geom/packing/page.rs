@@ -6,7 +6,10 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "columns and rows of a page are far fewer than 2³²")]
 
+use std::ops::Range;
+
 use super::mask::Mask;
+use super::scene::Grid;
 
 /// Run of marked cells in a row of a mask.
 #[derive(Clone, Copy, Debug)]
@@ -84,18 +87,20 @@ fn rim(mask: &Mask) -> Mask {
     rim
 }
 
-/// Place of a mask on a page: column and row of its lower left cell, in the frame of the page with its border.
+/// Place of a mask on a page: column and row of its lower left cell, in the frame of the page with its borders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Spot {
     pub(crate) column: usize,
     pub(crate) row: usize,
 }
 
-/// Free cells of a page, which has a border of one taken cell.
+/// Free cells of all tiles, one above the other. Each tile has a border of one taken cell; two tiles share a row of it.
 #[derive(Clone, Debug)]
 pub(crate) struct Page {
-    /// Rows with the border.
+    /// Rows of all tiles with their borders.
     pub(crate) height: usize,
+    /// Rows of one tile without its border.
+    rows: usize,
     words: usize,
     /// Bits of each level, row by row.
     levels: Vec<Vec<u64>>,
@@ -104,19 +109,35 @@ pub(crate) struct Page {
 }
 
 impl Page {
-    /// Free page of a number of columns and rows, without the border.
-    pub(crate) fn new(columns: usize, rows: usize) -> Self {
-        let (width, height) = (columns + 2, rows + 2);
+    /// Free page of all tiles of a grid.
+    pub(crate) fn new(Grid { columns, rows, tiles, .. }: Grid) -> Self {
+        let (width, height) = (columns + 2, tiles * (rows + 1) + 1);
         let words = width.div_ceil(64);
-        let count = columns.ilog2() as usize + 1;
-        let mut page = Self { height, words, levels: vec![vec![0; words * height]; count], heights: vec![0; height] };
-        for row in 1..=rows {
+        let levels = vec![vec![0; words * height]; columns.ilog2() as usize + 1];
+        let mut page = Self { height, rows, words, levels, heights: vec![0; height] };
+        for row in page.starts(0..tiles, 1) {
             for column in 1..=columns {
                 page.levels[0][row * words + column / 64] |= 1 << (column % 64);
             }
             page.update(row);
         }
         page
+    }
+
+    /// Rows at which masks of a height lie within one of these tiles, in order.
+    pub(crate) fn starts(&self, tiles: Range<usize>, height: usize) -> impl Iterator<Item = usize> + use<> {
+        let (stride, count) = (self.rows + 1, (self.rows + 1).saturating_sub(height));
+        tiles.flat_map(move |tile| (0..count).map(move |row| 1 + tile * stride + row))
+    }
+
+    /// Tile of a row of cells, and the number of the row in the tile.
+    pub(crate) fn tile_of(&self, row: usize) -> [usize; 2] {
+        [(row - 1) / (self.rows + 1), (row - 1) % (self.rows + 1)]
+    }
+
+    /// Takes the cells of a mask that covers a whole tile.
+    pub(crate) fn take_in(&mut self, tile: usize, mask: &Mask) {
+        self.take(mask, Spot { column: 1, row: 1 + tile * (self.rows + 1) });
     }
 
     /// Computes the higher levels of a row from its free cells.

@@ -2,11 +2,13 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "columns and rows of a page are far fewer than 2³¹")]
 
+use std::ops::Range;
+
 use glam::DVec2;
 
 use super::mask::Mask;
-use super::scene::{Grid, Layout, Place, Pose, Scene};
-use super::separate::{Moves, Separator, Spot};
+use super::scene::{Grid, Layout, Place, Pose, Scene, TileCell};
+use super::separate::{Board, Moves, Separator, Spot};
 use crate::geom::Random;
 
 /// First change of the scale. It is halved after a failure above a scale that fits.
@@ -51,14 +53,15 @@ impl Refiner<'_> {
     /// Layout without overlap on a grid, near a given one, at the largest scale found. `None` if there is no such
     /// layout at scales a little below the given one, or if cancelled.
     pub(crate) fn refine(&self, start: &Layout, rules: Refinement) -> Option<Layout> {
+        let taken = self.scene.taken(rules.grid);
         let mut found: Option<Layout> = None;
         let (mut scale, mut step, mut failures) = (start.scale, STEP, 0);
         while step >= rules.least_step && failures < MOST_FAILURES && !(self.is_cancelled)() {
             let is_stuck = found.is_none() && failures >= STUCK && failures % 2 == 0;
             let rules = if is_stuck { Refinement { freedom: Freedom::Rearranged, ..rules } } else { rules };
             let places = &found.as_ref().unwrap_or(start).places;
-            let random = Random(failures as u64);
-            if let Some(layout) = self.separated(places, scale.min(self.highest), rules, random) {
+            let at = Layout { scale: scale.min(self.highest), places: places.clone() };
+            if let Some(layout) = self.separated(&at, rules, &taken, Random(failures as u64)) {
                 found = Some(layout);
             } else {
                 failures += 1;
@@ -73,9 +76,10 @@ impl Refiner<'_> {
         found
     }
 
-    /// Layout without overlap at a scale, near given places.
-    fn separated(&self, places: &[Place], scale: f64, rules: Refinement, random: Random) -> Option<Layout> {
-        let grid = rules.grid;
+    /// Layout without overlap at the scale of a layout, near its places. `taken` has the cells of fixed shapes.
+    fn separated(&self, start: &Layout, rules: Refinement, taken: &[Mask], random: Random) -> Option<Layout> {
+        let (grid, Layout { places, scale }) = (rules.grid, start);
+        let scale = *scale;
         let turns: Vec<Vec<usize>> =
             places.iter().enumerate().map(|(chart, place)| self.turns(chart, place.turn, rules.freedom)).collect();
         let masks_of = |(chart, turns): (usize, &Vec<usize>)| -> Vec<Mask> {
@@ -85,22 +89,25 @@ impl Refiner<'_> {
         let spot = |(chart, place): (usize, &Place)| {
             let cell = self.scene.cell(Pose { chart, turn: place.turn, scale }, place.centre, grid);
             let turn = turns[chart].iter().position(|&turn| turn == place.turn).unwrap_or(0);
-            Spot { turn, x: cell.x as i32, y: cell.y as i32 }
+            Spot { tile: place.tile, turn, x: cell.x as i32, y: cell.y as i32 }
         };
         let spots = places.iter().enumerate().map(spot).collect();
         let moves = match rules.freedom {
             Freedom::Rearranged => Moves::FAR,
             Freedom::Kept => Moves::NEAR,
         };
-        let mut charts = Separator::new(&masks, [grid.columns, grid.rows], spots, moves, random)?;
+        let tiles: Vec<Range<usize>> = self.scene.charts.iter().map(|chart| chart.tiles.clone()).collect();
+        let board = Board { masks: &masks, tiles: &tiles, taken, grid };
+        let mut charts = Separator::new(board, spots, moves, random)?;
         if !charts.separate(rules.work, self.is_cancelled) {
             return None;
         }
         let place = |(chart, spot): (usize, &Spot)| {
             let cell = DVec2::new(f64::from(spot.x), f64::from(spot.y));
-            self.scene.place(Pose { chart, turn: turns[chart][spot.turn], scale }, grid, cell)
+            let pose = Pose { chart, turn: turns[chart][spot.turn], scale };
+            self.scene.place(pose, grid, TileCell { tile: spot.tile, cell })
         };
-        Some(Layout { scale, places: charts.spots.iter().enumerate().map(place).collect() })
+        Some(Layout { scale, places: charts.spots[..places.len()].iter().enumerate().map(place).collect() })
     }
 
     /// Turns among which a chart that has a certain turn may choose.

@@ -8,7 +8,10 @@
 
 use glam::DVec2;
 
+use std::ops::Range;
+
 use super::mask::{Mask, bounds};
+use super::tiles::corner_of_tile;
 use crate::geom::Bounds;
 
 /// Rounding of a position in pixels, relative to the page and to the chart's distance from the origin.
@@ -27,24 +30,33 @@ pub(crate) struct Chart {
     pub(crate) edges: Vec<[DVec2; 2]>,
     /// Turns in which the chart may lie.
     pub(crate) turns: Vec<DVec2>,
+    /// Tiles in which the chart may lie.
+    pub(crate) tiles: Range<usize>,
 }
 
 /// Packing task.
 pub(crate) struct Scene {
     pub(crate) charts: Vec<Chart>,
+    /// Edges of each fixed shape, in widths and heights of the page.
+    pub(crate) fixed: Vec<Vec<[DVec2; 2]>>,
+    /// Number of tiles, each of the size of the page.
+    pub(crate) tiles: usize,
     /// Width and height of the page in pixels.
     pub(crate) picture: DVec2,
     /// Gap in pixels.
     pub(crate) gap: f64,
 }
 
-/// Cells of a page.
+/// Cells of all tiles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
     /// Side of a cell in pixels: a power of two, so that conversions are exact.
     pub(crate) cell: f64,
+    /// Number of columns of a tile.
     pub(crate) columns: usize,
+    /// Number of rows of a tile.
     pub(crate) rows: usize,
+    pub(crate) tiles: usize,
     /// Rule by which a chart takes cells.
     pub(crate) cover: Cover,
 }
@@ -59,13 +71,22 @@ pub(crate) enum Cover {
     Sampled,
 }
 
-/// Place of a chart on a page.
+/// Place of a chart in a tile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
+    pub(crate) tile: usize,
     /// Number of the chart's turn.
     pub(crate) turn: usize,
-    /// Centre of the chart's bounding box in pixels.
+    /// Centre of the chart's bounding box in pixels, from the lower left corner of the tile.
     pub(crate) centre: DVec2,
+}
+
+/// Cell of a tile.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TileCell {
+    pub(crate) tile: usize,
+    /// Column and row.
+    pub(crate) cell: DVec2,
 }
 
 /// Places of all charts at one scale.
@@ -90,7 +111,7 @@ impl Scene {
     /// Grid with cells of a side of `cell` pixels.
     pub(crate) fn grid(&self, cell: f64, cover: Cover) -> Grid {
         let [columns, rows] = (self.picture / cell).to_array().map(|cells| cells.floor().max(1.0) as usize);
-        Grid { cell, columns, rows, cover }
+        Grid { cell, columns, rows, tiles: self.tiles, cover }
     }
 
     /// Mask of a chart on a grid.
@@ -102,9 +123,29 @@ impl Scene {
         }
     }
 
+    /// Cells of each tile that fixed shapes take. Empty if there are no fixed shapes.
+    pub(crate) fn taken(&self, grid: Grid) -> Vec<Mask> {
+        let tiles = 0..if self.fixed.is_empty() { 0 } else { grid.tiles };
+        tiles.map(|tile| self.taken_of(tile, grid)).collect()
+    }
+
+    fn taken_of(&self, tile: usize, grid: Grid) -> Mask {
+        let corner = corner_of_tile(tile);
+        let mut mask = Mask::empty(grid.columns, grid.rows);
+        for edges in &self.fixed {
+            let edges: Vec<[DVec2; 2]> =
+                edges.iter().map(|edge| edge.map(|point| (point - corner) * self.picture / grid.cell)).collect();
+            match grid.cover {
+                Cover::Touched => mask.add_touched(&edges, self.margin(&edges, grid)),
+                Cover::Sampled => mask.add_sampled(&edges, self.gap / 2.0 / grid.cell + SAMPLED_MARGIN),
+            }
+        }
+        mask
+    }
+
     /// Edges of a turned and scaled chart in units of `unit` pixels, a power of two.
     fn edges(&self, Pose { chart, turn, scale }: Pose, unit: f64) -> Vec<[DVec2; 2]> {
-        let Chart { edges, turns } = &self.charts[chart];
+        let Chart { edges, turns, .. } = &self.charts[chart];
         edges.iter().map(|edge| edge.map(|point| turns[turn].rotate(point) * (scale / unit))).collect()
     }
 
@@ -127,9 +168,9 @@ impl Scene {
         bounds(&self.edges(pose, 1.0)).size() + self.gap
     }
 
-    /// Place of a chart whose mask has its lower left cell at a column and row.
-    pub(crate) fn place(&self, pose: Pose, grid: Grid, cell: DVec2) -> Place {
-        Place { turn: pose.turn, centre: cell * grid.cell + self.size(pose) / 2.0 }
+    /// Place of a chart whose mask has its lower left cell at a column and row of a tile.
+    pub(crate) fn place(&self, pose: Pose, grid: Grid, TileCell { tile, cell }: TileCell) -> Place {
+        Place { tile, turn: pose.turn, centre: cell * grid.cell + self.size(pose) / 2.0 }
     }
 
     /// Column and row nearest to a centre in pixels for the lower left cell of the chart's mask.

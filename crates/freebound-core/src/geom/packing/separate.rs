@@ -12,7 +12,10 @@
     reason = "columns and rows of a page are far fewer than 2³¹"
 )]
 
+use std::ops::Range;
+
 use super::mask::Mask;
+use super::scene::Grid;
 use crate::geom::Random;
 
 /// Factors by which the weight of a pair grows: without overlap, and with the largest one. The factor is linear in
@@ -50,21 +53,33 @@ const DESCENTS: usize = 3;
 /// Directions of descent.
 const DIRECTIONS: [[i32; 2]; 8] = [[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, -1], [1, -1], [-1, 1]];
 
-/// Place of a chart: the number of its mask, and the column and row of the mask's lower left cell.
+/// Place of a chart: its tile, the number of its mask, and the column and row of the mask's lower left cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Spot {
+    pub(crate) tile: usize,
     pub(crate) turn: usize,
     pub(crate) x: i32,
     pub(crate) y: i32,
 }
 
-/// Charts on a page of cells, possibly in overlap.
-pub(crate) struct Separator<'a> {
+/// Charts, and the tiles where they may lie.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Board<'a> {
     /// Masks of each chart.
-    masks: &'a [Vec<Mask>],
-    /// Columns and rows of the page.
+    pub(crate) masks: &'a [Vec<Mask>],
+    /// Tiles of each chart.
+    pub(crate) tiles: &'a [Range<usize>],
+    /// Cells of each tile that fixed shapes take; empty if there are none.
+    pub(crate) taken: &'a [Mask],
+    pub(crate) grid: Grid,
+}
+
+/// Charts in tiles of cells, possibly in overlap.
+pub(crate) struct Separator<'a> {
+    board: Board<'a>,
+    /// Columns and rows of a tile.
     size: [i32; 2],
-    /// Place of each chart.
+    /// Place of each chart, then of the cells that are taken in each tile. The latter do not move.
     pub(crate) spots: Vec<Spot>,
     /// Weight of each pair of charts, twice.
     weights: Vec<f32>,
@@ -86,22 +101,18 @@ struct Rated {
 }
 
 impl<'a> Separator<'a> {
-    /// Charts at their places, moved into the page. `None` if a chart's mask is larger than the page.
-    pub(crate) fn new(
-        masks: &'a [Vec<Mask>],
-        size: [usize; 2],
-        spots: Vec<Spot>,
-        moves: Moves,
-        random: Random,
-    ) -> Option<Self> {
+    /// Charts at their places, moved into their tiles. `None` if a chart's mask is larger than a tile.
+    pub(crate) fn new(board: Board<'a>, mut spots: Vec<Spot>, moves: Moves, random: Random) -> Option<Self> {
+        spots.extend((0..board.taken.len()).map(|tile| Spot { tile, turn: 0, x: 0, y: 0 }));
         let count = spots.len();
-        let size = size.map(|side| side as i32);
-        let (weights, buckets) = (vec![1.0; count * count], Buckets::new(size, count));
-        let mut all = Self { masks, size, spots, weights, heavy: Vec::new(), buckets, moves, random, work: 0 };
+        let Grid { columns, rows, tiles, .. } = board.grid;
+        let size = [columns, rows].map(|side| side as i32);
+        let (weights, buckets) = (vec![1.0; count * count], Buckets::new([size[0], size[1] * tiles as i32], count));
+        let mut all = Self { board, size, spots, weights, heavy: Vec::new(), buckets, moves, random, work: 0 };
         for chart in 0..count {
             let spot = all.spots[chart];
             let room = all.room(chart, spot.turn)?;
-            all.spots[chart] = Spot { turn: spot.turn, x: spot.x.clamp(0, room[0]), y: spot.y.clamp(0, room[1]) };
+            all.spots[chart] = Spot { x: spot.x.clamp(0, room[0]), y: spot.y.clamp(0, room[1]), ..spot };
             all.buckets.insert(chart, all.area(chart, all.spots[chart]));
         }
         Some(all)
@@ -117,6 +128,7 @@ impl<'a> Separator<'a> {
             if self.work > work || is_cancelled() {
                 return false;
             }
+            charts.retain(|&chart| chart < self.board.masks.len());
             for last in (1..charts.len()).rev() {
                 charts.swap(self.random.index(last + 1), last);
             }
@@ -126,17 +138,23 @@ impl<'a> Separator<'a> {
         }
     }
 
-    /// Largest column and row at which a chart lies on the page. `None` if it is larger than the page.
+    /// Mask of a chart in one of its turns, or taken cells of a tile.
+    fn mask(&self, chart: usize, turn: usize) -> &'a Mask {
+        let Board { masks, taken, .. } = self.board;
+        masks.get(chart).map_or_else(|| &taken[chart - masks.len()], |masks| &masks[turn])
+    }
+
+    /// Largest column and row at which a chart lies in a tile. `None` if it is larger than the tile.
     fn room(&self, chart: usize, turn: usize) -> Option<[i32; 2]> {
-        let mask = &self.masks[chart][turn];
+        let mask = self.mask(chart, turn);
         let room = [self.size[0] - mask.width as i32, self.size[1] - mask.height as i32];
         (room[0] >= 0 && room[1] >= 0).then_some(room)
     }
 
-    /// Cells of the box of a chart at a spot.
+    /// Cells of the box of a chart at a spot, with all tiles one above the other.
     fn area(&self, chart: usize, spot: Spot) -> Area {
-        let mask = &self.masks[chart][spot.turn];
-        Area { low: [spot.x, spot.y], high: [spot.x + mask.width as i32, spot.y + mask.height as i32] }
+        let (mask, low) = (self.mask(chart, spot.turn), spot.y + spot.tile as i32 * self.size[1]);
+        Area { low: [spot.x, low], high: [spot.x + mask.width as i32, low + mask.height as i32] }
     }
 
     /// Updates the weights of all pairs, and returns the charts in overlap, in order.
@@ -204,7 +222,7 @@ impl<'a> Separator<'a> {
         if cost == 0.0 {
             return;
         }
-        let mask = &self.masks[chart][spot.turn];
+        let mask = self.mask(chart, spot.turn);
         let step = (mask.width.min(mask.height) as i32 / 4).clamp(1, self.moves.reach);
         let mut best = self.descend(chart, Rated { cost, spot }, step.min(4));
         if best.cost > 0.0 {
@@ -236,28 +254,30 @@ impl<'a> Separator<'a> {
         tops
     }
 
-    /// Random place of a chart on the page in a random turn. `None` if the turn does not fit.
+    /// Random place of a chart in one of its tiles in a random turn. `None` if the turn does not fit.
     fn anywhere(&mut self, chart: usize) -> Option<Spot> {
-        let turn = self.random.index(self.masks[chart].len());
+        let turn = self.random.index(self.board.masks[chart].len());
+        let tiles = self.board.tiles[chart].clone();
+        let tile = if tiles.len() > 1 { tiles.start + self.random.index(tiles.len()) } else { tiles.start };
         let room = self.room(chart, turn)?;
         let [x, y] = room.map(|room| self.random.index(room as usize + 1) as i32);
-        Some(Spot { turn, x, y })
+        Some(Spot { tile, turn, x, y })
     }
 
     /// Random place of a chart near its present one, in its present turn or a random one.
     fn nearby(&mut self, chart: usize) -> Option<Spot> {
         let here = self.spots[chart];
-        let turns = [here.turn, self.random.index(self.masks[chart].len())];
+        let turns = [here.turn, self.random.index(self.board.masks[chart].len())];
         let turn = turns[self.random.index(2)];
         let room = self.room(chart, turn)?;
-        let (old, new) = (&self.masks[chart][here.turn], &self.masks[chart][turn]);
+        let (old, new) = (self.mask(chart, here.turn), self.mask(chart, turn));
         let reach = self.moves.reach.min(new.width.max(new.height) as i32 / 2 + 2);
         let mut shifted = |from: i32, old: usize, new: usize| {
             from + (old as i32 - new as i32) / 2 + self.random.index(2 * reach as usize + 1) as i32 - reach
         };
         let x = shifted(here.x, old.width, new.width).clamp(0, room[0]);
         let y = shifted(here.y, old.height, new.height).clamp(0, room[1]);
-        Some(Spot { turn, x, y })
+        Some(Spot { turn, x, y, ..here })
     }
 
     /// Descent in steps of `step` cells, halved down to one cell whenever no direction is better.
@@ -305,7 +325,10 @@ impl<'a> Separator<'a> {
     /// Number of cells that a chart at a spot has in common with another chart at its place.
     fn common(&mut self, chart: usize, spot: Spot, other: usize) -> u32 {
         let at = self.spots[other];
-        let (first, second) = (&self.masks[chart][spot.turn], &self.masks[other][at.turn]);
+        if at.tile != spot.tile {
+            return 0;
+        }
+        let (first, second) = (self.mask(chart, spot.turn), self.mask(other, at.turn));
         let is_beside = at.x >= spot.x + first.width as i32 || spot.x >= at.x + second.width as i32;
         let is_above = at.y >= spot.y + first.height as i32 || spot.y >= at.y + second.height as i32;
         if is_beside || is_above {

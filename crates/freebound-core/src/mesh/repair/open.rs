@@ -1,7 +1,7 @@
 //! Connected parts of a repaired mesh, and a part opened along seams.
 
 use super::Repaired;
-use super::charts::parts_of;
+use super::charts::{Chart, parts_of};
 use super::sides::Sides;
 use crate::mesh::{PolygonMesh, VertexId};
 
@@ -50,7 +50,7 @@ impl Repaired {
             && edges.all(|on| on.len() == 1 || (on.len() == 2 && sides.ends(on[0])[0] == sides.ends(on[1])[1]))
     }
 
-    /// The mesh opened along seams, its holes filled. `is_seam` has a value per edge, in the order of the edge table.
+    /// The mesh opened along seams. `is_seam` has a value per edge, in the order of the edge table.
     pub(crate) fn opened_along(&self, is_seam: &[bool]) -> Self {
         let sides = Sides::new(&self.polygons);
         let mut is_open = vec![false; self.polygons.corners.len()];
@@ -60,6 +60,15 @@ impl Repaired {
         let fans = sides.fans(|on| on.len() == 2 && !is_open[on[0] as usize]);
         let mut opened = self.clone();
         opened.split_into(fans);
-        opened.filled()
+        opened
+    }
+
+    /// Edge-connected parts as charts, with holes filled if allowed, each with its faces.
+    pub(crate) fn separate_charts(&self) -> Vec<(Chart, Vec<u32>)> {
+        let chart = |faces: Vec<u32>| {
+            let Chart { repaired, vertex_of } = self.of_faces(&faces);
+            (Chart { repaired: repaired.filled(), vertex_of }, faces)
+        };
+        parts_of(&self.polygons, &Sides::new(&self.polygons)).into_iter().map(chart).collect()
     }
 }

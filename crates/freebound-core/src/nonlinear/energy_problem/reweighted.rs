@@ -64,4 +64,22 @@ impl EnergyProblem {
         }
         Ok(None)
     }
+
+    /// Moves to the minimiser of Σ A ½ |J − R|², with the rotation R of each element as a complex number of length 1.
+    pub(crate) fn rigid_step(
+        &self,
+        z: &mut [DVec2],
+        rotation: impl Fn(usize, &Element) -> DVec2 + Sync,
+        control: Control<'_>,
+    ) -> Result<(), SolveError> {
+        control.enter(Phase::Assemble)?;
+        let at = |number: usize, element: &Element| {
+            Proxy::rigid(rotation(number, element)).model(element, Self::corners(element, z))
+        };
+        let (gradient, hessian) = self.assembled(z, at, None, control)?;
+        control.enter(Phase::Factor)?;
+        let direction = self.direction(&gradient, hessian, &mut self.no_memory(), control)?;
+        z.iter_mut().zip(direction).for_each(|(z, by)| *z += by);
+        Ok(())
+    }
 }

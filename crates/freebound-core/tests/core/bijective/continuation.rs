@@ -12,7 +12,7 @@ use proptest::prelude::*;
 
 use crate::linear::shapes::finger;
 use freebound_testkit::surfaces::irregular_cube;
-use freebound_testkit::{Random, assert_message, grid};
+use freebound_testkit::{Random, assert_message, grid, shaped};
 
 /// Returns all steps of a run, and its ending.
 fn steps_of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Result<(Vec<Step>, Ending), SolveError> {
@@ -210,6 +210,27 @@ fn a_ladder_without_constraints_finds_the_planar_start_of_those_with_some_to_the
         assert!(at_once == 0 && later > 0 && with_it == from_scratch);
     }
     assert!(is_followed, "where only energy is lowered the start is before the end");
+}
+
+#[test]
+fn a_planar_start_is_not_relaxed_before_the_constraints_are_met() {
+    // A saddle whose free boundary crosses itself, so that some boundary vertices are bent to a circle.
+    let mesh = DiskMesh::try_from(shaped(23, 23, |x, y| {
+        let z = DVec2::new(x, y) / 11.5 - DVec2::ONE;
+        z.extend(1.2 * z.length() * (3.0 * z.to_angle()).cos())
+    }));
+    let mesh = mesh.unwrap();
+    let boundary = mesh.boundary_loop();
+    let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].into_iter().enumerate();
+    let pins: Pins = corners.map(|(k, at)| (boundary[k * boundary.len() / 4], Pin::hard(at))).collect();
+    let (steps, ending) = steps_of(&mesh, Settings::default(), &pins).unwrap();
+    let starts: Vec<&Step> = steps.iter().filter(|step| step.is_of_planar_start()).collect();
+    let last = starts.last().expect("constraints are first ignored");
+    assert!(last.verdict.planar && last.candidate.bent_vertices > 0, "{:?}", last.candidate.stage);
+    assert!(starts.iter().all(|step| step.candidate.stage != Stage::Relax));
+    let end = steps.last().unwrap();
+    assert_eq!((ending, end.candidate.stage.clone()), (Ending::Planar, Stage::Relax));
+    assert!(end.unmet().is_empty());
 }
 
 #[test]

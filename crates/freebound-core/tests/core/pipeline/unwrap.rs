@@ -1,6 +1,6 @@
 //! Unwrapping in one call.
 
-use freebound_core::geom::PictureFrame;
+use freebound_core::geom::{PackingOptions, PictureFrame};
 use freebound_core::mesh::{PolygonMesh, VertexId};
 use freebound_core::pipeline::Target;
 use freebound_core::{PipelineOptions, UnwrapError, unwrap};
@@ -38,4 +38,15 @@ fn pins_of_a_disk_that_no_map_without_new_vertices_meets_are_an_error() {
         }
         other => panic!("three pins that turn a face over: {other:?}"),
     }
+}
+
+#[test]
+fn a_disk_is_packed_at_a_density() {
+    let packing = PackingOptions { density: Some(700.0), ..PackingOptions::default() };
+    let options = PipelineOptions { packing, ..PipelineOptions::for_any_mesh() };
+    let unwrapped = unwrap(&pyramid(), &options).expect("planar");
+    let chart = &unwrapped.charts[0];
+    assert!((chart.density / 700.0 - 1.0).abs() < 1e-9 && chart.tile == Some(1001), "{chart:?}");
+    let largest = unwrapped.coordinates.iter().fold(0.0, |most: f64, uv| most.max(uv.max_element()));
+    assert!(largest < 1.0, "{largest}");
 }

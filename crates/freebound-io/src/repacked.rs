@@ -1,0 +1,183 @@
+//! Layouts with new places for their charts, ready to be written.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use super::finite::check_finite;
+use super::gltf::write_glb;
+use super::obj::{Materials, copy_materials, relocated, write_obj_with};
+use super::ply::write_ply;
+use super::svg::{LayoutDrawing, write_layout_svg};
+use super::{
+    MeshFile, MeshReport, NO_TEXTURE, OutputKind, Precision, Report, RoundingReport, Seconds, Texture, TextureError,
+    WriteError, write_atomically, write_to_standard_output,
+};
+use freebound_core::geom::{Orientation, PackingOptions, orientation};
+use freebound_core::mesh::{EdgeTable, FaceId};
+use freebound_core::pipeline::{ChartSizes, GivenLayout, NO_COORDINATE, RepackError, Repacked, repack};
+use freebound_core::verify::RoundingGrid;
+
+/// Layout of a file with new places for its charts.
+#[derive(Debug)]
+pub struct RepackedFile<'a> {
+    /// Contents of the file as read.
+    pub source: &'a MeshFile,
+    /// File of the mesh; `None` for a stream.
+    pub source_path: Option<&'a Path>,
+    /// Treatment of its material libraries.
+    pub materials: Materials,
+    /// The layout.
+    pub repacked: Repacked,
+    /// Report of the run.
+    pub report: Report,
+}
+
+/// Reason why the layout of a file cannot be packed.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LayoutToPackError {
+    /// The texture coordinates are incomplete.
+    #[error("{0}")]
+    Texture(#[from] TextureError),
+    /// The layout cannot be packed.
+    #[error("{0}")]
+    Repack(#[from] RepackError),
+}
+
+/// Rules for packing the layout of a file.
+#[derive(Clone, Copy, Debug)]
+pub struct LayoutPacking {
+    /// Picture, gap and rotations.
+    pub options: PackingOptions,
+    /// Sizes of the charts.
+    pub sizes: ChartSizes,
+    /// Width over height of the picture of the given layout.
+    pub aspect: f64,
+}
+
+impl<'a> RepackedFile<'a> {
+    /// Packs the charts of a file. `name` is the name of the mesh in the report.
+    ///
+    /// # Errors
+    ///
+    /// [`LayoutToPackError`] if faces have no usable texture coordinates.
+    pub fn new(source: &'a MeshFile, name: String, packing: LayoutPacking) -> Result<Self, LayoutToPackError> {
+        let start = Instant::now();
+        let texture = source.complete_texture()?;
+        let (mesh, coordinates, corners) = (&source.polygons, &texture.coordinates[..], &texture.corners[..]);
+        let layout = GivenLayout { mesh, coordinates, corners, aspect: packing.aspect };
+        let repacked = repack(layout, packing.sizes, packing.options)?;
+        let edges = EdgeTable::new(repacked.mesh.vertex_count(), &repacked.mesh.triangles);
+        let boundary_vertices = edges.edges().filter(|sides| sides.len() == 1).count();
+        let (vertices, faces) = (source.polygons.positions.len(), repacked.mesh.face_count());
+        let mesh = MeshReport { path: name, vertices, faces, boundary_vertices, ..MeshReport::default() };
+        let verify = start.elapsed().as_secs_f64();
+        let seconds = Seconds { verify, ..Seconds::default() };
+        let report = Report { packing: Some(repacked.packing), seconds, ..Report::of_mesh(mesh) };
+        let mut file = Self { source, source_path: None, materials: Materials::default(), repacked, report };
+        file.report_layout();
+        Ok(file)
+    }
+
+    /// Copies charts and verdict to the report.
+    fn report_layout(&mut self) {
+        self.report.packed_charts = self.repacked.charts.clone();
+        self.report.atlas = self.repacked.verdict.as_ref().ok().cloned();
+    }
+
+    /// Rounds the coordinates to the numbers that a file of this kind holds, and proves them again.
+    pub fn round_to(&mut self, precision: Precision, kind: OutputKind) {
+        let grid = match (kind, precision) {
+            (OutputKind::Glb, _) => RoundingGrid::TurnedOver,
+            (_, Precision::F32) => RoundingGrid::Upright,
+            (_, Precision::F64) => {
+                self.report.precision = Some(Precision::F64);
+                return;
+            }
+        };
+        let was_planar = self.repacked.is_planar();
+        self.repacked.round_to(grid);
+        self.report_layout();
+        self.report.precision = Some(Precision::F32);
+        self.report.rounding = Some(RoundingReport { moved: 0, folded: was_planar && !self.repacked.is_planar() });
+    }
+
+    /// Writes one file atomically: the mesh, or a drawing. Copied material libraries are written first. Returns the files
+    /// written, `path` first.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be written; the error names the file.
+    pub fn write(&self, kind: OutputKind, path: &Path) -> Result<Vec<PathBuf>, WriteError> {
+        self.check().map_err(|source| WriteError::writing(path, source))?;
+        if kind == OutputKind::Obj && self.materials == Materials::Copied {
+            let (edits, copies) = copy_materials(self.source, self.source_place(), path)?;
+            write_atomically(path, |out| write_obj_with(out, self.source, &edits, &self.texture()))?;
+            return Ok(std::iter::once(path.to_owned()).chain(copies).collect());
+        }
+        write_atomically(path, |out| self.write_to(kind, path, out))?;
+        Ok(vec![path.to_owned()])
+    }
+
+    /// Writes to standard output.
+    ///
+    /// # Errors
+    ///
+    /// If standard output cannot be written.
+    pub fn write_to_standard_output(&self, kind: OutputKind) -> Result<(), WriteError> {
+        write_to_standard_output(|out| {
+            self.check()?;
+            self.write_to(kind, self.source_place(), out)
+        })
+    }
+
+    fn write_to(&self, kind: OutputKind, path: &Path, mut out: &mut impl Write) -> io::Result<()> {
+        match kind {
+            OutputKind::Ply => write_ply(&mut out, self.source, &self.texture()),
+            OutputKind::Glb => write_glb(&mut out, self.source, &self.texture()),
+            OutputKind::Svg => write_layout_svg(&mut out, &self.drawing()),
+            _ => {
+                let edits = relocated(self.source, self.source_place(), path);
+                write_obj_with(&mut out, self.source, &edits, &self.texture())
+            }
+        }
+    }
+
+    fn check(&self) -> io::Result<()> {
+        check_finite(&self.repacked.coordinates)
+    }
+
+    fn source_place(&self) -> &Path {
+        self.source_path.unwrap_or(Path::new("-"))
+    }
+
+    fn texture(&self) -> Texture {
+        let number = |&corner: &u32| if corner == NO_COORDINATE { NO_TEXTURE } else { corner };
+        let corners = self.repacked.corners.iter().map(number).collect();
+        Texture { coordinates: self.repacked.coordinates.to_vec(), corners }
+    }
+
+    fn drawing(&self) -> LayoutDrawing<'_> {
+        let Repacked { mesh, coordinates, .. } = &self.repacked;
+        LayoutDrawing { mesh, coordinates, flipped: self.flipped_faces(), aspect: self.repacked.aspect() }
+    }
+
+    /// Triangles that are not oriented as most triangles of their chart.
+    fn flipped_faces(&self) -> Vec<FaceId> {
+        let Repacked { mesh, coordinates, charts, .. } = &self.repacked;
+        let turn = |face: &usize| {
+            let [a, b, c] = mesh.triangles[*face].map(|vertex| coordinates[vertex]);
+            orientation(a, b, c)
+        };
+        let (mut first, mut flipped) = (0, Vec::new());
+        for chart in charts {
+            let faces = || first..first + chart.faces;
+            let turned = faces().filter(|face| turn(face) == Some(Orientation::Clockwise)).count();
+            let usual = if 2 * turned > chart.faces { Orientation::Clockwise } else { Orientation::CounterClockwise };
+            flipped.extend(faces().filter(|face| turn(face) != Some(usual)).map(FaceId::from_index));
+            first += chart.faces;
+        }
+        flipped
+    }
+}
