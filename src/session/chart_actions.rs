@@ -94,13 +94,18 @@ impl Session {
 
     /// Lock of a chart, or the reason why it cannot be locked.
     pub fn lock_state(&self, chart: usize) -> LockState {
+        self.lock_state_in(chart, self.atlas())
+    }
+
+    /// [`lock_state`](Self::lock_state) with the present layout of all charts, if there is one.
+    pub fn lock_state_in(&self, chart: usize, atlas: Option<&AtlasView>) -> LockState {
         let Some(of) = self.model().and_then(|model| model.prepared.chart.as_ref()) else { return LockState::NoPlace };
         if chart >= of.charts.count() {
             return LockState::NoPlace;
         }
         let has_pins = !self.document().edits_of(chart, of).targets.is_empty();
         let is_locked = self.document().lock_of(&of.charts, chart).is_some();
-        match self.atlas() {
+        match atlas {
             _ if is_locked => LockState::Locked,
             _ if has_pins => LockState::Pinned,
             Some(atlas) if atlas.stacked[chart].is_some() => LockState::Stacked,

@@ -27,9 +27,6 @@ const FIRST_TILE: u32 = 1001;
 /// Range of a fixed density, pixels per unit of length.
 const DENSITIES: std::ops::RangeInclusive<f64> = 1e-9..=1e9;
 
-/// Most tiles that the panel offers.
-const MOST_TILES: u32 = 99;
-
 /// Row of a chart in the list.
 struct Row {
     chart: usize,
@@ -59,14 +56,15 @@ impl RowPlace {
 }
 
 impl Row {
-    fn new(session: &Session, charts: &Charts, chart: usize) -> Self {
-        let place = session.atlas().map(|atlas| RowPlace {
+    /// Row of a chart, with the layout of all charts if there is one.
+    fn new(session: &Session, charts: &Charts, chart: usize, atlas: Option<&AtlasView>) -> Self {
+        let place = atlas.map(|atlas| RowPlace {
             density: atlas.densities[chart],
             tile: atlas.tiles[chart],
             stacked: atlas.stacked[chart],
         });
         let (faces, state) = (charts.faces(chart).len(), session.chart_state(chart));
-        Self { chart, faces, state, lock: session.lock_state(chart), place }
+        Self { chart, faces, state, lock: session.lock_state_in(chart, atlas), place }
     }
 
     /// Name for tooltips and screen readers.
@@ -82,7 +80,9 @@ impl Row {
             (LockState::Locked, _) => "Unlock this chart, so that it is packed with the others".to_owned(),
             (LockState::Open, _) => "Lock this chart: the others are packed around it".to_owned(),
             (LockState::Pinned, _) => "This chart has pins, which hold it already".to_owned(),
-            (LockState::Stacked, Some(on)) => format!("This chart lies on chart {}: lock that chart", on.chart),
+            (LockState::Stacked, Some(on)) => {
+                format!("This chart is stacked on chart {}: to lock it, set Stack to None", on.chart)
+            }
             (LockState::Stacked | LockState::NoPlace, _) => {
                 "A chart can be locked once all charts are packed".to_owned()
             }
@@ -119,7 +119,8 @@ pub(super) fn charts_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     pairs(ui, "charts", [12.0, 4.0], |ui| charts_row(ui, session, requests));
     let Some(charts) = session.charts() else { return };
     ui.separator();
-    let mut rows: Vec<Row> = (0..charts.count()).map(|chart| Row::new(session, charts, chart)).collect();
+    let atlas = session.atlas();
+    let mut rows: Vec<Row> = (0..charts.count()).map(|chart| Row::new(session, charts, chart, atlas)).collect();
     rows.sort_by(|a, b| b.weight().total_cmp(&a.weight()).then(a.chart.cmp(&b.chart)));
     let side = ui.available_width().min(ui.available_height() * 0.28).max(80.0);
     layout(ui, session, side, requests);
@@ -332,7 +333,7 @@ fn stack_and_tiles(ui: &mut egui::Ui, options: &mut PackingOptions) -> bool {
         let tip = "Charts with congruent surfaces that share one place in the picture";
         has_ended |= choice(ui, "Stacking of charts", tip, &mut options.stack);
         ui.label("Tiles");
-        let value = DragValue::new(&mut options.tiles).range(1..=MOST_TILES).speed(0.05);
+        let value = DragValue::new(&mut options.tiles).range(1..=PackingOptions::MOST_TILES).speed(0.05);
         let field = ui.add(value).named(Role::SpinButton, "Largest number of tiles");
         has_ended |= field.has_ended();
         field.on_hover_text("Largest number of tiles (UDIM), each a picture of its own");

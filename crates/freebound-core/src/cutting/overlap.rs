@@ -119,7 +119,7 @@ impl<'a> Division<'a> {
             }
             self.separate(face);
         }
-        self.join_neighbours();
+        self.join_neighbours()?;
         Ok(Some(self.borders().map(|hinge| hinge.edge).collect()))
     }
 
@@ -245,23 +245,27 @@ impl<'a> Division<'a> {
 
     /// Faces of a chart on the first side of the cheapest cut between two sets of its faces.
     fn cut_off(&self, chart: u32, sides: &[BTreeSet<u32>; 2]) -> BTreeSet<u32> {
-        let mut network: DiGraph<u32, u64> = DiGraph::new();
-        let [source, sink] = [network.add_node(u32::MAX), network.add_node(u32::MAX)];
+        let mut network: DiGraph<(), u64> = DiGraph::new();
+        let [source, sink] = [0, 1].map(|_| network.add_node(()));
         let faces = (0..).take(self.chart_of.len()).filter(|&face| self.chart_of[face as usize] == chart);
-        let node_of: BTreeMap<u32, NodeIndex> = faces.map(|face| (face, network.add_node(face))).collect();
+        let mut node_of: BTreeMap<u32, NodeIndex> = BTreeMap::new();
+        for face in faces {
+            let node = match sides.each_ref().map(|side| side.contains(&face)) {
+                [true, _] => source,
+                [_, true] => sink,
+                _ => network.add_node(()),
+            };
+            node_of.insert(face, node);
+        }
         let total: f64 = self.hinges.iter().map(|hinge| hinge.cost).sum();
         for hinge in &self.hinges {
             let [Some(&a), Some(&b)] = hinge.faces.map(|face| node_of.get(&face)) else { continue };
+            if a == b {
+                continue;
+            }
             let capacity = capacity(hinge.cost / total);
             network.add_edge(a, b, capacity);
             network.add_edge(b, a, capacity);
-        }
-        let unlimited = capacity(2.0);
-        for face in &sides[0] {
-            network.add_edge(source, node_of[face], unlimited);
-        }
-        for face in &sides[1] {
-            network.add_edge(node_of[face], sink, unlimited);
         }
         let (_, flows) = dinics(&network, source, sink);
         let mut reached = BTreeSet::from([source]);
@@ -274,44 +278,46 @@ impl<'a> Division<'a> {
             let fresh: Vec<NodeIndex> = onward.chain(back).filter(|node| !reached.contains(node)).collect();
             stack.extend(fresh.iter().filter(|node| reached.insert(**node)));
         }
-        reached.into_iter().filter(|node| *node != source && *node != sink).map(|node| network[node]).collect()
+        node_of.into_iter().filter(|(_, node)| reached.contains(node)).map(|(face, _)| face).collect()
     }
 
     /// Joins neighbours that have no conflict with each other and meet along one line.
-    fn join_neighbours(&mut self) {
+    fn join_neighbours(&mut self) -> Result<(), SolveError> {
+        let ascending = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
+        let mut apart: BTreeSet<[u32; 2]> = BTreeSet::new();
+        for (&own, others) in self.chart_of.iter().zip(&self.over) {
+            apart.extend(others.iter().map(|&other| ascending([own, self.chart_of[other as usize]])));
+        }
         loop {
+            self.control.go_on()?;
             let mut borders: BTreeMap<[u32; 2], (f64, Vec<u32>)> = BTreeMap::new();
             for hinge in self.borders() {
-                let [a, b] = hinge.faces.map(|face| self.chart_of[face as usize]);
-                let border = borders.entry([a.min(b), a.max(b)]).or_default();
+                let charts = ascending(hinge.faces.map(|face| self.chart_of[face as usize]));
+                let border = borders.entry(charts).or_default();
                 border.0 += hinge.cost;
                 border.1.push(hinge.edge);
-            }
-            let mut apart: BTreeSet<[u32; 2]> = BTreeSet::new();
-            for (face, others) in self.over.iter().enumerate() {
-                let own = self.chart_of[face];
-                apart.extend(
-                    others.iter().map(|&other| self.chart_of[other as usize]).map(|of| [own.min(of), own.max(of)]),
-                );
             }
             let joinable =
                 borders.into_iter().filter(|(pair, (_, edges))| !apart.contains(pair) && self.are_one_line(edges));
             let best = joinable.max_by(|(a, (cost_a, _)), (b, (cost_b, _))| cost_a.total_cmp(cost_b).then(b.cmp(a)));
-            let Some(([kept, gone], _)) = best else { return };
+            let Some(([kept, gone], _)) = best else { return Ok(()) };
             self.chart_of.iter_mut().filter(|of| **of == gone).for_each(|of| *of = kept);
+            let renamed = |pair: [u32; 2]| ascending(pair.map(|chart| if chart == gone { kept } else { chart }));
+            apart = apart.into_iter().map(renamed).collect();
         }
     }
 
     /// True if edges are connected.
     fn are_one_line(&self, edges: &[u32]) -> bool {
-        let mut sets = DisjointSets::new(self.surface.vertex_count());
-        let ends = |edge: u32| self.surface.edges[edge as usize].ends;
-        for &edge in edges {
-            let [a, b] = ends(edge);
-            sets.join(a, b);
+        let mut first_at: BTreeMap<u32, u32> = BTreeMap::new();
+        let mut sets = DisjointSets::new(edges.len());
+        for (number, &edge) in (0..).zip(edges) {
+            for end in self.surface.edges[edge as usize].ends {
+                let first = *first_at.entry(end).or_insert(number);
+                sets.join(first, number);
+            }
         }
-        let first = sets.find(ends(edges[0])[0]);
-        edges.iter().all(|&edge| sets.find(ends(edge)[0]) == first)
+        sets.roots().count() == 1
     }
 }
 

@@ -137,6 +137,8 @@ pub(crate) struct PartCut {
     pub(crate) is_seam: Vec<bool>,
     /// Length of the seams.
     pub(crate) length: f64,
+    /// Mean symmetric Dirichlet energy of the map.
+    pub(crate) energy: f64,
     /// Vertex of the map at each corner of the part.
     pub(crate) corners: Vec<VertexId>,
     /// Map of the part.
@@ -145,8 +147,8 @@ pub(crate) struct PartCut {
 
 impl PartCut {
     fn new(surface: &CutSurface<'_>, map: Mapped) -> Self {
-        let Mapped { is_seam, corners, embedding, .. } = map;
-        Self { length: surface.length_of(&is_seam), is_seam, corners, embedding }
+        let Mapped { is_seam, energy, corners, embedding, .. } = map;
+        Self { length: surface.length_of(&is_seam), energy, is_seam, corners, embedding }
     }
 }
 
@@ -331,31 +333,45 @@ impl<'a> Search<'a> {
                     best = Some(found);
                 }
             }
-            let Some(best) = &best else {
+            let Some(current) = &best else {
                 for aim in &mut aims {
                     *aim *= STRICTER;
                 }
                 continue;
             };
-            let share = best.excess() / allowed;
+            let share = current.excess() / allowed;
             // The relaxing of a large surface ends early, so that its share says little.
             let is_large = self.surface.triangles.len() > LARGE;
-            let is_divided = best.map.as_ref().is_some_and(|map| map.is_divided);
-            let is_last = is_large || is_divided || round + 1 >= ROUNDS || best.cost <= start.cost();
-            let is_stuck = round > 0 && best.map.is_some() && best.excess() > STUCK * best.predicted;
-            if (share <= 1.0 && (share > CLOSE || is_last)) || best.predicted <= 0.0 || is_stuck {
+            let is_divided = current.map.as_ref().is_some_and(|map| map.is_divided);
+            let is_last = is_large || is_divided || round + 1 >= ROUNDS || current.cost <= start.cost();
+            let is_stuck = round > 0 && current.map.is_some() && current.excess() > STUCK * current.predicted;
+            if (share <= 1.0 && (share > CLOSE || is_last)) || current.predicted <= 0.0 {
                 break;
             }
-            aims = bracket.next_aims(best, round);
+            aims = bracket.next_aims(current, round);
+            // More seams of this kind hardly help.
+            let apart = is_stuck.then(|| self.kept_apart(current.clone(), allowed)).transpose()?;
+            if let Some(apart) = apart.filter(|apart| apart.excess() <= allowed) {
+                best = Some(apart);
+                break;
+            }
         }
+        self.finished(&start, best, allowed)
+    }
+
+    /// Cut and map at the end of the rounds.
+    fn finished(&self, start: &CutGraph<'a>, best: Option<Measured>, allowed: f64) -> Result<PartCut, SolveError> {
         let best = best.filter(|best| best.energy.is_finite() || best.map.is_none());
         let best = best.map(|best| self.kept_apart(best, allowed)).transpose()?;
-        let developed = self.development(&start, best.as_ref())?;
+        let developed = self.development(start, best.as_ref())?;
         let Measured { is_seam, map, .. } = developed.or(best).ok_or(SolveError::NotPlanar)?;
         let map = match map {
             Some(map) => map,
             None => self.mapping().map(is_seam)?,
         };
+        if !map.energy.is_finite() {
+            return Err(SolveError::NotPlanar);
+        }
         Ok(PartCut::new(self.surface, map))
     }
 

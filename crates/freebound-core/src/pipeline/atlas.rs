@@ -454,7 +454,10 @@ impl<'a> SolvedChart<'a> {
         let is_given = |vertex: &VertexId| vertex.index() < given.len() && !virtual_vertices.contains(vertex);
         let pair = |vertex: VertexId| [embedding[vertex], given[vertex] * plane];
         let pairs: Vec<[DVec2; 2]> = mesh.vertices().filter(is_given).map(pair).collect();
-        let Some(similarity) = Similarity::fitting(&pairs) else { return (given.clone(), f64::INFINITY) };
+        let Some(similarity) = Similarity::fitting(&pairs) else {
+            let at = |vertex: usize| given.get(vertex).or(given.first()).copied().unwrap_or_default();
+            return ((0..mesh.vertex_count()).map(at).collect(), f64::INFINITY);
+        };
         let extent = Bounds::of(pairs.iter().map(|[_, to]| *to)).size().max_element();
         let distances = pairs.iter().map(|[from, to]| similarity.apply(*from).distance(*to));
         let distance = distances.fold(0.0, f64::max) / extent;
@@ -506,8 +509,10 @@ impl<'a> SolvedChart<'a> {
         let mesh = step.candidate.mesh(self.disk());
         let is_in_place = placement != Placement::Packed;
         let on_picture = || coordinates.iter().map(|uv| *uv * DVec2::new(picture.x / picture.y, 1.0)).collect();
+        // A locked chart keeps its coordinates even if the picture changes its shape.
+        let is_measured = matches!(placement, Placement::Packed | Placement::Locked);
         let summary =
-            if is_in_place { self.outcome.distortion.summary } else { distortion(mesh, &on_picture()).summary };
+            if is_measured { distortion(mesh, &on_picture()).summary } else { self.outcome.distortion.summary };
         // Targets use the v axis of the document.
         let in_document = upright(coordinates, self.outcome.problem.frame.v_axis).filter(|_| is_in_place);
         let pins = pins_summary(self.outcome, in_document.as_ref().unwrap_or(coordinates));

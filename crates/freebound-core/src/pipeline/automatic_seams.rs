@@ -1,7 +1,6 @@
 //! Automatic seams of a whole mesh: a short cut of each part, for a map whose distortion is below a bound.
 
 use std::collections::BTreeSet;
-use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use glam::DVec2;
@@ -86,13 +85,8 @@ impl AutomaticSeams {
             is_final,
         };
         parts.seams(options, control, |number, part| {
-            let last = Mutex::new(None);
-            let found = part.cut(&|best| {
-                report(progress(number, best, false));
-                *last.lock().unwrap_or_else(PoisonError::into_inner) = Some(best.energy);
-            })?;
-            let energy = last.into_inner().unwrap_or_else(PoisonError::into_inner).unwrap_or(f64::NAN);
-            let best = BestCut { is_seam: &found.is_seam, length: found.length, energy };
+            let found = part.cut(&|best| report(progress(number, best, false)))?;
+            let best = BestCut { is_seam: &found.is_seam, length: found.length, energy: found.energy };
             report(progress(number, best, true));
             Ok(found)
         })

@@ -191,11 +191,13 @@ impl GivenChart {
     pub(super) fn shape(&self, factor: f64) -> ChartShape {
         let at = |vertex: &VertexId| self.plane[*vertex] * factor;
         let Some(seen) = &self.seen else { return triangles_of(&self.mesh.triangles, at) };
-        let at_loop = |vertices: &Vec<VertexId>| -> Vec<DVec2> {
-            vertices.iter().map(|vertex| at(&seen.vertex_of()[vertex.index()])).collect()
+        let in_plane = |vertices: &Vec<VertexId>| -> Vec<DVec2> {
+            vertices.iter().map(|vertex| self.plane[seen.vertex_of()[vertex.index()]]).collect()
         };
-        let mut loops: Vec<Vec<DVec2>> = seen.loops().iter().map(at_loop).collect();
-        let outer = loops.iter().position(|points| turning_number(points) == Some(1));
+        let given: Vec<Vec<DVec2>> = seen.loops().iter().map(in_plane).collect();
+        let outer = given.iter().position(|points| turning_number(points) == Some(1));
+        let scaled = |points: Vec<DVec2>| points.into_iter().map(|point| point * factor).collect();
+        let mut loops: Vec<Vec<DVec2>> = given.into_iter().map(scaled).collect();
         let outer = loops.swap_remove(outer.expect("a chart that is one-to-one has an outer loop"));
         outline_of_loops(outer, loops)
     }

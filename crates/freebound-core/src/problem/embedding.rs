@@ -46,7 +46,6 @@ impl Embedding {
         Self(points[..mesh.vertex_count()].to_vec())
     }
 
-    /// Moves unreferenced vertices to the first boundary vertex, so that they do not stretch the bounds.
     /// Embedding from the positions of all vertices but those in holes, which come last: they get the middle of their
     /// hole's rim.
     pub(crate) fn with_holes(mesh: &TriMesh, positions: impl Iterator<Item = DVec2>) -> Self {
@@ -63,6 +62,7 @@ impl Embedding {
         Self(positions)
     }
 
+    /// Moves unreferenced vertices to the first boundary vertex, so that they do not stretch the bounds.
     pub(crate) fn gather_unused(&mut self, mesh: &DiskMesh) {
         if mesh.used_vertex_count() < mesh.vertex_count() {
             let begin = self[mesh.boundary_loop()[0]];
