@@ -21,6 +21,17 @@ pub enum Precision {
     F32,
 }
 
+impl Precision {
+    /// Grid of the numbers that a file of this kind holds. `None` for 64 bits.
+    pub(crate) fn grid_of(self, kind: OutputKind) -> Option<RoundingGrid> {
+        match (kind, self) {
+            (OutputKind::Glb, _) => Some(RoundingGrid::TurnedOver),
+            (_, Self::F32) => Some(RoundingGrid::Upright),
+            (_, Self::F64) => None,
+        }
+    }
+}
+
 impl NamedOption for Precision {
     const ALL: &'static [Self] = &[Self::F64, Self::F32];
 
@@ -46,13 +57,9 @@ impl Output<'_> {
     /// numbers ignore a request for 64 bits. If rounding folds a face, vertices that no pin holds exactly are moved
     /// by a few units in the last place.
     pub fn round_to(&mut self, precision: Precision, kind: OutputKind) {
-        let grid = match (kind, precision) {
-            (OutputKind::Glb, _) => RoundingGrid::TurnedOver,
-            (_, Precision::F32) => RoundingGrid::Upright,
-            (_, Precision::F64) => {
-                self.report.precision = Some(Precision::F64);
-                return;
-            }
+        let Some(grid) = precision.grid_of(kind) else {
+            self.report.precision = Some(Precision::F64);
+            return;
         };
         let was_planar = self.is_planar();
         let apart = self.charts.par_iter_mut().filter(|chart| chart.stacked.is_none());

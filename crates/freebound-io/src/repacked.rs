@@ -16,7 +16,6 @@ use super::{
 use freebound_core::geom::{Orientation, PackingOptions, orientation};
 use freebound_core::mesh::{EdgeTable, FaceId};
 use freebound_core::pipeline::{ChartSizes, GivenLayout, NO_COORDINATE, RepackError, Repacked, repack};
-use freebound_core::verify::RoundingGrid;
 
 /// Layout of a file with new places for its charts.
 #[derive(Debug)]
@@ -88,13 +87,9 @@ impl<'a> RepackedFile<'a> {
 
     /// Rounds the coordinates to the numbers that a file of this kind holds, and proves them again.
     pub fn round_to(&mut self, precision: Precision, kind: OutputKind) {
-        let grid = match (kind, precision) {
-            (OutputKind::Glb, _) => RoundingGrid::TurnedOver,
-            (_, Precision::F32) => RoundingGrid::Upright,
-            (_, Precision::F64) => {
-                self.report.precision = Some(Precision::F64);
-                return;
-            }
+        let Some(grid) = precision.grid_of(kind) else {
+            self.report.precision = Some(Precision::F64);
+            return;
         };
         let was_planar = self.repacked.is_planar();
         self.repacked.round_to(grid);

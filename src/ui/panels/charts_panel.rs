@@ -10,7 +10,7 @@ use super::seams_section::seams_section;
 use super::surface::charts_row;
 use crate::session::{Action, AtlasView, ChartState, LockState, Session};
 use crate::ui::{Control, Editor, Request, counted, five_digits, icons, keys_of, pairs, remark, sentence, theme_of};
-use freebound_core::geom::{Bounds, PackingOptions, corner_of_tile};
+use freebound_core::geom::{Bounds, FIRST_UDIM_TILE, PackingOptions, corner_of_tile};
 use freebound_core::mesh::Charts;
 use freebound_core::pipeline::{PackingSummary, StackedOn};
 use freebound_core::problem::NamedOption;
@@ -20,9 +20,6 @@ const ROW: f32 = 38.0;
 
 /// Width of the button at the left of a row, points.
 const LOCK: f32 = 22.0;
-
-/// UDIM number of the first tile.
-const FIRST_TILE: u32 = 1001;
 
 /// Range of a fixed density, pixels per unit of length.
 const DENSITIES: std::ops::RangeInclusive<f64> = 1e-9..=1e9;
@@ -172,9 +169,9 @@ fn layout(ui: &mut egui::Ui, session: &Session, side: f32, requests: &mut Vec<Re
 
 /// Draws the frames of all tiles with charts, and their UDIM numbers if there are several.
 fn frames(painter: &egui::Painter, place: &Place, tiles: &[Option<u32>], colour: Color32) {
-    let tiles: BTreeSet<u32> = tiles.iter().flatten().copied().chain([FIRST_TILE]).collect();
+    let tiles: BTreeSet<u32> = tiles.iter().flatten().copied().chain([FIRST_UDIM_TILE]).collect();
     for &tile in &tiles {
-        let low = corner_of_tile((tile - FIRST_TILE) as usize);
+        let low = corner_of_tile((tile - FIRST_UDIM_TILE) as usize);
         let rect = place.rect_of(Bounds { low, high: low + 1.0 });
         painter.rect_stroke(rect, 0.0, Stroke::new(1.0, colour), egui::StrokeKind::Inside);
         if tiles.len() > 1 {

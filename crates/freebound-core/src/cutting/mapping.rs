@@ -13,7 +13,7 @@ use super::search::SeamOptions;
 use super::surface::{CutSurface, Opened, OpenedChart};
 use crate::bijective::convexity::with_convex_polygons;
 use crate::flatten::{Flattener, Options, Step};
-use crate::mesh::{DiskMesh, FaceId, VertexId};
+use crate::mesh::{DiskMesh, VertexId};
 use crate::nonlinear::slim::Slim;
 use crate::parallel::prelude::*;
 use crate::problem::{Control, Embedding, Settings, SolveError};
@@ -58,10 +58,13 @@ pub(super) struct Mapped {
 pub(super) enum Trial {
     /// One-to-one map, perhaps along more seams.
     Map(Mapped),
-    /// Energy of a local map that is above the bound.
+    /// Energy of a local map that is above the bound. Infinite if there is no local map, or none without overlaps.
     TooDistorted(f64),
-    /// No local map was found, or none without overlaps.
-    Folded,
+}
+
+impl Trial {
+    /// No map.
+    const FAILED: Self = Self::TooDistorted(f64::INFINITY);
 }
 
 /// Surface, settings and control of all maps of a search.
@@ -76,9 +79,7 @@ impl<'a> Mapping<'a> {
     /// Flattens and relaxes every chart of the surface along seams, one-to-one.
     pub(super) fn map(self, is_seam: Vec<bool>) -> Result<Mapped, SolveError> {
         let opened = self.surface.opened(&is_seam)?;
-        let map = |chart: &OpenedChart| self.run(chart, None).finished();
-        let maps: Vec<Result<ChartMap, SolveError>> = opened.charts.par_iter().with_max_len(1).map(map).collect();
-        let maps = maps.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let maps = opened.mapped(|chart| self.run(chart, None).finished())?;
         Ok(joined(is_seam, &opened, maps))
     }
 
@@ -96,21 +97,21 @@ impl<'a> Mapping<'a> {
     /// Map along the seams of a cut and more seams that keep its parts from overlapping.
     pub(super) fn tried_apart(self, is_seam: &[bool]) -> Result<Trial, SolveError> {
         let opened = self.surface.opened(is_seam)?;
-        if opened.charts.len() == 1 { self.apart(is_seam, &opened, f64::INFINITY) } else { Ok(Trial::Folded) }
+        if opened.charts.len() == 1 { self.apart(is_seam, &opened, f64::INFINITY) } else { Ok(Trial::FAILED) }
     }
 
     fn apart(self, is_seam: &[bool], opened: &Opened, most: f64) -> Result<Trial, SolveError> {
         let chart = &opened.charts[0];
-        let Some(local) = self.local_map(chart)? else { return Ok(Trial::Folded) };
+        let Some(local) = self.local_map(chart)? else { return Ok(Trial::FAILED) };
         if local.energy > most {
             return Ok(Trial::TooDistorted(local.energy));
         }
-        let Some(conflicts) = overlap::conflicts(chart, &local.embedding) else { return Ok(Trial::Folded) };
+        let Some(conflicts) = overlap::conflicts(chart, &local.embedding) else { return Ok(Trial::FAILED) };
         if conflicts.is_empty() {
             let map = self.started_at(chart, local.embedding)?;
             return Ok(Trial::Map(joined(is_seam.to_vec(), opened, vec![map])));
         }
-        Ok(self.divided(is_seam, opened, &local, &conflicts)?.map_or(Trial::Folded, Trial::Map))
+        Ok(self.divided(is_seam, opened, &local, &conflicts)?.map_or(Trial::FAILED, Trial::Map))
     }
 
     /// Map of the charts into which conflicts of a local map divide the only chart of a cut. `None` if it is not
@@ -142,9 +143,7 @@ impl<'a> Mapping<'a> {
             let start = Embedding::with_holes(chart.disk.mesh(), chart.vertex_of.iter().map(|v| positions[v.index()]));
             self.started_at(chart, start)
         };
-        let maps: Vec<Result<ChartMap, SolveError>> = divided.charts.par_iter().with_max_len(1).map(map).collect();
-        let maps = maps.into_iter().collect::<Result<Vec<_>, _>>()?;
-        Ok(Some(joined(all, &divided, maps)).filter(|map| map.energy.is_finite()))
+        Ok(Some(joined(all, &divided, divided.mapped(map)?)).filter(|map| map.energy.is_finite()))
     }
 
     /// Map relaxed from a start, or from scratch if the start does not lead to one that is clearly planar.
@@ -252,6 +251,15 @@ struct ChartMap {
 }
 
 impl Opened {
+    /// Maps of all charts, or the error of the first that has none.
+    fn mapped(
+        &self,
+        map: impl Fn(&OpenedChart) -> Result<ChartMap, SolveError> + Send + Sync,
+    ) -> Result<Vec<ChartMap>, SolveError> {
+        let maps: Vec<Result<ChartMap, SolveError>> = self.charts.par_iter().with_max_len(1).map(map).collect();
+        maps.into_iter().collect()
+    }
+
     /// Position of each vertex by the maps of all charts.
     fn positions(&self, maps: &[Embedding]) -> Vec<DVec2> {
         let mut positions = vec![DVec2::ZERO; self.vertex_count];
@@ -261,14 +269,6 @@ impl Opened {
             }
         }
         positions
-    }
-}
-
-impl OpenedChart {
-    /// Area of the surface.
-    fn area(&self) -> f64 {
-        let double = |face: FaceId| self.disk.mesh().double_area_vector(face).length();
-        self.disk.real_faces().map(double).sum::<f64>() / 2.0 * self.disk.unit().powi(2)
     }
 }
 
@@ -287,7 +287,7 @@ fn mean_energy(disk: &DiskMesh, embedding: &Embedding) -> f64 {
 
 /// Map of a surface by the maps of its charts.
 fn joined(is_seam: Vec<bool>, opened: &Opened, maps: Vec<ChartMap>) -> Mapped {
-    let areas: Vec<f64> = opened.charts.iter().map(OpenedChart::area).collect();
+    let areas: Vec<f64> = opened.charts.iter().map(|chart| chart.disk.area()).collect();
     let sum: f64 = maps.iter().zip(&areas).map(|(map, area)| map.energy * area).sum();
     let whole: f64 = areas.iter().sum();
     let energy = if maps.len() == 1 { maps[0].energy } else { sum / whole };

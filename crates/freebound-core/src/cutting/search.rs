@@ -692,7 +692,6 @@ impl<'a> Search<'a> {
         let (energy, is_seam, map) = match self.mapping().tried(is_seam, most)? {
             Trial::Map(map) => (map.energy, map.is_seam.clone(), Some(map)),
             Trial::TooDistorted(energy) => (energy, graph.is_seam.clone(), None),
-            Trial::Folded => (f64::INFINITY, graph.is_seam.clone(), None),
         };
         let cost = self.surface.cost_of(&is_seam);
         Ok(Measured { is_seam, cost, predicted, energy, unavoidable, map })

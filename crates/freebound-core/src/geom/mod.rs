@@ -47,7 +47,8 @@ pub use order_along_direction::order_along;
 pub use orient::{Orientation, double_area, orientation};
 pub(crate) use overlaps::overlaps;
 pub use packing::{
-    ChartShape, Packed, Packing, PackingInput, PackingOptions, Rotations, Stacking, corner_of_tile, pack, pack_beside,
+    ChartShape, FIRST_UDIM_TILE, Packed, Packing, PackingInput, PackingOptions, Rotations, Stacking, corner_of_tile,
+    pack, pack_beside,
 };
 pub use picture::Picture;
 pub use picture_frame::{PictureFrame, VAxis};

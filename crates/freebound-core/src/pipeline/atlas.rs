@@ -20,8 +20,8 @@ use super::{
 };
 use crate::flatten::true_area_factor;
 use crate::geom::{
-    Bounds, ChartShape, Packing, PackingInput, PackingOptions, Rotations, Similarity, Stacking, corner_of_tile,
-    double_area, is_simple, pack, pack_beside, turning_number,
+    Bounds, ChartShape, FIRST_UDIM_TILE, Packing, PackingInput, PackingOptions, Rotations, Similarity, Stacking,
+    corner_of_tile, double_area, is_simple, pack, pack_beside, turning_number,
 };
 use crate::mesh::{DiskMesh, FaceId, MeasuredSurface, SurfaceFaces, VertexId};
 use crate::parallel::prelude::*;
@@ -36,9 +36,6 @@ const NO_AREA: f64 = 1e-9;
 
 /// Distance from given coordinates, relative to their extent, up to which a locked chart takes their numbers.
 const AGREEMENT: f64 = 1e-9;
-
-/// UDIM number of the tile at the origin.
-const FIRST_UDIM_TILE: u32 = 1001;
 
 /// Number of rows of tiles that have UDIM numbers of four digits.
 const MOST_UDIM_ROWS: f64 = 899.0;
@@ -239,14 +236,7 @@ impl<'a, 'b> PackingPlan<'a, 'b> {
         let area = packed_area + stay().filter_map(area).sum::<f64>();
         let tiles = stay().filter_map(|(_, laid)| Some(udim_tile(laid.as_ref()?)? - FIRST_UDIM_TILE));
         let tiles: BTreeSet<u32> = tiles.chain(packing.places.iter().map(|place| place.tile)).collect();
-        PackingSummary {
-            picture: packing.picture.to_array(),
-            gap: options.gap,
-            density: packing.scale,
-            wanted_density: options.density,
-            tiles: tiles.len(),
-            covered: area / (on_picture.x * on_picture.y * tiles.len().max(1) as f64),
-        }
+        PackingSummary::new(packing, options, tiles.len(), area)
     }
 }
 
@@ -285,7 +275,7 @@ impl Piece {
         let (mesh, embedding) = (step.candidate.mesh(chart.disk()), &step.candidate.solution.embedding);
         let factor = true_area_factor(mesh, embedding) * chart.disk().unit();
         let factor = if factor.is_finite() { factor } else { 1.0 } * chart.size();
-        let area = chart.area() * chart.size().powi(2);
+        let area = chart.disk().area() * chart.size().powi(2);
         Self { factor, shape: Self::shape(chart, factor), area }
     }
 
@@ -374,7 +364,7 @@ impl<'a> SolvedChart<'a> {
         let disk = self.disk();
         let positions: Vec<_> = disk.mesh().positions.iter().map(|position| *position * disk.unit()).collect();
         let (triangles, outer) = (disk.mesh().real_triangles(), disk.boundary_loop());
-        let faces = SurfaceFaces { triangles, outer, area: self.area() };
+        let faces = SurfaceFaces { triangles, outer, area: self.disk().area() };
         let surface = MeasuredSurface::new(&positions, faces, disk.polygons(), None)?;
         Some(Stackable { surface, size: self.size(), tile: self.tile })
     }
@@ -393,16 +383,9 @@ impl<'a> SolvedChart<'a> {
         self.size.clamp(*PackingOptions::SIZES.start(), *PackingOptions::SIZES.end())
     }
 
-    /// Area of the surface, in squared units of the mesh.
-    fn area(&self) -> f64 {
-        let (disk, mesh) = (self.disk(), self.disk().mesh());
-        let areas = disk.real_faces().map(|face| mesh.double_area_vector(face).length() / 2.0);
-        areas.sum::<f64>() * disk.unit().powi(2)
-    }
-
     /// Average number of pixels of a picture per unit of length on the surface.
     fn density(&self, coordinates: &Embedding, picture: DVec2) -> f64 {
-        (self.area_on(coordinates, picture) / self.area()).sqrt()
+        (self.area_on(coordinates, picture) / self.disk().area()).sqrt()
     }
 
     /// Area of the chart on a picture, in pixels.

@@ -184,17 +184,9 @@ fn packed_upright(charts: &[GivenChart], pieces: &[Piece], free: &[usize], optio
 }
 
 fn summary_of(pieces: &[Piece], free: &[usize], packing: &Packing, options: PackingOptions) -> PackingSummary {
-    let pixels = f64::from(packing.picture.x) * f64::from(packing.picture.y);
     let covered = free.iter().map(|&chart| pieces[chart].area).sum::<f64>() * packing.scale.powi(2);
     let tiles: BTreeSet<u32> = packing.places.iter().map(|place| place.tile).collect();
-    PackingSummary {
-        picture: packing.picture.to_array(),
-        gap: options.gap,
-        density: packing.scale,
-        wanted_density: options.density,
-        tiles: tiles.len(),
-        covered: covered / (pixels * tiles.len().max(1) as f64),
-    }
+    PackingSummary::new(packing, options, tiles.len(), covered)
 }
 
 /// Charts scaled to the lengths of the surface: each by itself, or all by one factor.

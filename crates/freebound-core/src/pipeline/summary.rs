@@ -1,6 +1,6 @@
 //! Plain data about a result: placement, pins, packing.
 
-use crate::geom::{Rotations, Stacking};
+use crate::geom::{Packing, PackingOptions, Rotations, Stacking};
 use crate::mesh::VertexId;
 use crate::problem::{Labels, NamedOption, Treatment};
 
@@ -47,6 +47,19 @@ pub struct PackingSummary {
 }
 
 impl PackingSummary {
+    /// Summary of a packing whose charts cover an area, in pixels, of this number of tiles.
+    pub(super) fn new(packing: &Packing, options: PackingOptions, tiles: usize, area: f64) -> Self {
+        let pixels = f64::from(packing.picture.x) * f64::from(packing.picture.y);
+        Self {
+            picture: packing.picture.to_array(),
+            gap: options.gap,
+            density: packing.scale,
+            wanted_density: options.density,
+            tiles,
+            covered: area / (pixels * tiles.max(1) as f64),
+        }
+    }
+
     /// Density that was asked for, if the packed charts do not reach it.
     pub fn unmet_density(&self) -> Option<f64> {
         self.wanted_density.filter(|&wanted| self.density < wanted)

@@ -61,7 +61,7 @@ mod tiles;
 mod turns;
 
 pub use shape::ChartShape;
-pub use tiles::corner_of_tile;
+pub use tiles::{FIRST_UDIM_TILE, corner_of_tile};
 
 use std::cell::Cell;
 

@@ -2,6 +2,9 @@
 
 use glam::DVec2;
 
+/// UDIM number of the tile at the origin.
+pub const FIRST_UDIM_TILE: u32 = 1001;
+
 /// Number of tiles in a row.
 const ROW: usize = 10;
 
