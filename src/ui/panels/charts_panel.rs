@@ -18,6 +18,9 @@ use freebound_core::problem::NamedOption;
 /// Height of a row of the list, points: two lines.
 const ROW: f32 = 38.0;
 
+/// Rows of the list that are visible at once, at least.
+const LEAST_ROWS: f32 = 3.0;
+
 /// Width of the button at the left of a row, points.
 const LOCK: f32 = 22.0;
 
@@ -110,7 +113,8 @@ impl Row {
     }
 }
 
-pub(super) fn charts_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+/// Tab of the charts. The list of charts ends at the lower edge of the panel if it has room above.
+pub(super) fn charts_panel(ui: &mut egui::Ui, editor: &Editor, panel: egui::Rect, requests: &mut Vec<Request>) {
     let session = &editor.session;
     seams_section(ui, editor, requests);
     pairs(ui, "charts", [12.0, 4.0], |ui| charts_row(ui, session, requests));
@@ -119,13 +123,13 @@ pub(super) fn charts_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     let atlas = session.atlas();
     let mut rows: Vec<Row> = (0..charts.count()).map(|chart| Row::new(session, charts, chart, atlas)).collect();
     rows.sort_by(|a, b| b.weight().total_cmp(&a.weight()).then(a.chart.cmp(&b.chart)));
-    let side = ui.available_width().min(ui.available_height() * 0.28).max(80.0);
+    let side = ui.available_width().min(panel.height() * 0.19).max(80.0);
     layout(ui, session, side, requests);
     verdict(ui, session, &rows);
     packing(ui, session, requests);
     size(ui, session, requests);
     ui.separator();
-    list(ui, session, &rows, requests);
+    list(ui, session, &rows, panel.bottom(), requests);
 }
 
 /// Draws all charts at their places in the picture. A click on a chart shows it.
@@ -415,12 +419,15 @@ fn size(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
 }
 
 /// List of the charts, the worst first.
-fn list(ui: &mut egui::Ui, session: &Session, rows: &[Row], requests: &mut Vec<Request>) {
+fn list(ui: &mut egui::Ui, session: &Session, rows: &[Row], bottom: f32, requests: &mut Vec<Request>) {
     let keys = [-1, 1].map(|by| keys_of(ui.ctx(), &Request::StepChart(by)));
     let lock = keys_of(ui.ctx(), &Request::ToggleLock);
     remark(ui, format!("Click a chart to work on it ({} and {}), lock it with {lock}", keys[0], keys[1]));
     let shown = session.chart_on_screen();
-    egui::ScrollArea::vertical().auto_shrink(false).show_rows(ui, ROW, rows.len(), |ui, range| {
+    let height = (bottom - ui.cursor().top()).max(LEAST_ROWS * ROW);
+    let area = egui::ScrollArea::vertical().id_salt("list of charts").auto_shrink(false);
+    let area = area.min_scrolled_height(height).max_height(height);
+    area.show_rows(ui, ROW, rows.len(), |ui, range| {
         for row in &rows[range] {
             row_of(ui, row, shown == Some(row.chart), requests);
         }

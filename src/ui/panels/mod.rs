@@ -102,7 +102,10 @@ pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut 
         Tab::Method => scrolled(ui, |ui| method_panel::method_panel(ui, editor, requests)),
         Tab::Pins => pins_panel::pins_panel(ui, editor, requests),
         Tab::Defects => defects_panel::defects_panel(ui, editor, requests),
-        Tab::Charts => charts_panel::charts_panel(ui, editor, requests),
+        Tab::Charts => {
+            let panel = ui.max_rect();
+            scrolled(ui, |ui| charts_panel::charts_panel(ui, editor, panel, requests));
+        }
         Tab::Vertex => scrolled(ui, |ui| vertex_panel::vertex_panel(ui, editor, requests)),
     }
 }
