@@ -76,11 +76,17 @@ impl DiskMesh {
         [first, self.twin(first)].into_iter().filter_map(|h| self.face_of(h)).all(|face| self.is_virtual(face))
     }
 
-    /// Vertices that belong to virtual faces only, ascending.
-    pub fn virtual_vertices(&self) -> Vec<VertexId> {
+    /// Vertices of virtual faces, ascending.
+    pub fn vertices_at_holes(&self) -> Vec<VertexId> {
         let mut found = self.mesh().triangles[self.mesh().real_face_count()..].concat();
         found.sort_unstable();
         found.dedup();
+        found
+    }
+
+    /// Vertices that belong to virtual faces only, ascending.
+    pub fn virtual_vertices(&self) -> Vec<VertexId> {
+        let mut found = self.vertices_at_holes();
         found.retain(|&vertex| self.is_virtual_vertex(vertex));
         found
     }

@@ -47,8 +47,10 @@ impl Continuation {
 
     fn tried_coarse(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Option<Advance>, SolveError> {
         let target = COARSE_VERTICES + VERTICES_A_PIN * self.pins.len();
+        // The vertices of filled holes stay on all levels.
+        let coarsest = target + mesh.vertices_at_holes().len();
         let is_far = self.progress(mesh).distance_left > FAR * self.embedding.bounds().size().max_element();
-        if !is_far || mesh.used_vertex_count() < FROM_VERTICES.max(2 * target) {
+        if !is_far || mesh.used_vertex_count() < FROM_VERTICES.max(2 * coarsest) {
             return Ok(None);
         }
         let keeps = |vertex: VertexId| self.pins.contains_key(&vertex);

@@ -3,7 +3,7 @@
 use crate::parallel::prelude::*;
 
 use super::collapse::Collapse;
-use super::level::Level;
+use super::level::{Level, virtual_face_count};
 use super::surface::{Ring, Surface};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::{Control, Embedding, Phase, SolveError};
@@ -68,9 +68,10 @@ impl Removed {
 
 impl Hierarchy {
     /// Removes vertices of a disk in a planar embedding until about `target` are left or no more can go. Vertices for
-    /// which `keeps` is true stay. The result does not depend on the number of threads.
+    /// which `keeps` is true stay, and so do the vertices of filled holes, beyond `target`. The result does not depend
+    /// on the number of threads.
     ///
-    /// `None` if the mesh has filled holes, or if not even one round removes enough vertices.
+    /// `None` if not even one round removes enough vertices.
     ///
     /// # Errors
     ///
@@ -106,11 +107,14 @@ impl Hierarchy {
         control: Control<'_>,
     ) -> Result<Option<Self>, SolveError> {
         let mesh = surface.mesh;
-        if mesh.real_faces().len() < mesh.face_count() {
-            return Ok(None);
-        }
         surface.look_around();
-        let kept: Vec<bool> = mesh.vertices().map(keeps).collect();
+        let mut kept: Vec<bool> = mesh.vertices().map(keeps).collect();
+        // Virtual faces stay as they are.
+        let at_holes = mesh.vertices_at_holes();
+        let target = target + at_holes.len();
+        for vertex in at_holes {
+            kept[vertex.index()] = true;
+        }
         let mut left: Vec<u32> = mesh.vertices().filter(|&v| mesh.is_used(v)).map(VertexId::number).collect();
         let (mut rounds, mut levels) = (Vec::new(), Vec::new());
         let mut before = left.len();
@@ -187,10 +191,12 @@ impl Surface<'_> {
         for removed in removed {
             is_gone[removed.vertex as usize] = true;
         }
+        let virtual_faces = self.inner.split_off(self.inner.len() - virtual_face_count(self.mesh));
         self.inner.retain(|corners| corners.iter().all(|&v| !is_gone[v as usize]));
         for removed in removed {
             self.inner.extend(removed.fan().map(|corners| corners.map(|k| removed.polygon[k])));
         }
+        self.inner.extend(virtual_faces);
         self.boundary.retain(|&v| !is_gone[v as usize]);
         left.retain(|&v| !is_gone[v as usize]);
         self.look_around();

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::mesh::{DiskMesh, TriMesh, VertexId};
+use crate::mesh::{DiskMesh, FaceId, TriMesh, VertexId};
 use crate::problem::{Embedding, Pins};
 
 /// Disk over some vertices of a mesh.
@@ -15,7 +15,8 @@ pub struct Level {
 }
 
 impl Level {
-    /// Disk of triangles over some vertices of a mesh. `None` if they do not form a disk.
+    /// Disk of triangles over some vertices of a mesh. The last triangles are the virtual faces of the mesh. `None` if
+    /// they do not form a disk.
     pub(super) fn new(mesh: &DiskMesh, triangles: &[[u32; 3]]) -> Option<Self> {
         let mut place = vec![u32::MAX; mesh.vertex_count()];
         triangles.iter().flatten().for_each(|&v| place[v as usize] = 0);
@@ -25,8 +26,13 @@ impl Level {
             vertices.push(vertex);
         }
         let positions = vertices.iter().map(|&vertex| mesh.position(vertex)).collect();
+        let real_count = triangles.len() - virtual_face_count(mesh);
+        let polygon_of = (real_count < triangles.len()).then(|| {
+            let of_virtual = mesh.faces().skip(mesh.real_faces().len()).map(|face| mesh.mesh().polygon(face));
+            (0..real_count).map(|face| FaceId::from_index(face).number()).chain(of_virtual).collect()
+        });
         let triangles = triangles.iter().map(|t| t.map(|v| VertexId::new(place[v as usize]))).collect();
-        let disk = DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of: None }).ok()?;
+        let disk = DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of }).ok()?;
         Some(Self { disk, vertices })
     }
 
@@ -47,4 +53,9 @@ impl Level {
             points[vertex.index()] = *z;
         }
     }
+}
+
+/// Number of faces that fill holes.
+pub(super) fn virtual_face_count(mesh: &DiskMesh) -> usize {
+    mesh.face_count() - mesh.real_faces().len()
 }

@@ -6,11 +6,11 @@ use crate::geom::{Orientation, centre_of_gravity, kernel, orientation};
 use crate::mesh::{THINNEST, laid_flat};
 use crate::nonlinear::foldover_energy::{Element, Energy, Stiffness};
 
-/// Newton steps of a vertex that is put back, with its neighbours held.
-const STEPS: usize = 4;
+/// Steps of a vertex that is put back, with its neighbours held.
+const PUT_BACK: Steps = Steps { most: 4, share: SHARE_BEFORE_FOLD };
 
 /// Largest step, as a share of the distance to the first fold.
-const SHARE_BEFORE_FOLD: f64 = 0.8;
+pub(super) const SHARE_BEFORE_FOLD: f64 = 0.8;
 /// Most halvings of a step.
 const HALVINGS: usize = 8;
 
@@ -20,9 +20,18 @@ const TOLERANCE: f64 = 1e-2;
 /// Most halvings of the distance from a corner into the polygon.
 const HALVINGS_FROM_CORNER: usize = 60;
 
-/// Polygon that a vertex is put back into.
+/// Limits of the Newton steps of one vertex.
+#[derive(Clone, Copy)]
+pub(super) struct Steps {
+    /// Most steps.
+    pub(super) most: usize,
+    /// Largest step, as a share of the distance to the first fold.
+    pub(super) share: f64,
+}
+
+/// Polygon around a vertex, into which it is put back or in which it moves.
 pub(super) struct Room<'a> {
-    /// Corners, counter-clockwise. The first corner sees the whole polygon.
+    /// Corners, counter-clockwise. The first corner sees the whole polygon if a vertex is put back.
     pub(super) polygon: &'a [DVec2],
     /// Triangles of the vertex that resist distortion. The vertex is point 0; the polygon's corners follow.
     pub(super) elements: &'a [Element],
@@ -35,7 +44,7 @@ impl Room<'_> {
         let middle = || centre_of_gravity(&kernel(self.polygon));
         let in_order = |z: &DVec2| self.is_in_order(*z);
         let begin = guess.filter(in_order).or_else(|| middle().filter(in_order)).or_else(|| self.near_corner())?;
-        Some(self.improved(begin, STEPS))
+        Some(self.improved(begin, PUT_BACK))
     }
 
     /// True if all triangles from a point to the polygon's sides are positive.
@@ -61,7 +70,16 @@ impl Room<'_> {
     }
 
     fn energy(&self, z: DVec2) -> f64 {
-        self.elements.iter().map(|element| element.energy(self.corners(element, z), Energy::SymmetricDirichlet)).sum()
+        self.elements.iter().map(|element| self.energy_of(element, z)).sum()
+    }
+
+    /// Largest energy of an element relative to its weight. The energy without distortion is 2.
+    pub(super) fn worst(&self, z: DVec2) -> f64 {
+        self.elements.iter().map(|element| self.energy_of(element, z) / element.weight()).fold(0.0, f64::max)
+    }
+
+    fn energy_of(&self, element: &Element, z: DVec2) -> f64 {
+        element.energy(self.corners(element, z), Energy::SymmetricDirichlet)
     }
 
     fn corners(&self, element: &Element, z: DVec2) -> [DVec2; 3] {
@@ -70,13 +88,13 @@ impl Room<'_> {
     }
 
     /// Minimises the energy from a valid position, through valid positions only.
-    pub(super) fn improved(&self, mut z: DVec2, steps: usize) -> DVec2 {
+    pub(super) fn improved(&self, mut z: DVec2, limits: Steps) -> DVec2 {
         let mut before = self.energy(z);
-        for _ in 0..steps {
+        for _ in 0..limits.most {
             let Some(direction) = self.direction(z) else { break };
             let to_fold = |[a, b]: [DVec2; 2]| Element::longest_step([z, a, b], [direction, DVec2::ZERO, DVec2::ZERO]);
             let longest = self.sides().map(to_fold).fold(f64::INFINITY, f64::min);
-            let first = (SHARE_BEFORE_FOLD * longest).min(1.0);
+            let first = (limits.share * longest).min(1.0);
             let steps = (0..HALVINGS).scan(first, |step, _| Some(std::mem::replace(step, 0.5 * *step)));
             let mut trials = steps.map(|step| z + step * direction);
             let Some(lower) = trials.find(|trial| self.energy(*trial) < before && self.is_in_order(*trial)) else {

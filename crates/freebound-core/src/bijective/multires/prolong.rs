@@ -28,7 +28,10 @@ pub struct FineLevel<'a> {
 }
 
 /// Relaxation sweeps over a level before it is improved, and over the whole mesh at the end.
-const SWEEPS: usize = 3;
+const SWEEPS: usize = 6;
+
+/// Sweeps over very distorted faces that follow.
+const SWEEPS_OF_DISTORTED: usize = 6;
 
 /// Point outside each boundary edge up to which its new vertex may move. Keys are the edge's ends in boundary
 /// direction.
@@ -84,7 +87,7 @@ impl Hierarchy {
     }
 }
 
-/// Embedding after relaxation sweeps over all vertices that are not held.
+/// Embedding after relaxation sweeps. Vertices that are held and vertices of holes stay.
 fn swept(
     disk: &DiskMesh,
     mut embedding: Embedding,
@@ -96,12 +99,18 @@ fn swept(
         control.enter(Phase::Solve)?;
         sweeps.sweep(&mut embedding);
     }
+    for _ in 0..SWEEPS_OF_DISTORTED {
+        control.enter(Phase::Solve)?;
+        if !sweeps.sweep_distorted(&mut embedding) {
+            break;
+        }
+    }
     Ok(embedding)
 }
 
 /// Length in the plane per length in space.
 fn scale_of(disk: &DiskMesh, embedding: &Embedding) -> f64 {
-    let areas = disk.faces().map(|face| {
+    let areas = disk.real_faces().map(|face| {
         let [x, z] = [laid_flat(disk.shape(disk.face(face))), embedding.corners(disk, face)];
         [x, z].map(double_area)
     });

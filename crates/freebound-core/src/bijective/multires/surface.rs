@@ -22,7 +22,7 @@ pub(super) struct Surface<'a> {
     pub(super) guide: Guide,
     /// Positions in the plane. Meaningless for [`Guide::Space`].
     pub(super) points: Vec<DVec2>,
-    /// Triangles of the surface.
+    /// Triangles of the surface. Virtual ones, which fill holes, come last.
     pub(super) inner: Vec<[u32; 3]>,
     /// Boundary, counter-clockwise.
     pub(super) boundary: Vec<u32>,

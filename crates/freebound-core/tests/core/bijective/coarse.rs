@@ -1,14 +1,15 @@
 //! Coarser disks: coarsening and prolongation stay one-to-one; stages of the flattener that use them.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use freebound_core::bijective::multires::{FineLevel, Hierarchy, Level};
 use freebound_core::bijective::schnyder;
 use freebound_core::flatten::{Ending, Flattener, Options, Step};
-use freebound_core::mesh::{DiskMesh, TriMesh, VertexId};
+use freebound_core::mesh::{DiskMesh, FIRST_HOLE, TriMesh, VertexId};
 use freebound_core::problem::{Control, Embedding, Family, Method, Pin, Pins, Settings, SolveError, Stage, hard_pins};
-use freebound_core::verify::is_one_to_one;
+use freebound_core::verify::{FaceDistortion, is_one_to_one};
 use glam::DVec2;
 use proptest::prelude::*;
 
@@ -109,6 +110,87 @@ fn what_is_put_back_where_the_others_were_left_is_planar_and_hardly_more_distort
     assert!(pins.keys().all(|vertex| back[vertex] == flat[vertex]), "what is held does not move");
     let energy = |z: &Embedding| freebound_core::verify::distortion(&mesh, z).summary.symmetric_dirichlet.mean;
     assert!(energy(&back) < 1.2 * energy(&flat), "{} {}", energy(&back), energy(&flat));
+}
+
+/// Hills with a square hole in the middle, which virtual faces fill.
+fn hills_with_hole(columns: u32, random: &mut Random) -> (DiskMesh, Embedding) {
+    let (hills, flat) = hills(columns, random);
+    let middle = columns / 2;
+    let is_in_hole = |face: usize| {
+        let cell = u32::try_from(face).unwrap() / 2;
+        [cell % columns, cell / columns].iter().all(|&place| place.abs_diff(middle) < 3)
+    };
+    let faces = &hills.mesh().triangles;
+    let (hole, real): (Vec<usize>, Vec<usize>) = (0..faces.len()).partition(|&face| is_in_hole(face));
+    let numbers = (0..u32::try_from(real.len()).unwrap()).chain(hole.iter().map(|_| FIRST_HOLE)).collect();
+    let triangles = real.iter().chain(&hole).map(|&face| faces[face]).collect();
+    let mesh = TriMesh { positions: hills.mesh().positions.clone(), triangles, polygon_of: Some(numbers) };
+    (DiskMesh::of_topology(mesh).unwrap(), flat)
+}
+
+#[test]
+fn a_filled_hole_stays_as_it_is_on_every_level() {
+    let mut random = Random(13);
+    let (mesh, flat) = hills_with_hole(40, &mut random);
+    let (pins, at_hole) = (Pins::new(), mesh.vertices_at_holes());
+    assert_eq!(at_hole.len(), 36, "25 cells");
+    let hierarchy = taken(&mesh, &flat, &pins, 60);
+    let faces_of_hole = |disk: &DiskMesh, name: &dyn Fn(VertexId) -> VertexId| {
+        let corners = |face| disk.face(face).map(name);
+        disk.faces().filter(|&face| disk.is_virtual(face)).map(corners).collect::<Vec<_>>()
+    };
+    for level in hierarchy.levels().chain([hierarchy.coarsest()]) {
+        assert!(is_one_to_one(&level.disk, &level.part_of(&flat)));
+        let here = faces_of_hole(&level.disk, &|vertex| level.vertices[vertex.index()]);
+        assert_eq!(here, faces_of_hole(&mesh, &|vertex| vertex));
+    }
+    assert!(hierarchy.coarsest().vertices.len() < 60 + at_hole.len() + 30, "all others can go");
+    let fine = FineLevel { mesh: &mesh, embedding: &flat, pins: &pins };
+    let coarse = hierarchy.coarsest().part_of(&flat).iter().map(|&z| twisted(z, [0.5, 1.5])).collect();
+    let back = lifted(&hierarchy, fine, &coarse).expect("there is room");
+    assert!(is_one_to_one(&mesh, &back));
+}
+
+/// Hills with a slit like a saw from the lower side to the middle, and a view from above that opens it by a hair.
+/// The tooth tips are faces with all three vertices on the boundary.
+fn hills_with_slit(columns: u32, random: &mut Random) -> (DiskMesh, Embedding) {
+    let (hills, flat) = hills(columns, random);
+    let (stride, middle) = (columns + 1, columns / 2);
+    let mut positions = hills.mesh().positions.clone();
+    let mut flat: Vec<DVec2> = flat.to_vec();
+    let hair = 0.002 / f64::from(columns) * DVec2::new(2.0, 1.0);
+    // (middle, j) to (middle + 1, j + 1) to (middle, j + 1), and so on.
+    let mut right_of = BTreeMap::new();
+    for j in 0..middle {
+        for vertex in [j * stride + middle, (j + 1) * stride + middle + 1] {
+            right_of.insert(VertexId::new(vertex), VertexId::from_index(positions.len()));
+            positions.push(positions[vertex as usize]);
+            flat.push(flat[vertex as usize] + hair);
+            flat[vertex as usize] -= hair;
+        }
+    }
+    let is_right = |face: usize| {
+        let column = u32::try_from(face).unwrap() / 2 % columns;
+        column > middle || (column == middle && face.is_multiple_of(2))
+    };
+    let corner = |face, vertex| right_of.get(&vertex).copied().filter(|_| is_right(face)).unwrap_or(vertex);
+    let faces = hills.mesh().triangles.iter().enumerate();
+    let triangles = faces.map(|(face, corners)| corners.map(|vertex| corner(face, vertex))).collect();
+    (DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of: None }).unwrap(), flat.into())
+}
+
+#[test]
+fn tips_of_faces_are_put_back_between_the_sides_of_a_slit_without_much_distortion() {
+    let (mesh, flat) = hills_with_slit(40, &mut Random(17));
+    assert!(is_one_to_one(&mesh, &flat));
+    let pins = Pins::new();
+    let hierarchy = taken(&mesh, &flat, &pins, 60);
+    let fine = FineLevel { mesh: &mesh, embedding: &flat, pins: &pins };
+    let back = lifted(&hierarchy, fine, &hierarchy.coarsest().part_of(&flat)).expect("there is room");
+    assert!(is_one_to_one(&mesh, &back));
+    let faces = freebound_core::verify::distortion(&mesh, &back).faces;
+    let worst = faces.iter().map(FaceDistortion::symmetric_dirichlet).fold(0.0, f64::max);
+    assert!(worst < 50.0, "{worst}");
 }
 
 #[test]
