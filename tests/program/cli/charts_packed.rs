@@ -245,3 +245,30 @@ fn locked_charts_stay_and_the_others_are_packed_around_them() {
     assert_message("charts-packed-size-of-a-locked-chart", &sized.stderr);
     program.run(&["flatten", "in.obj", "--lock", "0"]).expect(2);
 }
+
+#[test]
+fn charts_around_a_locked_one_get_its_density_and_no_more() {
+    let program = Program::new();
+    let parts = [grid(6, 6), grid(2, 3), grid(2, 2)].map(|mesh| PolygonMesh::from(&mesh));
+    program.write("in.obj", &obj_text(&interleaved(&parts, &mut Random(5))));
+    let first = program.run(&["flatten", "in.obj", "--report", "-"]).expect(0).json();
+    let faces = |report: &Value| {
+        let charts = report["charts"].as_array().expect("charts").clone();
+        charts.iter().map(|chart| chart["faces"].as_u64().expect("a number")).collect::<Vec<_>>()
+    };
+    let large = faces(&first).iter().position(|&count| count == 72).expect("the large chart").to_string();
+    program.run(&["flatten", "in.obj", "-o", "flat.obj", "--chart-size", &format!("{large}=0.3")]).expect(0);
+    let start = ["flatten", "flat.obj", "--start", "uv", "--charts", "uv", "--pack", "1024x1024", "--report", "-"];
+    let locked = program.run(&[&start[..], &["--lock", &large]].concat()).expect(0).json();
+    assert_eq!(faces(&first), faces(&locked));
+    let densities: Vec<f64> = locked["charts"]
+        .as_array()
+        .expect("charts")
+        .iter()
+        .map(|chart| chart["density"].as_f64().expect("a number"))
+        .collect();
+    assert_eq!(locked["packing"]["picture"], json!([1024, 1024]));
+    for density in &densities {
+        assert!((density / densities[0] - 1.0).abs() < 0.01, "{densities:?}");
+    }
+}

@@ -143,8 +143,24 @@ fn packed<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Atlas<'a> 
         plan = PackingPlan { fixed: Vec::new(), beside: first_column_beside(&laid), ..plan };
         packing = plan.pack(options);
     }
+    let mut options_used = options;
+    if let Some(density) = plan.density_of_locked(&laid, &packing).filter(|_| options.density.is_none())
+        && density < packing.scale
+    {
+        // Free charts get no more pixels than those that are locked.
+        let even = PackingOptions { density: Some(density), ..options };
+        let evened = plan.pack(even);
+        if evened.picture == packing.picture && evened.scale > 0.0 {
+            (packing, options_used) = (evened, even);
+        }
+    }
     if options.rotations == Rotations::Free && plan.has_folds(&packing) {
-        packing = plan.pack(PackingOptions { rotations: Rotations::Quarter, ..options });
+        let quarter = |options| plan.pack(PackingOptions { rotations: Rotations::Quarter, ..options });
+        let picture = packing.picture;
+        packing = quarter(options_used);
+        if packing.picture != picture {
+            packing = quarter(options);
+        }
     }
     let summary = plan.summary(&packing, &laid, options);
     for (k, &chart) in plan.free.iter().enumerate() {
@@ -207,6 +223,18 @@ impl<'a, 'b> PackingPlan<'a, 'b> {
         let tiles: Vec<Option<u32>> = self.free.iter().map(|&chart| self.charts[chart].tile).collect();
         let input = PackingInput { shapes: &shapes, tiles: &tiles, fixed: &self.fixed };
         pack_beside(input, options, &|| false).expect("a packing that nobody cancels")
+    }
+
+    /// Density of the locked charts on the picture of a packing: pixels per unit of length on the surface. `None` if no
+    /// chart is locked, or the others are packed beside them.
+    fn density_of_locked(&self, laid: &[Option<Embedding>], packing: &Packing) -> Option<f64> {
+        let on_picture = packing.picture.as_dvec2();
+        let is_locked = |(chart, _): &(&SolvedChart<'_>, _)| chart.is_locked() && !self.fixed.is_empty();
+        let areas = self.charts.iter().zip(laid).filter(is_locked).filter_map(|(chart, laid)| {
+            Some([chart.area_on(laid.as_ref()?, on_picture), chart.size.powi(2) * chart.disk().area()])
+        });
+        let [pixels, area] = areas.fold([0.0; 2], |sum, [pixels, area]| [sum[0] + pixels, sum[1] + area]);
+        Some((pixels / area).sqrt()).filter(|density| density.is_finite() && *density > 0.0)
     }
 
     /// Texture coordinates of packed chart `k`.
