@@ -80,6 +80,7 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
         let options = PipelineOptions {
             preparation: model.prepared.form.clone(),
             distortion: None,
+            most_charts: None,
             settings: Settings { relax_rounds, ..settings },
             frame: PictureFrame { aspect: aspect.unwrap_or(1.0), ..PictureFrame::default() },
             has_picture: aspect.is_some(),

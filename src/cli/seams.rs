@@ -36,10 +36,13 @@ pub(super) fn formed(model: &Model, arguments: &MeshArguments, progress: &Progre
 /// Model cut along automatic seams, if they are requested. `model` is cut along the shortest paths, if it is cut.
 fn cut(model: Model, arguments: &MeshArguments, progress: &ProgressLine) -> Result<Model, CommandError> {
     if matches!(arguments.cut, Cut::None | Cut::Shortest) {
-        let idle =
-            arguments.distortion.map(|_| "--distortion").or(arguments.cut_weights.as_ref().map(|_| "--cut-weights"));
-        return match idle {
-            Some(option) => Err(CommandError::Usage(format!("{option} needs automatic seams: add --cut auto"))),
+        let idle = [
+            ("--distortion", arguments.distortion.is_some()),
+            ("--cut-weights", arguments.cut_weights.is_some()),
+            ("--max-charts", arguments.max_charts.is_some()),
+        ];
+        return match idle.iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) => Err(CommandError::Usage(format!("{option} needs automatic seams: add --cut auto"))),
             None => Ok(model),
         };
     }
@@ -47,7 +50,9 @@ fn cut(model: Model, arguments: &MeshArguments, progress: &ProgressLine) -> Resu
     let Some(bound) = arguments.distortion.or(usual) else { return Ok(model) };
     progress.enter("cutting");
     let control = Control::new(&INTERRUPTED, &|_| {});
-    let seams = model.find_seams(&model.prepared.form, SeamOptions::new(bound), control, &|_| {})?;
+    let most_charts = arguments.max_charts.map(|most| usize::try_from(most).unwrap_or(usize::MAX));
+    let options = SeamOptions { most_charts, ..SeamOptions::new(bound) };
+    let seams = model.find_seams(&model.prepared.form, options, control, &|_| {})?;
     Ok(model.cut_along(seams))
 }
 

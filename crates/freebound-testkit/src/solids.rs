@@ -34,6 +34,39 @@ pub fn cone(base: &[DVec2], height: f64) -> PolygonMesh {
     from_faces(&positions, std::iter::once((0..count).rev().collect()).chain(sides))
 }
 
+/// Tube over a counter-clockwise polygon, with a bottom and without a top.
+pub fn open_tube(base: &[DVec2], height: f64) -> PolygonMesh {
+    let solid = prism(base, height);
+    let positions: Vec<[f64; 3]> = solid.positions.iter().map(glam::DVec3::to_array).collect();
+    // The second face is the top.
+    let faces = (0..solid.face_count()).filter(|&face| face != 1);
+    from_faces(&positions, faces.map(|face| solid.face(face).iter().map(|vertex| vertex.index()).collect()))
+}
+
+/// Plate with a row of square holes, of unit squares on both sides: each hole is one square, and one square lies around
+/// and between the holes. Its genus is the number of holes.
+pub fn plate_with_holes(holes: usize, thickness: f64) -> PolygonMesh {
+    let (columns, rows) = (2 * holes + 1, 3);
+    let is_solid = |i: usize, j: usize| i < columns && j < rows && !(j == 1 && i % 2 == 1);
+    let at = |i: usize, j: usize, layer: usize| (layer * (rows + 1) + j) * (columns + 1) + i;
+    let mut positions = Vec::new();
+    for (layer, j) in (0..2_usize).flat_map(|layer| (0..=rows).map(move |j| (layer, j))) {
+        positions.extend((0..=columns).map(|i| [i as f64, j as f64, thickness * layer as f64]));
+    }
+    let mut faces = Vec::new();
+    for (i, j) in (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j))).filter(|&(i, j)| is_solid(i, j)) {
+        let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+        faces.push(corners.iter().map(|&(i, j)| at(i, j, 1)).collect());
+        faces.push(corners.iter().rev().map(|&(i, j)| at(i, j, 0)).collect());
+        let beside = [(i, j.wrapping_sub(1)), (i + 1, j), (i, j + 1), (i.wrapping_sub(1), j)];
+        for side in (0..4).filter(|&side| !is_solid(beside[side].0, beside[side].1)) {
+            let [(i, j), (k, l)] = [corners[side], corners[(side + 1) % 4]];
+            faces.push(vec![at(i, j, 0), at(k, l, 0), at(k, l, 1), at(i, j, 1)]);
+        }
+    }
+    from_faces(&positions, faces.into_iter())
+}
+
 fn from_faces(positions: &[[f64; 3]], faces: impl Iterator<Item = Vec<usize>>) -> PolygonMesh {
     let number = |corner: usize| VertexId::from_index(corner).number();
     let faces: Vec<Vec<u32>> = faces.map(|face| face.into_iter().map(number).collect()).collect();

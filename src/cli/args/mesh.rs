@@ -47,6 +47,12 @@ pub struct MeshArguments {
     /// or more. Default of an edge: 1.
     #[arg(long, value_name = "FILE", hide_short_help = true)]
     pub cut_weights: Option<PathBuf>,
+    /// Most charts, for `--cut auto`. Default: no limit.
+    ///
+    /// A part whose map would overlap itself is divided into charts. With a limit such charts are joined again, with
+    /// more distortion. Parts that are not connected, and regions between other seams, keep one chart each.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), hide_short_help = true)]
+    pub max_charts: Option<u32>,
     /// Cut along these edges too: sharp edges, borders of materials, borders of groups.
     ///
     /// `sharp` takes edges with an angle of 60 degrees or more between the faces; `sharp=DEGREES` sets the angle.

@@ -133,13 +133,19 @@ impl<'a> CutGraph<'a> {
         }
     }
 
-    /// True if a seam may end at a vertex because of its boundary loop: a long loop, or a hole that another seam reaches
-    /// too.
+    /// True if a seam may end at a vertex because of its boundary loop: a long loop, or a hole that is a cone or that
+    /// another seam reaches too.
     fn is_held_by_loop(&self, vertex: u32) -> bool {
         let Some(of) = self.surface.loop_of[vertex as usize] else { return false };
-        let is_at_hole = |&(other, _): &(&Option<u32>, &u32)| *other == Some(of);
-        let seams = || self.surface.loop_of.iter().zip(&self.degree).filter(is_at_hole).map(|(_, degree)| degree);
-        self.surface.is_required[of as usize] || seams().sum::<u32>() > 1
+        let mut around = self.around_loop(of);
+        self.surface.is_required[of as usize]
+            || around.clone().any(|v| self.is_cone[v as usize])
+            || around.try_fold(0, |seams, v| Some(seams + self.degree[v as usize]).filter(|&seams| seams < 2)).is_none()
+    }
+
+    /// Vertices of a boundary loop.
+    fn around_loop(&self, of: u32) -> impl Iterator<Item = u32> + Clone + '_ {
+        (0..).zip(&self.surface.loop_of).filter(move |(_, other)| **other == Some(of)).map(|(vertex, _)| vertex)
     }
 
     /// Connects the long boundary loops with the rest.
@@ -185,10 +191,12 @@ impl<'a> CutGraph<'a> {
         (0..).take(self.degree.len()).filter(|&v| self.is_free(v)).collect()
     }
 
-    /// True if the seams open the surface. A closed surface without handles needs two seams or more: along one, the
-    /// boundary would have two vertices.
+    /// True if the seams open the surface. Without a boundary that they reach, a surface without handles needs two
+    /// seams or more: along one, the boundary would have two vertices.
     pub(super) fn has_enough(&self) -> bool {
-        self.surface.is_required.contains(&true) || self.seams().nth(1).is_some()
+        let is_at_loop =
+            |edge: usize| self.surface.edges[edge].ends.iter().any(|&end| self.surface.loop_of[end as usize].is_some());
+        self.surface.is_required.contains(&true) || self.seams().nth(1).is_some() || self.seams().any(is_at_loop)
     }
 
     /// Cost of all seams.
@@ -249,7 +257,9 @@ impl<'a> CutGraph<'a> {
     /// Removes a cone, and the seam that leads to it if the cone is its end.
     pub(super) fn remove_cone(&mut self, vertex: u32) {
         self.is_cone[vertex as usize] = false;
-        self.prune(vec![vertex]);
+        // The seams of a hole may end at any of its vertices.
+        let hole = self.surface.loop_of[vertex as usize].map(|of| self.around_loop(of).collect());
+        self.prune(hole.unwrap_or_else(|| vec![vertex]));
     }
 
     /// Vertices that the graph has to reach.

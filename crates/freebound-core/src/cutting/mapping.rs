@@ -4,16 +4,19 @@
 //! map is found, which has no folds but may overlap itself. This takes a few solves, and its energy tells if the cut is
 //! good enough. More seams keep its parts from overlapping (see `overlap`).
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::joining::Joining;
 use super::overlap::{self, Division};
-use super::search::SeamOptions;
+use super::rejoining::LocalCharts;
+use super::search::{PartCut, SeamOptions};
 use super::surface::{CutSurface, Opened, OpenedChart};
 use crate::bijective::convexity::with_convex_polygons;
 use crate::flatten::{Flattener, Options, Step};
-use crate::mesh::{DiskMesh, VertexId};
+use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::nonlinear::slim::Slim;
 use crate::parallel::prelude::*;
 use crate::problem::{Control, Embedding, Settings, SolveError};
@@ -38,6 +41,14 @@ const FEW: usize = 5000;
 /// Steps of a grid across a map on which the map has to stay planar: far more than rounding moves a coordinate.
 const GRID: f64 = (1_u64 << 36) as f64;
 
+/// Share of the smallest height of its faces by which a vertex of the boundary moves inwards. Seen in 32 bits, and with
+/// an energy of at most some 1e-6 above that of an isometric map.
+const HAIR: f64 = 1.0 / 4096.0;
+
+/// Share of the smallest height of its faces by which a vertex of the boundary can move outwards in a clearly planar
+/// map: far more than rounding moves it.
+const CLEARANCE: f64 = 1.0 / (1 << 30) as f64;
+
 /// Map of a surface along seams.
 #[derive(Clone, Debug)]
 pub(super) struct Mapped {
@@ -45,8 +56,8 @@ pub(super) struct Mapped {
     pub(super) is_seam: Vec<bool>,
     /// Mean symmetric Dirichlet energy; infinite if the map is not planar.
     pub(super) energy: f64,
-    /// True if there are several charts.
-    pub(super) is_divided: bool,
+    /// Number of charts.
+    pub(super) chart_count: usize,
     /// True if rounding cannot make the map overlap itself.
     pub(super) is_clear: bool,
     /// Vertex of the map at each corner of the part.
@@ -65,6 +76,24 @@ pub(super) enum Trial {
 impl Trial {
     /// No map.
     const FAILED: Self = Self::TooDistorted(f64::INFINITY);
+}
+
+/// Largest energies of maps that are taken.
+#[derive(Clone, Copy)]
+pub(super) struct EnergyLimits {
+    /// Energy of a local map that is worth dividing.
+    pub(super) local: f64,
+    /// Energy of a map whose charts are joined across seams of the cut.
+    pub(super) joined: f64,
+}
+
+/// Local map of the only chart of a cut, with its conflicts.
+#[derive(Clone, Copy)]
+struct LocalStart<'a> {
+    is_seam: &'a [bool],
+    opened: &'a Opened,
+    local: &'a ChartMap,
+    conflicts: &'a [[u32; 2]],
 }
 
 /// Surface, settings and control of all maps of a search.
@@ -90,20 +119,37 @@ impl<'a> Mapping<'a> {
         let [chart] = &opened.charts[..] else { return self.map(is_seam).map(Trial::Map) };
         match self.run(chart, None).finished_unless_hopeless()? {
             Some(map) => Ok(Trial::Map(joined(is_seam, &opened, vec![map]))),
-            None => self.apart(&is_seam, &opened, most),
+            None => self.apart(&is_seam, &opened, EnergyLimits { local: most, joined: most }),
         }
     }
 
     /// Map along the seams of a cut and more seams that keep its parts from overlapping.
-    pub(super) fn tried_apart(self, is_seam: &[bool]) -> Result<Trial, SolveError> {
+    pub(super) fn tried_apart(self, is_seam: &[bool], limits: EnergyLimits) -> Result<Trial, SolveError> {
         let opened = self.surface.opened(is_seam)?;
-        if opened.charts.len() == 1 { self.apart(is_seam, &opened, f64::INFINITY) } else { Ok(Trial::FAILED) }
+        if opened.charts.len() == 1 { self.apart(is_seam, &opened, limits) } else { Ok(Trial::FAILED) }
     }
 
-    fn apart(self, is_seam: &[bool], opened: &Opened, most: f64) -> Result<Trial, SolveError> {
+    /// Map of at most `most` charts: joins those of a cut. `None` if no two can be joined, or if the map is not planar.
+    pub(super) fn joined(self, cut: &PartCut, most: usize) -> Result<Option<Mapped>, SolveError> {
+        let mut joining = Joining::new(self.surface, &cut.is_seam, |_| true);
+        joining.join(most, BTreeSet::new(), |_| true, self.control)?;
+        let left = joining.remaining_seams(&cut.is_seam);
+        if left == cut.is_seam {
+            return Ok(None);
+        }
+        let opened = self.surface.opened(&left)?;
+        let mut positions = vec![DVec2::ZERO; opened.vertex_count];
+        for (new, old) in opened.corners.iter().zip(&cut.corners) {
+            positions[new.index()] = cut.embedding[*old];
+        }
+        // Charts that were not joined keep their map.
+        Ok(Some(self.started_all(left, &opened, &positions)?).filter(|map| map.energy.is_finite()))
+    }
+
+    fn apart(self, is_seam: &[bool], opened: &Opened, limits: EnergyLimits) -> Result<Trial, SolveError> {
         let chart = &opened.charts[0];
         let Some(local) = self.local_map(chart)? else { return Ok(Trial::FAILED) };
-        if local.energy > most {
+        if local.energy > limits.local {
             return Ok(Trial::TooDistorted(local.energy));
         }
         let Some(conflicts) = overlap::conflicts(chart, &local.embedding) else { return Ok(Trial::FAILED) };
@@ -111,25 +157,21 @@ impl<'a> Mapping<'a> {
             let map = self.started_at(chart, local.embedding)?;
             return Ok(Trial::Map(joined(is_seam.to_vec(), opened, vec![map])));
         }
-        Ok(self.divided(is_seam, opened, &local, &conflicts)?.map_or(Trial::FAILED, Trial::Map))
+        let division = Division::new(self.surface, is_seam, &conflicts, self.control);
+        let Some(divided) = division.seams(is_seam)? else { return Ok(Trial::FAILED) };
+        let start = LocalStart { is_seam, opened, local: &local, conflicts: &conflicts };
+        Ok(self.divided(&divided, start, limits.joined)?.map_or(Trial::FAILED, Trial::Map))
     }
 
-    /// Map of the charts into which conflicts of a local map divide the only chart of a cut. `None` if it is not
-    /// planar.
-    fn divided(
-        self,
-        is_seam: &[bool],
-        opened: &Opened,
-        local: &ChartMap,
-        conflicts: &[[u32; 2]],
-    ) -> Result<Option<Mapped>, SolveError> {
-        let Some(more) = Division::new(self.surface, is_seam, conflicts, self.control).seams()? else {
-            return Ok(None);
-        };
-        let mut all = is_seam.to_vec();
-        for edge in more {
-            all[edge as usize] = true;
-        }
+    /// Map of the charts into which seams `all` divide the only chart of a cut. Charts are joined across seams of the
+    /// cut if the energy of the whole is then at most `most`. `None` if the map is not planar.
+    fn divided(self, all: &[bool], start: LocalStart<'_>, most: f64) -> Result<Option<Mapped>, SolveError> {
+        let LocalStart { is_seam, opened, local, conflicts } = start;
+        // The local map holds across new seams alone.
+        let mut joining = Joining::new(self.surface, all, |edge| !is_seam[edge as usize]);
+        let apart = conflicts.iter().map(|pair| joining.pair_of(*pair)).collect();
+        joining.join(1, apart, |_| true, self.control)?;
+        let all = joining.remaining_seams(all);
         let Ok(divided) = self.surface.opened(&all) else { return Ok(None) };
         if divided.charts.len() < 2 {
             return Ok(None);
@@ -139,18 +181,61 @@ impl<'a> Mapping<'a> {
         for (new, old) in divided.corners.iter().zip(&opened.corners) {
             positions[new.index()] = before[old.index()];
         }
+        let is_good = |map: &Mapped| map.energy.is_finite();
+        let rejoined = match self.rejoined(&all, &divided, &positions) {
+            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
+            rejoined => rejoined.ok().flatten(),
+        };
+        if let Some(map) = rejoined.filter(|map| is_good(map) && map.energy <= most) {
+            return Ok(Some(map));
+        }
+        Ok(Some(self.started_all(all, &divided, &positions)?).filter(is_good))
+    }
+
+    /// Map of charts of a local map, some of which are moved to neighbours and joined with them. `None` if none fit.
+    fn rejoined(self, is_seam: &[bool], divided: &Opened, positions: &[DVec2]) -> Result<Option<Mapped>, SolveError> {
+        let mut joining = Joining::new(self.surface, is_seam, |_| true);
+        let mut triangles = vec![Vec::new(); divided.charts.len()];
+        for chart in &divided.charts {
+            let corners = |face: usize| chart.disk.face(FaceId::from_index(face));
+            let faces = (0..chart.face_of.len()).map(corners);
+            triangles[joining.chart_of(chart.face_of[0]) as usize] =
+                faces.map(|face| face.map(|vertex| chart.vertex_of[vertex.index()].number())).collect();
+        }
+        let mut local = LocalCharts { positions: positions.to_vec(), triangles };
+        joining.join(1, BTreeSet::new(), |meeting| local.bring_together(meeting), self.control)?;
+        let left = joining.remaining_seams(is_seam);
+        if left == is_seam {
+            return Ok(None);
+        }
+        let Ok(opened) = self.surface.opened(&left) else { return Ok(None) };
+        let mut positions = vec![DVec2::ZERO; opened.vertex_count];
+        for (new, old) in opened.corners.iter().zip(&divided.corners) {
+            positions[new.index()] = local.positions[joining.root(*old)];
+        }
+        self.started_all(left, &opened, &positions).map(Some)
+    }
+
+    /// Maps all charts from a start, the position of each vertex of the opened part.
+    fn started_all(self, is_seam: Vec<bool>, opened: &Opened, positions: &[DVec2]) -> Result<Mapped, SolveError> {
         let map = |chart: &OpenedChart| {
             let start = Embedding::with_holes(chart.disk.mesh(), chart.vertex_of.iter().map(|v| positions[v.index()]));
             self.started_at(chart, start)
         };
-        Ok(Some(joined(all, &divided, divided.mapped(map)?)).filter(|map| map.energy.is_finite()))
+        Ok(joined(is_seam, opened, opened.mapped(map)?))
     }
 
-    /// Map relaxed from a start, or from scratch if the start does not lead to one that is clearly planar.
+    /// Map relaxed from a start, or from scratch if the start does not lead to one that is clearly planar. A start whose
+    /// boundary touches itself is parted there.
     fn started_at(self, chart: &OpenedChart, start: Embedding) -> Result<ChartMap, SolveError> {
+        let start = if is_clearly_planar(&chart.disk, &start) { start } else { parted(&chart.disk, &start) };
         let map = self.run(chart, Some(start)).finished()?;
-        let is_good = map.energy.is_finite() && is_clearly_planar(&chart.disk, &map.embedding);
-        if is_good { Ok(map) } else { self.run(chart, None).finished() }
+        if map.is_clear {
+            return Ok(map);
+        }
+        let from_scratch = self.run(chart, None).finished()?;
+        let is_better = from_scratch.is_clear || !map.energy.is_finite();
+        Ok(if is_better { from_scratch } else { map })
     }
 
     fn run<'b>(self, OpenedChart { disk, polygons, .. }: &'b OpenedChart, start: Option<Embedding>) -> Run<'b>
@@ -174,7 +259,7 @@ impl<'a> Mapping<'a> {
         let of = |map: Slim| {
             let on_surface = map.embedding().into_inner().into_iter().take(chart.vertex_of.len());
             let embedding = Embedding::with_holes(chart.disk.mesh(), on_surface);
-            ChartMap { energy: map.progress().energy, embedding }
+            ChartMap { energy: map.progress().energy, is_clear: false, embedding }
         };
         Ok(map.map(of).filter(|map| map.energy.is_finite()))
     }
@@ -230,10 +315,14 @@ impl Run<'_> {
         };
         let embedding = step.candidate.solution.embedding;
         if !step.verdict.planar {
-            return Ok(Some(ChartMap { energy: f64::INFINITY, embedding }));
+            return Ok(Some(ChartMap { energy: f64::INFINITY, is_clear: false, embedding }));
         }
-        let embedding = with_convex_polygons(self.polygons, embedding, self.control)?;
-        Ok(Some(ChartMap { energy: mean_energy(self.disk, &embedding), embedding }))
+        // Rounding in the packed layout could make a boundary cross itself where it touches itself.
+        let clear = (!is_clearly_planar(self.disk, &embedding)).then(|| parted(self.disk, &embedding));
+        let clear = clear.filter(|parted| is_clearly_planar(self.disk, parted));
+        let embedding = with_convex_polygons(self.polygons, clear.unwrap_or(embedding), self.control)?;
+        let is_clear = is_clearly_planar(self.disk, &embedding);
+        Ok(Some(ChartMap { energy: mean_energy(self.disk, &embedding), is_clear, embedding }))
     }
 
     fn is_over(&self, step: &Step) -> bool {
@@ -247,6 +336,8 @@ impl Run<'_> {
 struct ChartMap {
     /// Mean symmetric Dirichlet energy; infinite if the map is not planar.
     energy: f64,
+    /// True if the map is planar, and rounding cannot make it overlap itself.
+    is_clear: bool,
     embedding: Embedding,
 }
 
@@ -272,11 +363,36 @@ impl Opened {
     }
 }
 
-/// True if a map stays planar once its coordinates are rounded to a grid. The two sides of a seam across a flat region
-/// lie on each other in a map without distortion, so that any rounding could cross them.
+/// Map with its boundary moved inwards by a hair, so that the two sides of a seam across a flat region part.
+fn parted(disk: &DiskMesh, embedding: &Embedding) -> Embedding {
+    with_boundary_moved(disk, embedding, HAIR)
+}
+
+/// Map with each vertex of the boundary moved inwards, by a share of the smallest height of its faces.
+fn with_boundary_moved(disk: &DiskMesh, embedding: &Embedding, share: f64) -> Embedding {
+    let mut moved = embedding.clone();
+    for &vertex in disk.boundary_loop() {
+        let around: Vec<DVec2> =
+            disk.outgoing(vertex).map(|side| embedding[disk.head(side)] - embedding[vertex]).collect();
+        let (mut angle, mut height) = (0.0, f64::INFINITY);
+        for pair in around.windows(2) {
+            angle += pair[0].angle_to(pair[1]).abs();
+            let longest = pair[0].length().max(pair[1].length()).max(pair[0].distance(pair[1]));
+            height = f64::min(height, pair[0].perp_dot(pair[1]).abs() / longest);
+        }
+        let inwards = DVec2::from_angle(angle / 2.0).rotate(around[0].normalize_or_zero());
+        moved[vertex] += share * height * inwards;
+    }
+    moved
+}
+
+/// True if a map stays planar once its boundary is moved outwards and its coordinates are rounded to a grid. The two
+/// sides of a seam across a flat region lie on each other in a map without distortion, so that any rounding could cross
+/// them.
 fn is_clearly_planar(disk: &DiskMesh, embedding: &Embedding) -> bool {
     let step = embedding.bounds().extent() / GRID;
-    let rounded: Embedding = embedding.iter().map(|z| (*z / step).round() * step).collect();
+    let moved = with_boundary_moved(disk, embedding, -CLEARANCE);
+    let rounded: Embedding = moved.iter().map(|z| (*z / step).round() * step).collect();
     is_one_to_one(disk, &rounded)
 }
 
@@ -291,8 +407,8 @@ fn joined(is_seam: Vec<bool>, opened: &Opened, maps: Vec<ChartMap>) -> Mapped {
     let sum: f64 = maps.iter().zip(&areas).map(|(map, area)| map.energy * area).sum();
     let whole: f64 = areas.iter().sum();
     let energy = if maps.len() == 1 { maps[0].energy } else { sum / whole };
+    let is_clear = maps.iter().all(|map| map.is_clear);
     let maps: Vec<Embedding> = maps.into_iter().map(|map| map.embedding).collect();
-    let is_clear = opened.charts.iter().zip(&maps).all(|(chart, map)| is_clearly_planar(&chart.disk, map));
     let embedding = opened.positions(&maps).into();
-    Mapped { is_seam, energy, is_divided: maps.len() > 1, is_clear, corners: opened.corners.clone(), embedding }
+    Mapped { is_seam, energy, chart_count: maps.len(), is_clear, corners: opened.corners.clone(), embedding }
 }

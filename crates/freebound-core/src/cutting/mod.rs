@@ -7,11 +7,15 @@
 //! | `graph.rs` | cut graph: handles, boundary loops and cones joined by short seams |
 //! | `mapping.rs` | maps along seams |
 //! | `overlap.rs` | charts of a map that overlaps itself |
+//! | `joining.rs` | charts joined with their neighbours |
+//! | `rejoining.rs` | charts moved beside others that they can be joined with |
 //! | `search.rs` | search for the cheapest cut whose map meets a bound |
 
 mod graph;
+mod joining;
 mod mapping;
 mod overlap;
+mod rejoining;
 mod scale_factor;
 mod search;
 mod surface;

@@ -2,8 +2,8 @@
 //!
 //! Two faces *conflict* if their insides meet in the map. A minimum cut of the dual graph, with the costs of edges as
 //! capacities, separates the faces around one conflict from those around its partner. Cuts follow until no chart has
-//! conflicts. Each cut separates at least one pair, so this ends. Then neighbours without a conflict are joined again,
-//! those with the costliest border first.
+//! conflicts. Each cut separates at least one pair, so this ends. Then neighbours without a conflict are joined again
+//! (see `joining`).
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -16,7 +16,6 @@ use petgraph::visit::EdgeRef as _;
 use super::surface::{CutSurface, OpenedChart};
 use crate::geom;
 use crate::mesh::FaceId;
-use crate::mesh::union::DisjointSets;
 use crate::problem::{Control, Embedding, SolveError};
 
 /// Most pairs of conflicting triangles of a map that is worth cutting into charts.
@@ -55,7 +54,6 @@ struct Hinge {
 
 /// Faces of a part, to be divided into charts.
 pub(super) struct Division<'a> {
-    surface: &'a CutSurface<'a>,
     control: Control<'a>,
     hinges: Vec<Hinge>,
     /// Numbers of the hinges of each face.
@@ -72,7 +70,7 @@ pub(super) struct Division<'a> {
 impl<'a> Division<'a> {
     /// Takes seams, by the part's edge table, and conflicts between faces.
     pub(super) fn new(
-        surface: &'a CutSurface<'a>,
+        surface: &CutSurface<'_>,
         is_seam: &[bool],
         conflicts: &[[u32; 2]],
         control: Control<'a>,
@@ -102,16 +100,16 @@ impl<'a> Division<'a> {
             over[b as usize].push(a);
         }
         let middles = (0..count).map(middle).collect();
-        Self { surface, control, hinges, at, middles, over, chart_of: vec![0; count], chart_count: 1 }
+        Self { control, hinges, at, middles, over, chart_of: vec![0; count], chart_count: 1 }
     }
 
-    /// Seams that leave no chart with a conflict, in addition to those that were given, by the part's edge table.
-    /// `None` if there would be too many charts.
+    /// Seams that leave no chart with a conflict, with those that were given. Neighbours that could be one chart may be
+    /// apart. `None` if there would be too many charts.
     ///
     /// # Errors
     ///
     /// [`SolveError::Cancelled`].
-    pub(super) fn seams(mut self) -> Result<Option<Vec<u32>>, SolveError> {
+    pub(super) fn seams(mut self, is_seam: &[bool]) -> Result<Option<Vec<bool>>, SolveError> {
         while let Some(face) = (0..).take(self.over.len()).find(|&face| self.partners(face).next().is_some()) {
             self.control.go_on()?;
             if self.chart_count as usize > MOST_CHARTS {
@@ -119,8 +117,9 @@ impl<'a> Division<'a> {
             }
             self.separate(face);
         }
-        self.join_neighbours()?;
-        Ok(Some(self.borders().map(|hinge| hinge.edge).collect()))
+        let mut is_seam = is_seam.to_vec();
+        self.borders().for_each(|hinge| is_seam[hinge.edge as usize] = true);
+        Ok(Some(is_seam))
     }
 
     /// Faces of the same chart that lie over a face.
@@ -279,45 +278,6 @@ impl<'a> Division<'a> {
             stack.extend(fresh.iter().filter(|node| reached.insert(**node)));
         }
         node_of.into_iter().filter(|(_, node)| reached.contains(node)).map(|(face, _)| face).collect()
-    }
-
-    /// Joins neighbours that have no conflict with each other and meet along one line.
-    fn join_neighbours(&mut self) -> Result<(), SolveError> {
-        let ascending = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
-        let mut apart: BTreeSet<[u32; 2]> = BTreeSet::new();
-        for (&own, others) in self.chart_of.iter().zip(&self.over) {
-            apart.extend(others.iter().map(|&other| ascending([own, self.chart_of[other as usize]])));
-        }
-        loop {
-            self.control.go_on()?;
-            let mut borders: BTreeMap<[u32; 2], (f64, Vec<u32>)> = BTreeMap::new();
-            for hinge in self.borders() {
-                let charts = ascending(hinge.faces.map(|face| self.chart_of[face as usize]));
-                let border = borders.entry(charts).or_default();
-                border.0 += hinge.cost;
-                border.1.push(hinge.edge);
-            }
-            let joinable =
-                borders.into_iter().filter(|(pair, (_, edges))| !apart.contains(pair) && self.are_one_line(edges));
-            let best = joinable.max_by(|(a, (cost_a, _)), (b, (cost_b, _))| cost_a.total_cmp(cost_b).then(b.cmp(a)));
-            let Some(([kept, gone], _)) = best else { return Ok(()) };
-            self.chart_of.iter_mut().filter(|of| **of == gone).for_each(|of| *of = kept);
-            let renamed = |pair: [u32; 2]| ascending(pair.map(|chart| if chart == gone { kept } else { chart }));
-            apart = apart.into_iter().map(renamed).collect();
-        }
-    }
-
-    /// True if edges are connected.
-    fn are_one_line(&self, edges: &[u32]) -> bool {
-        let mut first_at: BTreeMap<u32, u32> = BTreeMap::new();
-        let mut sets = DisjointSets::new(edges.len());
-        for (number, &edge) in (0..).zip(edges) {
-            for end in self.surface.edges[edge as usize].ends {
-                let first = *first_at.entry(end).or_insert(number);
-                sets.join(first, number);
-            }
-        }
-        sets.roots().count() == 1
     }
 }
 

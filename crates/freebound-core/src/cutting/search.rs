@@ -27,7 +27,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 
 use super::graph::CutGraph;
-use super::mapping::{LARGE, Mapped, Mapping, Trial};
+use super::mapping::{EnergyLimits, LARGE, Mapped, Mapping, Trial};
 use super::scale_factor::{ConformalSystem, ScaleFactors};
 use super::surface::{CutSurface, Paths};
 use crate::mesh::{Repaired, VertexId};
@@ -44,7 +44,7 @@ const FIRST_RATIOS: [f64; 2] = [0.38, 0.31];
 const AIM: f64 = 0.95;
 
 /// Share of the allowed excess that is close enough to end the search.
-const CLOSE: f64 = 0.88;
+const CLOSE: f64 = 0.85;
 
 /// Factor between the two predictions that a round tries.
 const BESIDE: f64 = 0.9;
@@ -77,6 +77,9 @@ const DEVELOPED: f64 = 2.5;
 
 /// Energy of an exact development above that of an isometric map, at most.
 const ISOMETRY: f64 = 1e-6;
+
+/// Energy of a divided development above that of an isometric map, at most: joined charts may fit only nearly.
+const NEARLY: f64 = 1e-3;
 
 /// Most candidates for a new cone that are compared.
 const CANDIDATES: usize = 16;
@@ -112,6 +115,9 @@ pub struct SeamOptions {
     pub bound: f64,
     /// Rounds of relaxing of each measured map.
     pub rounds: usize,
+    /// Most charts of the whole mesh. Parts that are not connected, and regions between seams that were given, keep
+    /// one each. Default: no limit.
+    pub most_charts: Option<usize>,
 }
 
 impl SeamOptions {
@@ -126,7 +132,7 @@ impl SeamOptions {
 
     /// Options for a bound on the mean symmetric Dirichlet energy, at least [`LEAST`](Self::LEAST).
     pub fn new(bound: f64) -> Self {
-        Self { bound: bound.max(Self::LEAST), rounds: RELAX_ROUNDS }
+        Self { bound: bound.max(Self::LEAST), rounds: RELAX_ROUNDS, most_charts: None }
     }
 }
 
@@ -143,12 +149,14 @@ pub(crate) struct PartCut {
     pub(crate) corners: Vec<VertexId>,
     /// Map of the part.
     pub(crate) embedding: Embedding,
+    /// Number of charts.
+    pub(crate) chart_count: usize,
 }
 
 impl PartCut {
     fn new(surface: &CutSurface<'_>, map: Mapped) -> Self {
-        let Mapped { is_seam, energy, corners, embedding, .. } = map;
-        Self { length: surface.length_of(&is_seam), energy, is_seam, corners, embedding }
+        let Mapped { is_seam, energy, chart_count, corners, embedding, .. } = map;
+        Self { length: surface.length_of(&is_seam), energy, is_seam, corners, embedding, chart_count }
     }
 }
 
@@ -276,6 +284,17 @@ impl PartToCut<'_> {
         let mapping = Mapping { surface: &surface, options: self.options, control: self.control };
         Ok(PartCut::new(&surface, mapping.map(is_seam)?))
     }
+
+    /// Joins charts of a cut until at most `most` are left, and maps them. `None` if no two can be joined.
+    ///
+    /// # Errors
+    ///
+    /// Errors of the solves; [`SolveError::Cancelled`].
+    pub(crate) fn joined(&self, cut: &PartCut, most: usize) -> Result<Option<PartCut>, SolveError> {
+        let surface = CutSurface::new(self.part, self.costs);
+        let mapping = Mapping { surface: &surface, options: self.options, control: self.control };
+        Ok(mapping.joined(cut, most)?.map(|map| PartCut::new(&surface, map)))
+    }
 }
 
 struct Search<'a> {
@@ -342,7 +361,7 @@ impl<'a> Search<'a> {
             let share = current.excess() / allowed;
             // The relaxing of a large surface ends early, so that its share says little.
             let is_large = self.surface.triangles.len() > LARGE;
-            let is_divided = current.map.as_ref().is_some_and(|map| map.is_divided);
+            let is_divided = current.map.as_ref().is_some_and(|map| map.chart_count > 1);
             let is_last = is_large || is_divided || round + 1 >= ROUNDS || current.cost <= start.cost();
             let is_stuck = round > 0 && current.map.is_some() && current.excess() > STUCK * current.predicted;
             if (share <= 1.0 && (share > CLOSE || is_last)) || current.predicted <= 0.0 {
@@ -363,7 +382,7 @@ impl<'a> Search<'a> {
     fn finished(&self, start: &CutGraph<'a>, best: Option<Measured>, allowed: f64) -> Result<PartCut, SolveError> {
         let best = best.filter(|best| best.energy.is_finite() || best.map.is_none());
         let best = best.map(|best| self.kept_apart(best, allowed)).transpose()?;
-        let developed = self.development(start, best.as_ref())?;
+        let developed = self.development(start, best.as_ref(), allowed)?;
         let Measured { is_seam, map, .. } = developed.or(best).ok_or(SolveError::NotPlanar)?;
         let map = match map {
             Some(map) => map,
@@ -380,20 +399,32 @@ impl<'a> Search<'a> {
         if best.excess() <= allowed {
             return Ok(best);
         }
-        match self.mapping().tried_apart(&best.is_seam) {
+        let limits = EnergyLimits { local: f64::INFINITY, joined: self.options.bound + best.unavoidable };
+        let apart = self.with_parts_apart(&best, limits)?;
+        Ok(apart.filter(|apart| best.map.is_none() || apart.energy < best.energy).unwrap_or(best))
+    }
+
+    /// Cut with more seams, so that a map with little distortion does not overlap itself. `None` if there is none.
+    fn with_parts_apart(&self, cut: &Measured, limits: EnergyLimits) -> Result<Option<Measured>, SolveError> {
+        match self.mapping().tried_apart(&cut.is_seam, limits) {
             Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
-            Ok(Trial::Map(map)) if best.map.is_none() || map.energy < best.energy => {
+            Ok(Trial::Map(map)) => {
                 let cost = self.surface.cost_of(&map.is_seam);
-                Ok(Measured { is_seam: map.is_seam.clone(), cost, energy: map.energy, map: Some(map), ..best })
+                Ok(Some(Measured { is_seam: map.is_seam.clone(), cost, energy: map.energy, map: Some(map), ..*cut }))
             }
-            _ => Ok(best),
+            _ => Ok(None),
         }
     }
 
     /// Exact development: an isometric map along a cut through all vertices with curvature. `None` unless each of them
     /// lies on a sharp edge or alone, as on parts of machines, and unless its cost is at most [`DEVELOPED`] times that
     /// of the best other cut.
-    fn development(&self, start: &CutGraph<'a>, best: Option<&Measured>) -> Result<Option<Measured>, SolveError> {
+    fn development(
+        &self,
+        start: &CutGraph<'a>,
+        best: Option<&Measured>,
+        allowed: f64,
+    ) -> Result<Option<Measured>, SolveError> {
         let is_on_sharp_edge = self.surface.on_sharp_edges(SHARP);
         let curved = self.system.curved_nodes(CURVED).map(|node| self.system.vertex_of[node]);
         let curved: Vec<u32> = curved.filter(|&vertex| !self.surface.is_on_required_loop(vertex)).collect();
@@ -420,8 +451,24 @@ impl<'a> Search<'a> {
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
             found => found.ok(),
         };
-        let is_clear = |found: &Measured| found.map.as_ref().is_some_and(|map| map.is_clear);
-        Ok(found.filter(|found| found.energy - SeamOptions::ISOMETRIC <= ISOMETRY && is_clear(found)))
+        let Some(found) = found else { return Ok(None) };
+        let has_one_chart = |found: &Measured| found.map.as_ref().is_some_and(|map| map.chart_count == 1);
+        let is_good = |found: &Measured, most: f64| {
+            let is_flat = |map: &Mapped| map.energy <= SeamOptions::ISOMETRIC + most && map.is_clear;
+            // Several charts are taken only if they are shorter than the best other cut, or if that does not serve.
+            let is_cheap = best.is_none_or(|best| {
+                let factor = if has_one_chart(found) { DEVELOPED } else { 1.0 };
+                found.cost <= factor * best.cost || best.excess() > allowed
+            });
+            found.map.as_ref().is_some_and(is_flat) && is_cheap
+        };
+        if is_good(&found, ISOMETRY) {
+            return Ok(Some(found));
+        }
+        // A development that overlaps itself is divided.
+        let [local, joined] = [ISOMETRY, NEARLY].map(|most| SeamOptions::ISOMETRIC + most);
+        let apart = self.with_parts_apart(&found, EnergyLimits { local, joined })?;
+        Ok(apart.filter(|apart| is_good(apart, NEARLY)))
     }
 
     /// Different cuts for predictions. A large surface gets one.

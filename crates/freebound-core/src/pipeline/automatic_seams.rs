@@ -11,7 +11,8 @@ use crate::mesh::{PolygonMesh, Preparation, Repair, Repaired, VertexId};
 use crate::parallel::prelude::*;
 use crate::problem::{Control, Embedding, SolveError};
 
-/// Seams of a mesh, and a map along them. The map of a part meets the bound if one of the cuts that were tried does.
+/// Seams of a mesh, and a map along them. The map of a part meets the bound if one of the cuts that were tried does,
+/// unless charts were joined to keep their number small.
 #[derive(Clone, Debug, Default)]
 pub struct AutomaticSeams {
     /// Preparation that cuts the mesh along these seams, among others.
@@ -62,8 +63,9 @@ pub struct MeshToCut<'a> {
 }
 
 impl AutomaticSeams {
-    /// Finds seams for the parts of a mesh. Seams of the preparation are cut first, and its costs steer the search. A part that cannot be cut
-    /// this way, such as a one-sided surface, gets no seams. `report` receives each improvement of a part.
+    /// Finds seams for the parts of a mesh. Seams of the preparation are cut first, and its costs steer the search. A
+    /// part that cannot be cut this way, such as a one-sided surface, gets no seams. `report` receives each improvement
+    /// of a part. Charts above [`SeamOptions::most_charts`] are joined after the last report.
     ///
     /// # Errors
     ///
@@ -101,6 +103,8 @@ impl AutomaticSeams {
         let MeshToCut { mesh, form, .. } = to_cut;
         let automatic = form.seams.automatic();
         let parts = PartsToCut::new(to_cut);
+        // The search has joined charts already.
+        let options = SeamOptions { most_charts: None, ..options };
         let seams = parts.seams(options, control, |number, part| {
             part.map_along(parts.parts[number].by_edge_in(mesh, |edge| automatic.contains(&edge)))
         })?;
@@ -161,11 +165,12 @@ impl<'a> PartsToCut<'a> {
         };
         let numbers = (0..self.parts.len()).into_par_iter().with_max_len(1);
         let found: Vec<Result<Option<PartCut>, SolveError>> = numbers.map(cut_one).collect();
+        let found = self.with_few_charts(found.into_iter().collect::<Result<_, _>>()?, options, control)?;
         let corners = vec![None; self.mesh.corners.len()];
         let mut seams = AutomaticSeams { corners, bound: options.bound, area: self.area, ..AutomaticSeams::default() };
         let mut edges = Vec::new();
         for (part, found) in self.parts.iter().zip(found) {
-            let Some(found) = found? else { continue };
+            let Some(found) = found else { continue };
             edges.extend(part.seams_in(self.mesh, &found.is_seam));
             seams.length += found.length;
             for (corner, vertex) in found.corners.iter().enumerate() {
@@ -176,6 +181,37 @@ impl<'a> PartsToCut<'a> {
         seams.seconds = start.elapsed().as_secs_f64();
         Ok(seams)
     }
+
+    /// Cuts of all parts, with charts joined in those that have most, until the whole mesh has few enough.
+    fn with_few_charts(
+        &self,
+        found: Vec<Option<PartCut>>,
+        options: SeamOptions,
+        control: Control<'_>,
+    ) -> Result<Vec<Option<PartCut>>, SolveError> {
+        let counts: Vec<usize> = found.iter().map(|cut| cut.as_ref().map_or(1, |cut| cut.chart_count)).collect();
+        let Some(most) = options.most_charts.and_then(|limit| most_of_a_part(&counts, limit)) else { return Ok(found) };
+        let joined = |(number, cut): (usize, Option<PartCut>)| {
+            let before = match cut {
+                Some(before) if before.chart_count > most => before,
+                cut => return Ok(cut),
+            };
+            let part = PartToCut { part: &self.parts[number], costs: &self.costs[number], options, control };
+            match part.joined(&before, most) {
+                Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
+                after => Ok(after.ok().flatten().or(Some(before))),
+            }
+        };
+        found.into_par_iter().enumerate().with_max_len(1).map(joined).collect()
+    }
+}
+
+/// Most charts of a part, so that all parts have at most `limit` together; 1 if there is no such number. `None` if the
+/// parts have few enough.
+fn most_of_a_part(counts: &[usize], limit: usize) -> Option<usize> {
+    let sum = |most: usize| counts.iter().map(|&count| count.min(most)).sum::<usize>();
+    let largest = counts.iter().copied().max()?;
+    (sum(largest) > limit).then(|| (1..largest).rev().find(|&most| sum(most) <= limit).unwrap_or(1))
 }
 
 impl PreparedMesh {

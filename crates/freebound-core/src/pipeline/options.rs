@@ -15,6 +15,8 @@ pub struct PipelineOptions {
     /// Bound on the mean symmetric Dirichlet energy of each part, for automatic seams: 4 is an isometric map. Seams
     /// are found if the preparation allows cuts. Default: none, the shortest cut.
     pub distortion: Option<f64>,
+    /// Most charts along automatic seams. Default: no limit.
+    pub most_charts: Option<usize>,
     /// Method and its settings.
     pub settings: Settings,
     /// Position of texture coordinates in the plane.

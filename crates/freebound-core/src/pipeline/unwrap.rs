@@ -106,8 +106,10 @@ pub fn unwrap_with(
     let turned = options.preparation.faces_turned.then(|| mesh.turned());
     let mesh = turned.as_ref().unwrap_or(mesh);
     let form = &options.preparation;
-    let find =
-        |bound| AutomaticSeams::find(MeshToCut { mesh, labels: None, form }, SeamOptions::new(bound), control, &|_| {});
+    let find = |bound| {
+        let seam_options = SeamOptions { most_charts: options.most_charts, ..SeamOptions::new(bound) };
+        AutomaticSeams::find(MeshToCut { mesh, labels: None, form }, seam_options, control, &|_| {})
+    };
     let seams = options.distortion.filter(|_| form.cut).map(find).transpose();
     let seams = seams.map_err(|error| UnwrapError::Solve { chart: 0, error })?;
     let seams = seams.as_ref();

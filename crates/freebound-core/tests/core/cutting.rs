@@ -12,7 +12,7 @@ use freebound_core::verify::{distortion, verdict};
 use freebound_core::{PipelineOptions, UnwrapError, unwrap};
 use freebound_testkit::cubes::cube;
 use freebound_testkit::many_parts::{ball, interleaved, torus};
-use freebound_testkit::solids::{cone, frustum, prism, regular_polygon};
+use freebound_testkit::solids::{cone, frustum, open_tube, plate_with_holes, prism, regular_polygon};
 use freebound_testkit::{Random, bumpy_ball, fan, grid, shaped, tetrahedron};
 use glam::{DVec2, DVec3};
 
@@ -238,6 +238,59 @@ fn boxes_cylinders_and_cones_are_developed_exactly_along_the_shortest_cut() {
 }
 
 #[test]
+fn a_long_tube_with_one_end_open_is_opened_along_its_length_too() {
+    // The open end is short enough to count as a hole that is filled.
+    for (sides, height) in [(16, 80.0), (8, 100.0), (12, 300.0)] {
+        let circle = regular_polygon(sides, 1.0);
+        let tube = open_tube(&circle, height);
+        let seams = seams_of(&tube, 4.1);
+        let energy = energy_along(&tube, &seams);
+        let around = sides as f64 * circle[0].distance(circle[1]);
+        assert!(energy <= 4.1, "{sides} sides: {energy}");
+        assert!(seams.length <= height + around, "{sides} sides: {} for {height}", seams.length);
+    }
+}
+
+/// Torus with the given radius of its tube, around a circle of radius 1.
+fn slender_torus(tube: f64) -> PolygonMesh {
+    let mut mesh = torus(16, 120);
+    for position in &mut mesh.positions {
+        let from_axis = position.truncate().length();
+        let to_tube = DVec2::new(from_axis - 3.0, position.z) * tube;
+        *position = ((1.0 + to_tube.x) / from_axis * position.truncate()).extend(to_tube.y);
+    }
+    polygons(&mesh)
+}
+
+#[test]
+fn a_slender_torus_is_cut_along_two_circles() {
+    for tube in [0.1, 0.15] {
+        let mesh = slender_torus(tube);
+        let seams = seams_of(&mesh, 4.1);
+        assert!(energy_along(&mesh, &seams) <= 4.1);
+        // Around the tube, and along the inner side.
+        let shortest = std::f64::consts::TAU * (tube + 1.0 - tube);
+        assert!(seams.length <= 1.1 * shortest, "{tube}: {} for {shortest}", seams.length);
+    }
+}
+
+#[test]
+fn a_plate_with_three_holes_is_developed_exactly() {
+    let thickness = 0.4;
+    let plate = plate_with_holes(3, thickness);
+    let seams = seams_of(&plate, 4.1);
+    let energy = energy_along(&plate, &seams);
+    assert!(energy - 4.0 <= 1e-6, "{energy}");
+    // By hand: the upper face hangs on by one long side, the others by the lower face. The sides of each hole hang on by
+    // the lower face too. Each hole is connected with the outer side above, and with the next one below.
+    let outer = 4.0 * thickness + 7.0 + 3.0 + 3.0;
+    let holes = 3.0 * (4.0 + 4.0 * thickness);
+    let between = 3.0 + (2.0 + 1.0 + 1.0);
+    let by_hand = outer + holes + between;
+    assert!(seams.length <= 1.1 * by_hand, "{} for {by_hand}", seams.length);
+}
+
+#[test]
 fn a_cost_of_one_is_no_cost_and_the_others_are_clamped() {
     let edge = [VertexId::new(3), VertexId::new(1)];
     let seams = Seams::default().with_costs([(edge, 2.0)]);
@@ -422,4 +475,27 @@ fn a_ramp_of_many_turns_is_cut_into_charts_that_do_not_overlap() {
     // A straight cut across the ramp is 1.3 long.
     let length = 1.3 * (count - 1) as f64;
     assert!(seams.length <= 1.1 * length, "{} for {length}", seams.length);
+}
+
+#[test]
+fn a_limit_on_the_number_of_charts_joins_those_of_a_divided_part() {
+    let mesh = ramp(3.5, 168);
+    let limited = |most: usize| {
+        let options = SeamOptions { most_charts: Some(most), ..SeamOptions::new(4.1) };
+        AutomaticSeams::find(to_cut(&mesh, &form()), options, Control::unattended(), &|_| {}).unwrap()
+    };
+    let free = seams_of(&mesh, 4.1);
+    for most in [1, 3] {
+        let seams = limited(most);
+        let prepared = PreparedMesh::new(&mesh, None, seams.form.clone());
+        assert_eq!(prepared.chart_count().max(1), most);
+        assert!(seams.length < free.length && seams.edges().is_subset(free.edges()));
+        let charts = (0..prepared.chart_count()).map(|chart| prepared.of_chart(chart));
+        for chart in charts.chain((most == 1).then(|| prepared.clone())) {
+            let disk = chart.disk().expect("a disk");
+            let map = chart.map_of_corners(&mesh, &seams.corners).expect("every corner has one position");
+            assert!(verdict(disk, &map).planar);
+        }
+    }
+    assert_eq!(limited(100).edges(), free.edges());
 }
