@@ -138,10 +138,7 @@ impl<'a> Mapping<'a> {
             return Ok(None);
         }
         let opened = self.surface.opened(&left)?;
-        let mut positions = vec![DVec2::ZERO; opened.vertex_count];
-        for (new, old) in opened.corners.iter().zip(&cut.corners) {
-            positions[new.index()] = cut.embedding[*old];
-        }
+        let positions = opened.positions_at(cut.corners.iter().map(|vertex| cut.embedding[*vertex]));
         // Charts that were not joined keep their map.
         Ok(Some(self.started_all(left, &opened, &positions)?).filter(|map| map.energy.is_finite()))
     }
@@ -177,10 +174,7 @@ impl<'a> Mapping<'a> {
             return Ok(None);
         }
         let before = opened.positions(std::slice::from_ref(&local.embedding));
-        let mut positions = vec![DVec2::ZERO; divided.vertex_count];
-        for (new, old) in divided.corners.iter().zip(&opened.corners) {
-            positions[new.index()] = before[old.index()];
-        }
+        let positions = divided.positions_at(opened.corners.iter().map(|vertex| before[vertex.index()]));
         let is_good = |map: &Mapped| map.energy.is_finite();
         let rejoined = match self.rejoined(&all, &divided, &positions) {
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
@@ -209,10 +203,8 @@ impl<'a> Mapping<'a> {
             return Ok(None);
         }
         let Ok(opened) = self.surface.opened(&left) else { return Ok(None) };
-        let mut positions = vec![DVec2::ZERO; opened.vertex_count];
-        for (new, old) in opened.corners.iter().zip(&divided.corners) {
-            positions[new.index()] = local.positions[joining.root(*old)];
-        }
+        let positions =
+            opened.positions_at(divided.corners.iter().map(|vertex| local.positions[joining.root(*vertex)]));
         self.started_all(left, &opened, &positions).map(Some)
     }
 
@@ -318,10 +310,13 @@ impl Run<'_> {
             return Ok(Some(ChartMap { energy: f64::INFINITY, is_clear: false, embedding }));
         }
         // Rounding in the packed layout could make a boundary cross itself where it touches itself.
-        let clear = (!is_clearly_planar(self.disk, &embedding)).then(|| parted(self.disk, &embedding));
+        let was_clear = is_clearly_planar(self.disk, &embedding);
+        let clear = (!was_clear).then(|| parted(self.disk, &embedding));
         let clear = clear.filter(|parted| is_clearly_planar(self.disk, parted));
-        let embedding = with_convex_polygons(self.polygons, clear.unwrap_or(embedding), self.control)?;
-        let is_clear = is_clearly_planar(self.disk, &embedding);
+        let is_clear = was_clear || clear.is_some();
+        let before = clear.unwrap_or(embedding);
+        let embedding = with_convex_polygons(self.polygons, before.clone(), self.control)?;
+        let is_clear = if embedding == before { is_clear } else { is_clearly_planar(self.disk, &embedding) };
         Ok(Some(ChartMap { energy: mean_energy(self.disk, &embedding), is_clear, embedding }))
     }
 
@@ -349,6 +344,15 @@ impl Opened {
     ) -> Result<Vec<ChartMap>, SolveError> {
         let maps: Vec<Result<ChartMap, SolveError>> = self.charts.par_iter().with_max_len(1).map(map).collect();
         maps.into_iter().collect()
+    }
+
+    /// Position of each vertex by the positions of the part's corners.
+    fn positions_at(&self, corners: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
+        let mut positions = vec![DVec2::ZERO; self.vertex_count];
+        for (vertex, position) in self.corners.iter().zip(corners) {
+            positions[vertex.index()] = position;
+        }
+        positions
     }
 
     /// Position of each vertex by the maps of all charts.
