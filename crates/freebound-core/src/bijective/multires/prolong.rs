@@ -94,7 +94,7 @@ fn swept(
     is_held: impl Fn(VertexId) -> bool,
     control: Control<'_>,
 ) -> Result<Embedding, SolveError> {
-    let sweeps = Sweeps::new(disk, is_held, scale_of(disk, &embedding));
+    let mut sweeps = Sweeps::new(disk, is_held, scale_of(disk, &embedding));
     for _ in 0..SWEEPS {
         control.enter(Phase::Solve)?;
         sweeps.sweep(&mut embedding);

@@ -3,9 +3,12 @@
 //! Vertices that are put back find room between others that were placed without them. The resulting distortion is
 //! local, and local moves remove it at a small fraction of the cost of a Newton step of all vertices.
 //!
+//! After the first sweep, a vertex of the interior moves only if it or a neighbour moved far in the sweep before.
+//!
 //! A vertex of the boundary moves if it has a very distorted face, within its faces and its triangles of the outside,
 //! which are found anew for each sweep: the tip of a face on the boundary is often put back between two sides of a
-//! seam that the coarse disk had closed. A move leaves half of the room to what lies opposite.
+//! seam that the coarse disk had closed. A move leaves half of the room to what lies opposite, and never narrows a gap
+//! to less than a small share of the vertex's edges: sweep after sweep would close it to the last digit.
 
 use crate::parallel::prelude::*;
 use glam::DVec2;
@@ -22,6 +25,16 @@ const INTERIOR: Steps = Steps { most: 1, share: SHARE_BEFORE_FOLD };
 /// Steps of a vertex of the boundary in one sweep.
 const BOUNDARY: Steps = Steps { most: 1, share: 0.5 };
 
+/// Height of a triangle of the outside below which no move narrows it, relative to the shorter edge of the boundary
+/// at the vertex.
+const GAP: f64 = 1e-2;
+
+/// Move from which a vertex and its neighbours are active, relative to its shortest edge.
+const ACTIVE: f64 = 0.02;
+
+/// Most lengths that are tried for a move, each half of the one before, until it narrows no gap too much.
+const TRIALS: usize = 4;
+
 /// Energy from which a face is very distorted. The energy without distortion is 2.
 const MUCH_ENERGY: f64 = 10.0;
 
@@ -34,6 +47,8 @@ pub(super) struct Sweeps<'a> {
     colours: Vec<Vec<VertexId>>,
     /// Movable vertices of the boundary.
     boundary: Vec<VertexId>,
+    /// True for each vertex that may still have far to move: it or a neighbour moved far in the sweep before.
+    is_active: Vec<bool>,
 }
 
 impl<'a> Sweeps<'a> {
@@ -57,14 +72,29 @@ impl<'a> Sweeps<'a> {
             }
             colours[colour].push(vertex);
         }
-        Self { disk, scale, colours, boundary }
+        Self { disk, scale, colours, boundary, is_active: vec![true; disk.vertex_count()] }
     }
 
-    /// Moves each vertex of the interior once, and those of the boundary that have a very distorted face. The faces of
-    /// `embedding` must be positive, and stay positive.
-    pub(super) fn sweep(&self, embedding: &mut Embedding) {
+    /// Moves each active vertex of the interior once, and those of the boundary that have a very distorted face. The
+    /// faces of `embedding` must be positive, and stay positive.
+    pub(super) fn sweep(&mut self, embedding: &mut Embedding) {
+        let before = embedding.clone();
         self.sweep_interior(embedding, false);
         self.sweep_boundary(embedding);
+        self.find_active(&before, embedding);
+    }
+
+    /// Finds the vertices that a sweep moved far, and their neighbours.
+    fn find_active(&mut self, before: &Embedding, after: &Embedding) {
+        self.is_active.fill(false);
+        for vertex in self.disk.vertices().filter(|&vertex| before[vertex] != after[vertex]) {
+            let span = |side| after[self.disk.head(side)].distance(after[vertex]);
+            let nearest = self.disk.outgoing(vertex).map(span).fold(f64::INFINITY, f64::min);
+            if before[vertex].distance(after[vertex]) >= ACTIVE * nearest {
+                self.is_active[vertex.index()] = true;
+                self.disk.outgoing(vertex).for_each(|side| self.is_active[self.disk.head(side).index()] = true);
+            }
+        }
     }
 
     /// Moves each vertex that has a very distorted face once. Returns true if any moved. Otherwise like
@@ -79,6 +109,9 @@ impl<'a> Sweeps<'a> {
     fn sweep_interior(&self, embedding: &mut Embedding, only_distorted: bool) {
         for vertices in &self.colours {
             let move_one = |&vertex: &VertexId| {
+                if !only_distorted && !self.is_active[vertex.index()] {
+                    return embedding[vertex];
+                }
                 let around = Neighbourhood::new(self, vertex, embedding);
                 let room = around.room();
                 let stays = only_distorted && room.worst(embedding[vertex]) < MUCH_ENERGY;
@@ -110,7 +143,10 @@ impl<'a> Sweeps<'a> {
             let polygon: Vec<DVec2> = ring.vertices.iter().map(|&v| surface.points[v as usize]).collect();
             let neighbours: Vec<VertexId> = ring.vertices[..=ring.inner].iter().map(|&v| VertexId::new(v)).collect();
             let elements = (0..ring.inner).map(|k| self.element(vertex, &neighbours, k)).collect();
-            let z = Neighbourhood { polygon, elements }.room().improved(embedding[vertex], BOUNDARY);
+            let from = embedding[vertex];
+            let gaps = Gaps { outer: &polygon[ring.inner..], first: polygon[0], from };
+            let z =
+                gaps.kept_open(Neighbourhood { polygon: polygon.clone(), elements }.room().improved(from, BOUNDARY));
             embedding[vertex] = z;
             surface.points[vertex.index()] = z;
         }
@@ -120,6 +156,36 @@ impl<'a> Sweeps<'a> {
     fn element(&self, vertex: VertexId, neighbours: &[VertexId], k: usize) -> Element {
         let next = (k + 1) % neighbours.len();
         resistance(self.disk.shape([vertex, neighbours[k], neighbours[next]]), [k, next], self.scale)
+    }
+}
+
+/// Gaps between a vertex of the boundary and what lies opposite: its triangles of the outside.
+struct Gaps<'a> {
+    /// Neighbours around the outside, from one boundary edge of the vertex on.
+    outer: &'a [DVec2],
+    /// Neighbour at the other boundary edge.
+    first: DVec2,
+    /// Position of the vertex before a move.
+    from: DVec2,
+}
+
+impl Gaps<'_> {
+    /// End of a move that narrows no gap too much: the given one, or one nearer to the start, or the start.
+    fn kept_open(&self, to: DVec2) -> DVec2 {
+        let edge = f64::min(self.from.distance(self.outer[0]), self.from.distance(self.first));
+        let least: Vec<f64> = self.heights(self.from).map(|height| height.min(GAP * edge)).collect();
+        let trials = (0..TRIALS).scan(1.0, |share, _| Some(std::mem::replace(share, 0.5 * *share)));
+        let mut ends = trials.map(|share| self.from.lerp(to, share));
+        ends.find(|end| self.heights(*end).zip(&least).all(|(height, least)| height >= *least)).unwrap_or(self.from)
+    }
+
+    /// Least height of each triangle of the outside, with the vertex at a position.
+    fn heights(&self, z: DVec2) -> impl Iterator<Item = f64> + '_ {
+        let next = self.outer[1..].iter().chain([&self.first]);
+        self.outer.iter().zip(next).map(move |(a, b)| {
+            let longest = z.distance_squared(*a).max(z.distance_squared(*b)).max(a.distance_squared(*b));
+            (*a - z).perp_dot(*b - z) / longest.sqrt()
+        })
     }
 }
 
@@ -141,5 +207,50 @@ impl Neighbourhood {
 
     fn room(&self) -> Room<'_> {
         Room { polygon: &self.polygon, elements: &self.elements }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Least distance from a vertex at `z` to the line opposite, at a height of 1, after sweeps that pull it there.
+    fn distance_left(sweeps: usize) -> f64 {
+        let outer = [DVec2::new(1.0, 0.0), DVec2::new(2.0, 1.0), DVec2::new(-2.0, 1.0)];
+        let mut z = DVec2::ZERO;
+        for _ in 0..sweeps {
+            let gaps = Gaps { outer: &outer, first: DVec2::new(-1.0, 0.0), from: z };
+            // Half of the room to the line opposite, like a sweep.
+            z = gaps.kept_open(z + 0.5 * DVec2::new(0.0, 1.0 - z.y));
+        }
+        1.0 - z.y
+    }
+
+    #[test]
+    fn sweeps_leave_a_gap_open_however_many_follow() {
+        let [few, many] = [3, 60].map(distance_left);
+        assert!((few - 0.125).abs() < 1e-12, "{few}");
+        // The shorter edge of the boundary is 1 to 1.5 long.
+        assert!(many >= GAP && many < 4.0 * GAP, "{many}");
+    }
+
+    #[test]
+    fn a_sliver_of_the_outside_does_not_let_other_gaps_close() {
+        let outer = [(1.0, 0.0), (2.0, 1e-9), (2.0, 2.0), (-0.5, 2.0), (-0.5, -0.4)].map(|(x, y)| DVec2::new(x, y));
+        let mut z = DVec2::ZERO;
+        for _ in 0..60 {
+            let gaps = Gaps { outer: &outer, first: DVec2::new(-1.0, -1.0), from: z };
+            z = gaps.kept_open(z + 0.5 * DVec2::new(-0.5 - z.x, 0.0));
+        }
+        assert!(z.x + 0.5 >= GAP, "{z}");
+    }
+
+    #[test]
+    fn a_move_that_widens_the_narrowest_gap_is_never_held_back() {
+        let outer = [DVec2::new(1.0, 0.0), DVec2::new(2.0, 1.0), DVec2::new(-2.0, 1.0)];
+        let from = DVec2::new(0.0, 1.0 - 1e-7);
+        let gaps = Gaps { outer: &outer, first: DVec2::new(-1.0, 0.0), from };
+        assert_eq!(gaps.kept_open(DVec2::ZERO), DVec2::ZERO);
+        assert_eq!(gaps.kept_open(DVec2::new(0.0, 1.0 - 1e-8)), from, "a narrow gap gets no narrower");
     }
 }

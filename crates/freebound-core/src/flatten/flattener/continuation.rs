@@ -17,6 +17,9 @@ use crate::problem::{Control, Embedding, Pins, SolveError, Stage};
 const ROUNDS: usize = 3;
 /// Rounds of relaxing afterwards if the planar start had a high energy: its boundary was far from the best.
 const ROUNDS_FROM_HIGH_ENERGY: usize = 5;
+/// Rounds of relaxing afterwards if a coarse disk met the constraints first: all levels were relaxed on the way, and
+/// further rounds of the whole mesh lower the energy by less than 1 %.
+const ROUNDS_FROM_COARSE: usize = 1;
 /// Rounds of relaxing afterwards if springs have yet to pull.
 const ROUNDS_WITH_SPRINGS: usize = 30;
 
@@ -90,6 +93,8 @@ pub(super) struct Continue {
     has_stayed: bool,
     /// True if the planar start had a high energy.
     is_from_high_energy: bool,
+    /// True if a coarse disk met the constraints first.
+    is_from_coarse: bool,
 }
 
 impl Continue {
@@ -142,6 +147,7 @@ impl RunStage for Continue {
             let met = continuation.by_way_of_coarse(mesh, control)?;
             self.stage = ContinuationPhase::UnderWay(continuation);
             if let Some(advance) = met {
+                self.is_from_coarse = true;
                 return Ok(Candidate::of_advance(Stage::Continuation, advance, &held).since(began));
             }
         }
@@ -176,6 +182,7 @@ impl RunStage for Continue {
         match rounds_after(task) {
             _ if self.has_stayed => 0,
             ROUNDS if self.is_from_high_energy => ROUNDS_FROM_HIGH_ENERGY,
+            ROUNDS if self.is_from_coarse => ROUNDS_FROM_COARSE,
             rounds => rounds,
         }
     }
