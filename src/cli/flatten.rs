@@ -81,6 +81,7 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
             preparation: model.prepared.form.clone(),
             distortion: None,
             most_charts: None,
+            seam_visibility: None,
             settings: Settings { relax_rounds, ..settings },
             frame: PictureFrame { aspect: aspect.unwrap_or(1.0), ..PictureFrame::default() },
             has_picture: aspect.is_some(),

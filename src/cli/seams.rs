@@ -40,6 +40,7 @@ fn cut(model: Model, arguments: &MeshArguments, progress: &ProgressLine) -> Resu
             ("--distortion", arguments.distortion.is_some()),
             ("--cut-weights", arguments.cut_weights.is_some()),
             ("--max-charts", arguments.max_charts.is_some()),
+            ("--seam-visibility", arguments.seam_visibility.is_some()),
         ];
         return match idle.iter().find(|(_, is_given)| *is_given) {
             Some((option, _)) => Err(CommandError::Usage(format!("{option} needs automatic seams: add --cut auto"))),
@@ -51,7 +52,8 @@ fn cut(model: Model, arguments: &MeshArguments, progress: &ProgressLine) -> Resu
     progress.enter("cutting");
     let control = Control::new(&INTERRUPTED, &|_| {});
     let most_charts = arguments.max_charts.map(|most| usize::try_from(most).unwrap_or(usize::MAX));
-    let options = SeamOptions { most_charts, ..SeamOptions::new(bound) };
+    let visibility = arguments.seam_visibility.unwrap_or(SeamOptions::VISIBILITY);
+    let options = SeamOptions { most_charts, visibility, ..SeamOptions::new(bound) };
     let seams = model.find_seams(&model.prepared.form, options, control, &|_| {})?;
     Ok(model.cut_along(seams))
 }

@@ -70,6 +70,12 @@ pub(super) fn parse_distortion(text: &str) -> Result<f64, String> {
     parsed.ok_or_else(|| "write an energy above 4, which is an isometric map, for example 4.1".to_owned())
 }
 
+/// Parses the weight of what a seam shows.
+pub(super) fn parse_visibility(text: &str) -> Result<f64, String> {
+    let parsed = text.trim().parse().ok().filter(|weight| (0.0..=1.0).contains(weight));
+    parsed.ok_or_else(|| "write a number from 0 to 1, for example 0.5".to_owned())
+}
+
 /// Size of a chart relative to the others.
 #[derive(Clone, Copy, Debug)]
 pub struct ChartSize {

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::builder::{OsStringValueParser, TypedValueParser as _};
 use clap::{Args, ValueEnum};
 
-use crate::cli::typed::{Parts, parse_distortion, parse_parts, parse_seam_kind, parse_weld_distance};
+use crate::cli::typed::{Parts, parse_distortion, parse_parts, parse_seam_kind, parse_visibility, parse_weld_distance};
 use freebound_core::mesh::{HoleTreatment, Preparation, Repairs, WeldDistance};
 
 /// The mesh, and what is made of its faces.
@@ -53,6 +53,11 @@ pub struct MeshArguments {
     /// more distortion. Parts that are not connected, and regions between other seams, keep one chart each.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), hide_short_help = true)]
     pub max_charts: Option<u32>,
+    /// Weight of what a seam shows, for `--cut auto`: a number from 0 to 1. Default: 0.5.
+    ///
+    /// Seams prefer creases, and places that the rest of their part hides. At 0 only their length counts.
+    #[arg(long, value_name = "W", value_parser = parse_visibility, hide_short_help = true)]
+    pub seam_visibility: Option<f64>,
     /// Cut along these edges too: sharp edges, borders of materials, borders of groups.
     ///
     /// `sharp` takes edges with an angle of 60 degrees or more between the faces; `sharp=DEGREES` sets the angle.

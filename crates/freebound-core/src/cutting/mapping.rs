@@ -35,9 +35,6 @@ const HOPELESS: f64 = 1e5;
 /// Energy after one round of relaxing above which a one-to-one map is given up.
 const STILL_HOPELESS: f64 = 1e3;
 
-/// Most faces of a chart that is relaxed once before it is given up.
-const FEW: usize = 5000;
-
 /// Steps of a grid across a map on which the map has to stay planar: far more than rounding moves a coordinate.
 const GRID: f64 = (1_u64 << 36) as f64;
 
@@ -274,8 +271,8 @@ impl Run<'_> {
         Ok(self.finished_unless(|_| false)?.expect("the run was not given up"))
     }
 
-    /// Takes all steps. `None` if the conformal map is not planar, and the first planar map is so distorted that very
-    /// many steps would follow. A chart of few faces gets one round of relaxing before it is given up.
+    /// Takes all steps. `None` if the conformal map is not planar, and the first planar map is so distorted, even after
+    /// one round of relaxing, that very many steps would follow.
     fn finished_unless_hopeless(self) -> Result<Option<ChartMap>, SolveError> {
         let disk = self.disk;
         let (mut has_start, mut is_bad) = (false, false);
@@ -285,7 +282,7 @@ impl Run<'_> {
             }
             let is_first = step.verdict.planar && !std::mem::replace(&mut has_start, step.verdict.planar);
             is_bad = is_first && step.index > 0 && mean_energy(disk, &step.candidate.solution.embedding) > HOPELESS;
-            is_bad && disk.face_count() > FEW
+            false
         })
     }
 

@@ -9,6 +9,7 @@
 //! | `overlap.rs` | charts of a map that overlaps itself |
 //! | `joining.rs` | charts joined with their neighbours |
 //! | `rejoining.rs` | charts moved beside others that they can be joined with |
+//! | `visibility.rs` | creases and hidden places, where a seam shows less |
 //! | `search.rs` | search for the cheapest cut whose map meets a bound |
 
 mod graph;
@@ -19,6 +20,9 @@ mod rejoining;
 mod scale_factor;
 mod search;
 mod surface;
+mod visibility;
 
 pub use search::SeamOptions;
 pub(crate) use search::{BestCut, PartCut, PartToCut};
+pub(crate) use surface::EdgeCosts;
+pub(crate) use visibility::costs_of_shape;

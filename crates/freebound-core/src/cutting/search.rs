@@ -13,6 +13,8 @@
 //! 2. Exchange: the cone whose removal saves most for its loss is removed, cones that gain most for their cost are
 //!    added until the prediction is met again, and the cheaper cut is kept.
 //!
+//! If the map of a large surface misses the bound by little, its cut gets more cones instead.
+//!
 //! # Exact development
 //!
 //! A surface whose curvature lies at vertices of sharp edges alone, such as a box or a cylinder with caps, is developed
@@ -29,7 +31,7 @@ use std::sync::atomic::AtomicBool;
 use super::graph::CutGraph;
 use super::mapping::{EnergyLimits, LARGE, Mapped, Mapping, Trial};
 use super::scale_factor::{ConformalSystem, ScaleFactors};
-use super::surface::{CutSurface, Paths};
+use super::surface::{CutSurface, EdgeCosts, Paths};
 use crate::mesh::{Repaired, VertexId};
 use crate::parallel::prelude::*;
 use crate::problem::{Control, Embedding, SolveError};
@@ -45,6 +47,9 @@ const AIM: f64 = 0.95;
 
 /// Share of the allowed excess that is close enough to end the search.
 const CLOSE: f64 = 0.85;
+
+/// Share of the allowed excess up to which a large surface keeps its cut and gets more seams.
+const NEAR: f64 = 1.5;
 
 /// Factor between the two predictions that a round tries.
 const BESIDE: f64 = 0.9;
@@ -118,6 +123,9 @@ pub struct SeamOptions {
     /// Most charts of the whole mesh. Parts that are not connected, and regions between seams that were given, keep
     /// one each. Default: no limit.
     pub most_charts: Option<usize>,
+    /// Weight of what a seam shows, clamped to 0 to 1. At 0 only the length of seams counts; at 1 seams prefer creases and
+    /// hidden places most.
+    pub visibility: f64,
 }
 
 impl SeamOptions {
@@ -130,9 +138,12 @@ impl SeamOptions {
     /// Least bound: below it seams would run through all of a curved surface.
     pub const LEAST: f64 = 4.0001;
 
+    /// Default weight of what a seam shows.
+    pub const VISIBILITY: f64 = 0.5;
+
     /// Options for a bound on the mean symmetric Dirichlet energy, at least [`LEAST`](Self::LEAST).
     pub fn new(bound: f64) -> Self {
-        Self { bound: bound.max(Self::LEAST), rounds: RELAX_ROUNDS, most_charts: None }
+        Self { bound: bound.max(Self::LEAST), rounds: RELAX_ROUNDS, most_charts: None, visibility: Self::VISIBILITY }
     }
 }
 
@@ -246,8 +257,7 @@ pub(crate) struct BestCut<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PartToCut<'a> {
     pub(crate) part: &'a Repaired,
-    /// Cost of a seam relative to its length, for each edge in the order of the part's edge table.
-    pub(crate) costs: &'a [f64],
+    pub(crate) costs: &'a EdgeCosts,
     pub(crate) options: SeamOptions,
     pub(crate) control: Control<'a>,
 }
@@ -323,11 +333,14 @@ impl<'a> Search<'a> {
         start.shorten(self.control)?;
         let allowed = self.options.bound - SeamOptions::ISOMETRIC;
         let mut bracket = Bracket::new(allowed);
+        let is_large = self.surface.triangles.len() > LARGE;
         let mut best: Option<Measured> = None;
         let mut aims: Vec<f64> = FIRST_RATIOS.iter().map(|ratio| allowed / ratio).collect();
         let mut known: Vec<Vec<bool>> = Vec::new();
+        // Cut of the best map, if it misses the bound by little.
+        let mut near_miss: Option<CutGraph<'_>> = None;
         for round in 0..ROUNDS_TO_MEET {
-            let cuts = self.cuts_for(&start, &aims)?;
+            let cuts = self.cuts_of_round(near_miss.take(), &start, &aims)?;
             let fresh: Vec<CutGraph<'_>> = cuts.into_iter().filter(|cut| !known.contains(&cut.is_seam)).collect();
             if fresh.is_empty() {
                 break;
@@ -336,7 +349,7 @@ impl<'a> Search<'a> {
             let this = &*self;
             let measured: Vec<Result<Measured, SolveError>> =
                 fresh.par_iter().with_max_len(1).map(|cut| this.measured(cut)).collect();
-            for found in measured {
+            for (graph, found) in fresh.iter().zip(measured) {
                 let found = match found {
                     Ok(found) => found,
                     Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
@@ -349,6 +362,8 @@ impl<'a> Search<'a> {
                     if energy.is_finite() {
                         report(BestCut { is_seam, length: self.surface.length_of(is_seam), energy: *energy });
                     }
+                    let is_near = is_large && (allowed..NEAR * allowed).contains(&found.excess());
+                    near_miss = is_near.then(|| graph.clone());
                     best = Some(found);
                 }
             }
@@ -360,7 +375,6 @@ impl<'a> Search<'a> {
             };
             let share = current.excess() / allowed;
             // The relaxing of a large surface ends early, so that its share says little.
-            let is_large = self.surface.triangles.len() > LARGE;
             let is_divided = current.map.as_ref().is_some_and(|map| map.chart_count > 1);
             let is_last = is_large || is_divided || round + 1 >= ROUNDS || current.cost <= start.cost();
             let is_stuck = round > 0 && current.map.is_some() && current.excess() > STUCK * current.predicted;
@@ -469,6 +483,19 @@ impl<'a> Search<'a> {
         let [local, joined] = [ISOMETRY, NEARLY].map(|most| SeamOptions::ISOMETRIC + most);
         let apart = self.with_parts_apart(&found, EnergyLimits { local, joined })?;
         Ok(apart.filter(|apart| is_good(apart, NEARLY)))
+    }
+
+    /// Cuts for predictions: the cut that nearly met the bound, with more cones, or new cuts.
+    fn cuts_of_round(
+        &mut self,
+        near_miss: Option<CutGraph<'a>>,
+        start: &CutGraph<'a>,
+        aims: &[f64],
+    ) -> Result<Vec<CutGraph<'a>>, SolveError> {
+        let Some(before) = near_miss else { return self.cuts_for(start, aims) };
+        let mut graph = before.clone();
+        self.grow(&mut graph, self.floor + aims[0])?;
+        if graph.is_seam == before.is_seam { self.cuts_for(start, aims) } else { Ok(vec![graph]) }
     }
 
     /// Different cuts for predictions. A large surface gets one.

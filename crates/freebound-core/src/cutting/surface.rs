@@ -20,6 +20,25 @@ pub(super) struct Edge {
     pub(super) is_boundary: bool,
 }
 
+/// Cost of a seam for each edge of a part, in the order of its edge table.
+#[derive(Clone, Debug)]
+pub(crate) struct EdgeCosts {
+    /// Cost relative to the length.
+    relative: Vec<f64>,
+    /// True for each edge that seams avoid.
+    is_avoided: Vec<bool>,
+}
+
+impl EdgeCosts {
+    /// Costs that were stated, and factors of the surface's shape, for each edge.
+    pub(crate) fn new(stated: &[f64], shape: &[f64]) -> Self {
+        Self {
+            relative: stated.iter().zip(shape).map(|(stated, shape)| stated * shape).collect(),
+            is_avoided: stated.iter().map(|&cost| cost >= Seams::AVOIDED).collect(),
+        }
+    }
+}
+
 /// Part of a mesh: connected, oriented, each edge with at most two faces.
 #[derive(Debug)]
 pub(crate) struct CutSurface<'a> {
@@ -41,9 +60,8 @@ pub(crate) struct CutSurface<'a> {
 }
 
 impl<'a> CutSurface<'a> {
-    /// Takes a repaired mesh of one part. `costs` has the cost of a seam relative to its length for each edge, in the
-    /// order of the part's edge table.
-    pub(crate) fn new(part: &'a Repaired, costs: &[f64]) -> Self {
+    /// Takes a repaired mesh of one part.
+    pub(crate) fn new(part: &'a Repaired, costs: &EdgeCosts) -> Self {
         let polygons = part.polygons();
         let mesh = polygons.triangulate();
         let triangles = mesh.triangles.iter().map(|face| face.map(VertexId::number)).collect();
@@ -51,7 +69,7 @@ impl<'a> CutSurface<'a> {
         let edges: Vec<Edge> = part
             .edges_with_sides()
             .into_iter()
-            .zip(costs)
+            .zip(&costs.relative)
             .map(|((ends, side_count), factor)| {
                 let ends = ends.map(VertexId::number);
                 let length = position(ends[0]).distance(position(ends[1]));
@@ -76,7 +94,7 @@ impl<'a> CutSurface<'a> {
         };
         let is_avoided = |v: u32| {
             let edges = surface.at(v);
-            !edges.is_empty() && edges.iter().all(|&edge| costs[edge as usize] >= Seams::AVOIDED)
+            !edges.is_empty() && edges.iter().all(|&edge| costs.is_avoided[edge as usize])
         };
         surface.is_avoided = (0..).take(surface.vertex_count()).map(is_avoided).collect();
         surface.find_loops();

@@ -6,7 +6,7 @@ use std::time::Instant;
 use glam::DVec2;
 
 use super::PreparedMesh;
-use crate::cutting::{BestCut, PartCut, PartToCut, SeamOptions};
+use crate::cutting::{BestCut, EdgeCosts, PartCut, PartToCut, SeamOptions, costs_of_shape};
 use crate::mesh::{PolygonMesh, Preparation, Repair, Repaired, VertexId};
 use crate::parallel::prelude::*;
 use crate::problem::{Control, Embedding, SolveError};
@@ -76,7 +76,7 @@ impl AutomaticSeams {
         control: Control<'_>,
         report: SeamReport<'_>,
     ) -> Result<Self, SolveError> {
-        let (mesh, parts) = (to_cut.mesh, PartsToCut::new(to_cut));
+        let (mesh, parts) = (to_cut.mesh, PartsToCut::new(to_cut, options.visibility, control)?);
         let progress = |number: usize, best: BestCut<'_>, is_final: bool| SeamProgress {
             part: number,
             part_count: parts.parts.len(),
@@ -102,7 +102,7 @@ impl AutomaticSeams {
     pub fn along(to_cut: MeshToCut<'_>, options: SeamOptions, control: Control<'_>) -> Result<Self, SolveError> {
         let MeshToCut { mesh, form, .. } = to_cut;
         let automatic = form.seams.automatic();
-        let parts = PartsToCut::new(to_cut);
+        let parts = PartsToCut::new(to_cut, 0.0, control)?;
         // The search has joined charts already.
         let options = SeamOptions { most_charts: None, ..options };
         let seams = parts.seams(options, control, |number, part| {
@@ -129,19 +129,33 @@ struct PartsToCut<'a> {
     form: &'a Preparation,
     parts: Vec<Repaired>,
     /// Costs of the edges of each part.
-    costs: Vec<Vec<f64>>,
+    costs: Vec<EdgeCosts>,
     area: f64,
+    /// Start of the search.
+    start: Instant,
 }
 
 impl<'a> PartsToCut<'a> {
-    /// Parts of a mesh in its preparation, without the automatic seams.
-    fn new(MeshToCut { mesh, labels, form }: MeshToCut<'a>) -> Self {
+    /// Parts of a mesh in its preparation, without the automatic seams. `visibility` is the weight of what a seam
+    /// shows.
+    fn new(
+        MeshToCut { mesh, labels, form }: MeshToCut<'a>,
+        visibility: f64,
+        control: Control<'_>,
+    ) -> Result<Self, SolveError> {
+        let start = Instant::now();
         let uncut = Preparation { cut: false, seams: form.seams.without_automatic(), ..form.clone() };
         let repaired = uncut.repaired_along(mesh, labels);
         let parts = if repaired.has_faces() { repaired.separate_parts() } else { Vec::new() };
         let cost = |edge: [VertexId; 2]| form.seams.costs().get(&edge).copied().unwrap_or(1.0);
-        let costs = parts.iter().map(|part| part.by_edge_in(mesh, cost)).collect();
-        Self { mesh, form, parts, costs, area: repaired.triangulate().area() }
+        let whole = repaired.triangulate();
+        let costs_of = |part: &Repaired| {
+            let stated = part.by_edge_in(mesh, cost);
+            let shape = costs_of_shape(part, visibility, control)?;
+            Ok::<EdgeCosts, SolveError>(EdgeCosts::new(&stated, &shape))
+        };
+        let costs = parts.iter().map(costs_of).collect::<Result<_, _>>()?;
+        Ok(Self { mesh, form, parts, costs, area: whole.area(), start })
     }
 
     /// Seams of all parts. `cut` cuts one of them, by its number. A part that cannot be cut gets no seams.
@@ -151,7 +165,6 @@ impl<'a> PartsToCut<'a> {
         control: Control<'_>,
         cut: impl Fn(usize, PartToCut<'_>) -> Result<PartCut, SolveError> + Sync,
     ) -> Result<AutomaticSeams, SolveError> {
-        let start = Instant::now();
         let cut_one = |number: usize| {
             if !self.parts[number].is_oriented() {
                 return Ok(None);
@@ -178,7 +191,7 @@ impl<'a> PartsToCut<'a> {
             }
         }
         seams.form = Preparation { seams: self.form.seams.with_automatic(edges, options.bound), ..self.form.clone() };
-        seams.seconds = start.elapsed().as_secs_f64();
+        seams.seconds = self.start.elapsed().as_secs_f64();
         Ok(seams)
     }
 

@@ -17,6 +17,9 @@ pub struct PipelineOptions {
     pub distortion: Option<f64>,
     /// Most charts along automatic seams. Default: no limit.
     pub most_charts: Option<usize>,
+    /// Weight of what an automatic seam shows, from 0 to 1: seams prefer creases and hidden places. Default:
+    /// [`VISIBILITY`](crate::cutting::SeamOptions::VISIBILITY).
+    pub seam_visibility: Option<f64>,
     /// Method and its settings.
     pub settings: Settings,
     /// Position of texture coordinates in the plane.

@@ -107,7 +107,8 @@ pub fn unwrap_with(
     let mesh = turned.as_ref().unwrap_or(mesh);
     let form = &options.preparation;
     let find = |bound| {
-        let seam_options = SeamOptions { most_charts: options.most_charts, ..SeamOptions::new(bound) };
+        let visibility = options.seam_visibility.unwrap_or(SeamOptions::VISIBILITY);
+        let seam_options = SeamOptions { most_charts: options.most_charts, visibility, ..SeamOptions::new(bound) };
         AutomaticSeams::find(MeshToCut { mesh, labels: None, form }, seam_options, control, &|_| {})
     };
     let seams = options.distortion.filter(|_| form.cut).map(find).transpose();

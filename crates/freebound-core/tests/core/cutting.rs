@@ -13,6 +13,7 @@ use freebound_core::{PipelineOptions, UnwrapError, unwrap};
 use freebound_testkit::cubes::cube;
 use freebound_testkit::many_parts::{ball, interleaved, torus};
 use freebound_testkit::solids::{cone, frustum, open_tube, plate_with_holes, prism, regular_polygon};
+use freebound_testkit::surfaces::without_faces;
 use freebound_testkit::{Random, bumpy_ball, fan, grid, shaped, tetrahedron};
 use glam::{DVec2, DVec3};
 
@@ -209,7 +210,63 @@ fn seams_avoid_costly_edges_and_follow_cheap_ones() {
     assert!(share(&led) > ring.len() / 2, "{} of {}", share(&led), ring.len());
 }
 
+fn walls(base: &[DVec2], height: f64) -> PolygonMesh {
+    let solid = prism(base, height);
+    without_faces(&solid, |face| solid.face(face).len() == base.len())
+}
+
+#[test]
+fn seams_run_through_a_notch_if_it_counts_that_they_show() {
+    let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.2, 2.0], [1.0, 1.5], [0.8, 2.0], [0.0, 2.0]].map(DVec2::from);
+    let notch = corners[4];
+    let is_in_notch_with = |visibility: f64, first: usize| {
+        let mut base = corners;
+        base.rotate_left(first);
+        let mesh = walls(&base, 4.0);
+        let options = SeamOptions { visibility, ..SeamOptions::new(4.1) };
+        let seams = AutomaticSeams::find(to_cut(&mesh, &form()), options, Control::unattended(), &|_| {}).unwrap();
+        let ends = seams.edges().iter().flatten().map(|v| mesh.positions[v.index()]);
+        ends.into_iter().all(|end| end.truncate() == notch)
+    };
+    // By length alone, all edges from end to end are as good.
+    assert!((0..corners.len()).any(|first| !is_in_notch_with(0.0, first)));
+    assert!((0..corners.len()).all(|first| is_in_notch_with(1.0, first)));
+}
+
+#[test]
+fn parts_that_are_equal_get_equal_seams_wherever_other_parts_stand() {
+    // Two equal bodies, the second in the corner of a room.
+    let body = bumpy_ball();
+    let count = u32::try_from(body.positions.len()).unwrap();
+    let wall = [[-2.0, -2.0, -2.0], [2.0, -2.0, -2.0], [2.0, 2.0, -2.0], [-2.0, 2.0, -2.0]];
+    let room = [[-2.0, -2.0, 2.0], [2.0, -2.0, 2.0]];
+    let positions: Vec<[f64; 3]> = body
+        .positions
+        .iter()
+        .map(|at| *at + 64.0 * DVec3::X)
+        .chain(body.positions.iter().copied())
+        .map(|at| at.to_array())
+        .chain(wall.into_iter().chain(room))
+        .collect();
+    let faces_of = |from: u32| (0..body.face_count()).map(move |face| (face, from));
+    let mut faces: Vec<Vec<u32>> = faces_of(0)
+        .chain(faces_of(count))
+        .map(|(face, from)| body.face(face).iter().map(|vertex| vertex.number() + from).collect())
+        .collect();
+    faces.push([0, 1, 2, 3].map(|v| 2 * count + v).to_vec());
+    faces.push([1, 0, 4, 5].map(|v| 2 * count + v).to_vec());
+    let mesh = PolygonMesh::from_arrays(&positions, &faces);
+    let seams = seams_of(&mesh, 4.1);
+    let of_body = |from: u32| -> BTreeSet<[u32; 2]> {
+        let edges = seams.edges().iter().map(|edge| edge.map(VertexId::number));
+        edges.filter(|[a, _]| (from..from + count).contains(a)).map(|edge| edge.map(|v| v - from)).collect()
+    };
+    assert!(!of_body(0).is_empty());
+    assert_eq!(of_body(0), of_body(count));
+}
+
 /// Solid with the length of the shortest cut that develops it, found by hand.
+/// Walls over a counter-clockwise polygon, without a bottom and a top.
 fn developable_solids() -> Vec<(&'static str, PolygonMesh, f64)> {
     let circle = regular_polygon(24, 1.0);
     let side = circle[0].distance(circle[1]);
@@ -341,12 +398,15 @@ fn polygons_are_convex_in_the_map_of_a_search_and_its_energy_counts_that() {
     let mesh = bent_sheet();
     let reports = Mutex::new(Vec::new());
     let keep = |news: SeamProgress| reports.lock().expect("no panic").push(news.energy);
-    let found = AutomaticSeams::find(to_cut(&mesh, &form()), SeamOptions::new(4.1), Control::unattended(), &keep);
+    // Along creases alone, the sheet would be developed exactly.
+    let options = SeamOptions { visibility: 0.0, ..SeamOptions::new(4.1) };
+    let found = AutomaticSeams::find(to_cut(&mesh, &form()), options, Control::unattended(), &keep);
     let found = found.expect("not cancelled");
     let energy = *reports.lock().expect("no panic").last().expect("reports");
     assert!(4.0 < energy && energy <= 4.1, "{energy}");
     assert!((energy - energy_along(&mesh, &found)).abs() < 1e-9);
-    let unwrapped = unwrap(&mesh, &PipelineOptions::for_any_mesh()).expect("planar");
+    let options = PipelineOptions { seam_visibility: Some(0.0), ..PipelineOptions::for_any_mesh() };
+    let unwrapped = unwrap(&mesh, &options).expect("planar");
     let last = unwrapped.charts[0].distortion.symmetric_dirichlet.mean;
     assert!((energy - last).abs() < 1e-9, "{energy} in the search, {last} at the end");
 }

@@ -231,7 +231,7 @@ mod tests {
         let [few, many] = [3, 60].map(distance_left);
         assert!((few - 0.125).abs() < 1e-12, "{few}");
         // The shorter edge of the boundary is 1 to 1.5 long.
-        assert!(many >= GAP && many < 4.0 * GAP, "{many}");
+        assert!((GAP..4.0 * GAP).contains(&many), "{many}");
     }
 
     #[test]
