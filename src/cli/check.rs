@@ -10,12 +10,12 @@ use super::opened::disk_of;
 use super::places::OutputPaths;
 use super::progress::go_on;
 use super::standard::{MemoryLimit, read_model};
-use super::summary::{deliver, mesh_words};
+use super::summary::{deliver, file_words, mesh_words};
 use crate::session::Model;
 use freebound_core::mesh::{DiskMesh, Preparation, parts};
 use freebound_core::pipeline::{PreparedMesh, Surface};
 use freebound_core::verify::{distortion, equal_outlines, stacked_atlas_verdict, verdict};
-use freebound_io::{MeshReport, Report, Seconds, TextureError, TextureMesh, verdict_as_in_file};
+use freebound_io::{MeshReport, ReadWarning, Report, Seconds, TextureError, TextureMesh, verdict_as_in_file};
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandError> {
     let start = Instant::now();
@@ -39,7 +39,8 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandE
         DiskMesh::try_from(texture.mesh.clone())
     });
     let Ok(mesh) = disk else {
-        let layout = Layout { texture: &texture, is_of_32_bits: model.source.is_turned_over() };
+        let warnings = &model.source.warnings;
+        let layout = Layout { texture: &texture, is_of_32_bits: model.source.is_turned_over(), warnings };
         return check_charts(arguments, layout, path, start);
     };
     let read = start.elapsed().as_secs_f64();
@@ -53,9 +54,9 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandE
     let report = Report {
         verdict: Some(verdict_as_in_file(&verdict, mesh.mesh())),
         distortion: Some(distortion.summary),
-        ..report(MeshReport::new(path, &mesh), start, read)
+        ..report(MeshReport { warnings: model.source.warnings.clone(), ..MeshReport::new(path, &mesh) }, start, read)
     };
-    deliver(&report, arguments.report.as_deref(), || words)?;
+    deliver(&report, arguments.report.as_deref(), || with_file_words(words, &report))?;
     Ok(if verdict.planar { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
 }
 
@@ -99,13 +100,14 @@ fn check_mesh(
         (MeshReport::new(path, disk), format!("a disk{holes}"))
     };
     let repairs = model.whole_repaired().map(|repaired| repaired.done().to_vec()).unwrap_or_default();
-    let report = report(MeshReport { repairs, ..mesh }, start, start.elapsed().as_secs_f64());
+    let warnings = model.source.warnings.clone();
+    let report = report(MeshReport { repairs, warnings, ..mesh }, start, start.elapsed().as_secs_f64());
     let notes = &report.mesh;
     let first = format!(
         "{}: {kind}, {} vertices, {} faces, {} on the boundary, {} dividing edges, {} ears; no texture coordinates",
         notes.path, notes.vertices, notes.faces, notes.boundary_vertices, notes.dividing_edges, notes.ears
     );
-    let words = std::iter::once(first).chain(mesh_words(notes)).collect::<Vec<_>>().join("\n");
+    let words = std::iter::once(first).chain(file_words(notes)).chain(mesh_words(notes)).collect::<Vec<_>>().join("\n");
     deliver(&report, arguments.report.as_deref(), || words)?;
     Ok(CommandOutcome::Fine)
 }
@@ -116,12 +118,14 @@ struct Layout<'a> {
     texture: &'a TextureMesh,
     /// True if the file stores only 32-bit numbers, so that a proof also holds in 32 bits.
     is_of_32_bits: bool,
+    /// Elements of the file that were left out.
+    warnings: &'a [ReadWarning],
 }
 
 /// Verdict on a layout of several charts or with holes.
 fn check_charts(
     arguments: &CheckArguments,
-    Layout { texture, is_of_32_bits }: Layout<'_>,
+    Layout { texture, is_of_32_bits, warnings }: Layout<'_>,
     path: String,
     start: Instant,
 ) -> Result<CommandOutcome, CommandError> {
@@ -143,10 +147,16 @@ fn check_charts(
     let words = format!("{path}: texture coordinates: {}{in_f32}", verdict.summary());
     let status = if verdict.planar { CommandOutcome::Fine } else { CommandOutcome::FallsShort };
     let atlas = Some(verdict);
-    let report =
-        Report { atlas, ..report(MeshReport::of_charts(path, texture.mesh.vertex_count(), &charts), start, read) };
-    deliver(&report, arguments.report.as_deref(), || words)?;
+    let mesh =
+        MeshReport { warnings: warnings.to_vec(), ..MeshReport::of_charts(path, texture.mesh.vertex_count(), &charts) };
+    let report = Report { atlas, ..report(mesh, start, read) };
+    deliver(&report, arguments.report.as_deref(), || with_file_words(words, &report))?;
     Ok(status)
+}
+
+/// Verdict with a line for what was left out of the file.
+fn with_file_words(verdict: String, report: &Report) -> String {
+    std::iter::once(verdict).chain(file_words(&report.mesh)).collect::<Vec<_>>().join("\n")
 }
 
 /// Report on the mesh alone.

@@ -133,6 +133,12 @@ pub(super) fn mesh_words(mesh: &MeshReport) -> Option<String> {
     (!words.is_empty()).then(|| format!("mesh: {}", words.join(", ")))
 }
 
+/// Text for what was left out of the file.
+pub(super) fn file_words(mesh: &MeshReport) -> Option<String> {
+    let words: Vec<String> = mesh.warnings.iter().map(ToString::to_string).collect();
+    (!words.is_empty()).then(|| format!("file: {}", words.join(", ")))
+}
+
 /// First line: size of the mesh.
 fn first_words(mesh: &MeshReport) -> String {
     format!(
@@ -144,6 +150,7 @@ fn first_words(mesh: &MeshReport) -> String {
 /// Summary of a run with several charts.
 pub(super) fn atlas_summary(report: &Report) -> String {
     let mut lines = vec![first_words(&report.mesh)];
+    lines.extend(file_words(&report.mesh));
     lines.extend(mesh_words(&report.mesh));
     lines.extend(seams_words(report));
     let family = report.family.map(|family| format!(", {family} weights")).unwrap_or_default();
@@ -191,6 +198,7 @@ pub(super) fn pack_summary(report: &Report, faults: Option<&Diagnosis>) -> Strin
         count => format!("{count} charts"),
     };
     let mut lines = vec![format!("{path}: {vertices} vertices, {faces} faces, {charts}")];
+    lines.extend(file_words(&report.mesh));
     lines.extend(report.atlas.as_ref().map(|atlas| {
         let holds = if atlas.planar_in_f32 { "; holds in 32 bits" } else { "; does not hold in 32 bits" };
         format!("pack: {}{}", atlas.summary(), if atlas.planar { holds } else { "" })
@@ -233,6 +241,7 @@ fn areas_words(ratio: f64, between: &str) -> String {
 /// Summary of compared methods: a table, followed by the reasons of failures.
 pub(super) fn comparison_summary(report: &ComparisonReport, by: Option<Column>) -> String {
     let mut lines = vec![first_words(&report.mesh)];
+    lines.extend(file_words(&report.mesh));
     lines.extend(mesh_words(&report.mesh));
     lines.extend(report.chart.map(|ChartNumber { number, of }| format!("chart {number} of {of}")));
     lines.push(report.table(by));
@@ -284,6 +293,7 @@ fn seconds_words(seconds: &Seconds) -> String {
 /// Summary of a run.
 pub(super) fn summary(report: &Report, verdict: &str) -> String {
     let mut lines = vec![first_words(&report.mesh)];
+    lines.extend(file_words(&report.mesh));
     lines.extend(mesh_words(&report.mesh));
     lines.extend(seams_words(report));
     let family = report.family.map(|family| format!(", {family} weights")).unwrap_or_default();

@@ -7,7 +7,7 @@ use super::action::UndoGroup;
 use super::in_use::Role;
 use super::opened::{Opened, Origin};
 use super::stop::Goal;
-use super::{History, Message, MessagePlace, SaveRequest, Session, Written};
+use super::{History, Message, MessagePlace, SaveRequest, Session, Severity, Written};
 use freebound_core::pipeline::{Fit, Surface};
 use freebound_core::problem::{Settings, Start};
 use freebound_io::{EXTENSIONS, OutputKind, Precision, write_atomically, write_constraints, write_durably};
@@ -27,6 +27,7 @@ impl Session {
         let Opened { model, document, remarks, .. } = opened;
         // An example only takes its first step, so that the user can watch the others.
         let waits = model.example.is_some() && is_mesh;
+        let warnings: Vec<String> = model.source.warnings.iter().map(ToString::to_string).collect();
         self.document = document;
         self.history = History::default();
         self.jobs.forget();
@@ -37,6 +38,9 @@ impl Session {
         self.unwrapping.cancel();
         if !(is_mesh && self.unwrap_opened()) {
             self.tell_faults();
+        }
+        for warning in warnings {
+            self.messages.say(Message { severity: Severity::Note, ..Message::error(MessagePlace::Mesh, warning) });
         }
         for remark in remarks {
             self.messages.say(remark);

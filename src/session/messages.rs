@@ -20,7 +20,7 @@ pub fn named(vertices: &[VertexId]) -> String {
 /// Severity of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// Success, such as a file that was written.
+    /// Success, such as a file that was written, or a note on the file of the mesh.
     Note,
     /// Failure.
     Error,
@@ -84,6 +84,11 @@ impl Message {
         Self { id: 0, severity: Severity::Error, place, text, remedy: None, vertices, files }
     }
 
+    /// True if the message reports success. Notes on the file of the mesh do not.
+    fn is_success(&self) -> bool {
+        self.severity == Severity::Note && self.place != MessagePlace::Mesh
+    }
+
     /// Adds a remedy.
     pub(super) fn with_remedy(self, remedy: impl Into<String>) -> Self {
         Self { remedy: Some(remedy.into()), ..self }
@@ -114,7 +119,7 @@ impl Messages {
     pub(super) fn note(&mut self, verb: &str, written: Written) {
         let about = written.about.as_ref().map_or_else(String::new, |about| format!(" ({about})"));
         let news = format!("{verb} {}{about}", written.names());
-        let notes = self.list.iter().filter(|message| message.severity == Severity::Note && message.text != news);
+        let notes = self.list.iter().filter(|message| message.is_success() && message.text != news);
         let (mut texts, mut files) = (Vec::new(), Vec::new());
         for note in notes {
             texts.push(note.text.clone());
@@ -142,9 +147,9 @@ impl Messages {
         self.list.retain(|message| message.id != id);
     }
 
-    /// Removes messages about the mesh, because the mesh has changed.
+    /// Removes error messages of the mesh pane, because the mesh has changed. Notes on its file stay.
     pub(super) fn forget_mesh(&mut self) {
-        self.list.retain(|message| message.place != MessagePlace::Mesh);
+        self.list.retain(|message| message.place != MessagePlace::Mesh || message.severity == Severity::Note);
     }
 
     /// Removes reports of written files.
@@ -152,9 +157,9 @@ impl Messages {
         self.list.retain(|message| message.severity != Severity::Note || message.files.is_empty());
     }
 
-    /// Removes success messages.
+    /// Removes success messages of the embedding. Notes on the file of the mesh stay.
     pub(super) fn forget_notes(&mut self) {
-        self.list.retain(|message| message.severity != Severity::Note);
+        self.list.retain(|message| !message.is_success());
     }
 
     pub(super) fn clear(&mut self) {

@@ -25,7 +25,7 @@ use freebound_testkit::{assert_message, corpus, corpus_test};
 const SOLVED_FOR_LONG: [&str; 2] = ["holes_plane.obj", "nonmanifold_ArtDemo.obj"];
 
 /// Files of `bad` that can be read as meshes and flattened.
-const USABLE: [&str; 2] = ["raw_polygonfaces.obj", "degenerate_capsule.obj"];
+const USABLE: [&str; 3] = ["raw_polygonfaces.obj", "raw_notenoughindices.obj", "degenerate_capsule.obj"];
 
 #[test]
 fn a_sentence_has_a_capital_but_a_file_keeps_its_name() {

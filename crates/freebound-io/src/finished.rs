@@ -57,6 +57,7 @@ impl<'a> ResultSource<'a> {
         let solve = steps.iter().map(|step| step.seconds).sum();
         let verify = step.verify_seconds + start.elapsed().as_secs_f64();
         let repairs = prepared.repaired.as_ref().map(|repaired| repaired.done().to_vec()).unwrap_or_default();
+        let warnings = self.file.warnings.clone();
         let report = Report {
             method: Some(settings.method.clone()),
             family: settings.method.uses_family().then_some(settings.family()),
@@ -72,7 +73,7 @@ impl<'a> ResultSource<'a> {
             split_edges: step.candidate.refinement.as_ref().map(|r| r.split_edges_of_surface()).unwrap_or_default(),
             cut_polygons: step.candidate.refinement.as_ref().map(|r| r.cut_polygons(given)).unwrap_or_default(),
             seconds: Seconds { solve, verify, total: solve + verify, ..Seconds::default() },
-            ..Report::of_mesh(MeshReport { repairs, ..MeshReport::new(self.name, given) })
+            ..Report::of_mesh(MeshReport { repairs, warnings, ..MeshReport::new(self.name, given) })
         };
         let (refinement, held) = (step.candidate.refinement.as_deref(), outcome.held());
         Output {
@@ -124,7 +125,7 @@ impl<'a> ResultSource<'a> {
             split_edges: atlas.split_edges,
             cut_polygons: atlas.cut_polygons,
             seconds: Seconds { solve, ..Seconds::default() },
-            ..Report::of_mesh(MeshReport { repairs, ..mesh })
+            ..Report::of_mesh(MeshReport { repairs, warnings: self.file.warnings.clone(), ..mesh })
         };
         Output {
             source: self.file,

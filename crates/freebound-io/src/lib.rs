@@ -78,8 +78,8 @@ pub use gltf::write_glb;
 pub use machine::{bytes_in_words, machine_memory_bytes, peak_memory_bytes};
 pub use mesh_file::{
     LabelError, LayoutError, MAX_PARSE_FAULTS, MemoryShortage, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind,
-    ReadError, ReadProgress, Refined, RefinedChart, Source, Statement, Texture, TextureError, TextureMesh,
-    check_memory, memory_to_read, read_mesh, read_mesh_with, read_stream, read_stream_with,
+    ReadError, ReadProgress, ReadWarning, ReadWarningKind, Refined, RefinedChart, Source, Statement, Texture,
+    TextureError, TextureMesh, check_memory, memory_to_read, read_mesh, read_mesh_with, read_stream, read_stream_with,
 };
 pub use obj::{Materials, copies_of_materials, material_files, material_picture, write_obj};
 pub use output::{EXTENSIONS, Format, Output, OutputKind, ProvedEmbedding};

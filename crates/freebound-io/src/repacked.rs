@@ -70,7 +70,8 @@ impl<'a> RepackedFile<'a> {
         let edges = EdgeTable::new(repacked.mesh.vertex_count(), &repacked.mesh.triangles);
         let boundary_vertices = edges.edges().filter(|sides| sides.len() == 1).count();
         let (vertices, faces) = (source.polygons.positions.len(), repacked.mesh.face_count());
-        let mesh = MeshReport { path: name, vertices, faces, boundary_vertices, ..MeshReport::default() };
+        let warnings = source.warnings.clone();
+        let mesh = MeshReport { path: name, vertices, faces, boundary_vertices, warnings, ..MeshReport::default() };
         let verify = start.elapsed().as_secs_f64();
         let seconds = Seconds { verify, ..Seconds::default() };
         let report = Report { packing: Some(repacked.packing), seconds, ..Report::of_mesh(mesh) };

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::{Precision, RoundingReport, StepReport, peak_memory_bytes};
+use super::{Precision, ReadWarning, RoundingReport, StepReport, peak_memory_bytes};
 use freebound_core::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
 use freebound_core::pipeline::{AutomaticSeams, PackingSummary, PinsSummary, Placement, RepackedChart, StackedOn};
 use freebound_core::problem::{BoundaryShape, Family, Method, Settings, Spacing};
@@ -168,6 +168,9 @@ pub struct MeshReport {
     pub mollification: f64,
     /// Repairs, in the order of their application.
     pub repairs: Vec<Done>,
+    /// Elements of the file that were left out.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<ReadWarning>,
 }
 
 impl MeshReport {
@@ -183,6 +186,7 @@ impl MeshReport {
             unused_vertices: mesh.vertex_count() - mesh.used_vertex_count(),
             mollification: mesh.mollification() * mesh.unit(),
             repairs: Vec::new(),
+            warnings: Vec::new(),
         }
     }
 }

@@ -40,7 +40,7 @@ fn the_faults_of_a_mesh_stand_in_the_report_with_their_elements_and_remedies() {
 
 #[test]
 fn the_lines_of_a_broken_file_stand_in_the_report() {
-    let (run, report) = flattened("v 0 0 0\nv 1 0 x\nv 1 1 0\nf 1 2\nf 1 2 3\n", &[]);
+    let (run, report) = flattened("v 0 0 0\nv 1 0 x\nv 1 1 0\nf 1 2 x\nf 1 2 3\n", &[]);
     let run = run.expect(3);
     assert_message("failed-runs-lines-of-a-broken-file", &run.stderr);
     let error = &report.expect("a report")["error"];

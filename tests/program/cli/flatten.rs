@@ -24,7 +24,7 @@ const BAD: [(&str, i32, i32, &str, &str); 14] = [
     // Its texture coordinates form charts, and `check` examines the mesh cut along their seams.
     ("raw_negative_indices.obj", 3, 4, "closed", ""),
     ("raw_empty.obj", 3, 3, "no-faces", "no-faces"),
-    ("raw_notenoughindices.obj", 3, 3, "line 9", "line 9"),
+    ("raw_notenoughindices.obj", 0, 0, "", ""),
     ("raw_polygonfaces.obj", 0, 0, "", ""),
     ("raw_joined_tetrahedra.obj", 3, 3, "non-manifold-edges", "non-manifold-edges"),
     ("raw_corrupted_invalid_double.off", 3, 3, "line 4", "line 4"),

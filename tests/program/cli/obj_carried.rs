@@ -8,7 +8,8 @@ use glam::{DVec2, DVec3};
 
 use super::program::Program;
 use freebound_testkit::files::read;
-use freebound_testkit::{corpus_test, manifest};
+use freebound_testkit::{assert_message, corpus_test, manifest};
+use serde_json::json;
 
 pub(crate) fn written(mesh: &MeshFile, texture: &Texture) -> String {
     let mut bytes = Vec::new();
@@ -283,4 +284,25 @@ fn the_program_gives_the_file_back_and_changes_only_the_lines_of_materials_that_
     program.run(&["flatten", "in.obj", "-o", "deep/out.obj"]).expect(0);
     let moved = text.replace("mtllib  skin.mtl # and more", "mtllib ../skin.mtl");
     assert_eq!(unchanged(&out("deep/out.obj")), unchanged(&moved));
+}
+
+#[test]
+fn faces_of_two_corners_stay_in_the_file_and_are_named_with_texture_indices_of_nothing() {
+    let program = Program::new();
+    program.write("in.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2\nf 1/5 2/5 3/5\nf 1 3 4\nf 4/9 1/9\n");
+    let run = program.run(&["flatten", "in.obj", "-o", "out.obj", "--report", "-"]).expect(0);
+    let warnings = json!([
+        {"kind": "faces-of-few-corners", "count": 2, "line": 5},
+        {"kind": "missing-texture-coordinates", "count": 3, "line": 6},
+    ]);
+    assert_eq!(run.json()["mesh"]["warnings"], warnings);
+    let printed = program.run(&["flatten", "in.obj"]).expect(0).stdout;
+    assert_message("obj-carried-left-out", printed.lines().nth(1).expect("a line about the file"));
+    // The lines stay, and those with indices of coordinates get the new ones.
+    let written = std::fs::read_to_string(program.path("out.obj")).expect("written");
+    let faces: Vec<&str> = written.lines().filter(|line| line.starts_with('f')).collect();
+    assert_eq!(faces, ["f 1 2", "f 1/1 2/2 3/3", "f 1/1 3/3 4/4", "f 4/4 1/1"]);
+    // What was written is planar for every other reader, too.
+    let check = program.run(&["check", "out.obj", "--report", "-"]).expect(0).json();
+    assert_eq!(check["mesh"]["warnings"], json!([{"kind": "faces-of-few-corners", "count": 2, "line": 9}]));
 }

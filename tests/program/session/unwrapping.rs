@@ -1,6 +1,6 @@
 //! Automatic seams in a session: found once, undone, saved, and opened again with their map.
 
-use freebound::session::{Action, Session};
+use freebound::session::{Action, Message, MessagePlace, Session};
 use freebound_core::mesh::{Seams, VertexId};
 use freebound_core::problem::Embedding;
 use freebound_testkit::{bumpy_ball, write_obj};
@@ -105,4 +105,23 @@ fn previews_do_not_make_the_mesh_forget_the_map_of_its_seams() {
     assert!(session.automatic_seams().is_some());
     settled(&mut session, Action::PreviewSeams(None));
     assert!(session.seams_to_be().is_none());
+}
+
+#[test]
+fn what_was_left_out_of_a_file_is_noted_until_another_mesh_is_opened() {
+    let (folder, mut session) = with_ball();
+    let of_mesh = |session: &Session| -> Vec<Message> {
+        session.messages().iter().filter(|message| message.place == MessagePlace::Mesh).cloned().collect()
+    };
+    assert_eq!(of_mesh(&session), []);
+    let (whole, part) = (folder.path().join("ball.obj"), folder.path().join("left-out.obj"));
+    let text = std::fs::read_to_string(&whole).expect("written") + "f 1 2\nf 3 4\n";
+    std::fs::write(&part, text).expect("written");
+    settled(&mut session, Action::Open(part));
+    // The search for seams has ended with a note of its own.
+    assert!(session.messages().iter().any(|message| message.place == MessagePlace::Embedding));
+    let warning = session.model().expect("opened").source.warnings[0].clone();
+    assert_eq!(of_mesh(&session).iter().map(|message| &message.text[..]).collect::<Vec<_>>(), [warning.to_string()]);
+    settled(&mut session, Action::Open(whole));
+    assert_eq!(of_mesh(&session), []);
 }

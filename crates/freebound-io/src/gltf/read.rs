@@ -48,7 +48,7 @@ pub(crate) fn parse_gltf(mut bytes: Vec<u8>, folder: Option<&Path>) -> Result<Me
     let Buffers { bytes, starts } = buffers;
     let scene = Scene { json, starts, folder: folder.map(Path::to_owned), shown, vertex_of, corners };
     let source = Source::of(SourceFormat::Gltf(Arc::new(scene)), bytes, polygons.positions.len());
-    Ok(MeshFile { polygons, texture, statements: Vec::new(), source: Some(source) })
+    Ok(MeshFile { polygons, texture, source: Some(source), ..MeshFile::default() })
 }
 
 /// Mesh under construction.

@@ -213,13 +213,54 @@ pub enum ParseFaultKind {
     TooFewCorners(usize),
 }
 
+/// Elements of a file that were left out. The rest was read.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct ReadWarning {
+    /// Kind of the elements.
+    pub kind: ReadWarningKind,
+    /// Number of elements.
+    pub count: usize,
+    /// Line of the first one in the file, counted from 1.
+    pub line: u64,
+}
+
+/// Kind of elements that were left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum ReadWarningKind {
+    /// Faces of one or two corners, which have no area.
+    FacesOfFewCorners,
+    /// Texture coordinates of corners that do not exist.
+    MissingTextureCoordinates,
+}
+
+impl std::fmt::Display for ReadWarning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { kind, count, line } = self;
+        let [one, several] = match kind {
+            ReadWarningKind::FacesOfFewCorners => {
+                ["face of fewer than three corners left out", "faces of fewer than three corners left out"]
+            }
+            ReadWarningKind::MissingTextureCoordinates => {
+                ["corner names no existing texture coordinate", "corners name no existing texture coordinate"]
+            }
+        };
+        write!(f, "{count} {} (first: line {line})", if *count == 1 { one } else { several })
+    }
+}
+
+fn faces_have(count: usize) -> String {
+    if count == 1 { "1 face has".to_owned() } else { format!("{count} faces have") }
+}
+
 /// Reasons that texture coordinates do not make a mesh.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TextureError {
     /// The file has no texture coordinates on its faces.
     #[error("the file has no texture coordinates")]
     None,
-    /// These faces, numbered by the file from 0, have corners without texture coordinates.
-    #[error("{} faces have corners without texture coordinates, the first is face {}", .0.len(), .0[0])]
+    /// These faces, numbered from 0 without faces that were left out, have corners without texture coordinates.
+    #[error("{} corners without texture coordinates, the first is face {}", faces_have(.0.len()), .0[0])]
     Missing(Vec<u32>),
 }

@@ -41,7 +41,7 @@ use freebound_core::mesh::{PolygonMesh, Repaired, TriMesh, VertexId};
 use freebound_core::problem::Embedding;
 
 pub(crate) use error::{FaultPlace, fault_at, fault_in};
-pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError};
+pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, ReadWarning, ReadWarningKind, TextureError};
 pub use labels::LabelError;
 pub use layout::LayoutError;
 pub use memory::{MemoryShortage, check_memory, memory_to_read};
@@ -67,6 +67,8 @@ pub struct MeshFile {
     /// Origin of the mesh. A writer of its format starts from it, and writes its own statements instead of
     /// `statements`.
     pub source: Option<Source>,
+    /// Elements of the file that were left out. The rest was read.
+    pub warnings: Vec<ReadWarning>,
 }
 
 /// Texture coordinates, and their assignment to corners.

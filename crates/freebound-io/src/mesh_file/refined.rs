@@ -75,7 +75,7 @@ impl Refined {
         let starts = (!are_triangles).then_some(faces.starts);
         let polygons = PolygonMesh { positions, corners: faces.corners, starts };
         Self {
-            mesh: MeshFile { polygons, texture: None, statements, source: changed },
+            mesh: MeshFile { polygons, statements, source: changed, ..MeshFile::default() },
             corners: faces.slots,
             face_of: faces.face_of,
         }

@@ -15,6 +15,18 @@ pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     all_words(line).take_while(|word| word[0] != b'#')
 }
 
+/// True if the words after an `f` are fewer than three corners. Such a face has no area and counts as a line element.
+pub(super) fn has_few_corners<'a>(words: impl Iterator<Item = &'a [u8]>) -> bool {
+    words.take(3).count() < 3
+}
+
+/// First word of a line. `l` for a face of fewer than three corners, which counts as a line element.
+pub(super) fn keyword(line: &[u8]) -> Option<&[u8]> {
+    let mut words = words(line);
+    let keyword = words.next()?;
+    Some(if keyword == b"f" && has_few_corners(words) { b"l" } else { keyword })
+}
+
 /// Byte ranges of the [`words`] of a line.
 pub(super) fn word_ranges(line: &[u8]) -> impl Iterator<Item = Range<usize>> {
     words(line).map(|word| {

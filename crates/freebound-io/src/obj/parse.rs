@@ -5,17 +5,19 @@
 //!
 //! Supported: `v` (words after the third number are ignored), `vt`, `f` in all its forms with positive and negative
 //! indices, `o`, `g`, `s`, `usemtl`, `mtllib`, comments, lines continued by `\`. Anything else is skipped. A positive
-//! index may name an element that comes later in the file. A line ends with LF, with CR LF, or with CR alone.
+//! index may name an element that comes later in the file. Faces of fewer than three corners, and texture indices of
+//! coordinates that do not exist, are left out with a warning. A line ends with LF, with CR LF, or with CR alone.
 
 use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::line::{corner, numbers, statement, words};
+use super::line::{corner, has_few_corners, numbers, statement, words};
 use super::lines::{Line, Lines, pieces, split_mark};
 use crate::mesh_file::{
-    MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, ReadError, Statement, Texture,
+    MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, ReadError, ReadWarning, ReadWarningKind,
+    Statement, Texture,
 };
 use freebound_core::mesh::VertexId;
 
@@ -80,10 +82,38 @@ struct Parser {
     line: u64,
     faults: Vec<ParseFault>,
     fault_count: usize,
+    /// Faces of fewer than three corners.
+    small_faces: LeftOut,
+    /// Corners that name a texture coordinate that does not exist. Positive indices are checked at the end.
+    missing_texture: LeftOut,
     /// True if an index counts backwards.
     counts_backwards: bool,
     /// Buffer for a line joined from continued ones.
     joined: Vec<u8>,
+}
+
+/// Number of elements that were left out, with the line of the first one.
+#[derive(Clone, Copy, Debug, Default)]
+struct LeftOut {
+    count: usize,
+    line: u64,
+}
+
+impl LeftOut {
+    fn add(&mut self, line: u64) {
+        self.append(Self { count: 1, line });
+    }
+
+    fn append(&mut self, later: Self) {
+        if self.count == 0 || (later.count > 0 && later.line < self.line) {
+            self.line = later.line;
+        }
+        self.count += later.count;
+    }
+
+    fn warning(self, kind: ReadWarningKind) -> Option<ReadWarning> {
+        (self.count > 0).then_some(ReadWarning { kind, count: self.count, line: self.line })
+    }
 }
 
 impl Parser {
@@ -124,6 +154,10 @@ impl Parser {
         for (first, line) in piece.line_runs {
             self.note_line(first + faces, line + self.line);
         }
+        let in_file = |of_piece: LeftOut| LeftOut { line: of_piece.line + self.line, ..of_piece };
+        let [small_faces, missing_texture] = [piece.small_faces, piece.missing_texture].map(in_file);
+        self.small_faces.append(small_faces);
+        self.missing_texture.append(missing_texture);
         self.face_count += piece.face_count;
         self.line += piece.line;
         Ok(())
@@ -175,8 +209,12 @@ impl Parser {
         })
     }
 
-    fn take_face<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) -> Result<(), ReadError> {
+    fn take_face<'a>(&mut self, words: impl Iterator<Item = &'a [u8]> + Clone) -> Result<(), ReadError> {
         let begin = self.mesh.polygons.corners.len();
+        if has_few_corners(words.clone()) {
+            self.small_faces.add(self.line + 1);
+            return Ok(());
+        }
         if let Err(kind) = self.take_corners(words) {
             self.mesh.polygons.corners.truncate(begin);
             self.texture_corners.truncate(begin);
@@ -213,21 +251,23 @@ impl Parser {
     }
 
     fn take_corners<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) -> Result<(), ParseFaultKind> {
-        let mut found = 0;
         let vertex_count = self.mesh.polygons.positions.len();
         for word in words {
             let (vertex, texture) = corner(word)?;
             self.counts_backwards |= vertex < 0 || texture.is_some_and(|texture| texture < 0);
             let vertex = resolve("vertex", vertex, vertex_count)?;
             if let Some(texture) = texture {
-                let texture = resolve("texture coordinate", texture, self.coordinates.len())?;
-                self.texture_corners.resize(self.mesh.polygons.corners.len(), NO_TEXTURE);
-                self.texture_corners.push(texture);
+                match resolve("texture coordinate", texture, self.coordinates.len()) {
+                    Ok(texture) => {
+                        self.texture_corners.resize(self.mesh.polygons.corners.len(), NO_TEXTURE);
+                        self.texture_corners.push(texture);
+                    }
+                    Err(_) => self.missing_texture.add(self.line + 1),
+                }
             }
             self.mesh.polygons.corners.push(VertexId::new(vertex));
-            found += 1;
         }
-        if found < 3 { Err(ParseFaultKind::TooFewCorners(found)) } else { Ok(()) }
+        Ok(())
     }
 
     /// Line of a face.
@@ -253,7 +293,8 @@ impl Parser {
         if !self.texture_corners.is_empty() {
             self.texture_corners.resize(self.mesh.polygons.corners.len(), NO_TEXTURE);
         }
-        self.check_ranges();
+        self.check_vertices();
+        self.drop_missing_texture();
         if self.fault_count > 0 {
             self.faults.sort_by_key(|fault| fault.line);
             self.faults.truncate(MAX_PARSE_FAULTS);
@@ -262,20 +303,19 @@ impl Parser {
         if self.face_count == 0 {
             return Err(ReadError::NoFaces { vertices: self.mesh.polygons.positions.len() });
         }
-        if !self.texture_corners.is_empty() {
+        let small_faces = self.small_faces.warning(ReadWarningKind::FacesOfFewCorners);
+        let missing = self.missing_texture.warning(ReadWarningKind::MissingTextureCoordinates);
+        self.mesh.warnings = small_faces.into_iter().chain(missing).collect();
+        if self.texture_corners.iter().any(|&texture| texture != NO_TEXTURE) {
             self.mesh.texture = Some(Texture { coordinates: self.coordinates, corners: self.texture_corners });
         }
         Ok(self.mesh)
     }
 
-    /// Reports corners that name missing elements.
-    fn check_ranges(&mut self) {
+    /// Reports corners that name missing vertices.
+    fn check_vertices(&mut self) {
         let vertex_count = self.mesh.polygons.positions.len();
-        let coordinate_count = self.coordinates.len();
-        let corners = &self.mesh.polygons.corners;
-        let vertex_misses = corners.iter().any(|v| v.index() >= vertex_count);
-        let texture_misses = self.texture_corners.iter().any(|&t| t != NO_TEXTURE && t as usize >= coordinate_count);
-        if !vertex_misses && !texture_misses {
+        if self.mesh.polygons.corners.iter().all(|v| v.index() < vertex_count) {
             return;
         }
         // Faults of single lines may have filled the list; the faults found here may be on earlier lines.
@@ -285,25 +325,35 @@ impl Parser {
             for place in self.mesh.polygons.corner_range(face as usize) {
                 let vertex = self.mesh.polygons.corners[place].number();
                 if vertex as usize >= vertex_count {
-                    self.fault_at(line, out_of_range("vertex", vertex, vertex_count));
-                }
-                let texture = self.texture_corners.get(place).copied().unwrap_or(NO_TEXTURE);
-                if texture != NO_TEXTURE && texture as usize >= coordinate_count {
-                    self.fault_at(line, out_of_range("texture coordinate", texture, coordinate_count));
+                    let (index, count) = (i64::from(vertex) + 1, vertex_count);
+                    self.fault_at(line, ParseFaultKind::IndexOutOfRange { element: "vertex", index, count });
                 }
             }
         }
         self.faults.append(&mut earlier);
+    }
+
+    /// Takes texture coordinates that do not exist from the corners that name them.
+    fn drop_missing_texture(&mut self) {
+        let count = self.coordinates.len();
+        let is_missing = |&texture: &u32| texture != NO_TEXTURE && texture as usize >= count;
+        if !self.texture_corners.iter().any(is_missing) {
+            return;
+        }
+        for face in 0..self.face_count {
+            for place in self.mesh.polygons.corner_range(face as usize) {
+                if is_missing(&self.texture_corners[place]) {
+                    self.texture_corners[place] = NO_TEXTURE;
+                    self.missing_texture.add(self.line_of_face(face).expect("every face has a line"));
+                }
+            }
+        }
     }
 }
 
 /// Offsets of the corners of `count` triangles, and the end of the last.
 fn starts_of_triangles(count: u32) -> Vec<u32> {
     (0..=count).map(|face| 3 * face).collect()
-}
-
-fn out_of_range(element: &'static str, resolved: u32, count: usize) -> ParseFaultKind {
-    ParseFaultKind::IndexOutOfRange { element, index: i64::from(resolved) + 1, count }
 }
 
 /// Converts an index as written to one from 0. Positive indices are checked at the end of the file.

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
-use super::super::line::{number, numbers, words};
+use super::super::line::{keyword, number, numbers, words};
 use super::super::lines::Lines;
 use super::Buffers;
 use super::corner::CornerWord;
@@ -88,7 +88,8 @@ impl Found {
         for line in Lines::of(lines) {
             let one = line.as_one(&mut joined);
             let mut words = words(one);
-            match words.next() {
+            words.next();
+            match keyword(one) {
                 Some(b"v") => {
                     let vertex = VertexId::from_index(vertices);
                     vertices += 1;

@@ -33,7 +33,7 @@ use self::added::Added;
 use self::corner::{CornerWord, Indices};
 use self::pieces::PIECE;
 use super::digits::write_numbers;
-use super::line::{word_ranges, words};
+use super::line::{keyword, word_ranges, words};
 use super::lines::{Line, Lines, pieces, split_mark};
 use super::parse::resolve;
 use crate::mesh_file::{MeshFile, NO_TEXTURE, Source, Texture};
@@ -152,7 +152,7 @@ struct Buffers {
 impl Writer<'_> {
     fn line(&mut self, line: &Line<'_>, joined: &mut Vec<u8>) -> io::Result<()> {
         let one = line.as_one(joined);
-        let Some(keyword) = words(one).next() else { return self.out.write_all(line.whole) };
+        let Some(keyword) = keyword(one) else { return self.out.write_all(line.whole) };
         if !std::mem::replace(&mut self.seen.has_begun, true) {
             self.add_line(self.all.written.edits.first.as_ref())?;
         }

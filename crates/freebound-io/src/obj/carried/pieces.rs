@@ -6,7 +6,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::super::digits::write_numbers;
-use super::super::line::words;
+use super::super::line::keyword;
 use super::super::lines::{Lines, pieces};
 use super::{All, Buffers, Seen, Writer};
 use crate::mesh_file::Source;
@@ -25,7 +25,7 @@ impl Seen {
     fn of(piece: &[u8]) -> Self {
         let (mut this, mut joined) = (Self::default(), Vec::new());
         for line in Lines::of(piece) {
-            let Some(keyword) = words(line.as_one(&mut joined)).next() else { continue };
+            let Some(keyword) = keyword(line.as_one(&mut joined)) else { continue };
             this.has_begun = true;
             match keyword {
                 b"v" => this.vertices += 1,
