@@ -25,6 +25,9 @@ pub use write::write_ply;
 /// Names of the texture coordinates of vertices: u and v.
 const TEXTURE_NAMES: [[&str; 2]; 4] = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
 
+/// Name of the element of triangle strips.
+const STRIPS: &str = "tristrips";
+
 /// Names of the vertex lists of faces.
 const CORNER_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
 const FACE_TEXTURE: &str = "texcoord";

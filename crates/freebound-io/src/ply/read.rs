@@ -1,5 +1,8 @@
 //! Mesh from a PLY file: positions, faces, and texture coordinates of vertices (`u` and `v`, or `s` and `t`) or of
 //! corners (`texcoord`). Everything else is skipped.
+//!
+//! Faces are the items of `face`. Without any, they are triangle strips: the lists of `tristrips`, in which every index after the second
+//! makes a triangle with the two before it, and −1 begins a new strip.
 
 use std::sync::Arc;
 
@@ -7,7 +10,7 @@ use glam::{DVec2, DVec3};
 
 use super::header::{Element, Header, Property};
 use super::numbers::Numbers;
-use super::{CORNER_NAMES, FACE_TEXTURE, TEXTURE_NAMES};
+use super::{CORNER_NAMES, FACE_TEXTURE, STRIPS, TEXTURE_NAMES};
 use crate::mesh_file::{
     FaultPlace, MeshFile, NO_TEXTURE, ParseFaultKind, ReadError, Source, SourceFormat, Texture, fault_at,
 };
@@ -17,12 +20,15 @@ use freebound_core::problem::Embedding;
 /// Parses a mesh from a PLY file, and keeps the file.
 pub(crate) fn parse_ply(bytes: Vec<u8>) -> Result<MeshFile, ReadError> {
     let header = Header::of(&bytes)?;
+    header.check_faces()?;
+    let has_strips = header.count_of("face") == 0 && header.count_of(STRIPS) > 0;
     let mut reader = Reader { vertex_count: header.count_of("vertex"), ..Reader::of(Numbers::of(&bytes, &header)) };
     for element in &header.elements {
         reader.numbers.check_room(element, header.encoding)?;
         match element.name.as_str() {
             "vertex" => reader.vertices(element, header.lines)?,
             "face" => reader.faces(element, header.lines)?,
+            STRIPS if has_strips => reader.strips(element, header.lines)?,
             // Items without properties take no bytes, whatever their number.
             _ if element.properties.is_empty() => {}
             _ => (0..element.count).try_for_each(|_| reader.skip_all(&element.properties))?,
@@ -30,11 +36,28 @@ pub(crate) fn parse_ply(bytes: Vec<u8>) -> Result<MeshFile, ReadError> {
     }
     let mut mesh = reader.finish()?;
     let vertex_count = mesh.polygons.positions.len();
-    mesh.source = Some(Source::of(SourceFormat::Ply(Arc::new(header)), bytes, vertex_count));
+    // A writer cannot put faces in the place of strips: it makes a new file.
+    if !has_strips {
+        mesh.source = Some(Source::of(SourceFormat::Ply(Arc::new(header)), bytes, vertex_count));
+    }
     Ok(mesh)
 }
 
 impl Header {
+    /// Fails if vertices have the list of corners, because the header lacks `element face`.
+    fn check_faces(&self) -> Result<(), ReadError> {
+        let is_list = |property: &Property| property.count.is_some() && CORNER_NAMES.contains(&&property.name[..]);
+        let has_lists = |element: &Element| element.name == "vertex" && element.properties.iter().any(is_list);
+        if !self.elements.iter().any(has_lists) || self.elements.iter().any(|element| element.name == "face") {
+            return Ok(());
+        }
+        let kind = ParseFaultKind::Unexpected {
+            found: "property list under element vertex".to_owned(),
+            expected: "element face before it",
+        };
+        Err(fault_at(FaultPlace::Line(self.lines), kind))
+    }
+
     /// Number of items of this name.
     fn count_of(&self, name: &str) -> u64 {
         self.elements.iter().filter(|element| element.name == name).map(|element| element.count).sum()
@@ -118,17 +141,74 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
+    /// Reads triangle strips.
+    fn strips(&mut self, element: &Element, header_lines: u64) -> Result<(), ReadError> {
+        let corners = element.property(&CORNER_NAMES).filter(|&at| {
+            let property = &element.properties[at];
+            property.count.is_some() && property.item.is_integer()
+        });
+        let Some(corners) = corners else {
+            let expected = "its list vertex_indices";
+            let kind = ParseFaultKind::Unexpected { found: format!("element {STRIPS}"), expected };
+            return Err(fault_at(FaultPlace::Line(header_lines), kind));
+        };
+        for _ in 0..element.count {
+            for (at, property) in element.properties.iter().enumerate() {
+                match property.count {
+                    Some(count) if at == corners => {
+                        let count = self.numbers.count(count, property.item)?;
+                        self.strip(count, property)?;
+                    }
+                    _ => self.skip(property)?,
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads a list of strips. A triangle with two equal corners, which joins two strips, is left out.
+    fn strip(&mut self, count: usize, property: &Property) -> Result<(), ReadError> {
+        let mut strip: Vec<VertexId> = Vec::new();
+        for _ in 0..count {
+            let Some(vertex) = self.vertex(property, true)? else {
+                strip.clear();
+                continue;
+            };
+            strip.push(vertex);
+            if let [.., first, second, third] = strip[..]
+                && first != second
+                && second != third
+                && third != first
+            {
+                // Every other triangle runs the other way around.
+                let [first, second] = if strip.len() % 2 == 1 { [first, second] } else { [second, first] };
+                self.mesh.corners.extend([first, second, third]);
+                self.end_face(&[])?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads the index of a vertex. `None` for −1, if that may stand for the end of a strip.
+    fn vertex(&mut self, property: &Property, may_end: bool) -> Result<Option<VertexId>, ReadError> {
+        let place = self.numbers.place();
+        let index = self.numbers.integer(property.item)?;
+        if may_end && index == -1 {
+            return Ok(None);
+        }
+        let vertex = u32::try_from(index).ok().filter(|&vertex| u64::from(vertex) < self.vertex_count);
+        let Some(vertex) = vertex else {
+            let place = if matches!(place, FaultPlace::Line(_)) { self.numbers.place() } else { place };
+            let count = usize::try_from(self.vertex_count).unwrap_or(usize::MAX);
+            return Err(fault_at(place, ParseFaultKind::IndexOutOfRange { element: "vertex", index, count }));
+        };
+        Ok(Some(VertexId::new(vertex)))
+    }
+
     fn corners(&mut self, count: usize, property: &Property) -> Result<(), ReadError> {
         for _ in 0..count {
-            let place = self.numbers.place();
-            let index = self.numbers.integer(property.item)?;
-            let vertex = u32::try_from(index).ok().filter(|&vertex| u64::from(vertex) < self.vertex_count);
-            let Some(vertex) = vertex else {
-                let place = if matches!(place, FaultPlace::Line(_)) { self.numbers.place() } else { place };
-                let count = usize::try_from(self.vertex_count).unwrap_or(usize::MAX);
-                return Err(fault_at(place, ParseFaultKind::IndexOutOfRange { element: "vertex", index, count }));
-            };
-            self.mesh.corners.push(VertexId::new(vertex));
+            let vertex = self.vertex(property, false)?;
+            self.mesh.corners.extend(vertex);
         }
         if count < 3 {
             return Err(fault_at(self.numbers.place(), ParseFaultKind::TooFewCorners(count)));

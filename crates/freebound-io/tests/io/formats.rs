@@ -9,7 +9,7 @@ use freebound_io::{MeshFile, ParseFaultKind, ReadError, TextureError, read_mesh,
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
-use crate::obj::{assert_faults, bad_number, out_of_range, too_many, unexpected};
+use crate::obj::{assert_faults, bad_number, out_of_range, place_and_kind, too_many, unexpected};
 use freebound_testkit::ply::{Encoding, PlyMaker};
 use freebound_testkit::{Random, grid, quad_sheet};
 
@@ -236,6 +236,48 @@ fn texture_coordinates_of_ply_files_are_those_of_vertices_or_of_corners() {
     }
 }
 
+/// PLY file of five vertices with one list of strips, in text or in binary form.
+fn ply_of_strips(is_text: bool, indices: &[i32]) -> Vec<u8> {
+    let points = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [2.0, 0.0, 0.0]];
+    let encoding = if is_text { "ascii" } else { "binary_little_endian" };
+    let head = format!(
+        "ply\nformat {encoding} 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n\
+         element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+    );
+    if is_text {
+        let rows: Vec<String> = points.iter().map(|[x, y, z]| format!("{x} {y} {z}")).collect();
+        let list: Vec<String> = indices.iter().map(ToString::to_string).collect();
+        return format!("{head}{}\n{} {}\n", rows.join("\n"), indices.len(), list.join(" ")).into_bytes();
+    }
+    let count = i32::try_from(indices.len()).expect("few");
+    let numbers = std::iter::once(&count).chain(indices).flat_map(|number| number.to_le_bytes());
+    let rows = points.iter().flatten().flat_map(|number| number.to_le_bytes());
+    head.bytes().chain(rows).chain(numbers).collect()
+}
+
+#[test]
+fn strips_of_ply_files_are_triangles_of_one_orientation() {
+    // Two triangles, the end of the strip, and a strip of three that is joined by a triangle without area.
+    let indices = [0, 1, 2, 3, -1, 1, 4, 3, 3, 2];
+    for is_text in [true, false] {
+        let mesh = read(&ply_of_strips(is_text, &indices));
+        let faces: Vec<Vec<u32>> = (0..mesh.polygons.face_count())
+            .map(|f| mesh.polygons.face(f).iter().map(|v| v.number()).collect())
+            .collect();
+        assert_eq!(faces, [[0, 1, 2], [2, 1, 3], [1, 4, 3]]);
+        let normal = |face: &Vec<u32>| {
+            let [a, b, c] = [0, 1, 2].map(|k| mesh.polygons.positions[face[k] as usize].truncate());
+            (b - a).perp_dot(c - a)
+        };
+        assert!(faces.iter().all(|face| normal(face) > 0.0), "{faces:?}");
+        // A writer makes a new file of faces, which every program reads.
+        assert!(mesh.source.is_none());
+        assert_eq!(place_and_kind(&fault(&ply_of_strips(is_text, &[0, 1, 5]))).1, out_of_range("vertex", 5, 5));
+    }
+    let none = fault(&ply_of_strips(true, &[0, 1, -1, 2, 3]));
+    assert!(matches!(none, ReadError::NoFaces { vertices: 5 }), "{none}");
+}
+
 #[test]
 fn what_a_ply_header_says_is_not_believed_without_the_bytes() {
     let head = |encoding: &str, rest: &str| format!("ply\nformat {encoding} 1.0\n{rest}end_header\n");
@@ -263,6 +305,11 @@ fn what_a_ply_header_says_is_not_believed_without_the_bytes() {
             head("ascii", &format!("{vertex}{}", face.replace("int v", "float v"))) + triangle,
             "line 9",
             unexpected("element"),
+        ),
+        (
+            head("ascii", &format!("{vertex}property list uchar int vertex_indices\n")) + triangle,
+            "line 8",
+            unexpected("property"),
         ),
         (head("middle_endian", vertex), "line 2", unexpected("middle_endian")),
         (head("ascii", "property float x\n"), "line 3", unexpected("x")),
