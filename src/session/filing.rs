@@ -7,7 +7,7 @@ use super::action::UndoGroup;
 use super::in_use::Role;
 use super::opened::{Opened, Origin};
 use super::stop::Goal;
-use super::{History, Message, MessagePlace, SaveRequest, Session, Severity, Written};
+use super::{History, Message, MessagePlace, SaveRequest, Session, Written};
 use freebound_core::pipeline::{Fit, Surface};
 use freebound_core::problem::{Settings, Start};
 use freebound_io::{EXTENSIONS, OutputKind, Precision, write_atomically, write_constraints, write_durably};
@@ -40,7 +40,7 @@ impl Session {
             self.tell_faults();
         }
         for warning in warnings {
-            self.messages.say(Message { severity: Severity::Note, ..Message::error(MessagePlace::Mesh, warning) });
+            self.messages.say(Message::note(MessagePlace::Mesh, warning));
         }
         for remark in remarks {
             self.messages.say(remark);

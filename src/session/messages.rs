@@ -84,6 +84,10 @@ impl Message {
         Self { id: 0, severity: Severity::Error, place, text, remedy: None, vertices, files }
     }
 
+    pub(super) fn note(place: MessagePlace, text: impl Into<String>) -> Self {
+        Self { severity: Severity::Note, ..Self::error(place, text) }
+    }
+
     /// True if the message reports success. Notes on the file of the mesh do not.
     fn is_success(&self) -> bool {
         self.severity == Severity::Note && self.place != MessagePlace::Mesh
@@ -128,8 +132,7 @@ impl Messages {
         texts.push(news);
         files.extend(written.files);
         self.forget_notes();
-        let message = Message::error(MessagePlace::Embedding, texts.join("; "));
-        self.say(Message { severity: Severity::Note, files, ..message });
+        self.say(Message { files, ..Message::note(MessagePlace::Embedding, texts.join("; ")) });
     }
 
     /// Reports a failure with its remedy.

@@ -4,7 +4,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::{Background, Message, MessagePlace, Model, Session, Severity, Wake};
+use super::{Background, Message, MessagePlace, Model, Session, Wake};
 use freebound_core::cutting::SeamOptions;
 use freebound_core::mesh::{Preparation, Repair, Seams, VertexId};
 use freebound_core::pipeline::{AutomaticSeams, SeamProgress};
@@ -247,8 +247,7 @@ impl Session {
 
     fn note(&mut self, words: String) {
         self.messages.forget_notes();
-        let note = Message { severity: Severity::Note, ..Message::error(MessagePlace::Embedding, words) };
-        self.messages.say(note);
+        self.messages.say(Message::note(MessagePlace::Embedding, words));
     }
 
     /// Sets the preparation of a mesh that was just opened. It is no unsaved work.

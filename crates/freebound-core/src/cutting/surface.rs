@@ -30,12 +30,14 @@ pub(crate) struct EdgeCosts {
 }
 
 impl EdgeCosts {
-    /// Costs that were stated, and factors of the surface's shape, for each edge.
-    pub(crate) fn new(stated: &[f64], shape: &[f64]) -> Self {
-        Self {
-            relative: stated.iter().zip(shape).map(|(stated, shape)| stated * shape).collect(),
-            is_avoided: stated.iter().map(|&cost| cost >= Seams::AVOIDED).collect(),
-        }
+    /// Costs that were stated, times factors of the surface's shape if there are any, for each edge.
+    pub(crate) fn new(stated: Vec<f64>, shape: Option<Vec<f64>>) -> Self {
+        let is_avoided = stated.iter().map(|&cost| cost >= Seams::AVOIDED).collect();
+        let relative = match shape {
+            Some(shape) => stated.iter().zip(shape).map(|(stated, shape)| stated * shape).collect(),
+            None => stated,
+        };
+        Self { relative, is_avoided }
     }
 }
 
@@ -179,14 +181,7 @@ impl<'a> CutSurface<'a> {
     /// True for each edge whose faces have normals that differ by `degrees` or more.
     pub(super) fn sharp_edges(&self, degrees: f64) -> Vec<bool> {
         let polygons = self.part.polygons();
-        let normal = |face: u32| {
-            let corners = polygons.face(face as usize);
-            let spans = corners[1..].windows(2).map(|pair| {
-                let [a, b, c] = [corners[0], pair[0], pair[1]].map(|vertex| polygons.positions[vertex.index()]);
-                (b - a).cross(c - a)
-            });
-            spans.sum::<glam::DVec3>().normalize_or_zero()
-        };
+        let normal = |face: u32| polygons.face_normal(face as usize);
         let most = degrees.to_radians().cos();
         let is_sharp = |faces: &Vec<u32>| matches!(faces[..], [a, b] if normal(a).dot(normal(b)) <= most);
         self.part.faces_of_edges().iter().map(is_sharp).collect()

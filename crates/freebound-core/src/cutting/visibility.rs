@@ -48,17 +48,21 @@ const LIFT: f64 = 1e-4;
 const BLOCK: usize = 256;
 
 /// Cost of a seam relative to its length for each edge of a part, in the order of its edge table: at most 1, and least on
-/// hidden creases. `weight` is the one of the formula; it is clamped to 0 to 1.
+/// hidden creases. `weight` is the one of the formula; it is clamped to 0 to 1. `None` if all costs are 1, because the weight
+/// is 0 or the part has no extent.
 ///
 /// # Errors
 ///
 /// [`SolveError::Cancelled`].
-pub(crate) fn costs_of_shape(part: &Repaired, weight: f64, control: Control<'_>) -> Result<Vec<f64>, SolveError> {
-    let (faces_of_edges, edges) = (part.faces_of_edges(), part.edges_with_sides());
-    let weight = if weight.is_nan() { 0.0 } else { weight.clamp(0.0, 1.0) };
-    let Some(polygons) = in_unit_box(part.polygons()).filter(|_| weight > 0.0) else {
-        return Ok(vec![1.0; edges.len()]);
-    };
+pub(crate) fn costs_of_shape(
+    part: &Repaired,
+    weight: f64,
+    control: Control<'_>,
+) -> Result<Option<Vec<f64>>, SolveError> {
+    let weight = weight.clamp(0.0, 1.0);
+    // A weight that is no number fails the comparison.
+    let polygons = if weight > 0.0 { in_unit_box(part.polygons()) } else { None };
+    let Some(polygons) = polygons else { return Ok(None) };
     let normals = face_normals(&polygons);
     let exposures = Visibility::new(&polygons.triangulate()).exposures(&polygons, &normals, control)?;
     let cost = |(faces, ([a, b], _)): (Vec<u32>, ([VertexId; 2], usize))| {
@@ -69,7 +73,7 @@ pub(crate) fn costs_of_shape(part: &Repaired, weight: f64, control: Control<'_>)
         };
         (1.0 - weight * CREASED * crease) * (1.0 - weight * HIDDEN * (1.0 - exposure))
     };
-    Ok(faces_of_edges.into_iter().zip(edges).map(cost).collect())
+    Ok(Some(part.faces_of_edges().into_iter().zip(part.edges_with_sides()).map(cost).collect()))
 }
 
 /// The polygons moved into a box whose longest side is 1, so that no product overflows or vanishes. `None` if they have
@@ -83,7 +87,12 @@ fn in_unit_box(polygons: &PolygonMesh) -> Option<PolygonMesh> {
     let middle = 0.5 * low + 0.5 * high;
     let place = |at: &DVec3| 0.5 * ((0.5 * *at - 0.5 * middle) / half_side);
     let is_usable = half_side.is_finite() && half_side > 0.0;
-    is_usable.then(|| PolygonMesh { positions: polygons.positions.iter().map(place).collect(), ..polygons.clone() })
+    let PolygonMesh { positions, corners, starts } = polygons;
+    is_usable.then(|| PolygonMesh {
+        positions: positions.iter().map(place).collect(),
+        corners: corners.clone(),
+        starts: starts.clone(),
+    })
 }
 
 /// Light around a part, which its own faces keep from places.
@@ -221,15 +230,7 @@ fn directions(count: usize) -> Vec<DVec3> {
 
 /// Unit normals of the faces; zero for a face without area.
 fn face_normals(polygons: &PolygonMesh) -> Vec<DVec3> {
-    let normal = |face: usize| {
-        let corners = polygons.face(face);
-        let spans = corners[1..].windows(2).map(|pair| {
-            let [a, b, c] = [corners[0], pair[0], pair[1]].map(|vertex| polygons.positions[vertex.index()]);
-            (b - a).cross(c - a)
-        });
-        spans.sum::<DVec3>().normalize_or_zero()
-    };
-    (0..polygons.face_count()).map(normal).collect()
+    (0..polygons.face_count()).map(|face| polygons.face_normal(face)).collect()
 }
 
 /// Sharpness of the crease between two faces, from 0 to 1.
@@ -258,7 +259,8 @@ mod tests {
 
     fn costs(mesh: &PolygonMesh, weight: f64) -> Vec<f64> {
         let part = Preparation::default().repaired_along(mesh, None);
-        costs_of_shape(&part, weight, Control::unattended()).unwrap()
+        let shape = costs_of_shape(&part, weight, Control::unattended()).unwrap();
+        shape.unwrap_or_else(|| vec![1.0; part.edges_with_sides().len()])
     }
 
     fn exposures(mesh: &PolygonMesh) -> Vec<f64> {

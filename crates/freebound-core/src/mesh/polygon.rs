@@ -50,6 +50,15 @@ impl PolygonMesh {
         &self.corners[self.corner_range(polygon)]
     }
 
+    /// Normal of a polygon, of length 1; zero if it has no area.
+    pub(crate) fn face_normal(&self, polygon: usize) -> DVec3 {
+        let corners = self.face(polygon);
+        let origin = self.positions[corners[0].index()];
+        let from_origin = |v: VertexId| self.positions[v.index()] - origin;
+        let pairs = corners.windows(2);
+        pairs.map(|pair| from_origin(pair[0]).cross(from_origin(pair[1]))).sum::<DVec3>().normalize_or_zero()
+    }
+
     /// Returns the mesh with every polygon reversed, starting at its first corner as before.
     #[must_use = "the mesh itself stays as it is"]
     pub fn turned(&self) -> Self {

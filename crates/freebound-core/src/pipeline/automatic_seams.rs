@@ -148,14 +148,13 @@ impl<'a> PartsToCut<'a> {
         let repaired = uncut.repaired_along(mesh, labels);
         let parts = if repaired.has_faces() { repaired.separate_parts() } else { Vec::new() };
         let cost = |edge: [VertexId; 2]| form.seams.costs().get(&edge).copied().unwrap_or(1.0);
-        let whole = repaired.triangulate();
         let costs_of = |part: &Repaired| {
             let stated = part.by_edge_in(mesh, cost);
             let shape = costs_of_shape(part, visibility, control)?;
-            Ok::<EdgeCosts, SolveError>(EdgeCosts::new(&stated, &shape))
+            Ok::<EdgeCosts, SolveError>(EdgeCosts::new(stated, shape))
         };
         let costs = parts.iter().map(costs_of).collect::<Result<_, _>>()?;
-        Ok(Self { mesh, form, parts, costs, area: whole.area(), start })
+        Ok(Self { mesh, form, parts, costs, area: repaired.triangulate().area(), start })
     }
 
     /// Seams of all parts. `cut` cuts one of them, by its number. A part that cannot be cut gets no seams.

@@ -210,6 +210,7 @@ fn seams_avoid_costly_edges_and_follow_cheap_ones() {
     assert!(share(&led) > ring.len() / 2, "{} of {}", share(&led), ring.len());
 }
 
+/// Walls over a counter-clockwise polygon, without a bottom and a top.
 fn walls(base: &[DVec2], height: f64) -> PolygonMesh {
     let solid = prism(base, height);
     without_faces(&solid, |face| solid.face(face).len() == base.len())
@@ -266,7 +267,6 @@ fn parts_that_are_equal_get_equal_seams_wherever_other_parts_stand() {
 }
 
 /// Solid with the length of the shortest cut that develops it, found by hand.
-/// Walls over a counter-clockwise polygon, without a bottom and a top.
 fn developable_solids() -> Vec<(&'static str, PolygonMesh, f64)> {
     let circle = regular_polygon(24, 1.0);
     let side = circle[0].distance(circle[1]);

@@ -112,13 +112,9 @@ impl<'a> Reader<'a> {
     }
 
     fn faces(&mut self, element: &Element, header_lines: u64) -> Result<(), ReadError> {
-        let list = |names: &[&str]| element.property(names).filter(|&at| element.properties[at].count.is_some());
-        let Some(corners) = list(&CORNER_NAMES).filter(|&at| element.properties[at].item.is_integer()) else {
-            let expected = "its list vertex_indices";
-            let kind = ParseFaultKind::Unexpected { found: "element face".to_owned(), expected };
-            return Err(fault_at(FaultPlace::Line(header_lines), kind));
-        };
-        let texture = list(&[FACE_TEXTURE]);
+        let corners = corner_list(element, header_lines)?;
+        let is_list = |&at: &usize| element.properties[at].count.is_some();
+        let texture = element.property(&[FACE_TEXTURE]).filter(is_list);
         let mut coordinates = Vec::new();
         for _ in 0..element.count {
             coordinates.clear();
@@ -143,15 +139,7 @@ impl<'a> Reader<'a> {
 
     /// Reads triangle strips.
     fn strips(&mut self, element: &Element, header_lines: u64) -> Result<(), ReadError> {
-        let corners = element.property(&CORNER_NAMES).filter(|&at| {
-            let property = &element.properties[at];
-            property.count.is_some() && property.item.is_integer()
-        });
-        let Some(corners) = corners else {
-            let expected = "its list vertex_indices";
-            let kind = ParseFaultKind::Unexpected { found: format!("element {STRIPS}"), expected };
-            return Err(fault_at(FaultPlace::Line(header_lines), kind));
-        };
+        let corners = corner_list(element, header_lines)?;
         for _ in 0..element.count {
             for (at, property) in element.properties.iter().enumerate() {
                 match property.count {
@@ -261,4 +249,14 @@ impl<'a> Reader<'a> {
         };
         Ok(MeshFile { polygons: self.mesh, texture, ..MeshFile::default() })
     }
+}
+
+/// Property of an element that lists the vertices of a face or strip.
+fn corner_list(element: &Element, header_lines: u64) -> Result<usize, ReadError> {
+    let is_list = |&at: &usize| element.properties[at].count.is_some() && element.properties[at].item.is_integer();
+    element.property(&CORNER_NAMES).filter(is_list).ok_or_else(|| {
+        let found = format!("element {}", element.name);
+        let kind = ParseFaultKind::Unexpected { found, expected: "its list vertex_indices" };
+        fault_at(FaultPlace::Line(header_lines), kind)
+    })
 }

@@ -143,10 +143,9 @@ impl<'a> Sweeps<'a> {
             let polygon: Vec<DVec2> = ring.vertices.iter().map(|&v| surface.points[v as usize]).collect();
             let neighbours: Vec<VertexId> = ring.vertices[..=ring.inner].iter().map(|&v| VertexId::new(v)).collect();
             let elements = (0..ring.inner).map(|k| self.element(vertex, &neighbours, k)).collect();
-            let from = embedding[vertex];
-            let gaps = Gaps { outer: &polygon[ring.inner..], first: polygon[0], from };
-            let z =
-                gaps.kept_open(Neighbourhood { polygon: polygon.clone(), elements }.room().improved(from, BOUNDARY));
+            let (from, around) = (embedding[vertex], Neighbourhood { polygon, elements });
+            let gaps = Gaps { outer: &around.polygon[ring.inner..], first: around.polygon[0], from };
+            let z = gaps.kept_open(around.room().improved(from, BOUNDARY));
             embedding[vertex] = z;
             surface.points[vertex.index()] = z;
         }

@@ -6,7 +6,6 @@
 use glam::DVec3;
 
 use super::sides::Sides;
-use super::ways::normal;
 use super::{Repaired, Repairs};
 use crate::mesh::{PolygonMesh, VertexId};
 
@@ -20,7 +19,7 @@ pub fn creases(source: &PolygonMesh, repairs: Repairs, degrees: f64) -> Vec<[Ver
     let repaired = Repaired::new(source, repairs);
     let least = degrees.to_radians() - SLACK;
     let normals: Vec<DVec3> = if repaired.has_faces() {
-        (0..repaired.face_of.len()).map(|face| normal(&repaired.polygons, face)).collect()
+        (0..repaired.face_of.len()).map(|face| repaired.polygons.face_normal(face)).collect()
     } else {
         Vec::new()
     };

@@ -81,7 +81,7 @@ pub(super) struct Reach {
 
 impl Ways {
     pub(super) fn new(polygons: &PolygonMesh, sides: &Sides<'_>) -> Self {
-        let normals: Vec<DVec3> = (0..polygons.face_count()).map(|face| normal(polygons, face)).collect();
+        let normals: Vec<DVec3> = (0..polygons.face_count()).map(|face| polygons.face_normal(face)).collect();
         let edge = |on: &[u32]| {
             let ends = sides.ends(on[0]);
             let [a, b] = ends.map(|v| polygons.positions[v.index()]);
@@ -191,12 +191,4 @@ fn sharpness(first: DVec3, last: DVec3) -> f64 {
         return 0.0;
     }
     (first.cross(last).length().atan2(first.dot(last)) / SHARP).min(1.0)
-}
-
-/// Normal of a face, of length 1; zero if the face has no area.
-pub(super) fn normal(polygons: &PolygonMesh, face: usize) -> DVec3 {
-    let corners = polygons.face(face);
-    let origin = polygons.positions[corners[0].index()];
-    let from_origin = |v: VertexId| polygons.positions[v.index()] - origin;
-    corners.windows(2).map(|pair| from_origin(pair[0]).cross(from_origin(pair[1]))).sum::<DVec3>().normalize_or_zero()
 }
