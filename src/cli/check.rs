@@ -10,12 +10,15 @@ use super::opened::disk_of;
 use super::places::OutputPaths;
 use super::progress::go_on;
 use super::standard::{MemoryLimit, read_model};
-use super::summary::{deliver, file_words, mesh_words};
+use super::summary::{deliver, file_words, mesh_words, size_words};
 use crate::session::Model;
-use freebound_core::mesh::{DiskMesh, Preparation, parts};
+use freebound_core::mesh::{DiskMesh, FaceId, Preparation, TriMesh, parts};
 use freebound_core::pipeline::{PreparedMesh, Surface};
-use freebound_core::verify::{distortion, equal_outlines, stacked_atlas_verdict, verdict};
-use freebound_io::{MeshReport, ReadWarning, Report, Seconds, TextureError, TextureMesh, verdict_as_in_file};
+use freebound_core::verify::{
+    AtlasVerdict, ChartRelations, DistortionSummary, Finding, FindingSeverity, PlaneLayout, Verdict, distortion,
+    equal_outlines, layout_verdict, stacked_atlas_verdict, verdict,
+};
+use freebound_io::{MeshFile, MeshReport, Report, Seconds, TextureError, TextureMesh, verdict_as_in_file};
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandError> {
     let start = Instant::now();
@@ -25,39 +28,90 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandE
     let model = read_model(&arguments.mesh, MemoryLimit::typed(arguments.large))?.in_form(Preparation::default());
     places.spare_materials(&model.source, &arguments.mesh)?;
     let path = model.path_words();
-    let mut texture = match model.source.texture_mesh() {
-        Ok(texture) => texture,
-        Err(TextureError::None) => {
-            return check_mesh(&model, arguments, path, start);
-        }
+    let (texture, bare) = match model.source.partial_texture_mesh() {
+        Ok(found) => found,
+        Err(TextureError::None) => return check_mesh(&model, arguments, path, start),
         Err(error) => return Err(CommandError::Texture { path, error }),
-    };
-    let disk = DiskMesh::try_from(texture.mesh.clone()).or_else(|_| {
-        // Try again without redundant faces, which repairs leave in the file.
-        texture.mesh = std::mem::take(&mut texture.mesh).without_repeats();
-        texture.drop_collapsed_faces();
-        DiskMesh::try_from(texture.mesh.clone())
-    });
-    let Ok(mesh) = disk else {
-        let warnings = &model.source.warnings;
-        let layout = Layout { texture: &texture, is_of_32_bits: model.source.is_turned_over(), warnings };
-        return check_charts(arguments, layout, path, start);
     };
     let read = start.elapsed().as_secs_f64();
     go_on()?;
-    let mut verdict = verdict(&mesh, &texture.embedding);
-    verdict.planar_in_f32 |= verdict.planar && model.source.is_turned_over();
-    let distortion = distortion(&mesh, &texture.embedding);
+    let groups = if arguments.across_materials { Vec::new() } else { groups_of(&model.source, &texture.mesh) };
+    let coordinates = &texture.embedding;
+    let layout = PlaneLayout { mesh: &texture.mesh, coordinates, groups: &groups, bare_faces: &bare };
+    let mut found = layout_verdict(layout, arguments.options()).judged_by(&arguments.ignore, &arguments.denied_codes());
+    found.planar_in_f32 |= found.planar && model.source.is_turned_over();
     go_on()?;
-    let in_f32 = verdict.summary_in_f32().map(|words| format!("; {words}")).unwrap_or_default();
-    let words = format!("{path}: texture coordinates: {}{in_f32}", verdict.summary());
+    let of_surface = OfSurface::of(texture, arguments.stacked, path.clone());
+    go_on()?;
+    let mesh = MeshReport { warnings: model.source.warnings.clone(), ..of_surface.mesh };
+    let first = format!("{path}: texture coordinates: {}", found.summary());
+    let lines = std::iter::once(first).chain(file_words(&mesh)).chain(found.findings.iter().map(finding_words));
+    let words = lines.collect::<Vec<_>>().join("\n");
+    let passes = found.passes;
     let report = Report {
-        verdict: Some(verdict_as_in_file(&verdict, mesh.mesh())),
-        distortion: Some(distortion.summary),
-        ..report(MeshReport { warnings: model.source.warnings.clone(), ..MeshReport::new(path, &mesh) }, start, read)
+        verdict: of_surface.verdict,
+        distortion: of_surface.distortion,
+        atlas: of_surface.atlas,
+        layout: Some(found),
+        ..report(mesh, start, read)
     };
-    deliver(&report, arguments.report.as_deref(), || with_file_words(words, &report))?;
-    Ok(if verdict.planar { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
+    deliver(&report, arguments.report.as_deref(), || words)?;
+    Ok(if passes { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
+}
+
+/// Line of a finding, which begins with its severity and code.
+fn finding_words(finding: &Finding) -> String {
+    let severity = match finding.severity {
+        FindingSeverity::Error => "error",
+        FindingSeverity::Warning => "warning",
+        FindingSeverity::Note => "note",
+    };
+    format!("{severity} {}: {finding}", finding.code.name())
+}
+
+/// Material of each triangle. Empty if the file assigns no materials.
+fn groups_of(source: &MeshFile, mesh: &TriMesh) -> Vec<u32> {
+    let Ok(labels) = source.material_labels() else { return Vec::new() };
+    let label = |face: usize| labels[mesh.polygon(FaceId::from_index(face)) as usize];
+    (0..mesh.face_count()).map(label).collect()
+}
+
+/// Verdicts of the theorems on disks, if the layout is a disk or its charts are surfaces with boundary.
+struct OfSurface {
+    mesh: MeshReport,
+    verdict: Option<Verdict>,
+    distortion: Option<DistortionSummary>,
+    atlas: Option<AtlasVerdict>,
+}
+
+impl OfSurface {
+    fn of(mut texture: TextureMesh, accepts_stacks: bool, path: String) -> Self {
+        let disk = DiskMesh::try_from(texture.mesh.clone()).or_else(|_| {
+            // Try again without redundant faces, which repairs leave in the file.
+            texture.mesh = std::mem::take(&mut texture.mesh).without_repeats();
+            texture.drop_collapsed_faces();
+            DiskMesh::try_from(texture.mesh.clone())
+        });
+        let (vertices, faces) = (texture.mesh.vertex_count(), texture.mesh.face_count());
+        if let Ok(disk) = disk {
+            let verdict = verdict(&disk, &texture.embedding);
+            return Self {
+                mesh: MeshReport::new(path, &disk),
+                distortion: Some(distortion(&disk, &texture.embedding).summary),
+                verdict: Some(verdict_as_in_file(&verdict, disk.mesh())),
+                atlas: None,
+            };
+        }
+        let Ok(charts) = parts(&texture.mesh) else {
+            let mesh = MeshReport { path, vertices, faces, ..MeshReport::default() };
+            return Self { mesh, verdict: None, distortion: None, atlas: None };
+        };
+        let stacked_on = if accepts_stacks { equal_outlines(&charts, &texture.embedding) } else { Vec::new() };
+        let relations = ChartRelations { stacked_on, ..ChartRelations::default() };
+        let atlas = stacked_atlas_verdict(&charts, &texture.embedding, &relations).as_in_file(&texture.mesh);
+        let mesh = MeshReport::of_charts(path, vertices, &charts);
+        Self { mesh, verdict: None, distortion: None, atlas: Some(atlas) }
+    }
 }
 
 /// Diagnosis of a mesh without texture coordinates: its size, and all faults that a default run repairs or ignores.
@@ -99,64 +153,13 @@ fn check_mesh(
         };
         (MeshReport::new(path, disk), format!("a disk{holes}"))
     };
-    let repairs = model.whole_repaired().map(|repaired| repaired.done().to_vec()).unwrap_or_default();
-    let warnings = model.source.warnings.clone();
-    let report = report(MeshReport { repairs, warnings, ..mesh }, start, start.elapsed().as_secs_f64());
+    let mesh = mesh.prepared(&model.source, model.whole_repaired());
+    let report = report(mesh, start, start.elapsed().as_secs_f64());
     let notes = &report.mesh;
-    let first = format!(
-        "{}: {kind}, {} vertices, {} faces, {} on the boundary, {} dividing edges, {} ears; no texture coordinates",
-        notes.path, notes.vertices, notes.faces, notes.boundary_vertices, notes.dividing_edges, notes.ears
-    );
+    let first = format!("{}: {kind}, {}; no texture coordinates", notes.path, size_words(notes));
     let words = std::iter::once(first).chain(file_words(notes)).chain(mesh_words(notes)).collect::<Vec<_>>().join("\n");
     deliver(&report, arguments.report.as_deref(), || words)?;
     Ok(CommandOutcome::Fine)
-}
-
-/// Texture coordinates of a file.
-#[derive(Clone, Copy)]
-struct Layout<'a> {
-    texture: &'a TextureMesh,
-    /// True if the file stores only 32-bit numbers, so that a proof also holds in 32 bits.
-    is_of_32_bits: bool,
-    /// Elements of the file that were left out.
-    warnings: &'a [ReadWarning],
-}
-
-/// Verdict on a layout of several charts or with holes.
-fn check_charts(
-    arguments: &CheckArguments,
-    Layout { texture, is_of_32_bits, warnings }: Layout<'_>,
-    path: String,
-    start: Instant,
-) -> Result<CommandOutcome, CommandError> {
-    let charts = parts(&texture.mesh).map_err(|diagnosis| CommandError::NotADisk {
-        path: format!("{path} (cut along the seams of its texture coordinates)"),
-        diagnosis,
-        remedy: None,
-    })?;
-    let read = start.elapsed().as_secs_f64();
-    go_on()?;
-    let stacked_on =
-        if arguments.stacked { equal_outlines(&charts, &texture.embedding) } else { vec![None; charts.len()] };
-    let verdict = stacked_atlas_verdict(&charts, &texture.embedding, &stacked_on);
-    let mut verdict = verdict.as_in_file(&texture.mesh);
-    verdict.planar_in_f32 |= verdict.planar && is_of_32_bits;
-    go_on()?;
-    let in_f32 = if verdict.planar_in_f32 { "; holds in 32 bits" } else { "; does not hold in 32 bits" };
-    let in_f32 = if verdict.planar { in_f32 } else { "" };
-    let words = format!("{path}: texture coordinates: {}{in_f32}", verdict.summary());
-    let status = if verdict.planar { CommandOutcome::Fine } else { CommandOutcome::FallsShort };
-    let atlas = Some(verdict);
-    let mesh =
-        MeshReport { warnings: warnings.to_vec(), ..MeshReport::of_charts(path, texture.mesh.vertex_count(), &charts) };
-    let report = Report { atlas, ..report(mesh, start, read) };
-    deliver(&report, arguments.report.as_deref(), || with_file_words(words, &report))?;
-    Ok(status)
-}
-
-/// Verdict with a line for what was left out of the file.
-fn with_file_words(verdict: String, report: &Report) -> String {
-    std::iter::once(verdict).chain(file_words(&report.mesh)).collect::<Vec<_>>().join("\n")
 }
 
 /// Report on the mesh alone.

@@ -151,18 +151,21 @@ pub enum CommandError {
 pub struct Remedy {
     /// Repairs that are applied.
     done: Vec<Done>,
-    /// Options to add to the given ones.
-    options: Vec<&'static str>,
+    /// Options to add to the given ones, or to use instead.
+    options: Vec<String>,
 }
 
 impl Remedy {
     /// Repair that makes a mesh a disk or several disks, if there is one.
     pub(super) fn of(model: &Model) -> Option<Self> {
         let form = &model.prepared.form;
-        let all = (form.repair.and(Repairs::ALL) != form.repair).then_some("--repair all");
-        let auto = (!form.cut).then_some("--cut auto");
-        let remedy = model.prepared.remedy.as_ref()?;
-        Some(Self { done: remedy.done().to_vec(), options: all.into_iter().chain(auto).collect() })
+        let done = model.prepared.remedy.as_ref()?.done();
+        let wanted = done.iter().map(|done| done.repair).filter(|repair| Repair::CHOSEN.contains(repair));
+        let repairs = wanted.fold(form.repair, Repairs::with);
+        let repair = (repairs != form.repair).then(|| format!("--repair {repairs}"));
+        let cuts = done.iter().any(|done| done.repair == Repair::Cut) && !form.cut;
+        let options = repair.into_iter().chain(cuts.then(|| "--cut auto".to_owned()));
+        Some(Self { done: done.to_vec(), options: options.collect() })
     }
 }
 

@@ -61,6 +61,7 @@ fn cut(model: Model, arguments: &MeshArguments, progress: &ProgressLine) -> Resu
 fn edges_of(model: &Model, kind: SeamKind) -> Result<Vec<[VertexId; 2]>, CommandError> {
     let (option, edges) = match kind {
         SeamKind::Sharp(degrees) => return Ok(model.crease_edges(degrees)),
+        SeamKind::Splits => return Ok(model.split_edges()),
         SeamKind::Materials => ("materials", model.material_borders()),
         SeamKind::Groups => ("groups", model.group_borders()),
     };

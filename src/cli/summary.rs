@@ -1,30 +1,35 @@
 //! Texts for the terminal: the progress line and the summary of a run.
 
+use std::fmt::Display;
 use std::path::Path;
 
 use super::error::CommandError;
 use super::error::is_standard;
 use super::report_file::put_report;
 use super::say::{say, warn};
+use freebound_core::cutting::SeamOptions;
 use freebound_core::flatten::{Ending, Step};
 use freebound_core::geom::PackingOptions;
-use freebound_core::mesh::{Diagnosis, VertexId};
+use freebound_core::mesh::{Diagnosis, Repair};
 use freebound_core::pipeline::{PackingSummary, PinsSummary, Placement, SolvedProblem, StackedOn};
 use freebound_core::problem::{Method, NamedOption as _, SolveError, Stage};
-use freebound_core::verify::{Conflict, Verdict};
+use freebound_core::verify::{Conflict, DistortionSummary, Verdict};
 use freebound_io::{
     ChartNumber, ChartReport, Column, ComparisonReport, ComparisonSeconds, MeshReport, MorphReport, Output, Report,
-    SeamsReport, Seconds,
+    SeamsReport, Seconds, StepReport,
 };
+
+/// Symmetric Dirichlet energy above which a map is badly distorted: twice that of an isometric map.
+const BAD_ENERGY: f64 = 8.0;
 
 /// Maximum number of vertices, conflicts or charts that are listed. The others are only counted.
 const NAMED: usize = 10;
 
-/// List of vertices, shortened if there are many.
-fn listed(vertices: &[VertexId]) -> String {
-    let mut names: Vec<String> = vertices.iter().take(NAMED).map(ToString::to_string).collect();
-    if vertices.len() > NAMED {
-        names.push(format!("and {} more", vertices.len() - NAMED));
+/// List of elements, shortened if there are many.
+fn listed(elements: &[impl Display]) -> String {
+    let mut names: Vec<String> = elements.iter().take(NAMED).map(ToString::to_string).collect();
+    if elements.len() > NAMED {
+        names.push(format!("and {} more", elements.len() - NAMED));
     }
     names.join(", ")
 }
@@ -122,14 +127,17 @@ pub(super) fn deliver(report: &Report, to: Option<&Path>, words: impl FnOnce() -
 
 /// Text for repairs and other treatment of the mesh.
 pub(super) fn mesh_words(mesh: &MeshReport) -> Option<String> {
-    let unused = match mesh.unused_vertices {
-        0 => None,
-        1 => Some("1 unreferenced vertex".to_owned()),
-        count => Some(format!("{count} unreferenced vertices")),
-    };
+    let some = |count: usize, one: &str, many: &str| (count > 0).then(|| counted(count, one, many));
+    let unused = some(mesh.unused_vertices, "unreferenced vertex", "unreferenced vertices");
+    let touching = some(mesh.touching_vertices, "vertex touches", "vertices touch");
+    let touching = touching.map(|words| format!("{words} other parts (--repair all joins them)"));
+    let point =
+        some(mesh.degenerate_faces.len(), "degenerate face lies at one point", "degenerate faces lie at one point");
+    let point = point.map(|words| format!("{words} of the map: {}", listed(&mesh.degenerate_faces)));
     let longer = Some(mesh.mollification).filter(|&by| by > 0.0);
     let longer = longer.map(|by| format!("zero-area faces, edge lengths increased by {by:.1e}"));
-    let words: Vec<String> = mesh.repairs.iter().map(ToString::to_string).chain(unused).chain(longer).collect();
+    let notes = [point, unused, touching, longer].into_iter().flatten();
+    let words: Vec<String> = mesh.repairs.iter().map(ToString::to_string).chain(notes).collect();
     (!words.is_empty()).then(|| format!("mesh: {}", words.join(", ")))
 }
 
@@ -141,10 +149,19 @@ pub(super) fn file_words(mesh: &MeshReport) -> Option<String> {
 
 /// First line: size of the mesh.
 fn first_words(mesh: &MeshReport) -> String {
-    format!(
-        "{}: {} vertices, {} faces, {} on the boundary, {} dividing edges, {} ears",
-        mesh.path, mesh.vertices, mesh.faces, mesh.boundary_vertices, mesh.dividing_edges, mesh.ears
-    )
+    format!("{}: {}", mesh.path, size_words(mesh))
+}
+
+/// Numbers of vertices, faces and boundary vertices.
+pub(super) fn size_words(mesh: &MeshReport) -> String {
+    let vertices = counted(mesh.vertices, "vertex", "vertices");
+    let faces = counted(mesh.faces, "face", "faces");
+    format!("{vertices}, {faces}, {} on the boundary", mesh.boundary_vertices)
+}
+
+/// Count with its noun.
+fn counted(count: usize, one: &str, many: &str) -> String {
+    if count == 1 { format!("1 {one}") } else { format!("{count} {many}") }
 }
 
 /// Summary of a run with several charts.
@@ -170,7 +187,15 @@ pub(super) fn atlas_summary(report: &Report) -> String {
     if charts.len() > NAMED {
         lines.push(format!("and {} more charts, less distorted", charts.len() - NAMED));
     }
-    lines.extend(relaxing_words_of_charts(report));
+    if report.start.is_some() {
+        let notes = |chart: &ChartReport| {
+            let face = chart.first_face.number();
+            let noted = chart.steps.iter().filter_map(|step| Some((step.index, step.note.as_ref()?)));
+            noted.map(|(index, note)| format!("chart of face {face}: step {index}: {note}")).collect::<Vec<_>>()
+        };
+        lines.extend(report.charts.iter().flat_map(notes).take(NAMED));
+    }
+    lines.extend(distortion_words_of_charts(report));
     lines.extend(packing_words(report));
     lines.push(seconds_words(&report.seconds));
     lines.join("\n")
@@ -217,25 +242,68 @@ pub(super) fn pack_summary(report: &Report, faults: Option<&Diagnosis>) -> Strin
     lines.join("\n")
 }
 
-/// Advice on areas that differ badly, if the map is planar.
-fn relaxing_words(report: &Report) -> Option<String> {
+/// Advice on a badly distorted map, if it is planar.
+fn distortion_words(report: &Report) -> Option<String> {
     let is_planar = report.verdict.as_ref().is_some_and(|verdict| verdict.planar);
     let distortion = report.distortion.as_ref().filter(|_| is_planar && report.method.is_some())?;
-    distortion.bad_ratio_of_areas().map(|ratio| areas_words(ratio, "mesh and map"))
+    let is_pinned = report.pins.as_ref().is_some_and(|pins| pins.count > 0);
+    let remedy = Remedy::of(distortion, &report.steps, report, is_pinned)?;
+    Some(remedy.words(distortion, "mesh and map"))
 }
 
-/// Advice on the chart whose areas differ most, if all charts are planar.
-fn relaxing_words_of_charts(report: &Report) -> Option<String> {
+/// Advice on the most distorted chart that a remedy helps, if all charts are planar.
+fn distortion_words_of_charts(report: &Report) -> Option<String> {
     let is_planar = report.atlas.as_ref().is_some_and(|atlas| atlas.planar);
     let charts = report.charts.iter().filter(|_| is_planar && report.method.is_some());
-    let ratios = charts.filter_map(|chart| Some((chart.distortion.bad_ratio_of_areas()?, chart.first_face)));
-    let (ratio, face) = ratios.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
-    Some(areas_words(ratio, &format!("mesh and map in the chart of face {}", face.number())))
+    let energy = |chart: &ChartReport| chart.distortion.symmetric_dirichlet.mean;
+    let remedies = charts
+        .filter_map(|chart| Some((chart, Remedy::of(&chart.distortion, &chart.steps, report, chart.pins.count > 0)?)));
+    let (chart, remedy) = remedies.max_by(|(a, _), (b, _)| energy(a).total_cmp(&energy(b)))?;
+    Some(remedy.words(&chart.distortion, &format!("mesh and map in the chart of face {}", chart.first_face.number())))
 }
 
-fn areas_words(ratio: f64, between: &str) -> String {
-    let ratio = if ratio < 1e6 { format!("{ratio:.0}") } else { format!("{ratio:.0e}") };
-    format!("areas of {between} differ by {ratio} : 1: add --relax 20 to lower the distortion")
+/// Options that lower the distortion of a map.
+#[derive(Clone, Copy)]
+enum Remedy {
+    /// Relaxing the map.
+    Relax,
+    /// Cutting holes open instead of filling them.
+    Cut,
+    /// Cutting along more seams.
+    CutMore,
+}
+
+impl Remedy {
+    /// Smallest remedy of a map; `None` if its distortion is small, or no option lowers it.
+    fn of(distortion: &DistortionSummary, steps: &[StepReport], report: &Report, is_pinned: bool) -> Option<Self> {
+        let energy = distortion.symmetric_dirichlet.mean;
+        let is_bad = energy > BAD_ENERGY || distortion.bad_ratio_of_areas().is_some();
+        // Degenerate faces alone can differ in area, and nothing helps them.
+        if !is_bad || energy <= SeamOptions::DISTORTION {
+            return None;
+        }
+        if steps.last().is_some_and(|step| step.stage != Stage::Relax) {
+            return Some(Self::Relax);
+        }
+        let is_filled = report.mesh.repairs.iter().any(|done| done.repair == Repair::FillHoles);
+        let remedy = if is_filled { Self::Cut } else { Self::CutMore };
+        (energy > BAD_ENERGY && report.seams.is_none() && !is_pinned).then_some(remedy)
+    }
+
+    fn words(self, distortion: &DistortionSummary, between: &str) -> String {
+        let remedy = match self {
+            Self::Relax => "add --relax 20 to lower the distortion",
+            Self::Cut => "add --cut auto to cut holes open instead of filling them",
+            Self::CutMore => "add --cut auto --distortion 4.1 to cut along seams",
+        };
+        match distortion.bad_ratio_of_areas() {
+            Some(ratio) => {
+                let ratio = if ratio < 1e6 { format!("{ratio:.0}") } else { format!("{ratio:.0e}") };
+                format!("areas of {between} differ by {ratio} : 1: {remedy}")
+            }
+            None => format!("{between} differ by an energy of {:.1}: {remedy}", distortion.symmetric_dirichlet.mean),
+        }
+    }
 }
 
 /// Summary of compared methods: a table, followed by the reasons of failures.
@@ -262,7 +330,11 @@ fn chart_words(chart: &ChartReport, packing: Option<PackingSummary>) -> String {
     let pins = pins_words(&chart.pins).map(|words| format!("; {words}")).unwrap_or_default();
     // Most charts have the common density of the packing.
     let is_own = packing.is_none_or(|packing| (chart.density / packing.density - 1.0).abs() > 1e-6);
-    let density = if is_own { format!("; {:.4} pixels per unit", chart.density) } else { String::new() };
+    let density = if is_own && chart.density.is_finite() {
+        format!("; {:.4} pixels per unit", chart.density)
+    } else {
+        String::new()
+    };
     let tile = chart.tile.filter(|_| packing.is_some_and(|packing| packing.tiles > 1));
     let tile = tile.map(|tile| format!("; tile {tile}")).unwrap_or_default();
     let locked = if chart.placement == Placement::Locked { "; locked" } else { "" };
@@ -308,8 +380,9 @@ pub(super) fn summary(report: &Report, verdict: &str) -> String {
     if report.new_vertices > 0 {
         lines.push(format!("new vertices: {} on {} split edges", report.new_vertices, report.split_edges.len()));
     }
-    let falls_short = report.verdict.as_ref().is_some_and(|verdict| !verdict.planar);
-    let noted = report.steps.iter().filter(|_| falls_short).filter_map(|step| Some((step.index, step.note.as_ref()?)));
+    // Notes say why a given layout was not kept, or why the map is not planar.
+    let is_noted = report.start.is_some() || report.verdict.as_ref().is_some_and(|verdict| !verdict.planar);
+    let noted = report.steps.iter().filter(|_| is_noted).filter_map(|step| Some((step.index, step.note.as_ref()?)));
     lines.extend(noted.map(|(index, note)| format!("step {index}: {note}")));
     lines.extend(report.pins.as_ref().and_then(pins_words));
     if let Some(distortion) = &report.distortion {
@@ -323,7 +396,7 @@ pub(super) fn summary(report: &Report, verdict: &str) -> String {
             distortion.symmetric_dirichlet.mean
         ));
     }
-    lines.extend(relaxing_words(report));
+    lines.extend(distortion_words(report));
     lines.push(seconds_words(&report.seconds));
     lines.join("\n")
 }

@@ -5,13 +5,14 @@ use std::collections::BTreeSet;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec2, UVec2};
 
-use super::args::SeamKind;
+use super::args::{Denied, SeamKind};
 use crate::session::Model;
 use freebound_core::cutting::SeamOptions;
 use freebound_core::geom::PackingOptions;
 use freebound_core::mesh::{VertexId, WeldDistance};
 use freebound_core::pipeline::Target;
 use freebound_core::problem::{NamedOption, PinKind};
+use freebound_core::verify::FindingCode;
 use freebound_io::ConstraintFault;
 
 /// Parser for named options, which lists all names with a description of each.
@@ -62,6 +63,16 @@ pub(super) fn parse_aspect(text: &str) -> Result<f64, String> {
 pub(super) fn parse_weld_distance(text: &str) -> Result<WeldDistance, String> {
     let parsed = text.trim().parse().ok().and_then(WeldDistance::new);
     parsed.ok_or_else(|| "write a distance of 0 or more, for example 0.001".to_owned())
+}
+
+/// Parses the code of a finding.
+pub(super) fn parse_code(text: &str) -> Result<FindingCode, String> {
+    text.trim().parse()
+}
+
+/// Parses the code of a finding, or "warnings".
+pub(super) fn parse_denied(text: &str) -> Result<Denied, String> {
+    if text.trim() == "warnings" { Ok(Denied::Warnings) } else { parse_code(text).map(Denied::Code) }
 }
 
 /// Parses a bound on the mean symmetric Dirichlet energy.
@@ -124,7 +135,7 @@ pub(super) fn parse_tiles(text: &str) -> Result<TileRule, String> {
     rule.ok_or_else(|| format!("write materials, groups or a number from 1 to {}", PackingOptions::MOST_TILES))
 }
 
-/// Parses "sharp", "sharp=degrees", "materials" or "groups".
+/// Parses "sharp", "sharp=degrees", "materials", "groups" or "splits".
 pub(super) fn parse_seam_kind(text: &str) -> Result<SeamKind, String> {
     let parsed = || match text.split_once('=') {
         Some(("sharp", degrees)) => {
@@ -134,9 +145,10 @@ pub(super) fn parse_seam_kind(text: &str) -> Result<SeamKind, String> {
         None if text == "sharp" => Some(SeamKind::Sharp(Model::SHARP_DEGREES)),
         None if text == "materials" => Some(SeamKind::Materials),
         None if text == "groups" => Some(SeamKind::Groups),
+        None if text == "splits" => Some(SeamKind::Splits),
         _ => None,
     };
-    parsed().ok_or_else(|| "write sharp, sharp=DEGREES (above 0, up to 180), materials or groups".to_owned())
+    parsed().ok_or_else(|| "write sharp, sharp=DEGREES (above 0, up to 180), materials, groups or splits".to_owned())
 }
 
 /// Parts of a mesh that are flattened.

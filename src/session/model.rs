@@ -9,7 +9,7 @@ use crate::examples::Example;
 use freebound_core::cutting::SeamOptions;
 use freebound_core::flatten::Options;
 use freebound_core::geom::PackingOptions;
-use freebound_core::mesh::{DiskMesh, PartFaces, Preparation, Repaired, TriMesh, VertexId};
+use freebound_core::mesh::{DiskMesh, FaceId, PartFaces, Preparation, Repaired, TriMesh, VertexId};
 use freebound_core::pipeline::{
     Arrangement, AutomaticSeams, Fit, MeshToCut, Outcome, PreparedMesh, Problem, SeamReport, SolvedChart, Surface,
     atlas,
@@ -380,17 +380,28 @@ pub struct SolvedModel<'a> {
 ///
 /// If there is no chart, a model is not a chart of several, or a chart is not a disk.
 pub fn finished_atlas<'a>(charts: &[SolvedModel<'a>], options: PackingOptions, arrangement: Arrangement) -> Output<'a> {
+    // Charts that are packed do not overlap, whatever their materials.
+    let is_in_file = arrangement == Arrangement::AsGiven;
+    let materials = is_in_file.then(|| charts[0].model.source.material_labels().ok()).flatten();
     let solved = |&SolvedModel { model, outcome, size, tile, locked, .. }: &SolvedModel<'a>| SolvedChart {
         chart: &model.prepared,
         outcome,
         size,
         tile,
         locked,
+        group: materials.as_deref().and_then(|materials| common_label(model.mesh(), materials)),
     };
     let solved: Vec<SolvedChart<'a>> = charts.iter().map(solved).collect();
     let laid = atlas(&solved, options, arrangement);
     let steps = charts.iter().map(|of| of.steps.to_vec()).collect();
     charts[0].model.result_source(&charts[0].outcome.problem.settings).finished_atlas(&solved, laid, steps)
+}
+
+/// Label of all faces of a mesh; `None` if they differ. `labels` has one label per face of the file.
+fn common_label(mesh: &TriMesh, labels: &[u32]) -> Option<u32> {
+    let mut faces = (0..mesh.real_face_count()).map(|face| labels.get(mesh.polygon(FaceId::from_index(face)) as usize));
+    let first = faces.next()??;
+    faces.all(|label| label == Some(first)).then_some(*first)
 }
 
 /// Labels of the corners by texture coordinates, if a preparation cuts along their seams.

@@ -1,7 +1,7 @@
 //! Edges of a mesh that seams usually follow.
 
 use super::Model;
-use freebound_core::mesh::{VertexId, borders, creases};
+use freebound_core::mesh::{VertexId, borders, creases, splits};
 use freebound_io::LabelError;
 
 /// Edges for seams, by the file's vertices. Each edge appears once, in ascending order.
@@ -12,6 +12,11 @@ impl Model {
     /// Edges whose face normals differ by at least `degrees`. The angle is 0 in a plane.
     pub fn crease_edges(&self, degrees: f64) -> Vec<[VertexId; 2]> {
         creases(&self.source.polygons, self.prepared.form.repair, degrees)
+    }
+
+    /// Edges at which repairs have joined vertices: where a program has split the mesh.
+    pub fn split_edges(&self) -> Vec<[VertexId; 2]> {
+        splits(&self.source.polygons, self.prepared.form.repair)
     }
 
     /// Edges between faces of different materials.

@@ -56,8 +56,6 @@ impl<'a> ResultSource<'a> {
         };
         let solve = steps.iter().map(|step| step.seconds).sum();
         let verify = step.verify_seconds + start.elapsed().as_secs_f64();
-        let repairs = prepared.repaired.as_ref().map(|repaired| repaired.done().to_vec()).unwrap_or_default();
-        let warnings = self.file.warnings.clone();
         let report = Report {
             method: Some(settings.method.clone()),
             family: settings.method.uses_family().then_some(settings.family()),
@@ -73,7 +71,7 @@ impl<'a> ResultSource<'a> {
             split_edges: step.candidate.refinement.as_ref().map(|r| r.split_edges_of_surface()).unwrap_or_default(),
             cut_polygons: step.candidate.refinement.as_ref().map(|r| r.cut_polygons(given)).unwrap_or_default(),
             seconds: Seconds { solve, verify, total: solve + verify, ..Seconds::default() },
-            ..Report::of_mesh(MeshReport { repairs, warnings, ..MeshReport::new(self.name, given) })
+            ..Report::of_mesh(MeshReport::new(self.name, given).prepared(self.file, prepared.repaired.as_deref()))
         };
         let (refinement, held) = (step.candidate.refinement.as_deref(), outcome.held());
         Output {
@@ -81,7 +79,16 @@ impl<'a> ResultSource<'a> {
             source_path: self.path,
             materials: Materials::default(),
             repaired: prepared.repaired.as_deref(),
-            charts: vec![LaidChart { mesh, refinement, vertex_of: None, coordinates, verdict, held, stacked: None }],
+            charts: vec![LaidChart {
+                mesh,
+                refinement,
+                vertex_of: None,
+                coordinates,
+                verdict,
+                held,
+                stacked: None,
+                group: None,
+            }],
             report,
             picture: None,
             aspect: if is_on_picture { frame.aspect } else { 1.0 },
@@ -106,7 +113,6 @@ impl<'a> ResultSource<'a> {
         let mesh = MeshReport::of_disks(self.name, polygons.positions.len(), disks);
         let settings = &charts[0].outcome.problem.settings;
         let solve = steps.iter().flatten().map(|step| step.seconds).sum();
-        let repairs = whole.map(|whole| whole.done().to_vec()).unwrap_or_default();
         let new_vertices = atlas.summaries.iter().map(|summary| summary.new_vertices).sum();
         let report = Report {
             method: Some(settings.method.clone()),
@@ -125,7 +131,7 @@ impl<'a> ResultSource<'a> {
             split_edges: atlas.split_edges,
             cut_polygons: atlas.cut_polygons,
             seconds: Seconds { solve, ..Seconds::default() },
-            ..Report::of_mesh(MeshReport { repairs, warnings: self.file.warnings.clone(), ..mesh })
+            ..Report::of_mesh(mesh.prepared(self.file, whole))
         };
         Output {
             source: self.file,

@@ -4,11 +4,11 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::{Precision, ReadWarning, RoundingReport, StepReport, peak_memory_bytes};
-use freebound_core::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
+use super::{MeshFile, Precision, ReadWarning, RoundingReport, StepReport, peak_memory_bytes};
+use freebound_core::mesh::{DiskMesh, Done, FaceId, Part, Repaired, TriMesh, VertexId};
 use freebound_core::pipeline::{AutomaticSeams, PackingSummary, PinsSummary, Placement, RepackedChart, StackedOn};
 use freebound_core::problem::{BoundaryShape, Family, Method, Settings, Spacing};
-use freebound_core::verify::{AtlasVerdict, DistortionSummary, Verdict};
+use freebound_core::verify::{AtlasVerdict, DistortionSummary, LayoutVerdict, Verdict};
 
 /// Version of the report format, which `docs/report.schema.json` describes. Incremented if a field is removed or
 /// changes its meaning, not if a field is added.
@@ -59,6 +59,9 @@ pub struct Report {
     /// Exact verdict on a layout of several charts, or of one chart with holes. Replaces `verdict`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub atlas: Option<AtlasVerdict>,
+    /// Verdict on a given layout, with findings. Decides the exit status of `check`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layout: Option<LayoutVerdict>,
     /// Automatic seams; absent if none were looked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seams: Option<SeamsReport>,
@@ -168,6 +171,13 @@ pub struct MeshReport {
     pub mollification: f64,
     /// Repairs, in the order of their application.
     pub repairs: Vec<Done>,
+    /// Faces without area that were left out, by their numbers in the file. All corners of such a face lie at one point
+    /// of the map.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub degenerate_faces: Vec<u32>,
+    /// Vertices at the position of a vertex of another part, with which they are not joined.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub touching_vertices: usize,
     /// Elements of the file that were left out.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<ReadWarning>,
@@ -185,10 +195,26 @@ impl MeshReport {
             ears: mesh.ears().len(),
             unused_vertices: mesh.vertex_count() - mesh.used_vertex_count(),
             mollification: mesh.mollification() * mesh.unit(),
-            repairs: Vec::new(),
-            warnings: Vec::new(),
+            ..Self::default()
         }
     }
+
+    /// Adds what was read and repaired.
+    #[must_use]
+    pub fn prepared(self, file: &MeshFile, repaired: Option<&Repaired>) -> Self {
+        Self {
+            repairs: repaired.map(|repaired| repaired.done().to_vec()).unwrap_or_default(),
+            degenerate_faces: repaired.map(|repaired| repaired.degenerate_faces().to_vec()).unwrap_or_default(),
+            touching_vertices: repaired.map_or(0, |repaired| repaired.touching_vertices(&file.polygons)),
+            warnings: file.warnings.clone(),
+            ..self
+        }
+    }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+const fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 impl MeshReport {

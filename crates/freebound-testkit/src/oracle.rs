@@ -214,3 +214,57 @@ fn meet_as_in_the_mesh(first: [u32; 3], second: [u32; 3], points: &[Point]) -> b
     let cross_between_ends = sides(first).iter().any(|&s| sides(second).iter().any(|&t| apart(s, t) && apart(t, s)));
     !cross_between_ends && !strays(first, second) && !strays(second, first)
 }
+
+/// Pairs of triangles whose intersection has area, the lower one second. The intersection is found by clipping one
+/// triangle at the sides of the other, in rational numbers.
+pub fn overlapping_pairs(triangles: &[[u32; 3]], embedding: &Embedding) -> Vec<[usize; 2]> {
+    let points: Vec<RationalPoint> =
+        points(embedding).into_iter().map(|point| point.map(BigRational::from_integer)).collect();
+    let corners = |face: usize| {
+        let mut corners = triangles[face].map(|v| points[v as usize].clone()).to_vec();
+        if doubled_area(&corners) < BigRational::ZERO {
+            corners.reverse();
+        }
+        corners
+    };
+    let overlap = |a: usize, b: usize| {
+        let (clip, mut rest) = (corners(b), corners(a));
+        if doubled_area(&clip) == BigRational::ZERO {
+            return false;
+        }
+        for k in 0..3 {
+            rest = clipped(&rest, [&clip[k], &clip[(k + 1) % 3]]);
+        }
+        doubled_area(&rest) > BigRational::ZERO
+    };
+    (0..triangles.len()).flat_map(|a| (0..a).map(move |b| [a, b])).filter(|&[a, b]| overlap(a, b)).collect()
+}
+
+type RationalPoint = [BigRational; 2];
+
+fn doubled_area(polygon: &[RationalPoint]) -> BigRational {
+    let product = |k: usize| {
+        let [p, q] = [&polygon[k], &polygon[(k + 1) % polygon.len()]];
+        &p[0] * &q[1] - &p[1] * &q[0]
+    };
+    (0..polygon.len()).map(product).sum()
+}
+
+/// Part of a convex polygon to the left of a line.
+fn clipped(polygon: &[RationalPoint], [from, to]: [&RationalPoint; 2]) -> Vec<RationalPoint> {
+    let height =
+        |p: &RationalPoint| (&to[0] - &from[0]) * (&p[1] - &from[1]) - (&to[1] - &from[1]) * (&p[0] - &from[0]);
+    let mut kept = Vec::new();
+    for k in 0..polygon.len() {
+        let (p, q) = (&polygon[k], &polygon[(k + 1) % polygon.len()]);
+        let (at_p, at_q) = (height(p), height(q));
+        if at_p >= BigRational::ZERO {
+            kept.push(p.clone());
+        }
+        if (at_p > BigRational::ZERO) != (at_q > BigRational::ZERO) && at_p != at_q {
+            let share = &at_p / (&at_p - &at_q);
+            kept.push([0, 1].map(|i| &p[i] + (&q[i] - &p[i]) * &share));
+        }
+    }
+    kept
+}

@@ -16,8 +16,9 @@ pub struct MeshArguments {
     pub mesh: PathBuf,
     /// Repairs that are allowed: none, safe (no visible change), all, or a list.
     ///
-    /// A list has names separated by commas: drop-repeated-corners, drop-duplicate-faces, weld-vertices, split-edges,
-    /// turn-faces, split-vertices, fill-holes.
+    /// A list has names separated by commas: drop-repeated-corners, stack-duplicates, separate-duplicates,
+    /// weld-vertices, split-edges, turn-faces, split-vertices, fill-holes. Faces with the vertices of an earlier face
+    /// share its place with `safe` and `all`; add `separate-duplicates` for places of their own.
     #[arg(long, value_name = "none|safe|all|LIST", default_value_t)]
     pub repair: Repairs,
     /// Join vertices of faces within this distance of each other, in units of the mesh.
@@ -58,11 +59,12 @@ pub struct MeshArguments {
     /// Seams prefer creases, and places that the rest of their part hides. At 0 only their length counts.
     #[arg(long, value_name = "W", value_parser = parse_visibility, hide_short_help = true)]
     pub seam_visibility: Option<f64>,
-    /// Cut along these edges too: sharp edges, borders of materials, borders of groups.
+    /// Cut along these edges too: sharp edges, borders of materials or groups, splits.
     ///
     /// `sharp` takes edges with an angle of 60 degrees or more between the faces; `sharp=DEGREES` sets the angle.
+    /// `splits` takes edges that `--repair all` or `--weld` joins: where another program has split the mesh at its seams.
     /// Separate several kinds by commas.
-    #[arg(long, value_name = "sharp[=DEGREES],materials,groups", value_delimiter = ',', value_parser = parse_seam_kind)]
+    #[arg(long, value_name = "sharp[=DEGREES],materials,groups,splits", value_delimiter = ',', value_parser = parse_seam_kind)]
     pub seams: Vec<SeamKind>,
     /// Parts of the mesh to flatten: numbers separated by commas, or `largest`. Default: all.
     ///
@@ -134,6 +136,8 @@ pub enum SeamKind {
     Materials,
     /// Edges between faces of different groups or objects.
     Groups,
+    /// Edges at which the file's mesh is split, and joined by a repair.
+    Splits,
 }
 
 /// Value of `--charts`.

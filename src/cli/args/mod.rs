@@ -2,7 +2,8 @@
 //!
 //! | file      | content                                       |
 //! |-----------|-----------------------------------------------|
-//! | `mod`     | commands; arguments of `check` and `figures`  |
+//! | `mod`     | commands; arguments of `figures`              |
+//! | `check`   | arguments of `check`                          |
 //! | `mesh`    | arguments for the mesh and its preparation    |
 //! | `solve`   | arguments for pins and settings of the solver |
 //! | `flatten` | arguments of `flatten`                        |
@@ -12,6 +13,7 @@
 //! | `study`   | arguments of `study`                          |
 //! | `threads` | argument for the number of threads            |
 
+mod check;
 mod compare;
 mod flatten;
 mod mesh;
@@ -27,6 +29,7 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::examples::ExampleFiles;
 
+pub(super) use check::{CheckArguments, Denied};
 pub use compare::{CompareArguments, ComparisonFile};
 pub use flatten::{FlattenArguments, UnwrapArguments};
 pub use mesh::{Cut, MeshArguments, SeamKind};
@@ -106,7 +109,7 @@ pub enum Subcommands {
     Compare(Box<CompareArguments>),
     /// Diagnose a mesh, and verify its texture coordinates if it has any.
     #[command(after_help = EXIT_HELP)]
-    Check(CheckArguments),
+    Check(Box<CheckArguments>),
     /// Write the files of a built-in example, or list the examples.
     Example(ExampleArguments),
     /// List methods and families of weights with their sources.
@@ -135,23 +138,4 @@ pub struct ExampleArguments {
 pub struct FiguresArguments {
     /// Folder to write into, created if it is missing.
     pub folder: PathBuf,
-}
-
-/// Arguments of `check`.
-#[derive(Debug, Args)]
-pub struct CheckArguments {
-    /// Mesh to read: an OBJ, PLY, STL, OFF, GLB or glTF file, or standard input with `-`.
-    pub mesh: PathBuf,
-    /// Write a report to this file (JSON), or to standard output with `-`.
-    #[arg(long, value_name = "FILE|-")]
-    pub report: Option<PathBuf>,
-    /// Accept charts that cover exactly one region, as `--stack` lays them out.
-    ///
-    /// Charts with equal boundaries, bit for bit, count as one when charts are tested for overlaps. Mirror images are
-    /// accepted, too.
-    #[arg(long)]
-    pub stacked: bool,
-    /// Read the mesh even if that may need more than half of the machine's memory.
-    #[arg(long)]
-    pub large: bool,
 }

@@ -185,7 +185,7 @@ fn a_mesh_without_texture_coordinates_is_described_and_reported() {
 }
 
 #[test]
-fn texture_coordinates_may_be_many_charts_but_every_corner_has_to_have_some() {
+fn texture_coordinates_may_be_many_charts_and_faces_without_any_are_named() {
     let (polygons, map) = mapped_grid();
     let program = Program::new();
     // Every face separate: as many charts as faces.
@@ -199,8 +199,11 @@ fn texture_coordinates_may_be_many_charts_but_every_corner_has_to_have_some() {
     // Some corners without coordinates.
     let text = by_vertex(&polygons, &map).replacen("f 1/1 2/2 6/6", "f 1 2 6", 1);
     program.write("in.obj", &text);
-    program.run(&["check", "in.obj", "--report", "out.json"]).expect(3);
-    assert_eq!(report()["error"]["faults"][0]["faces"], json!([0]));
+    program.run(&["check", "in.obj", "--report", "out.json"]).expect(0);
+    let finding = &report()["layout"]["findings"][0];
+    assert_eq!([&finding["code"], &finding["faces"]], [&json!("no-coordinates"), &json!([0])]);
+    program.run(&["check", "in.obj", "--deny", "no-coordinates"]).expect(4);
+    program.run(&["check", "in.obj", "--deny", "warnings", "--ignore", "no-coordinates,outside"]).expect(0);
     assert_eq!(program.files(), ["in.obj", "out.json"]);
 }
 
@@ -332,7 +335,7 @@ fn a_mesh_without_texture_coordinates_is_diagnosed_whole() {
     program.write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 4 5 6\nf 4 5 6\n");
     let report = program.run(&["check", "two.obj", "--report", "-"]).expect(0).json();
     assert_eq!((&report["mesh"]["vertices"], &report["mesh"]["faces"]), (&6.into(), &2.into()));
-    assert_eq!(report["mesh"]["repairs"][0]["repair"], "drop-duplicate-faces", "{report}");
+    assert_eq!(report["mesh"]["repairs"][0]["repair"], "stack-duplicates", "{report}");
     // Two triangles that share a vertex, which a default run splits.
     program.write("tie.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 1 2 3\nf 1 4 5\n");
     let report = program.run(&["check", "tie.obj", "--report", "-"]).expect(0).json();

@@ -60,12 +60,12 @@ fn a_run_that_breaks_off_takes_the_report_of_an_earlier_one_away_and_wrong_use_l
 }
 
 #[test]
-fn a_mesh_without_all_of_its_texture_coordinates_names_the_faces() {
+fn a_mesh_whose_faces_all_lack_texture_coordinates_names_them() {
     let program = Program::new();
-    program.write("in.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\nf 1 3 4\n");
+    program.write("in.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3\nf 1 3/1 4\n");
     let run = program.run(&["check", "in.obj", "--report", "-"]).expect(3);
     let error = &run.json()["error"];
-    assert_eq!([&error["kind"], &error["faults"][0]["faces"]], [&json!("texture-coordinates"), &json!([1])]);
+    assert_eq!([&error["kind"], &error["faults"][0]["faces"]], [&json!("texture-coordinates"), &json!([0, 1])]);
     assert!(run.stderr.starts_with("freebound: in.obj: "), "{}", run.stderr);
 }
 
@@ -122,4 +122,24 @@ fn triangle_soup_is_told_to_merge_its_vertices() {
     assert_message("failed-runs-triangle-soup", &run.stderr);
     let fault = &report.expect("a report")["error"]["faults"][0];
     assert_eq!([&fault["kind"], &fault["vertices"]], [&json!("coincident-vertices"), &json!([3, 4])]);
+    flattened(&text, &["--repair", "all"]).0.expect(0);
+}
+
+#[test]
+fn parts_that_touch_stay_apart_and_are_named() {
+    // Two squares of two triangles each, side by side, with vertices of their own.
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\n\
+                f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\n";
+    let (run, report) = flattened(text, &[]);
+    run.expect(0);
+    let report = report.expect("a report");
+    assert_eq!(report["mesh"]["touching_vertices"], json!(2));
+    assert_eq!(report["charts"].as_array().map(Vec::len), Some(2));
+    let (run, report) = flattened(text, &["--repair", "all"]);
+    run.expect(0);
+    assert_eq!(report.expect("a report")["mesh"].get("touching_vertices"), None);
+    // The split edge is a seam if that is asked for.
+    let (run, report) = flattened(text, &["--repair", "all", "--seams", "splits"]);
+    run.expect(0);
+    assert_eq!(report.expect("a report")["charts"].as_array().map(Vec::len), Some(2));
 }

@@ -1,5 +1,6 @@
 //! Command line: the program as users and scripts run it.
 
+pub(crate) mod agreement;
 pub(crate) mod arguments;
 pub(crate) mod atlas;
 pub(crate) mod book;

@@ -31,7 +31,7 @@ fn harmless_faults_are_no_reason_to_refuse_a_mesh_unless_none_may_be_mended() {
     assert_eq!(report["verdict"]["planar"], json!(true));
     let expected = json!([
         {"repair": "drop-repeated-corners", "count": 1},
-        {"repair": "drop-duplicate-faces", "count": 1},
+        {"repair": "stack-duplicates", "count": 1},
     ]);
     assert_eq!(repairs(&report), &expected);
     assert_eq!(report["mesh"]["unused_vertices"], json!(1));

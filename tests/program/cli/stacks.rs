@@ -69,7 +69,7 @@ fn check_accepts_stacks_if_it_is_told_of_them() {
         let arguments = ["flatten", "in.obj", "-o", "out.obj", "--stack", "mirrored", "--precision", precision];
         program.run(&arguments).expect(0);
         let refused = program.run(&["check", "out.obj"]).expect(4);
-        assert!(refused.stdout.contains("overlap"), "{}", refused.stdout);
+        assert!(refused.stdout.contains("error stacked"), "{}", refused.stdout);
         let accepted = program.run(&["check", "out.obj", "--stacked", "--report", "-"]).expect(0).json();
         assert_eq!(accepted["atlas"]["stacks"], json!(1));
         let verdicts = accepted["atlas"]["charts"].as_array().expect("charts");

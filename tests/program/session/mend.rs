@@ -120,7 +120,7 @@ fn what_is_harmless_is_mended_without_a_question_and_the_file_keeps_its_faces() 
     settled(&mut session, Action::Open(path.clone()));
     assert!(session.is_current() && errors(&session).is_empty());
     let model = session.model().expect("open");
-    assert_eq!(model.prepared.repaired.as_ref().expect("repaired").done()[0].repair, Repair::DropDuplicateFaces);
+    assert_eq!(model.prepared.repaired.as_ref().expect("repaired").done()[0].repair, Repair::StackDuplicates);
     assert_eq!(*model.source, read_mesh(&path).expect("a mesh"));
 }
 

@@ -22,7 +22,7 @@ const COLLINEAR: f64 = 4.0;
 const LARGE: f64 = 1e50;
 
 /// True if three finite points lie on a line up to the rounding of their coordinates.
-pub(super) fn is_zero_area(corners: [DVec3; 3]) -> bool {
+pub(crate) fn is_zero_area(corners: [DVec3; 3]) -> bool {
     let size = corners.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
     // Coordinates below the smallest normal number all round to one step: ε times that number.
     let size = size.max(f64::MIN_POSITIVE);

@@ -120,7 +120,7 @@ impl TriMesh {
     }
 
     /// Keeps the triangles for which `stays` is true.
-    fn with_faces(self, stays: &[bool]) -> Self {
+    pub(crate) fn with_faces(self, stays: &[bool]) -> Self {
         let kept = || (0..self.face_count()).filter(|&face| stays[face]).map(FaceId::from_index);
         let polygon_of = Some(kept().map(|face| self.polygon(face)).collect());
         let triangles = kept().map(|face| self.triangles[face.index()]).collect();

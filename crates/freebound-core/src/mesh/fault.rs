@@ -60,7 +60,7 @@ pub enum Fault {
     },
     /// The surface has one side only, like a Möbius strip. Lists the edges whose faces clash.
     NonOrientable(Vec<[VertexId; 2]>),
-    /// Vertices of different components coincide: as a rule they are meant to be one vertex.
+    /// Vertices of different components coincide: the components touch without being connected.
     CoincidentVertices(Vec<VertexId>),
     /// The faces are not connected across edges.
     SeveralComponents {
@@ -141,7 +141,7 @@ impl Fault {
 
     /// True if the fault does not matter when each part of the surface is flattened by itself.
     pub const fn is_of_charts(&self) -> bool {
-        matches!(self, Self::SeveralComponents { .. })
+        matches!(self, Self::SeveralComponents { .. } | Self::CoincidentVertices(_))
     }
 
     /// A fixed lower-case name, for reports and tests.
@@ -181,7 +181,7 @@ impl Fault {
                 ["non-orientable", "cut the surface along a chain of edges so that it has two sides"]
             }
             Self::CoincidentVertices(_) => {
-                ["coincident-vertices", "merge coincident vertices in the program that exported the mesh"]
+                ["coincident-vertices", "merge coincident vertices if the components are meant to be one surface"]
             }
             Self::SeveralComponents { .. } => {
                 ["several-components", "make each component a disk; each is flattened separately"]

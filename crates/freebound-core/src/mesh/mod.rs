@@ -43,6 +43,7 @@ mod triangulate;
 pub(crate) mod union;
 mod volume;
 
+pub(crate) use area::is_zero_area;
 pub(crate) use congruence::{MeasuredSurface, SurfaceFaces, SurfaceKey};
 pub use diagnosis::{Diagnosis, diagnose};
 pub use disk::DiskMesh;
@@ -57,7 +58,7 @@ pub use polygons::Polygon;
 pub use refinement::{CutMesh, NewVertex, Refinement};
 pub use repair::{
     Chart, Charts, Done, EdgePaths, HoleTreatment, PartFaces, PathTree, Preparation, Repair, Repaired, Repairs, Seams,
-    WeldDistance, borders, creases, near_vertices,
+    WeldDistance, borders, creases, near_vertices, splits,
 };
 pub use triangles::TriMesh;
 pub use volume::relative_volume;

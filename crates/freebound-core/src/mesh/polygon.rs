@@ -1,5 +1,7 @@
 //! Polygons over shared vertices: a mesh as given by a file.
 
+use std::collections::HashMap;
+
 use glam::DVec3;
 
 use super::triangulate::triangulate;
@@ -106,6 +108,64 @@ impl PolygonMesh {
         are_bare
     }
 
+    /// Polygons of four or more corners that lie on an earlier polygon, corner on corner, in either direction. Each has the
+    /// first such polygon. They are cut along its diagonals, so that both have equal triangles.
+    fn repeats(&self) -> HashMap<u32, u32> {
+        let key = |polygon: usize| {
+            // A sum does not depend on the order. The multipliers spread numbers over all bits (D. E. Knuth).
+            let spread = |sum: u64, x: u64| (sum ^ x).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(31);
+            let of_corner = |place: [u64; 3]| place.into_iter().fold(0, spread);
+            let places = self.places_of(polygon).filter(|places| places.len() > 3)?;
+            Some(places.into_iter().map(of_corner).fold(0, u64::wrapping_add))
+        };
+        let mut keys: Vec<(u64, u32)> =
+            (0..).zip(0..self.face_count()).filter_map(|(number, polygon)| Some((key(polygon)?, number))).collect();
+        keys.sort_unstable();
+        let alike = keys.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1);
+        let repeat = |group: &[(u64, u32)]| {
+            let first = group[0].1;
+            group[1..].iter().map(|&(_, polygon)| (polygon, first)).collect::<Vec<_>>()
+        };
+        let are_equal = |&(polygon, first): &(u32, u32)| self.steps_between(polygon as usize, first as usize).is_some();
+        alike.flat_map(repeat).filter(are_equal).collect()
+    }
+
+    /// Positions of the corners of a polygon, as bits; −0 equals 0. `None` if a vertex is missing.
+    fn places_of(&self, polygon: usize) -> Option<Vec<[u64; 3]>> {
+        let bits =
+            |vertex: &VertexId| Some((*self.positions.get(vertex.index())? + DVec3::ZERO).to_array().map(f64::to_bits));
+        self.face(polygon).iter().map(bits).collect()
+    }
+
+    /// Corner of a polygon on the first corner of another, and the step, 1 or the number of corners less 1, with which its
+    /// corners follow those of the other. `None` if the corners differ, or two of them lie in one place.
+    fn steps_between(&self, polygon: usize, other: usize) -> Option<[usize; 2]> {
+        let (own, other) = (self.places_of(polygon)?, self.places_of(other)?);
+        let count = own.len();
+        let mut sorted = own.clone();
+        sorted.sort_unstable();
+        let begin = own.iter().position(|place| *place == other[0])?;
+        let follows = |step: &usize| (0..count).all(|k| own[(begin + k * step) % count] == other[k]);
+        let is_simple = count == other.len() && sorted.windows(2).all(|pair| pair[0] != pair[1]);
+        let step = [1, count - 1].into_iter().find(|step| is_simple && follows(step))?;
+        Some([begin, step])
+    }
+
+    /// Replaces the corners of `earlier` in triangles by those of a polygon that repeats it.
+    fn take_over(&self, polygon: usize, earlier: usize, triangles: &mut [[u32; 3]]) {
+        let [begin, step] = self.steps_between(polygon, earlier).expect("the polygon repeats the earlier one");
+        let (own, other) = (self.corner_range(polygon), self.corner_range(earlier));
+        for triangle in triangles {
+            for place in triangle.iter_mut() {
+                let corner = own.start + (begin + (*place as usize - other.start) * step) % own.len();
+                *place = u32::try_from(corner).expect("a corner fits");
+            }
+            if step > 1 {
+                triangle.swap(1, 2);
+            }
+        }
+    }
+
     /// Triangles as indices into `corners`, and the polygon of each triangle unless every polygon is a triangle.
     ///
     /// # Panics
@@ -120,7 +180,18 @@ impl PolygonMesh {
         let mut polygon_of = Vec::with_capacity(self.corners.len());
         let mut points = Vec::new();
         let are_bare = self.bare_vertices();
+        let repeats = self.repeats();
+        // First triangle of each polygon.
+        let mut first = Vec::with_capacity(starts.len());
         for (polygon, bounds) in (0..).zip(starts.windows(2)) {
+            first.push(places.len());
+            if let Some(&earlier) = repeats.get(&polygon) {
+                let like = first[earlier as usize]..first[earlier as usize + 1];
+                places.extend_from_within(like.clone());
+                self.take_over(polygon as usize, earlier as usize, &mut places[first[polygon as usize]..]);
+                polygon_of.resize(places.len(), polygon);
+                continue;
+            }
             points.clear();
             let corners = &self.corners[bounds[0] as usize..bounds[1] as usize];
             points.extend(corners.iter().map(|v| self.positions.get(v.index()).copied().unwrap_or(DVec3::NAN)));

@@ -118,6 +118,14 @@ impl Polygons {
     }
 }
 
+impl TriMesh {
+    /// First triangles of the polygons with more than three corners for which `is_found` is true. The triangles of a
+    /// polygon are consecutive.
+    pub(crate) fn polygons_where(&self, is_found: impl Fn(&Polygon<'_>) -> bool) -> Vec<FaceId> {
+        Polygons::of(self).iter().filter(is_found).map(|polygon| polygon.first_face).collect()
+    }
+}
+
 /// Newell's normal; its length is twice the area of the polygon's projection along it.
 pub(super) fn newell_normal(points: &[DVec3]) -> DVec3 {
     let origin = points[0];

@@ -39,19 +39,19 @@ impl DisjointSets {
 
 /// Disjoint sets in which every member also has a parity relative to the root of its set.
 #[derive(Debug)]
-pub(super) struct ParitySets {
+pub(crate) struct ParitySets {
     parent: Vec<u32>,
     /// Parity relative to the parent.
     odd: Vec<bool>,
 }
 
 impl ParitySets {
-    pub(super) fn new(len: usize) -> Self {
+    pub(crate) fn new(len: usize) -> Self {
         Self { parent: (0..u32::try_from(len).expect("fewer than 2^32 members")).collect(), odd: vec![false; len] }
     }
 
     /// Root of a member's set, and the member's parity relative to it.
-    pub(super) fn find(&mut self, member: u32) -> (u32, bool) {
+    pub(crate) fn find(&mut self, member: u32) -> (u32, bool) {
         let mut at = member as usize;
         let mut odd = false;
         while self.parent[at] as usize != at {
@@ -66,7 +66,7 @@ impl ParitySets {
     }
 
     /// Records that two members differ (`odd`) or agree. Returns true if this contradicts earlier records.
-    pub(super) fn relate(&mut self, a: u32, b: u32, odd: bool) -> bool {
+    pub(crate) fn relate(&mut self, a: u32, b: u32, odd: bool) -> bool {
         let ((root_a, odd_a), (root_b, odd_b)) = (self.find(a), self.find(b));
         if root_a == root_b {
             return odd_a ^ odd_b != odd;

@@ -1,9 +1,9 @@
 //! Layout of several solved charts: placed beside each other and proved together.
 //!
-//! A chart with pins stays at its pins, and a locked chart at given coordinates. All other charts are packed into the
-//! unit square, or into several squares (tiles). If a chart has pins, the square lies to its right. With locked charts
-//! or several tiles, the square stays, and charts are packed around those that stay; if these leave no room, the others
-//! lie to their right. Packed charts share one density, in pixels per unit of length on the surface, times the
+//! A chart with pins stays at its pins, and a locked chart at given coordinates. A chart with one pin takes the scale of
+//! the charts with more. All other charts are packed into the unit square, or into several squares (tiles), around those
+//! that stay. If a chart with pins reaches beyond the square, or those that stay leave no room, the others lie to their
+//! right. Packed charts share one density, in pixels per unit of length on the surface, times the
 //! size that the user gives to each chart. Charts are packed by their shapes, in any rotation unless options forbid
 //! it. Rounding can fold a turned chart; then charts are packed again with exact quarter turns. Charts that started
 //! from the layout of their file may stay there instead ([`Arrangement::AsGiven`]). Charts with congruent surfaces may
@@ -65,6 +65,9 @@ pub struct SolvedChart<'a> {
     /// Texture coordinates of each vertex of the chart's mesh, v up. The chart stays there, up to the nearest
     /// similarity, and the others are packed around it. Pins have precedence. Default: the chart is packed.
     pub locked: Option<&'a Embedding>,
+    /// Group of the chart, such as its material, which has a picture of its own. Charts that stay at the layout of
+    /// their file may overlap charts of other groups there. Default: none.
+    pub group: Option<u32>,
 }
 
 /// Summary of one chart of an atlas. Vertices have their numbers in the whole repaired mesh.
@@ -124,7 +127,8 @@ pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions, arrangemen
     };
     let is_as_given = arrangement == Arrangement::AsGiven && options.stack == Stacking::None;
     if is_as_given && charts.iter().all(is_placed) {
-        let laid = charts.par_iter().map(|chart| chart.kept(options).unwrap_or_else(|| chart.in_place())).collect();
+        let laid = kept(charts, options).into_iter().zip(charts);
+        let laid = laid.map(|(kept, chart)| kept.unwrap_or_else(|| chart.in_place())).collect();
         let in_place = output(charts, laid, vec![None; charts.len()], None, options);
         if in_place.verdict.overlapping_faces.is_empty() {
             return in_place;
@@ -134,7 +138,7 @@ pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions, arrangemen
 }
 
 fn packed<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Atlas<'a> {
-    let mut laid: Vec<Option<Embedding>> = charts.par_iter().map(|chart| chart.kept(options)).collect();
+    let mut laid = kept(charts, options);
     let stacked = stacked_charts(charts, options.stack);
     let mut plan = PackingPlan::new(charts, &laid, &stacked, options);
     let mut packing = plan.pack(options);
@@ -144,10 +148,10 @@ fn packed<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Atlas<'a> 
         packing = plan.pack(options);
     }
     let mut options_used = options;
-    if let Some(density) = plan.density_of_locked(&laid, &packing).filter(|_| options.density.is_none())
+    if let Some(density) = plan.density_of_fixed(&laid, &packing).filter(|_| options.density.is_none())
         && density < packing.scale
     {
-        // Free charts get no more pixels than those that are locked.
+        // Free charts get no more pixels than those that stay.
         let even = PackingOptions { density: Some(density), ..options };
         let evened = plan.pack(even);
         if evened.picture == packing.picture && evened.scale > 0.0 {
@@ -171,6 +175,34 @@ fn packed<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Atlas<'a> 
     }
     let coordinates = laid.into_iter().flatten().collect();
     output(charts, coordinates, stacked, (!plan.free.is_empty()).then_some(summary), options)
+}
+
+/// Coordinates of the charts that stay. A chart with one pin is scaled about it, so that its scale is that of the charts
+/// with more pins.
+fn kept(charts: &[SolvedChart<'_>], options: PackingOptions) -> Vec<Option<Embedding>> {
+    let mut laid: Vec<Option<Embedding>> = charts.par_iter().map(|chart| chart.kept(options)).collect();
+    let plane = DVec2::new(charts[0].outcome.problem.frame.aspect, 1.0);
+    let pins = |chart: &SolvedChart<'_>| chart.outcome.targets_in_use().take(2).count();
+    let areas = charts.iter().zip(&laid).filter(|(chart, _)| pins(chart) > 1);
+    let areas = areas.filter_map(|(chart, laid)| Some([chart.area_on(laid.as_ref()?, plane), chart.disk().area()]));
+    let [in_plane, on_surface] = areas.fold([0.0; 2], |sum, [a, b]| [sum[0] + a, sum[1] + b]);
+    let scale = (in_plane / on_surface).sqrt();
+    if !(scale.is_finite() && scale > 0.0) {
+        return laid;
+    }
+    let with_one = charts.par_iter().zip(&mut laid).filter(|(chart, _)| pins(chart) == 1);
+    with_one.for_each(|(chart, laid)| {
+        let Some(coordinates) = laid else { return };
+        let own = (chart.area_on(coordinates, plane) / chart.disk().area()).sqrt();
+        let pinned = chart.outcome.targets_in_use().next().map(|(&vertex, _)| coordinates[vertex]);
+        let (factor, pin) = (scale / own, pinned.unwrap_or_default());
+        let scaled: Embedding = coordinates.iter().map(|&z| (z - pin) * factor + pin).collect();
+        let is_planar = |at: &Embedding| verdict(chart.outcome.step.candidate.mesh(chart.disk()), at).planar;
+        if factor.is_finite() && (is_planar(&scaled) || !is_planar(coordinates)) {
+            *coordinates = scaled;
+        }
+    });
+    laid
 }
 
 fn stacked_charts(charts: &[SolvedChart<'_>], stacking: Stacking) -> Vec<Option<StackedChart>> {
@@ -211,7 +243,9 @@ impl<'a, 'b> PackingPlan<'a, 'b> {
                 piece.grow_to(LEAST_EXTENT * total, &charts[chart]);
             }
         }
-        if options.tiles <= 1 && !charts.iter().any(SolvedChart::is_locked) {
+        let is_inside = |laid: &Embedding| Bounds::of(laid.iter().copied()).union(Bounds::UNIT) == Bounds::UNIT;
+        let leave_the_square = options.tiles <= 1 && !charts.iter().any(SolvedChart::is_locked);
+        if leave_the_square && !laid.iter().flatten().all(is_inside) {
             return Self { charts, free, pieces, fixed: Vec::new(), beside: first_column_beside(laid) };
         }
         let fixed = charts.par_iter().zip(laid).filter_map(|(chart, laid)| Some(chart.fixed_shape(laid.as_ref()?)));
@@ -225,12 +259,12 @@ impl<'a, 'b> PackingPlan<'a, 'b> {
         pack_beside(input, options, &|| false).expect("a packing that nobody cancels")
     }
 
-    /// Density of the locked charts on the picture of a packing: pixels per unit of length on the surface. `None` if no
-    /// chart is locked, or the others are packed beside them.
-    fn density_of_locked(&self, laid: &[Option<Embedding>], packing: &Packing) -> Option<f64> {
+    /// Density of the charts that stay on the picture of a packing: pixels per unit of length on the surface. `None` if no
+    /// chart stays, or the others are packed beside them.
+    fn density_of_fixed(&self, laid: &[Option<Embedding>], packing: &Packing) -> Option<f64> {
         let on_picture = packing.picture.as_dvec2();
-        let is_locked = |(chart, _): &(&SolvedChart<'_>, _)| chart.is_locked() && !self.fixed.is_empty();
-        let areas = self.charts.iter().zip(laid).filter(is_locked).filter_map(|(chart, laid)| {
+        let stay = self.charts.iter().zip(laid).filter(|_| !self.fixed.is_empty());
+        let areas = stay.filter_map(|(chart, laid)| {
             Some([chart.area_on(laid.as_ref()?, on_picture), chart.size.powi(2) * chart.disk().area()])
         });
         let [pixels, area] = areas.fold([0.0; 2], |sum, [pixels, area]| [sum[0] + pixels, sum[1] + area]);
@@ -369,7 +403,7 @@ pub(super) fn triangles_of(triangles: &[[VertexId; 3]], at: impl Fn(&VertexId) -
 impl<'a> SolvedChart<'a> {
     /// Chart of default size that is packed into any tile.
     pub fn new(chart: &'a PreparedMesh, outcome: &'a Outcome) -> Self {
-        Self { chart, outcome, size: 1.0, tile: None, locked: None }
+        Self { chart, outcome, size: 1.0, tile: None, locked: None, group: None }
     }
 
     /// Chart with final coordinates and their verdict.
@@ -379,7 +413,7 @@ impl<'a> SolvedChart<'a> {
         let verdict = verdict(mesh, &coordinates);
         let vertex_of = self.chart.chart.as_ref().map(|of| &of.chart.vertex_of[..]);
         let (refinement, held) = (step.candidate.refinement.as_deref(), self.outcome.held());
-        LaidChart { mesh, refinement, vertex_of, coordinates, verdict, held, stacked: None }
+        LaidChart { mesh, refinement, vertex_of, coordinates, verdict, held, stacked: None, group: self.group }
     }
 
     /// Surface of the chart, if the chart may share its place: it is not locked, and has no pins, a planar map and no

@@ -146,7 +146,8 @@ impl<'a> PartsToCut<'a> {
         let start = Instant::now();
         let uncut = Preparation { cut: false, seams: form.seams.without_automatic(), ..form.clone() };
         let repaired = uncut.repaired_along(mesh, labels);
-        let parts = if repaired.has_faces() { repaired.separate_parts() } else { Vec::new() };
+        let are_finite = repaired.polygons().positions.iter().all(|position| position.is_finite());
+        let parts = if repaired.has_faces() && are_finite { repaired.separate_parts() } else { Vec::new() };
         let cost = |edge: [VertexId; 2]| form.seams.costs().get(&edge).copied().unwrap_or(1.0);
         let costs_of = |part: &Repaired| {
             let stated = part.by_edge_in(mesh, cost);

@@ -6,7 +6,7 @@ use super::StackedChart;
 use crate::mesh::{DiskMesh, FaceId, Part, Polygon, Refinement, TriMesh, VertexId, parts};
 use crate::parallel::prelude::*;
 use crate::problem::Embedding;
-use crate::verify::{AtlasVerdict, Verdict, stacked_atlas_verdict, verdict};
+use crate::verify::{AtlasVerdict, ChartRelations, Verdict, stacked_atlas_verdict, verdict};
 
 /// A chart with final coordinates. Most meshes have only one chart.
 #[derive(Debug)]
@@ -25,6 +25,8 @@ pub struct LaidChart<'a> {
     pub held: Vec<VertexId>,
     /// Place on another chart. Absent for a chart with a place of its own.
     pub stacked: Option<StackedChart>,
+    /// Group of the chart: it may overlap charts of other groups. Absent if it overlaps no other chart.
+    pub group: Option<u32>,
 }
 
 /// Charts joined to one mesh. Vertices and faces of each chart follow those of the chart before.
@@ -102,8 +104,10 @@ pub fn prove_atlas(charts: &[LaidChart<'_>]) -> AtlasVerdict {
     let charts_of_faces: Vec<usize> =
         face_counts.flat_map(|(chart, faces)| std::iter::repeat_n(chart, faces)).collect();
     let on = |chart: usize| Some(charts[chart].stacked.as_ref()?.on.chart);
-    let stacked_on = stacked_parts(&parts, |face| charts_of_faces[face.index()], on);
-    stacked_atlas_verdict(&parts, &coordinates, &stacked_on).as_in_file(&mesh)
+    let chart_of_face = |face: FaceId| charts_of_faces[face.index()];
+    let stacked_on = stacked_parts(&parts, chart_of_face, on);
+    let groups = parts.iter().map(|part| charts[chart_of_face(part.face_of()[0])].group).collect();
+    stacked_atlas_verdict(&parts, &coordinates, &ChartRelations { stacked_on, groups }).as_in_file(&mesh)
 }
 
 /// Part whose place each part shares on purpose. `chart_of_face` is the chart of each triangle, and `on` is the chart

@@ -173,22 +173,19 @@ fn surface_of(polygons: &PolygonMesh, form: &Preparation) -> Found {
     }
     let as_given = DiskMesh::try_from(polygons.triangulate());
     let is_welded = form.repair.weld_distance().is_some();
-    let (as_given, diagnosis) = match as_given {
-        Ok(disk) if is_welded => (Some(disk), Diagnosis::default()),
+    let as_given = match as_given {
+        Ok(disk) if is_welded => Some(disk),
         Ok(disk) => return Found::disk(disk, None),
-        Err(diagnosis) => (None, *diagnosis),
+        Err(diagnosis) if is_soup(polygons, form.repair, &diagnosis) => {
+            return Found::left(form.repaired(polygons), *diagnosis);
+        }
+        Err(_) => None,
     };
     let repaired = form.repaired(polygons);
     if let Some(disk) = as_given.filter(|_| repaired.done().is_empty()) {
         return Found::disk(disk, None);
     }
-    // Parts whose vertices coincide are as a rule one surface that a program took apart.
-    let lies_apart = diagnosis.faults.iter().any(|fault| matches!(fault, Fault::CoincidentVertices(_)));
-    let is_meant_as_one = lies_apart && !form.repair.allows(Repair::WeldVertices) && !is_welded;
-    match DiskMesh::try_from(repaired.triangulate()) {
-        Err(left) if is_meant_as_one => Found::left(repaired, *left),
-        found => charts_of(repaired, found),
-    }
+    cut_surface(repaired)
 }
 
 /// Refusal of a mesh with faults that cutting does not repair, if no repair is allowed. Vertices are welded first:
@@ -210,23 +207,26 @@ fn refused_unrepaired(polygons: &PolygonMesh, repairs: Repairs) -> Option<Found>
 
 /// True if a mesh is refused however it is cut: it has faults that cutting does not repair.
 fn is_refused_uncut(polygons: &PolygonMesh, repairs: Repairs) -> bool {
-    let has = |is_fault: &dyn Fn(&Fault) -> bool| diagnose(&polygons.triangulate()).faults.iter().any(is_fault);
     if repairs.is_none() {
         return refused_unrepaired(polygons, repairs).is_some();
     }
+    is_soup(polygons, repairs, &diagnose(&polygons.triangulate()))
+}
+
+/// True if most faces touch others without being connected to any: vertices are missing their joins. Larger parts that
+/// touch are charts of their own.
+fn is_soup(polygons: &PolygonMesh, repairs: Repairs, diagnosis: &Diagnosis) -> bool {
     let is_welded = repairs.allows(Repair::WeldVertices) || repairs.weld_distance().is_some();
-    !is_welded && has(&|fault| matches!(fault, Fault::CoincidentVertices(_)))
+    if is_welded || !diagnosis.faults.iter().any(|fault| matches!(fault, Fault::CoincidentVertices(_))) {
+        return false;
+    }
+    let alone = Preparation::default().parts(polygons, None).iter().filter(|part| part.count == 1).count();
+    2 * alone > polygons.face_count()
 }
 
-/// Surface cut along its seams.
+/// Repaired and cut surface: a disk, several charts, or the remaining faults.
 fn cut_surface(repaired: Repaired) -> Found {
-    let found = DiskMesh::try_from(repaired.triangulate());
-    charts_of(repaired, found)
-}
-
-/// A disk, several charts, or the remaining faults.
-fn charts_of(repaired: Repaired, found: Result<DiskMesh, Box<Diagnosis>>) -> Found {
-    match found {
+    match DiskMesh::try_from(repaired.triangulate()) {
         Ok(disk) => {
             let is_repaired = !repaired.done().is_empty();
             Found::disk(disk, is_repaired.then_some(repaired))

@@ -18,7 +18,7 @@ use crate::geom::{Packing, PackingOptions, Rotations, Stacking};
 use crate::mesh::{Diagnosis, FaceId, PolygonMesh, TriMesh, VertexId, parts};
 use crate::parallel::prelude::*;
 use crate::problem::Embedding;
-use crate::verify::{AtlasVerdict, RoundingGrid, stacked_atlas_verdict};
+use crate::verify::{AtlasVerdict, ChartRelations, RoundingGrid, stacked_atlas_verdict};
 
 /// Greatest extent of a chart that is scaled to the area of its surface, relative to the root of that area. Charts that
 /// are thinner in the layout keep the scale of the whole layout: they have hardly an area there.
@@ -140,7 +140,8 @@ impl Repacked {
         }
         let on = |chart: usize| Some(self.charts[chart].stacked?.chart);
         let stacked_on = stacked_parts(&parts, |face| chart_of_polygon[&mesh.polygon(face)], on);
-        Ok(stacked_atlas_verdict(&parts, &self.coordinates, &stacked_on).as_in_file(mesh))
+        let relations = ChartRelations { stacked_on, ..ChartRelations::default() };
+        Ok(stacked_atlas_verdict(&parts, &self.coordinates, &relations).as_in_file(mesh))
     }
 }
 

@@ -88,16 +88,36 @@ pub struct AtlasVerdict {
 ///
 /// If the embedding lacks a vertex of a part.
 pub fn atlas_verdict(charts: &[Part], embedding: &Embedding) -> AtlasVerdict {
-    stacked_atlas_verdict(charts, embedding, &vec![None; charts.len()])
+    stacked_atlas_verdict(charts, embedding, &ChartRelations::default())
 }
 
-/// [`atlas_verdict`] for charts that share a place on purpose. `stacked_on` has the number of the chart whose place a
-/// chart shares, which has a place of its own. A chart whose boundary differs from that chart's counts as not stacked.
+/// Charts that may overlap others.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ChartRelations {
+    /// Number of the chart whose place a chart shares, which has a place of its own. Empty if no chart shares a place.
+    pub stacked_on: Vec<Option<usize>>,
+    /// Group of each chart, such as its material, which has a picture of its own. Charts of different groups may
+    /// overlap. A chart without a group overlaps no other. Empty if there are no groups.
+    pub groups: Vec<Option<u32>>,
+}
+
+impl ChartRelations {
+    /// True if two charts may not overlap.
+    fn must_be_apart(&self, a: usize, b: usize) -> bool {
+        let group = |chart: usize| self.groups.get(chart).copied().flatten();
+        a != b && group(a).zip(group(b)).is_none_or(|(a, b)| a == b)
+    }
+}
+
+/// [`atlas_verdict`] for charts some of which may overlap. A chart whose boundary differs from that of the chart whose
+/// place it shares counts as not stacked.
 ///
 /// # Panics
 ///
-/// If the embedding lacks a vertex of a part, or `stacked_on` lacks a chart.
-pub fn stacked_atlas_verdict(charts: &[Part], embedding: &Embedding, stacked_on: &[Option<usize>]) -> AtlasVerdict {
+/// If the embedding lacks a vertex of a part.
+pub fn stacked_atlas_verdict(charts: &[Part], embedding: &Embedding, relations: &ChartRelations) -> AtlasVerdict {
+    let none = vec![None; charts.len()];
+    let stacked_on = if relations.stacked_on.is_empty() { &none } else { &relations.stacked_on };
     let outlines: Vec<Option<Outline>> = outlines_of_stacks(charts, embedding, stacked_on);
     let is_alike = |(chart, on): (usize, usize)| stacked_on[on].is_none() && outlines[chart] == outlines[on];
     let stacked_on: Vec<Option<usize>> =
@@ -106,10 +126,10 @@ pub fn stacked_atlas_verdict(charts: &[Part], embedding: &Embedding, stacked_on:
     let verdict_of =
         |(chart, &stacked_on): (&Part, &Option<usize>)| ChartVerdict { stacked_on, ..chart_verdict(chart, embedding) };
     let found: Vec<ChartVerdict> = charts.par_iter().zip(&stacked_on).map(verdict_of).collect();
-    let apart: Vec<&Part> =
-        charts.iter().zip(&stacked_on).filter(|(_, on)| on.is_none()).map(|(chart, _)| chart).collect();
+    let lowest: Vec<(usize, &Part)> =
+        charts.iter().enumerate().filter(|(chart, _)| stacked_on[*chart].is_none()).collect();
     let stacks = stacked_on.iter().flatten().collect::<BTreeSet<_>>().len();
-    let mut overlapping_faces = overlaps(&apart, embedding, OVERLAPS_LISTED + 1);
+    let mut overlapping_faces = overlaps(&lowest, relations, embedding, OVERLAPS_LISTED + 1);
     let more_overlaps = overlapping_faces.len() > OVERLAPS_LISTED;
     overlapping_faces.truncate(OVERLAPS_LISTED);
     let planar = overlapping_faces.is_empty() && found.iter().all(|chart| chart.planar);
@@ -117,7 +137,8 @@ pub fn stacked_atlas_verdict(charts: &[Part], embedding: &Embedding, stacked_on:
         let in_f32 = chart_verdict(chart, &in_f32);
         in_f32.planar && in_f32.mirrored == before.mirrored
     };
-    let planar_in_f32 = planar && charts.par_iter().zip(&found).all(kind) && overlaps(&apart, &in_f32, 1).is_empty();
+    let planar_in_f32 =
+        planar && charts.par_iter().zip(&found).all(kind) && overlaps(&lowest, relations, &in_f32, 1).is_empty();
     AtlasVerdict { planar, planar_in_f32, charts: found, stacks, overlapping_faces, more_overlaps }
 }
 
@@ -134,7 +155,7 @@ pub fn equal_outlines(charts: &[Part], embedding: &Embedding) -> Vec<Option<usiz
 }
 
 /// Boundary loops of a chart as bits, in a form that does not depend on the beginning or direction of a loop.
-type Outline = Vec<Vec<[u64; 2]>>;
+pub(super) type Outline = Vec<Vec<[u64; 2]>>;
 
 /// Outlines of all charts that are stacked or have charts on them.
 fn outlines_of_stacks(charts: &[Part], embedding: &Embedding, stacked_on: &[Option<usize>]) -> Vec<Option<Outline>> {
@@ -154,7 +175,7 @@ fn outline(chart: &Part, embedding: &Embedding) -> Outline {
 }
 
 /// Cycle that begins at its least element and goes on in the direction of the lesser neighbour.
-fn canonical(mut cycle: Vec<[u64; 2]>) -> Vec<[u64; 2]> {
+pub(super) fn canonical(mut cycle: Vec<[u64; 2]>) -> Vec<[u64; 2]> {
     let rotated = |cycle: &mut Vec<[u64; 2]>| {
         let least = (0..cycle.len()).min_by_key(|&at| cycle[at]).unwrap_or_default();
         cycle.rotate_left(least);
@@ -206,13 +227,18 @@ fn chart_verdict(chart: &Part, embedding: &Embedding) -> ChartVerdict {
 }
 
 /// Pairs of overlapping faces of different charts, the lower face first, ascending; at most `most`.
-fn overlaps(charts: &[&Part], embedding: &Embedding, most: usize) -> Vec<[FaceId; 2]> {
+fn overlaps(
+    charts: &[(usize, &Part)],
+    relations: &ChartRelations,
+    embedding: &Embedding,
+    most: usize,
+) -> Vec<[FaceId; 2]> {
     if charts.len() < 2 {
         return Vec::new();
     }
-    let spots = charts.iter().enumerate().flat_map(|(number, chart)| spots_of(number, chart, embedding));
+    let spots = charts.iter().flat_map(|&(number, chart)| spots_of(number, chart, embedding));
     let (spots, triangles): (Vec<Spot>, Vec<[DVec2; 3]>) = spots.unzip();
-    let found = geom::overlaps(&triangles, |a, b| spots[a].chart != spots[b].chart, most);
+    let found = geom::overlaps(&triangles, |a, b| relations.must_be_apart(spots[a].chart, spots[b].chart), most);
     let in_order = |[a, b]: [FaceId; 2]| [a.min(b), a.max(b)];
     let mut pairs: Vec<[FaceId; 2]> =
         found.into_iter().map(|pair| in_order(pair.map(|spot| spots[spot].face))).collect();

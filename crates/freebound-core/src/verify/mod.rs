@@ -3,6 +3,7 @@
 //! | file | contents |
 //! |---|---|
 //! | `verdict`, `atlas_verdict` | planar or not, of one disk and of several charts |
+//! | `layout`, `findings` | planar or not, of any triangles of the plane, with remarks |
 //! | `uv_frame` | the frame in which coordinates are written and proved |
 //! | `rounding` | coordinates rounded to 32 bits without a fold |
 //! | `conflicts` | pins that contradict each other |
@@ -12,18 +13,22 @@
 mod atlas_verdict;
 mod conflicts;
 mod distortion;
+mod findings;
 pub(crate) mod hull_condition;
+mod layout;
 mod one_form;
 mod rounding;
 mod uv_frame;
 pub(crate) mod verdict;
 
 pub use atlas_verdict::{
-    AtlasVerdict, ChartVerdict, OVERLAPS_LISTED, atlas_verdict, equal_outlines, stacked_atlas_verdict,
+    AtlasVerdict, ChartRelations, ChartVerdict, OVERLAPS_LISTED, atlas_verdict, equal_outlines, stacked_atlas_verdict,
 };
 pub use conflicts::{CONFLICTS_LISTED, Conflict, conflicts};
 pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Mean, Spread, distortion};
+pub use findings::{FINDINGS_LISTED, Finding, FindingCode, FindingSeverity};
 pub use hull_condition::{CornerKind, HullStanding, holes_turn_once, hull_standing, vertices_outside_hull};
+pub use layout::{LayoutOptions, LayoutVerdict, MOST_WITHOUT_PLACE, PixelGap, PlaneLayout, layout_verdict};
 pub use one_form::{OneFormIndices, index_range};
 pub use rounding::{Rounded, RoundingGrid, rounded};
 pub use uv_frame::UvFrame;

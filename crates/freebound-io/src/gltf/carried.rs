@@ -1,6 +1,7 @@
 //! The glTF file that a mesh was read from, written as a single binary file with other texture coordinates.
 //!
-//! All of its JSON and of its buffers is kept, and new data are appended. Vertices whose corners have different
+//! All of its JSON and of its buffers is kept, and new data are appended. Tangents are dropped if texture coordinates
+//! change: a program that reads the file computes them. Vertices whose corners have different
 //! texture coordinates are duplicated with all their attributes. Without such vertices, indices and all attributes
 //! except texture coordinates stay unchanged. A mesh that several nodes show is duplicated for each of them. Pictures
 //! beside the file are embedded.
@@ -12,7 +13,6 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::TEXTURE;
 use super::accessor::Elements;
 use super::container::{Buffers, beside};
 use super::document::{Attributes, Document};
@@ -20,6 +20,7 @@ use super::growing::{Growing, VERTICES};
 use super::grown::{Origin, grown};
 use super::placed::{Placed, PlacedSet};
 use super::scene::Scene;
+use super::{TANGENT, TEXTURE};
 use crate::mesh_file::{MeshFile, Source, Texture};
 
 /// Mode of a primitive with separate triangles.
@@ -52,6 +53,7 @@ pub(super) fn write_carried(
     let meshes = carried.part_meshes();
     let sets = (0..placed.sets.len()).map(|set| carried.attributes(set, &placed.sets[set]));
     let sets = sets.collect::<io::Result<Vec<_>>>()?;
+    let mut needs_material = Vec::new();
     for (number, part) in scene.shown.parts.iter().enumerate() {
         let has_grown = !placed.sets[part.set].added.is_empty();
         let is_bare =
@@ -60,6 +62,9 @@ pub(super) fn write_carried(
         let indices = needs_indices.then(|| carried.file.indices(&placed.triangles[number]));
         let primitive = &mut carried.file.json["meshes"][meshes[part.instance]]["primitives"][part.primitive];
         sets[part.set].put_into(primitive);
+        if primitive.get("material").is_none() {
+            needs_material.push((meshes[part.instance], part.primitive));
+        }
         if let Some(indices) = indices {
             primitive["indices"] = json!(indices);
             primitive["mode"] = json!(TRIANGLES);
@@ -67,6 +72,11 @@ pub(super) fn write_carried(
         if let Some(extensions) = primitive.get_mut("extensions").and_then(Value::as_object_mut) {
             extensions.remove(DRACO);
         }
+    }
+    // Programs ignore texture coordinates without a material.
+    for (mesh, primitive) in needs_material {
+        let material = carried.file.default_material();
+        carried.file.json["meshes"][mesh]["primitives"][primitive]["material"] = json!(material);
     }
     if let Some(folder) = &scene.folder {
         carried.embed_pictures(folder);
@@ -138,6 +148,12 @@ impl Carried<'_> {
     fn attributes(&mut self, number: usize, placed: &PlacedSet) -> io::Result<SetAccessors> {
         let set = &self.scene.shown.sets[number];
         let mut own = SetAccessors { attributes: set.attributes.clone(), targets: set.targets.clone() };
+        if placed.has_new_texture {
+            own.attributes.remove(TANGENT);
+            for target in &mut own.targets {
+                target.remove(TANGENT);
+            }
+        }
         if !placed.added.is_empty() {
             let mut new = BTreeMap::new();
             let all = own.attributes.iter_mut().chain(own.targets.iter_mut().flatten());

@@ -14,6 +14,9 @@ pub(super) const INDICES: u32 = 34_963;
 /// Alignment of views and chunks, bytes.
 pub(super) const ALIGNMENT: usize = 4;
 
+/// Name of the material of surfaces without one.
+const DEFAULT_MATERIAL: &str = "default";
+
 /// Largest usable index of 16 bits; 65,535 restarts strips.
 const MAX_U16: usize = 65_534;
 
@@ -51,6 +54,13 @@ impl<'a> Growing<'a> {
             view["target"] = json!(target);
         }
         self.push("bufferViews", view)
+    }
+
+    /// Plain material for surfaces without one, which is appended at the first call.
+    pub(super) fn default_material(&mut self) -> usize {
+        let plain = json!({ "name": DEFAULT_MATERIAL, "pbrMetallicRoughness": { "metallicFactor": 0.0 } });
+        let found = self.json["materials"].as_array().and_then(|all| all.iter().position(|own| *own == plain));
+        found.unwrap_or_else(|| self.push("materials", plain))
     }
 
     /// Appends an accessor of vectors of `N` 32-bit numbers.

@@ -47,4 +47,5 @@ pub use write::write_glb;
 
 /// Names of attributes.
 const POSITION: &str = "POSITION";
+const TANGENT: &str = "TANGENT";
 const TEXTURE: &str = "TEXCOORD_0";

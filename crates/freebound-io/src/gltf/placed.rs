@@ -29,6 +29,8 @@ pub(super) struct PlacedSet {
     pub(super) texture: Vec<[f32; 2]>,
     /// True for a vertex of the file that a corner of the mesh has.
     is_taken: Vec<bool>,
+    /// True if texture coordinates differ from the file: tangents, which follow from them, are wrong then.
+    pub(super) has_new_texture: bool,
     /// Origins of the added vertices, which follow those of the file.
     pub(super) added: Vec<Origin>,
     /// Numbers of the added vertices.
@@ -102,6 +104,9 @@ impl Placed {
                 triangle.swap(1, 2);
             }
             own.triangles[part].push(triangle);
+        }
+        for (set, original) in own.sets.iter_mut().zip(&originals) {
+            set.has_new_texture = set.texture != *original;
         }
         own.compare(scene);
         Ok(own)

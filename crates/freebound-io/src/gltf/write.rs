@@ -18,7 +18,8 @@ use crate::mesh_file::{MeshFile, NO_TEXTURE, SourceFormat, Texture};
 use freebound_core::mesh::VertexId;
 
 /// Writes a mesh with these texture coordinates as a binary glTF file (GLB). If the mesh was read from glTF, all of
-/// that file is kept. Otherwise the file holds only triangles and texture coordinates. Corners without new texture
+/// that file is kept. Otherwise the file holds only triangles, texture
+/// coordinates and a plain material, without which programs ignore them. Corners without new texture
 /// coordinates keep those of the file, or have 0, 0.
 ///
 /// # Errors
@@ -80,6 +81,8 @@ fn write_plain(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::
         attributes[TEXTURE] = json!(file.vectors(coordinates));
     }
     let indices = file.indices(&triangles);
-    file.push("meshes", json!({ "primitives": [{ "attributes": attributes, "indices": indices }] }));
+    let material = file.default_material();
+    let primitive = json!({ "attributes": attributes, "indices": indices, "material": material });
+    file.push("meshes", json!({ "primitives": [primitive] }));
     file.write(out)
 }

@@ -34,8 +34,30 @@ impl MeshFile {
     ///
     /// If an index of the mesh is out of range, which the readers exclude.
     pub fn texture_mesh(&self) -> Result<TextureMesh, TextureError> {
-        let texture = self.complete_texture()?;
+        Ok(self.texture_mesh_without(self.complete_texture()?, &[]))
+    }
+
+    /// Texture mesh of the faces that have coordinates at all corners, and the other faces.
+    ///
+    /// # Errors
+    ///
+    /// [`TextureError`] if no face has texture coordinates.
+    pub fn partial_texture_mesh(&self) -> Result<(TextureMesh, Vec<u32>), TextureError> {
+        let texture = self.texture.as_ref().ok_or(TextureError::None)?;
+        let bare = self.bare_faces(texture);
+        if bare.len() == self.polygons.face_count() {
+            return Err(TextureError::Missing(bare));
+        }
+        Ok((self.texture_mesh_without(texture, &bare), bare))
+    }
+
+    /// Texture mesh without the faces `bare`, ascending: all others have coordinates at all corners.
+    fn texture_mesh_without(&self, texture: &Texture, bare: &[u32]) -> TextureMesh {
         let corners = &self.polygons.corners;
+        let mut has_place = vec![true; corners.len()];
+        for &face in bare {
+            has_place[self.polygons.corner_range(face as usize)].fill(false);
+        }
         let coordinate = |place: u32| texture.coordinates[texture.corners[place as usize] as usize];
         let bits = |place: u32| bits(coordinate(place));
         let mut texture_vertex = vec![0_u32; corners.len()];
@@ -43,7 +65,7 @@ impl MeshFile {
         let mut first_places: Vec<u32> = Vec::new();
         // Corners of each vertex; vertices without corners have none.
         let mut places_of = vec![Vec::new(); self.polygons.positions.len()];
-        for (place, vertex) in (0_u32..).zip(corners) {
+        for (place, vertex) in (0_u32..).zip(corners).filter(|(place, _)| has_place[*place as usize]) {
             places_of[vertex.index()].push(place);
         }
         for places in &mut places_of {
@@ -67,8 +89,13 @@ impl MeshFile {
         }
         let (triangles, polygon_of) = self.polygons.triangle_places();
         let renumbered = |places: &[u32; 3]| places.map(|place| VertexId::new(texture_vertex[place as usize]));
-        let triangles = triangles.iter().map(renumbered).collect();
-        Ok(TextureMesh { mesh: TriMesh { positions, triangles, polygon_of }, embedding: embedding.into(), vertex_of })
+        let stays = |places: &[u32; 3]| has_place[places[0] as usize];
+        let polygon = |face: usize| polygon_of.as_ref().map_or(face, |of| of[face] as usize);
+        let kept = || triangles.iter().enumerate().filter(|(_, places)| stays(places));
+        let number = |(face, _): (usize, &[u32; 3])| VertexId::from_index(polygon(face)).number();
+        let polygon_of = (polygon_of.is_some() || !bare.is_empty()).then(|| kept().map(number).collect());
+        let triangles = kept().map(|(_, places)| renumbered(places)).collect();
+        TextureMesh { mesh: TriMesh { positions, triangles, polygon_of }, embedding: embedding.into(), vertex_of }
     }
 
     /// Label for each corner, equal for equal texture coordinates: the index of the first such coordinate in the
@@ -100,13 +127,18 @@ impl MeshFile {
     /// Texture coordinates, if all corners have one.
     pub(crate) fn complete_texture(&self) -> Result<&Texture, TextureError> {
         let texture = self.texture.as_ref().ok_or(TextureError::None)?;
+        let faces = self.bare_faces(texture);
+        if faces.is_empty() { Ok(texture) } else { Err(TextureError::Missing(faces)) }
+    }
+
+    /// Faces with a corner without texture coordinates, ascending.
+    fn bare_faces(&self, texture: &Texture) -> Vec<u32> {
         let lacks = |&face: &u32| {
             let places = self.polygons.corner_range(face as usize);
             texture.corners[places].contains(&NO_TEXTURE)
         };
         let face_count = u32::try_from(self.polygons.face_count()).expect("faces fit");
-        let faces: Vec<u32> = (0..face_count).filter(lacks).collect();
-        if faces.is_empty() { Ok(texture) } else { Err(TextureError::Missing(faces)) }
+        (0..face_count).filter(lacks).collect()
     }
 }
 

@@ -71,7 +71,8 @@ fn rich() -> GlbMaker {
     maker
 }
 
-/// Attributes at each corner of each triangle, except the first texture coordinates; morph targets by their number.
+/// Attributes at each corner of each triangle, except the first texture coordinates and the tangents, which follow from
+/// them; morph targets by their number.
 fn attributes(glb: &[u8]) -> Vec<BTreeMap<String, Vec<u8>>> {
     let file = gltf::Gltf::from_slice(glb).expect("another reader takes it");
     let blob = file.blob.as_deref().expect("a binary chunk");
@@ -101,7 +102,7 @@ fn attributes(glb: &[u8]) -> Vec<BTreeMap<String, Vec<u8>>> {
                 })
                 .collect();
             for at in listed {
-                let all = own.iter().chain(&targets).filter(|(name, _)| name != "TEXCOORD_0");
+                let all = own.iter().chain(&targets).filter(|(name, _)| !["TEXCOORD_0", "TANGENT"].contains(&&**name));
                 found.push(all.map(|(name, accessor)| (name.clone(), element(accessor, at))).collect());
             }
         }
@@ -133,12 +134,15 @@ fn assert_json_is_kept(before: &Value, after: &Value) {
                     for (old, new) in
                         old["primitives"].as_array().unwrap().iter().zip(new["primitives"].as_array().unwrap())
                     {
-                        assert_eq!([&old["material"], &old["extras"]], [&new["material"], &new["extras"]]);
+                        assert_eq!(old["extras"], new["extras"]);
+                        let material = &new["material"];
+                        let is_default = old["material"].is_null() && material.is_u64();
+                        assert!(is_default || old["material"] == *material, "{material}");
                     }
                 }
             }
             // New entries come after the old ones.
-            "accessors" | "bufferViews" => {
+            "accessors" | "bufferViews" | "materials" => {
                 let old = value.as_array().unwrap();
                 assert_eq!(old[..], after[key].as_array().unwrap()[..old.len()]);
             }
@@ -165,6 +169,35 @@ fn assert_texture(mesh: &MeshFile, texture: &Texture, glb: &[u8]) {
     assert_eq!(found.len(), wanted.len());
     for (seen, wanted) in found.iter().zip(wanted) {
         assert_eq!(seen.texture, Some(wanted));
+    }
+}
+
+#[test]
+fn tangents_stay_only_if_texture_coordinates_do() {
+    let before = rich().glb();
+    let has_tangents = |glb: &[u8]| {
+        let json = json_of(glb);
+        let all = json["meshes"].as_array().expect("meshes").iter().filter_map(|mesh| mesh["primitives"].as_array());
+        // Lines and points are written as they are.
+        let mut surfaces = all.flatten().filter(|primitive| primitive["mode"].as_u64().is_none_or(|mode| mode > 3));
+        surfaces.any(|primitive| primitive["attributes"].get("TANGENT").is_some())
+    };
+    let file = read(&before);
+    let same = written(&file, &file.texture.clone().expect("coordinates"));
+    assert!(has_tangents(&before));
+    assert!(has_tangents(&same));
+    let places = file.polygons.positions.iter().map(|p| DVec2::new(p.x / 3.0, 0.7 - p.y)).collect();
+    assert!(!has_tangents(&written(&file, &Texture::per_vertex(&file.polygons, &places))));
+}
+
+#[test]
+fn every_surface_has_a_material() {
+    for glb in [rich().glb(), written(&MeshFile::from(&freebound_testkit::grid(2, 2)), &Texture::default())] {
+        let file = read(&glb);
+        let json = json_of(&written(&file, &file.texture.clone().unwrap_or_default()));
+        let primitives =
+            json["meshes"].as_array().expect("meshes").iter().filter_map(|mesh| mesh["primitives"].as_array());
+        assert!(primitives.flatten().all(|primitive| primitive["material"].is_u64()), "{json:#}");
     }
 }
 
@@ -309,7 +342,7 @@ fn new_vertices_lie_between_the_ends_of_their_edge_in_all_numbers() {
         a.iter().zip(b).map(|(&a, b)| (f64::from(a) + 0.25 * (f64::from(b) - f64::from(a))) as f32).collect()
     };
     let found = own(&mix("POSITION")).expect("the new vertex");
-    for name in ["TEXCOORD_1", "_PRESSURE", "0 POSITION", "1 POSITION", "NORMAL", "TANGENT"] {
+    for name in ["TEXCOORD_1", "_PRESSURE", "0 POSITION", "1 POSITION", "NORMAL"] {
         assert_eq!(at(name, &found[name]), mix(name), "{name}");
     }
     let colour = |corner: &BTreeMap<String, Vec<u8>>, k: usize| f64::from(corner["COLOR_0"][k]);

@@ -231,6 +231,10 @@ impl Flattener {
             let StageFailure { error, handover } = match self.strategy.phase_mut().enter(place).step(from, control) {
                 Ok(candidate) => match candidate.solution.embedding.check_finite() {
                     Ok(()) => return Ok(candidate),
+                    Err(_) if candidate.stage == Stage::Given && self.task.settings.method.needs_planar_start() => {
+                        self.start_from_scratch("not finite");
+                        continue;
+                    }
                     Err(error) => StageFailure::of(candidate.stage.words(), error),
                 },
                 Err(failure) => failure,
@@ -307,15 +311,15 @@ impl Flattener {
         });
         phase.observe(step);
         if is_given && !is_proved && self.task.settings.method.needs_planar_start() {
-            self.start_from_scratch(step);
+            let fault = step.verdict.summary();
+            self.start_from_scratch(if step.verdict.planar { "a mirror image" } else { &fault });
         }
         self.ending = self.ending_now();
     }
 
     /// Restarts with the surface alone: the given layout is no map to continue from.
-    fn start_from_scratch(&mut self, given: &Step) {
-        let fault = if given.verdict.is_one_to_one() { "a mirror image" } else { "not one-to-one" };
-        self.notes.say(format!("restarted from scratch: the layout of the file is {fault}"));
+    fn start_from_scratch(&mut self, fault: &str) {
+        self.notes.say(format!("restarted from scratch: the layout of the file: {fault}"));
         self.strategy = Strategy::from_scratch(&self.task, &self.cache);
         self.latest = None;
     }

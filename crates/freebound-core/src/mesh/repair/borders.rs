@@ -40,6 +40,15 @@ pub fn borders(source: &PolygonMesh, repairs: Repairs, labels: &[u32]) -> Vec<[V
     })
 }
 
+/// Returns the edges at which repairs have joined different vertices: the seams of a mesh that a program has split there.
+pub fn splits(source: &PolygonMesh, repairs: Repairs) -> Vec<[VertexId; 2]> {
+    let repaired = Repaired::new(source, repairs);
+    edges_between(source, &repaired, |sides, pair| {
+        let [a, b] = pair.map(|side| sides.edge_in_file(&repaired, source, side));
+        a != b
+    })
+}
+
 /// Edges with two or more sides that satisfy `is_sought`, by the file's vertices, the smaller first; ascending.
 fn edges_between(
     source: &PolygonMesh,

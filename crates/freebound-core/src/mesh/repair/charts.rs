@@ -112,6 +112,7 @@ impl Repaired {
             fills: self.fills,
             filling: Filling::default(),
             left_out: Vec::new(),
+            degenerate: Vec::new(),
             keeps_last: self.keeps_last,
             done: self.done.clone(),
         };

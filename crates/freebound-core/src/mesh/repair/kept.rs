@@ -39,13 +39,13 @@ impl Repaired {
         let mut goes = vec![false; self.polygons.face_count()];
         for &face in unwanted.iter().copied().flatten() {
             goes[face as usize] = true;
-            self.left_out.push(self.face_of[face as usize]);
         }
         let mut fates = goes.into_iter();
-        self.decide(|corners, _| match fates.next() {
-            Some(true) => Fate::Go(Vec::new()),
+        let gone = self.decide(|corners, _| match fates.next() {
+            Some(true) => Fate::Go,
             _ => Fate::Keep((0..corners.len()).collect()),
         });
+        self.left_out.extend(gone);
         self.note(Repair::LeaveOutParts, unwanted.len());
     }
 

@@ -23,9 +23,9 @@ impl Repairs {
     pub const NONE: Self = Self::of(&[]);
     /// Repairs that do not change the visible surface.
     pub const SAFE: Self =
-        Self::of(&[Repair::DropRepeatedCorners, Repair::DropDuplicateFaces, Repair::SplitVertices, Repair::FillHoles]);
-    /// All repairs except cutting.
-    pub const ALL: Self = Self::of(&Repair::CHOSEN);
+        Self::of(&[Repair::DropRepeatedCorners, Repair::StackDuplicates, Repair::SplitVertices, Repair::FillHoles]);
+    /// All repairs except cutting. Duplicate faces share one place.
+    pub const ALL: Self = Self::SAFE.and(Self::of(&[Repair::WeldVertices, Repair::SplitEdges, Repair::TurnFaces]));
 
     /// Set of the given repairs.
     pub const fn of(repairs: &[Repair]) -> Self {
@@ -130,10 +130,14 @@ impl From<Repairs> for String {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Repair {
-    /// Remove corners that repeat a vertex from their face; remove faces with fewer than three corners left.
+    /// Remove corners that repeat the vertex before them or run back along a side, and faces left with fewer than three
+    /// corners. No area is lost.
     DropRepeatedCorners,
-    /// Remove faces with the vertices of an earlier face.
-    DropDuplicateFaces,
+    /// Give faces with the vertices of an earlier face the place of that face in the map.
+    StackDuplicates,
+    /// Give faces with the vertices of an earlier face vertices of their own, so that they become charts. Takes
+    /// precedence over [`StackDuplicates`](Self::StackDuplicates).
+    SeparateDuplicates,
     /// Join vertices of different parts that coincide, or all vertices within a distance.
     WeldVertices,
     /// Give faces at edges with three or more faces separate edges.
@@ -154,9 +158,10 @@ pub enum Repair {
 
 impl Repair {
     /// Repairs that can be chosen one by one; cutting is a separate setting.
-    pub const CHOSEN: [Self; 7] = [
+    pub const CHOSEN: [Self; 8] = [
         Self::DropRepeatedCorners,
-        Self::DropDuplicateFaces,
+        Self::StackDuplicates,
+        Self::SeparateDuplicates,
         Self::WeldVertices,
         Self::SplitEdges,
         Self::TurnFaces,
@@ -173,7 +178,8 @@ impl Repair {
     pub const fn name(self) -> &'static str {
         match self {
             Self::DropRepeatedCorners => "drop-repeated-corners",
-            Self::DropDuplicateFaces => "drop-duplicate-faces",
+            Self::SeparateDuplicates => "separate-duplicates",
+            Self::StackDuplicates => "stack-duplicates",
             Self::WeldVertices => "weld-vertices",
             Self::SplitEdges => "split-edges",
             Self::TurnFaces => "turn-faces",
@@ -188,11 +194,13 @@ impl Repair {
     /// Label of the button that offers the repair, and description of its effect.
     pub const fn offer(self) -> [&'static str; 2] {
         match self {
-            Self::DropRepeatedCorners => [
-                "Leave out corners",
-                "Removes corners that repeat a vertex, and faces left with fewer than three corners",
-            ],
-            Self::DropDuplicateFaces => ["Leave out duplicates", "Keeps the first of all faces with equal vertices"],
+            Self::DropRepeatedCorners => {
+                ["Leave out corners", "Removes corners that repeat a vertex, and faces left without area"]
+            }
+            Self::SeparateDuplicates => {
+                ["Separate duplicates", "Gives faces with equal vertices places of their own in the map"]
+            }
+            Self::StackDuplicates => ["Stack duplicates", "Gives faces with equal vertices one place in the map"],
             Self::WeldVertices => ["Weld", "Joins vertices of different parts at one position"],
             Self::SplitEdges => {
                 ["Split edges", "Gives each sheet its own edge if three or more faces share one: the sheets separate"]
@@ -219,7 +227,12 @@ impl Repair {
                 "face with a repeated vertex repaired or left out",
                 "faces with a repeated vertex repaired or left out",
             ],
-            Self::DropDuplicateFaces => ["duplicate face left out", "duplicate faces left out"],
+            Self::SeparateDuplicates => {
+                ["duplicate face given its own vertices", "duplicate faces given their own vertices"]
+            }
+            Self::StackDuplicates => {
+                ["duplicate face stacked on an earlier face", "duplicate faces stacked on earlier faces"]
+            }
             Self::WeldVertices => ["vertex joined with another", "vertices joined with others"],
             Self::SplitEdges => ["edge of three or more faces split", "edges of three or more faces split"],
             Self::TurnFaces => ["face turned over", "faces turned over"],
@@ -256,7 +269,7 @@ impl Fault {
     pub const fn repairs(&self) -> &'static [Repair] {
         match self {
             Self::RepeatedVertices(_) => &[Repair::DropRepeatedCorners],
-            Self::DuplicateFaces(_) => &[Repair::DropDuplicateFaces],
+            Self::DuplicateFaces(_) => &[Repair::StackDuplicates, Repair::SeparateDuplicates],
             Self::NonManifoldEdges(_) => &[Repair::SplitEdges],
             Self::NonManifoldVertices(_) => &[Repair::SplitVertices],
             Self::MixedOrientation { .. } => &[Repair::TurnFaces],

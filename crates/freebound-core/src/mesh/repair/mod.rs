@@ -6,7 +6,7 @@
 //! | `kinds.rs` | names of the repairs, and sets of them |
 //! | `form.rs` | preparation settings of a file's faces |
 //! | `sides.rs` | sides of polygons by edge, and their edges in the file |
-//! | `leave_out.rs` | removal of repeated corners and duplicate faces |
+//! | `leave_out.rs` | removal of repeated corners and degenerate faces, and treatment of duplicate faces |
 //! | `weld.rs` | welding of near vertices |
 //! | `join.rs` | joining of coincident vertices, splitting of vertices at touching fans, flipping of faces |
 //! | `kept.rs` | parts to keep, and parts to leave out |
@@ -47,7 +47,7 @@ use fill::Filling;
 
 use super::{PolygonMesh, TriMesh, VertexId, diagnose};
 
-pub use borders::{borders, creases};
+pub use borders::{borders, creases, splits};
 pub use charts::{Chart, Charts};
 pub use form::{HoleTreatment, Preparation};
 pub use kept::PartFaces;
@@ -74,6 +74,8 @@ pub struct Repaired {
     filling: Filling,
     /// Faces of the parts that were left out, by their numbers in the given mesh.
     left_out: Vec<u32>,
+    /// Faces without area that were removed, by their numbers in the given mesh.
+    degenerate: Vec<u32>,
     /// True if the last of several repeated corners of a face is kept instead of the first: the given mesh was
     /// reversed.
     keeps_last: bool,
@@ -90,12 +92,11 @@ impl Repaired {
         repaired.leave_out(repairs);
         if let Some(distance) = repairs.weld_distance() {
             repaired.weld_within(distance);
-            repaired.leave_out_joined(source);
         }
         if repairs.allows(Repair::WeldVertices) {
             repaired.weld();
-            repaired.leave_out_joined(source);
         }
+        repaired.leave_out_joined(source, repairs);
         if repairs.allows(Repair::SplitEdges) {
             repaired.split_edges();
         }
@@ -120,6 +121,7 @@ impl Repaired {
             fills: false,
             filling: Filling::default(),
             left_out: Vec::new(),
+            degenerate: Vec::new(),
             keeps_last: false,
             done: Vec::new(),
         }
@@ -179,8 +181,9 @@ impl Repaired {
         self.corner_of[corner] as usize
     }
 
-    /// Vertex at each corner of the given mesh. A removed corner gets the vertex of its replacement or, without one,
-    /// any vertex at its place in the mesh. `None` if there is no such vertex, and in parts that were left out.
+    /// Vertex at each corner of the given mesh, whose place in the map the corner takes. A removed corner takes the
+    /// place of its replacement. All corners of a removed face take one place: the face covers nothing. `None` in parts
+    /// that were left out, and in removed faces whose vertices have no place.
     pub fn vertices_at_corners(&self, source: &PolygonMesh) -> Vec<Option<VertexId>> {
         let mut vertices = vec![None; source.corners.len()];
         let mut in_place = vec![None; source.positions.len()];
@@ -191,14 +194,32 @@ impl Repaired {
         for &[left_out, stand_in] in self.stand_ins.iter().rev() {
             vertices[left_out as usize] = vertices[stand_in as usize];
         }
-        for (vertex, of) in vertices.iter_mut().zip(&source.corners).filter(|(vertex, _)| vertex.is_none()) {
-            let stands_for = self.joined.get(of).unwrap_or(of);
-            *vertex = [of, stands_for].iter().find_map(|of| in_place.get(of.index()).copied().flatten());
-        }
-        for &face in &self.left_out {
-            vertices[source.corner_range(face as usize)].fill(None);
+        let place_of = |vertex: &VertexId| {
+            let stands_for = self.joined.get(vertex).unwrap_or(vertex);
+            [vertex, stands_for].iter().find_map(|of| in_place.get(of.index()).copied().flatten())
+        };
+        for &face in &self.degenerate {
+            let range = source.corner_range(face as usize);
+            let place = source.corners[range.clone()].iter().find_map(place_of);
+            vertices[range].fill(place);
         }
         vertices
+    }
+
+    /// Faces of the given mesh that were removed because they have no area, ascending. They take one point of the map.
+    pub fn degenerate_faces(&self) -> &[u32] {
+        &self.degenerate
+    }
+
+    /// Number of vertices at the position of a vertex of another part, with which they are not joined. Vertices that a
+    /// repair or a cut has split count as one.
+    pub fn touching_vertices(&self, source: &PolygonMesh) -> usize {
+        let vertices = self.vertices_of(source);
+        let TriMesh { mut triangles, .. } = self.polygons.triangulate();
+        triangles.iter_mut().flatten().for_each(|vertex| *vertex = vertices[vertex.index()]);
+        let positions = source.positions.clone();
+        let mesh = TriMesh { positions, triangles, polygon_of: None };
+        super::coincident::coincident_vertices(&mesh, &mesh.triangles).len()
     }
 
     /// Vertex that replaces a joined vertex of the given mesh; `None` if the vertex was not joined.

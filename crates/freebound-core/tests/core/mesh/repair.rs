@@ -82,18 +82,85 @@ fn a_quad_that_names_a_vertex_twice_becomes_a_triangle() {
 
 #[test]
 fn faces_that_cannot_keep_three_corners_go() {
-    let source = polygons(5, &[&[0, 1, 2], &[1, 1, 2], &[2, 0, 2, 0], &[0, 2, 3, 4], &[3, 0, 3, 2, 4]]);
+    let source = polygons(5, &[&[0, 1, 2], &[1, 1, 2], &[2, 0, 2, 0], &[0, 2, 3, 4]]);
     let repaired = repaired(&source, Repairs::SAFE);
-    assert_eq!(done(&repaired), [(Repair::DropRepeatedCorners, 3)]);
+    assert_eq!(done(&repaired), [(Repair::DropRepeatedCorners, 2)]);
     assert_eq!(faces(&repaired), [vec![0, 1, 2], vec![0, 2, 3, 4]]);
+    assert_eq!(repaired.degenerate_faces(), [1, 2]);
+    let vertices = repaired.vertices_at_corners(&source);
+    for face in [1, 2] {
+        let places = &vertices[source.corner_range(face)];
+        assert!(places[0].is_some() && places.iter().all(|place| *place == places[0]), "face {face}: {places:?}");
+    }
 }
 
 #[test]
-fn a_face_that_is_there_again_goes_however_it_runs() {
-    let source = polygons(4, &[&[0, 1, 2, 3], &[2, 1, 0, 3], &[3, 0, 1, 2]]);
+fn a_side_that_runs_back_is_removed_and_a_hole_joined_by_an_edge_stays() {
+    // The face runs from vertex 3 to 0 and back; the second face goes around a hole, joined by the edge 0-4.
+    let source = polygons(9, &[&[3, 8, 7, 8, 3, 2, 1], &[0, 1, 2, 3, 0, 4, 7, 6, 5, 4]]);
     let repaired = repaired(&source, Repairs::SAFE);
-    assert_eq!(done(&repaired), [(Repair::DropDuplicateFaces, 2)]);
-    assert_eq!(faces(&repaired), [[0, 1, 2, 3]]);
+    assert_eq!(done(&repaired)[0], (Repair::DropRepeatedCorners, 1));
+    assert_eq!(faces(&repaired)[0], [3, 2, 1]);
+    assert_eq!(faces(&repaired)[1].len(), 10);
+    assert!(repaired.degenerate_faces().is_empty());
+}
+
+#[test]
+fn no_safe_repair_removes_area() {
+    let mut random = Random(7);
+    for case in 0..400 {
+        let (vertices, count) = (3 + random.below(5), 1 + random.below(9));
+        let face: Vec<u32> = (0..count.max(3)).map(|_| random.below(vertices)).collect();
+        // A second face keeps the mesh from being empty.
+        let source = polygons(vertices + 3, &[&face, &[vertices, vertices + 1, vertices + 2]]);
+        let repaired = Repaired::new(&source, Repairs::SAFE);
+        let normal = |mesh: &PolygonMesh| -> DVec3 {
+            let of = |face: usize| {
+                let at = |k: usize| mesh.positions[mesh.face(face)[k % mesh.face(face).len()].index()];
+                (0..mesh.face(face).len()).map(|k| at(k).cross(at(k + 1))).sum::<DVec3>()
+            };
+            (0..mesh.face_count()).map(of).sum()
+        };
+        let lost = (normal(&source) - normal(repaired.polygons())).length();
+        assert!(lost < 1e-12, "case {case}: {face:?} loses {lost}");
+    }
+}
+
+#[test]
+fn a_face_that_is_there_again_is_separated_if_that_is_asked_for() {
+    let source = polygons(4, &[&[0, 1, 2, 3], &[2, 1, 0, 3], &[3, 0, 1, 2]]);
+    let repaired = repaired(&source, Repairs::SAFE.with(Repair::SeparateDuplicates));
+    assert_eq!(done(&repaired), [(Repair::SeparateDuplicates, 2)]);
+    assert_eq!(faces(&repaired), [[0, 1, 2, 3], [4, 5, 6, 7], [8, 9, 10, 11]]);
+    let sources: Vec<u32> = repaired.vertices_of(&source).iter().map(|v| v.number()).collect();
+    assert_eq!(sources, [0, 1, 2, 3, 2, 1, 0, 3, 3, 0, 1, 2]);
+}
+
+#[test]
+fn a_face_that_is_there_again_is_stacked_however_it_runs() {
+    let source = polygons(4, &[&[0, 1, 2, 3], &[2, 1, 0, 3], &[3, 0, 1, 2]]);
+    for repairs in [Repairs::SAFE, Repairs::ALL] {
+        let repaired = repaired(&source, repairs);
+        assert_eq!(done(&repaired), [(Repair::StackDuplicates, 2)]);
+        assert_eq!(faces(&repaired), [[0, 1, 2, 3]]);
+        let vertices: Vec<u32> =
+            repaired.vertices_at_corners(&source).iter().map(|v| v.expect("a place").number()).collect();
+        assert_eq!(vertices, [0, 1, 2, 3, 2, 1, 0, 3, 3, 0, 1, 2]);
+    }
+}
+
+#[test]
+fn the_second_sides_of_a_sheet_form_a_sheet() {
+    let front = grid(4, 3);
+    let mut both = front.clone();
+    both.triangles.extend(front.triangles.iter().map(|&[a, b, c]| [a, c, b]));
+    let source = PolygonMesh::from(&both);
+    let repaired = repaired(&source, Repairs::SAFE.with(Repair::SeparateDuplicates));
+    assert_eq!(done(&repaired), [(Repair::SeparateDuplicates, front.face_count())]);
+    assert_eq!(repaired.polygons().positions.len(), 2 * front.vertex_count());
+    let charts = freebound_core::mesh::Charts::of(repaired).expect("two sheets");
+    let sizes: Vec<usize> = (0..charts.count()).map(|chart| charts.faces(chart).len()).collect();
+    assert_eq!(sizes, [front.face_count(); 2]);
 }
 
 #[test]
@@ -274,7 +341,7 @@ corpus_test! {
 
 #[test]
 fn repairs_are_the_same_after_they_were_written_and_read() {
-    for bits in 0..1_u8 << Repair::CHOSEN.len() {
+    for bits in 0..1_u16 << Repair::CHOSEN.len() {
         let chosen = Repair::CHOSEN.into_iter().enumerate().filter(|(place, _)| bits >> place & 1 == 1);
         let repairs = chosen.clone().fold(Repairs::NONE, |repairs, (_, repair)| repairs.with(repair));
         assert!(Repair::CHOSEN.into_iter().enumerate().all(|(k, r)| repairs.allows(r) == (bits >> k & 1 == 1)));

@@ -3,6 +3,7 @@
 pub(crate) mod conflicts;
 pub(crate) mod distortion;
 pub(crate) mod hull_condition;
+pub(crate) mod layout;
 pub(crate) mod verdict;
 pub(crate) mod verdict_cases;
 pub(crate) mod verdict_random;

@@ -1,0 +1,597 @@
+//! Verdict on any layout: triangles of the plane, whoever placed them.
+//!
+//! # Planar
+//!
+//! A layout is *planar* if no two faces overlap, no face is turned over against its neighbours, and every face with
+//! area in space has area in the layout. All tests are exact. Two triangles overlap if their insides meet: no side of
+//! either has the other triangle on its outer side or on its line. Charts, and parts of one chart, may touch. Nothing is
+//! asked of the surface: edges may have three faces, the surface may be closed or one-sided, and its faces may run both
+//! ways. The strict [`verdict`](super::verdict::verdict) of a disk also asks that its boundary does not touch itself.
+//!
+//! A face with the corners of an earlier face, in space and in the layout, is a *duplicate*. Both show one piece of the
+//! surface at one place, so duplicates are listed and otherwise left out.
+//!
+//! A face whose corners all lie at one point covers nothing: it has *no place*, like a face without coordinates. Such
+//! faces are listed. They are an error if they hold more than [`MOST_WITHOUT_PLACE`] of the surface.
+//!
+//! # Charts
+//!
+//! A chart is a set of faces joined across edges whose ends agree in space and in the layout. Faces without a place form
+//! no chart. Faces of different
+//! [groups](PlaneLayout::groups), such as materials with a picture each, are never compared.
+
+use std::collections::{HashMap, HashSet};
+
+use glam::{DVec2, DVec3};
+
+use super::atlas_verdict::{Outline, canonical};
+use crate::geom::{self, Bounds, Orientation, double_area, orientation};
+use crate::mesh::union::{DisjointSets, ParitySets};
+use crate::mesh::{EdgeTable, FaceId, TriMesh, VertexId, is_zero_area};
+use crate::parallel::prelude::*;
+use crate::problem::Embedding;
+
+use super::findings::{FINDINGS_LISTED, Finding, FindingCode, FindingSeverity};
+
+/// Largest share of the surface that may lie at points of the layout. Welding leaves thin faces without a place.
+pub const MOST_WITHOUT_PLACE: f64 = 0.01;
+
+/// Distance from the unit square beyond which a coordinate is far away.
+const FAR: f64 = 100.0;
+
+/// Triangles with a position in the plane.
+#[derive(Clone, Copy, Debug)]
+pub struct PlaneLayout<'a> {
+    /// Triangles, with one vertex per texture coordinate.
+    pub mesh: &'a TriMesh,
+    /// Coordinate of each vertex.
+    pub coordinates: &'a Embedding,
+    /// Group of each triangle. Faces of different groups may overlap. Empty if all faces form one group.
+    pub groups: &'a [u32],
+    /// Faces of the file without coordinates, ascending. None of the triangles belongs to them.
+    pub bare_faces: &'a [u32],
+}
+
+/// Smallest distance of two charts in a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelGap {
+    /// Distance, pixels.
+    pub least: f64,
+    /// Width and height of the picture that fills the unit square, pixels.
+    pub picture: DVec2,
+}
+
+/// Tests of a layout.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LayoutOptions {
+    /// True if faces and charts may share exactly one place.
+    pub accepts_stacks: bool,
+    /// Smallest distance of two charts. `None` if it is not tested.
+    pub gap: Option<PixelGap>,
+    /// Largest ratio of a chart's scale to the usual scale, and of the usual scale to the chart's.
+    pub scale_ratio: f64,
+}
+
+impl Default for LayoutOptions {
+    fn default() -> Self {
+        Self { accepts_stacks: false, gap: None, scale_ratio: 2.0 }
+    }
+}
+
+/// Verdict on a layout. Faces are numbered as in the file.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LayoutVerdict {
+    /// True if no finding contradicts that the layout is planar.
+    pub planar: bool,
+    /// True if the layout is also planar with all coordinates rounded to 32 bits.
+    #[cfg_attr(feature = "serde", serde(rename = "f32"))]
+    pub planar_in_f32: bool,
+    /// True if no finding is an error.
+    pub passes: bool,
+    /// Number of charts.
+    pub charts: usize,
+    /// Number of triangles with coordinates.
+    pub triangles: usize,
+    /// Findings, errors first.
+    pub findings: Vec<Finding>,
+}
+
+/// Judges a layout.
+///
+/// # Panics
+///
+/// If a triangle names a vertex that the mesh or the coordinates lack, or `groups` is neither empty nor has a group for
+/// each triangle.
+pub fn layout_verdict(layout: PlaneLayout<'_>, options: LayoutOptions) -> LayoutVerdict {
+    let (kept, duplicates) = without_duplicates(layout);
+    let layout = kept.as_ref().map_or(layout, |(mesh, groups)| PlaneLayout { mesh, groups, ..layout });
+    let as_given = Judged::new(layout, options);
+    let mut findings = as_given.errors(FINDINGS_LISTED);
+    let contradicts = |finding: &Finding| finding.severity == FindingSeverity::Error;
+    let planar = !findings.iter().any(contradicts);
+    let in_f32: Embedding = layout.coordinates.iter().map(|z| z.as_vec2().as_dvec2()).collect();
+    let rounded = PlaneLayout { coordinates: &in_f32, ..layout };
+    let planar_in_f32 = planar && !Judged::new(rounded, options).errors(1).iter().any(contradicts);
+    findings.extend(as_given.remarks());
+    findings.extend((!duplicates.is_empty()).then(|| Finding::of_faces(FindingCode::Duplicate, duplicates)));
+    findings.sort_by_key(|finding| (finding.severity, finding.code));
+    let (charts, triangles) = (as_given.chart_count, layout.mesh.face_count());
+    LayoutVerdict { planar, planar_in_f32, passes: planar, charts, triangles, findings }
+}
+
+impl LayoutVerdict {
+    /// Removes the findings of some codes, and turns the findings of others into errors. `planar` stays as it is.
+    #[must_use]
+    pub fn judged_by(mut self, ignored: &[FindingCode], denied: &[FindingCode]) -> Self {
+        self.findings.retain(|finding| !ignored.contains(&finding.code));
+        for finding in self.findings.iter_mut().filter(|finding| denied.contains(&finding.code)) {
+            finding.severity = FindingSeverity::Error;
+        }
+        self.findings.sort_by_key(|finding| (finding.severity, finding.code));
+        self.passes = !self.findings.iter().any(|finding| finding.severity == FindingSeverity::Error);
+        self
+    }
+
+    /// Verdict in lower-case words, without the findings.
+    pub fn summary(&self) -> String {
+        let holds = if self.planar_in_f32 { "holds in 32 bits" } else { "does not hold in 32 bits" };
+        match (self.charts, self.planar) {
+            (1, true) => format!("planar: proved one-to-one; {holds}"),
+            (count, true) => format!("{count} charts, each planar, and apart: proved one-to-one; {holds}"),
+            (1, false) => "not planar".to_owned(),
+            (count, false) => format!("{count} charts, not planar"),
+        }
+    }
+}
+
+/// Layout with its charts and the orientation of its faces.
+struct Judged<'a> {
+    layout: PlaneLayout<'a>,
+    options: LayoutOptions,
+    /// Chart of each triangle. Faces without a place have numbers from `chart_count` on.
+    chart_of: Vec<u32>,
+    chart_count: usize,
+    /// Orientation of each triangle in the layout. `None` if a coordinate is not finite.
+    turns: Vec<Option<Orientation>>,
+    /// True for each triangle that runs against the first one of its chart on the surface.
+    runs_against: Vec<bool>,
+    /// True for each chart whose surface has one side only.
+    is_one_sided: Vec<bool>,
+    /// Triangles of each chart.
+    faces_of: Vec<Vec<usize>>,
+    /// Triangles, with vertices joined that agree in space and in the layout.
+    triangles: Vec<[VertexId; 3]>,
+    /// Sides of one triangle only: side k of triangle t is 3 t + k.
+    boundary: Vec<u32>,
+}
+
+impl<'a> Judged<'a> {
+    fn new(layout: PlaneLayout<'a>, options: LayoutOptions) -> Self {
+        let mesh = layout.mesh;
+        let joined = joined_vertices(layout);
+        let has_place = |face: usize| {
+            let [a, b, c] = corners_of(layout, face);
+            !(a == b && b == c)
+        };
+        let joined_corners = |t: &[VertexId; 3]| t.map(|vertex| joined[vertex.index()]);
+        let triangles: Vec<[VertexId; 3]> = mesh.triangles.iter().map(joined_corners).collect();
+        let table = EdgeTable::new(mesh.vertex_count(), &triangles);
+        let tail = |side: u32| triangles[side as usize / 3][side as usize % 3];
+        let group = |side: u32| layout.groups.get(side as usize / 3).copied().unwrap_or_default();
+        let mut charts = DisjointSets::new(mesh.face_count());
+        let mut directions = ParitySets::new(mesh.face_count());
+        let mut contradictions = Vec::new();
+        for sides in table.edges() {
+            let belong = |pair: &&[u32]| {
+                group(pair[0]) == group(pair[1]) && pair.iter().all(|&side| has_place(side as usize / 3))
+            };
+            for pair in sides.windows(2).filter(belong) {
+                charts.join(pair[0] / 3, pair[1] / 3);
+            }
+            if let &[a, b] = sides
+                && belong(&&[a, b][..])
+                && a / 3 != b / 3
+                && directions.relate(a / 3, b / 3, tail(a) == tail(b))
+            {
+                contradictions.push(a / 3);
+            }
+        }
+        // Faces without a place come last, each as a set of its own.
+        let (roots, alone): (Vec<u32>, Vec<u32>) = charts.roots().partition(|&root| has_place(root as usize));
+        let number = |root: u32| {
+            let alone = || roots.len() + alone.binary_search(&root).expect("every root is listed");
+            roots.binary_search(&root).unwrap_or_else(|_| alone())
+        };
+        let chart_of: Vec<usize> = (0..).take(mesh.face_count()).map(|face| number(charts.find(face))).collect();
+        let mut faces_of = vec![Vec::new(); roots.len()];
+        for (face, &chart) in chart_of.iter().enumerate().filter(|(_, chart)| **chart < roots.len()) {
+            faces_of[chart].push(face);
+        }
+        let mut is_one_sided = vec![false; roots.len() + alone.len()];
+        for face in contradictions {
+            is_one_sided[chart_of[face as usize]] = true;
+        }
+        let judged = |face: usize| {
+            let [a, b, c] = corners_of(layout, face);
+            orientation(a, b, c).filter(|_| a.is_finite() && b.is_finite() && c.is_finite())
+        };
+        Self {
+            layout,
+            options,
+            chart_count: roots.len(),
+            turns: (0..mesh.face_count()).into_par_iter().map(judged).collect(),
+            runs_against: (0..).take(mesh.face_count()).map(|face| directions.find(face).1).collect(),
+            chart_of: chart_of.into_iter().map(|chart| VertexId::from_index(chart).number()).collect(),
+            is_one_sided,
+            faces_of,
+            boundary: table.edges().filter(|sides| sides.len() == 1).map(|sides| sides[0]).collect(),
+            triangles,
+        }
+    }
+
+    fn corners(&self, face: usize) -> [DVec2; 3] {
+        corners_of(self.layout, face)
+    }
+
+    /// Faces of the file for triangles, ascending, each once.
+    fn in_file(&self, triangles: impl IntoIterator<Item = usize>) -> Vec<FaceId> {
+        let number = |face: usize| FaceId::new(self.layout.mesh.polygon(FaceId::from_index(face)));
+        let mut faces: Vec<FaceId> = triangles.into_iter().map(number).collect();
+        faces.sort_unstable();
+        faces.dedup();
+        faces
+    }
+
+    fn faces_where(&self, is_found: impl Fn(usize) -> bool) -> Vec<FaceId> {
+        self.in_file((0..self.turns.len()).filter(|&face| is_found(face)))
+    }
+
+    /// True if all corners of a triangle lie at one point of the layout.
+    fn has_no_place(&self, face: usize) -> bool {
+        let [a, b, c] = self.corners(face);
+        a == b && b == c
+    }
+
+    /// True if a triangle lies on a line of the layout and has area in space.
+    fn is_degenerate(&self, face: usize) -> bool {
+        let in_space = self.layout.mesh.triangles[face].map(|v| self.layout.mesh.positions[v.index()]);
+        self.turns[face] == Some(Orientation::Collinear) && !self.has_no_place(face) && !is_zero_area(in_space)
+    }
+
+    /// Findings that can contradict that the layout is planar. Lists at most `most` pairs of overlapping faces.
+    fn errors(&self, most: usize) -> Vec<Finding> {
+        let mut findings = vec![
+            Finding::of_faces(FindingCode::NotFinite, self.faces_where(|face| self.turns[face].is_none())),
+            Finding::of_faces(FindingCode::Flipped, self.flipped()),
+            Finding::of_faces(FindingCode::Degenerate, self.faces_where(|face| self.is_degenerate(face))),
+            Finding::of_faces(FindingCode::ConcavePolygon, self.concave_polygons()),
+            self.without_place(),
+        ];
+        findings.extend(self.overlaps(most));
+        findings.retain(|finding| finding.count > 0);
+        findings
+    }
+
+    /// Faces at one point: an error if they hold much of the surface.
+    fn without_place(&self) -> Finding {
+        let is_found = |face: usize| self.turns[face].is_some() && self.has_no_place(face);
+        let area = |faces: &mut dyn Iterator<Item = usize>| -> f64 {
+            faces.map(|face| self.layout.mesh.double_area_vector(FaceId::from_index(face)).length()).sum()
+        };
+        let all = 0..self.turns.len();
+        let share = area(&mut all.clone().filter(|&face| is_found(face))) / area(&mut all.clone());
+        let finding = Finding::of_faces(FindingCode::NoPlace, self.faces_where(is_found));
+        if share > MOST_WITHOUT_PLACE { finding.into_error() } else { finding }
+    }
+
+    /// Faces turned over against the majority of their chart.
+    fn flipped(&self) -> Vec<FaceId> {
+        let side = |face: usize| {
+            let is_up = match self.turns[face]? {
+                Orientation::CounterClockwise => true,
+                Orientation::Clockwise => false,
+                Orientation::Collinear => return None,
+            };
+            Some(is_up != self.runs_against[face])
+        };
+        let of_chart = |faces: &Vec<usize>| {
+            let sides: Vec<(usize, bool)> = faces.iter().filter_map(|&face| Some((face, side(face)?))).collect();
+            let up = sides.iter().filter(|(_, is_up)| *is_up).count();
+            let is_down = 2 * up < sides.len();
+            sides.into_iter().filter(move |(_, is_up)| *is_up == is_down).map(|(face, _)| face).collect::<Vec<_>>()
+        };
+        let two_sided = self.faces_of.iter().zip(&self.is_one_sided).filter(|(_, is_one_sided)| !**is_one_sided);
+        self.in_file(two_sided.flat_map(|(faces, _)| of_chart(faces)))
+    }
+
+    /// Polygons whose triangles are good and that another cut into triangles would fold.
+    fn concave_polygons(&self) -> Vec<FaceId> {
+        let is_concave = |polygon: &crate::mesh::Polygon<'_>| {
+            let turn = self.turns[polygon.first_face.index()];
+            let is_good = turn.is_some_and(|turn| turn != Orientation::Collinear);
+            let are_alike = polygon.faces().all(|face| self.turns[face.index()] == turn);
+            let ear_turn = |[a, b, c]: [VertexId; 3]| {
+                orientation(self.layout.coordinates[a], self.layout.coordinates[b], self.layout.coordinates[c])
+            };
+            is_good && are_alike && !polygon.convex_ears().all(|ear| ear_turn(ear) == turn)
+        };
+        let found = self.layout.mesh.polygons_where(is_concave);
+        self.in_file(found.into_iter().map(FaceId::index))
+    }
+
+    /// Pairs of overlapping faces, by kind.
+    fn overlaps(&self, most: usize) -> Vec<Finding> {
+        let (faces, triangles): (Vec<usize>, Vec<[DVec2; 3]>) = (0..self.turns.len())
+            .filter_map(|face| {
+                let [a, b, c] = self.corners(face);
+                match self.turns[face]? {
+                    Orientation::CounterClockwise => Some((face, [a, b, c])),
+                    Orientation::Clockwise => Some((face, [a, c, b])),
+                    Orientation::Collinear => None,
+                }
+            })
+            .unzip();
+        let places = ids_of(triangles.iter().map(|corners| place_key(*corners)));
+        let outlines = self.outlines();
+        let group = |at: usize| self.layout.groups.get(faces[at]).copied().unwrap_or_default();
+        let chart = |at: usize| self.chart_of[faces[at]] as usize;
+        let are_stacked = |a: usize, b: usize| {
+            places[a] == places[b] || (chart(a) != chart(b) && outlines[chart(a)] == outlines[chart(b)])
+        };
+        let of_kind = |stacked: bool| {
+            let counts = |a: usize, b: usize| group(a) == group(b) && are_stacked(a, b) == stacked;
+            geom::overlaps(&triangles, counts, most + 1)
+        };
+        let mut found: [Vec<[usize; 2]>; 4] = Default::default();
+        for pair in of_kind(false) {
+            let [a, b] = pair.map(chart);
+            let is_mirrored = |pair: [usize; 2]| self.turns[faces[pair[0]]] != self.turns[faces[pair[1]]];
+            let kind = if a == b { 0 } else { 1 + usize::from(is_mirrored(pair)) };
+            found[kind].push(pair);
+        }
+        if !self.options.accepts_stacks {
+            found[3] = of_kind(true);
+        }
+        let codes =
+            [FindingCode::Overlap, FindingCode::OverlapOfCharts, FindingCode::OverlapMirrored, FindingCode::Stacked];
+        let finding = |(code, pairs): (FindingCode, Vec<[usize; 2]>)| {
+            let number = |at: usize| FaceId::new(self.layout.mesh.polygon(FaceId::from_index(faces[at])));
+            let mut pairs: Vec<[FaceId; 2]> =
+                pairs.into_iter().map(|pair| pair.map(number)).map(|[a, b]| [a.min(b), a.max(b)]).collect();
+            pairs.sort_unstable();
+            pairs.dedup();
+            Finding::of_pairs(code, pairs, most)
+        };
+        codes.into_iter().zip(found).map(finding).collect()
+    }
+
+    /// Number of each chart's outline: equal for charts with equal boundaries, bit for bit, as they lie or mirrored. A
+    /// chart whose boundary is no set of simple cycles has a number of its own.
+    fn outlines(&self) -> Vec<u32> {
+        let mut sides_of = vec![Vec::new(); self.chart_count];
+        for &side in self.boundary.iter().filter(|&&side| !self.has_no_place(side as usize / 3)) {
+            let ends = [side, side - side % 3 + (side + 1) % 3];
+            let ends = ends.map(|corner| self.triangles[corner as usize / 3][corner as usize % 3]);
+            sides_of[self.chart_of[side as usize / 3] as usize].push(ends);
+        }
+        let outline = |sides: &Vec<[VertexId; 2]>| outline_of(self.layout.coordinates, sides);
+        let found: Vec<Option<Outline>> = sides_of.par_iter().map(outline).collect();
+        let keys = found.into_iter().enumerate();
+        ids_of(keys.map(|(chart, outline)| outline.ok_or(chart)))
+    }
+
+    /// Findings that do not contradict that the layout is planar.
+    fn remarks(&self) -> Vec<Finding> {
+        let mirrored = |faces: &Vec<usize>| {
+            let count = |turn| faces.iter().filter(|&&face| self.turns[face] == Some(turn)).count();
+            count(Orientation::Clockwise) > count(Orientation::CounterClockwise)
+        };
+        let firsts = |faces: Vec<usize>| self.in_file(faces);
+        let of_charts = |is_found: &dyn Fn(&Vec<usize>) -> bool| {
+            firsts(self.faces_of.iter().filter(|faces| is_found(faces)).map(|faces| faces[0]).collect())
+        };
+        let is_far = |face: usize| {
+            let corners = self.corners(face);
+            corners.iter().any(|z| z.is_finite() && (*z - DVec2::splat(0.5)).abs().max_element() > 0.5 + FAR)
+        };
+        let bare = self.layout.bare_faces.iter().copied().map(FaceId::new).collect();
+        let mut findings = vec![
+            Finding::of_faces(FindingCode::NoCoordinates, bare),
+            Finding::of_faces(FindingCode::FarAway, self.faces_where(is_far)),
+            Finding::of_faces(FindingCode::Outside, of_charts(&|faces| self.tile(faces).is_none())),
+            Finding::of_faces(FindingCode::Scale, self.charts_of_other_scale()),
+            Finding::of_faces(FindingCode::Mirrored, of_charts(&mirrored)),
+            Finding::of_faces(FindingCode::Turned, self.faces_where(|face| self.runs_against[face])),
+            Finding::of_faces(
+                FindingCode::Tiles,
+                of_charts(&|faces| self.tile(faces).is_some_and(|tile| tile != [0; 2])),
+            ),
+        ];
+        if let Some(gap) = self.options.gap {
+            let pairs = self.near_charts(gap);
+            findings.push(Finding::of_pairs(FindingCode::Gap, pairs, FINDINGS_LISTED));
+        }
+        findings.retain(|finding| finding.count > 0);
+        findings
+    }
+
+    /// Unit square of the grid that holds a chart; `None` if no single one does.
+    #[expect(clippy::cast_possible_truncation, reason = "casts saturate, and far tiles are no tiles")]
+    fn tile(&self, faces: &[usize]) -> Option<[i64; 2]> {
+        let points = faces.iter().flat_map(|&face| self.corners(face)).filter(|z| z.is_finite());
+        let bounds = Bounds::of(points);
+        if bounds == Bounds::EMPTY {
+            return Some([0; 2]);
+        }
+        let tile = bounds.middle().floor();
+        let holds = bounds.low.cmpge(tile).all() && bounds.high.cmple(tile + DVec2::ONE).all();
+        holds.then(|| tile.to_array().map(|x| x as i64))
+    }
+
+    /// Charts, by their first faces, whose scale differs from the usual one: the median over the surface.
+    fn charts_of_other_scale(&self) -> Vec<FaceId> {
+        let mesh = self.layout.mesh;
+        let scale = |faces: &Vec<usize>| {
+            let in_space = |face: usize| {
+                let [a, b, c] = mesh.triangles[face].map(|v| mesh.positions[v.index()]);
+                (b - a).cross(c - a).length()
+            };
+            let in_plane = |face: usize| double_area(self.corners(face)).abs();
+            let space: f64 = faces.iter().map(|&face| in_space(face)).sum();
+            let plane: f64 = faces.iter().map(|&face| in_plane(face)).sum();
+            (faces[0], (plane / space).sqrt(), space)
+        };
+        let mut scales: Vec<(usize, f64, f64)> = self.faces_of.iter().map(scale).collect();
+        scales.retain(|(_, scale, _)| scale.is_finite() && *scale > 0.0);
+        scales.sort_by(|(_, a, _), (_, b, _)| a.total_cmp(b));
+        let half = scales.iter().map(|(.., area)| area).sum::<f64>() / 2.0;
+        let mut up_to = 0.0;
+        let usual = scales.iter().find(|(.., area)| {
+            up_to += area;
+            up_to >= half
+        });
+        let Some(&(_, usual, _)) = usual else { return Vec::new() };
+        let differs = |scale: f64| (scale / usual).max(usual / scale) > self.options.scale_ratio;
+        self.in_file(scales.into_iter().filter(|(_, scale, _)| differs(*scale)).map(|(face, ..)| face))
+    }
+
+    /// Pairs of charts that are nearer to each other than the gap, by their first faces.
+    fn near_charts(&self, PixelGap { least: gap, picture }: PixelGap) -> Vec<[FaceId; 2]> {
+        let in_pixels = |(chart, ends): (u32, [DVec2; 2])| (chart, ends.map(|z| z * picture));
+        let edges: Vec<(u32, [DVec2; 2])> = self.boundary_sides().into_iter().map(in_pixels).collect();
+        let mut order: Vec<usize> = (0..edges.len()).collect();
+        let bounds = |at: usize| Bounds::of(edges[at].1);
+        let whole = (0..edges.len()).fold(Bounds::EMPTY, |whole, at| whole.union(bounds(at)));
+        order.sort_by_cached_key(|&at| (geom::place_along_curve(whole, bounds(at).middle()), at));
+        let grown = |at: usize| {
+            let Bounds { low, high } = bounds(at);
+            Bounds { low: low - gap / 2.0, high: high + gap / 2.0 }
+        };
+        let tree = geom::BoxTree::new(order.iter().map(|&at| grown(at)));
+        let group = |chart: u32| self.layout.groups.get(self.faces_of[chart as usize][0]).copied().unwrap_or_default();
+        let near = |place: usize| {
+            let (chart, side) = edges[order[place]];
+            let others = tree.later(place).map(|other| edges[order[other]]);
+            let is_near = move |(other, _): &(u32, [DVec2; 2])| *other != chart && group(*other) == group(chart);
+            let others = others.filter(is_near).filter(|(_, other)| distance(side, *other) < gap);
+            others.map(|(other, _)| [chart.min(other), chart.max(other)]).collect::<Vec<_>>()
+        };
+        let mut pairs: Vec<[u32; 2]> = (0..order.len()).into_par_iter().flat_map_iter(near).collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        let first =
+            |chart: u32| FaceId::new(self.layout.mesh.polygon(FaceId::from_index(self.faces_of[chart as usize][0])));
+        pairs.into_iter().map(|pair| pair.map(first)).collect()
+    }
+
+    /// Boundary sides of all charts, each with its chart.
+    fn boundary_sides(&self) -> Vec<(u32, [DVec2; 2])> {
+        let side = |side: u32| {
+            let corners = self.corners(side as usize / 3);
+            [corners[side as usize % 3], corners[(side as usize + 1) % 3]]
+        };
+        let sides = self.boundary.iter().map(|&at| (self.chart_of[at as usize / 3], side(at)));
+        let sides = sides.filter(|(chart, _)| (*chart as usize) < self.chart_count);
+        sides.filter(|(_, ends)| ends.iter().all(|z| z.is_finite())).collect()
+    }
+}
+
+/// Triangles of a layout and their groups without duplicate faces, and these faces. `None` if there are none.
+fn without_duplicates(layout: PlaneLayout<'_>) -> (Option<(TriMesh, Vec<u32>)>, Vec<FaceId>) {
+    let mesh = layout.mesh;
+    let joined = joined_vertices(layout);
+    let number = |face: usize| mesh.polygon(FaceId::from_index(face));
+    let group = |face: usize| layout.groups.get(face).copied().unwrap_or_default();
+    let mut seen: HashSet<(u32, Vec<VertexId>)> = HashSet::with_capacity(mesh.face_count());
+    let mut stays = vec![true; mesh.face_count()];
+    let mut duplicates = Vec::new();
+    let mut first = 0;
+    while first < mesh.face_count() {
+        // Triangles of one polygon are consecutive.
+        let own = (first..mesh.face_count()).take_while(|&face| number(face) == number(first)).count();
+        let corners = mesh.triangles[first..first + own].iter().flatten();
+        let mut corners: Vec<VertexId> = corners.map(|vertex| joined[vertex.index()]).collect();
+        corners.sort_unstable();
+        corners.dedup();
+        if !seen.insert((group(first), corners)) {
+            stays[first..first + own].fill(false);
+            duplicates.push(FaceId::new(number(first)));
+        }
+        first += own;
+    }
+    if duplicates.is_empty() {
+        return (None, duplicates);
+    }
+    let groups = layout.groups.iter().zip(&stays).filter(|(_, stays)| **stays).map(|(group, _)| *group).collect();
+    (Some((mesh.clone().with_faces(&stays), groups)), duplicates)
+}
+
+fn corners_of(layout: PlaneLayout<'_>, face: usize) -> [DVec2; 3] {
+    layout.mesh.triangles[face].map(|vertex| layout.coordinates[vertex])
+}
+
+/// First vertex with the position and the coordinate of each vertex.
+fn joined_vertices(layout: PlaneLayout<'_>) -> Vec<VertexId> {
+    let key = |vertex: usize| {
+        let in_space = (layout.mesh.positions[vertex] + DVec3::ZERO).to_array().map(f64::to_bits);
+        let uv = layout.coordinates[VertexId::from_index(vertex)];
+        (in_space, (uv + DVec2::ZERO).to_array().map(f64::to_bits))
+    };
+    let mut first: HashMap<([u64; 3], [u64; 2]), VertexId> = HashMap::with_capacity(layout.mesh.vertex_count());
+    let joined = |vertex: usize| *first.entry(key(vertex)).or_insert_with(|| VertexId::from_index(vertex));
+    (0..layout.mesh.vertex_count()).map(joined).collect()
+}
+
+/// Key of the corners of a triangle, in any order.
+fn place_key(corners: [DVec2; 3]) -> [[u64; 2]; 3] {
+    let mut bits = corners.map(|z| (z + DVec2::ZERO).to_array().map(f64::to_bits));
+    bits.sort_unstable();
+    bits
+}
+
+/// Number of each key: that of the first equal one.
+fn ids_of<K: std::hash::Hash + Eq>(keys: impl Iterator<Item = K>) -> Vec<u32> {
+    let mut first: HashMap<K, u32> = HashMap::new();
+    (0..).zip(keys).map(|(number, key)| *first.entry(key).or_insert(number)).collect()
+}
+
+/// Boundary loops of a chart from its boundary sides. `None` if a vertex has other than two sides, or there are none.
+fn outline_of(coordinates: &Embedding, sides: &[[VertexId; 2]]) -> Option<Outline> {
+    let mut around: HashMap<VertexId, Vec<VertexId>> = HashMap::new();
+    for &[a, b] in sides {
+        around.entry(a).or_default().push(b);
+        around.entry(b).or_default().push(a);
+    }
+    if around.is_empty() || around.values().any(|ends| ends.len() != 2) {
+        return None;
+    }
+    let bits = |vertex: VertexId| (coordinates[vertex] + DVec2::ZERO).to_array().map(f64::to_bits);
+    let mut starts: Vec<VertexId> = around.keys().copied().collect();
+    starts.sort_unstable();
+    let mut loops = Vec::new();
+    for start in starts {
+        let mut found = Vec::new();
+        let mut at = start;
+        while let Some(ends) = around.remove(&at) {
+            found.push(bits(at));
+            at = ends.into_iter().find(|end| around.contains_key(end)).unwrap_or(start);
+        }
+        if !found.is_empty() {
+            loops.push(canonical(found));
+        }
+    }
+    loops.sort_unstable();
+    Some(loops)
+}
+
+/// Distance of two segments that do not cross.
+fn distance(a: [DVec2; 2], b: [DVec2; 2]) -> f64 {
+    let to_segment = |z: DVec2, [from, to]: [DVec2; 2]| {
+        let along = to - from;
+        let share = ((z - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        z.distance(from + along * if share.is_finite() { share } else { 0.0 })
+    };
+    let of_ends = a.map(|end| to_segment(end, b)).into_iter().chain(b.map(|end| to_segment(end, a)));
+    of_ends.fold(f64::INFINITY, f64::min)
+}
