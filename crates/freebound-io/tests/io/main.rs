@@ -4,6 +4,7 @@
 
 mod bad_input;
 mod formats;
+mod full_disk;
 mod gltf_hostile;
 mod gltf_read;
 mod gltf_write;
