@@ -12,13 +12,13 @@ use super::progress::go_on;
 use super::standard::{MemoryLimit, read_model};
 use super::summary::{deliver, file_words, mesh_words, size_words};
 use crate::session::Model;
-use freebound_core::mesh::{DiskMesh, FaceId, Preparation, TriMesh, parts};
+use freebound_core::mesh::{DiskMesh, FaceId, Part, Preparation, TriMesh, parts};
 use freebound_core::pipeline::{PreparedMesh, Surface};
 use freebound_core::verify::{
     AtlasVerdict, ChartRelations, DistortionSummary, Finding, FindingSeverity, PlaneLayout, Verdict, distortion,
     equal_outlines, layout_verdict, stacked_atlas_verdict, verdict,
 };
-use freebound_io::{MeshFile, MeshReport, Report, Seconds, TextureError, TextureMesh, verdict_as_in_file};
+use freebound_io::{MeshReport, Report, Seconds, TextureError, TextureMesh, verdict_as_in_file};
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandError> {
     let start = Instant::now();
@@ -35,13 +35,14 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandE
     };
     let read = start.elapsed().as_secs_f64();
     go_on()?;
-    let groups = if arguments.across_materials { Vec::new() } else { groups_of(&model.source, &texture.mesh) };
+    let labels = model.source.material_labels().ok().filter(|_| !arguments.across_materials);
+    let groups = labels.as_ref().map(|labels| groups_of(labels, &texture.mesh)).unwrap_or_default();
     let coordinates = &texture.embedding;
     let layout = PlaneLayout { mesh: &texture.mesh, coordinates, groups: &groups, bare_faces: &bare };
     let mut found = layout_verdict(layout, arguments.options()).judged_by(&arguments.ignore, &arguments.denied_codes());
     found.planar_in_f32 |= found.planar && model.source.is_turned_over();
     go_on()?;
-    let of_surface = OfSurface::of(texture, arguments.stacked, path.clone());
+    let of_surface = OfSurface::of(texture, labels.as_deref(), arguments.stacked, path.clone());
     go_on()?;
     let mesh = MeshReport { warnings: model.source.warnings.clone(), ..of_surface.mesh };
     let first = format!("{path}: texture coordinates: {}", found.summary());
@@ -69,11 +70,15 @@ fn finding_words(finding: &Finding) -> String {
     format!("{severity} {}: {finding}", finding.code.name())
 }
 
-/// Material of each triangle. Empty if the file assigns no materials.
-fn groups_of(source: &MeshFile, mesh: &TriMesh) -> Vec<u32> {
-    let Ok(labels) = source.material_labels() else { return Vec::new() };
-    let label = |face: usize| labels[mesh.polygon(FaceId::from_index(face)) as usize];
-    (0..mesh.face_count()).map(label).collect()
+/// Material of each triangle. `labels` has that of each face of the file.
+fn groups_of(labels: &[u32], mesh: &TriMesh) -> Vec<u32> {
+    (0..mesh.face_count()).map(|face| labels[mesh.polygon(FaceId::from_index(face)) as usize]).collect()
+}
+
+/// Material of all triangles of a chart; `None` if they differ.
+fn group_of(labels: &[u32], chart: &Part) -> Option<u32> {
+    let all = groups_of(labels, chart.mesh());
+    all.first().copied().filter(|first| all.iter().all(|label| label == first))
 }
 
 /// Verdicts of the theorems on disks, if the layout is a disk or its charts are surfaces with boundary.
@@ -85,7 +90,7 @@ struct OfSurface {
 }
 
 impl OfSurface {
-    fn of(mut texture: TextureMesh, accepts_stacks: bool, path: String) -> Self {
+    fn of(mut texture: TextureMesh, labels: Option<&[u32]>, accepts_stacks: bool, path: String) -> Self {
         let disk = DiskMesh::try_from(texture.mesh.clone()).or_else(|_| {
             // Try again without redundant faces, which repairs leave in the file.
             texture.mesh = std::mem::take(&mut texture.mesh).without_repeats();
@@ -107,7 +112,8 @@ impl OfSurface {
             return Self { mesh, verdict: None, distortion: None, atlas: None };
         };
         let stacked_on = if accepts_stacks { equal_outlines(&charts, &texture.embedding) } else { Vec::new() };
-        let relations = ChartRelations { stacked_on, ..ChartRelations::default() };
+        let groups = labels.map(|labels| charts.iter().map(|chart| group_of(labels, chart)).collect());
+        let relations = ChartRelations { stacked_on, groups: groups.unwrap_or_default() };
         let atlas = stacked_atlas_verdict(&charts, &texture.embedding, &relations).as_in_file(&texture.mesh);
         let mesh = MeshReport::of_charts(path, vertices, &charts);
         Self { mesh, verdict: None, distortion: None, atlas: Some(atlas) }
@@ -153,7 +159,7 @@ fn check_mesh(
         };
         (MeshReport::new(path, disk), format!("a disk{holes}"))
     };
-    let mesh = mesh.prepared(&model.source, model.whole_repaired());
+    let mesh = mesh.prepared(&model.source, &model.prepared);
     let report = report(mesh, start, start.elapsed().as_secs_f64());
     let notes = &report.mesh;
     let first = format!("{}: {kind}, {}; no texture coordinates", notes.path, size_words(notes));

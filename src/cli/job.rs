@@ -94,6 +94,7 @@ impl HeadlessJob<'_> {
                     size: of.map_or(1.0, |of| self.options.size_of(&of.charts, of.number)),
                     tile: of.and_then(|of| self.options.tile_of(&of.charts, of.number)),
                     locked: layouts.get(&number),
+                    keeps_materials: self.keeps_materials(model),
                 }
             })
             .collect();
@@ -103,6 +104,14 @@ impl HeadlessJob<'_> {
         output.report.seconds.verify = before.elapsed().as_secs_f64();
         self.write(&mut output, None, start, progress)?;
         self.conclude(&output, || atlas_summary(&output.report))
+    }
+
+    /// True if every mesh that is written keeps the materials of the file: in the format of the file, and without a
+    /// material of its own for a picture.
+    fn keeps_materials(&self, model: &Model) -> bool {
+        let own = if model.source.is_turned_over() { OutputKind::Glb } else { OutputKind::Obj };
+        let mut meshes = self.outputs.iter().map(|&(kind, _)| kind).filter(|kind| kind.is_mesh());
+        self.picture.is_none() && meshes.all(|kind| kind == own)
     }
 
     /// Layouts of the locked charts, by their numbers.

@@ -85,7 +85,8 @@ impl AtlasKey {
 impl ChartResult {
     fn chart(&self) -> SolvedModel<'_> {
         let Self { model, outcome, steps, size, locked } = self;
-        SolvedModel { model, outcome, steps, size: *size, tile: None, locked: locked.as_deref() }
+        let locked = locked.as_deref();
+        SolvedModel { model, outcome, steps, size: *size, tile: None, locked, keeps_materials: false }
     }
 }
 

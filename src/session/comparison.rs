@@ -81,7 +81,7 @@ impl Compared {
 /// If the model is not a disk.
 pub fn comparison_report(model: &Model, methods: &[&Compared]) -> ComparisonReport {
     let disk = model.disk().expect("methods run on disks only");
-    let mesh = MeshReport::new(model.path_words(), disk).prepared(&model.source, model.whole_repaired());
+    let mesh = MeshReport::new(model.path_words(), disk).prepared(&model.source, &model.prepared);
     let chart = model.prepared.chart.as_ref().map(|of| ChartNumber { number: of.number, of: of.charts.count() });
     let aspect = methods.first().map_or(1.0, |method| method.problem.frame.aspect);
     let mut report = ComparisonReport::new(mesh, chart, aspect);

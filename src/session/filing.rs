@@ -28,6 +28,7 @@ impl Session {
         // An example only takes its first step, so that the user can watch the others.
         let waits = model.example.is_some() && is_mesh;
         let warnings: Vec<String> = model.source.warnings.iter().map(ToString::to_string).collect();
+        let touching = model.prepared.touching_vertices;
         self.document = document;
         self.history = History::default();
         self.jobs.forget();
@@ -41,6 +42,11 @@ impl Session {
         }
         for warning in warnings {
             self.messages.say(Message::note(MessagePlace::Mesh, warning));
+        }
+        if touching > 0 {
+            let words = if touching == 1 { "1 vertex touches" } else { &format!("{touching} vertices touch") };
+            let note = Message::note(MessagePlace::Mesh, format!("{words} other parts without being joined"));
+            self.messages.say(note.with_remedy("weld within 0 if the parts are one surface"));
         }
         for remark in remarks {
             self.messages.say(remark);

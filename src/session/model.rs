@@ -372,6 +372,9 @@ pub struct SolvedModel<'a> {
     pub tile: Option<u32>,
     /// Texture coordinates where the chart stays, v up. Default: the chart is packed.
     pub locked: Option<&'a Embedding>,
+    /// True if all files that are written keep the materials of the source. Charts of different materials may then
+    /// overlap, because each material has a picture of its own.
+    pub keeps_materials: bool,
 }
 
 /// Lays out and proves all charts of a mesh, ready to be written.
@@ -381,8 +384,8 @@ pub struct SolvedModel<'a> {
 /// If there is no chart, a model is not a chart of several, or a chart is not a disk.
 pub fn finished_atlas<'a>(charts: &[SolvedModel<'a>], options: PackingOptions, arrangement: Arrangement) -> Output<'a> {
     // Charts that are packed do not overlap, whatever their materials.
-    let is_in_file = arrangement == Arrangement::AsGiven;
-    let materials = is_in_file.then(|| charts[0].model.source.material_labels().ok()).flatten();
+    let may_overlap = arrangement == Arrangement::AsGiven && charts.iter().all(|chart| chart.keeps_materials);
+    let materials = may_overlap.then(|| charts[0].model.source.material_labels().ok()).flatten();
     let solved = |&SolvedModel { model, outcome, size, tile, locked, .. }: &SolvedModel<'a>| SolvedChart {
         chart: &model.prepared,
         outcome,

@@ -71,7 +71,7 @@ impl<'a> ResultSource<'a> {
             split_edges: step.candidate.refinement.as_ref().map(|r| r.split_edges_of_surface()).unwrap_or_default(),
             cut_polygons: step.candidate.refinement.as_ref().map(|r| r.cut_polygons(given)).unwrap_or_default(),
             seconds: Seconds { solve, verify, total: solve + verify, ..Seconds::default() },
-            ..Report::of_mesh(MeshReport::new(self.name, given).prepared(self.file, prepared.repaired.as_deref()))
+            ..Report::of_mesh(MeshReport::new(self.name, given).prepared(self.file, prepared))
         };
         let (refinement, held) = (step.candidate.refinement.as_deref(), outcome.held());
         Output {
@@ -131,7 +131,7 @@ impl<'a> ResultSource<'a> {
             split_edges: atlas.split_edges,
             cut_polygons: atlas.cut_polygons,
             seconds: Seconds { solve, ..Seconds::default() },
-            ..Report::of_mesh(mesh.prepared(self.file, whole))
+            ..Report::of_mesh(mesh.prepared(self.file, charts[0].chart))
         };
         Output {
             source: self.file,

@@ -5,8 +5,10 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::{MeshFile, Precision, ReadWarning, RoundingReport, StepReport, peak_memory_bytes};
-use freebound_core::mesh::{DiskMesh, Done, FaceId, Part, Repaired, TriMesh, VertexId};
-use freebound_core::pipeline::{AutomaticSeams, PackingSummary, PinsSummary, Placement, RepackedChart, StackedOn};
+use freebound_core::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
+use freebound_core::pipeline::{
+    AutomaticSeams, PackingSummary, PinsSummary, Placement, PreparedMesh, RepackedChart, StackedOn,
+};
 use freebound_core::problem::{BoundaryShape, Family, Method, Settings, Spacing};
 use freebound_core::verify::{AtlasVerdict, DistortionSummary, LayoutVerdict, Verdict};
 
@@ -201,11 +203,12 @@ impl MeshReport {
 
     /// Adds what was read and repaired.
     #[must_use]
-    pub fn prepared(self, file: &MeshFile, repaired: Option<&Repaired>) -> Self {
+    pub fn prepared(self, file: &MeshFile, prepared: &PreparedMesh) -> Self {
+        let repaired = prepared.whole_repaired();
         Self {
             repairs: repaired.map(|repaired| repaired.done().to_vec()).unwrap_or_default(),
             degenerate_faces: repaired.map(|repaired| repaired.degenerate_faces().to_vec()).unwrap_or_default(),
-            touching_vertices: repaired.map_or(0, |repaired| repaired.touching_vertices(&file.polygons)),
+            touching_vertices: prepared.touching_vertices,
             warnings: file.warnings.clone(),
             ..self
         }

@@ -3,7 +3,7 @@
 //! Signs are computed in 64-bit numbers with an error bound, and in rational numbers where the bound does not decide. A
 //! grid finds the pairs of triangles that may overlap. Shares no code with the program.
 //!
-//! A face is *without a place* if it has no coordinates or all its corners lie at one point. A face with the corners of
+//! A face is *without a place* if it has no coordinates or its corners lie at one or two points. A face with the corners of
 //! an earlier face, in space and in the plane, is a *duplicate*. Both are counted and left out. Faces at points may hold
 //! 1 % of the surface.
 
@@ -28,9 +28,9 @@ const MOST_AT_POINTS: f64 = 0.01;
 pub struct Judgement {
     /// Number of polygons.
     pub faces: usize,
-    /// Faces without coordinates, or at one point.
+    /// Faces without coordinates, or at one or two points.
     pub without_place: usize,
-    /// Share of the surface whose faces lie at one point each.
+    /// Share of the surface whose faces lie at one or two points each.
     pub share_at_points: f64,
     /// Faces that repeat an earlier face.
     pub duplicates: usize,
@@ -135,7 +135,8 @@ fn judge(layout: &Layout) -> Judgement {
             judgement.degenerate += 1;
             continue;
         }
-        if places.iter().all(|place| is_same(place, &places[0])) {
+        let other = places.iter().find(|place| !is_same(place, &places[0])).unwrap_or(&places[0]);
+        if places.iter().all(|place| is_same(place, &places[0]) || is_same(place, other)) {
             judgement.without_place += 1;
             at_points += area;
             continue;
@@ -346,7 +347,7 @@ mod tests {
         assert_eq!(judged("f 1/1 2/2 3/3\nf 1/1 2/2 4/4\n").overlaps, 1);
         assert_eq!(judged("f 1/1 2/2 3/3\nf 1/1 3/3 4/2\n").overlaps, 1);
         assert_eq!(judged("f 1/1 3/3 2/2 4/4\n").folded, 1);
-        assert_eq!(judged("f 1/1 2/2 3/3\nf 1/1 2/2 4/1\n").degenerate, 1);
+        assert!(!judged("f 1/1 2/2 3/3\nf 1/1 2/2 4/1\n").is_planar());
         assert_eq!(judged("f 1/1 2/2 3/3\nf 3/3 1/1 2/2\n").duplicates, 1);
         assert_eq!(judged("f 1/1 2/2 3/3\nf 1/1 2/1 3/1\nf 1 2 4\n").without_place, 2);
     }

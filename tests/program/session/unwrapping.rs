@@ -108,6 +108,22 @@ fn previews_do_not_make_the_mesh_forget_the_map_of_its_seams() {
 }
 
 #[test]
+fn parts_that_touch_are_named_when_the_mesh_opens_and_stay_apart() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("two.obj");
+    let text =
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nf 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\n";
+    std::fs::write(&path, text).expect("written");
+    let mut session = session();
+    settled(&mut session, Action::Open(path));
+    let prepared = &session.model().expect("opened").prepared;
+    assert_eq!((prepared.chart_count(), prepared.touching_vertices), (2, 2));
+    let of_mesh = |message: &&Message| message.place == MessagePlace::Mesh;
+    assert_eq!(session.messages().iter().filter(of_mesh).count(), 1);
+    assert!(errors(&session).is_empty());
+}
+
+#[test]
 fn what_was_left_out_of_a_file_is_noted_until_another_mesh_is_opened() {
     let (folder, mut session) = with_ball();
     let of_mesh = |session: &Session| -> Vec<Message> {

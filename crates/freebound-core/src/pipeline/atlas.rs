@@ -127,8 +127,7 @@ pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions, arrangemen
     };
     let is_as_given = arrangement == Arrangement::AsGiven && options.stack == Stacking::None;
     if is_as_given && charts.iter().all(is_placed) {
-        let laid = kept(charts, options).into_iter().zip(charts);
-        let laid = laid.map(|(kept, chart)| kept.unwrap_or_else(|| chart.in_place())).collect();
+        let laid = charts.par_iter().map(|chart| chart.kept(options).unwrap_or_else(|| chart.in_place())).collect();
         let in_place = output(charts, laid, vec![None; charts.len()], None, options);
         if in_place.verdict.overlapping_faces.is_empty() {
             return in_place;

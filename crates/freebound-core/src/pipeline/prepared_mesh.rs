@@ -3,7 +3,10 @@
 //! Preparation never renumbers a vertex of the input: vertices made by cuts come after all others. The order of faces
 //! stays.
 
+use std::collections::HashSet;
 use std::sync::Arc;
+
+use glam::DVec3;
 
 use crate::mesh::{
     Chart, Charts, Diagnosis, DiskMesh, Fault, PartFaces, PolygonMesh, Preparation, Repair, Repaired, Repairs, TriMesh,
@@ -27,6 +30,8 @@ pub struct PreparedMesh {
     pub chart: Option<ChartOf>,
     /// Triangles of the mesh or of the chart, and their diagnosis.
     pub surface: Surface,
+    /// Vertices at the position of a vertex of another part, with which they are not joined. 0 for a mesh of one chart.
+    pub touching_vertices: usize,
     /// True if most faces seem to point inward. False if the surface is too flat to tell.
     pub faces_point_inward: bool,
 }
@@ -71,7 +76,10 @@ impl PreparedMesh {
             Surface::Disk(_) => None,
             Surface::Faulty(..) => Some(repaired(&form.with_all_repairs())).filter(Repaired::flattens).map(Arc::new),
         };
-        Self { form, remedy, ..Self::default() }.with(found)
+        let prepared = Self { form, remedy, ..Self::default() }.with(found);
+        let whole = prepared.chart.as_ref().map(|of| of.charts.whole());
+        let touching_vertices = whole.map_or(0, |whole| whole.touching_vertices(polygons));
+        Self { touching_vertices, ..prepared }
     }
 
     /// Parts of the mesh, also those left out, in the order of their first faces.
@@ -177,7 +185,9 @@ fn surface_of(polygons: &PolygonMesh, form: &Preparation) -> Found {
         Ok(disk) if is_welded => Some(disk),
         Ok(disk) => return Found::disk(disk, None),
         Err(diagnosis) if is_soup(polygons, form.repair, &diagnosis) => {
-            return Found::left(form.repaired(polygons), *diagnosis);
+            let repaired = form.repaired(polygons);
+            let left = diagnose(&repaired.triangulate());
+            return Found::left(repaired, left);
         }
         Err(_) => None,
     };
@@ -217,10 +227,17 @@ fn is_refused_uncut(polygons: &PolygonMesh, repairs: Repairs) -> bool {
 /// touch are charts of their own.
 fn is_soup(polygons: &PolygonMesh, repairs: Repairs, diagnosis: &Diagnosis) -> bool {
     let is_welded = repairs.allows(Repair::WeldVertices) || repairs.weld_distance().is_some();
-    if is_welded || !diagnosis.faults.iter().any(|fault| matches!(fault, Fault::CoincidentVertices(_))) {
-        return false;
-    }
-    let alone = Preparation::default().parts(polygons, None).iter().filter(|part| part.count == 1).count();
+    let coincident = diagnosis.faults.iter().find_map(|fault| match fault {
+        Fault::CoincidentVertices(vertices) => Some(vertices),
+        _ => None,
+    });
+    let Some(coincident) = coincident.filter(|_| !is_welded) else { return false };
+    // Adding 0 turns −0 into 0.
+    let place = |vertex: &VertexId| (polygons.positions[vertex.index()] + DVec3::ZERO).to_array().map(f64::to_bits);
+    let places: HashSet<[u64; 3]> = coincident.iter().map(place).collect();
+    let parts = Preparation::default().parts(polygons, None);
+    let single = parts.iter().filter(|part| part.count == 1).map(|part| polygons.face(part.first_face as usize));
+    let alone = single.filter(|face| face.iter().any(|vertex| places.contains(&place(vertex)))).count();
     2 * alone > polygons.face_count()
 }
 

@@ -44,7 +44,7 @@ pub enum FindingCode {
     Stacked,
     /// Faces without coordinates.
     NoCoordinates,
-    /// Faces whose corners all lie at one point.
+    /// Faces whose corners lie at one or two points.
     NoPlace,
     /// Faces with the corners of an earlier face, in space and in the layout.
     Duplicate,
@@ -150,9 +150,9 @@ impl FindingCode {
                 "pair of faces of charts that mirror each other overlaps",
                 "pairs of faces of charts that mirror each other overlap",
             ],
-            Self::Stacked => ["pair of faces shares exactly one place", "pairs of faces share exactly one place"],
+            Self::Stacked => ["face lies on another face or chart", "faces lie on other faces or charts"],
             Self::NoCoordinates => ["face has no coordinates", "faces have no coordinates"],
-            Self::NoPlace => ["face lies at one point", "faces lie at one point"],
+            Self::NoPlace => ["face has no place", "faces have no place"],
             Self::Duplicate => ["face repeats an earlier face", "faces repeat earlier faces"],
             Self::Outside => {
                 ["chart lies across the unit square's border", "charts lie across the unit square's border"]

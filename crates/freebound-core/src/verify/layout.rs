@@ -11,8 +11,8 @@
 //! A face with the corners of an earlier face, in space and in the layout, is a *duplicate*. Both show one piece of the
 //! surface at one place, so duplicates are listed and otherwise left out.
 //!
-//! A face whose corners all lie at one point covers nothing: it has *no place*, like a face without coordinates. Such
-//! faces are listed. They are an error if they hold more than [`MOST_WITHOUT_PLACE`] of the surface.
+//! A face whose corners lie at one or two points covers nothing: it has *no place*, like a face without coordinates.
+//! Such faces are listed. They are an error if they hold more than [`MOST_WITHOUT_PLACE`] of the surface.
 //!
 //! # Charts
 //!
@@ -160,9 +160,9 @@ struct Judged<'a> {
     is_one_sided: Vec<bool>,
     /// Triangles of each chart.
     faces_of: Vec<Vec<usize>>,
-    /// Triangles, with vertices joined that agree in space and in the layout.
-    triangles: Vec<[VertexId; 3]>,
-    /// Sides of one triangle only: side k of triangle t is 3 t + k.
+    /// First chart with the outline of each chart.
+    first_like: Vec<usize>,
+    /// Sides of one triangle of their group only: side k of triangle t is 3 t + k.
     boundary: Vec<u32>,
 }
 
@@ -170,63 +170,64 @@ impl<'a> Judged<'a> {
     fn new(layout: PlaneLayout<'a>, options: LayoutOptions) -> Self {
         let mesh = layout.mesh;
         let joined = joined_vertices(layout);
-        let has_place = |face: usize| {
-            let [a, b, c] = corners_of(layout, face);
-            !(a == b && b == c)
-        };
+        let has_place = |face: usize| !has_no_place(layout, face);
         let joined_corners = |t: &[VertexId; 3]| t.map(|vertex| joined[vertex.index()]);
         let triangles: Vec<[VertexId; 3]> = mesh.triangles.iter().map(joined_corners).collect();
         let table = EdgeTable::new(mesh.vertex_count(), &triangles);
         let tail = |side: u32| triangles[side as usize / 3][side as usize % 3];
         let group = |side: u32| layout.groups.get(side as usize / 3).copied().unwrap_or_default();
-        let mut charts = DisjointSets::new(mesh.face_count());
+        let mut sets = DisjointSets::new(mesh.face_count());
         let mut directions = ParitySets::new(mesh.face_count());
         let mut contradictions = Vec::new();
+        let mut boundary = Vec::new();
         for sides in table.edges() {
-            let belong = |pair: &&[u32]| {
-                group(pair[0]) == group(pair[1]) && pair.iter().all(|&side| has_place(side as usize / 3))
-            };
-            for pair in sides.windows(2).filter(belong) {
-                charts.join(pair[0] / 3, pair[1] / 3);
-            }
-            if let &[a, b] = sides
-                && belong(&&[a, b][..])
-                && a / 3 != b / 3
-                && directions.relate(a / 3, b / 3, tail(a) == tail(b))
-            {
-                contradictions.push(a / 3);
+            // Faces of one group meet at an edge, whatever faces of other groups do there.
+            let mut own: Vec<u32> = sides.iter().copied().filter(|&side| has_place(side as usize / 3)).collect();
+            own.sort_by_key(|&side| (group(side), side));
+            for own in own.chunk_by(|&a, &b| group(a) == group(b)) {
+                for pair in own.windows(2) {
+                    sets.join(pair[0] / 3, pair[1] / 3);
+                }
+                match *own {
+                    [side] => boundary.push(side),
+                    [a, b] if a / 3 != b / 3 && directions.relate(a / 3, b / 3, tail(a) == tail(b)) => {
+                        contradictions.push(a / 3);
+                    }
+                    _ => {}
+                }
             }
         }
+        boundary.sort_unstable();
         // Faces without a place come last, each as a set of its own.
-        let (roots, alone): (Vec<u32>, Vec<u32>) = charts.roots().partition(|&root| has_place(root as usize));
-        let number = |root: u32| {
-            let alone = || roots.len() + alone.binary_search(&root).expect("every root is listed");
-            roots.binary_search(&root).unwrap_or_else(|_| alone())
-        };
-        let chart_of: Vec<usize> = (0..).take(mesh.face_count()).map(|face| number(charts.find(face))).collect();
-        let mut faces_of = vec![Vec::new(); roots.len()];
-        for (face, &chart) in chart_of.iter().enumerate().filter(|(_, chart)| **chart < roots.len()) {
+        let (mut roots, alone): (Vec<u32>, Vec<u32>) = sets.roots().partition(|&root| has_place(root as usize));
+        let chart_count = roots.len();
+        roots.extend(alone);
+        let number_of: HashMap<u32, usize> = roots.iter().copied().zip(0..).collect();
+        let chart_of: Vec<usize> = (0..).take(mesh.face_count()).map(|face| number_of[&sets.find(face)]).collect();
+        let mut faces_of = vec![Vec::new(); chart_count];
+        for (face, &chart) in chart_of.iter().enumerate().filter(|(_, chart)| **chart < chart_count) {
             faces_of[chart].push(face);
         }
-        let mut is_one_sided = vec![false; roots.len() + alone.len()];
-        for face in contradictions {
-            is_one_sided[chart_of[face as usize]] = true;
-        }
+        let one_sided: HashSet<usize> = contradictions.iter().map(|&face| chart_of[face as usize]).collect();
         let judged = |face: usize| {
             let [a, b, c] = corners_of(layout, face);
-            orientation(a, b, c).filter(|_| a.is_finite() && b.is_finite() && c.is_finite())
+            orientation(a, b, c).filter(|_| [a, b, c].iter().all(|z| z.is_finite()))
         };
+        let charts = Charts { chart_of: &chart_of, faces_of: &faces_of, boundary: &boundary };
+        let mut first_like = first_like(layout, &triangles, &charts);
+        // Faces without a place are charts of their own.
+        first_like.extend(chart_count..roots.len());
         Self {
             layout,
             options,
-            chart_count: roots.len(),
+            first_like,
+            chart_count,
             turns: (0..mesh.face_count()).into_par_iter().map(judged).collect(),
             runs_against: (0..).take(mesh.face_count()).map(|face| directions.find(face).1).collect(),
             chart_of: chart_of.into_iter().map(|chart| VertexId::from_index(chart).number()).collect(),
-            is_one_sided,
+            is_one_sided: (0..chart_count).map(|chart| one_sided.contains(&chart)).collect(),
             faces_of,
-            boundary: table.edges().filter(|sides| sides.len() == 1).map(|sides| sides[0]).collect(),
-            triangles,
+            boundary,
         }
     }
 
@@ -247,16 +248,16 @@ impl<'a> Judged<'a> {
         self.in_file((0..self.turns.len()).filter(|&face| is_found(face)))
     }
 
-    /// True if all corners of a triangle lie at one point of the layout.
+    /// True if the corners of a triangle lie at one or two points of the layout.
     fn has_no_place(&self, face: usize) -> bool {
-        let [a, b, c] = self.corners(face);
-        a == b && b == c
+        has_no_place(self.layout, face)
     }
 
-    /// True if a triangle lies on a line of the layout and has area in space.
+    /// True if a triangle has three corners on a line of the layout, and area in space.
     fn is_degenerate(&self, face: usize) -> bool {
         let in_space = self.layout.mesh.triangles[face].map(|v| self.layout.mesh.positions[v.index()]);
-        self.turns[face] == Some(Orientation::Collinear) && !self.has_no_place(face) && !is_zero_area(in_space)
+        let is_on_line = self.turns[face] == Some(Orientation::Collinear) && !self.has_no_place(face);
+        is_on_line && !is_zero_area(in_space)
     }
 
     /// Findings that can contradict that the layout is planar. Lists at most `most` pairs of overlapping faces.
@@ -273,7 +274,7 @@ impl<'a> Judged<'a> {
         findings
     }
 
-    /// Faces at one point: an error if they hold much of the surface.
+    /// Faces at one or two points: an error if they hold much of the surface.
     fn without_place(&self) -> Finding {
         let is_found = |face: usize| self.turns[face].is_some() && self.has_no_place(face);
         let area = |faces: &mut dyn Iterator<Item = usize>| -> f64 {
@@ -320,65 +321,74 @@ impl<'a> Judged<'a> {
         self.in_file(found.into_iter().map(FaceId::index))
     }
 
-    /// Pairs of overlapping faces, by kind.
+    /// Overlapping faces, by kind.
+    ///
+    /// Faces that share a place exactly, and charts that share an outline, are stacked. Both cover one region, so only
+    /// the first of them is compared with others. Each chart is also compared with itself.
     fn overlaps(&self, most: usize) -> Vec<Finding> {
-        let (faces, triangles): (Vec<usize>, Vec<[DVec2; 3]>) = (0..self.turns.len())
-            .filter_map(|face| {
-                let [a, b, c] = self.corners(face);
-                match self.turns[face]? {
-                    Orientation::CounterClockwise => Some((face, [a, b, c])),
-                    Orientation::Clockwise => Some((face, [a, c, b])),
-                    Orientation::Collinear => None,
-                }
-            })
-            .unzip();
-        let places = ids_of(triangles.iter().map(|corners| place_key(*corners)));
-        let outlines = self.outlines();
-        let group = |at: usize| self.layout.groups.get(faces[at]).copied().unwrap_or_default();
-        let chart = |at: usize| self.chart_of[faces[at]] as usize;
-        let are_stacked = |a: usize, b: usize| {
-            places[a] == places[b] || (chart(a) != chart(b) && outlines[chart(a)] == outlines[chart(b)])
+        let (lowest, stacked) = self.lowest_and_stacked();
+        let mut pairs = self.overlapping_pairs(&lowest, most + 1);
+        let upper = (0..self.chart_count).filter(|&chart| self.first_like[chart] != chart);
+        let first_at_place = |chart: usize| -> Vec<usize> {
+            let mut seen = HashSet::new();
+            self.faces_of[chart].iter().copied().filter(|&face| seen.insert(place_key(self.corners(face)))).collect()
         };
-        let of_kind = |stacked: bool| {
-            let counts = |a: usize, b: usize| group(a) == group(b) && are_stacked(a, b) == stacked;
-            geom::overlaps(&triangles, counts, most + 1)
-        };
-        let mut found: [Vec<[usize; 2]>; 4] = Default::default();
-        for pair in of_kind(false) {
-            let [a, b] = pair.map(chart);
-            let is_mirrored = |pair: [usize; 2]| self.turns[faces[pair[0]]] != self.turns[faces[pair[1]]];
-            let kind = if a == b { 0 } else { 1 + usize::from(is_mirrored(pair)) };
-            found[kind].push(pair);
+        let within = upper.flat_map(|chart| self.overlapping_pairs(&first_at_place(chart), most + 1));
+        pairs.extend(within.take((most + 1).saturating_sub(pairs.len())));
+        let are_more = pairs.len() > most;
+        let mut found: [Vec<[FaceId; 2]>; 3] = Default::default();
+        for pair in pairs {
+            let [a, b] = pair.map(|face| self.chart_of[face]);
+            let is_mirrored = self.turns[pair[0]] != self.turns[pair[1]];
+            let kind = if a == b { 0 } else { 1 + usize::from(is_mirrored) };
+            let [a, b] = pair.map(|face| FaceId::new(self.layout.mesh.polygon(FaceId::from_index(face))));
+            found[kind].push([a.min(b), a.max(b)]);
         }
-        if !self.options.accepts_stacks {
-            found[3] = of_kind(true);
-        }
-        let codes =
-            [FindingCode::Overlap, FindingCode::OverlapOfCharts, FindingCode::OverlapMirrored, FindingCode::Stacked];
-        let finding = |(code, pairs): (FindingCode, Vec<[usize; 2]>)| {
-            let number = |at: usize| FaceId::new(self.layout.mesh.polygon(FaceId::from_index(faces[at])));
-            let mut pairs: Vec<[FaceId; 2]> =
-                pairs.into_iter().map(|pair| pair.map(number)).map(|[a, b]| [a.min(b), a.max(b)]).collect();
+        let codes = [FindingCode::Overlap, FindingCode::OverlapOfCharts, FindingCode::OverlapMirrored];
+        let finding = |(code, mut pairs): (FindingCode, Vec<[FaceId; 2]>)| {
             pairs.sort_unstable();
             pairs.dedup();
-            Finding::of_pairs(code, pairs, most)
+            let finding = Finding::of_pairs(code, pairs, most);
+            // The search ends at a number of pairs of all kinds.
+            Finding { more: are_more && finding.count > 0, ..finding }
         };
-        codes.into_iter().zip(found).map(finding).collect()
+        let stacked = Finding::of_faces(FindingCode::Stacked, self.in_file(stacked));
+        let stacked = Some(stacked).filter(|_| !self.options.accepts_stacks);
+        codes.into_iter().zip(found).map(finding).chain(stacked).collect()
     }
 
-    /// Number of each chart's outline: equal for charts with equal boundaries, bit for bit, as they lie or mirrored. A
-    /// chart whose boundary is no set of simple cycles has a number of its own.
-    fn outlines(&self) -> Vec<u32> {
-        let mut sides_of = vec![Vec::new(); self.chart_count];
-        for &side in self.boundary.iter().filter(|&&side| !self.has_no_place(side as usize / 3)) {
-            let ends = [side, side - side % 3 + (side + 1) % 3];
-            let ends = ends.map(|corner| self.triangles[corner as usize / 3][corner as usize % 3]);
-            sides_of[self.chart_of[side as usize / 3] as usize].push(ends);
-        }
-        let outline = |sides: &Vec<[VertexId; 2]>| outline_of(self.layout.coordinates, sides);
-        let found: Vec<Option<Outline>> = sides_of.par_iter().map(outline).collect();
-        let keys = found.into_iter().enumerate();
-        ids_of(keys.map(|(chart, outline)| outline.ok_or(chart)))
+    /// Faces that are the first at their place, in charts that are the first with their outline; and all other faces with
+    /// a place. Faces on a line are in neither.
+    fn lowest_and_stacked(&self) -> (Vec<usize>, Vec<usize>) {
+        let mut seen = HashSet::with_capacity(self.turns.len());
+        let is_lowest = |&face: &usize| {
+            let chart = self.chart_of[face] as usize;
+            let group = self.layout.groups.get(face).copied().unwrap_or_default();
+            // Every face takes its place, so that no chart has two faces there.
+            seen.insert((group, place_key(self.corners(face)))) && self.first_like[chart] == chart
+        };
+        let has_area = |face: &usize| self.turns[*face].is_some_and(|turn| turn != Orientation::Collinear);
+        let mut order: Vec<usize> = (0..self.turns.len()).filter(has_area).collect();
+        // Faces of the first chart with an outline come before those stacked on them.
+        order
+            .sort_by_key(|&face| (self.first_like[self.chart_of[face] as usize] != self.chart_of[face] as usize, face));
+        order.into_iter().partition(is_lowest)
+    }
+
+    /// Pairs of overlapping faces of one group among some faces, at most `most`.
+    fn overlapping_pairs(&self, faces: &[usize], most: usize) -> Vec<[usize; 2]> {
+        let upright = |&face: &usize| {
+            let [a, b, c] = self.corners(face);
+            match self.turns[face]? {
+                Orientation::CounterClockwise => Some((face, [a, b, c])),
+                Orientation::Clockwise => Some((face, [a, c, b])),
+                Orientation::Collinear => None,
+            }
+        };
+        let (faces, triangles): (Vec<usize>, Vec<[DVec2; 3]>) = faces.iter().filter_map(upright).unzip();
+        let group = |at: usize| self.layout.groups.get(faces[at]).copied().unwrap_or_default();
+        let pairs = geom::overlaps(&triangles, |a, b| group(a) == group(b), most);
+        pairs.into_iter().map(|pair| pair.map(|at| faces[at])).collect()
     }
 
     /// Findings that do not contradict that the layout is planar.
@@ -387,9 +397,8 @@ impl<'a> Judged<'a> {
             let count = |turn| faces.iter().filter(|&&face| self.turns[face] == Some(turn)).count();
             count(Orientation::Clockwise) > count(Orientation::CounterClockwise)
         };
-        let firsts = |faces: Vec<usize>| self.in_file(faces);
         let of_charts = |is_found: &dyn Fn(&Vec<usize>) -> bool| {
-            firsts(self.faces_of.iter().filter(|faces| is_found(faces)).map(|faces| faces[0]).collect())
+            self.in_file(self.faces_of.iter().filter(|faces| is_found(faces)).map(|faces| faces[0]))
         };
         let is_far = |face: usize| {
             let corners = self.corners(face);
@@ -459,7 +468,10 @@ impl<'a> Judged<'a> {
     /// Pairs of charts that are nearer to each other than the gap, by their first faces.
     fn near_charts(&self, PixelGap { least: gap, picture }: PixelGap) -> Vec<[FaceId; 2]> {
         let in_pixels = |(chart, ends): (u32, [DVec2; 2])| (chart, ends.map(|z| z * picture));
-        let edges: Vec<(u32, [DVec2; 2])> = self.boundary_sides().into_iter().map(in_pixels).collect();
+        // Stacked charts lie on the first of them.
+        let is_lowest = |(chart, _): &(u32, [DVec2; 2])| self.first_like[*chart as usize] == *chart as usize;
+        let edges = self.boundary_sides().into_iter().filter(is_lowest).map(in_pixels);
+        let edges: Vec<(u32, [DVec2; 2])> = edges.collect();
         let mut order: Vec<usize> = (0..edges.len()).collect();
         let bounds = |at: usize| Bounds::of(edges[at].1);
         let whole = (0..edges.len()).fold(Bounds::EMPTY, |whole, at| whole.union(bounds(at)));
@@ -492,7 +504,6 @@ impl<'a> Judged<'a> {
             [corners[side as usize % 3], corners[(side as usize + 1) % 3]]
         };
         let sides = self.boundary.iter().map(|&at| (self.chart_of[at as usize / 3], side(at)));
-        let sides = sides.filter(|(chart, _)| (*chart as usize) < self.chart_count);
         sides.filter(|(_, ends)| ends.iter().all(|z| z.is_finite())).collect()
     }
 }
@@ -503,18 +514,21 @@ fn without_duplicates(layout: PlaneLayout<'_>) -> (Option<(TriMesh, Vec<u32>)>, 
     let joined = joined_vertices(layout);
     let number = |face: usize| mesh.polygon(FaceId::from_index(face));
     let group = |face: usize| layout.groups.get(face).copied().unwrap_or_default();
-    let mut seen: HashSet<(u32, Vec<VertexId>)> = HashSet::with_capacity(mesh.face_count());
+    let mut seen: HashSet<(u32, Vec<[VertexId; 3]>)> = HashSet::with_capacity(mesh.face_count());
     let mut stays = vec![true; mesh.face_count()];
     let mut duplicates = Vec::new();
     let mut first = 0;
     while first < mesh.face_count() {
         // Triangles of one polygon are consecutive.
         let own = (first..mesh.face_count()).take_while(|&face| number(face) == number(first)).count();
-        let corners = mesh.triangles[first..first + own].iter().flatten();
-        let mut corners: Vec<VertexId> = corners.map(|vertex| joined[vertex.index()]).collect();
-        corners.sort_unstable();
-        corners.dedup();
-        if !seen.insert((group(first), corners)) {
+        let sorted = |triangle: &[VertexId; 3]| {
+            let mut corners = triangle.map(|vertex| joined[vertex.index()]);
+            corners.sort_unstable();
+            corners
+        };
+        let mut triangles: Vec<[VertexId; 3]> = mesh.triangles[first..first + own].iter().map(sorted).collect();
+        triangles.sort_unstable();
+        if !seen.insert((group(first), triangles)) {
             stays[first..first + own].fill(false);
             duplicates.push(FaceId::new(number(first)));
         }
@@ -527,8 +541,37 @@ fn without_duplicates(layout: PlaneLayout<'_>) -> (Option<(TriMesh, Vec<u32>)>, 
     (Some((mesh.clone().with_faces(&stays), groups)), duplicates)
 }
 
+/// First chart of the group and with the outline of each chart: equal boundaries, bit for bit, as they lie or mirrored. A
+/// chart whose boundary is no set of simple cycles is the first of its kind.
+fn first_like(layout: PlaneLayout<'_>, triangles: &[[VertexId; 3]], charts: &Charts<'_>) -> Vec<usize> {
+    let mut sides_of = vec![Vec::new(); charts.faces_of.len()];
+    for &side in charts.boundary {
+        let ends = [side, side - side % 3 + (side + 1) % 3];
+        let ends = ends.map(|corner| triangles[corner as usize / 3][corner as usize % 3]);
+        sides_of[charts.chart_of[side as usize / 3]].push(ends);
+    }
+    let outline = |sides: &Vec<[VertexId; 2]>| outline_of(layout.coordinates, sides);
+    let found: Vec<Option<Outline>> = sides_of.par_iter().map(outline).collect();
+    let group = |chart: usize| layout.groups.get(charts.faces_of[chart][0]).copied().unwrap_or_default();
+    let mut first: HashMap<(u32, Result<Outline, usize>), usize> = HashMap::new();
+    let keys = found.into_iter().enumerate().map(|(chart, outline)| (chart, (group(chart), outline.ok_or(chart))));
+    keys.map(|(chart, key)| *first.entry(key).or_insert(chart)).collect()
+}
+
+/// Charts of a layout, as far as their outlines need them.
+struct Charts<'a> {
+    chart_of: &'a [usize],
+    faces_of: &'a [Vec<usize>],
+    boundary: &'a [u32],
+}
+
 fn corners_of(layout: PlaneLayout<'_>, face: usize) -> [DVec2; 3] {
     layout.mesh.triangles[face].map(|vertex| layout.coordinates[vertex])
+}
+
+fn has_no_place(layout: PlaneLayout<'_>, face: usize) -> bool {
+    let [a, b, c] = corners_of(layout, face);
+    a == b || b == c || c == a
 }
 
 /// First vertex with the position and the coordinate of each vertex.
@@ -548,12 +591,6 @@ fn place_key(corners: [DVec2; 3]) -> [[u64; 2]; 3] {
     let mut bits = corners.map(|z| (z + DVec2::ZERO).to_array().map(f64::to_bits));
     bits.sort_unstable();
     bits
-}
-
-/// Number of each key: that of the first equal one.
-fn ids_of<K: std::hash::Hash + Eq>(keys: impl Iterator<Item = K>) -> Vec<u32> {
-    let mut first: HashMap<K, u32> = HashMap::new();
-    (0..).zip(keys).map(|(number, key)| *first.entry(key).or_insert(number)).collect()
 }
 
 /// Boundary loops of a chart from its boundary sides. `None` if a vertex has other than two sides, or there are none.

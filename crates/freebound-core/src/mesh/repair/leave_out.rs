@@ -103,8 +103,10 @@ impl Repaired {
     /// Stacks duplicates among the faces for which `is_looked_at` is true if `may_share` is true for each pair of corners.
     /// The first predicate is called once per face, in order.
     fn stack_duplicates(&mut self, mut is_looked_at: impl FnMut(&[u32]) -> bool, may_share: impl Fn(u32, u32) -> bool) {
-        // Maps the sorted vertices of a face to the corners of the first such face, in the order of these vertices.
-        let mut seen: HashMap<Vec<VertexId>, Vec<u32>> = HashMap::with_capacity(self.polygons.face_count());
+        // Maps the sorted vertices of a face to the first such face: its corners in the order of these vertices, and its
+        // vertices in their own order.
+        let mut seen: HashMap<Vec<VertexId>, (Vec<u32>, Vec<VertexId>)> =
+            HashMap::with_capacity(self.polygons.face_count());
         let mut duplicates = 0;
         self.decide(|corners, corner_of| {
             if !is_looked_at(corner_of) {
@@ -113,11 +115,13 @@ impl Repaired {
             let mut order: Vec<usize> = (0..corners.len()).collect();
             order.sort_unstable_by_key(|&k| corners[k]);
             let vertices: Vec<VertexId> = order.iter().map(|&k| corners[k]).collect();
-            let Some(twins) = seen.get(&vertices) else {
-                seen.insert(vertices, order.iter().map(|&k| corner_of[k]).collect());
+            let Some((twins, first)) = seen.get(&vertices) else {
+                let own = order.iter().map(|&k| corner_of[k]).collect();
+                seen.insert(vertices, (own, corners.to_vec()));
                 return Fate::Keep((0..corners.len()).collect());
             };
-            if !order.iter().zip(twins).all(|(&k, &twin)| may_share(corner_of[k], twin)) {
+            let lies_there = Direction::of(corners, first) != Direction::Crossed;
+            if !(lies_there && order.iter().zip(twins).all(|(&k, &twin)| may_share(corner_of[k], twin))) {
                 return Fate::Keep((0..corners.len()).collect());
             }
             duplicates += 1;

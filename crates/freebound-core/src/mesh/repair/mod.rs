@@ -191,9 +191,6 @@ impl Repaired {
             vertices[of as usize] = Some(corner);
             in_place[source.corners[of as usize].index()].get_or_insert(corner);
         }
-        for &[left_out, stand_in] in self.stand_ins.iter().rev() {
-            vertices[left_out as usize] = vertices[stand_in as usize];
-        }
         let place_of = |vertex: &VertexId| {
             let stands_for = self.joined.get(vertex).unwrap_or(vertex);
             [vertex, stands_for].iter().find_map(|of| in_place.get(of.index()).copied().flatten())
@@ -202,6 +199,10 @@ impl Repaired {
             let range = source.corner_range(face as usize);
             let place = source.corners[range.clone()].iter().find_map(place_of);
             vertices[range].fill(place);
+        }
+        // A face may be stacked on one that was removed later.
+        for &[left_out, stand_in] in self.stand_ins.iter().rev() {
+            vertices[left_out as usize] = vertices[stand_in as usize];
         }
         vertices
     }
