@@ -9,6 +9,7 @@ use super::error::{CommandError, CommandOutcome};
 use super::opened::disk_of;
 use super::places::OutputPaths;
 use super::progress::go_on;
+use super::say::say;
 use super::standard::{MemoryLimit, read_model};
 use super::summary::{deliver, file_words, mesh_words, size_words};
 use crate::session::Model;
@@ -42,13 +43,18 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandE
     let mut found = layout_verdict(layout, arguments.options()).judged_by(&arguments.ignore, &arguments.denied_codes());
     found.planar_in_f32 |= found.planar && model.source.is_turned_over();
     go_on()?;
-    let of_surface = OfSurface::of(texture, labels.as_deref(), arguments.stacked, path.clone());
-    go_on()?;
-    let mesh = MeshReport { warnings: model.source.warnings.clone(), ..of_surface.mesh };
+    let outcome = if found.passes { CommandOutcome::Fine } else { CommandOutcome::FallsShort };
+    let mesh = MeshReport { warnings: model.source.warnings.clone(), ..MeshReport::default() };
     let first = format!("{path}: texture coordinates: {}", found.summary());
     let lines = std::iter::once(first).chain(file_words(&mesh)).chain(found.findings.iter().map(finding_words));
     let words = lines.collect::<Vec<_>>().join("\n");
-    let passes = found.passes;
+    if arguments.report.is_none() {
+        say(words)?;
+        return Ok(outcome);
+    }
+    let of_surface = OfSurface::of(texture, labels.as_deref(), arguments.stacked, path);
+    go_on()?;
+    let mesh = MeshReport { warnings: mesh.warnings, ..of_surface.mesh };
     let report = Report {
         verdict: of_surface.verdict,
         distortion: of_surface.distortion,
@@ -57,7 +63,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandE
         ..report(mesh, start, read)
     };
     deliver(&report, arguments.report.as_deref(), || words)?;
-    Ok(if passes { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
+    Ok(outcome)
 }
 
 /// Line of a finding, which begins with its severity and code.
@@ -81,7 +87,8 @@ fn group_of(labels: &[u32], chart: &Part) -> Option<u32> {
     all.first().copied().filter(|first| all.iter().all(|label| label == first))
 }
 
-/// Verdicts of the theorems on disks, if the layout is a disk or its charts are surfaces with boundary.
+/// Verdicts of the theorems on disks, for the report: of a layout that is a disk, or whose charts are surfaces with
+/// boundary.
 struct OfSurface {
     mesh: MeshReport,
     verdict: Option<Verdict>,

@@ -218,10 +218,7 @@ fn packing_words(report: &Report) -> Vec<String> {
 /// Summary of a layout that was packed again. `faults` keep its charts from being proved.
 pub(super) fn pack_summary(report: &Report, faults: Option<&Diagnosis>) -> String {
     let MeshReport { path, vertices, faces, .. } = &report.mesh;
-    let charts = match report.packed_charts.len() {
-        1 => "1 chart".to_owned(),
-        count => format!("{count} charts"),
-    };
+    let charts = counted(report.packed_charts.len(), "chart", "charts");
     let mut lines = vec![format!("{path}: {vertices} vertices, {faces} faces, {charts}")];
     lines.extend(file_words(&report.mesh));
     lines.extend(report.atlas.as_ref().map(|atlas| {
@@ -247,7 +244,7 @@ fn distortion_words(report: &Report) -> Option<String> {
     let is_planar = report.verdict.as_ref().is_some_and(|verdict| verdict.planar);
     let distortion = report.distortion.as_ref().filter(|_| is_planar && report.method.is_some())?;
     let is_pinned = report.pins.as_ref().is_some_and(|pins| pins.count > 0);
-    let remedy = Remedy::of(distortion, &report.steps, report, is_pinned)?;
+    let remedy = DistortionRemedy::of(distortion, &report.steps, report, is_pinned)?;
     Some(remedy.words(distortion, "mesh and map"))
 }
 
@@ -256,15 +253,16 @@ fn distortion_words_of_charts(report: &Report) -> Option<String> {
     let is_planar = report.atlas.as_ref().is_some_and(|atlas| atlas.planar);
     let charts = report.charts.iter().filter(|_| is_planar && report.method.is_some());
     let energy = |chart: &ChartReport| chart.distortion.symmetric_dirichlet.mean;
-    let remedies = charts
-        .filter_map(|chart| Some((chart, Remedy::of(&chart.distortion, &chart.steps, report, chart.pins.count > 0)?)));
+    let remedies = charts.filter_map(|chart| {
+        Some((chart, DistortionRemedy::of(&chart.distortion, &chart.steps, report, chart.pins.count > 0)?))
+    });
     let (chart, remedy) = remedies.max_by(|(a, _), (b, _)| energy(a).total_cmp(&energy(b)))?;
     Some(remedy.words(&chart.distortion, &format!("mesh and map in the chart of face {}", chart.first_face.number())))
 }
 
 /// Options that lower the distortion of a map.
 #[derive(Clone, Copy)]
-enum Remedy {
+enum DistortionRemedy {
     /// Relaxing the map.
     Relax,
     /// Cutting holes open instead of filling them.
@@ -273,7 +271,7 @@ enum Remedy {
     CutMore,
 }
 
-impl Remedy {
+impl DistortionRemedy {
     /// Smallest remedy of a map; `None` if its distortion is small, or no option lowers it.
     fn of(distortion: &DistortionSummary, steps: &[StepReport], report: &Report, is_pinned: bool) -> Option<Self> {
         let energy = distortion.symmetric_dirichlet.mean;
@@ -323,9 +321,9 @@ pub(super) fn comparison_summary(report: &ComparisonReport, by: Option<Column>) 
 
 fn chart_words(chart: &ChartReport, packing: Option<PackingSummary>) -> String {
     let face = chart.first_face.number();
-    let steps = if chart.steps.len() == 1 { "1 step".to_owned() } else { format!("{} steps", chart.steps.len()) };
+    let steps = counted(chart.steps.len(), "step", "steps");
     let stage = chart.steps.last().map(|step| format!(" ({})", step.stage.words())).unwrap_or_default();
-    let faces = if chart.faces == 1 { "1 face".to_owned() } else { format!("{} faces", chart.faces) };
+    let faces = counted(chart.faces, "face", "faces");
     let energy = chart.distortion.symmetric_dirichlet.mean;
     let pins = pins_words(&chart.pins).map(|words| format!("; {words}")).unwrap_or_default();
     // Most charts have the common density of the packing.

@@ -44,6 +44,7 @@ pub use convex_polygon::{ConvexPolygon, PolygonFault};
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, folds_back, is_simple, segments_meet};
 pub use hull::{convex_hull, is_inside_hull};
 pub use order_along_direction::order_along;
+pub(crate) use orient::point_key;
 pub use orient::{Orientation, double_area, orientation};
 pub(crate) use overlaps::overlaps;
 pub use packing::{

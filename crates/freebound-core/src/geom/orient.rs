@@ -32,6 +32,11 @@ const LEAST: f64 = f64::from_bits((1023 - 400) << 52);
 /// Greatest magnitude for the adaptive predicate: 2⁴⁰⁰.
 const GREATEST: f64 = f64::from_bits((1023 + 400) << 52);
 
+/// Key for the equality of points: their bits, except that −0 equals 0.
+pub(crate) fn point_key(z: DVec2) -> [u64; 2] {
+    (z + DVec2::ZERO).to_array().map(f64::to_bits)
+}
+
 /// Twice the signed area of a triangle, rounded: negative if the triangle turns right.
 pub fn double_area([a, b, c]: [DVec2; 3]) -> f64 {
     (b - a).perp_dot(c - a)

@@ -3,7 +3,7 @@
 //! Triangle soup is the extreme case: every face has its own three vertices.
 
 use super::union::DisjointSets;
-use super::{TriMesh, VertexId};
+use super::{TriMesh, VertexId, place_key};
 
 /// Vertices at the position of a lower-numbered vertex of another part, ascending.
 ///
@@ -17,8 +17,7 @@ pub(super) fn coincident_vertices(mesh: &TriMesh, triangles: &[[VertexId; 3]]) -
             used[corner.index()] = true;
         }
     }
-    // Adding 0 turns −0 into 0.
-    let bits = |v: VertexId| mesh.positions[v.index()].to_array().map(|x| (x + 0.0).to_bits());
+    let bits = |v: VertexId| place_key(mesh.positions[v.index()]);
     let is_looked_at = |v: &VertexId| used[v.index()] && mesh.positions[v.index()].is_finite();
     let mut by_place: Vec<VertexId> = (0..mesh.vertex_count()).map(VertexId::from_index).filter(is_looked_at).collect();
     by_place.sort_by_cached_key(|&v| (bits(v), v));

@@ -54,6 +54,7 @@ pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub(crate) use measure::{THINNEST, laid_flat, triangle_of_sides};
 pub use parts::{Part, parts};
 pub use polygon::PolygonMesh;
+pub(crate) use polygon::place_key;
 pub use polygons::Polygon;
 pub use refinement::{CutMesh, NewVertex, Refinement};
 pub use repair::{

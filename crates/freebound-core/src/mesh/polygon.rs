@@ -111,12 +111,12 @@ impl PolygonMesh {
     /// Polygons of four or more corners that lie on an earlier polygon, corner on corner, in either direction. Each has the
     /// first such polygon. They are cut along its diagonals, so that both have equal triangles.
     fn repeats(&self) -> HashMap<u32, u32> {
+        // A sum does not depend on the order. The multipliers spread numbers over all bits (D. E. Knuth).
+        let spread = |sum: u64, x: u64| (sum ^ x).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(31);
+        let of_corner = |vertex: VertexId| Some(self.place_of(vertex)?.into_iter().fold(0, spread));
         let key = |polygon: usize| {
-            // A sum does not depend on the order. The multipliers spread numbers over all bits (D. E. Knuth).
-            let spread = |sum: u64, x: u64| (sum ^ x).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(31);
-            let of_corner = |place: [u64; 3]| place.into_iter().fold(0, spread);
-            let places = self.places_of(polygon).filter(|places| places.len() > 3)?;
-            Some(places.into_iter().map(of_corner).fold(0, u64::wrapping_add))
+            let face = Some(self.face(polygon)).filter(|face| face.len() > 3)?;
+            face.iter().try_fold(0_u64, |sum, &vertex| Some(sum.wrapping_add(of_corner(vertex)?)))
         };
         let mut keys: Vec<(u64, u32)> =
             (0..).zip(0..self.face_count()).filter_map(|(number, polygon)| Some((key(polygon)?, number))).collect();
@@ -126,41 +126,37 @@ impl PolygonMesh {
             let first = group[0].1;
             group[1..].iter().map(|&(_, polygon)| (polygon, first)).collect::<Vec<_>>()
         };
-        let are_equal = |&(polygon, first): &(u32, u32)| self.steps_between(polygon as usize, first as usize).is_some();
+        let are_equal = |&(polygon, first): &(u32, u32)| self.walk_between(polygon as usize, first as usize).is_some();
         alike.flat_map(repeat).filter(are_equal).collect()
     }
 
-    /// Positions of the corners of a polygon, as bits; −0 equals 0. `None` if a vertex is missing.
-    fn places_of(&self, polygon: usize) -> Option<Vec<[u64; 3]>> {
-        let bits =
-            |vertex: &VertexId| Some((*self.positions.get(vertex.index())? + DVec3::ZERO).to_array().map(f64::to_bits));
-        self.face(polygon).iter().map(bits).collect()
+    /// Key of a vertex's position. `None` if the vertex is missing.
+    fn place_of(&self, vertex: VertexId) -> Option<[u64; 3]> {
+        self.positions.get(vertex.index()).copied().map(place_key)
     }
 
-    /// Corner of a polygon on the first corner of another, and the step, 1 or the number of corners less 1, with which its
-    /// corners follow those of the other. `None` if the corners differ, or two of them lie in one place.
-    fn steps_between(&self, polygon: usize, other: usize) -> Option<[usize; 2]> {
-        let (own, other) = (self.places_of(polygon)?, self.places_of(other)?);
-        let count = own.len();
+    /// Walk around a polygon along another, by the places of their corners. `None` if the corners differ, or two of them
+    /// lie in one place.
+    fn walk_between(&self, polygon: usize, other: usize) -> Option<Walk> {
+        let places =
+            |polygon: usize| self.face(polygon).iter().map(|&vertex| self.place_of(vertex)).collect::<Option<Vec<_>>>();
+        let (own, other) = (places(polygon)?, places(other)?);
         let mut sorted = own.clone();
         sorted.sort_unstable();
-        let begin = own.iter().position(|place| *place == other[0])?;
-        let follows = |step: &usize| (0..count).all(|k| own[(begin + k * step) % count] == other[k]);
-        let is_simple = count == other.len() && sorted.windows(2).all(|pair| pair[0] != pair[1]);
-        let step = [1, count - 1].into_iter().find(|step| is_simple && follows(step))?;
-        Some([begin, step])
+        let is_simple = sorted.windows(2).all(|pair| pair[0] != pair[1]);
+        Walk::between(&own, &other).filter(|_| is_simple)
     }
 
     /// Replaces the corners of `earlier` in triangles by those of a polygon that repeats it.
     fn take_over(&self, polygon: usize, earlier: usize, triangles: &mut [[u32; 3]]) {
-        let [begin, step] = self.steps_between(polygon, earlier).expect("the polygon repeats the earlier one");
+        let walk = self.walk_between(polygon, earlier).expect("the polygon repeats the earlier one");
         let (own, other) = (self.corner_range(polygon), self.corner_range(earlier));
         for triangle in triangles {
             for place in triangle.iter_mut() {
-                let corner = own.start + (begin + (*place as usize - other.start) * step) % own.len();
+                let corner = own.start + walk.place(*place as usize - other.start, own.len());
                 *place = u32::try_from(corner).expect("a corner fits");
             }
-            if step > 1 {
+            if walk.runs_against {
                 triangle.swap(1, 2);
             }
         }
@@ -204,6 +200,36 @@ impl PolygonMesh {
         }
         (places, Some(polygon_of))
     }
+}
+
+/// Walk around a cycle that meets the members of another cycle in their order.
+#[derive(Clone, Copy)]
+pub(super) struct Walk {
+    /// Place of the other cycle's first member.
+    begin: usize,
+    /// True if the walk runs backwards.
+    pub(super) runs_against: bool,
+}
+
+impl Walk {
+    /// Walk around `own`, whose members differ, along `other`. `None` if the cycles differ.
+    pub(super) fn between<T: PartialEq>(own: &[T], other: &[T]) -> Option<Self> {
+        let count = own.len();
+        let begin = own.iter().position(|member| other.first() == Some(member)).filter(|_| count == other.len())?;
+        let walks = [false, true].map(|runs_against| Self { begin, runs_against });
+        walks.into_iter().find(|walk| (0..count).all(|k| own[walk.place(k, count)] == other[k]))
+    }
+
+    /// Place on a cycle of `count` members after `k` steps.
+    fn place(self, k: usize, count: usize) -> usize {
+        let steps = if self.runs_against { count - k % count } else { k };
+        (self.begin + steps) % count
+    }
+}
+
+/// Key for the equality of positions: their bits, except that −0 equals 0.
+pub(crate) fn place_key(position: DVec3) -> [u64; 3] {
+    (position + DVec3::ZERO).to_array().map(f64::to_bits)
 }
 
 impl From<&TriMesh> for PolygonMesh {

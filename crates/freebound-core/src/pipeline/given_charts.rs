@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::atlas::{outline_of_loops, triangles_of};
 use super::{GivenLayout, NO_COORDINATE, RepackError};
-use crate::geom::{ChartShape, double_area, turning_number};
+use crate::geom::{ChartShape, double_area, point_key, turning_number};
 use crate::mesh::union::DisjointSets;
 use crate::mesh::{EdgeTable, FaceId, MeasuredSurface, Part, SurfaceFaces, TriMesh, VertexId, parts};
 use crate::parallel::prelude::*;
@@ -137,7 +137,7 @@ impl TextureVertices {
     fn of(layout: GivenLayout<'_>) -> Self {
         let mut numbers: HashMap<(VertexId, [u64; 2]), usize> = HashMap::new();
         let number = |(place, &vertex): (usize, &VertexId)| {
-            let bits = (layout.coordinate(place) + DVec2::ZERO).to_array().map(f64::to_bits);
+            let bits = point_key(layout.coordinate(place));
             let next = numbers.len();
             VertexId::from_index(*numbers.entry((vertex, bits)).or_insert(next))
         };

@@ -29,6 +29,13 @@ pub struct LaidChart<'a> {
     pub group: Option<u32>,
 }
 
+impl<'a> LaidChart<'a> {
+    /// Only chart of a mesh, with a place of its own.
+    pub fn only(mesh: &'a DiskMesh, coordinates: Embedding, verdict: Verdict, held: Vec<VertexId>) -> Self {
+        Self { mesh, refinement: None, vertex_of: None, coordinates, verdict, held, stacked: None, group: None }
+    }
+}
+
 /// Charts joined to one mesh. Vertices and faces of each chart follow those of the chart before.
 #[derive(Debug)]
 pub struct JoinedCharts {

@@ -6,11 +6,9 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use glam::DVec3;
-
 use crate::mesh::{
     Chart, Charts, Diagnosis, DiskMesh, Fault, PartFaces, PolygonMesh, Preparation, Repair, Repaired, Repairs, TriMesh,
-    VertexId, diagnose, relative_volume,
+    VertexId, diagnose, place_key, relative_volume,
 };
 
 /// Relative volume below which the outside of a surface is undecided: the volume of a cap 28 times as wide as it is
@@ -77,7 +75,9 @@ impl PreparedMesh {
             Surface::Faulty(..) => Some(repaired(&form.with_all_repairs())).filter(Repaired::flattens).map(Arc::new),
         };
         let prepared = Self { form, remedy, ..Self::default() }.with(found);
-        let whole = prepared.chart.as_ref().map(|of| of.charts.whole());
+        // Welding has joined all vertices that touch.
+        let welds = prepared.form.allows(Repair::WeldVertices);
+        let whole = prepared.chart.as_ref().map(|of| of.charts.whole()).filter(|_| !welds);
         let touching_vertices = whole.map_or(0, |whole| whole.touching_vertices(polygons));
         Self { touching_vertices, ..prepared }
     }
@@ -232,8 +232,7 @@ fn is_soup(polygons: &PolygonMesh, repairs: Repairs, diagnosis: &Diagnosis) -> b
         _ => None,
     });
     let Some(coincident) = coincident.filter(|_| !is_welded) else { return false };
-    // Adding 0 turns −0 into 0.
-    let place = |vertex: &VertexId| (polygons.positions[vertex.index()] + DVec3::ZERO).to_array().map(f64::to_bits);
+    let place = |vertex: &VertexId| place_key(polygons.positions[vertex.index()]);
     let places: HashSet<[u64; 3]> = coincident.iter().map(place).collect();
     let parts = Preparation::default().parts(polygons, None);
     let single = parts.iter().filter(|part| part.count == 1).map(|part| polygons.face(part.first_face as usize));

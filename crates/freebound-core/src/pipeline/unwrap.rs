@@ -149,16 +149,7 @@ fn unwrap_disk(
         (packed.charts.remove(0), packed.summaries.remove(0))
     } else {
         let (summary, held) = (chart.summary(&coordinates, picture, placement), solved.outcome.held());
-        let laid = LaidChart {
-            mesh: disk,
-            refinement: None,
-            vertex_of: None,
-            coordinates,
-            verdict,
-            held,
-            stacked: None,
-            group: None,
-        };
+        let laid = LaidChart::only(disk, coordinates, verdict, held);
         (laid, summary)
     };
     let number = |vertex: Option<VertexId>| vertex.map_or(NO_COORDINATE, VertexId::number);

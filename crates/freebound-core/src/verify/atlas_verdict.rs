@@ -26,7 +26,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::parallel::prelude::*;
 use glam::DVec2;
 
-use crate::geom::{self, Orientation, is_simple, orientation, turning_number};
+use crate::geom::{self, Orientation, is_simple, orientation, point_key, turning_number};
 use crate::mesh::{FaceId, Part, Polygon, TriMesh, VertexId};
 use crate::problem::Embedding;
 
@@ -166,8 +166,7 @@ fn outlines_of_stacks(charts: &[Part], embedding: &Embedding, stacked_on: &[Opti
 }
 
 fn outline(chart: &Part, embedding: &Embedding) -> Outline {
-    let bits =
-        |vertex: &VertexId| (embedding[chart.vertex_of()[vertex.index()]] + DVec2::ZERO).to_array().map(f64::to_bits);
+    let bits = |vertex: &VertexId| point_key(embedding[chart.vertex_of()[vertex.index()]]);
     let mut loops: Outline =
         chart.loops().iter().map(|vertices| canonical(vertices.iter().map(bits).collect())).collect();
     loops.sort_unstable();

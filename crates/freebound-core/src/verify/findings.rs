@@ -111,60 +111,44 @@ impl FindingCode {
 
     /// Fixed lower-case name.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::NotFinite => "not-finite",
-            Self::Flipped => "flipped",
-            Self::Degenerate => "degenerate",
-            Self::ConcavePolygon => "concave-polygon",
-            Self::Overlap => "overlap",
-            Self::OverlapOfCharts => "overlap-of-charts",
-            Self::OverlapMirrored => "overlap-mirrored",
-            Self::Stacked => "stacked",
-            Self::NoCoordinates => "no-coordinates",
-            Self::NoPlace => "no-place",
-            Self::Duplicate => "duplicate",
-            Self::Outside => "outside",
-            Self::FarAway => "far-away",
-            Self::Scale => "scale",
-            Self::Gap => "gap",
-            Self::Mirrored => "mirrored",
-            Self::Turned => "turned",
-            Self::Tiles => "tiles",
-        }
+        self.texts()[0]
     }
 
-    /// Description after a count, for one element and for several.
-    const fn words(self) -> [&'static str; 2] {
+    /// Name, and description after a count, for one element and for several.
+    const fn texts(self) -> [&'static str; 3] {
         match self {
             Self::NotFinite => {
-                ["face has coordinates that are no numbers", "faces have coordinates that are no numbers"]
+                ["not-finite", "face has coordinates that are no numbers", "faces have coordinates that are no numbers"]
             }
-            Self::Flipped => ["flipped face", "flipped faces"],
-            Self::Degenerate => ["face lies on a line", "faces lie on a line"],
-            Self::ConcavePolygon => ["concave polygon", "concave polygons"],
-            Self::Overlap => ["pair of faces of one chart overlaps", "pairs of faces of one chart overlap"],
-            Self::OverlapOfCharts => {
-                ["pair of faces of different charts overlaps", "pairs of faces of different charts overlap"]
-            }
+            Self::Flipped => ["flipped", "flipped face", "flipped faces"],
+            Self::Degenerate => ["degenerate", "face lies on a line", "faces lie on a line"],
+            Self::ConcavePolygon => ["concave-polygon", "concave polygon", "concave polygons"],
+            Self::Overlap => ["overlap", "pair of faces of one chart overlaps", "pairs of faces of one chart overlap"],
+            Self::OverlapOfCharts => [
+                "overlap-of-charts",
+                "pair of faces of different charts overlaps",
+                "pairs of faces of different charts overlap",
+            ],
             Self::OverlapMirrored => [
+                "overlap-mirrored",
                 "pair of faces of charts that mirror each other overlaps",
                 "pairs of faces of charts that mirror each other overlap",
             ],
-            Self::Stacked => ["face lies on another face or chart", "faces lie on other faces or charts"],
-            Self::NoCoordinates => ["face has no coordinates", "faces have no coordinates"],
-            Self::NoPlace => ["face has no place", "faces have no place"],
-            Self::Duplicate => ["face repeats an earlier face", "faces repeat earlier faces"],
+            Self::Stacked => ["stacked", "face lies on another face or chart", "faces lie on other faces or charts"],
+            Self::NoCoordinates => ["no-coordinates", "face has no coordinates", "faces have no coordinates"],
+            Self::NoPlace => ["no-place", "face has no place", "faces have no place"],
+            Self::Duplicate => ["duplicate", "face repeats an earlier face", "faces repeat earlier faces"],
             Self::Outside => {
-                ["chart lies across the unit square's border", "charts lie across the unit square's border"]
+                ["outside", "chart lies across the unit square's border", "charts lie across the unit square's border"]
             }
             Self::FarAway => {
-                ["face reaches far away from the unit square", "faces reach far away from the unit square"]
+                ["far-away", "face reaches far away from the unit square", "faces reach far away from the unit square"]
             }
-            Self::Scale => ["chart differs in scale", "charts differ in scale"],
-            Self::Gap => ["pair of charts lies too close", "pairs of charts lie too close"],
-            Self::Mirrored => ["chart is a mirror image", "charts are mirror images"],
-            Self::Turned => ["face is turned over on the surface", "faces are turned over on the surface"],
-            Self::Tiles => ["chart lies in another tile", "charts lie in other tiles"],
+            Self::Scale => ["scale", "chart differs in scale", "charts differ in scale"],
+            Self::Gap => ["gap", "pair of charts lies too close", "pairs of charts lie too close"],
+            Self::Mirrored => ["mirrored", "chart is a mirror image", "charts are mirror images"],
+            Self::Turned => ["turned", "face is turned over on the surface", "faces are turned over on the surface"],
+            Self::Tiles => ["tiles", "chart lies in another tile", "charts lie in other tiles"],
         }
     }
 }
@@ -224,7 +208,7 @@ impl Finding {
 
 impl Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [one, many] = self.code.words();
+        let [_, one, many] = self.code.texts();
         let more = if self.more { "more than " } else { "" };
         let words = if self.count == 1 && !self.more { one } else { many };
         write!(f, "{more}{} {words}", self.count)?;

@@ -22,12 +22,12 @@
 
 use std::collections::{HashMap, HashSet};
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::atlas_verdict::{Outline, canonical};
-use crate::geom::{self, Bounds, Orientation, double_area, orientation};
+use crate::geom::{self, Bounds, Orientation, double_area, orientation, point_key};
 use crate::mesh::union::{DisjointSets, ParitySets};
-use crate::mesh::{EdgeTable, FaceId, TriMesh, VertexId, is_zero_area};
+use crate::mesh::{EdgeTable, FaceId, TriMesh, VertexId, is_zero_area, place_key};
 use crate::parallel::prelude::*;
 use crate::problem::Embedding;
 
@@ -104,15 +104,19 @@ pub struct LayoutVerdict {
 /// If a triangle names a vertex that the mesh or the coordinates lack, or `groups` is neither empty nor has a group for
 /// each triangle.
 pub fn layout_verdict(layout: PlaneLayout<'_>, options: LayoutOptions) -> LayoutVerdict {
-    let (kept, duplicates) = without_duplicates(layout);
+    let joined = joined_vertices(layout);
+    let (kept, duplicates) = without_duplicates(layout, &joined);
     let layout = kept.as_ref().map_or(layout, |(mesh, groups)| PlaneLayout { mesh, groups, ..layout });
-    let as_given = Judged::new(layout, options);
+    let as_given = Judged::new(layout, &joined, options);
     let mut findings = as_given.errors(FINDINGS_LISTED);
     let contradicts = |finding: &Finding| finding.severity == FindingSeverity::Error;
     let planar = !findings.iter().any(contradicts);
-    let in_f32: Embedding = layout.coordinates.iter().map(|z| z.as_vec2().as_dvec2()).collect();
-    let rounded = PlaneLayout { coordinates: &in_f32, ..layout };
-    let planar_in_f32 = planar && !Judged::new(rounded, options).errors(1).iter().any(contradicts);
+    let is_planar_in_f32 = || {
+        let in_f32: Embedding = layout.coordinates.iter().map(|z| z.as_vec2().as_dvec2()).collect();
+        let rounded = PlaneLayout { coordinates: &in_f32, ..layout };
+        !Judged::new(rounded, &joined_vertices(rounded), options).errors(1).iter().any(contradicts)
+    };
+    let planar_in_f32 = planar && is_planar_in_f32();
     findings.extend(as_given.remarks());
     findings.extend((!duplicates.is_empty()).then(|| Finding::of_faces(FindingCode::Duplicate, duplicates)));
     findings.sort_by_key(|finding| (finding.severity, finding.code));
@@ -150,7 +154,7 @@ struct Judged<'a> {
     layout: PlaneLayout<'a>,
     options: LayoutOptions,
     /// Chart of each triangle. Faces without a place have numbers from `chart_count` on.
-    chart_of: Vec<u32>,
+    chart_of: Vec<usize>,
     chart_count: usize,
     /// Orientation of each triangle in the layout. `None` if a coordinate is not finite.
     turns: Vec<Option<Orientation>>,
@@ -167,9 +171,9 @@ struct Judged<'a> {
 }
 
 impl<'a> Judged<'a> {
-    fn new(layout: PlaneLayout<'a>, options: LayoutOptions) -> Self {
+    /// Charts and orientations. `joined` is the result of [`joined_vertices`].
+    fn new(layout: PlaneLayout<'a>, joined: &[VertexId], options: LayoutOptions) -> Self {
         let mesh = layout.mesh;
-        let joined = joined_vertices(layout);
         let has_place = |face: usize| !has_no_place(layout, face);
         let joined_corners = |t: &[VertexId; 3]| t.map(|vertex| joined[vertex.index()]);
         let triangles: Vec<[VertexId; 3]> = mesh.triangles.iter().map(joined_corners).collect();
@@ -224,7 +228,7 @@ impl<'a> Judged<'a> {
             chart_count,
             turns: (0..mesh.face_count()).into_par_iter().map(judged).collect(),
             runs_against: (0..).take(mesh.face_count()).map(|face| directions.find(face).1).collect(),
-            chart_of: chart_of.into_iter().map(|chart| VertexId::from_index(chart).number()).collect(),
+            chart_of,
             is_one_sided: (0..chart_count).map(|chart| one_sided.contains(&chart)).collect(),
             faces_of,
             boundary,
@@ -331,7 +335,7 @@ impl<'a> Judged<'a> {
         let upper = (0..self.chart_count).filter(|&chart| self.first_like[chart] != chart);
         let first_at_place = |chart: usize| -> Vec<usize> {
             let mut seen = HashSet::new();
-            self.faces_of[chart].iter().copied().filter(|&face| seen.insert(place_key(self.corners(face)))).collect()
+            self.faces_of[chart].iter().copied().filter(|&face| seen.insert(corners_key(self.corners(face)))).collect()
         };
         let within = upper.flat_map(|chart| self.overlapping_pairs(&first_at_place(chart), most + 1));
         pairs.extend(within.take((most + 1).saturating_sub(pairs.len())));
@@ -362,16 +366,15 @@ impl<'a> Judged<'a> {
     fn lowest_and_stacked(&self) -> (Vec<usize>, Vec<usize>) {
         let mut seen = HashSet::with_capacity(self.turns.len());
         let is_lowest = |&face: &usize| {
-            let chart = self.chart_of[face] as usize;
+            let chart = self.chart_of[face];
             let group = self.layout.groups.get(face).copied().unwrap_or_default();
             // Every face takes its place, so that no chart has two faces there.
-            seen.insert((group, place_key(self.corners(face)))) && self.first_like[chart] == chart
+            seen.insert((group, corners_key(self.corners(face)))) && self.first_like[chart] == chart
         };
         let has_area = |face: &usize| self.turns[*face].is_some_and(|turn| turn != Orientation::Collinear);
         let mut order: Vec<usize> = (0..self.turns.len()).filter(has_area).collect();
         // Faces of the first chart with an outline come before those stacked on them.
-        order
-            .sort_by_key(|&face| (self.first_like[self.chart_of[face] as usize] != self.chart_of[face] as usize, face));
+        order.sort_by_key(|&face| (self.first_like[self.chart_of[face]] != self.chart_of[face], face));
         order.into_iter().partition(is_lowest)
     }
 
@@ -467,11 +470,11 @@ impl<'a> Judged<'a> {
 
     /// Pairs of charts that are nearer to each other than the gap, by their first faces.
     fn near_charts(&self, PixelGap { least: gap, picture }: PixelGap) -> Vec<[FaceId; 2]> {
-        let in_pixels = |(chart, ends): (u32, [DVec2; 2])| (chart, ends.map(|z| z * picture));
+        let in_pixels = |(chart, ends): (usize, [DVec2; 2])| (chart, ends.map(|z| z * picture));
         // Stacked charts lie on the first of them.
-        let is_lowest = |(chart, _): &(u32, [DVec2; 2])| self.first_like[*chart as usize] == *chart as usize;
+        let is_lowest = |(chart, _): &(usize, [DVec2; 2])| self.first_like[*chart] == *chart;
         let edges = self.boundary_sides().into_iter().filter(is_lowest).map(in_pixels);
-        let edges: Vec<(u32, [DVec2; 2])> = edges.collect();
+        let edges: Vec<(usize, [DVec2; 2])> = edges.collect();
         let mut order: Vec<usize> = (0..edges.len()).collect();
         let bounds = |at: usize| Bounds::of(edges[at].1);
         let whole = (0..edges.len()).fold(Bounds::EMPTY, |whole, at| whole.union(bounds(at)));
@@ -481,24 +484,23 @@ impl<'a> Judged<'a> {
             Bounds { low: low - gap / 2.0, high: high + gap / 2.0 }
         };
         let tree = geom::BoxTree::new(order.iter().map(|&at| grown(at)));
-        let group = |chart: u32| self.layout.groups.get(self.faces_of[chart as usize][0]).copied().unwrap_or_default();
+        let group = |chart: usize| self.layout.groups.get(self.faces_of[chart][0]).copied().unwrap_or_default();
         let near = |place: usize| {
             let (chart, side) = edges[order[place]];
             let others = tree.later(place).map(|other| edges[order[other]]);
-            let is_near = move |(other, _): &(u32, [DVec2; 2])| *other != chart && group(*other) == group(chart);
+            let is_near = move |(other, _): &(usize, [DVec2; 2])| *other != chart && group(*other) == group(chart);
             let others = others.filter(is_near).filter(|(_, other)| distance(side, *other) < gap);
             others.map(|(other, _)| [chart.min(other), chart.max(other)]).collect::<Vec<_>>()
         };
-        let mut pairs: Vec<[u32; 2]> = (0..order.len()).into_par_iter().flat_map_iter(near).collect();
+        let mut pairs: Vec<[usize; 2]> = (0..order.len()).into_par_iter().flat_map_iter(near).collect();
         pairs.sort_unstable();
         pairs.dedup();
-        let first =
-            |chart: u32| FaceId::new(self.layout.mesh.polygon(FaceId::from_index(self.faces_of[chart as usize][0])));
+        let first = |chart: usize| FaceId::new(self.layout.mesh.polygon(FaceId::from_index(self.faces_of[chart][0])));
         pairs.into_iter().map(|pair| pair.map(first)).collect()
     }
 
     /// Boundary sides of all charts, each with its chart.
-    fn boundary_sides(&self) -> Vec<(u32, [DVec2; 2])> {
+    fn boundary_sides(&self) -> Vec<(usize, [DVec2; 2])> {
         let side = |side: u32| {
             let corners = self.corners(side as usize / 3);
             [corners[side as usize % 3], corners[(side as usize + 1) % 3]]
@@ -509,9 +511,8 @@ impl<'a> Judged<'a> {
 }
 
 /// Triangles of a layout and their groups without duplicate faces, and these faces. `None` if there are none.
-fn without_duplicates(layout: PlaneLayout<'_>) -> (Option<(TriMesh, Vec<u32>)>, Vec<FaceId>) {
+fn without_duplicates(layout: PlaneLayout<'_>, joined: &[VertexId]) -> (Option<(TriMesh, Vec<u32>)>, Vec<FaceId>) {
     let mesh = layout.mesh;
-    let joined = joined_vertices(layout);
     let number = |face: usize| mesh.polygon(FaceId::from_index(face));
     let group = |face: usize| layout.groups.get(face).copied().unwrap_or_default();
     let mut seen: HashSet<(u32, Vec<[VertexId; 3]>)> = HashSet::with_capacity(mesh.face_count());
@@ -577,9 +578,7 @@ fn has_no_place(layout: PlaneLayout<'_>, face: usize) -> bool {
 /// First vertex with the position and the coordinate of each vertex.
 fn joined_vertices(layout: PlaneLayout<'_>) -> Vec<VertexId> {
     let key = |vertex: usize| {
-        let in_space = (layout.mesh.positions[vertex] + DVec3::ZERO).to_array().map(f64::to_bits);
-        let uv = layout.coordinates[VertexId::from_index(vertex)];
-        (in_space, (uv + DVec2::ZERO).to_array().map(f64::to_bits))
+        (place_key(layout.mesh.positions[vertex]), point_key(layout.coordinates[VertexId::from_index(vertex)]))
     };
     let mut first: HashMap<([u64; 3], [u64; 2]), VertexId> = HashMap::with_capacity(layout.mesh.vertex_count());
     let joined = |vertex: usize| *first.entry(key(vertex)).or_insert_with(|| VertexId::from_index(vertex));
@@ -587,8 +586,8 @@ fn joined_vertices(layout: PlaneLayout<'_>) -> Vec<VertexId> {
 }
 
 /// Key of the corners of a triangle, in any order.
-fn place_key(corners: [DVec2; 3]) -> [[u64; 2]; 3] {
-    let mut bits = corners.map(|z| (z + DVec2::ZERO).to_array().map(f64::to_bits));
+fn corners_key(corners: [DVec2; 3]) -> [[u64; 2]; 3] {
+    let mut bits = corners.map(point_key);
     bits.sort_unstable();
     bits
 }
@@ -603,7 +602,7 @@ fn outline_of(coordinates: &Embedding, sides: &[[VertexId; 2]]) -> Option<Outlin
     if around.is_empty() || around.values().any(|ends| ends.len() != 2) {
         return None;
     }
-    let bits = |vertex: VertexId| (coordinates[vertex] + DVec2::ZERO).to_array().map(f64::to_bits);
+    let bits = |vertex: VertexId| point_key(coordinates[vertex]);
     let mut starts: Vec<VertexId> = around.keys().copied().collect();
     starts.sort_unstable();
     let mut loops = Vec::new();

@@ -7,7 +7,7 @@ use super::{Repair, Repaired};
 use crate::mesh::coincident::coincident_vertices;
 use crate::mesh::fault::Elements;
 use crate::mesh::union::DisjointSets;
-use crate::mesh::{Fault, VertexId, diagnose};
+use crate::mesh::{Fault, VertexId, diagnose, place_key};
 
 impl Repaired {
     /// Joins vertices of different parts whose positions are equal to the bit.
@@ -17,8 +17,7 @@ impl Repaired {
         if found.is_empty() {
             return;
         }
-        // Adding 0 turns −0 into 0.
-        let place = |v: VertexId| mesh.positions[v.index()].to_array().map(|x| (x + 0.0).to_bits());
+        let place = |v: VertexId| place_key(mesh.positions[v.index()]);
         let mut first: HashMap<[u64; 3], VertexId> = found.iter().map(|&v| (place(v), v)).collect();
         for &v in mesh.triangles.iter().flatten() {
             first.entry(place(v)).and_modify(|lowest| *lowest = v.min(*lowest));

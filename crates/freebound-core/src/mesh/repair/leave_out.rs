@@ -7,6 +7,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::{Repair, Repaired, Repairs};
+use crate::mesh::polygon::Walk;
 use crate::mesh::{PolygonMesh, VertexId};
 
 /// Fate of a face and its corners.
@@ -17,27 +18,6 @@ pub(super) enum Fate {
     Stack(Vec<u32>),
     /// Remove the face.
     Go,
-}
-
-/// Direction in which a face runs around the corners of an earlier face with equal vertices.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum Direction {
-    Along,
-    Against,
-    /// The vertices have another order.
-    Crossed,
-}
-
-impl Direction {
-    fn of(face: &[VertexId], earlier: &[VertexId]) -> Self {
-        let (count, place) = (face.len(), face.iter().position(|&vertex| vertex == earlier[0]).unwrap_or_default());
-        let runs = |step: usize| (0..count).all(|k| face[(place + k * step) % count] == earlier[k]);
-        match () {
-            () if runs(1) => Self::Along,
-            () if runs(count - 1) => Self::Against,
-            () => Self::Crossed,
-        }
-    }
 }
 
 /// Faces with equal vertices.
@@ -120,7 +100,7 @@ impl Repaired {
                 seen.insert(vertices, (own, corners.to_vec()));
                 return Fate::Keep((0..corners.len()).collect());
             };
-            let lies_there = Direction::of(corners, first) != Direction::Crossed;
+            let lies_there = Walk::between(corners, first).is_some();
             if !(lies_there && order.iter().zip(twins).all(|(&k, &twin)| may_share(corner_of[k], twin))) {
                 return Fate::Keep((0..corners.len()).collect());
             }
@@ -138,7 +118,9 @@ impl Repaired {
     /// form a sheet of connected faces: the second sides of faces that are there from both sides, for one.
     fn separate_duplicates(&mut self, mut is_looked_at: impl FnMut(&[u32]) -> bool) {
         let mut seen: HashMap<Vec<VertexId>, Equals> = HashMap::with_capacity(self.polygons.face_count());
-        let mut copies: HashMap<(VertexId, usize, Direction), VertexId> = HashMap::new();
+        // Copies of a vertex, by the number of equal faces before and the direction: `None` if the vertices have another
+        // order.
+        let mut copies: HashMap<(VertexId, usize, Option<bool>), VertexId> = HashMap::new();
         let mut duplicates = 0;
         for face in 0..self.polygons.face_count() {
             let range = self.polygons.corner_range(face);
@@ -152,7 +134,7 @@ impl Repaired {
                 seen.insert(vertices, Equals { first: corners, count: 1 });
                 continue;
             };
-            let direction = Direction::of(&corners, &equals.first);
+            let direction = Walk::between(&corners, &equals.first).map(|walk| walk.runs_against);
             for corner in &mut self.polygons.corners[range] {
                 let vertex = *corner;
                 *corner = *copies.entry((vertex, equals.count, direction)).or_insert_with(|| {
