@@ -364,18 +364,20 @@ impl<'a> Judged<'a> {
     /// Faces that are the first at their place, in charts that are the first with their outline; and all other faces with
     /// a place. Faces on a line are in neither.
     fn lowest_and_stacked(&self) -> (Vec<usize>, Vec<usize>) {
-        let mut seen = HashSet::with_capacity(self.turns.len());
-        let is_lowest = |&face: &usize| {
-            let chart = self.chart_of[face];
-            let group = self.layout.groups.get(face).copied().unwrap_or_default();
-            // Every face takes its place, so that no chart has two faces there.
-            seen.insert((group, corners_key(self.corners(face)))) && self.first_like[chart] == chart
-        };
         let has_area = |face: &usize| self.turns[*face].is_some_and(|turn| turn != Orientation::Collinear);
-        let mut order: Vec<usize> = (0..self.turns.len()).filter(has_area).collect();
-        // Faces of the first chart with an outline come before those stacked on them.
-        order.sort_by_key(|&face| (self.first_like[self.chart_of[face]] != self.chart_of[face], face));
-        order.into_iter().partition(is_lowest)
+        let is_upper = |face: usize| self.first_like[self.chart_of[face]] != self.chart_of[face];
+        let key = |face: usize| {
+            let group = self.layout.groups.get(face).copied().unwrap_or_default();
+            (group, corners_key(self.corners(face)))
+        };
+        let (upper, lower): (Vec<usize>, Vec<usize>) =
+            (0..self.turns.len()).filter(has_area).partition(|&face| is_upper(face));
+        // Every lower face takes its place, so that no chart has two faces there.
+        let first = first_equals(lower.iter().map(|&face| key(face)));
+        let at_first = |at: &usize| first[*at] as usize == *at;
+        let (lowest, twice): (Vec<usize>, Vec<usize>) = (0..lower.len()).partition(at_first);
+        let stacked = twice.into_iter().map(|at| lower[at]).chain(upper);
+        (lowest.into_iter().map(|at| lower[at]).collect(), stacked.collect())
     }
 
     /// Pairs of overlapping faces of one group among some faces, at most `most`.
@@ -515,25 +517,36 @@ fn without_duplicates(layout: PlaneLayout<'_>, joined: &[VertexId]) -> (Option<(
     let mesh = layout.mesh;
     let number = |face: usize| mesh.polygon(FaceId::from_index(face));
     let group = |face: usize| layout.groups.get(face).copied().unwrap_or_default();
-    let mut seen: HashSet<(u32, Vec<[VertexId; 3]>)> = HashSet::with_capacity(mesh.face_count());
+    let key = |face: usize| {
+        let mut corners = mesh.triangles[face].map(|vertex| joined[vertex.index()]);
+        corners.sort_unstable();
+        (group(face), corners)
+    };
+    let first = first_equals((0..mesh.face_count()).map(key));
+    let mut is_repeated = vec![false; mesh.face_count()];
+    first
+        .iter()
+        .zip(0..)
+        .filter(|(first, face)| *first != face)
+        .for_each(|(&first, _)| is_repeated[first as usize] = true);
+    // Polygons as their triangles, each by the first triangle that equals it. Most have no triangle twice.
+    let mut seen: HashSet<Vec<u32>> = HashSet::new();
     let mut stays = vec![true; mesh.face_count()];
     let mut duplicates = Vec::new();
-    let mut first = 0;
-    while first < mesh.face_count() {
-        // Triangles of one polygon are consecutive.
-        let own = (first..mesh.face_count()).take_while(|&face| number(face) == number(first)).count();
-        let sorted = |triangle: &[VertexId; 3]| {
-            let mut corners = triangle.map(|vertex| joined[vertex.index()]);
-            corners.sort_unstable();
-            corners
-        };
-        let mut triangles: Vec<[VertexId; 3]> = mesh.triangles[first..first + own].iter().map(sorted).collect();
-        triangles.sort_unstable();
-        if !seen.insert((group(first), triangles)) {
-            stays[first..first + own].fill(false);
-            duplicates.push(FaceId::new(number(first)));
+    let faces: Vec<usize> = (0..mesh.face_count()).collect();
+    // Triangles of one polygon are consecutive.
+    for polygon in faces.chunk_by(|&a, &b| number(a) == number(b)) {
+        if !polygon.iter().all(|&face| is_repeated[first[face] as usize]) {
+            continue;
         }
-        first += own;
+        let mut triangles: Vec<u32> = polygon.iter().map(|&face| first[face]).collect();
+        triangles.sort_unstable();
+        if !seen.insert(triangles) {
+            for &face in polygon {
+                stays[face] = false;
+            }
+            duplicates.push(FaceId::new(number(polygon[0])));
+        }
     }
     if duplicates.is_empty() {
         return (None, duplicates);
@@ -577,12 +590,22 @@ fn has_no_place(layout: PlaneLayout<'_>, face: usize) -> bool {
 
 /// First vertex with the position and the coordinate of each vertex.
 fn joined_vertices(layout: PlaneLayout<'_>) -> Vec<VertexId> {
-    let key = |vertex: usize| {
-        (place_key(layout.mesh.positions[vertex]), point_key(layout.coordinates[VertexId::from_index(vertex)]))
-    };
-    let mut first: HashMap<([u64; 3], [u64; 2]), VertexId> = HashMap::with_capacity(layout.mesh.vertex_count());
-    let joined = |vertex: usize| *first.entry(key(vertex)).or_insert_with(|| VertexId::from_index(vertex));
-    (0..layout.mesh.vertex_count()).map(joined).collect()
+    let vertices = layout.mesh.positions.iter().zip(layout.coordinates);
+    let first = first_equals(vertices.map(|(position, uv)| (place_key(*position), point_key(*uv))));
+    first.into_iter().map(VertexId::new).collect()
+}
+
+/// Number of the first item with the key of each item.
+fn first_equals<K: Ord + Copy + Send>(keys: impl Iterator<Item = K>) -> Vec<u32> {
+    let mut order: Vec<(K, u32)> = keys.zip(0..).collect();
+    order.par_sort_unstable();
+    let mut first = vec![0; order.len()];
+    for equals in order.chunk_by(|a, b| a.0 == b.0) {
+        for (_, item) in equals {
+            first[*item as usize] = equals[0].1;
+        }
+    }
+    first
 }
 
 /// Key of the corners of a triangle, in any order.
