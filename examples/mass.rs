@@ -1,7 +1,7 @@
 //! Runs the program over a folder of meshes and judges every layout: `cargo run --release --example mass -- FOLDER OUT.tsv`.
 //!
 //! `.ci/meshes FOLDER` fetches public meshes. Each mesh is flattened by a process of its own, with one thread and limits
-//! of time and memory. The judge of the tests looks at the written file; the program's own verdict is only compared with
+//! of processor time and memory. The judge of the tests looks at the written file; the program's own verdict is only compared with
 //! it. `OUT.tsv` gets a row a mesh; meshes that it lists already are skipped. A table follows on standard output.
 //!
 //! | option | meaning | default |
@@ -9,7 +9,7 @@
 //! | `--program FILE` | program to run | the one beside this example |
 //! | `--sample N` | so many of the meshes, spread over the folder | all |
 //! | `--jobs N` | processes at once | 2 |
-//! | `--limit SECONDS` | longest run of a mesh | 60 |
+//! | `--limit SECONDS` | most processor time of a mesh | 60 |
 //! | `--memory MIB` | most memory of a run | 4096 |
 //! | `--against OLD.tsv` | earlier run to compare with | none |
 //! | `--check` | check the layouts of OBJ files, of any program, instead of flattening | off |
@@ -24,7 +24,6 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
 
 use freebound_testkit::judge::{Judgement, judge_obj};
 use serde_json::Value;
@@ -37,8 +36,8 @@ const ENDINGS: [&str; 5] = ["obj", "off", "ply", "stl", "glb"];
 /// Arguments of the runs unless others are given.
 const USUAL: [&str; 6] = ["--repair", "all", "--cut", "auto", "--distortion", "4.1"];
 
-/// Interval between two looks at a running process.
-const POLL: Duration = Duration::from_millis(5);
+/// Exit status of a shell whose program was stopped at the limit of processor time: 128 and the signal SIGXCPU.
+const OUT_OF_TIME: i32 = 152;
 
 /// Bounds of the energies in the table.
 const ENERGIES: [f64; 4] = [4.2, 8.0, 20.0, 100.0];
@@ -103,7 +102,8 @@ struct Options {
     program: PathBuf,
     sample: Option<usize>,
     jobs: usize,
-    limit: Duration,
+    /// Most processor time of a run, seconds.
+    limit: u64,
     /// Most memory of a run, MiB.
     memory: u64,
     against: Option<PathBuf>,
@@ -123,7 +123,7 @@ impl Options {
             program,
             sample: None,
             jobs: 2,
-            limit: Duration::from_mins(1),
+            limit: 60,
             memory: 4096,
             against: None,
             strict: false,
@@ -136,7 +136,7 @@ impl Options {
                 "--program" => own.program = value()?.into(),
                 "--sample" => own.sample = Some(value()?.parse()?),
                 "--jobs" => own.jobs = value()?.parse()?,
-                "--limit" => own.limit = Duration::from_secs_f64(value()?.parse()?),
+                "--limit" => own.limit = value()?.parse()?,
                 "--memory" => own.memory = value()?.parse()?,
                 "--against" => own.against = Some(value()?.into()),
                 "--strict" => own.strict = true,
@@ -155,6 +155,7 @@ struct Row {
     file: String,
     /// Exit status, or `timeout`.
     exit: String,
+    /// Processor time.
     seconds: f64,
     /// Peak memory, MiB.
     memory: f64,
@@ -285,42 +286,45 @@ fn name_of(file: &Path) -> String {
 /// End of a process.
 struct Ended {
     exit: String,
+    /// Processor time.
     seconds: f64,
     errors: String,
 }
 
-/// Flattens a mesh in a process with limits of time and memory.
+/// Flattens a mesh in a process with limits of processor time and memory. Both are limits of the shell, so that other
+/// processes of a busy machine change nothing.
 fn run(options: &Options, file: &Path, out: &Path, report: &Path) -> Outcome<Ended> {
-    let errors = tempfile::NamedTempFile::new()?;
-    let begin = Instant::now();
+    let [errors, times] = [tempfile::NamedTempFile::new()?, tempfile::NamedTempFile::new()?];
+    let Options { limit, memory, .. } = options;
+    let limits = format!("ulimit -S -t {limit} && ulimit -c 0 && ulimit -v {}", memory * 1024);
+    let script = format!("times=$1; shift; {limits}; \"$0\" \"$@\"; status=$?; times >\"$times\"; exit $status");
     let mut command = Command::new("sh");
-    command.args(["-c", &format!("ulimit -v {} && exec \"$0\" \"$@\"", options.memory * 1024)]).arg(&options.program);
+    command.args(["-c", &script]).arg(&options.program).arg(times.path());
     if options.checks {
         command.arg("check").arg(file);
     } else {
         command.arg("flatten").arg(file).args(["--threads", "1", "-o"]).arg(out).args(&options.arguments);
     }
     command.arg("--report").arg(report);
-    let mut child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(errors.reopen()?).spawn()?;
-    let status = loop {
-        if let Some(status) = child.try_wait()? {
-            break Some(status);
-        }
-        if begin.elapsed() > options.limit {
-            child.kill()?;
-            child.wait()?;
-            break None;
-        }
-        std::thread::sleep(POLL);
+    let status = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(errors.reopen()?).status()?;
+    let exit = match status.code() {
+        Some(OUT_OF_TIME) => "timeout".to_owned(),
+        Some(code) => code.to_string(),
+        None => status.to_string(),
     };
-    let seconds = begin.elapsed().as_secs_f64();
+    let seconds = processor_time(&fs::read_to_string(times.path())?).unwrap_or_default();
     let mut bytes = Vec::new();
     errors.reopen()?.read_to_end(&mut bytes)?;
-    let exit = match status {
-        Some(status) => status.code().map_or_else(|| status.to_string(), |code| code.to_string()),
-        None => "timeout".to_owned(),
-    };
     Ok(Ended { exit, seconds, errors: String::from_utf8_lossy(&bytes).into_owned() })
+}
+
+/// Seconds of the children of a shell, by what its command `times` prints: `1m2.5s 0m0.25s` on the second line.
+fn processor_time(text: &str) -> Option<f64> {
+    let seconds = |word: &str| {
+        let (minutes, seconds) = word.trim_end_matches('s').split_once('m')?;
+        Some(minutes.parse::<f64>().ok()? * 60.0 + seconds.parse::<f64>().ok()?)
+    };
+    text.lines().nth(1)?.split_whitespace().map(seconds).sum()
 }
 
 /// Rows of a file, by the names of the meshes.
@@ -356,7 +360,7 @@ fn table(rows: &BTreeMap<String, Row>) -> String {
     for bound in ENERGIES {
         line(&format!("a chart above energy {bound}"), count(&|row| row.energy > bound).to_string());
     }
-    line("seconds: median, 95 %, longest", format!("{:.2}, {:.2}, {:.2}", at(0.5), at(0.95), at(1.0)));
+    line("processor seconds: median, 95 %, longest", format!("{:.2}, {:.2}, {:.2}", at(0.5), at(0.95), at(1.0)));
     line("most memory, MiB", format!("{memory:.0}"));
     text
 }

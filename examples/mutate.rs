@@ -14,7 +14,7 @@ use freebound_core::mesh::{Preparation, Repairs};
 use freebound_core::pipeline::PreparedMesh;
 use freebound_core::verify::{LayoutOptions, PlaneLayout, layout_verdict};
 use freebound_core::{PipelineOptions, unwrap};
-use freebound_io::{MeshFile, Texture, read_stream, write_glb, write_obj, write_ply};
+use freebound_io::{MeshFile, Precision, Texture, read_stream, write_glb, write_obj, write_ply};
 use freebound_testkit::mutation::mutated;
 use freebound_testkit::{glb, grid, ply};
 
@@ -104,10 +104,11 @@ fn write_all(mesh: &MeshFile, texture: &Texture) {
     if !mesh.polygons.positions.iter().all(|position| position.is_finite()) {
         return;
     }
-    let (mut obj, mut ply, mut glb) = (Vec::new(), Vec::new(), Vec::new());
+    let [mut obj, mut ply, mut ply_of_32_bits, mut glb] = [const { Vec::new() }; 4];
     for (format, is_written, bytes) in [
         ("OBJ", write_obj(&mut obj, mesh, texture).is_ok(), &obj),
-        ("PLY", write_ply(&mut ply, mesh, texture).is_ok(), &ply),
+        ("PLY", write_ply(&mut ply, mesh, texture, Precision::F64).is_ok(), &ply),
+        ("PLY of 32 bits", write_ply(&mut ply_of_32_bits, mesh, texture, Precision::F32).is_ok(), &ply_of_32_bits),
         ("GLB", write_glb(&mut glb, mesh, texture).is_ok(), &glb),
     ] {
         if is_written
@@ -128,7 +129,7 @@ fn seeds() -> Vec<(&'static str, Vec<u8>)> {
     let mut obj = Vec::new();
     write_obj(&mut obj, &file, &texture).expect("a small file");
     let (mut ply_file, mut glb_file) = (Vec::new(), Vec::new());
-    write_ply(&mut ply_file, &file, &texture).expect("a small file");
+    write_ply(&mut ply_file, &file, &texture, Precision::F64).expect("a small file");
     write_glb(&mut glb_file, &file, &texture).expect("a small file");
     vec![
         ("obj", obj),

@@ -6,7 +6,7 @@ use freebound_core::flatten::Prepared;
 use freebound_core::mesh::{DiskMesh, TriMesh};
 use freebound_core::problem::{Control, Embedding, PhaseSeconds, Pins, Settings};
 use freebound_core::verify::{distortion, verdict};
-use freebound_io::{MeshFile, Texture, read_mesh, write_atomically, write_obj, write_ply};
+use freebound_io::{MeshFile, Precision, Texture, read_mesh, write_atomically, write_obj, write_ply};
 use glam::DVec3;
 
 use crate::common::table::{Table, megabytes, seconds, target};
@@ -168,7 +168,7 @@ pub(crate) fn reader() {
             to_write.run(|| {
                 let texture = Texture::default();
                 let written = write_atomically(&path, |out| {
-                    if is_obj { write_obj(out, mesh, &texture) } else { write_ply(out, mesh, &texture) }
+                    if is_obj { write_obj(out, mesh, &texture) } else { write_ply(out, mesh, &texture, Precision::F64) }
                 });
                 written.expect("room in the folder");
             });

@@ -26,7 +26,7 @@ use freebound_core::geom::{PackingOptions, PictureFrame};
 use freebound_core::mesh::FaceId;
 use freebound_core::pipeline::{Fit, PipelineOptions, Targets, hard_targets};
 use freebound_core::problem::{NamedOption as _, Settings};
-use freebound_io::{Materials, OutputKind, PictureFile, Precision, WriteError};
+use freebound_io::{Materials, OutputKind, PictureFile, WriteError};
 
 /// Folder for the example, relative to the current folder.
 const FOLDER: &str = "freebound-example";
@@ -206,7 +206,7 @@ fn flatten_example() -> Result<CommandOutcome, CommandError> {
         fit: Fit::Unit,
         svg_fit: Fit::Unit,
         outputs: vec![(OutputKind::Obj, &mesh), (OutputKind::Png, &picture)],
-        precision: Precision::default(),
+        precision: None,
         materials: Materials::Stay,
         report: Some(&report),
         steps: None,

@@ -31,7 +31,7 @@ pub(super) struct HeadlessJob<'a> {
     /// Size of the drawing.
     pub(super) svg_fit: Fit,
     pub(super) outputs: Vec<(OutputKind, &'a Path)>,
-    pub(super) precision: Precision,
+    pub(super) precision: Option<Precision>,
     pub(super) materials: Materials,
     pub(super) report: Option<&'a Path>,
     pub(super) steps: Option<&'a Path>,
@@ -125,9 +125,8 @@ impl HeadlessJob<'_> {
 
     /// Rejects options that do not apply to packed charts.
     fn refuse_idle_options(&self, model: &Model) -> Result<(), CommandError> {
-        let of_size = self.fit == Fit::True || self.svg_fit == Fit::True;
         let cases = [
-            (of_size, "--fit true and --svg-scale true", "charts are packed into the unit square"),
+            (self.fit == Fit::True, "--fit true", "charts are packed into the unit square; see --svg-scale true"),
             (self.steps.is_some(), "--steps", "it draws the steps of one chart"),
         ];
         match cases.into_iter().find(|(given, ..)| *given) {

@@ -8,9 +8,9 @@ use super::in_use::Role;
 use super::opened::{Opened, Origin};
 use super::stop::Goal;
 use super::{History, Message, MessagePlace, SaveRequest, Session, Written};
-use freebound_core::pipeline::{Fit, Surface};
+use freebound_core::pipeline::Surface;
 use freebound_core::problem::{Settings, Start};
-use freebound_io::{EXTENSIONS, OutputKind, Precision, write_atomically, write_constraints, write_durably};
+use freebound_io::{EXTENSIONS, write_atomically, write_constraints, write_durably};
 
 /// Maximum number of faults that are reported separately if all of them can be repaired.
 const FAULTS_TOLD: usize = 2;
@@ -111,7 +111,7 @@ impl Session {
         self.files.write(move || {
             let mut output = model.finished(&outcome, records, request.fit);
             output.picture = picture.as_deref();
-            output.round_to(Precision::default(), request.kind);
+            output.round_to(None, request.kind);
             let files = output.write(request.kind, &request.path)?;
             Ok(Written { files, about: Some(output.summary()) })
         });
@@ -119,10 +119,6 @@ impl Session {
 
     /// Writes the layout of all charts.
     fn save_atlas(&mut self, SaveRequest { path, kind, fit }: SaveRequest) {
-        if kind == OutputKind::Svg && fit == Fit::True {
-            let text = "several charts have no true scale, because they are packed";
-            return self.complain(text, Some("export the layout in the unit square"));
-        }
         let solved = match self.solved_atlas() {
             Ok(solved) => solved,
             Err(missing) => {
@@ -135,7 +131,8 @@ impl Session {
         self.files.write(move || {
             let mut output = solved.output();
             output.picture = picture.as_deref();
-            output.round_to(Precision::default(), kind);
+            output.svg_fit = fit;
+            output.round_to(None, kind);
             let files = output.write(kind, &path)?;
             Ok(Written { files, about: Some(output.summary()) })
         });

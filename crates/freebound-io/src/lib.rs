@@ -15,7 +15,8 @@
 //! | `finished`    | outcomes and atlases as [`Output`], with their report                      |
 //! | `charts`      | texture coordinates of charts at the corners of one mesh file              |
 //! | `repacked`    | layouts with new places for their charts, ready to be written               |
-//! | `precision`   | rounding of the written coordinates, and the verdict on the rounded map    |
+//! | `precision`   | precision of the written coordinates                                       |
+//! | `rounding`    | rounding to the precision of a file, and the verdict on the rounded map    |
 //! | `report`      | report of a run (JSON)                                                     |
 //! | `comparison`  | report of several methods on one mesh (JSON), and its table                |
 //! | `step_report` | a step in the report, and as a row of a table                              |
@@ -56,6 +57,7 @@ mod project;
 pub mod raster;
 mod repacked;
 mod report;
+mod rounding;
 mod stamp;
 mod step_report;
 mod steps;
@@ -86,7 +88,7 @@ pub use output::{EXTENSIONS, Format, Output, OutputKind, ProvedEmbedding};
 pub use paths::{is_same_file, is_standard_input, would_replace};
 pub use picture::{PictureError, PictureFile, decode_picture};
 pub use ply::write_ply;
-pub use precision::{Precision, RoundingReport};
+pub use precision::Precision;
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };
@@ -94,6 +96,7 @@ pub use repacked::{LayoutPacking, LayoutToPackError, RepackedFile};
 pub use report::{
     ChartReport, MeshReport, REPORT_SCHEMA, Report, SeamsReport, Seconds, ShapeReport, verdict_as_in_file, write_report,
 };
+pub use rounding::RoundingReport;
 pub use stamp::FileStamp;
 pub use step_report::StepReport;
 pub use steps::StepsFolder;

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::charts::textured;
 use super::finite::check_finite;
-use super::gltf::write_glb;
+use super::gltf::{Shading, write_glb_with};
 use super::obj::{copy_materials, relocated, write_obj_with};
 use super::ply::write_ply;
 use super::raster::{Canvas, Colour, RasterPaint, View, colours, mesh_picture, plane_picture, write_png};
@@ -81,7 +81,7 @@ static FORMATS: [Format; 6] = [
         title: "Save the mesh with texture coordinates as PLY",
         write: |output, _, out| {
             let (mesh, texture) = output.textured();
-            write_ply(out, &mesh, &texture)
+            write_ply(out, &mesh, &texture, output.report.precision.unwrap_or_default())
         },
     },
     Format {
@@ -91,7 +91,11 @@ static FORMATS: [Format; 6] = [
         title: "Save the mesh with texture coordinates as GLB",
         write: |output, _, out| {
             let (mesh, texture) = output.textured();
-            write_glb(out, &mesh, &texture)
+            let shading = match output.picture {
+                Some(picture) => Some(Shading::of_picture(picture, &mesh)?),
+                None => Shading::of_obj(&mesh, output.source_path),
+            };
+            write_glb_with(out, &mesh, &texture, shading.as_ref())
         },
     },
     Format {

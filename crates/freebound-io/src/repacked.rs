@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::finite::check_finite;
-use super::gltf::write_glb;
+use super::gltf::{Shading, write_glb_with};
 use super::obj::{Materials, copy_materials, relocated, write_obj_with};
 use super::ply::write_ply;
 use super::svg::{LayoutDrawing, write_layout_svg};
@@ -86,9 +86,10 @@ impl<'a> RepackedFile<'a> {
         self.report.atlas = self.repacked.verdict.as_ref().ok().cloned();
     }
 
-    /// Rounds the coordinates to the numbers that a file of this kind holds, and proves them again.
-    pub fn round_to(&mut self, precision: Precision, kind: OutputKind) {
-        let Some(grid) = precision.grid_of(kind) else {
+    /// Rounds the coordinates to the numbers that a file of this kind holds, and proves them again. Default: the usual
+    /// precision of the kind.
+    pub fn round_to(&mut self, precision: Option<Precision>, kind: OutputKind) {
+        let Some(grid) = kind.grid(precision) else {
             self.report.precision = Some(Precision::F64);
             return;
         };
@@ -130,8 +131,13 @@ impl<'a> RepackedFile<'a> {
 
     fn write_to(&self, kind: OutputKind, path: &Path, mut out: &mut impl Write) -> io::Result<()> {
         match kind {
-            OutputKind::Ply => write_ply(&mut out, self.source, &self.texture()),
-            OutputKind::Glb => write_glb(&mut out, self.source, &self.texture()),
+            OutputKind::Ply => {
+                write_ply(&mut out, self.source, &self.texture(), self.report.precision.unwrap_or_default())
+            }
+            OutputKind::Glb => {
+                let shading = Shading::of_obj(self.source, self.source_path);
+                write_glb_with(&mut out, self.source, &self.texture(), shading.as_ref())
+            }
             OutputKind::Svg => write_layout_svg(&mut out, &self.drawing()),
             _ => {
                 let edits = relocated(self.source, self.source_place(), path);

@@ -8,7 +8,7 @@ use super::ProvedEmbedding;
 use super::charts::proved_at;
 use super::finite::check_finite;
 use freebound_core::bijective::VirtualBoundary;
-use freebound_core::flatten::{Step, to_true_area};
+use freebound_core::flatten::{Step, true_area_factor};
 use freebound_core::geom::{Bounds, Similarity};
 use freebound_core::mesh::{DiskMesh, EdgeId, EdgeTable, FaceId, TriMesh, VertexId};
 use freebound_core::pipeline::{Fit, LaidChart};
@@ -16,6 +16,9 @@ use freebound_core::problem::Embedding;
 
 /// Longer side of a drawing without its margin, in units of its line widths.
 const SIZE: f64 = 1000.0;
+
+/// Relative difference between scales that counts as none.
+const SAME_SCALE: f64 = 1e-4;
 
 /// Margin around the drawing.
 const MARGIN: f64 = 20.0;
@@ -25,16 +28,20 @@ const MARGIN: f64 = 20.0;
 /// Flipped faces are red, crossing boundary edges orange, concave polygons outlined in olive, overwound vertices
 /// magenta. With [`Fit::Unit`] the page is the unit square of the picture, enlarged if the embedding leaves it. With
 /// [`Fit::True`] a unit of the drawing is a unit of the mesh.
+///
+/// # Errors
+///
+/// If `out` cannot be written, or charts of different scales are to be drawn at their true size.
 pub(super) fn write_svg(out: &mut impl Write, charts: &[LaidChart<'_>], aspect: f64, fit: Fit) -> io::Result<()> {
     let scale = DVec2::new(aspect, 1.0);
-    let laid = |chart: &LaidChart<'_>| -> Embedding {
-        let mut embedding: Embedding = chart.coordinates.iter().map(|uv| uv * scale).collect();
-        if fit == Fit::True {
-            to_true_area(chart.mesh, &mut embedding);
+    let laid = |chart: &LaidChart<'_>| chart.coordinates.iter().map(|uv| uv * scale).collect();
+    let mut embeddings: Vec<Embedding> = charts.iter().map(laid).collect();
+    if fit == Fit::True {
+        let factor = true_factor(charts, &embeddings)?;
+        for z in embeddings.iter_mut().flat_map(|embedding| embedding.iter_mut()) {
+            *z *= factor;
         }
-        embedding
-    };
-    let embeddings: Vec<Embedding> = charts.iter().map(laid).collect();
+    }
     let points = embeddings.iter().flat_map(|embedding| embedding.iter());
     let frame = match fit {
         Fit::Unit => Frame::of_picture(aspect, points),
@@ -42,6 +49,20 @@ pub(super) fn write_svg(out: &mut impl Write, charts: &[LaidChart<'_>], aspect: 
     };
     let shown: Vec<_> = charts.iter().zip(&embeddings).map(|(chart, embedding)| proved_at(chart, embedding)).collect();
     Drawing::new(&shown, frame, None).write(out)
+}
+
+/// Factor to the true size of all charts.
+fn true_factor(charts: &[LaidChart<'_>], embeddings: &[Embedding]) -> io::Result<f64> {
+    let charts = charts.iter().zip(embeddings).filter(|(chart, _)| chart.mesh.area() > 0.0);
+    let factors: Vec<f64> = charts.map(|(chart, embedding)| true_area_factor(chart.mesh, embedding)).collect();
+    let least = factors.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = factors.iter().copied().fold(0.0, f64::max);
+    if most > least * (1.0 + SAME_SCALE) {
+        let text =
+            format!("the scales of the charts differ by up to a factor of {:.4}: no drawing fits all", most / least);
+        return Err(io::Error::new(io::ErrorKind::InvalidData, text));
+    }
+    Ok(if most.is_finite() && most > 0.0 { most } else { 1.0 })
 }
 
 /// Layout of a mesh to be drawn.

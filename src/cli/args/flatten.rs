@@ -92,11 +92,12 @@ pub struct FlattenArguments {
     /// Charts are numbered from 0, as in the report. A chart without an entry has size 1.
     #[arg(long, value_name = "CHART=SIZE,…", value_delimiter = ',', value_parser = parse_chart_size, hide_short_help = true)]
     pub chart_size: Vec<ChartSize>,
-    /// Precision in which texture coordinates are proved and written.
+    /// Precision in which texture coordinates are proved and written. Default: 64 bits for OBJ, 32 bits for PLY and GLB.
     ///
-    /// GLB files always hold 32 bits.
-    #[arg(long, value_parser = choice::<Precision>(), default_value = Precision::F64.name(), hide_short_help = true)]
-    pub precision: Precision,
+    /// PLY files of 32 bits have the form that most programs read: `s` and `t` as float, and a copy of each vertex on a
+    /// seam. Those of 64 bits keep the vertices and list the coordinates of corners. GLB files always hold 32 bits.
+    #[arg(long, value_parser = choice::<Precision>(), hide_short_help = true)]
+    pub precision: Option<Precision>,
     /// Write a report to this file (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,

@@ -54,11 +54,12 @@ pub struct PackArguments {
     /// Keep the sizes of the charts relative to each other. Default: equal density for all charts.
     #[arg(long)]
     pub keep_sizes: bool,
-    /// Precision in which texture coordinates are proved and written.
+    /// Precision in which texture coordinates are proved and written. Default: 64 bits for OBJ, 32 bits for PLY and GLB.
     ///
-    /// GLB files always hold 32 bits.
-    #[arg(long, value_parser = choice::<Precision>(), default_value = Precision::F64.name())]
-    pub precision: Precision,
+    /// PLY files of 32 bits have the form that most programs read: `s` and `t` as float, and a copy of each vertex on a
+    /// seam. Those of 64 bits keep the vertices and list the coordinates of corners. GLB files always hold 32 bits.
+    #[arg(long, value_parser = choice::<Precision>())]
+    pub precision: Option<Precision>,
     /// Copy the mesh's material libraries and their pictures beside the OBJ file.
     ///
     /// Default: the OBJ file refers to them in their present place.

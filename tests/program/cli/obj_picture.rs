@@ -254,6 +254,64 @@ fn the_picture_of_mesh_and_layout_is_not_squeezed_where_the_aspect_is_not_square
     assert!(different < 100, "{different} pixels, in checker or layout");
 }
 
+/// Material of each triangle of a GLB file, by another reader: its name, its colour, and its decoded picture.
+fn materials_of(path: &Path) -> Vec<(String, [f32; 4], Option<image::RgbaImage>, usize)> {
+    let bytes = fs::read(path).expect("it was written");
+    let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(&bytes).expect("another reader takes it");
+    let blob = blob.expect("a binary chunk");
+    let picture = |texture: gltf::texture::Info<'_>| {
+        let gltf::image::Source::View { view, mime_type } = texture.texture().source().source() else {
+            panic!("the picture is inside the file");
+        };
+        let bytes = &blob[view.offset()..][..view.length()];
+        let format = image::ImageFormat::from_mime_type(mime_type).expect("a format");
+        image::load_from_memory_with_format(bytes, format).expect("a picture").to_rgba8()
+    };
+    let of = |primitive: gltf::Primitive<'_>| {
+        let material = primitive.material();
+        let look = material.pbr_metallic_roughness();
+        let triangles = primitive.indices().expect("indices").count() / 3;
+        let name = material.name().expect("a name").to_owned();
+        (name, look.base_color_factor(), look.base_color_texture().map(picture), triangles)
+    };
+    document.meshes().flat_map(|mesh| mesh.primitives().map(of).collect::<Vec<_>>()).collect()
+}
+
+#[test]
+fn a_glb_file_holds_the_picture() {
+    let program = Program::new();
+    let mesh = example_file(&program, Example::Dome);
+    write_quarters(&program.path("quarters.png"));
+    program.run(&["flatten", "in.obj", "--picture", "quarters.png", "-o", "out.glb"]).expect(0);
+    let materials = materials_of(&program.path("out.glb"));
+    let [(name, colour, Some(picture), triangles)] = &materials[..] else { panic!("{} materials", materials.len()) };
+    assert_eq!((name.as_str(), *colour, *triangles), ("picture", [1.0; 4], mesh.face_count()));
+    assert_eq!(picture.as_raw(), &quarters(40, 20).pixels);
+}
+
+#[test]
+fn a_glb_file_holds_the_materials_of_an_obj_file_with_their_colours_and_pictures() {
+    let program = Program::new();
+    write_quarters(&program.path("four quarters.png"));
+    program.write("all.mtl", "newmtl red\nKd 1 0.25 0\nd 0.5\nnewmtl photo\nKd 0 0 0\nmap_Kd four quarters.png\n");
+    program.write(
+        "in.obj",
+        "mtllib all.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 3 0 0\n\
+         usemtl photo\nf 1 2 3 4\nusemtl red\nf 2 5 6 3\nusemtl photo\nf 5 7 6\nusemtl missing\n",
+    );
+    program.run(&["flatten", "in.obj", "-o", "out.glb"]).expect(0);
+    let found = materials_of(&program.path("out.glb"));
+    let looks: Vec<_> = found.iter().map(|(name, colour, _, triangles)| (name.as_str(), *colour, *triangles)).collect();
+    assert_eq!(looks, [("photo", [1.0; 4], 3), ("red", [1.0, 0.25, 0.0, 0.5], 2)]);
+    assert_eq!(found[0].2.as_ref().expect("a picture").as_raw(), &quarters(40, 20).pixels);
+    assert!(found[1].2.is_none());
+    // Without the library the names are left.
+    fs::remove_file(program.path("all.mtl")).expect("it is there");
+    program.run(&["flatten", "in.obj", "-o", "again.glb"]).expect(0);
+    let names: Vec<String> = materials_of(&program.path("again.glb")).into_iter().map(|own| own.0).collect();
+    assert_eq!(names, ["photo", "red"]);
+}
+
 #[test]
 fn a_drawing_has_true_lengths_or_is_the_unit_square() {
     let program = Program::new();

@@ -124,7 +124,9 @@ fn relative_sizes_stay_if_that_is_asked_for() {
     let program = Program::new();
     program.write("in.obj", &obj_text(&parts()));
     program.run(&["flatten", "in.obj", "-o", "flat.obj", "--chart-size", "0=3,1=0.4"]).expect(0);
-    program.run(&["pack", "flat.obj", "-o", "packed.ply", "--keep-sizes", "--rotations", "quarter"]).expect(0);
+    program
+        .run(&["pack", "flat.obj", "-o", "packed.ply", "--precision", "f64", "--keep-sizes", "--rotations", "quarter"])
+        .expect(0);
     let [before, after] = ["flat.obj", "packed.ply"].map(|name| read_mesh(&program.path(name)).expect("written"));
     let factors = assert_similar(&polygons(&before), &polygons(&after), &part_of_faces(&after), 1e-12);
     let factors: Vec<f64> = factors.into_values().collect();

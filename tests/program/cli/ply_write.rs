@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use freebound_core::mesh::{DiskMesh, NewVertex, PolygonMesh, Refinement, VertexId};
-use freebound_io::{MeshFile, NO_TEXTURE, Refined, Texture, read_stream, write_ply};
+use freebound_io::{MeshFile, NO_TEXTURE, Precision, Refined, Texture, read_stream, write_ply};
 use glam::DVec2;
 
 use super::program::Program;
@@ -15,8 +15,12 @@ use freebound_testkit::{Random, grid, quad_sheet};
 const TEXTURE: [&str; 5] = ["u", "v", "s", "t", "texcoord"];
 
 fn written(mesh: &MeshFile, texture: &Texture) -> Vec<u8> {
+    written_in(mesh, texture, Precision::F64)
+}
+
+fn written_in(mesh: &MeshFile, texture: &Texture, precision: Precision) -> Vec<u8> {
     let mut bytes = Vec::new();
-    write_ply(&mut bytes, mesh, texture).expect("memory takes all");
+    write_ply(&mut bytes, mesh, texture, precision).expect("memory takes all");
     bytes
 }
 
@@ -92,6 +96,58 @@ fn coordinates_with_seams_stand_at_corners_and_old_ones_at_vertices_are_gone() {
             }
         }
     }
+}
+
+#[test]
+fn in_32_bits_a_vertex_is_written_once_for_each_of_its_coordinates() {
+    let mesh = quad_sheet(3, 3, 0.2, &mut Random(7));
+    let corners = u32::try_from(mesh.corners.len()).expect("few");
+    // Faces on the left and on the right are apart; a coordinate that stands twice in the file is one.
+    let side = |face: usize| f64::from(u8::from(face % 3 == 2));
+    let coordinates = (0..mesh.face_count()).flat_map(|face| {
+        mesh.face(face).iter().map(move |vertex| DVec2::new(side(face), f64::from(vertex.number()) / 4.0))
+    });
+    let texture = Texture { coordinates: coordinates.collect(), corners: (0..corners).collect() };
+    for encoding in Encoding::ALL {
+        for at_vertices in [None, Some(["u", "v"]), Some(["s", "t"])] {
+            let before = PlyMaker { encoding, at_vertices, ..PlyMaker::rich(&mesh) }.bytes();
+            let file = read_stream(before.as_slice()).expect("it is right");
+            let after = written_in(&file, &texture, Precision::F32);
+            let ((_, old), (_, elements)) = (taken_apart(&before), taken_apart(&after));
+            let count = mesh.positions.len();
+            let rows = elements[0].without(&TEXTURE).rows;
+            assert_eq!(rows[..count], old[0].without(&TEXTURE).rows, "vertices keep their numbers and properties");
+            // Four vertices lie on the seam.
+            assert_eq!(rows.len(), count + 4);
+            assert!(rows[count..].iter().all(|row| rows[..count].contains(row)), "copies have all properties");
+            assert!(elements[2].column("texcoord").is_none());
+            let head = String::from_utf8_lossy(&after).into_owned();
+            let [u, _] = at_vertices.unwrap_or(["s", "t"]);
+            assert!(head.contains(&format!("property float {u}")));
+            let again = read_stream(after.as_slice()).expect("it reads back");
+            let found = again.texture.expect("it has texture coordinates");
+            let at = |t: &Texture| t.corners.iter().map(|&k| t.coordinates[k as usize]).collect::<Vec<_>>();
+            assert_eq!(at(&found), at(&texture), "{encoding:?} {at_vertices:?}");
+            let places = |mesh: &PolygonMesh| {
+                mesh.corners.iter().map(|vertex| mesh.positions[vertex.index()]).collect::<Vec<_>>()
+            };
+            assert_eq!(places(&again.polygons), places(&mesh));
+        }
+    }
+}
+
+#[test]
+fn in_32_bits_a_file_with_lists_keeps_them_and_its_vertices() {
+    let mesh = quad_sheet(3, 3, 0.2, &mut Random(7));
+    let before = PlyMaker { at_corners: Some(usize::MAX), ..PlyMaker::rich(&mesh) }.bytes();
+    let file = read_stream(before.as_slice()).expect("it is right");
+    let mut texture = by_corner(&mesh);
+    texture.corners = (0..u32::try_from(mesh.corners.len()).expect("few")).collect();
+    let after = written_in(&file, &texture, Precision::F32);
+    let elements = assert_same_but_texture(&before, &after);
+    let lists = elements[2].column("texcoord").expect("there are lists").concat();
+    let halves = texture.coordinates.iter().flat_map(|uv| uv.as_vec2().as_dvec2().to_array());
+    assert_eq!(lists, halves.collect::<Vec<_>>());
 }
 
 #[test]

@@ -140,7 +140,7 @@ fn a_gap_between_charts_packs_them_anew() {
 fn relaxing_begins_with_the_layout_in_every_format_on_any_number_of_threads() {
     let program = Program::new();
     program.write("in.obj", &sheet(0.0));
-    program.run(&["flatten", "in.obj", "--start", "uv", "-o", "in.ply"]).expect(0);
+    program.run(&["flatten", "in.obj", "--start", "uv", "--precision", "f64", "-o", "in.ply"]).expect(0);
     assert_eq!(coordinates(&program, "in.ply"), coordinates(&program, "in.obj"));
     for name in ["in.obj", "in.ply"] {
         let mut written = Vec::new();

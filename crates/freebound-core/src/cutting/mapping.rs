@@ -25,11 +25,14 @@ use crate::verify::{distortion, is_one_to_one};
 /// Share of the allowed excess at which the relaxing of a large surface ends.
 const ENOUGH: f64 = 0.98;
 
-/// Number of faces from which one cut is tried at a time, and search and relaxing end once the bound is met.
+/// Number of faces from which one cut is tried at a time.
+pub(super) const MEDIUM: usize = 15_000;
+
+/// Number of faces from which search and relaxing end once the bound is met.
 pub(super) const LARGE: usize = 30_000;
 
-/// Energy of a planar start above which a one-to-one map is given up. Starts of whole models have up to 210; those of
-/// parts whose local maps overlap themselves over and over have 10⁵ to 10¹⁴.
+/// Energy of a planar start above which a one-to-one map is given up, unless one round of relaxing helps. Starts of whole
+/// models have up to 210; those of parts whose local maps overlap themselves over and over have 10⁵ to 10¹⁴.
 const HOPELESS: f64 = 1e5;
 
 /// Energy after one round of relaxing above which a one-to-one map is given up.
@@ -114,16 +117,32 @@ impl<'a> Mapping<'a> {
     pub(super) fn tried(self, is_seam: Vec<bool>, most: f64) -> Result<Trial, SolveError> {
         let opened = self.surface.opened(&is_seam)?;
         let [chart] = &opened.charts[..] else { return self.map(is_seam).map(Trial::Map) };
-        match self.run(chart, None).finished_unless_hopeless()? {
-            Some(map) => Ok(Trial::Map(joined(is_seam, &opened, vec![map]))),
-            None => self.apart(&is_seam, &opened, EnergyLimits { local: most, joined: most }),
+        let (mut has_start, mut local) = (false, None);
+        let map = self.run(chart, None).finished_unless(|step| {
+            // One round after a hopeless start.
+            if local.is_some() {
+                return Ok(step.candidate.progress.is_some_and(|progress| progress.energy > STILL_HOPELESS));
+            }
+            let is_first = step.verdict.planar && !std::mem::replace(&mut has_start, step.verdict.planar);
+            if !is_first || step.index == 0 || mean_energy(&chart.disk, &step.candidate.solution.embedding) <= HOPELESS
+            {
+                return Ok(false);
+            }
+            local = self.local_map(chart)?;
+            // No map along these seams has less distortion than a local one.
+            Ok(local.as_ref().is_none_or(|map| map.energy > most))
+        })?;
+        if let Some(map) = map {
+            return Ok(Trial::Map(joined(is_seam, &opened, vec![map])));
         }
+        self.apart(&is_seam, &opened, local, EnergyLimits { local: most, joined: most })
     }
 
     /// Map along the seams of a cut and more seams that keep its parts from overlapping.
     pub(super) fn tried_apart(self, is_seam: &[bool], limits: EnergyLimits) -> Result<Trial, SolveError> {
         let opened = self.surface.opened(is_seam)?;
-        if opened.charts.len() == 1 { self.apart(is_seam, &opened, limits) } else { Ok(Trial::FAILED) }
+        let [chart] = &opened.charts[..] else { return Ok(Trial::FAILED) };
+        self.apart(is_seam, &opened, self.local_map(chart)?, limits)
     }
 
     /// Map of at most `most` charts: joins those of a cut. `None` if no two can be joined, or if the map is not planar.
@@ -140,9 +159,16 @@ impl<'a> Mapping<'a> {
         Ok(Some(self.started_all(left, &opened, &positions)?).filter(|map| map.energy.is_finite()))
     }
 
-    fn apart(self, is_seam: &[bool], opened: &Opened, limits: EnergyLimits) -> Result<Trial, SolveError> {
+    /// Map along the seams of a cut, by the local map of its only chart.
+    fn apart(
+        self,
+        is_seam: &[bool],
+        opened: &Opened,
+        local: Option<ChartMap>,
+        limits: EnergyLimits,
+    ) -> Result<Trial, SolveError> {
         let chart = &opened.charts[0];
-        let Some(local) = self.local_map(chart)? else { return Ok(Trial::FAILED) };
+        let Some(local) = local else { return Ok(Trial::FAILED) };
         if local.energy > limits.local {
             return Ok(Trial::TooDistorted(local.energy));
         }
@@ -268,26 +294,14 @@ struct Run<'a> {
 impl Run<'_> {
     /// Takes all steps.
     fn finished(self) -> Result<ChartMap, SolveError> {
-        Ok(self.finished_unless(|_| false)?.expect("the run was not given up"))
-    }
-
-    /// Takes all steps. `None` if the conformal map is not planar, and the first planar map is so distorted, even after
-    /// one round of relaxing, that very many steps would follow.
-    fn finished_unless_hopeless(self) -> Result<Option<ChartMap>, SolveError> {
-        let disk = self.disk;
-        let (mut has_start, mut is_bad) = (false, false);
-        self.finished_unless(|step| {
-            if is_bad {
-                return step.candidate.progress.is_some_and(|progress| progress.energy > STILL_HOPELESS);
-            }
-            let is_first = step.verdict.planar && !std::mem::replace(&mut has_start, step.verdict.planar);
-            is_bad = is_first && step.index > 0 && mean_energy(disk, &step.candidate.solution.embedding) > HOPELESS;
-            false
-        })
+        Ok(self.finished_unless(|_| Ok(false))?.expect("the run was not given up"))
     }
 
     /// Takes all steps. `None` if `gives_up` is true for one of them.
-    fn finished_unless(mut self, mut gives_up: impl FnMut(&Step) -> bool) -> Result<Option<ChartMap>, SolveError> {
+    fn finished_unless(
+        mut self,
+        mut gives_up: impl FnMut(&Step) -> Result<bool, SolveError>,
+    ) -> Result<Option<ChartMap>, SolveError> {
         let mut last = None;
         let step = loop {
             let step = match self.flattener.step(self.disk, self.control) {
@@ -297,7 +311,7 @@ impl Run<'_> {
             if self.is_over(&step) {
                 break step;
             }
-            if gives_up(&step) {
+            if gives_up(&step)? {
                 return Ok(None);
             }
             last = Some(step);

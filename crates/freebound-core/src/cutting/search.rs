@@ -29,7 +29,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 
 use super::graph::CutGraph;
-use super::mapping::{EnergyLimits, LARGE, Mapped, Mapping, Trial};
+use super::mapping::{EnergyLimits, LARGE, MEDIUM, Mapped, Mapping, Trial};
 use super::scale_factor::{ConformalSystem, ScaleFactors};
 use super::surface::{CutSurface, EdgeCosts, Paths};
 use crate::mesh::{Repaired, VertexId};
@@ -498,9 +498,9 @@ impl<'a> Search<'a> {
         if graph.is_seam == before.is_seam { self.cuts_for(start, aims) } else { Ok(vec![graph]) }
     }
 
-    /// Different cuts for predictions. A large surface gets one.
+    /// Different cuts for predictions. A surface that is not small gets one.
     fn cuts_for(&mut self, start: &CutGraph<'a>, aims: &[f64]) -> Result<Vec<CutGraph<'a>>, SolveError> {
-        let aims = if self.surface.triangles.len() > LARGE { &aims[..1] } else { aims };
+        let aims = if self.surface.triangles.len() > MEDIUM { &aims[..1] } else { aims };
         for &most in aims {
             self.extend_sequence(start, self.floor + most)?;
         }

@@ -135,7 +135,7 @@ impl DiskMesh {
     }
 
     /// Area of the surface without the filling of holes, in squared units of the mesh file.
-    pub(crate) fn area(&self) -> f64 {
+    pub fn area(&self) -> f64 {
         let areas = self.real_faces().map(|face| self.mesh.double_area_vector(face).length() / 2.0);
         areas.sum::<f64>() * self.unit().powi(2)
     }

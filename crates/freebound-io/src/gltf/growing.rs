@@ -15,7 +15,7 @@ pub(super) const INDICES: u32 = 34_963;
 pub(super) const ALIGNMENT: usize = 4;
 
 /// Name of the material of surfaces without one.
-const DEFAULT_MATERIAL: &str = "default";
+pub(super) const DEFAULT_MATERIAL: &str = "default";
 
 /// Largest usable index of 16 bits; 65,535 restarts strips.
 const MAX_U16: usize = 65_534;

@@ -11,6 +11,7 @@
 //! | `carried`   | the file that a mesh was read from, with other texture coordinates               |
 //! | `placed`    | vertices of the file for the corners of the mesh, duplicated if needed           |
 //! | `grown`     | accessors with added elements                                                    |
+//! | `shading`   | materials of a new file                                                          |
 //! | `files`     | files that belong to a glTF file                                                 |
 //! | `growing`   | a binary file under construction                                                 |
 //!
@@ -38,12 +39,15 @@ mod grown;
 mod placed;
 mod read;
 mod scene;
+mod shading;
 mod write;
 
 pub(crate) use files::files_beside;
 pub(crate) use read::parse_gltf;
 pub(crate) use scene::Scene;
+pub(crate) use shading::Shading;
 pub use write::write_glb;
+pub(crate) use write::write_glb_with;
 
 /// Names of attributes.
 const POSITION: &str = "POSITION";

@@ -12,31 +12,41 @@ use serde_json::json;
 use super::carried::write_carried;
 use super::growing::Growing;
 use super::read::turned_over;
+use super::shading::Shading;
 use super::{POSITION, TEXTURE};
 use crate::finite::check_finite;
 use crate::mesh_file::{MeshFile, NO_TEXTURE, SourceFormat, Texture};
 use freebound_core::mesh::VertexId;
 
 /// Writes a mesh with these texture coordinates as a binary glTF file (GLB). If the mesh was read from glTF, all of
-/// that file is kept. Otherwise the file holds only triangles, texture
-/// coordinates and a plain material, without which programs ignore them. Corners without new texture
-/// coordinates keep those of the file, or have 0, 0.
+/// that file is kept. Otherwise the file holds only triangles, texture coordinates and a plain material, without which
+/// programs ignore them. Corners without new texture coordinates keep those of the file, or have 0, 0.
 ///
 /// # Errors
 ///
 /// If `out` cannot be written, a texture coordinate is infinite or not a number, a position is beyond 32-bit numbers,
 /// or the file would exceed 4 GiB.
 pub fn write_glb(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::Result<()> {
+    write_glb_with(out, mesh, texture, None)
+}
+
+/// Writes as [`write_glb`] does. A mesh of another format gets these materials.
+pub(crate) fn write_glb_with(
+    out: &mut impl Write,
+    mesh: &MeshFile,
+    texture: &Texture,
+    shading: Option<&Shading>,
+) -> io::Result<()> {
     check_finite(&texture.coordinates)?;
     if let Some(source) = &mesh.source
         && let SourceFormat::Gltf(scene) = &source.format
     {
         return write_carried(out, mesh, source, scene, texture);
     }
-    write_plain(out, mesh, texture)
+    write_plain(out, mesh, texture, shading)
 }
 
-fn write_plain(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::Result<()> {
+fn write_plain(out: &mut impl Write, mesh: &MeshFile, texture: &Texture, shading: Option<&Shading>) -> io::Result<()> {
     let polygons = &mesh.polygons;
     let mut number_of: HashMap<(VertexId, u32), u32> = HashMap::new();
     let mut vertices: Vec<(VertexId, u32)> = Vec::new();
@@ -48,7 +58,8 @@ fn write_plain(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::
             VertexId::from_index(vertices.len() - 1).number()
         })
     };
-    let triangles: Vec<[u32; 3]> = polygons.triangle_places().0.iter().map(|places| places.map(&mut number)).collect();
+    let (places, face_of) = polygons.triangle_places();
+    let triangles: Vec<[u32; 3]> = places.iter().map(|places| places.map(&mut number)).collect();
     let mut file = Growing::of(
         json!({
             "asset": { "version": "2.0", "generator": concat!("Freebound ", env!("CARGO_PKG_VERSION")) },
@@ -80,9 +91,15 @@ fn write_plain(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::
         });
         attributes[TEXTURE] = json!(file.vectors(coordinates));
     }
-    let indices = file.indices(&triangles);
-    let material = file.default_material();
-    let primitive = json!({ "attributes": attributes, "indices": indices, "material": material });
-    file.push("meshes", json!({ "primitives": [primitive] }));
+    let (divided, materials) = match shading {
+        Some(shading) => (shading.divided(&triangles, face_of.as_deref()), shading.put_into(&mut file)),
+        None => (vec![triangles], vec![file.default_material()]),
+    };
+    let mut primitives = Vec::new();
+    for (triangles, material) in divided.iter().zip(materials) {
+        let indices = file.indices(triangles);
+        primitives.push(json!({ "attributes": attributes, "indices": indices, "material": material }));
+    }
+    file.push("meshes", json!({ "primitives": primitives }));
     file.write(out)
 }

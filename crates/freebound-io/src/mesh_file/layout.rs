@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::texture::bits;
+use super::texture::coordinate_key;
 use super::{MeshFile, NO_TEXTURE, Texture, TextureError};
 use freebound_core::mesh::{Repaired, TriMesh, VertexId};
 use freebound_core::problem::Embedding;
@@ -58,7 +58,8 @@ impl MeshFile {
             theirs.corners.iter().zip(&texture.corners).filter(|(_, corner)| **corner != NO_TEXTURE)
         {
             let before = std::mem::replace(&mut found[vertex.index()], corner);
-            let [a, b] = [before, corner].map(|corner| texture.coordinates.get(corner as usize).copied().map(bits));
+            let [a, b] =
+                [before, corner].map(|corner| texture.coordinates.get(corner as usize).copied().map(coordinate_key));
             if a.is_some() && a != b {
                 return Err(LayoutError::Torn { vertex });
             }
@@ -92,7 +93,7 @@ impl MeshFile {
                 self.complete_texture()?;
                 continue;
             };
-            if found[vertex.index()].replace(uv).is_some_and(|other| bits(other) != bits(uv)) {
+            if found[vertex.index()].replace(uv).is_some_and(|other| coordinate_key(other) != coordinate_key(uv)) {
                 return Err(LayoutError::Torn { vertex: self.polygons.corners[of] });
             }
         }

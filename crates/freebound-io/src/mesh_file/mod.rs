@@ -50,6 +50,7 @@ pub use refined::{Refined, RefinedChart};
 pub use source::Source;
 pub(crate) use source::SourceFormat;
 pub use texture::TextureMesh;
+pub(crate) use texture::coordinate_key;
 pub(crate) use words::TokenWords;
 
 /// Value in [`Texture::corners`] for a corner without a texture coordinate.

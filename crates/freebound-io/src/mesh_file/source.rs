@@ -45,13 +45,17 @@ impl Source {
         self.face_of.as_ref().map_or(count as usize, |faces| faces.partition_point(|&face| face < count))
     }
 
+    /// Source of a mesh with further vertices.
+    pub(crate) fn with_vertices(&self, new_vertices: &[NewVertex]) -> Self {
+        Self { new_vertices: [&self.new_vertices, new_vertices].concat(), ..self.clone() }
+    }
+
     /// Source of a changed mesh. New vertices follow the present ones. Each new face equals, or is a part of, the
     /// present face given by `face_of`, in ascending order.
     pub(super) fn changed(&self, face_of: &[u32], new_vertices: &[NewVertex]) -> Self {
         Self {
             face_of: Some(face_of.iter().map(|&face| self.face_of(face as usize)).collect()),
-            new_vertices: [&self.new_vertices, new_vertices].concat(),
-            ..self.clone()
+            ..self.with_vertices(new_vertices)
         }
     }
 }

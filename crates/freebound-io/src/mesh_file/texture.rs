@@ -59,7 +59,7 @@ impl MeshFile {
             has_place[self.polygons.corner_range(face as usize)].fill(false);
         }
         let coordinate = |place: u32| texture.coordinates[texture.corners[place as usize] as usize];
-        let bits = |place: u32| bits(coordinate(place));
+        let bits = |place: u32| coordinate_key(coordinate(place));
         let mut texture_vertex = vec![0_u32; corners.len()];
         let (mut positions, mut vertex_of, mut embedding) = (Vec::new(), Vec::new(), Vec::new());
         let mut first_places: Vec<u32> = Vec::new();
@@ -107,8 +107,10 @@ impl MeshFile {
     pub fn texture_labels(&self) -> Result<Vec<u32>, TextureError> {
         let texture = self.complete_texture()?;
         let mut first: HashMap<[u64; 2], u32> = HashMap::new();
-        let labels: Vec<u32> =
-            (0..).zip(&texture.coordinates).map(|(place, uv)| *first.entry(bits(*uv)).or_insert(place)).collect();
+        let labels: Vec<u32> = (0..)
+            .zip(&texture.coordinates)
+            .map(|(place, uv)| *first.entry(coordinate_key(*uv)).or_insert(place))
+            .collect();
         Ok(texture.corners.iter().map(|&corner| labels[corner as usize]).collect())
     }
 
@@ -143,7 +145,7 @@ impl MeshFile {
 }
 
 /// Key for the equality of coordinates: their bits, except that −0 equals 0.
-pub(super) fn bits(coordinate: DVec2) -> [u64; 2] {
+pub(crate) fn coordinate_key(coordinate: DVec2) -> [u64; 2] {
     (coordinate + DVec2::ZERO).to_array().map(f64::to_bits)
 }
 

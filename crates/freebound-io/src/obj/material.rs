@@ -15,25 +15,49 @@ const PICTURE_KEYWORDS: [&str; 5] = ["bump", "decal", "disp", "norm", "refl"];
 ///
 /// A missing or broken material library does not affect the others.
 pub fn material_picture(mesh: &MeshFile, path: &Path) -> Option<PathBuf> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let mut pictures: BTreeMap<String, PathBuf> = BTreeMap::new();
-    for library in libraries(mesh, folder) {
-        let Ok((materials, _)) = tobj::load_mtl(&library) else { continue };
-        let folder = library.parent().unwrap_or(Path::new(""));
-        for material in materials {
-            if let Some(texture) = material.diffuse_texture {
-                pictures.entry(material.name).or_insert_with(|| picture_of(&texture, folder));
-            }
-        }
-    }
+    let looks = obj_materials(mesh, Some(path));
     let mut faces_with: BTreeMap<&Path, usize> = BTreeMap::new();
     for (material, faces) in faces_by_material(mesh) {
-        if let Some(picture) = pictures.get(&material) {
+        if let Some(picture) = looks.get(&material).and_then(|look| look.picture.as_deref()) {
             *faces_with.entry(picture).or_default() += faces;
         }
     }
     // The picture with the first name wins a tie.
     faces_with.into_iter().rev().max_by_key(|&(_, faces)| faces).map(|(picture, _)| picture.to_owned())
+}
+
+/// Look of a material.
+#[derive(Clone, Debug)]
+pub(crate) struct Look {
+    /// Red, green, blue and opacity, from 0 to 1.
+    pub(crate) colour: [f32; 4],
+    /// File of its picture, which may be missing.
+    pub(crate) picture: Option<PathBuf>,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self { colour: [1.0; 4], picture: None }
+    }
+}
+
+/// Materials in the libraries of an OBJ file, by name. The first of several with one name counts. Empty without a path.
+pub(crate) fn obj_materials(mesh: &MeshFile, path: Option<&Path>) -> BTreeMap<String, Look> {
+    let mut looks = BTreeMap::new();
+    let Some(path) = path else { return looks };
+    for library in libraries(mesh, path.parent().unwrap_or(Path::new(""))) {
+        let Ok((materials, _)) = tobj::load_mtl(&library) else { continue };
+        let folder = library.parent().unwrap_or(Path::new(""));
+        for material in materials {
+            let picture = material.diffuse_texture.map(|texture| picture_of(&texture, folder));
+            // Programs multiply a picture with the colour, which many write as black or grey beside a picture.
+            let [red, green, blue] = material.diffuse.filter(|_| picture.is_none()).unwrap_or([1.0; 3]);
+            let shares = [red, green, blue, material.dissolve.unwrap_or(1.0)];
+            let colour = shares.map(|share| if share.is_nan() { 1.0 } else { share.clamp(0.0, 1.0) });
+            looks.entry(material.name).or_insert(Look { colour, picture });
+        }
+    }
+    looks
 }
 
 /// Existing files that a mesh file at `path` refers to: for OBJ, its material libraries and the pictures that they

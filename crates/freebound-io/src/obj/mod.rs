@@ -29,6 +29,7 @@ pub use libraries::{Materials, copies_of_materials};
 pub(crate) use libraries::{copy_materials, relocated};
 pub(crate) use line::{number, quoted, words};
 pub(crate) use lines::{Lines, split_mark};
+pub(crate) use material::obj_materials;
 pub use material::{material_files, material_picture};
 pub(crate) use parse::parse;
 pub use write::write_obj;

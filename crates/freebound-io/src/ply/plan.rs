@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use super::header::{Header, Scalar};
 use super::{CORNER_NAMES, FACE_TEXTURE, TEXTURE_NAMES};
+use crate::Precision;
 use crate::mesh_file::{NO_TEXTURE, Texture};
 use crate::obj::Lines;
 use freebound_core::mesh::PolygonMesh;
@@ -23,15 +24,23 @@ pub(super) struct Plan {
     pub(super) has_lists: bool,
     /// Type of the vertex indices.
     pub(super) index: Scalar,
+    /// Type of the texture coordinates.
+    pub(super) scalar: Scalar,
 }
 
 impl Plan {
-    pub(super) fn of(header: &Header, mesh: &PolygonMesh, texture: &Texture) -> Self {
+    /// True if the faces of a file have lists of texture coordinates.
+    pub(super) fn has_lists(header: &Header) -> bool {
+        let face = header.elements.iter().find(|element| element.name == "face");
+        face.is_some_and(|element| element.property(&[FACE_TEXTURE]).is_some())
+    }
+
+    pub(super) fn of(header: &Header, mesh: &PolygonMesh, texture: &Texture, precision: Precision) -> Self {
         let vertex = header.elements.iter().find(|element| element.name == "vertex");
         let face = header.elements.iter().find(|element| element.name == "face");
         let has = |name: &str| vertex.is_some_and(|element| element.property(&[name]).is_some());
         let own = TEXTURE_NAMES.into_iter().find(|[u, v]| has(u) && has(v));
-        let has_lists = face.is_some_and(|element| element.property(&[FACE_TEXTURE]).is_some());
+        let has_lists = Self::has_lists(header);
         let at_vertices = one_per_vertex(mesh, texture);
         let has_texture = !texture.coordinates.is_empty();
         let most = (0..mesh.face_count()).map(|face| mesh.corner_range(face).len()).max().unwrap_or(0);
@@ -40,7 +49,11 @@ impl Plan {
         let own_index = face.and_then(|element| Some(element.properties[element.property(&CORNER_NAMES)?].item));
         let index = own_index.filter(|kind| kind.holds(mesh.positions.len())).unwrap_or(Scalar::U32);
         let names = own.unwrap_or(NEW_NAMES);
-        Self { names, has_names: own.is_some(), at_vertices, at_corners, has_lists, index }
+        let scalar = match precision {
+            Precision::F32 => Scalar::F32,
+            Precision::F64 => Scalar::F64,
+        };
+        Self { names, has_names: own.is_some(), at_vertices, at_corners, has_lists, index, scalar }
     }
 
     /// Writes the header of the file with the new properties and the numbers of vertices and faces.
@@ -63,7 +76,8 @@ impl Plan {
                     }
                 }
                 ["property", _, name] if element == "vertex" && self.is_texture(name) => {
-                    Some(self.at_vertices.as_ref().map_or(String::new(), |_| format!("property double {name}{end}")))
+                    let line = |_: &Vec<u32>| format!("property {} {name}{end}", self.scalar.name());
+                    Some(self.at_vertices.as_ref().map_or(String::new(), line))
                 }
                 ["property", "list", _, _, name] if element == "face" && *name == FACE_TEXTURE => Some(self.list(&end)),
                 ["property", "list", count, _, name] if element == "face" && CORNER_NAMES.contains(name) => {
@@ -86,7 +100,8 @@ impl Plan {
         let [u, v] = self.names;
         match element {
             "vertex" if self.at_vertices.is_some() && !self.has_names => {
-                format!("property double {u}{end}property double {v}{end}")
+                let scalar = self.scalar.name();
+                format!("property {scalar} {u}{end}property {scalar} {v}{end}")
             }
             "face" if !self.has_lists => self.list(end),
             _ => String::new(),
@@ -94,7 +109,7 @@ impl Plan {
     }
 
     fn list(&self, end: &str) -> String {
-        let line = |count: Scalar| format!("property list {} double {FACE_TEXTURE}{end}", count.name());
+        let line = |count: Scalar| format!("property list {} {} {FACE_TEXTURE}{end}", count.name(), self.scalar.name());
         self.at_corners.map_or(String::new(), line)
     }
 }

@@ -1,24 +1,37 @@
 //! Writer of PLY files: the file that a mesh was read from with other texture coordinates, or a new one.
 //!
-//! Texture coordinates are 64-bit numbers, so that the file holds exactly the map that was proved. They are
-//! properties of vertices if each vertex has only one: under the names in the file, or as `s` and `t`. If seams
-//! divide a vertex, or the file has such lists, they are lists of corners, `texcoord`. Everything else in a file is
-//! kept: comments, elements and properties in their order. The properties of a new vertex are interpolated between
-//! the ends of its edge; lists are copied from its first end.
+//! Texture coordinates are properties of vertices, under the names in the file or as `s` and `t`, or lists of corners,
+//! `texcoord`:
+//!
+//! | | 32 bits | 64 bits |
+//! |---|---|---|
+//! | type | `float` | `double` |
+//! | seams | each vertex on a seam is written once for each of its coordinates | lists of corners |
+//! | file with lists | lists of corners | lists of corners |
+//!
+//! The first form is the one that most programs read. The second keeps the vertices of the mesh. Copies of a vertex
+//! follow all others, so that these keep their numbers.
+//!
+//! Everything else in a file is kept: comments, elements and properties in their order. The properties of a new vertex
+//! are interpolated between the ends of its edge; lists are copied from its first end.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 use std::ops::Range;
 use std::sync::Arc;
+
+use glam::DVec2;
 
 use super::header::{Element, Encoding, Header, Property, Scalar};
 use super::numbers::Numbers;
 use super::plan::Plan;
 use super::row::Row;
 use super::{CORNER_NAMES, FACE_TEXTURE};
+use crate::Precision;
 use crate::finite::check_finite;
-use crate::mesh_file::{MeshFile, NO_TEXTURE, ReadError, Source, SourceFormat, Texture};
-use freebound_core::mesh::{PolygonMesh, VertexId};
+use crate::mesh_file::{MeshFile, NO_TEXTURE, ReadError, Source, SourceFormat, Texture, coordinate_key};
+use freebound_core::mesh::{NewVertex, PolygonMesh, VertexId};
 
 /// Writes a mesh with these texture coordinates, or with none if they are empty, as a PLY file. A mesh read from PLY
 /// keeps its encoding; others are written as binary.
@@ -26,13 +39,49 @@ use freebound_core::mesh::{PolygonMesh, VertexId};
 /// # Errors
 ///
 /// If `out` cannot be written, or a texture coordinate is infinite or not a number.
-pub fn write_ply(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::Result<()> {
+pub fn write_ply(out: &mut impl Write, mesh: &MeshFile, texture: &Texture, precision: Precision) -> io::Result<()> {
+    let rounded = |uv: &DVec2| uv.as_vec2().as_dvec2();
+    let rounded = (precision == Precision::F32).then(|| Texture {
+        coordinates: texture.coordinates.iter().map(rounded).collect(),
+        corners: texture.corners.clone(),
+    });
+    let texture = rounded.as_ref().unwrap_or(texture);
     check_finite(&texture.coordinates)?;
     let of_ply = mesh.source.as_ref().filter(|source| matches!(source.format, SourceFormat::Ply(_)));
-    match of_ply {
-        Some(source) => write_carried(out, &mesh.polygons, source, texture),
-        None => write_carried(out, &mesh.polygons, &plain(&mesh.polygons).map_err(broken)?, texture),
+    let plain = || plain(&mesh.polygons).map_err(broken);
+    let source = of_ply.map_or_else(|| plain().map(Cow::Owned), |source| Ok(Cow::Borrowed(source)))?;
+    let SourceFormat::Ply(header) = &source.format else { return Ok(()) };
+    let is_split = precision == Precision::F32 && !Plan::has_lists(header) && !texture.corners.contains(&NO_TEXTURE);
+    let split = is_split.then(|| split_at_seams(&mesh.polygons, &source, texture)).flatten();
+    match split {
+        Some((mesh, source)) => write_carried(out, &mesh, &source, texture, precision),
+        None => write_carried(out, &mesh.polygons, &source, texture, precision),
     }
+}
+
+/// Mesh with a copy of a vertex for each further coordinate at its corners. `None` if each vertex has only one.
+fn split_at_seams(mesh: &PolygonMesh, source: &Source, texture: &Texture) -> Option<(PolygonMesh, Source)> {
+    let key = |coordinate: u32| coordinate_key(texture.coordinates[coordinate as usize]);
+    let mut first: Vec<Option<[u64; 2]>> = vec![None; mesh.positions.len()];
+    let mut copies: BTreeMap<(VertexId, [u64; 2]), VertexId> = BTreeMap::new();
+    let mut split = mesh.clone();
+    let mut new_vertices = Vec::new();
+    for (corner, &coordinate) in split.corners.iter_mut().zip(&texture.corners) {
+        let vertex = *corner;
+        let key = key(coordinate);
+        if *first[vertex.index()].get_or_insert(key) == key {
+            continue;
+        }
+        *corner = *copies.entry((vertex, key)).or_insert_with(|| {
+            split.positions.push(mesh.positions[vertex.index()]);
+            new_vertices.push(match vertex.index().checked_sub(source.vertex_count) {
+                Some(new) => source.new_vertices[new],
+                None => NewVertex { edge: [vertex; 2], at: 0.0 },
+            });
+            VertexId::from_index(split.positions.len() - 1)
+        });
+    }
+    (!copies.is_empty()).then(|| (split, source.with_vertices(&new_vertices)))
 }
 
 /// File with positions and faces only.
@@ -59,9 +108,15 @@ fn plain(mesh: &PolygonMesh) -> Result<Source, ReadError> {
     Ok(Source::of(SourceFormat::Ply(Arc::new(header)), row.bytes, mesh.positions.len()))
 }
 
-fn write_carried(out: &mut impl Write, mesh: &PolygonMesh, source: &Source, texture: &Texture) -> io::Result<()> {
+fn write_carried(
+    out: &mut impl Write,
+    mesh: &PolygonMesh,
+    source: &Source,
+    texture: &Texture,
+    precision: Precision,
+) -> io::Result<()> {
     let SourceFormat::Ply(header) = &source.format else { return Ok(()) };
-    let plan = Plan::of(header, mesh, texture);
+    let plan = Plan::of(header, mesh, texture, precision);
     plan.write_header(out, &source.bytes[..header.length], [mesh.positions.len(), mesh.face_count()])?;
     let numbers = Numbers::of(&source.bytes, header);
     let mut writer =
@@ -135,6 +190,8 @@ impl<W: Write> Writer<'_, W> {
             for (at, property) in element.properties.iter().enumerate() {
                 if self.plan.is_texture(&property.name) {
                     self.own_texture(vertex, &property.name);
+                } else if let Some(original) = ends.get(&new.edge[0]).filter(|_| new.edge[0] == new.edge[1]) {
+                    self.row.raw(&self.source.bytes[original[at].clone()]);
                 } else if let Some(axis) = ["x", "y", "z"].iter().position(|name| *name == property.name) {
                     self.row.number(property.item, self.mesh.positions[vertex.index()][axis]);
                 } else {
@@ -168,7 +225,7 @@ impl<W: Write> Writer<'_, W> {
     fn own_texture(&mut self, vertex: VertexId, name: &str) {
         let [u, v] = self.coordinate(vertex);
         if self.plan.at_vertices.is_some() {
-            self.row.number(Scalar::F64, if name == self.plan.names[0] { u } else { v });
+            self.row.number(self.plan.scalar, if name == self.plan.names[0] { u } else { v });
         }
     }
 
@@ -181,7 +238,7 @@ impl<W: Write> Writer<'_, W> {
         if self.plan.at_vertices.is_some() && !self.plan.has_names {
             let coordinate = self.coordinate(vertex);
             for x in coordinate {
-                self.row.number(Scalar::F64, x);
+                self.row.number(self.plan.scalar, x);
             }
         }
         self.row.end(self.out)
@@ -223,7 +280,9 @@ impl<W: Write> Writer<'_, W> {
         let corners = if corners.contains(&NO_TEXTURE) { &[] } else { corners };
         self.row.number(count, 2.0 * corners.len() as f64);
         for &corner in corners {
-            self.texture.coordinates[corner as usize].to_array().iter().for_each(|&x| self.row.number(Scalar::F64, x));
+            for x in self.texture.coordinates[corner as usize].to_array() {
+                self.row.number(self.plan.scalar, x);
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use freebound_io::{MeshFile, Texture, write_glb, write_obj, write_ply};
+use freebound_io::{MeshFile, Precision, Texture, write_glb, write_obj, write_ply};
 use freebound_testkit::{glb, grid, ply};
 
 /// Writer of one file to a disk.
@@ -45,11 +45,12 @@ fn every_writer_says_that_the_disk_is_full_wherever_that_happens() {
     let of_ply = read(&ply::PlyMaker::rich(&file.polygons).bytes());
     let of_glb = read(&glb::plain(3, 5123).glb());
     let own = |mesh: &MeshFile| mesh.texture.clone().unwrap_or_default();
-    let writers: [(&str, Writer<'_>); 5] = [
+    let writers: [(&str, Writer<'_>); 6] = [
         ("OBJ", Box::new(|disk| write_obj(disk, &file, &texture))),
-        ("PLY", Box::new(|disk| write_ply(disk, &file, &texture))),
+        ("PLY", Box::new(|disk| write_ply(disk, &file, &texture, Precision::F32))),
+        ("PLY of 64 bits", Box::new(|disk| write_ply(disk, &file, &texture, Precision::F64))),
         ("GLB", Box::new(|disk| write_glb(disk, &file, &texture))),
-        ("PLY as it was read", Box::new(|disk| write_ply(disk, &of_ply, &Texture::default()))),
+        ("PLY as it was read", Box::new(|disk| write_ply(disk, &of_ply, &Texture::default(), Precision::F64))),
         ("GLB as it was read", Box::new(|disk| write_glb(disk, &of_glb, &own(&of_glb)))),
     ];
     for (name, write) in writers {

@@ -1,0 +1,68 @@
+//! Rounding to the precision of a file, and the verdict on the rounded map.
+
+use std::collections::BTreeSet;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::{Output, OutputKind, Precision, verdict_as_in_file};
+use freebound_core::pipeline::{prove_atlas, restack};
+use freebound_core::verify::{Rounded, RoundingGrid, Verdict, rounded, verdict};
+
+impl OutputKind {
+    /// Precision that is usual for files of this kind: 64 bits for OBJ, 32 bits for PLY and GLB.
+    pub fn usual_precision(self) -> Precision {
+        if matches!(self, Self::Ply | Self::Glb) { Precision::F32 } else { Precision::F64 }
+    }
+
+    /// Grid of the numbers in files of this kind. `None` for 64 bits.
+    pub(crate) fn grid(self, precision: Option<Precision>) -> Option<RoundingGrid> {
+        match (self, precision.unwrap_or_else(|| self.usual_precision())) {
+            (Self::Glb, _) => Some(RoundingGrid::TurnedOver),
+            (_, Precision::F32) => Some(RoundingGrid::Upright),
+            (_, Precision::F64) => None,
+        }
+    }
+}
+
+/// Effect of rounding on the coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct RoundingReport {
+    /// Vertices moved away from their nearest 32-bit coordinates, because these would fold a face.
+    pub moved: usize,
+    /// True if the map was planar before rounding and is not after.
+    pub folded: bool,
+}
+
+impl Output<'_> {
+    /// Rounds the coordinates to the numbers that a file of this kind holds, and verifies them again. Default: the usual
+    /// precision of the kind. GLB files ignore a request for 64 bits. If rounding folds a face, vertices that no pin holds exactly are moved
+    /// by a few units in the last place.
+    pub fn round_to(&mut self, precision: Option<Precision>, kind: OutputKind) {
+        let Some(grid) = kind.grid(precision) else {
+            self.report.precision = Some(Precision::F64);
+            return;
+        };
+        let was_planar = self.is_planar();
+        let apart = self.charts.par_iter_mut().filter(|chart| chart.stacked.is_none());
+        let moved = apart.map(|chart| {
+            let held: BTreeSet<_> = chart.held.iter().copied().collect();
+            let Rounded { embedding, moved } = rounded(chart.mesh, &chart.coordinates, grid, &held);
+            let of_file = verdict(chart.mesh, &embedding);
+            // The coordinates are 32-bit numbers already.
+            chart.verdict = Verdict { planar_in_f32: of_file.planar, ..of_file };
+            chart.coordinates = embedding;
+            moved
+        });
+        let moved = moved.sum();
+        restack(&mut self.charts);
+        if let Some(atlas) = &mut self.report.atlas {
+            *atlas = prove_atlas(&self.charts);
+            atlas.planar_in_f32 = atlas.planar;
+        } else if let [chart] = &self.charts[..] {
+            self.report.verdict = Some(verdict_as_in_file(&chart.verdict, chart.mesh.mesh()));
+        }
+        self.report.precision = Some(Precision::F32);
+        self.report.rounding = Some(RoundingReport { moved, folded: was_planar && !self.is_planar() });
+    }
+}
