@@ -1,8 +1,9 @@
 //! Runs the program over a folder of meshes and judges every layout: `cargo run --release --example mass -- FOLDER OUT.tsv`.
 //!
 //! `.ci/meshes FOLDER` fetches public meshes. Each mesh is flattened by a process of its own, with one thread and limits
-//! of processor time and memory. The judge of the tests looks at the written file; the program's own verdict is only compared with
-//! it. `OUT.tsv` gets a row a mesh; meshes that it lists already are skipped. A table follows on standard output.
+//! of processor time and memory. The judge of the tests looks at the written file; the program's own verdict is only
+//! compared with it. `OUT.tsv` gets a row a mesh; meshes that it lists already are skipped. A table follows on standard
+//! output.
 //!
 //! | option | meaning | default |
 //! |---|---|---|
@@ -47,6 +48,12 @@ const CHANGE: [f64; 2] = [1.05, 2.0];
 
 /// Seconds below which a change of the time is noise.
 const NOISE: f64 = 2.0;
+
+/// Exit status of a shell whose program was killed after its longest time: 128 and the signal SIGKILL.
+const STOPPED: i32 = 137;
+
+/// Longest time of a run in terms of its processor time.
+const WAITING: u64 = 20;
 
 /// Names of the columns.
 const COLUMNS: [&str; 14] = [
@@ -296,8 +303,10 @@ struct Ended {
 fn run(options: &Options, file: &Path, out: &Path, report: &Path) -> Outcome<Ended> {
     let [errors, times] = [tempfile::NamedTempFile::new()?, tempfile::NamedTempFile::new()?];
     let Options { limit, memory, .. } = options;
-    let limits = format!("ulimit -S -t {limit} && ulimit -c 0 && ulimit -v {}", memory * 1024);
-    let script = format!("times=$1; shift; {limits}; \"$0\" \"$@\"; status=$?; times >\"$times\"; exit $status");
+    let limits = format!("ulimit -S -t {limit} && ulimit -c 0 && ulimit -v {} || exit 125", memory * 1024);
+    // A process that waits for ever uses no processor time.
+    let run = format!("timeout -s KILL {} \"$0\" \"$@\"", WAITING * limit);
+    let script = format!("times=$1; shift; {limits}; {run}; status=$?; times >\"$times\"; exit $status");
     let mut command = Command::new("sh");
     command.args(["-c", &script]).arg(&options.program).arg(times.path());
     if options.checks {
@@ -306,9 +315,10 @@ fn run(options: &Options, file: &Path, out: &Path, report: &Path) -> Outcome<End
         command.arg("flatten").arg(file).args(["--threads", "1", "-o"]).arg(out).args(&options.arguments);
     }
     command.arg("--report").arg(report);
+    command.env("RAYON_NUM_THREADS", "1");
     let status = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(errors.reopen()?).status()?;
     let exit = match status.code() {
-        Some(OUT_OF_TIME) => "timeout".to_owned(),
+        Some(OUT_OF_TIME | STOPPED) => "timeout".to_owned(),
         Some(code) => code.to_string(),
         None => status.to_string(),
     };

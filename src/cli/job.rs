@@ -125,7 +125,14 @@ impl HeadlessJob<'_> {
 
     /// Rejects options that do not apply to packed charts.
     fn refuse_idle_options(&self, model: &Model) -> Result<(), CommandError> {
+        let has_own_scales =
+            !(self.options.targets.is_empty() && self.options.sizes.is_empty() && self.locked.is_empty());
         let cases = [
+            (
+                has_own_scales && self.svg_fit == Fit::True,
+                "--svg-scale true",
+                "charts with pins, locks or sizes have scales of their own",
+            ),
             (self.fit == Fit::True, "--fit true", "charts are packed into the unit square; see --svg-scale true"),
             (self.steps.is_some(), "--steps", "it draws the steps of one chart"),
         ];

@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 use super::charts::textured;
 use super::finite::check_finite;
 use super::gltf::{Shading, write_glb_with};
-use super::obj::{copy_materials, relocated, write_obj_with};
+use super::obj::{copy_materials, material_picture, relocated, write_obj_with};
 use super::ply::write_ply;
 use super::raster::{Canvas, Colour, RasterPaint, View, colours, mesh_picture, plane_picture, write_png};
 use super::report::{Report, write_report};
@@ -91,9 +91,13 @@ static FORMATS: [Format; 6] = [
         title: "Save the mesh with texture coordinates as GLB",
         write: |output, _, out| {
             let (mesh, texture) = output.textured();
+            // The picture of a material comes with the other materials.
+            let of_material = output.source_path.and_then(|path| material_picture(&mesh, path));
             let shading = match output.picture {
-                Some(picture) => Some(Shading::of_picture(picture, &mesh)?),
-                None => Shading::of_obj(&mesh, output.source_path),
+                Some(picture) if of_material.is_none() || picture.path != of_material => {
+                    Some(Shading::of_picture(picture, &mesh)?)
+                }
+                _ => Shading::of_obj(&mesh, output.source_path),
             };
             write_glb_with(out, &mesh, &texture, shading.as_ref())
         },

@@ -36,8 +36,8 @@ pub struct RoundingReport {
 
 impl Output<'_> {
     /// Rounds the coordinates to the numbers that a file of this kind holds, and verifies them again. Default: the usual
-    /// precision of the kind. GLB files ignore a request for 64 bits. If rounding folds a face, vertices that no pin holds exactly are moved
-    /// by a few units in the last place.
+    /// precision of the kind. GLB files ignore a request for 64 bits. If rounding folds a face, vertices that no pin holds
+    /// exactly are moved by a few units in the last place.
     pub fn round_to(&mut self, precision: Option<Precision>, kind: OutputKind) {
         let Some(grid) = kind.grid(precision) else {
             self.report.precision = Some(Precision::F64);

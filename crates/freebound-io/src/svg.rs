@@ -18,7 +18,10 @@ use freebound_core::problem::Embedding;
 const SIZE: f64 = 1000.0;
 
 /// Relative difference between scales that counts as none.
-const SAME_SCALE: f64 = 1e-4;
+const SAME_SCALE: f64 = 1e-3;
+
+/// Share of the whole area below which the scale of a chart is not compared: rounding to 32 bits changes it.
+const TINY: f64 = 1e-6;
 
 /// Margin around the drawing.
 const MARGIN: f64 = 20.0;
@@ -53,7 +56,8 @@ pub(super) fn write_svg(out: &mut impl Write, charts: &[LaidChart<'_>], aspect: 
 
 /// Factor to the true size of all charts.
 fn true_factor(charts: &[LaidChart<'_>], embeddings: &[Embedding]) -> io::Result<f64> {
-    let charts = charts.iter().zip(embeddings).filter(|(chart, _)| chart.mesh.area() > 0.0);
+    let whole: f64 = charts.iter().map(|chart| chart.mesh.area()).sum();
+    let charts = charts.iter().zip(embeddings).filter(|(chart, _)| chart.mesh.area() > TINY * whole);
     let factors: Vec<f64> = charts.map(|(chart, embedding)| true_area_factor(chart.mesh, embedding)).collect();
     let least = factors.iter().copied().fold(f64::INFINITY, f64::min);
     let most = factors.iter().copied().fold(0.0, f64::max);

@@ -245,9 +245,10 @@ fn several_charts_are_drawn_at_their_true_size_unless_their_scales_differ() {
     // The parts are flat and have faces of one unit, so that both outlines are eight units long.
     assert_eq!(lengths.len(), 2);
     assert!(lengths.iter().all(|length| (length - 8.0).abs() < 1e-3), "{lengths:?}");
-    program.run(&[&draw[..], &["--chart-size", "0=2"]].concat()).expect(1);
-    let error = program.run(&[&draw[..], &["--chart-size", "0=2", "--report", "-"]].concat()).expect(1);
-    assert!(error.stderr.contains("out.svg"), "{}", error.stderr);
+    for own_scale in [["--chart-size", "0=2"], ["--pin", "0:0,0"]] {
+        let run = program.run(&[&draw[..], &own_scale[..]].concat()).expect(2);
+        assert_message("charts-refuse-svg-scale", &run.stderr);
+    }
 }
 
 #[test]

@@ -305,6 +305,15 @@ fn a_glb_file_holds_the_materials_of_an_obj_file_with_their_colours_and_pictures
     assert_eq!(looks, [("photo", [1.0; 4], 3), ("red", [1.0, 0.25, 0.0, 0.5], 2)]);
     assert_eq!(found[0].2.as_ref().expect("a picture").as_raw(), &quarters(40, 20).pixels);
     assert!(found[1].2.is_none());
+    // A line that is not understood changes nothing else, and one number is a shade of grey. A picture of another format
+    // cannot come along, but the colour does.
+    program.write(
+        "all.mtl",
+        "newmtl red\nKd spectral red.rfl\nKd 0.5\nd -halo 0.5\nnewmtl photo\nKd 0 1 0\nmap_Kd no.tga\n",
+    );
+    program.run(&["flatten", "in.obj", "-o", "grey.glb"]).expect(0);
+    let colours: Vec<_> = materials_of(&program.path("grey.glb")).into_iter().map(|own| own.1).collect();
+    assert_eq!(colours, [[0.0, 1.0, 0.0, 1.0], [0.5, 0.5, 0.5, 1.0]]);
     // Without the library the names are left.
     fs::remove_file(program.path("all.mtl")).expect("it is there");
     program.run(&["flatten", "in.obj", "-o", "again.glb"]).expect(0);

@@ -151,7 +151,7 @@ fn in_32_bits_a_file_with_lists_keeps_them_and_its_vertices() {
 }
 
 #[test]
-fn a_mesh_of_another_file_becomes_a_ply_file_of_64_bits() {
+fn a_mesh_of_another_file_becomes_a_ply_file_whose_numbers_are_exact() {
     let mesh = quad_sheet(3, 2, 0.2, &mut Random(3));
     let file = MeshFile { polygons: mesh.clone(), ..MeshFile::default() };
     let (_, elements) = taken_apart(&written(&file, &by_vertex(&mesh)));

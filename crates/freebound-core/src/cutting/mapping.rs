@@ -31,8 +31,9 @@ pub(super) const MEDIUM: usize = 15_000;
 /// Number of faces from which search and relaxing end once the bound is met.
 pub(super) const LARGE: usize = 30_000;
 
-/// Energy of a planar start above which a one-to-one map is given up, unless one round of relaxing helps. Starts of whole
-/// models have up to 210; those of parts whose local maps overlap themselves over and over have 10⁵ to 10¹⁴.
+/// Energy of a planar start above which the cut is judged by a local map, and a one-to-one map is given up unless one
+/// round of relaxing helps. Starts of whole models have up to 210; those of parts whose local maps overlap themselves
+/// over and over have 10⁵ to 10¹⁴.
 const HOPELESS: f64 = 1e5;
 
 /// Energy after one round of relaxing above which a one-to-one map is given up.
@@ -129,7 +130,7 @@ impl<'a> Mapping<'a> {
                 return Ok(false);
             }
             local = self.local_map(chart)?;
-            // No map along these seams has less distortion than a local one.
+            // Another cut is tried if no local map is found, or if it is too distorted.
             Ok(local.as_ref().is_none_or(|map| map.energy > most))
         })?;
         if let Some(map) = map {

@@ -70,19 +70,19 @@ impl Shading {
     /// if its faces have no materials.
     pub(crate) fn of_obj(mesh: &MeshFile, path: Option<&Path>) -> Option<Self> {
         let labels = mesh.material_labels().ok()?;
-        let mut looks = obj_materials(mesh, path);
+        let looks = obj_materials(mesh, path);
         let mut shading = Self { materials: Vec::new(), pictures: Vec::new(), of_face: Vec::new() };
         let mut number_of: BTreeMap<u32, usize> = BTreeMap::new();
         let mut picture_at: BTreeMap<PathBuf, Option<usize>> = BTreeMap::new();
         let uses = mesh.statements.iter().filter(|statement| statement.keyword() == b"usemtl");
         let mut uses = uses.peekable();
-        let mut name = DEFAULT_MATERIAL.to_owned();
+        let mut name = None;
         for (face, label) in labels.into_iter().enumerate() {
             while let Some(statement) = uses.next_if(|statement| statement.before_face as usize <= face) {
-                name = statement.argument().into_owned();
+                name = Some(statement.argument().into_owned());
             }
             let number = *number_of.entry(label).or_insert_with(|| {
-                let look = looks.remove(&name).unwrap_or_default();
+                let look = name.as_ref().and_then(|name| looks.get(name)).cloned().unwrap_or_default();
                 let picture = look.picture.and_then(|path| {
                     let pictures = &mut shading.pictures;
                     let mut put = |path: &Path| {
@@ -91,7 +91,11 @@ impl Shading {
                     };
                     *picture_at.entry(path).or_insert_with_key(|path| put(path))
                 });
-                shading.materials.push(Material { name: name.clone(), colour: look.colour, picture });
+                let [red, green, blue, opacity] = look.colour;
+                // Programs multiply a picture with the colour, which many write as black or grey beside a picture.
+                let colour = if picture.is_some() { [1.0, 1.0, 1.0, opacity] } else { [red, green, blue, opacity] };
+                let name = name.clone().unwrap_or_else(|| DEFAULT_MATERIAL.to_owned());
+                shading.materials.push(Material { name, colour, picture });
                 shading.materials.len() - 1
             });
             shading.of_face.push(number);

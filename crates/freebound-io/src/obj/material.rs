@@ -46,18 +46,48 @@ pub(crate) fn obj_materials(mesh: &MeshFile, path: Option<&Path>) -> BTreeMap<St
     let mut looks = BTreeMap::new();
     let Some(path) = path else { return looks };
     for library in libraries(mesh, path.parent().unwrap_or(Path::new(""))) {
-        let Ok((materials, _)) = tobj::load_mtl(&library) else { continue };
-        let folder = library.parent().unwrap_or(Path::new(""));
-        for material in materials {
-            let picture = material.diffuse_texture.map(|texture| picture_of(&texture, folder));
-            // Programs multiply a picture with the colour, which many write as black or grey beside a picture.
-            let [red, green, blue] = material.diffuse.filter(|_| picture.is_none()).unwrap_or([1.0; 3]);
-            let shares = [red, green, blue, material.dissolve.unwrap_or(1.0)];
-            let colour = shares.map(|share| if share.is_nan() { 1.0 } else { share.clamp(0.0, 1.0) });
-            looks.entry(material.name).or_insert(Look { colour, picture });
+        let mut name = None;
+        let mut look = Look::default();
+        for line in text_of(&library).lines() {
+            let (keyword, argument) = line.trim().split_once(char::is_whitespace).unwrap_or_default();
+            if keyword == "newmtl" {
+                put(&mut looks, name.replace(argument.trim().to_owned()), std::mem::take(&mut look));
+            } else {
+                look.take(keyword, argument.trim(), library.parent().unwrap_or(Path::new("")));
+            }
         }
+        put(&mut looks, name, look);
     }
     looks
+}
+
+fn put(looks: &mut BTreeMap<String, Look>, name: Option<String>, look: Look) {
+    if let Some(name) = name {
+        looks.entry(name).or_insert(look);
+    }
+}
+
+/// Text of a library; empty if it cannot be read. Only regular files are opened: reading a pipe could block for ever.
+fn text_of(library: &Path) -> String {
+    let bytes = if library.is_file() { fs::read(library).unwrap_or_default() } else { Vec::new() };
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+impl Look {
+    /// Takes over a line of a library. Lines of other kinds, and those that are not understood, change nothing.
+    fn take(&mut self, keyword: &str, argument: &str, folder: &Path) {
+        let number = |word: &str| word.parse().ok().filter(|share| (0.0..=1.0).contains(share));
+        let shares: Vec<f32> = argument.split_whitespace().map_while(number).collect();
+        match (keyword, shares.as_slice()) {
+            ("Kd", &[red, green, blue, ..]) => self.colour[..3].copy_from_slice(&[red, green, blue]),
+            // One number is a shade of grey.
+            ("Kd", &[grey, ..]) => self.colour[..3].fill(grey),
+            ("d", &[opacity, ..]) => self.colour[3] = opacity,
+            ("Tr", &[transparency, ..]) => self.colour[3] = 1.0 - transparency,
+            ("map_Kd", _) => self.picture = Some(picture_of(argument, folder)),
+            _ => {}
+        }
+    }
 }
 
 /// Existing files that a mesh file at `path` refers to: for OBJ, its material libraries and the pictures that they
@@ -66,9 +96,7 @@ pub fn material_files(mesh: &MeshFile, path: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for library in libraries(mesh, path.parent().unwrap_or(Path::new(""))) {
         let folder = library.parent().unwrap_or(Path::new(""));
-        // Only regular files are opened: reading a pipe could block for ever.
-        let text = if library.is_file() { fs::read(&library).unwrap_or_default() } else { Vec::new() };
-        let pictures = String::from_utf8_lossy(&text)
+        let pictures = text_of(&library)
             .lines()
             .filter_map(picture_argument)
             .map(|argument| picture_of(argument, folder))

@@ -1,13 +1,14 @@
 //! Joining of coincident vertices, splitting of vertices and edges, and flipping of faces.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use super::sides::Sides;
 use super::{Repair, Repaired};
 use crate::mesh::coincident::coincident_vertices;
+use crate::mesh::edges::EdgeTable;
 use crate::mesh::fault::Elements;
 use crate::mesh::union::DisjointSets;
-use crate::mesh::{Fault, VertexId, diagnose, place_key};
+use crate::mesh::{FaceId, Fault, VertexId, diagnose, place_key};
 
 impl Repaired {
     /// Joins vertices of different parts whose positions are equal to the bit.
@@ -37,8 +38,39 @@ impl Repaired {
         if crowded > 0 {
             let fans = sides.fans(|sides| sides.len() == 2);
             self.split_into(fans);
-            self.note(Repair::SplitEdges, crowded);
         }
+        let diagonals = self.split_diagonals();
+        if crowded + diagonals > 0 {
+            self.note(Repair::SplitEdges, crowded + diagonals);
+        }
+    }
+
+    /// Takes polygons apart whose triangles meet at an edge of three or more triangles: narrow polygons along one chain of
+    /// vertices can have the same diagonal. Returns the number of such edges.
+    fn split_diagonals(&mut self) -> usize {
+        if self.polygons.starts.is_none() {
+            return 0;
+        }
+        let mesh = self.polygons.triangulate();
+        let table = EdgeTable::new(mesh.vertex_count(), &mesh.triangles);
+        let mut is_apart = vec![false; self.polygons.face_count()];
+        let mut crowded = 0;
+        for sides in table.edges().filter(|sides| sides.len() > 2) {
+            crowded += 1;
+            let polygons: BTreeSet<u32> = sides.iter().map(|&side| mesh.polygon(FaceId::new(side / 3))).collect();
+            let is_triangle = |&polygon: &u32| self.polygons.face(polygon as usize).len() == 3;
+            // One polygon can stay if it has the edge for itself then.
+            let staying = usize::from(!polygons.iter().any(is_triangle));
+            for polygon in polygons.into_iter().filter(|polygon| !is_triangle(polygon)).skip(staying) {
+                is_apart[polygon as usize] = true;
+            }
+        }
+        if crowded > 0 {
+            let sides = Sides::new(&self.polygons);
+            let fans = sides.fans(|on| on.iter().all(|&side| !is_apart[sides.face[side as usize] as usize]));
+            self.split_into(fans);
+        }
+        crowded
     }
 
     /// Gives each fan of faces that meet only at a vertex its own vertex.
@@ -54,7 +86,7 @@ impl Repaired {
         const NONE: u32 = u32::MAX;
         let mut fan_of_vertex = vec![NONE; self.polygons.positions.len()];
         let mut new_of_fan: HashMap<u32, VertexId> = HashMap::new();
-        let mut split = std::collections::BTreeSet::new();
+        let mut split = BTreeSet::new();
         for (number, corner) in (0..).zip(&mut self.polygons.corners) {
             let fan = fans.find(number);
             let holder = &mut fan_of_vertex[corner.index()];

@@ -1,6 +1,6 @@
 //! Repairs one by one, the source of every corner, and surfaces of all kinds cut open to disks.
 
-use freebound_core::mesh::{DiskMesh, PolygonMesh, Repair, Repaired, Repairs, TriMesh, VertexId, diagnose};
+use freebound_core::mesh::{DiskMesh, Fault, PolygonMesh, Repair, Repaired, Repairs, TriMesh, VertexId, diagnose};
 use glam::DVec3;
 
 use freebound_testkit::{Random, band, corpus_entry, corpus_test, disk, fan, grid, head, quad_sheet, tetrahedron};
@@ -199,6 +199,33 @@ fn an_edge_of_three_faces_is_split_where_all_is_allowed() {
     let all = repaired(&source, Repairs::ALL);
     assert_eq!(done(&all), [(Repair::SplitEdges, 1)]);
     assert_eq!(faces(&all), [[0, 1, 2], [5, 6, 3], [7, 8, 4]]);
+}
+
+#[test]
+fn narrow_polygons_with_the_same_diagonal_are_taken_apart() {
+    let mut with_same = 0;
+    for seed in 0..100 {
+        // Two polygons on both sides of a chain that hardly bends.
+        let mut source = polygons(12, &[&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10], &[11, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0]]);
+        let mut random = Random(seed);
+        for (vertex, position) in source.positions.iter_mut().enumerate() {
+            let across = match vertex {
+                10 => 0.1,
+                11 => -0.1,
+                _ => 0.02 * random.unit(),
+            };
+            let along = if vertex < 10 { vertex as f64 } else { 5.0 };
+            *position = DVec3::new(along, across, 0.2 * random.unit());
+        }
+        let is_crowded = |fault: &Fault| matches!(fault, Fault::NonManifoldEdges { .. });
+        let is_met = diagnose(&source.triangulate()).faults.iter().any(is_crowded);
+        with_same += usize::from(is_met);
+        let repaired = repaired(&source, Repairs::ALL);
+        assert!(!diagnose(&repaired.triangulate()).faults.iter().any(is_crowded), "seed {seed}");
+        assert_eq!(repaired.polygons().face_count(), 2);
+        assert_eq!(is_met, done(&repaired).iter().any(|(repair, _)| *repair == Repair::SplitEdges));
+    }
+    assert!(with_same > 5, "{with_same}");
 }
 
 /// Closed surface of this genus: a row of `genus` tori of squares, joined at the rims of removed squares.
