@@ -87,14 +87,21 @@ impl<'a> RepackedFile<'a> {
     }
 
     /// Rounds the coordinates to the numbers that a file of this kind holds, and proves them again. Default: the usual
-    /// precision of the kind.
+    /// precision of the kind, or 64 bits if these fold the map and the kind has them.
     pub fn round_to(&mut self, precision: Option<Precision>, kind: OutputKind) {
         let Some(grid) = kind.grid(precision) else {
             self.report.precision = Some(Precision::F64);
             return;
         };
         let was_planar = self.repacked.is_planar();
+        let has_choice = was_planar && precision.is_none() && kind.grid(Some(Precision::F64)).is_none();
+        let exact = has_choice.then(|| self.repacked.clone());
         self.repacked.round_to(grid);
+        if let Some(exact) = exact.filter(|_| !self.repacked.is_planar()) {
+            self.repacked = exact;
+            self.report.precision = Some(Precision::F64);
+            return;
+        }
         self.report_layout();
         self.report.precision = Some(Precision::F32);
         self.report.rounding = Some(RoundingReport { moved: 0, folded: was_planar && !self.repacked.is_planar() });

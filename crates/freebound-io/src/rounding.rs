@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{Output, OutputKind, Precision, verdict_as_in_file};
-use freebound_core::pipeline::{prove_atlas, restack};
+use freebound_core::pipeline::{LaidChart, prove_atlas, restack};
 use freebound_core::verify::{Rounded, RoundingGrid, Verdict, rounded, verdict};
 
 impl OutputKind {
@@ -36,14 +36,35 @@ pub struct RoundingReport {
 
 impl Output<'_> {
     /// Rounds the coordinates to the numbers that a file of this kind holds, and verifies them again. Default: the usual
-    /// precision of the kind. GLB files ignore a request for 64 bits. If rounding folds a face, vertices that no pin holds
-    /// exactly are moved by a few units in the last place.
+    /// precision of the kind, or 64 bits if these fold the map and the kind has them. GLB files ignore a request for 64
+    /// bits. If rounding folds a face, vertices that no pin holds exactly are moved by a few units in the last place.
     pub fn round_to(&mut self, precision: Option<Precision>, kind: OutputKind) {
         let Some(grid) = kind.grid(precision) else {
             self.report.precision = Some(Precision::F64);
             return;
         };
         let was_planar = self.is_planar();
+        let has_choice = was_planar && precision.is_none() && kind.grid(Some(Precision::F64)).is_none();
+        let exact = |chart: &LaidChart<'_>| (chart.coordinates.clone(), chart.verdict.clone());
+        let exact: Option<Vec<_>> = has_choice.then(|| self.charts.iter().map(exact).collect());
+        let verdicts = (self.report.atlas.clone(), self.report.verdict.clone());
+        let moved = self.round(grid);
+        let folded = was_planar && !self.is_planar();
+        if let Some(exact) = exact.filter(|_| folded) {
+            for (chart, (coordinates, verdict)) in self.charts.iter_mut().zip(exact) {
+                chart.coordinates = coordinates;
+                chart.verdict = verdict;
+            }
+            (self.report.atlas, self.report.verdict) = verdicts;
+            self.report.precision = Some(Precision::F64);
+            return;
+        }
+        self.report.precision = Some(Precision::F32);
+        self.report.rounding = Some(RoundingReport { moved, folded });
+    }
+
+    /// Rounds to a grid and verifies again. Returns the number of vertices moved away from the nearest numbers.
+    fn round(&mut self, grid: RoundingGrid) -> usize {
         let apart = self.charts.par_iter_mut().filter(|chart| chart.stacked.is_none());
         let moved = apart.map(|chart| {
             let held: BTreeSet<_> = chart.held.iter().copied().collect();
@@ -62,7 +83,6 @@ impl Output<'_> {
         } else if let [chart] = &self.charts[..] {
             self.report.verdict = Some(verdict_as_in_file(&chart.verdict, chart.mesh.mesh()));
         }
-        self.report.precision = Some(Precision::F32);
-        self.report.rounding = Some(RoundingReport { moved, folded: was_planar && !self.is_planar() });
+        moved
     }
 }

@@ -95,7 +95,8 @@ pub struct FlattenArguments {
     /// Precision in which texture coordinates are proved and written. Default: 64 bits for OBJ, 32 bits for PLY and GLB.
     ///
     /// PLY files of 32 bits have the form that most programs read: `s` and `t` as float, and a copy of each vertex on a
-    /// seam. Those of 64 bits keep the vertices and list the coordinates of corners. GLB files always hold 32 bits.
+    /// seam. Those of 64 bits keep the vertices and list the coordinates of corners; a map that 32 bits would fold gets
+    /// them by default. GLB files always hold 32 bits.
     #[arg(long, value_parser = choice::<Precision>(), hide_short_help = true)]
     pub precision: Option<Precision>,
     /// Write a report to this file (JSON), or to standard output with `-`.

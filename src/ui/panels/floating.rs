@@ -149,7 +149,7 @@ pub(super) const EXPORTS: [(FileDialogKind, &str, &str); 9] = {
             "Mesh with texture coordinates…",
             "OBJ, with its material, and with the picture if there is one",
         ),
-        (Export(Ply, None), "Mesh as PLY…", "PLY, with all data of an opened PLY file"),
+        (Export(Ply, None), "Mesh as PLY…", "PLY in 32 bits, with all data of an opened PLY file"),
         (Export(Glb, None), "Mesh as GLB…", "Binary glTF in 32 bits, with all data of an opened glTF file"),
         (Export(Svg, unit), "Layout in the unit square…", "SVG, positioned like texture coordinates"),
         (Export(Svg, true_scale), "Layout at true scale…", "SVG in the units of the mesh, for cutting out"),

@@ -95,6 +95,8 @@ fn the_program_writes_and_proves_numbers_of_32_bits_where_it_is_asked_or_the_for
         ("a.obj", &[][..], "f64"),
         ("b.obj", &["--precision", "f32"], "f32"),
         ("c.ply", &["--precision", "f32"], "f32"),
+        ("c-usual.ply", &[], "f32"),
+        ("c-exact.ply", &["--precision", "f64"], "f64"),
         ("d.glb", &[], "f32"),
         ("e.glb", &["--precision", "f32"], "f32"),
     ] {
@@ -137,4 +139,23 @@ fn what_32_bits_cannot_hold_is_said_with_a_way_on() {
     assert_eq!(report["rounding"]["folded"], true);
     assert_eq!(report["verdict"]["planar"], false);
     program.run(&["check", "a.glb"]).expect(4);
+}
+
+#[test]
+fn a_map_that_32_bits_would_fold_is_written_to_ply_in_64() {
+    let program = Program::new();
+    program.write("in.obj", "v 0 0 0\nv 1 0 0\nv 0.5 1 0\nv 0.5 0.3 0\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    let pins = ["--pin", "0:0.5,0.5", "--pin", "1:0.500000000000001,0.5", "--pin", "2:0.5,0.500000000000001"];
+    let arguments = ["flatten", "in.obj", "-o", "a.ply", "--method", "natural", "--report", "r.json"];
+    let report = |options: &[&str], status| {
+        program.run(&[&arguments[..], &pins, options].concat()).expect(status);
+        let bytes = std::fs::read(program.path("r.json")).expect("a report");
+        serde_json::from_slice::<serde_json::Value>(&bytes).expect("JSON")
+    };
+    let usual = report(&[], 0);
+    assert_eq!((&usual["precision"], usual["rounding"].is_object()), (&"f64".into(), false));
+    assert_eq!(usual["verdict"]["planar"], true);
+    program.run(&["check", "a.ply"]).expect(0);
+    let asked = report(&["--precision", "f32"], 4);
+    assert_eq!((&asked["precision"], &asked["rounding"]["folded"]), (&"f32".into(), &true.into()));
 }
