@@ -39,9 +39,17 @@ impl Repaired {
             let fans = sides.fans(|sides| sides.len() == 2);
             self.split_into(fans);
         }
-        let diagonals = self.split_diagonals();
-        if crowded + diagonals > 0 {
-            self.note(Repair::SplitEdges, crowded + diagonals);
+        let mut count = crowded;
+        // Polygons can be cut in another way once their neighbours are apart. Each round takes at least one polygon apart.
+        loop {
+            let diagonals = self.split_diagonals();
+            if diagonals == 0 {
+                break;
+            }
+            count += diagonals;
+        }
+        if count > 0 {
+            self.note(Repair::SplitEdges, count);
         }
     }
 
@@ -65,11 +73,13 @@ impl Repaired {
                 is_apart[polygon as usize] = true;
             }
         }
-        if crowded > 0 {
-            let sides = Sides::new(&self.polygons);
-            let fans = sides.fans(|on| on.iter().all(|&side| !is_apart[sides.face[side as usize] as usize]));
-            self.split_into(fans);
+        // Edges of triangles alone stay.
+        if !is_apart.contains(&true) {
+            return 0;
         }
+        let sides = Sides::new(&self.polygons);
+        let fans = sides.fans(|on| on.iter().all(|&side| !is_apart[sides.face[side as usize] as usize]));
+        self.split_into(fans);
         crowded
     }
 
