@@ -92,12 +92,13 @@ static FORMATS: [Format; 6] = [
         write: |output, _, out| {
             let (mesh, texture) = output.textured();
             // The picture of a material comes with the other materials.
-            let of_material = output.source_path.and_then(|path| material_picture(&mesh, path));
-            let shading = match output.picture {
-                Some(picture) if of_material.is_none() || picture.path != of_material => {
-                    Some(Shading::of_picture(picture, &mesh)?)
-                }
-                _ => Shading::of_obj(&mesh, output.source_path),
+            let is_of_material = |picture: &&PictureFile| {
+                let of_material = output.source_path.and_then(|path| material_picture(&mesh, path));
+                of_material.is_some() && picture.path == of_material
+            };
+            let shading = match output.picture.filter(|picture| !is_of_material(picture)) {
+                Some(picture) => Some(Shading::of_picture(picture, &mesh)?),
+                None => Shading::of_obj(&mesh, output.source_path),
             };
             write_glb_with(out, &mesh, &texture, shading.as_ref())
         },

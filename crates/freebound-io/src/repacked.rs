@@ -94,8 +94,7 @@ impl<'a> RepackedFile<'a> {
             return;
         };
         let was_planar = self.repacked.is_planar();
-        let has_choice = was_planar && precision.is_none() && kind.grid(Some(Precision::F64)).is_none();
-        let exact = has_choice.then(|| self.repacked.clone());
+        let exact = (was_planar && kind.has_choice(precision)).then(|| self.repacked.clone());
         self.repacked.round_to(grid);
         if let Some(exact) = exact.filter(|_| !self.repacked.is_planar()) {
             self.repacked = exact;

@@ -23,6 +23,11 @@ impl OutputKind {
             (_, Precision::F64) => None,
         }
     }
+
+    /// True if coordinates that 32 bits would fold are written in 64 bits.
+    pub(crate) fn has_choice(self, precision: Option<Precision>) -> bool {
+        precision.is_none() && self.grid(Some(Precision::F64)).is_none()
+    }
 }
 
 /// Effect of rounding on the coordinates.
@@ -44,7 +49,7 @@ impl Output<'_> {
             return;
         };
         let was_planar = self.is_planar();
-        let has_choice = was_planar && precision.is_none() && kind.grid(Some(Precision::F64)).is_none();
+        let has_choice = was_planar && kind.has_choice(precision);
         let exact = |chart: &LaidChart<'_>| (chart.coordinates.clone(), chart.verdict.clone());
         let exact: Option<Vec<_>> = has_choice.then(|| self.charts.iter().map(exact).collect());
         let verdicts = (self.report.atlas.clone(), self.report.verdict.clone());

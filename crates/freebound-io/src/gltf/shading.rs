@@ -69,38 +69,44 @@ impl Shading {
     /// Materials of an OBJ file at `path`, with the colours and pictures of its libraries if these can be read. `None`
     /// if its faces have no materials.
     pub(crate) fn of_obj(mesh: &MeshFile, path: Option<&Path>) -> Option<Self> {
-        let labels = mesh.material_labels().ok()?;
-        let looks = obj_materials(mesh, path);
-        let mut shading = Self { materials: Vec::new(), pictures: Vec::new(), of_face: Vec::new() };
-        let mut number_of: BTreeMap<u32, usize> = BTreeMap::new();
-        let mut picture_at: BTreeMap<PathBuf, Option<usize>> = BTreeMap::new();
         let uses = mesh.statements.iter().filter(|statement| statement.keyword() == b"usemtl");
         let mut uses = uses.peekable();
-        let mut name = None;
-        for (face, label) in labels.into_iter().enumerate() {
+        uses.peek()?;
+        let looks = obj_materials(mesh, path);
+        let mut shading = Self { materials: Vec::new(), pictures: Vec::new(), of_face: Vec::new() };
+        let mut number_of: BTreeMap<Option<String>, usize> = BTreeMap::new();
+        let mut picture_at: BTreeMap<PathBuf, Option<usize>> = BTreeMap::new();
+        let (mut name, mut current) = (None, None);
+        for face in 0..mesh.polygons.face_count() {
             while let Some(statement) = uses.next_if(|statement| statement.before_face as usize <= face) {
                 name = Some(statement.argument().into_owned());
+                current = None;
             }
-            let number = *number_of.entry(label).or_insert_with(|| {
-                let look = name.as_ref().and_then(|name| looks.get(name)).cloned().unwrap_or_default();
-                let picture = look.picture.and_then(|path| {
-                    let pictures = &mut shading.pictures;
-                    let mut put = |path: &Path| {
-                        pictures.push(EncodedPicture::read(path)?);
-                        Some(pictures.len() - 1)
-                    };
-                    *picture_at.entry(path).or_insert_with_key(|path| put(path))
-                });
-                let [red, green, blue, opacity] = look.colour;
-                // Programs multiply a picture with the colour, which many write as black or grey beside a picture.
-                let colour = if picture.is_some() { [1.0, 1.0, 1.0, opacity] } else { [red, green, blue, opacity] };
-                let name = name.clone().unwrap_or_else(|| DEFAULT_MATERIAL.to_owned());
-                shading.materials.push(Material { name, colour, picture });
-                shading.materials.len() - 1
+            let number = *current.get_or_insert_with(|| {
+                *number_of.entry(name.clone()).or_insert_with_key(|name| {
+                    let look = name.as_ref().and_then(|name| looks.get(name)).cloned().unwrap_or_default();
+                    let picture = look
+                        .picture
+                        .and_then(|path| *picture_at.entry(path).or_insert_with_key(|path| shading.add_picture(path)));
+                    shading.add_material(name.as_deref(), look.colour, picture)
+                })
             });
             shading.of_face.push(number);
         }
         Some(shading)
+    }
+
+    fn add_picture(&mut self, path: &Path) -> Option<usize> {
+        self.pictures.push(EncodedPicture::read(path)?);
+        Some(self.pictures.len() - 1)
+    }
+
+    fn add_material(&mut self, name: Option<&str>, colour: [f32; 4], picture: Option<usize>) -> usize {
+        let [red, green, blue, opacity] = colour;
+        // Programs multiply a picture with the colour, which many write as black or grey beside a picture.
+        let colour = if picture.is_some() { [1.0, 1.0, 1.0, opacity] } else { [red, green, blue, opacity] };
+        self.materials.push(Material { name: name.unwrap_or(DEFAULT_MATERIAL).to_owned(), colour, picture });
+        self.materials.len() - 1
     }
 
     /// Adds materials and pictures to a file. Returns the index of each material.
