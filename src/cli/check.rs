@@ -10,7 +10,7 @@ use super::opened::disk_of;
 use super::places::OutputPaths;
 use super::progress::go_on;
 use super::say::say;
-use super::standard::{MemoryLimit, read_model};
+use super::standard::read_typed;
 use super::summary::{deliver, file_words, mesh_words, size_words};
 use crate::session::Model;
 use freebound_core::mesh::{DiskMesh, FaceId, Part, Preparation, TriMesh, parts};
@@ -26,7 +26,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandE
     let places = OutputPaths::of_check(arguments);
     places.spare(&arguments.mesh, "the mesh")?;
     await_report(arguments.report.as_deref());
-    let model = read_model(&arguments.mesh, MemoryLimit::typed(arguments.large))?.in_form(Preparation::default());
+    let model = read_typed(&arguments.mesh, arguments.reading)?.in_form(Preparation::default());
     places.spare_materials(&model.source, &arguments.mesh)?;
     let path = model.path_words();
     let (texture, bare) = match model.source.partial_texture_mesh() {

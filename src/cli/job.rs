@@ -172,6 +172,8 @@ impl HeadlessJob<'_> {
         if let Some(folder) = folder {
             folder.finish()?;
         }
+        let not_kept = self.outputs.iter().flat_map(|&(kind, _)| output.not_kept_in(kind));
+        output.report.not_kept = not_kept.collect::<BTreeSet<_>>().into_iter().collect();
         for (kind, path) in &self.outputs {
             go_on()?;
             if is_standard(path) {

@@ -11,7 +11,7 @@ use super::pins::targets_on;
 use super::places::OutputPaths;
 use super::progress::ProgressLine;
 use super::seams::formed;
-use super::standard::{MemoryLimit, read_model};
+use super::standard::read_typed;
 use crate::session::Model;
 use freebound_core::mesh::{DiskMesh, Fault, WeldDistance};
 use freebound_core::pipeline::{Surface, Targets};
@@ -49,7 +49,7 @@ impl InputSpec<'_> {
             return Err(CommandError::Usage(text.to_owned()));
         }
         progress.enter("reading");
-        let read = read_model(&input.mesh, MemoryLimit::typed(input.large))?;
+        let read = read_typed(&input.mesh, input.reading)?;
         let model = with_parts(formed(&read, input, progress)?, input.parts.as_ref())?;
         places.spare_materials(&model.source, &input.mesh)?;
         let picture = picture.map(PictureFile::read).transpose()?;
@@ -65,7 +65,7 @@ impl InputSpec<'_> {
 
 /// Mesh that starts from the texture coordinates of another file.
 fn starting_from(model: Model, path: &Path, input: &MeshArguments) -> Result<Model, CommandError> {
-    let layout = read_model(path, MemoryLimit::typed(input.large))?.source;
+    let layout = read_typed(path, input.reading)?.source;
     let path = name_of_input(path);
     model.with_layout_of(path.clone(), &layout).map_err(|error| failure_of_other_layout(path, error))
 }

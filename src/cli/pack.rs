@@ -10,7 +10,7 @@ use super::flatten::refuse_unwritten_formats;
 use super::places::OutputPaths;
 use super::progress::{ProgressLine, go_on};
 use super::report_file::put_report;
-use super::standard::{MemoryLimit, read_model};
+use super::standard::read_typed;
 use super::summary::{deliver, pack_summary};
 use crate::session::Model;
 use freebound_io::{Materials, OutputKind, PictureFile, RepackedFile};
@@ -32,7 +32,7 @@ pub(super) fn run(arguments: &PackArguments) -> Result<CommandOutcome, CommandEr
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
-        let model = read_model(&arguments.mesh, MemoryLimit::typed(arguments.large))?;
+        let model = read_typed(&arguments.mesh, arguments.reading)?;
         places.spare_materials(&model.source, &arguments.mesh)?;
         if arguments.copy_materials {
             places.spare_copied_materials(arguments, &model.source)?;

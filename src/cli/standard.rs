@@ -6,10 +6,11 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::Builder;
 use std::time::Duration;
 
+use super::args::ReadingArguments;
 use super::error::{CommandError, STANDARD_INPUT, is_standard, name_of_input};
 use super::progress::is_interrupted;
 use crate::session::Model;
-use freebound_io::{ReadError, check_memory, machine_memory_bytes};
+use freebound_io::{ReadError, ReadOptions, check_memory, machine_memory_bytes};
 
 /// Maximum number of bytes of one read.
 const CHUNK: usize = 256 << 10;
@@ -34,17 +35,26 @@ impl MemoryLimit {
 }
 
 /// Reads a mesh from a file or from standard input. The mesh is not prepared yet.
-pub(super) fn read_model(path: &Path, sizes: MemoryLimit) -> Result<Model, CommandError> {
+pub(super) fn read_model(path: &Path, sizes: MemoryLimit, options: ReadOptions) -> Result<Model, CommandError> {
     if sizes == MemoryLimit::WithinMemory && !is_standard(path) {
         let large = |shortage| CommandError::Memory { path: name_of_input(path), shortage };
         check_memory(path, machine_memory_bytes()).map_err(large)?;
     }
-    let read = if is_standard(path) { read_standard_input() } else { Model::read_formless(path, &is_interrupted) };
+    let read = if is_standard(path) {
+        read_standard_input(options)
+    } else {
+        Model::read_formless(path, options, &is_interrupted)
+    };
     read.map_err(|error| CommandError::Read { path: name_of_input(path), error })
 }
 
-fn read_standard_input() -> Result<Model, ReadError> {
-    let read = Model::read_stream(STANDARD_INPUT, Input::begin()?, &is_interrupted);
+/// Reads a mesh with the limits and choices of the command line.
+pub(super) fn read_typed(path: &Path, reading: ReadingArguments) -> Result<Model, CommandError> {
+    read_model(path, MemoryLimit::typed(reading.large), reading.options())
+}
+
+fn read_standard_input(options: ReadOptions) -> Result<Model, ReadError> {
+    let read = Model::read_stream(STANDARD_INPUT, Input::begin()?, options, &is_interrupted);
     // An interrupted stream ends early, so its mesh is incomplete.
     if is_interrupted() { Err(ReadError::Cancelled) } else { read }
 }

@@ -17,7 +17,7 @@ use super::threads::set_threads;
 use freebound_core::mesh::Preparation;
 use freebound_core::pipeline::study::{Group, Limits, Patience, Studied, StudySubject, summary};
 use freebound_core::problem::Control;
-use freebound_io::{read_study, study_plots, try_place, write_atomically, write_study};
+use freebound_io::{ReadOptions, read_study, study_plots, try_place, write_atomically, write_study};
 
 pub(super) fn run(arguments: &StudyArguments) -> Result<CommandOutcome, CommandError> {
     let places = OutputPaths::of_study(arguments);
@@ -105,7 +105,8 @@ fn studied_mesh(
     path: &Path,
     progress: &ProgressLine,
 ) -> Result<Studied, CommandError> {
-    let model = read_model(path, MemoryLimit::typed(arguments.large))?.in_form(Preparation::default());
+    let model =
+        read_model(path, MemoryLimit::typed(arguments.large), ReadOptions::default())?.in_form(Preparation::default());
     places.spare_materials(&model.source, path)?;
     let mesh = disk_of(&model)?;
     if model.chart_count() > 1 {

@@ -69,7 +69,11 @@ pub(super) fn ending_words(solved: &SolvedProblem, output: &Output) -> String {
         };
         let steps = if count == 1 { "step" } else { "steps" };
         let stage = step.candidate.stage.words();
-        words = format!("{words} after {count} {steps} ({stage}{boundary}{why})");
+        let taken = match output.report.written_step {
+            Some(written) => format!("at step {written} of {count}, the best one"),
+            None => format!("after {count} {steps}"),
+        };
+        words = format!("{words} {taken} ({stage}{boundary}{why})");
     }
     if output.report.placement == Some(Placement::Unmoved) {
         words += "; not moved into the unit square: rounding there would fold it";
@@ -147,6 +151,12 @@ pub(super) fn file_words(mesh: &MeshReport) -> Option<String> {
     (!words.is_empty()).then(|| format!("file: {}", words.join(", ")))
 }
 
+/// Text for data of the file that the written meshes do not hold.
+fn not_kept_words(report: &Report) -> Option<String> {
+    let words: Vec<&str> = report.not_kept.iter().map(|data| data.word()).collect();
+    (!words.is_empty()).then(|| format!("not written: {} of the file", words.join(", ")))
+}
+
 /// First line: size of the mesh.
 fn first_words(mesh: &MeshReport) -> String {
     format!("{}: {}", mesh.path, size_words(mesh))
@@ -181,6 +191,7 @@ pub(super) fn atlas_summary(report: &Report) -> String {
         ));
     }
     lines.extend(rounding_words(report));
+    lines.extend(not_kept_words(report));
     let mut charts: Vec<&ChartReport> = report.charts.iter().collect();
     charts.sort_by(|a, b| b.distortion.symmetric_dirichlet.mean.total_cmp(&a.distortion.symmetric_dirichlet.mean));
     lines.extend(charts.iter().take(NAMED).map(|chart| chart_words(chart, report.packing)));
@@ -375,6 +386,7 @@ pub(super) fn summary(report: &Report, verdict: &str) -> String {
     lines
         .push(format!("{}{family}: {verdict}{residual}{in_f32}", report.method.as_ref().map_or("check", Method::name)));
     lines.extend(rounding_words(report));
+    lines.extend(not_kept_words(report));
     if report.new_vertices > 0 {
         lines.push(format!("new vertices: {} on {} split edges", report.new_vertices, report.split_edges.len()));
     }

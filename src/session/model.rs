@@ -16,7 +16,7 @@ use freebound_core::pipeline::{
 };
 use freebound_core::problem::{Control, Embedding, Settings, SolveError, Start};
 use freebound_io::{
-    FileStamp, LayoutError, MeshFile, Output, PictureFile, ReadError, ResultSource, StepReport, Texture,
+    FileStamp, LayoutError, MeshFile, Output, PictureFile, ReadError, ReadOptions, ResultSource, StepReport, Texture,
     read_mesh_with, read_stream_with,
 };
 
@@ -70,7 +70,7 @@ impl Model {
     ///
     /// Errors of [`read`](Self::read), and [`ReadError::Cancelled`] if `is_enough` cancels.
     pub fn read_until(path: &Path, form: Preparation, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
-        Ok(Self::read_formless(path, is_enough)?.in_form(form))
+        Ok(Self::read_formless(path, ReadOptions::default(), is_enough)?.in_form(form))
     }
 
     /// Reads a file whose preparation depends on its content. The mesh has no faces until [`in_form`](Self::in_form).
@@ -78,8 +78,8 @@ impl Model {
     /// # Errors
     ///
     /// Errors of [`read_until`](Self::read_until).
-    pub fn read_formless(path: &Path, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
-        let source = read_mesh_with(path, &mut |_| flow(is_enough))?;
+    pub fn read_formless(path: &Path, options: ReadOptions, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
+        let source = read_mesh_with(path, options, &mut |_| flow(is_enough))?;
         let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
         Ok(Self::as_in_file(name, Some(path.to_owned()), source))
     }
@@ -89,8 +89,13 @@ impl Model {
     /// # Errors
     ///
     /// Errors of [`read_until`](Self::read_until).
-    pub fn read_stream(name: &str, stream: impl Read, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
-        let source = read_stream_with(stream, &mut |_| flow(is_enough))?;
+    pub fn read_stream(
+        name: &str,
+        stream: impl Read,
+        options: ReadOptions,
+        is_enough: &dyn Fn() -> bool,
+    ) -> Result<Self, ReadError> {
+        let source = read_stream_with(stream, options, &mut |_| flow(is_enough))?;
         Ok(Self::as_in_file(name.to_owned(), None, source))
     }
 

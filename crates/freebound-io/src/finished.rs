@@ -64,6 +64,7 @@ impl<'a> ResultSource<'a> {
             boundary: Some(boundary_name(step.candidate.has_convex_boundary())),
             shape: ShapeReport::of(settings),
             placement: Some(placement),
+            written_step: written_step(&steps, step.index),
             steps,
             verdict: Some(verdict_as_in_file(&verdict, mesh.mesh())),
             distortion: Some(summary),
@@ -143,6 +144,11 @@ const fn boundary_name(is_convex: bool) -> &'static str {
     if is_convex { "convex" } else { "free" }
 }
 
+/// Index of the written step, unless it is the last one.
+fn written_step(steps: &[StepReport], written: usize) -> Option<usize> {
+    steps.last().is_some_and(|last| last.index != written).then_some(written)
+}
+
 fn chart_report(summary: ChartSummary, steps: Vec<StepReport>) -> ChartReport {
     ChartReport {
         first_face: summary.first_face,
@@ -150,6 +156,7 @@ fn chart_report(summary: ChartSummary, steps: Vec<StepReport>) -> ChartReport {
         pins: summary.pins,
         boundary: boundary_name(summary.has_convex_boundary),
         placement: summary.placement,
+        written_step: written_step(&steps, summary.step),
         steps,
         distortion: summary.distortion,
         density: summary.density,

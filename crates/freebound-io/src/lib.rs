@@ -47,6 +47,7 @@ mod finite;
 mod gltf;
 mod machine;
 mod mesh_file;
+mod not_kept;
 mod obj;
 mod output;
 mod paths;
@@ -79,10 +80,12 @@ pub use finished::ResultSource;
 pub use gltf::write_glb;
 pub use machine::{bytes_in_words, machine_memory_bytes, peak_memory_bytes};
 pub use mesh_file::{
-    LabelError, LayoutError, MAX_PARSE_FAULTS, MemoryShortage, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind,
-    ReadError, ReadProgress, ReadWarning, ReadWarningKind, Refined, RefinedChart, Source, Statement, Texture,
-    TextureError, TextureMesh, check_memory, memory_to_read, read_mesh, read_mesh_with, read_stream, read_stream_with,
+    Instances, LabelError, LayoutError, MAX_PARSE_FAULTS, MemoryShortage, MeshFile, NO_TEXTURE, ParseFault,
+    ParseFaultKind, ReadError, ReadOptions, ReadProgress, ReadWarning, ReadWarningKind, Refined, RefinedChart, Source,
+    Statement, Texture, TextureError, TextureMesh, check_memory, memory_to_read, read_mesh, read_mesh_with,
+    read_stream, read_stream_with,
 };
+pub use not_kept::FileData;
 pub use obj::{Materials, copies_of_materials, material_files, material_picture, write_obj};
 pub use output::{EXTENSIONS, Format, Output, OutputKind, ProvedEmbedding};
 pub use paths::{is_same_file, is_standard_input, would_replace};

@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 use super::charts::textured;
 use super::finite::check_finite;
 use super::gltf::{Shading, write_glb_with};
+use super::not_kept::FileData;
 use super::obj::{copy_materials, material_picture, relocated, write_obj_with};
 use super::ply::write_ply;
 use super::raster::{Canvas, Colour, RasterPaint, View, colours, mesh_picture, plane_picture, write_png};
@@ -235,6 +236,17 @@ impl Output<'_> {
             .atlas
             .as_ref()
             .map_or_else(|| self.charts.iter().all(|chart| chart.verdict.planar), |atlas| atlas.planar)
+    }
+
+    /// Data of the source that a mesh file of this kind does not hold.
+    pub fn not_kept_in(&self, kind: OutputKind) -> Vec<FileData> {
+        if !kind.is_mesh() {
+            return Vec::new();
+        }
+        let found = self.source.not_kept_in(kind, &self.textured().1);
+        // The picture takes the place of the materials.
+        let has_material = self.picture.is_some() && kind != OutputKind::Ply;
+        found.into_iter().filter(|&data| data != FileData::Materials || !has_material).collect()
     }
 
     /// Writes one file atomically. An OBJ file with a picture comes with two more, its material and the picture,

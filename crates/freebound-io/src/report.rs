@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
+use super::not_kept::FileData;
 use super::{MeshFile, Precision, ReadWarning, RoundingReport, StepReport, peak_memory_bytes};
 use freebound_core::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
 use freebound_core::pipeline::{
@@ -53,8 +54,14 @@ pub struct Report {
     /// Effect of rounding to 32 bits; absent for 64 bits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rounding: Option<RoundingReport>,
+    /// Data of the file that the written meshes do not hold.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub not_kept: Vec<FileData>,
     /// Steps of all stages.
     pub steps: Vec<StepReport>,
+    /// Index of the written step. Absent if it is the last one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub written_step: Option<usize>,
     /// Exact verdict on the written coordinates. Absent without coordinates, as is the distortion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
@@ -263,6 +270,9 @@ pub struct ChartReport {
     pub placement: Placement,
     /// Steps of all stages.
     pub steps: Vec<StepReport>,
+    /// Index of the written step. Absent if it is the last one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub written_step: Option<usize>,
     /// Summary of the distortion.
     pub distortion: DistortionSummary,
     /// Pixels per unit of length on the surface, on average, of the picture that the chart is packed into or pinned

@@ -1,10 +1,12 @@
 //! Makes glTF files, and reads them with an independent reader, the crate `gltf`.
 
+use std::ops::ControlFlow;
+
 use base64::Engine as _;
 use glam::{DMat4, DVec2, DVec3, Mat4};
 use serde_json::{Value, json};
 
-use freebound_io::{MeshFile, Texture, read_stream, write_glb};
+use freebound_io::{Instances, MeshFile, ReadError, ReadOptions, Texture, read_stream, read_stream_with, write_glb};
 
 /// Component types of accessors.
 pub const U8: u32 = 5121;
@@ -216,6 +218,16 @@ pub fn plain(n: u32, kind: u32) -> GlbMaker {
 
 pub fn read(bytes: &[u8]) -> MeshFile {
     read_stream(bytes).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Reads a mesh of its own for each node.
+///
+/// # Errors
+///
+/// Errors of the reader.
+pub fn read_unique(bytes: &[u8]) -> Result<MeshFile, ReadError> {
+    let options = ReadOptions { instances: Instances::Unique };
+    read_stream_with(bytes, options, &mut |_| ControlFlow::Continue(()))
 }
 
 pub fn written(mesh: &MeshFile, texture: &Texture) -> Vec<u8> {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use glam::{DVec2, UVec2};
 
+use super::ReadingArguments;
 use crate::cli::typed::{parse_code, parse_denied, parse_pixels};
 use freebound_core::verify::{FindingCode, FindingSeverity, LayoutOptions, PixelGap};
 
@@ -43,9 +44,9 @@ pub struct CheckArguments {
     /// Findings that count as errors, by their codes, or all `warnings`.
     #[arg(long, value_name = "CODES|warnings", value_delimiter = ',', value_parser = parse_denied)]
     pub deny: Vec<Denied>,
-    /// Read the mesh even if that may need more than half of the machine's memory.
-    #[arg(long)]
-    pub large: bool,
+    /// Limits and choices of reading.
+    #[command(flatten)]
+    pub reading: ReadingArguments,
 }
 
 /// Findings that count as errors.

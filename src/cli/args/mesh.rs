@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::builder::{OsStringValueParser, TypedValueParser as _};
 use clap::{Args, ValueEnum};
 
+use super::ReadingArguments;
 use crate::cli::typed::{Parts, parse_distortion, parse_parts, parse_seam_kind, parse_visibility, parse_weld_distance};
 use freebound_core::mesh::{HoleTreatment, Preparation, Repairs, WeldDistance};
 
@@ -74,9 +75,9 @@ pub struct MeshArguments {
     /// Charts of the mesh. Each chart is flattened separately.
     #[arg(long, value_enum, default_value_t, hide_short_help = true)]
     pub charts: ChartsOf,
-    /// Read the mesh even if that may need more than half of the machine's memory.
-    #[arg(long, hide_short_help = true)]
-    pub large: bool,
+    /// Limits and choices of reading.
+    #[command(flatten)]
+    pub reading: ReadingArguments,
 }
 
 impl MeshArguments {

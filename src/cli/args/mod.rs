@@ -8,6 +8,7 @@
 //! | `solve`   | arguments for pins and settings of the solver |
 //! | `flatten` | arguments of `flatten`                        |
 //! | `pack`    | arguments of `pack`                           |
+//! | `reading` | arguments for reading a mesh                  |
 //! | `compare` | arguments of `compare`                        |
 //! | `shape`   | value for the shape of a boundary             |
 //! | `study`   | arguments of `study`                          |
@@ -18,6 +19,7 @@ mod compare;
 mod flatten;
 mod mesh;
 mod pack;
+mod reading;
 mod shape;
 mod solve;
 mod study;
@@ -34,6 +36,7 @@ pub use compare::{CompareArguments, ComparisonFile};
 pub use flatten::{FlattenArguments, UnwrapArguments};
 pub use mesh::{Cut, MeshArguments, SeamKind};
 pub use pack::PackArguments;
+pub(super) use reading::ReadingArguments;
 pub use shape::TypedShape;
 pub use solve::{SolveArguments, StartOf};
 pub use study::StudyArguments;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use glam::UVec2;
 
+use super::ReadingArguments;
 use crate::cli::typed::{choice, parse_aspect, parse_density, parse_pixels};
 use freebound_core::geom::{PackingOptions, Rotations, Stacking};
 use freebound_core::pipeline::ChartSizes;
@@ -72,9 +73,9 @@ pub struct PackArguments {
     /// Draw the layout into this file (SVG), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub svg: Option<PathBuf>,
-    /// Read the mesh even if that may need more than half of the machine's memory.
-    #[arg(long)]
-    pub large: bool,
+    /// Limits and choices of reading.
+    #[command(flatten)]
+    pub reading: ReadingArguments,
 }
 
 impl PackArguments {

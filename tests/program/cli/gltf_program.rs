@@ -4,11 +4,11 @@
 use std::fs;
 
 use freebound_io::read_mesh;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::program::Program;
 use freebound_testkit::assert_message;
-use freebound_testkit::glb::{GlbMaker, U16, json_of, plain, read, written};
+use freebound_testkit::glb::{GlbMaker, U16, json_of, plain, read, read_unique, written};
 
 /// Ball as exporters write it: doubled vertices along the seam and at the poles, and degenerate triangles there.
 fn ball(columns: u32, rows: u32) -> GlbMaker {
@@ -50,10 +50,21 @@ fn a_ball_with_the_seams_of_its_exporter_is_one_closed_surface_and_two_balls_bec
     program.run(&["check", "one.glb"]).expect(0);
     maker.json["nodes"] = json!([{"mesh": 0}, {"mesh": 0, "translation": [3, 0, 0]}]);
     fs::write(program.path("balls.glb"), maker.glb()).expect("written");
-    program.run(&[&["flatten", "balls.glb", "-o", "two.glb"][..], &options].concat()).expect(0);
+    let balls = [&["flatten", "balls.glb", "--report", "-", "-o", "two.glb"][..], &options].concat();
+    let charts = |arguments: &[&str]| {
+        let report = program.run(&[&balls, arguments].concat()).expect(0).json();
+        let count = report["charts"].as_array().map_or(1, Vec::len);
+        let json = json_of(&fs::read(program.path("two.glb")).expect("it is there"));
+        (count, json["meshes"].as_array().map_or(0, Vec::len), report["mesh"]["warnings"].clone())
+    };
+    let shared = json!([{"kind": "shared-instances", "count": 1}]);
+    assert_eq!(charts(&[]), (1, 1, shared), "both nodes share one mesh and its map");
     program.run(&["check", "two.glb"]).expect(0);
-    let found = read(&fs::read(program.path("two.glb")).expect("it is there"));
-    assert_eq!(found.polygons, read(&maker.glb()).polygons, "the surface is what it was");
+    program.run(&["check", "two.glb", "--unique-instances"]).expect(4);
+    assert_eq!(charts(&["--unique-instances"]), (2, 2, Value::Null), "each node has a mesh of its own");
+    program.run(&["check", "two.glb", "--unique-instances"]).expect(0);
+    let found = read_unique(&fs::read(program.path("two.glb")).expect("it is there")).unwrap();
+    assert_eq!(found.polygons, read_unique(&maker.glb()).unwrap().polygons, "the surface is what it was");
 }
 
 #[test]

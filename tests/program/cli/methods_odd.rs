@@ -6,6 +6,7 @@ use freebound::session::{Compared, Document, Model};
 use freebound_core::mesh::{PolygonMesh, Preparation, VertexId};
 use freebound_core::pipeline::{Fit, Target};
 use freebound_core::problem::{BoundaryShape, Control, Family, Method, NamedOption as _, PinKind, Variant};
+use freebound_io::ReadOptions;
 use glam::{DVec2, DVec3};
 
 use super::program::obj_text;
@@ -42,7 +43,8 @@ struct Odd {
 
 fn odd(name: &'static str, mesh: impl Into<PolygonMesh>) -> Odd {
     let mesh = mesh.into();
-    let model = Model::read_stream(name, obj_text(&mesh).as_bytes(), &|| false).expect("it can be read");
+    let model = Model::read_stream(name, obj_text(&mesh).as_bytes(), ReadOptions::default(), &|| false)
+        .expect("it can be read");
     let model = model.in_form(Preparation::default());
     let disk = model.disk().unwrap_or_else(|| panic!("{name} is no disk"));
     assert!(disk.vertex_count() >= mesh.positions.len(), "{name}: what is odd stays");

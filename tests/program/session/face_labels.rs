@@ -2,7 +2,7 @@
 
 use freebound::session::Model;
 use freebound_core::mesh::{Preparation, Repairs, VertexId, borders};
-use freebound_io::{LabelError, MeshFile, read_stream};
+use freebound_io::{Instances, LabelError, MeshFile, ReadOptions, read_stream};
 use serde_json::{Value, json};
 
 use freebound_testkit::glb::{GlbMaker, U32, sheet};
@@ -64,7 +64,8 @@ fn two_primitives(materials: [Value; 2], nodes: usize) -> Model {
     for k in 0..nodes {
         maker.push("nodes", json!({"mesh": mesh, "translation": [0, 0, 9 * k]}));
     }
-    let model = Model::read_stream("sheet", maker.glb().as_slice(), &|| false).expect("it is right");
+    let options = ReadOptions { instances: Instances::Unique };
+    let model = Model::read_stream("sheet", maker.glb().as_slice(), options, &|| false).expect("it is right");
     model.in_form(Preparation::default())
 }
 

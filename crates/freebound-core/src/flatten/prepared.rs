@@ -16,6 +16,7 @@ use crate::linear::fixed_solve::FixedSolve;
 use crate::linear::free_gauge::FreeProblem;
 use crate::linear::free_solve::FreeSolve;
 use crate::linear::spectral::spectral;
+use crate::linear::spectral_gauge::{SpectralGauge, spectral_gauge};
 use crate::linear::system::{FreeSystem, Site};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::nonlinear::angles::{AngleSystem, angle_based};
@@ -23,7 +24,9 @@ use crate::problem::pins::{
     GAUGE_PINS, PinPositions, Pins, are_held_alike, check_pins, fixed_pins, gauge_pins, targets_of,
 };
 use crate::problem::units::Units;
-use crate::problem::{Control, Family, Method, NamedOption as _, Phase, PhaseSeconds, Settings, Solution, SolveError};
+use crate::problem::{
+    Control, Embedding, Family, Method, NamedOption as _, Phase, PhaseSeconds, Settings, Solution, SolveError,
+};
 use crate::weights::equations;
 use crate::weights::equations::Equations;
 use crate::weights::shape_preserving::shape_preserving;
@@ -207,16 +210,23 @@ impl Prepared {
         let units = if self.own_places.is_some() { Units::default() } else { Units::of(&held, self.settings.size) };
         let targets = self.own_places.clone().unwrap_or_else(|| targets_of(&units.pins(&held)));
         let site = Site { mesh, system: &self.system };
-        let (mut embedding, residual) = match &self.values {
+        let (mut embedding, mut residual) = match &self.values {
             Values::Free(free) => free.solve(site, &targets, control)?,
             Values::Fixed(fixed) => fixed.solve(site, &targets, control)?,
         };
+        let spectral = self.without_gauge_pins(site, &embedding, control)?;
+        let convergence = spectral.as_ref().map(|spectral| spectral.convergence);
+        if let Some(spectral) = spectral {
+            (embedding, residual) = (spectral.embedding, spectral.residual);
+        }
         embedding.gather_unused(mesh);
         let linear = match &self.values {
             Values::Free(free) => free.numbers(mesh, &embedding, residual, control)?,
             Values::Fixed(fixed) => fixed.numbers(site, &embedding, residual, control)?,
         };
-        let in_force = if self.own_places.is_some() {
+        let in_force = if convergence.is_some() {
+            Pins::new()
+        } else if self.own_places.is_some() {
             fixed_pins(targets.keys().map(|&vertex| (vertex, embedding[vertex])))
         } else {
             units.embedding_to_plane(&mut embedding, &held);
@@ -227,9 +237,21 @@ impl Prepared {
             pins: in_force,
             gauge_completed: self.own_places.is_some(),
             linear: Some(linear),
-            convergence: None,
+            convergence,
             seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..self.seconds },
         })
+    }
+
+    /// Spectral map, in place of the map with gauge pins. `None` if the method or the user asks for pins.
+    fn without_gauge_pins(
+        &self,
+        site: Site<'_>,
+        embedding: &Embedding,
+        control: Control<'_>,
+    ) -> Result<Option<SpectralGauge>, SolveError> {
+        let Values::Free(free) = &self.values else { return Ok(None) };
+        let is_wanted = self.own_places.is_some() && self.settings.method == Method::Auto && free.has_spectral_gauge();
+        if is_wanted { spectral_gauge(free, site, embedding, control) } else { Ok(None) }
     }
 }
 

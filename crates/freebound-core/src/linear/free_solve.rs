@@ -165,6 +165,31 @@ impl FreeSolve {
         better_gauge(site, &self.equations, &self.factor, &self.eliminated, control)
     }
 
+    /// Equations of all vertices.
+    pub(crate) const fn equations(&self) -> &Equations<Complex<f64>> {
+        &self.equations
+    }
+
+    /// Pins whose equations are dropped.
+    pub(crate) fn eliminated(&self) -> &[VertexId] {
+        &self.eliminated
+    }
+
+    /// True if the matrix is Hermitian and the equations of two pins are dropped.
+    pub(crate) fn has_spectral_gauge(&self) -> bool {
+        self.is_hermitian && self.least_squares.is_none() && self.eliminated.len() == GAUGE_PINS
+    }
+
+    /// Moves of the other vertices that cancel `terms`, by substitution alone.
+    pub(crate) fn substitute(
+        &self,
+        terms: &[Complex<f64>],
+        control: Control<'_>,
+    ) -> Result<Vec<Complex<f64>>, SolveError> {
+        control.go_on()?;
+        Ok(self.factor.substitute(terms, control.cancel())?)
+    }
+
     fn factored<'a>(&'a self, control: Control<'a>) -> Factored<'a> {
         Factored { matrix: &self.matrix, factor: &self.factor, cancel: control.cancel() }
     }

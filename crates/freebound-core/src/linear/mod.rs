@@ -7,7 +7,8 @@
 //! | `least_squares`, `many_pins`, `left_kernel` | all equations kept, for few or many pins; dependent equations |
 //! | `convex`, `hull_corners`, `fixed_solve` | boundary on a convex shape |
 //! | `iterate` | mean-value iteration (paper §4) |
-//! | `spectral`, `stretch` | spectral parameterization without pins; stretch minimisation |
+//! | `spectral`, `spectral_gauge` | spectral parameterization without pins; from the factors of two gauge pins |
+//! | `stretch` | stretch minimisation |
 
 pub(crate) mod block_pattern;
 pub(crate) mod convex;
@@ -21,6 +22,7 @@ mod least_squares;
 mod left_kernel;
 mod many_pins;
 pub(crate) mod spectral;
+pub(crate) mod spectral_gauge;
 mod stretch;
 pub(crate) mod system;
 

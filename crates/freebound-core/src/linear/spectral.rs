@@ -139,7 +139,7 @@ fn first_iterate(mesh: &DiskMesh) -> Vec<C64> {
 }
 
 /// Removes the constant part.
-fn centre(x: &mut [C64]) {
+pub(super) fn centre(x: &mut [C64]) {
     let mean = x.iter().sum::<C64>() / x.len() as f64;
     for x in x {
         *x -= mean;
@@ -228,7 +228,7 @@ impl Answer<'_> {
             embedding[vertex] = DVec2::new(z.re, z.im);
         }
         embedding.check_finite()?;
-        let (eigenvalue, residual) = self.eigenvalue(&embedding)?;
+        let (eigenvalue, residual) = pencil_residual(self.mesh, self.equations, &embedding, self.control)?;
         let limit = LIMITS.tolerance;
         let stop = if found.residual <= limit { Stop::Converged } else { Stop::Limit };
         let convergence = Convergence { steps: found.applications, residual: found.residual, stop };
@@ -248,29 +248,33 @@ impl Answer<'_> {
         };
         Ok(Spectral { solution, eigenvalue })
     }
+}
 
-    /// Eigenvalue λ as the energy of an embedding of boundary norm 1, and its residual. The residual is ‖L z − λ B
-    /// z‖ relative to the sizes of the terms of L z.
-    fn eigenvalue(&self, embedding: &Embedding) -> Result<(f64, f64), SolveError> {
-        let place = |v: VertexId| C64::new(embedding[v].x, embedding[v].y);
-        let free = self.system.free();
-        let force = |row: usize| -self.equations.residual_of(self.mesh, embedding, free[row]);
-        let forces: Vec<C64> = self.control.each(free.len(), force)?;
-        let work = |(&v, force): (&VertexId, &C64)| (place(v).conj() * force).re;
-        let eigenvalue = free.iter().zip(&forces).map(work).sum::<f64>().max(0.0);
-        let (mut left, mut whole) = (0.0, 0.0);
-        for run in self.control.runs(free.len()) {
-            for row in run? {
-                let (v, force) = (free[row], forces[row]);
-                let held = if self.mesh.boundary_place(v).is_some() { eigenvalue * place(v) } else { C64::ZERO };
-                let size = |h: HalfedgeId| {
-                    let coefficient: C64 = self.equations.coefficients[h.index()];
-                    coefficient.norm() * embedding[self.mesh.head(h)].distance(embedding[v])
-                };
-                left += (force - held).norm_sqr();
-                whole += self.mesh.links_from(v).map(size).sum::<f64>().powi(2);
-            }
+/// Eigenvalue λ as the energy of an embedding of boundary norm 1, and its residual. The residual is ‖L z − λ B z‖
+/// relative to the sizes of the terms of L z.
+pub(super) fn pencil_residual(
+    mesh: &DiskMesh,
+    equations: &Equations<C64>,
+    embedding: &Embedding,
+    control: Control<'_>,
+) -> Result<(f64, f64), SolveError> {
+    let used: Vec<VertexId> = mesh.vertices().filter(|&v| mesh.is_used(v)).collect();
+    let place = |v: VertexId| C64::new(embedding[v].x, embedding[v].y);
+    let forces: Vec<C64> = control.each(used.len(), |at| -equations.residual_of(mesh, embedding, used[at]))?;
+    let work = |(&v, force): (&VertexId, &C64)| (place(v).conj() * force).re;
+    let eigenvalue = used.iter().zip(&forces).map(work).sum::<f64>().max(0.0);
+    let (mut left, mut whole) = (0.0, 0.0);
+    for run in control.runs(used.len()) {
+        for at in run? {
+            let (v, force) = (used[at], forces[at]);
+            let held = if mesh.boundary_place(v).is_some() { eigenvalue * place(v) } else { C64::ZERO };
+            let size = |h: HalfedgeId| {
+                let coefficient: C64 = equations.coefficients[h.index()];
+                coefficient.norm() * embedding[mesh.head(h)].distance(embedding[v])
+            };
+            left += (force - held).norm_sqr();
+            whole += mesh.links_from(v).map(size).sum::<f64>().powi(2);
         }
-        Ok((eigenvalue, if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }))
     }
+    Ok((eigenvalue, if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }))
 }

@@ -77,6 +77,8 @@ pub struct ChartSummary {
     pub first_face: FaceId,
     /// Number of triangles.
     pub faces: usize,
+    /// Index of the step.
+    pub step: usize,
     /// Pins and their errors.
     pub pins: PinsSummary,
     /// True if the boundary was laid on a convex shape or bent to one.
@@ -564,6 +566,7 @@ impl<'a> SolvedChart<'a> {
         ChartSummary {
             first_face: FaceId::new(mesh.mesh().polygon(FaceId::new(0))),
             faces: mesh.mesh().real_face_count(),
+            step: step.index,
             pins,
             has_convex_boundary: step.candidate.has_convex_boundary(),
             placement,

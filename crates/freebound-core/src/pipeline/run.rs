@@ -3,15 +3,22 @@
 use super::{Outcome, Problem};
 use crate::flatten::{Ending, Flattener, Step};
 use crate::mesh::DiskMesh;
-use crate::problem::{Control, Embedding, SolveError};
+use crate::problem::{Control, Embedding, Method, SolveError};
 
 /// A solved problem.
 #[derive(Clone, Debug)]
 pub struct SolvedProblem {
-    /// Last step. If a later stage failed, the last valid step that includes the constraints.
+    /// Last step. If a later stage failed, the last valid step that includes the constraints. If method auto without
+    /// targets ends without a planar map, the step with the fewest faults.
     pub outcome: Outcome,
     /// Reason of the end. An error if a later stage failed after valid steps.
     pub ending: Result<Ending, SolveError>,
+}
+
+/// Faults of a step, the worst first: not one-to-one, and the number of polygons that other programs could fold.
+fn faults(step: &Step) -> (bool, usize) {
+    let verdict = &step.verdict;
+    (!verdict.is_one_to_one(), verdict.flipped_faces.len() + verdict.concave_polygons.len())
 }
 
 impl Problem {
@@ -27,23 +34,27 @@ impl Problem {
         control: Control<'_>,
         mut observe: impl FnMut(&Step) -> Result<(), E>,
     ) -> Result<SolvedProblem, E> {
-        let mut last: Option<Step> = None;
+        // Other methods are asked for their last step.
+        let looks_for_best = self.settings.method == Method::Auto && self.targets.is_empty();
+        let mut kept: Option<Step> = None;
         loop {
             let step = match flattener.step(mesh, control) {
                 Ok(step) => step,
                 Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
                 // Steps before a failed stage are valid.
                 Err(error) => {
-                    let Some(before) = last else { return Err(error.into()) };
+                    let Some(before) = kept else { return Err(error.into()) };
                     return Ok(SolvedProblem { outcome: Outcome::new(mesh, self, before), ending: Err(error) });
                 }
             };
             observe(&step)?;
+            let is_worse = |kept: &Step| looks_for_best && faults(&step) > faults(kept);
             if let Some(ending) = flattener.ending() {
-                return Ok(SolvedProblem { outcome: Outcome::new(mesh, self, step), ending: Ok(ending) });
+                let best = kept.take_if(|kept| is_worse(kept)).unwrap_or(step);
+                return Ok(SolvedProblem { outcome: Outcome::new(mesh, self, best), ending: Ok(ending) });
             }
-            if !step.is_of_planar_start() {
-                last = Some(step);
+            if !step.is_of_planar_start() && !kept.as_ref().is_some_and(is_worse) {
+                kept = Some(step);
             }
         }
     }

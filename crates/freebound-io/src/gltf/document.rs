@@ -12,6 +12,9 @@ use crate::mesh_file::ReadError;
 /// Extensions that compress the numbers of a file, so that they cannot be read.
 const COMPRESSIONS: [&str; 3] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"];
 
+/// Extension that shows the mesh of a node many times.
+const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
 /// Document of a glTF file.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
@@ -44,6 +47,8 @@ pub(super) struct Node {
     pub(super) children: Vec<usize>,
     pub(super) mesh: Option<usize>,
     skin: Option<IgnoredAny>,
+    #[serde(default)]
+    extensions: Value,
     matrix: Option<[f64; 16]>,
     translation: Option<[f64; 3]>,
     rotation: Option<[f64; 4]>,
@@ -181,6 +186,11 @@ impl Node {
             DAffine3::from_scale_rotation_translation(DVec3::from(scale), turn, DVec3::from(place))
         };
         (transform != DAffine3::IDENTITY).then_some(transform)
+    }
+
+    /// True if an extension shows the node's mesh many times.
+    pub(super) fn is_repeated(&self) -> bool {
+        self.extensions.get(INSTANCING).is_some()
     }
 
     /// True if joints place the node instead of its own transform.

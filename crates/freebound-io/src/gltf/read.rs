@@ -11,14 +11,20 @@ use super::container::{Buffers, Chunks};
 use super::document::Document;
 use super::scene::{Scene, Shown, VertexSet, triangles};
 use super::{POSITION, TEXTURE};
-use crate::mesh_file::{MeshFile, NO_TEXTURE, ParseFaultKind, ReadError, Source, SourceFormat, Texture, fault_in};
+use crate::mesh_file::{
+    Instances, MeshFile, NO_TEXTURE, ParseFaultKind, ReadError, Source, SourceFormat, Texture, fault_in,
+};
 use freebound_core::mesh::{PolygonMesh, VertexId};
 
 /// Value in `vertex_of` for a vertex of the file that no triangle has.
 pub(super) const UNUSED: u32 = u32::MAX;
 
 /// Parses a file, as text or binary; files that belong to it are in `folder`.
-pub(crate) fn parse_gltf(mut bytes: Vec<u8>, folder: Option<&Path>) -> Result<MeshFile, ReadError> {
+pub(crate) fn parse_gltf(
+    mut bytes: Vec<u8>,
+    folder: Option<&Path>,
+    instances: Instances,
+) -> Result<MeshFile, ReadError> {
     let chunks = Chunks::of(&bytes)?;
     let json = bytes[chunks.json].to_vec();
     let binary = match chunks.binary {
@@ -31,7 +37,8 @@ pub(crate) fn parse_gltf(mut bytes: Vec<u8>, folder: Option<&Path>) -> Result<Me
     };
     let document = Document::of(&json)?;
     let buffers = Buffers::of(&document, binary, folder)?;
-    let shown = Shown::of(&document, &buffers)?;
+    let shown = Shown::of(&document, &buffers, instances)?;
+    let warnings = shown.warnings();
     let mut builder = Builder::of(&document, &buffers, shown);
     builder.faces()?;
     if builder.corners.is_empty() {
@@ -48,7 +55,7 @@ pub(crate) fn parse_gltf(mut bytes: Vec<u8>, folder: Option<&Path>) -> Result<Me
     let Buffers { bytes, starts } = buffers;
     let scene = Scene { json, starts, folder: folder.map(Path::to_owned), shown, vertex_of, corners };
     let source = Source::of(SourceFormat::Gltf(Arc::new(scene)), bytes, polygons.positions.len());
-    Ok(MeshFile { polygons, texture, source: Some(source), ..MeshFile::default() })
+    Ok(MeshFile { polygons, texture, source: Some(source), warnings, ..MeshFile::default() })
 }
 
 /// Mesh under construction.

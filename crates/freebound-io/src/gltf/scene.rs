@@ -1,16 +1,18 @@
 //! Meshes that a file shows, their transforms, and the numbers of their vertices.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::PathBuf;
 
 use glam::DAffine3;
+use serde_json::Value;
 
-use super::POSITION;
 use super::accessor::{Elements, count, no_such};
 use super::container::Buffers;
 use super::document::{Attributes, Document, Topology};
-use crate::mesh_file::{ParseFaultKind, ReadError, fault_in};
+use super::{POSITION, TANGENT};
+use crate::mesh_file::{Instances, ParseFaultKind, ReadError, ReadWarning, ReadWarningKind, fault_in};
+use crate::not_kept::FileData;
 
 /// Limit on the parts, corners and vertices shown, per byte of the buffers. At least `FEW` are always allowed.
 const COPIES: u64 = 16;
@@ -39,6 +41,10 @@ pub(super) struct Shown {
     pub(super) parts: Vec<Part>,
     /// Sets of vertices, ordered by instance.
     pub(super) sets: Vec<VertexSet>,
+    /// Nodes that show the mesh of an earlier instance, and share its map.
+    pub(super) sharing: Vec<usize>,
+    /// Nodes that an extension repeats. All copies share one map.
+    pub(super) repeated: Vec<usize>,
 }
 
 /// Mesh with a transform.
@@ -79,9 +85,35 @@ pub(super) struct VertexSet {
 }
 
 impl Scene {
+    /// Data of the shown meshes that follow from texture coordinates.
+    pub(crate) fn texture_data(&self) -> Vec<FileData> {
+        let has_tangents = self.shown.sets.iter().any(|set| set.attributes.contains_key(TANGENT));
+        has_tangents.then_some(FileData::Tangents).into_iter().collect()
+    }
+
+    /// Data of the shown meshes besides positions and texture coordinates.
+    pub(crate) fn data(&self) -> Vec<FileData> {
+        let json: Value = serde_json::from_slice(&self.json).unwrap_or_default();
+        let has = |name: &str| self.shown.sets.iter().any(|set| set.attributes.contains_key(name));
+        let mut shown = self.shown.instances.iter();
+        let is_named = |instance: &Instance| {
+            let of_node = instance.node.map(|node| &json["nodes"][node]["name"]);
+            of_node.is_some_and(Value::is_string) || json["meshes"][instance.mesh]["name"].is_string()
+        };
+        let mut found = vec![
+            (FileData::Materials, json["materials"].as_array().is_some_and(|materials| !materials.is_empty())),
+            (FileData::Names, shown.any(is_named)),
+            (FileData::Normals, has("NORMAL")),
+            (FileData::Colours, has("COLOR_0")),
+            (FileData::Tangents, has(TANGENT)),
+        ];
+        found.retain(|&(_, is_there)| is_there);
+        found.into_iter().map(|(data, _)| data).collect()
+    }
+
     /// Label for each face, equal for faces of one material; `None` if no primitive has a material.
     pub(crate) fn material_labels(&self, face_count: usize) -> Option<Vec<u32>> {
-        let json: serde_json::Value = serde_json::from_slice(&self.json).ok()?;
+        let json: Value = serde_json::from_slice(&self.json).ok()?;
         let material = |part: &Part| {
             let mesh = self.shown.instances[part.instance].mesh;
             json["meshes"][mesh]["primitives"][part.primitive]["material"].as_u64()
@@ -107,8 +139,13 @@ impl Scene {
 
 impl Shown {
     /// Collects the shown meshes of a file.
-    pub(super) fn of(document: &Document, buffers: &Buffers) -> Result<Self, ReadError> {
-        let mut own = Self { instances: instances(document)?, ..Self::default() };
+    pub(super) fn of(document: &Document, buffers: &Buffers, instances: Instances) -> Result<Self, ReadError> {
+        let mut own = Self { instances: all_instances(document)?, ..Self::default() };
+        let is_repeated = |node: &usize| document.nodes[*node].is_repeated();
+        own.repeated = own.instances.iter().filter_map(|instance| instance.node).filter(is_repeated).collect();
+        if instances == Instances::Shared {
+            own.share();
+        }
         let most = (COPIES * buffers.bytes.len() as u64).max(FEW).min(u64::from(u32::MAX));
         let part_count = |instance: &Instance| document.meshes[instance.mesh].primitives.len() as u64;
         let mut shown: u64 = own.instances.iter().map(part_count).sum();
@@ -144,6 +181,29 @@ impl Shown {
         Ok(own)
     }
 
+    /// Keeps the first instance of each mesh.
+    fn share(&mut self) {
+        let mut taken = BTreeSet::new();
+        let Self { instances, sharing, .. } = self;
+        instances.retain(|instance| {
+            let is_first = taken.insert(instance.mesh);
+            if !is_first {
+                sharing.extend(instance.node);
+            }
+            is_first
+        });
+    }
+
+    /// Warnings about nodes that share a map.
+    pub(super) fn warnings(&self) -> Vec<ReadWarning> {
+        let of = |kind, nodes: &[usize]| {
+            let warning = ReadWarning { kind, count: nodes.len(), line: None };
+            (!nodes.is_empty()).then_some(warning)
+        };
+        let sharing = of(ReadWarningKind::SharedInstances, &self.sharing);
+        sharing.into_iter().chain(of(ReadWarningKind::RepeatedNodes, &self.repeated)).collect()
+    }
+
     /// Part that contains a face.
     pub(super) fn part_of(&self, face: usize) -> usize {
         self.parts.partition_point(|part| part.first_face <= face) - 1
@@ -151,7 +211,7 @@ impl Shown {
 }
 
 /// Meshes of the nodes of the scene, or of all nodes; all meshes if there are no nodes.
-fn instances(document: &Document) -> Result<Vec<Instance>, ReadError> {
+fn all_instances(document: &Document) -> Result<Vec<Instance>, ReadError> {
     let mut found = Vec::new();
     if document.nodes.is_empty() {
         found.extend((0..document.meshes.len()).map(|mesh| Instance { node: None, mesh, transform: None }));

@@ -220,11 +220,12 @@ pub struct ReadWarning {
     pub kind: ReadWarningKind,
     /// Number of elements.
     pub count: usize,
-    /// Line of the first one in the file, counted from 1.
-    pub line: u64,
+    /// Line of the first one in the file, counted from 1. Absent for binary files and glTF.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<u64>,
 }
 
-/// Kind of elements that were left out.
+/// Kind of elements that were left out, or that share a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -233,6 +234,10 @@ pub enum ReadWarningKind {
     FacesOfFewCorners,
     /// Texture coordinates of corners that do not exist.
     MissingTextureCoordinates,
+    /// Nodes of a glTF file that show the mesh of an earlier node.
+    SharedInstances,
+    /// Nodes of a glTF file with `EXT_mesh_gpu_instancing`, which shows their mesh many times.
+    RepeatedNodes,
 }
 
 impl std::fmt::Display for ReadWarning {
@@ -245,8 +250,17 @@ impl std::fmt::Display for ReadWarning {
             ReadWarningKind::MissingTextureCoordinates => {
                 ["corner names no existing texture coordinate", "corners name no existing texture coordinate"]
             }
+            ReadWarningKind::SharedInstances => [
+                "node shows the mesh of another and shares its map",
+                "nodes show meshes of others and share their maps",
+            ],
+            ReadWarningKind::RepeatedNodes => [
+                "node is repeated by EXT_mesh_gpu_instancing: all copies share one map",
+                "nodes are repeated by EXT_mesh_gpu_instancing: all copies of a node share one map",
+            ],
         };
-        write!(f, "{count} {} (first: line {line})", if *count == 1 { one } else { several })
+        write!(f, "{count} {}", if *count == 1 { one } else { several })?;
+        line.map_or(Ok(()), |line| write!(f, " (first: line {line})"))
     }
 }
 

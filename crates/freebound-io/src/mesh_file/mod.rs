@@ -45,7 +45,7 @@ pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, ReadWar
 pub use labels::LabelError;
 pub use layout::LayoutError;
 pub use memory::{MemoryShortage, check_memory, memory_to_read};
-pub use read::{ReadProgress, read_mesh, read_mesh_with, read_stream, read_stream_with};
+pub use read::{Instances, ReadOptions, ReadProgress, read_mesh, read_mesh_with, read_stream, read_stream_with};
 pub use refined::{Refined, RefinedChart};
 pub use source::Source;
 pub(crate) use source::SourceFormat;

@@ -22,6 +22,23 @@ const CHUNK: u64 = 256 << 10;
 /// Maximum length of a line, bytes: a polygon with a million corners fits.
 const MAX_LINE: usize = 16 << 20;
 
+/// Options of reading a mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ReadOptions {
+    /// Use of meshes that several nodes of a glTF file show.
+    pub instances: Instances,
+}
+
+/// Use of a mesh that several nodes of a glTF file show.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Instances {
+    /// Read each mesh once, at its first node; all its nodes share its map.
+    #[default]
+    Shared,
+    /// Read a mesh of its own for each node; each gets a map of its own.
+    Unique,
+}
+
 /// Progress of reading a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReadProgress {
@@ -37,7 +54,7 @@ pub struct ReadProgress {
 ///
 /// [`ReadError`] for the fault of the file.
 pub fn read_mesh(path: &Path) -> Result<MeshFile, ReadError> {
-    read_mesh_with(path, &mut |_| ControlFlow::Continue(()))
+    read_mesh_with(path, ReadOptions::default(), &mut |_| ControlFlow::Continue(()))
 }
 
 /// Reads a mesh from a file and reports progress; `watch` cancels the reading by breaking.
@@ -47,11 +64,12 @@ pub fn read_mesh(path: &Path) -> Result<MeshFile, ReadError> {
 /// [`ReadError`] for the fault of the file.
 pub fn read_mesh_with(
     path: &Path,
+    options: ReadOptions,
     watch: &mut dyn FnMut(ReadProgress) -> ControlFlow<()>,
 ) -> Result<MeshFile, ReadError> {
     let file = File::open(path)?;
     let total = file.metadata().ok().filter(std::fs::Metadata::is_file).map(|data| data.len());
-    read(file, Some(path), &mut |bytes| watch(ReadProgress { bytes, total }))
+    read(file, Some(path), options, &mut |bytes| watch(ReadProgress { bytes, total }))
 }
 
 /// Reads a mesh from a stream; its first bytes determine the format.
@@ -60,7 +78,7 @@ pub fn read_mesh_with(
 ///
 /// [`ReadError`] for the fault of the stream.
 pub fn read_stream(reader: impl Read) -> Result<MeshFile, ReadError> {
-    read_stream_with(reader, &mut |_| ControlFlow::Continue(()))
+    read_stream_with(reader, ReadOptions::default(), &mut |_| ControlFlow::Continue(()))
 }
 
 /// Reads a mesh from a stream and reports the bytes read so far; `watch` cancels the reading by breaking.
@@ -70,14 +88,16 @@ pub fn read_stream(reader: impl Read) -> Result<MeshFile, ReadError> {
 /// [`ReadError`] for the fault of the stream.
 pub fn read_stream_with(
     reader: impl Read,
+    options: ReadOptions,
     watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
 ) -> Result<MeshFile, ReadError> {
-    read(reader, None, watch)
+    read(reader, None, options, watch)
 }
 
 fn read(
     mut reader: impl Read,
     path: Option<&Path>,
+    options: ReadOptions,
     watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
 ) -> Result<MeshFile, ReadError> {
     let mut bytes = Vec::new();
@@ -92,7 +112,10 @@ fn read(
         Format::StlText => parse_stl_text(&bytes)?,
         Format::StlBinary => parse_stl_binary(&bytes)?,
         Format::Ply => return parse_ply(bytes),
-        Format::Gltf => return parse_gltf(bytes, path.map(|path| path.parent().unwrap_or(Path::new("")))),
+        Format::Gltf => {
+            let folder = path.map(|path| path.parent().unwrap_or(Path::new("")));
+            return parse_gltf(bytes, folder, options.instances);
+        }
     };
     if format == Format::Obj {
         mesh.source = Some(Source::of(SourceFormat::Obj, bytes, mesh.polygons.positions.len()));

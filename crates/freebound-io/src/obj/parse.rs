@@ -112,7 +112,7 @@ impl LeftOut {
     }
 
     fn warning(self, kind: ReadWarningKind) -> Option<ReadWarning> {
-        (self.count > 0).then_some(ReadWarning { kind, count: self.count, line: self.line })
+        (self.count > 0).then_some(ReadWarning { kind, count: self.count, line: Some(self.line) })
     }
 }
 

@@ -1,6 +1,7 @@
 //! Header of a PLY file: its elements, their numbers, and the properties of each.
 
 use crate::mesh_file::{FaultPlace, ParseFaultKind, ReadError, fault_at};
+use crate::not_kept::FileData;
 use crate::obj::{Lines, quoted};
 
 /// Layout of a PLY file.
@@ -127,6 +128,14 @@ impl Element {
 }
 
 impl Header {
+    /// Data of the vertices besides positions and texture coordinates.
+    pub(crate) fn data(&self) -> Vec<FileData> {
+        let vertex = self.elements.iter().find(|element| element.name == "vertex");
+        let has = |names: &[&str]| vertex.is_some_and(|element| element.property(names).is_some());
+        let normals = has(&["nx"]).then_some(FileData::Normals);
+        normals.into_iter().chain(has(&["red", "r", "diffuse_red"]).then_some(FileData::Colours)).collect()
+    }
+
     /// Parses the header at the beginning of a file.
     pub(super) fn of(bytes: &[u8]) -> Result<Self, ReadError> {
         let mut header = Self { encoding: Encoding::Text, elements: Vec::new(), length: 0, lines: 0 };

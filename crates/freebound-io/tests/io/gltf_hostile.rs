@@ -8,11 +8,11 @@ use serde_json::{Value, json};
 
 use crate::obj::{assert_faults, out_of_range, place_and_kind, too_many, unexpected};
 use freebound_testkit::assert_message;
-use freebound_testkit::glb::{GlbMaker, U16, bytes_of, plain};
+use freebound_testkit::glb::{GlbMaker, U16, bytes_of, plain, read_unique};
 
 fn fault(bytes: &[u8]) -> ReadError {
     let start = Instant::now();
-    let error = read_stream(bytes).expect_err("it is wrong");
+    let error = read_unique(bytes).expect_err("it is wrong");
     assert!(start.elapsed() < Duration::from_millis(200), "{error}: {:?}", start.elapsed());
     assert!(!error.remedy().is_empty());
     error
@@ -254,7 +254,7 @@ proptest! {
         let mut json = maker.finished(None);
         *value_at(&mut json, &choices) = number;
         let glb = freebound_testkit::glb::glb_of(&json, &maker.binary);
-        if let Ok(file) = read_stream(glb.as_slice()) {
+        if let Ok(file) = read_unique(&glb) {
             prop_assert!(file.polygons.positions.iter().all(|p| p.is_finite()));
             prop_assert!(file.polygons.corners.iter().all(|v| v.index() < file.polygons.positions.len()));
         }

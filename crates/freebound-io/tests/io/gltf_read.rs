@@ -1,10 +1,10 @@
 //! Reading glTF files: the triangles of another reader, welded within a mesh, with every bit of the numbers.
 
-use freebound_testkit::glb::{plain, sheet};
+use freebound_testkit::glb::{plain, read_unique, sheet};
 use std::fs;
 use std::io::ErrorKind;
 
-use freebound_io::{MeshFile, NO_TEXTURE, ReadError, read_mesh, read_stream};
+use freebound_io::{MeshFile, NO_TEXTURE, ReadError, ReadWarning, ReadWarningKind, read_mesh, read_stream};
 use glam::{DVec2, DVec3};
 use serde_json::json;
 
@@ -144,15 +144,37 @@ fn nodes_are_walked_from_the_first_root_down_with_their_transforms() {
     ]);
     let all = seen(&maker.glb());
     assert_eq!(all.len(), 4 * 8);
-    assert_eq!(triangles(&read(&maker.glb())), all, "all nodes, where no scene is named");
+    assert_eq!(triangles(&read_unique(&maker.glb()).unwrap()), all, "all nodes, where no scene is named");
     maker.json["scenes"] = json!([{"nodes": [0]}, {"nodes": [2, 0]}]);
     maker.json["scene"] = json!(1);
     let of_scene = seen(&maker.glb());
     assert_eq!(of_scene.len(), 4 * 8);
     assert_ne!(of_scene, all, "another order");
-    assert_eq!(triangles(&read(&maker.glb())), of_scene);
+    assert_eq!(triangles(&read_unique(&maker.glb()).unwrap()), of_scene);
     maker.json["scene"] = json!(0);
-    assert_eq!(triangles(&read(&maker.glb())).len(), 3 * 8);
+    assert_eq!(triangles(&read_unique(&maker.glb()).unwrap()).len(), 3 * 8);
+}
+
+#[test]
+fn nodes_of_one_mesh_share_it_at_the_place_of_the_first_and_copies_by_an_extension_are_named() {
+    let mut maker = plain(2, U16);
+    let second = maker.json["meshes"][0].clone();
+    maker.push("meshes", second);
+    maker.json["nodes"] = json!([
+        {"mesh": 0, "translation": [8, -4, 2]},
+        {"mesh": 1, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {}}}},
+        {"mesh": 0, "scale": [2, 4, -0.5]},
+        {"mesh": 0},
+    ]);
+    let file = read(&maker.glb());
+    let all = seen(&maker.glb());
+    assert_eq!(triangles(&file), all[..2 * 8]);
+    let warning = |kind, count| ReadWarning { kind, count, line: None };
+    let of = [warning(ReadWarningKind::SharedInstances, 2), warning(ReadWarningKind::RepeatedNodes, 1)];
+    assert_eq!(file.warnings, of);
+    let unique = read_unique(&maker.glb()).unwrap();
+    assert_eq!(triangles(&unique), all);
+    assert_eq!(unique.warnings, of[1..]);
 }
 
 #[test]
@@ -194,7 +216,7 @@ fn vertices_at_one_place_are_one_within_a_node_and_never_between_nodes() {
     }
     maker.push("meshes", json!({"primitives": primitives}));
     maker.json["nodes"] = json!([{"mesh": 0}, {"mesh": 0}]);
-    let file = read(&maker.glb());
+    let file = read_unique(&maker.glb()).unwrap();
     assert_eq!(file.polygons.positions.len(), 2 * 16, "two nodes of 16 vertices");
     let whole = read(&plain(3, U16).glb());
     assert_eq!(triangles(&file), [triangles(&whole), triangles(&whole)].concat());

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use freebound_core::mesh::VertexId;
 use freebound_io::{
-    MAX_PARSE_FAULTS, NO_TEXTURE, ParseFault, ParseFaultKind, ReadError, ReadWarning, ReadWarningKind, read_mesh,
-    read_mesh_with, read_stream, read_stream_with,
+    MAX_PARSE_FAULTS, NO_TEXTURE, ParseFault, ParseFaultKind, ReadError, ReadOptions, ReadWarning, ReadWarningKind,
+    read_mesh, read_mesh_with, read_stream, read_stream_with,
 };
 use glam::DVec3;
 use proptest::prelude::*;
@@ -222,7 +222,7 @@ fn malformed_lines_are_named_with_their_numbers() {
 }
 
 fn warning(kind: ReadWarningKind, count: usize, line: u64) -> ReadWarning {
-    ReadWarning { kind, count, line }
+    ReadWarning { kind, count, line: Some(line) }
 }
 
 #[test]
@@ -434,13 +434,13 @@ fn reading_reports_progress_and_stops_when_asked() {
     std::fs::write(&path, format!("{ELEMENTS}f 1 2 3\n{}", "# filler\n".repeat(100_000))).expect("written");
     let size = std::fs::metadata(&path).expect("it is there").len();
     let mut seen = Vec::new();
-    let watched = read_mesh_with(&path, &mut |progress| {
+    let watched = read_mesh_with(&path, ReadOptions::default(), &mut |progress| {
         assert_eq!(progress.total, Some(size));
         seen.push(progress.bytes);
         ControlFlow::Continue(())
     });
     assert!(watched.is_ok() && seen.len() > 2 && seen.is_sorted() && seen.last() == Some(&size), "{seen:?}");
-    let stopped = read_stream_with(ELEMENTS.as_bytes(), &mut |_| ControlFlow::Break(()));
+    let stopped = read_stream_with(ELEMENTS.as_bytes(), ReadOptions::default(), &mut |_| ControlFlow::Break(()));
     assert!(matches!(stopped, Err(ReadError::Cancelled)));
 }
 

@@ -1,12 +1,12 @@
 //! Spectral conformal maps: agreement with a dense eigensolver, no more energy than with pins, and no pin.
 
-use freebound_core::flatten::solve_once;
+use freebound_core::flatten::{Flattener, Step, solve_once};
 use freebound_core::linear::spectral;
-use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound_core::problem::{Control, Embedding, Family, Method, Pins, Settings, SolveError, Stop, hard_pins};
 use freebound_core::weights::equations;
 use freebound_testkit::BuiltIn;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use num_complex::Complex;
 
@@ -265,5 +265,91 @@ fn every_disk_of_tests_data_has_one_of_no_more_energy_than_two_pins_give() {
 corpus_test! {
     fn every_disk_of_the_corpus_has_one_of_no_more_energy_than_two_pins_give() {
         assert_every_disk_has_one_of_no_more_energy_than_two_pins_give(corpus_disks());
+    }
+}
+
+/// First step of method auto.
+fn auto(mesh: &DiskMesh, pins: &Pins) -> Step {
+    Flattener::new(Settings::default(), pins.clone()).step(mesh, Control::unattended()).expect("solvable")
+}
+
+#[test]
+fn without_pins_method_auto_begins_with_it_found_with_factors_of_two_pins() {
+    let built_in = [BuiltIn::Face, BuiltIn::BumpyCap].map(|built_in| disk(built_in.mesh()));
+    for (name, mesh) in curved_meshes().into_iter().chain(built_in.map(|mesh| ("built-in".to_owned(), mesh))) {
+        let found = spectral(&mesh, Control::unattended()).unwrap();
+        let step = auto(&mesh, &Pins::new());
+        let (solution, other) = (&step.candidate.solution, &found.solution.embedding);
+        let error = distance_up_to_similarity(&solution.embedding, other);
+        assert!(error < 1e-8, "{name}: off by {error:e}");
+        let linear = solution.linear.unwrap();
+        assert!(linear.residual < 1e-11, "{name}: {:e}", linear.residual);
+        let convergence = solution.convergence.unwrap();
+        assert!(convergence.stop == Stop::Converged && convergence.steps <= 40, "{name}: {convergence:?}");
+    }
+}
+
+#[test]
+fn a_single_pin_only_places_the_map_of_method_auto() {
+    for (name, mesh) in curved_meshes() {
+        let free = auto(&mesh, &Pins::new());
+        let vertex = VertexId::from_index(mesh.vertex_count() / 2);
+        let target = DVec2::new(-3.0, 7.5);
+        let pinned = auto(&mesh, &hard_pins([(vertex, target)]));
+        assert_eq!(pinned.candidate.solution.embedding[vertex], target, "{name}");
+        let by = target - free.candidate.solution.embedding[vertex];
+        for (&free, pinned) in free.candidate.solution.embedding.iter().zip(pinned.candidate.solution.embedding.iter())
+        {
+            assert!((free + by).distance(*pinned) < 1e-9, "{name}: {free} and {pinned}");
+        }
+    }
+}
+
+/// Sheet that is its own mirror image for x → −x, with the reflection of each vertex.
+fn mirror_symmetric(half: u32, rows: u32) -> (DiskMesh, Vec<usize>) {
+    let width = 2 * half + 1;
+    let (mut positions, mut triangles, mut mirror) = (Vec::new(), Vec::<[u32; 3]>::new(), Vec::new());
+    for row in 0..=rows {
+        for column in 0..width {
+            let (x, y) = (f64::from(column) - f64::from(half), f64::from(row));
+            let height = 1.5 * (0.9 * x.abs() + 0.4 * y).sin() + 0.03 * x * x * y;
+            positions.push(DVec3::new(x * (1.0 + 0.1 * y), y, height));
+            mirror.push((row * width + width - 1 - column) as usize);
+        }
+    }
+    for row in 0..rows {
+        for column in 0..width - 1 {
+            let a = row * width + column;
+            let (b, c, d) = (a + 1, a + width + 1, a + width);
+            let of_right = [[a, b, c], [a, c, d]];
+            let of_left = [[a, b, d], [b, c, d]];
+            triangles.extend(if column < half { of_left } else { of_right });
+        }
+    }
+    (disk(TriMesh::new(positions, &triangles)), mirror)
+}
+
+#[test]
+fn a_mirror_symmetric_mesh_has_a_mirror_symmetric_map_by_default() {
+    for (half, rows) in [(1, 3), (4, 6), (7, 3), (20, 30)] {
+        let (mesh, mirror) = mirror_symmetric(half, rows);
+        let embedding = auto(&mesh, &Pins::new()).candidate.solution.embedding;
+        let reflected: Vec<DVec2> =
+            mirror.iter().map(|&v| embedding[VertexId::from_index(v)] * DVec2::new(-1.0, 1.0)).collect();
+        let error = distance_up_to_similarity(&reflected, &embedding);
+        assert!(error < 1e-9, "{half} and {rows}: off by {error:e}");
+    }
+}
+
+#[test]
+fn flat_sheets_keep_the_map_with_two_pins_to_rounding() {
+    for mesh in [disk(sheet(5, 0.0)), disk(sheet(20, 0.0))] {
+        let plane: Vec<DVec2> = mesh.mesh().positions.iter().map(|x| x.truncate()).collect();
+        let natural = Settings::new(Method::Natural, Family::default());
+        let pinned = solve_once(&mesh, &natural, &Pins::new(), Control::unattended()).expect("solvable");
+        let step = auto(&mesh, &Pins::new());
+        let [with, without] = [&pinned.embedding, &step.candidate.solution.embedding]
+            .map(|embedding| distance_up_to_similarity(&plane, embedding));
+        assert!(without < 3.0 * with + 1e-14, "off by {without:e} instead of {with:e}");
     }
 }
