@@ -13,13 +13,15 @@ use super::say::say;
 use super::standard::read_typed;
 use super::summary::{deliver, file_words, mesh_words, size_words};
 use crate::session::Model;
-use freebound_core::mesh::{DiskMesh, FaceId, Part, Preparation, TriMesh, parts};
+use freebound_core::mesh::{DiskMesh, Part, Preparation, parts};
 use freebound_core::pipeline::{PreparedMesh, Surface};
 use freebound_core::verify::{
-    AtlasVerdict, ChartRelations, DistortionSummary, Finding, FindingSeverity, PlaneLayout, Verdict, distortion,
-    equal_outlines, layout_verdict, stacked_atlas_verdict, verdict,
+    AtlasVerdict, ChartRelations, DistortionSummary, Finding, FindingSeverity, Verdict, distortion, equal_outlines,
+    stacked_atlas_verdict, verdict,
 };
-use freebound_io::{MeshReport, Report, Seconds, TextureError, TextureMesh, verdict_as_in_file};
+use freebound_io::{
+    JudgedLayout, MeshReport, Report, Seconds, TextureError, TextureMesh, groups_of, verdict_as_in_file,
+};
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandError> {
     let start = Instant::now();
@@ -29,18 +31,15 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandE
     let model = read_typed(&arguments.mesh, arguments.reading)?.in_form(Preparation::default());
     places.spare_materials(&model.source, &arguments.mesh)?;
     let path = model.path_words();
-    let (texture, bare) = match model.source.partial_texture_mesh() {
-        Ok(found) => found,
-        Err(TextureError::None) => return check_mesh(&model, arguments, path, start),
-        Err(error) => return Err(CommandError::Texture { path, error }),
-    };
     let read = start.elapsed().as_secs_f64();
     go_on()?;
-    let labels = model.source.material_labels().ok().filter(|_| !arguments.across_materials);
-    let groups = labels.as_ref().map(|labels| groups_of(labels, &texture.mesh)).unwrap_or_default();
-    let coordinates = &texture.embedding;
-    let layout = PlaneLayout { mesh: &texture.mesh, coordinates, groups: &groups, bare_faces: &bare };
-    let mut found = layout_verdict(layout, arguments.options()).judged_by(&arguments.ignore, &arguments.denied_codes());
+    let JudgedLayout { texture, labels, verdict } =
+        match model.source.judged_layout(arguments.options(), arguments.across_materials) {
+            Ok(found) => found,
+            Err(TextureError::None) => return check_mesh(&model, arguments, path, start),
+            Err(error) => return Err(CommandError::Texture { path, error }),
+        };
+    let mut found = verdict.judged_by(&arguments.ignore, &arguments.denied_codes());
     found.planar_in_f32 |= found.planar && model.source.is_turned_over();
     go_on()?;
     let outcome = if found.passes { CommandOutcome::Fine } else { CommandOutcome::FallsShort };
@@ -74,11 +73,6 @@ fn finding_words(finding: &Finding) -> String {
         FindingSeverity::Note => "note",
     };
     format!("{severity} {}: {finding}", finding.code.name())
-}
-
-/// Material of each triangle. `labels` has that of each face of the file.
-fn groups_of(labels: &[u32], mesh: &TriMesh) -> Vec<u32> {
-    (0..mesh.face_count()).map(|face| labels[mesh.polygon(FaceId::from_index(face)) as usize]).collect()
 }
 
 /// Material of all triangles of a chart; `None` if they differ.

@@ -101,6 +101,10 @@ impl HeadlessJob<'_> {
         let before = Instant::now();
         let mut output = finished_atlas(&charts, self.options.packing, self.options.arrangement);
         report_seams(&mut output, model, read);
+        if self.fit == Fit::True {
+            let unequal = |error: std::io::Error| CommandError::Usage(format!("--fit true: {error}: remove it"));
+            output.scale_to_true_size().map_err(unequal)?;
+        }
         output.report.seconds.verify = before.elapsed().as_secs_f64();
         self.write(&mut output, None, start, progress)?;
         self.conclude(&output, || atlas_summary(&output.report))
@@ -127,13 +131,13 @@ impl HeadlessJob<'_> {
     fn refuse_idle_options(&self, model: &Model) -> Result<(), CommandError> {
         let has_own_scales =
             !(self.options.targets.is_empty() && self.options.sizes.is_empty() && self.locked.is_empty());
+        let own_scales = "charts with pins, locks or sizes have scales of their own";
+        let is_true = self.fit == Fit::True;
         let cases = [
-            (
-                has_own_scales && self.svg_fit == Fit::True,
-                "--svg-scale true",
-                "charts with pins, locks or sizes have scales of their own",
-            ),
-            (self.fit == Fit::True, "--fit true", "charts are packed into the unit square; see --svg-scale true"),
+            (has_own_scales && is_true, "--fit true", own_scales),
+            (is_true && self.options.packing.density.is_some(), "--fit true", "--density sets the size of the charts"),
+            (is_true && self.options.packing.tiles > 1, "--fit true", "tiles are unit squares"),
+            (has_own_scales && self.svg_fit == Fit::True, "--svg-scale true", own_scales),
             (self.steps.is_some(), "--steps", "it draws the steps of one chart"),
         ];
         match cases.into_iter().find(|(given, ..)| *given) {

@@ -70,7 +70,7 @@ pub(super) fn ending_words(solved: &SolvedProblem, output: &Output) -> String {
         let steps = if count == 1 { "step" } else { "steps" };
         let stage = step.candidate.stage.words();
         let taken = match output.report.written_step {
-            Some(written) => format!("at step {written} of {count}, the best one"),
+            Some(written) => format!("at step {written}, the best of {count}"),
             None => format!("after {count} {steps}"),
         };
         words = format!("{words} {taken} ({stage}{boundary}{why})");
@@ -91,9 +91,10 @@ fn is_folded(report: &Report) -> bool {
 /// Text for the effect of rounding to 32 bits.
 fn rounding_words(report: &Report) -> Option<String> {
     if is_folded(report) {
-        let text =
-            "planar in 64 bits, but not in 32: write OBJ or PLY with --precision f64, or split the map into charts";
-        return Some(text.to_owned());
+        // Only a run with a method can cut.
+        let can_cut = report.method.is_some() && report.seams.is_none();
+        let cut = if can_cut { "add --cut auto, or " } else { "" };
+        return Some(format!("planar in 64 bits, but not in 32: {cut}write OBJ or PLY with --precision f64"));
     }
     let moved = report.rounding.map(|rounding| rounding.moved).filter(|&moved| moved > 0)?;
     let vertices = if moved == 1 { "vertex" } else { "vertices" };
@@ -333,13 +334,14 @@ pub(super) fn comparison_summary(report: &ComparisonReport, by: Option<Column>) 
 fn chart_words(chart: &ChartReport, packing: Option<PackingSummary>) -> String {
     let face = chart.first_face.number();
     let steps = counted(chart.steps.len(), "step", "steps");
-    let stage = chart.steps.last().map(|step| format!(" ({})", step.stage.words())).unwrap_or_default();
+    let written = chart.steps.iter().rfind(|step| chart.written_step.is_none_or(|written| step.index == written));
+    let stage = written.map(|step| format!(" ({})", step.stage.words())).unwrap_or_default();
     let faces = counted(chart.faces, "face", "faces");
     let energy = chart.distortion.symmetric_dirichlet.mean;
     let pins = pins_words(&chart.pins).map(|words| format!("; {words}")).unwrap_or_default();
     // Most charts have the common density of the packing.
     let is_own = packing.is_none_or(|packing| (chart.density / packing.density - 1.0).abs() > 1e-6);
-    let density = if is_own && chart.density.is_finite() {
+    let density = if is_own && chart.placement != Placement::True && chart.density.is_finite() {
         format!("; {:.4} pixels per unit", chart.density)
     } else {
         String::new()

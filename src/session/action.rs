@@ -80,6 +80,8 @@ pub enum Action {
     SetSeams(Seams),
     /// Sets the treatment of holes.
     SetHoles(HoleTreatment),
+    /// Judges the texture coordinates of the file in the background.
+    CheckLayout,
     /// Starts from the texture coordinates of the file and cuts the mesh along their seams, if there are any.
     TakeLayout,
     /// Adds the edges in a file to the seams.

@@ -18,6 +18,7 @@
 //! | `reshaping`          | mesh in another preparation, with its pins                             |
 //! | `seams`              | seams that the user draws, and their files                             |
 //! | `unwrapping`         | part: automatic seams, found in the background                         |
+//! | `layout_check`       | part: verdict on the texture coordinates of the file                   |
 //! | `v_axis`             | part: last reversal of v                                               |
 //! | `runs`               | runs that solve the document                                           |
 //! | `filing`             | opening and saving                                                     |
@@ -80,6 +81,7 @@ mod forming;
 mod history;
 mod in_use;
 mod large;
+mod layout_check;
 mod live;
 mod messages;
 mod model;
@@ -117,6 +119,7 @@ pub use document::{ChartEdits, Command, Document, Shape};
 pub use drag::{LivePreview, MovedVertices, Preview};
 pub use history::History;
 pub use large::LargeFile;
+pub use layout_check::LayoutCheckState;
 pub use messages::{Message, MessagePlace, Severity, named};
 use messages::{Messages, Written};
 pub use model::{LayoutFile, Model, SolvedModel, example_picture, finished_atlas};

@@ -8,6 +8,7 @@ use super::charts::OtherCharts;
 use super::comparing::Comparing;
 use super::drag::Drag;
 use super::files::Files;
+use super::layout_check::LayoutCheck;
 use super::morphing::Morphing;
 use super::open_mesh::OpenMesh;
 use super::solving::Solving;
@@ -34,6 +35,7 @@ pub struct Session {
     pub(super) messages: Messages,
     pub(super) turned_v: TurnedV,
     pub(super) unwrapping: Unwrapping,
+    pub(super) layout_check: LayoutCheck,
 }
 
 impl std::fmt::Debug for Session {
@@ -60,6 +62,7 @@ impl Session {
             messages: Messages::default(),
             turned_v: TurnedV::default(),
             unwrapping: Unwrapping::new(&wake),
+            layout_check: LayoutCheck::new(&wake),
             solving: Solving::new(wake, TIMELINE_BUDGET),
         }
     }
@@ -117,6 +120,7 @@ impl Session {
             Action::PaintSeams { edges, cost } => self.paint_seams(&edges, cost),
             Action::PreviewSeams(bound) => self.preview_seams(bound),
             Action::SetHoles(holes) => self.set_holes(holes),
+            Action::CheckLayout => self.check_layout(),
             Action::TakeLayout => self.take_layout(),
             Action::AllowRepair(repair) => self.want_form(self.form_to_be().with_repair(repair)),
             Action::LeaveOut(parts) => self.leave_out(parts),
@@ -155,6 +159,7 @@ impl Session {
             self.take_opened(opened);
         }
         self.poll_jobs();
+        self.poll_layout_check();
         self.poll_unwrapping();
         self.poll_solving();
         self.poll_charts();

@@ -15,6 +15,7 @@ mod constraints;
 mod defects;
 mod dialogs;
 mod equation;
+mod file_layout;
 mod gestures;
 mod glide;
 mod glyphs;

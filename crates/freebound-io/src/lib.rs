@@ -39,9 +39,13 @@ mod atomic;
 mod charts;
 mod comparison;
 mod constraints;
+mod corner_data;
 mod edges;
 mod error_report;
 pub mod figure;
+mod file_data;
+mod file_layout;
+mod file_values;
 mod finished;
 mod finite;
 mod gltf;
@@ -65,6 +69,7 @@ mod steps;
 mod study_plots;
 mod study_table;
 mod svg;
+mod true_size;
 mod unfinished;
 
 pub use animation::{AnimationForm, AnimationFrame, write_animation};
@@ -76,6 +81,8 @@ pub use comparison::{
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
 pub use edges::{EdgeFault, EdgesError, parse_edges, read_edge_costs, read_edges, write_edges};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
+pub use file_data::FileData;
+pub use file_layout::{JudgedLayout, groups_of};
 pub use finished::ResultSource;
 pub use gltf::write_glb;
 pub use machine::{bytes_in_words, machine_memory_bytes, peak_memory_bytes};
@@ -85,7 +92,6 @@ pub use mesh_file::{
     Statement, Texture, TextureError, TextureMesh, check_memory, memory_to_read, read_mesh, read_mesh_with,
     read_stream, read_stream_with,
 };
-pub use not_kept::FileData;
 pub use obj::{Materials, copies_of_materials, material_files, material_picture, write_obj};
 pub use output::{EXTENSIONS, Format, Output, OutputKind, ProvedEmbedding};
 pub use paths::{is_same_file, is_standard_input, would_replace};

@@ -1,46 +1,11 @@
 //! Data of a mesh file that a written mesh file does not hold.
 
-use memchr::memmem::find_iter;
+use glam::DVec3;
 
+use crate::corner_data::{CornerData, normals_of_vertices};
+use crate::file_data::FileData;
 use crate::mesh_file::{MeshFile, ReadWarning, ReadWarningKind, SourceFormat, Texture};
-use crate::obj::{Lines, split_mark, words};
 use crate::output::OutputKind;
-
-/// Number of words of an OBJ vertex with a colour: keyword, position, colour.
-const COLOURED: usize = 7;
-
-/// Data of a mesh file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum FileData {
-    /// Materials and their pictures.
-    Materials,
-    /// Names of objects, groups, meshes or nodes.
-    Names,
-    /// Normals of vertices or corners.
-    Normals,
-    /// Colours of vertices.
-    Colours,
-    /// Tangents, which follow from texture coordinates.
-    Tangents,
-    /// Further copies of meshes that nodes of a glTF file share.
-    Copies,
-}
-
-impl FileData {
-    /// Word for messages.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Materials => "materials",
-            Self::Names => "names",
-            Self::Normals => "normals",
-            Self::Colours => "colours",
-            Self::Tangents => "tangents",
-            Self::Copies => "copies of shared meshes",
-        }
-    }
-}
 
 impl MeshFile {
     /// Data of this file that a mesh of the given kind with these texture coordinates does not hold, in the order of
@@ -48,20 +13,28 @@ impl MeshFile {
     pub(crate) fn not_kept_in(&self, kind: OutputKind, texture: &Texture) -> Vec<FileData> {
         let Some(source) = &self.source else { return Vec::new() };
         let mut found = match &source.format {
-            SourceFormat::Obj if kind == OutputKind::Obj => Vec::new(),
-            SourceFormat::Obj => self.data_of_obj(&source.bytes, kind),
-            SourceFormat::Ply(_) if kind == OutputKind::Ply => Vec::new(),
-            SourceFormat::Ply(header) => header.data(),
+            SourceFormat::Obj if kind != OutputKind::Obj => self.data_of_obj(kind),
             SourceFormat::Gltf(_) if kind == OutputKind::Glb && self.has_texture(texture) => Vec::new(),
             SourceFormat::Gltf(scene) if kind == OutputKind::Glb => scene.texture_data(),
             SourceFormat::Gltf(scene) => scene.data(),
+            SourceFormat::Obj | SourceFormat::Ply(_) => Vec::new(),
         };
+        if kind == OutputKind::Ply && !self.has_normals_of_vertices() {
+            found.push(FileData::Normals);
+        }
         let shares = |warning: &ReadWarning| warning.kind == ReadWarningKind::SharedInstances;
         if kind != OutputKind::Glb && self.warnings.iter().any(shares) {
             found.push(FileData::Copies);
         }
         found.sort_unstable();
         found
+    }
+
+    /// True if no vertex has several normals, so that a PLY file holds them.
+    fn has_normals_of_vertices(&self) -> bool {
+        let is_of_ply = self.source.as_ref().is_some_and(|source| matches!(source.format, SourceFormat::Ply(_)));
+        let has = |normals: Vec<DVec3>| normals_of_vertices(&self.polygons, &normals).is_some();
+        is_of_ply || CornerData::of(self).normals.is_none_or(has)
     }
 
     /// True if all corners have the texture coordinates of the file.
@@ -75,19 +48,9 @@ impl MeshFile {
     }
 
     /// Data of an OBJ file that files of another kind do not hold. GLB files hold the materials.
-    fn data_of_obj(&self, bytes: &[u8], kind: OutputKind) -> Vec<FileData> {
+    fn data_of_obj(&self, kind: OutputKind) -> Vec<FileData> {
         let has = |keywords: &[&[u8]]| self.statements.iter().any(|line| keywords.contains(&line.keyword()));
-        let (_, text) = split_mark(bytes);
-        let first_vertex =
-            Lines::of(text).map(|line| words(line.whole)).find(|words| words.clone().next() == Some(b"v"));
-        [
-            (FileData::Materials, kind != OutputKind::Glb && has(&[b"usemtl", b"mtllib"])),
-            (FileData::Names, has(&[b"o", b"g"])),
-            (FileData::Normals, find_iter(text, b"vn ").any(|at| at == 0 || matches!(text[at - 1], b'\n' | b'\r'))),
-            (FileData::Colours, first_vertex.is_some_and(|words| words.count() >= COLOURED)),
-        ]
-        .into_iter()
-        .filter_map(|(data, is_there)| is_there.then_some(data))
-        .collect()
+        let materials = (kind != OutputKind::Glb && has(&[b"usemtl", b"mtllib"])).then_some(FileData::Materials);
+        materials.into_iter().chain(has(&[b"o", b"g"]).then_some(FileData::Names)).collect()
     }
 }

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use glam::{DVec2, DVec3};
 
 use super::charts::textured;
+use super::file_data::FileData;
 use super::finite::check_finite;
 use super::gltf::{Shading, write_glb_with};
-use super::not_kept::FileData;
 use super::obj::{copy_materials, material_picture, relocated, write_obj_with};
 use super::ply::write_ply;
 use super::raster::{Canvas, Colour, RasterPaint, View, colours, mesh_picture, plane_picture, write_png};

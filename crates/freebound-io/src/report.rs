@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::not_kept::FileData;
+use super::file_data::FileData;
 use super::{MeshFile, Precision, ReadWarning, RoundingReport, StepReport, peak_memory_bytes};
 use freebound_core::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
 use freebound_core::pipeline::{

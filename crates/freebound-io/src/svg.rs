@@ -7,8 +7,9 @@ use glam::DVec2;
 use super::ProvedEmbedding;
 use super::charts::proved_at;
 use super::finite::check_finite;
+use super::true_size::scale_to_true_size;
 use freebound_core::bijective::VirtualBoundary;
-use freebound_core::flatten::{Step, true_area_factor};
+use freebound_core::flatten::Step;
 use freebound_core::geom::{Bounds, Similarity};
 use freebound_core::mesh::{DiskMesh, EdgeId, EdgeTable, FaceId, TriMesh, VertexId};
 use freebound_core::pipeline::{Fit, LaidChart};
@@ -16,12 +17,6 @@ use freebound_core::problem::Embedding;
 
 /// Longer side of a drawing without its margin, in units of its line widths.
 const SIZE: f64 = 1000.0;
-
-/// Relative difference between scales that counts as none.
-const SAME_SCALE: f64 = 1e-3;
-
-/// Share of the whole area below which the scale of a chart is not compared: rounding to 32 bits changes it.
-const TINY: f64 = 1e-6;
 
 /// Margin around the drawing.
 const MARGIN: f64 = 20.0;
@@ -40,10 +35,7 @@ pub(super) fn write_svg(out: &mut impl Write, charts: &[LaidChart<'_>], aspect: 
     let laid = |chart: &LaidChart<'_>| chart.coordinates.iter().map(|uv| uv * scale).collect();
     let mut embeddings: Vec<Embedding> = charts.iter().map(laid).collect();
     if fit == Fit::True {
-        let factor = true_factor(charts, &embeddings)?;
-        for z in embeddings.iter_mut().flat_map(|embedding| embedding.iter_mut()) {
-            *z *= factor;
-        }
+        scale_to_true_size(charts, &mut embeddings)?;
     }
     let points = embeddings.iter().flat_map(|embedding| embedding.iter());
     let frame = match fit {
@@ -52,21 +44,6 @@ pub(super) fn write_svg(out: &mut impl Write, charts: &[LaidChart<'_>], aspect: 
     };
     let shown: Vec<_> = charts.iter().zip(&embeddings).map(|(chart, embedding)| proved_at(chart, embedding)).collect();
     Drawing::new(&shown, frame, None).write(out)
-}
-
-/// Factor to the true size of all charts.
-fn true_factor(charts: &[LaidChart<'_>], embeddings: &[Embedding]) -> io::Result<f64> {
-    let whole: f64 = charts.iter().map(|chart| chart.mesh.area()).sum();
-    let charts = charts.iter().zip(embeddings).filter(|(chart, _)| chart.mesh.area() > TINY * whole);
-    let factors: Vec<f64> = charts.map(|(chart, embedding)| true_area_factor(chart.mesh, embedding)).collect();
-    let least = factors.iter().copied().fold(f64::INFINITY, f64::min);
-    let most = factors.iter().copied().fold(0.0, f64::max);
-    if most > least * (1.0 + SAME_SCALE) {
-        let text =
-            format!("the scales of the charts differ by up to a factor of {:.4}: no drawing fits all", most / least);
-        return Err(io::Error::new(io::ErrorKind::InvalidData, text));
-    }
-    Ok(if most.is_finite() && most > 0.0 { most } else { 1.0 })
 }
 
 /// Layout of a mesh to be drawn.

@@ -89,7 +89,10 @@ impl Layout {
                 "f" => {
                     let corner = |word: &str| layout.corner(word).ok_or_else(wrong);
                     let corners = words.map(corner).collect::<Result<Vec<_>, _>>()?;
-                    layout.faces.push(corners);
+                    // Fewer corners have no area. Files keep such lines.
+                    if corners.len() >= 3 {
+                        layout.faces.push(corners);
+                    }
                 }
                 _ => {}
             }

@@ -50,7 +50,8 @@ pub struct FlattenArguments {
     pub copy_materials: bool,
     /// Size of a map without pins: the unit square, or the area of the surface.
     ///
-    /// Default: the unit square. With `--start` the default is the size and position of the layout.
+    /// Default: the unit square. With `--start` the default is the size and position of the layout. With `true` several
+    /// charts lie side by side, and a unit of the map is a unit of the mesh.
     #[arg(long, value_parser = choice::<Fit>(), hide_short_help = true)]
     pub fit: Option<Fit>,
     /// Size of the picture that several charts are packed into, in pixels.

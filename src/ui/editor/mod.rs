@@ -278,8 +278,9 @@ impl Editor {
             self.selection.select([]);
             self.put_on_view();
         }
-        if let Some(scene) = self.mesh.scene() {
-            self.selection.come_back(|of_file| scene.in_file.copies(of_file).collect());
+        let scene = self.mesh.scene();
+        if scene.is_some_and(|scene| self.selection.come_back(|of_file| scene.in_file.copies(of_file).collect())) {
+            self.frame();
         }
         self.pointer.forget_vertices();
         self.selection.set_defect(None);

@@ -53,6 +53,7 @@ impl Editor {
             Request::TogglePanels => self.layout.toggle_panels(),
             Request::Frame => self.frame(),
             Request::GoTo(vertices) => self.go_to_vertices(vertices),
+            Request::GoToFileFaces(faces) => self.go_to_file_faces(&faces),
             Request::GoToDefect(place) => self.go_to_defect(place),
             Request::StepChart(by) => self.step_chart(by),
             Request::ToggleLock => self.toggle_lock(),
@@ -184,7 +185,7 @@ impl Editor {
         self.act(Action::SetPinKind { vertices, kind });
     }
 
-    fn act(&mut self, action: Action) {
+    pub(super) fn act(&mut self, action: Action) {
         if matches!(action, Action::Step | Action::Run | Action::Relax | Action::Repair | Action::ShowStep(_)) {
             self.timeline.playing_since = None;
         }

@@ -17,6 +17,8 @@ pub struct Selection {
     vertices: BTreeSet<VertexId>,
     /// Selected vertices of the file, kept while the scene of another preparation is made.
     of_file: BTreeSet<VertexId>,
+    /// True if the selection is to be framed with that scene.
+    is_framed_later: bool,
     defect: Option<usize>,
     /// True if vertices outside the hull of their neighbours are marked. They are not defects, but the cause of
     /// folds.
@@ -32,6 +34,7 @@ impl Selection {
     pub fn select(&mut self, vertices: impl IntoIterator<Item = VertexId>) {
         self.vertices = vertices.into_iter().collect();
         self.of_file.clear();
+        self.is_framed_later = false;
     }
 
     /// Clears the vertices because the mesh has changed. Keeps their vertices of the file, if `in_file` returns any.
@@ -39,9 +42,17 @@ impl Selection {
         self.of_file.extend(std::mem::take(&mut self.vertices).into_iter().filter_map(in_file));
     }
 
-    /// Restores the selection from the kept vertices of the file. `copies` returns the vertices of the new mesh.
-    pub(super) fn come_back(&mut self, copies: impl Fn(VertexId) -> Vec<VertexId>) {
+    /// Selects vertices of the file once the mesh that has them is on the screen. They are framed then.
+    pub(super) fn await_mesh(&mut self, of_file: Vec<VertexId>) {
+        self.select([]);
+        (self.of_file, self.is_framed_later) = (of_file.into_iter().collect(), true);
+    }
+
+    /// Restores the selection from the kept vertices of the file. `copies` returns the vertices of the new mesh. Returns
+    /// true if the selection is to be framed.
+    pub(super) fn come_back(&mut self, copies: impl Fn(VertexId) -> Vec<VertexId>) -> bool {
         self.vertices.extend(std::mem::take(&mut self.of_file).into_iter().flat_map(copies));
+        std::mem::take(&mut self.is_framed_later) && !self.vertices.is_empty()
     }
 
     /// Adds vertices to the selection.

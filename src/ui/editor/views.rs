@@ -7,9 +7,10 @@ use glam::{DVec2, DVec3};
 use super::Editor;
 use super::defect::Defect;
 use super::picture_box::picture_box;
+use crate::session::Action;
 use crate::view::part_around;
 use freebound_core::geom::Bounds;
-use freebound_core::mesh::VertexId;
+use freebound_core::mesh::{FaceId, VertexId};
 use freebound_core::pipeline::Outcome;
 
 impl Editor {
@@ -45,6 +46,21 @@ impl Editor {
             self.selection.select(vertices);
             self.frame();
         }
+    }
+
+    pub(super) fn go_to_file_faces(&mut self, faces: &[FaceId]) {
+        let (Some(model), Some(&first)) = (self.session.model(), faces.first()) else { return };
+        let source = &model.source.polygons;
+        let vertices: Vec<VertexId> = faces.iter().flat_map(|face| source.face(face.index())).copied().collect();
+        let chart = self.session.charts().and_then(|charts| charts.chart_of_file_face(first));
+        if let Some(chart) = chart.filter(|&chart| self.session.chart_on_screen() != Some(chart)) {
+            self.selection.await_mesh(vertices);
+            self.act(Action::ShowChart(chart));
+            return;
+        }
+        let Some(scene) = self.mesh_scene() else { return };
+        let on_screen = vertices.into_iter().flat_map(|vertex| scene.in_file.copies(vertex)).collect();
+        self.go_to_vertices(on_screen);
     }
 
     pub(super) fn step_defect(&mut self, by: isize) {

@@ -3,6 +3,7 @@
 use eframe::egui::{self, Color32, RichText, Role};
 
 use super::diagnosis;
+use super::file_layout::file_layout;
 use super::hull_section::hull_section;
 use super::parts::parts;
 use super::welding::welding;
@@ -60,6 +61,7 @@ impl Kind {
 
 pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
+    file_layout(ui, &editor.session, requests);
     if diagnosis::faults(ui, &editor.session, requests) {
         return;
     }

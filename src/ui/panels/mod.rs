@@ -8,6 +8,7 @@
 //! | `boundary_rows.rs` | shape of the boundary: in the method tab |
 //! | `charts_panel.rs` | tab of the charts of a mesh with several, and packing options |
 //! | `diagnosis.rs` | faults of the mesh and their repairs: in the defects tab |
+//! | `file_layout.rs` | findings about the layout of the file: in the defects tab |
 //! | `parts.rs` | parts of a mesh, each kept or left out: in the defects tab |
 //! | `welding.rs` | welding of vertices within a distance: in the defects tab |
 //! | `surface.rs` | rows of tabs: charts and holes of the mesh, and the start of the map |
@@ -31,6 +32,7 @@ mod compare_panel;
 mod defects_panel;
 mod diagnosis;
 pub(super) mod equation_table;
+mod file_layout;
 pub(super) mod floating;
 mod hull_section;
 mod large;

@@ -14,7 +14,7 @@ use super::tool::Tool;
 use super::unsaved::UnsavedAnswer;
 use crate::session::Action;
 use crate::view::Quantity;
-use freebound_core::mesh::VertexId;
+use freebound_core::mesh::{FaceId, VertexId};
 use freebound_core::pipeline::Fit;
 use freebound_core::problem::{PinKind, Variant};
 use freebound_io::Column;
@@ -93,6 +93,8 @@ pub enum Request {
     Frame,
     /// Shows vertices in both panes and selects them.
     GoTo(Vec<VertexId>),
+    /// Shows faces of the file in both panes, with the chart of the first one, and selects their vertices.
+    GoToFileFaces(Vec<FaceId>),
     /// Shows a defect in both panes, by its place in the list.
     GoToDefect(usize),
     /// Shows another defect: 1 is the next, −1 the previous.

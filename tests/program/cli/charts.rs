@@ -252,16 +252,45 @@ fn several_charts_are_drawn_at_their_true_size_unless_their_scales_differ() {
 }
 
 #[test]
+fn several_charts_are_written_at_their_true_size_side_by_side() {
+    let program = Program::new();
+    let parts: [PolygonMesh; 2] = [(&grid(2, 2)).into(), (&grid(1, 3)).into()];
+    program.write("in.obj", &obj_text(&interleaved(&parts, &mut Random(6))));
+    let flatten = ["flatten", "in.obj", "--fit", "true", "-o", "out.obj", "--report", "-"];
+    let report = program.run(&flatten).expect(0).json();
+    for chart in report["charts"].as_array().expect("charts") {
+        assert_eq!([&chart["placement"], &chart["density"]], [&json!("true"), &json!(1.0)]);
+    }
+    assert_eq!([&report["packing"], &report["atlas"]["planar"]], [&Value::Null, &json!(true)]);
+    program.run(&["check", "out.obj"]).expect(0);
+    let written = read_mesh(&program.path("out.obj")).expect("a mesh");
+    let (mesh, texture) = (&written.polygons, written.texture.as_ref().expect("texture coordinates"));
+    for face in 0..mesh.face_count() {
+        let corners: Vec<usize> = mesh.corner_range(face).collect();
+        for (k, &corner) in corners.iter().enumerate() {
+            let next = corners[(k + 1) % corners.len()];
+            let in_space = |corner: usize| mesh.positions[mesh.corners[corner].index()];
+            let on_map = |corner: usize| texture.coordinates[texture.corners[corner] as usize];
+            let [long, laid] = [in_space(corner).distance(in_space(next)), on_map(corner).distance(on_map(next))];
+            assert!((long - laid).abs() < 1e-9, "face {face}: {laid} for {long}");
+        }
+    }
+    let cases: [&[&str]; 5] =
+        [&["--chart-size", "0=2"], &["--pin", "0:0,0"], &["--tiles", "4"], &["--density", "9"], &["--steps", "s"]];
+    for options in cases {
+        program.run(&[&flatten, options].concat()).expect(2);
+    }
+}
+
+#[test]
 fn what_means_nothing_to_several_charts_is_refused_and_so_are_pins_of_no_face() {
     let program = Program::new();
     let mut source = interleaved(&[(&grid(2, 2)).into(), (&grid(1, 3)).into()], &mut Random(6));
     source.positions.push(glam::DVec3::ONE);
     let (unused, beyond) = (source.positions.len() - 1, source.positions.len());
     program.write("in.obj", &obj_text(&source));
-    for (options, option) in [(&["--fit", "true"][..], "fit"), (&["--steps", "steps"], "steps")] {
-        let run = program.run(&[&["flatten", "in.obj"], options].concat()).expect(2);
-        assert_message(&format!("charts-refuse-{option}"), &run.stderr);
-    }
+    let run = program.run(&["flatten", "in.obj", "--steps", "steps"]).expect(2);
+    assert_message("charts-refuse-steps", &run.stderr);
     for (options, word) in [
         (["--pack", "0x10"], "WIDTHxHEIGHT"),
         (["--pack", "100"], "WIDTHxHEIGHT"),

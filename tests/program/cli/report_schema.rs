@@ -151,7 +151,7 @@ fn has_type(value: &Value, rule: &Value) -> bool {
 pub(crate) const TENT: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0.3\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
 
 /// Input files with various faults.
-const FILES: [(&str, &str); 17] = [
+const FILES: [(&str, &str); 19] = [
     (
         "twin-charts.obj",
         "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 5 0 0\nv 7 0 0\nv 5 1 0\nvt 0 0\nvt 1 0\nvt 0 0.5\n\
@@ -190,10 +190,25 @@ const FILES: [(&str, &str); 17] = [
          f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
     ),
     ("pins.txt", "0 0 0\n0 1 1\n"),
+    ("odd-polygons.obj", ODD_POLYGONS),
+    ("named.obj", "o square\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"),
 ];
 
+/// Four polygons with two polygons at each inner edge's vertex, which cannot all be convex. The last steps of method auto
+/// are worse than earlier ones.
+pub(crate) const ODD_POLYGONS: &str = "\
+    v 0.000 0.000 -0.366\nv 1.000 0.000 0.347\nv 1.000 1.000 0.264\n\
+    v 0.000 1.000 -0.245\nv 0.997 0.470 0.351\nv 0.673 0.756 -0.132\n\
+    v 2.000 0.000 -0.067\nv 2.000 1.000 0.262\nv 1.467 1.133 0.182\n\
+    v 1.000 2.000 -0.469\nv 0.000 2.000 -0.475\nv 1.025 1.763 -0.138\n\
+    v 2.000 2.000 -0.471\nf 1 2 5 3 6 4\nf 2 7 8 9 3 5\n\
+    f 4 6 3 12 10 11\nf 3 9 8 13 10 12\n";
+
 /// Runs with their exit status: together they write all kinds of fields.
-const RUNS: [(&[&str], i32); 34] = [
+const RUNS: [(&[&str], i32); 37] = [
+    (&["flatten", "odd-polygons.obj", "--no-new-vertices"], 4),
+    (&["flatten", "two-odd-parts.obj", "--no-new-vertices"], 4),
+    (&["flatten", "named.obj", "-o", "named.ply"], 0),
     (&["pack", "twin-charts.obj", "--stack"], 0),
     (&["pack", "half.obj"], 3),
     (&["flatten", "twins.obj", "--stack"], 0),
@@ -285,6 +300,8 @@ fn every_report_is_as_the_schema_says_and_the_schema_says_nothing_that_no_report
         program.write(name, text);
     }
     program.write_huge("huge.obj");
+    let square = "v 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\nf -4 -3 -2 -1\n";
+    program.write("two-odd-parts.obj", &format!("{ODD_POLYGONS}{square}"));
     let mut schema = Schema::of_reports();
     for (arguments, status) in RUNS {
         let report = program.run(&[arguments, &["--report", "-"][..]].concat()).expect(status).json();

@@ -4,6 +4,7 @@ use freebound_core::mesh::{TriMesh, VertexId};
 use glam::DVec3;
 
 use super::program::{Program, obj_text};
+use super::report_schema::ODD_POLYGONS;
 use freebound_testkit::{assert_message, sheet, tower};
 
 const CONVEX: [&str; 8] = ["flatten", "in.obj", "-o", "out.obj", "--method", "convex", "--family", "uniform"];
@@ -49,4 +50,27 @@ fn of_several_charts_the_one_is_named_whose_areas_differ_most() {
         assert_message(&format!("summary-areas-of-the-{case}-chart"), &line);
     }
     assert_eq!(areas(&with_both(&flat, &flat), &["--cut", "shortest"]), None, "nothing is distorted");
+}
+
+#[test]
+fn without_a_planar_map_the_step_with_the_fewest_faults_is_written_and_named() {
+    let program = Program::new();
+    program.write("in.obj", ODD_POLYGONS);
+    let flatten = ["flatten", "in.obj", "--no-new-vertices", "-o", "out.obj"];
+    let report = program.run(&[&flatten[..], &["--report", "-"]].concat()).expect(4).json();
+    let faults: Vec<u64> = report["steps"]
+        .as_array()
+        .expect("steps")
+        .iter()
+        .map(|step| step["flipped_faces"].as_u64().unwrap() + step["concave_polygons"].as_u64().unwrap())
+        .collect();
+    let (least, last) = (faults.iter().min().expect("steps"), faults.last().expect("steps"));
+    assert!(least < last, "the case has a step that is better than the last: {faults:?}");
+    let written = usize::try_from(report["written_step"].as_u64().expect("not the last one")).unwrap();
+    assert_eq!(&faults[written], least, "{faults:?}");
+    let listed = report["verdict"]["concave_polygons"].as_array().expect("a list").len();
+    assert_eq!(u64::try_from(listed).unwrap(), *least);
+    let summary = program.run(&flatten).expect(4).stdout;
+    let wanted = format!("at step {written}, the best of {}", faults.len());
+    assert!(summary.contains(&wanted), "{summary}");
 }

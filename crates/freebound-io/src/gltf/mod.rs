@@ -51,5 +51,7 @@ pub(crate) use write::write_glb_with;
 
 /// Names of attributes.
 const POSITION: &str = "POSITION";
+const NORMAL: &str = "NORMAL";
+const COLOUR: &str = "COLOR_0";
 const TANGENT: &str = "TANGENT";
 const TEXTURE: &str = "TEXCOORD_0";

@@ -3,16 +3,18 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::PathBuf;
+use std::sync::Arc;
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec4};
 use serde_json::Value;
 
 use super::accessor::{Elements, count, no_such};
 use super::container::Buffers;
 use super::document::{Attributes, Document, Topology};
-use super::{POSITION, TANGENT};
+use super::{COLOUR, NORMAL, POSITION, TANGENT};
+use crate::file_data::FileData;
+use crate::file_values::{CornerValues, FileValues, srgb_from_linear};
 use crate::mesh_file::{Instances, ParseFaultKind, ReadError, ReadWarning, ReadWarningKind, fault_in};
-use crate::not_kept::FileData;
 
 /// Limit on the parts, corners and vertices shown, per byte of the buffers. At least `FEW` are always allowed.
 const COPIES: u64 = 16;
@@ -91,24 +93,56 @@ impl Scene {
         has_tangents.then_some(FileData::Tangents).into_iter().collect()
     }
 
-    /// Data of the shown meshes besides positions and texture coordinates.
+    /// Data of the shown meshes that files of other formats do not hold.
     pub(crate) fn data(&self) -> Vec<FileData> {
         let json: Value = serde_json::from_slice(&self.json).unwrap_or_default();
-        let has = |name: &str| self.shown.sets.iter().any(|set| set.attributes.contains_key(name));
-        let mut shown = self.shown.instances.iter();
         let is_named = |instance: &Instance| {
             let of_node = instance.node.map(|node| &json["nodes"][node]["name"]);
             of_node.is_some_and(Value::is_string) || json["meshes"][instance.mesh]["name"].is_string()
         };
-        let mut found = vec![
-            (FileData::Materials, json["materials"].as_array().is_some_and(|materials| !materials.is_empty())),
-            (FileData::Names, shown.any(is_named)),
-            (FileData::Normals, has("NORMAL")),
-            (FileData::Colours, has("COLOR_0")),
-            (FileData::Tangents, has(TANGENT)),
-        ];
-        found.retain(|&(_, is_there)| is_there);
-        found.into_iter().map(|(data, _)| data).collect()
+        let has_materials = json["materials"].as_array().is_some_and(|materials| !materials.is_empty());
+        let names = self.shown.instances.iter().any(is_named).then_some(FileData::Names);
+        let materials = has_materials.then_some(FileData::Materials);
+        materials.into_iter().chain(names).chain(self.texture_data()).collect()
+    }
+
+    /// Normals in the scene, and colours in sRGB, at the corners of the shown triangles; `None` without any.
+    pub(crate) fn corner_values(&self, bytes: &Arc<Vec<u8>>) -> (Option<FileValues>, Option<FileValues>) {
+        let Ok(document) = Document::of(&self.json) else { return (None, None) };
+        let buffers = Buffers { bytes: Arc::clone(bytes), starts: self.starts.clone() };
+        let at_vertices = |name: &str| {
+            let mut values = vec![None; self.vertex_of.len()];
+            for set in &self.shown.sets {
+                let elements = set.attributes.get(name).map(|&index| Elements::of(&document, &buffers, index));
+                let Some(Ok(elements)) = elements else { continue };
+                let place_count = set.range.len().min(elements.count);
+                let number = |place: usize, at: usize| {
+                    if at < elements.width { elements.number(place, at) } else { 1.0 }
+                };
+                for (place, value) in values[set.range.clone()].iter_mut().enumerate().take(place_count) {
+                    let read = DVec4::from([0, 1, 2, 3].map(|at| number(place, at)));
+                    *value = Some(if name == NORMAL { self.turned(set, read) } else { srgb_from_linear(read) });
+                }
+            }
+            values
+        };
+        let at_corners = |name: &str| {
+            self.shown.sets.iter().any(|set| set.attributes.contains_key(name)).then(|| {
+                let values = at_vertices(name);
+                FileValues::AtCorners(CornerValues {
+                    starts: (0..=self.corners.len() / 3).map(|face| 3 * face).collect(),
+                    vertices: self.corners.iter().map(|&corner| self.vertex_of[corner as usize]).collect(),
+                    values: self.corners.iter().map(|&corner| values[corner as usize]).collect(),
+                })
+            })
+        };
+        (at_corners(NORMAL), at_corners(COLOUR))
+    }
+
+    /// Normal of a set in the scene.
+    fn turned(&self, set: &VertexSet, normal: DVec4) -> DVec4 {
+        let transform = self.shown.instances[set.instance].transform;
+        transform.map_or(normal, |transform| (transform.matrix3.inverse().transpose() * normal.truncate()).extend(0.0))
     }
 
     /// Label for each face, equal for faces of one material; `None` if no primitive has a material.

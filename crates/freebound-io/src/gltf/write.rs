@@ -6,21 +6,23 @@
 use std::collections::HashMap;
 use std::io::{self, Write};
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 use serde_json::json;
 
 use super::carried::write_carried;
 use super::growing::Growing;
 use super::read::turned_over;
 use super::shading::Shading;
-use super::{POSITION, TEXTURE};
+use super::{COLOUR, NORMAL, POSITION, TEXTURE};
+use crate::corner_data::CornerData;
+use crate::file_values::linear_from_srgb;
 use crate::finite::check_finite;
 use crate::mesh_file::{MeshFile, NO_TEXTURE, SourceFormat, Texture};
 use freebound_core::mesh::VertexId;
 
 /// Writes a mesh with these texture coordinates as a binary glTF file (GLB). If the mesh was read from glTF, all of
-/// that file is kept. Otherwise the file holds only triangles, texture coordinates and a plain material, without which
-/// programs ignore them. Corners without new texture coordinates keep those of the file, or have 0, 0.
+/// that file is kept. Otherwise the file holds triangles, texture coordinates, normals and colours, and a plain material, without which
+/// programs ignore texture coordinates. Corners without new texture coordinates keep those of the file, or have 0, 0.
 ///
 /// # Errors
 ///
@@ -46,20 +48,57 @@ pub(crate) fn write_glb_with(
     write_plain(out, mesh, texture, shading)
 }
 
+/// Vertices of a new file.
+struct NewVertices {
+    /// Vertex and coordinate of the mesh of each vertex.
+    vertices: Vec<(VertexId, u32)>,
+    triangles: Vec<[u32; 3]>,
+    /// Polygon of each triangle. `None` if all polygons are triangles.
+    face_of: Option<Vec<u32>>,
+    normals: Option<Vec<[f32; 3]>>,
+    /// Linear colours with alpha.
+    colours: Option<Vec<[f32; 4]>>,
+}
+
+/// Vertex and coordinate of a mesh, with the bits of normal and colour: these make a vertex of the file.
+type Key = ((VertexId, u32), Option<[u32; 3]>, Option<[u32; 4]>);
+
+impl NewVertices {
+    fn of(mesh: &MeshFile, texture: &Texture) -> Self {
+        let polygons = &mesh.polygons;
+        let data = CornerData::of(mesh);
+        let normal = |corner: usize| data.normals.as_ref().map(|normals| normals[corner].as_vec3().to_array());
+        let linear = |colour: DVec4| linear_from_srgb(colour).as_vec4().to_array();
+        let colour = |corner: usize| data.colours.as_ref().map(|colours| linear(colours[corner]));
+        let bits = |x: f32| (x + 0.0).to_bits();
+        let mut number_of: HashMap<Key, u32> = HashMap::new();
+        let mut vertices: Vec<(VertexId, u32)> = Vec::new();
+        // Corner at which each vertex was found first.
+        let mut first_corner: Vec<usize> = Vec::new();
+        let mut number = |place: u32| {
+            let corner = place as usize;
+            let coordinate = texture.corners.get(corner).copied().unwrap_or(NO_TEXTURE);
+            let vertex = (polygons.corners[corner], coordinate);
+            let key = (vertex, normal(corner).map(|n| n.map(bits)), colour(corner).map(|c| c.map(bits)));
+            *number_of.entry(key).or_insert_with(|| {
+                vertices.push(vertex);
+                first_corner.push(corner);
+                VertexId::from_index(vertices.len() - 1).number()
+            })
+        };
+        let (places, face_of) = polygons.triangle_places();
+        let triangles = places.iter().map(|places| places.map(&mut number)).collect();
+        let normals =
+            data.normals.is_some().then(|| first_corner.iter().filter_map(|&corner| normal(corner)).collect());
+        let colours =
+            data.colours.is_some().then(|| first_corner.iter().filter_map(|&corner| colour(corner)).collect());
+        Self { vertices, triangles, face_of, normals, colours }
+    }
+}
+
 fn write_plain(out: &mut impl Write, mesh: &MeshFile, texture: &Texture, shading: Option<&Shading>) -> io::Result<()> {
     let polygons = &mesh.polygons;
-    let mut number_of: HashMap<(VertexId, u32), u32> = HashMap::new();
-    let mut vertices: Vec<(VertexId, u32)> = Vec::new();
-    let mut number = |place: u32| {
-        let coordinate = texture.corners.get(place as usize).copied().unwrap_or(NO_TEXTURE);
-        let vertex = (polygons.corners[place as usize], coordinate);
-        *number_of.entry(vertex).or_insert_with(|| {
-            vertices.push(vertex);
-            VertexId::from_index(vertices.len() - 1).number()
-        })
-    };
-    let (places, face_of) = polygons.triangle_places();
-    let triangles: Vec<[u32; 3]> = places.iter().map(|places| places.map(&mut number)).collect();
+    let NewVertices { vertices, triangles, face_of, normals, colours } = NewVertices::of(mesh, texture);
     let mut file = Growing::of(
         json!({
             "asset": { "version": "2.0", "generator": concat!("Freebound ", env!("CARGO_PKG_VERSION")) },
@@ -90,6 +129,12 @@ fn write_plain(out: &mut impl Write, mesh: &MeshFile, texture: &Texture, shading
             uv.map_or([0.0; 2], turned_over)
         });
         attributes[TEXTURE] = json!(file.vectors(coordinates));
+    }
+    if let Some(normals) = normals {
+        attributes[NORMAL] = json!(file.vectors(normals.into_iter()));
+    }
+    if let Some(colours) = colours {
+        attributes[COLOUR] = json!(file.vectors(colours.into_iter()));
     }
     let (divided, materials) = match shading {
         Some(shading) => (shading.divided(&triangles, face_of.as_deref()), shading.put_into(&mut file)),

@@ -113,6 +113,13 @@ pub(super) fn corner(word: &[u8]) -> Result<(i64, Option<i64>), ParseFaultKind> 
     if rest.is_empty() { Ok((vertex, texture)) } else { Err(bad()) }
 }
 
+/// Vertex and normal of a corner, as written, if it is well formed.
+pub(super) fn normal_of_corner(word: &[u8]) -> Option<(i64, Option<i64>)> {
+    let (vertex, rest) = index(word)?;
+    let normal = rest.splitn(3, |&byte| byte == b'/').nth(2).and_then(index);
+    Some((vertex, normal.map(|(normal, _)| normal)))
+}
+
 /// Splits off a leading integer. Values too large for any mesh saturate instead of wrapping around.
 fn index(word: &[u8]) -> Option<(i64, &[u8])> {
     let (negative, digits) = match word {

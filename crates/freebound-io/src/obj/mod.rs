@@ -5,6 +5,7 @@
 //! | `lines`        | lines of a text, as slices of its bytes                                 |
 //! | `line`         | words of a line: numbers and corners                                    |
 //! | `parse`        | a mesh from its lines                                                   |
+//! | `values`       | normals and colours, for writers of other formats                       |
 //! | `material`     | files that the materials name                                           |
 //! | `libraries`    | material libraries of a mesh that is written into another folder        |
 //! | `beside`       | files that belong to a mesh, in its folder                              |
@@ -21,6 +22,7 @@ mod line;
 mod lines;
 mod material;
 mod parse;
+mod values;
 mod with_picture;
 mod write;
 
@@ -32,5 +34,6 @@ pub(crate) use lines::{Lines, split_mark};
 pub(crate) use material::obj_materials;
 pub use material::{material_files, material_picture};
 pub(crate) use parse::parse;
+pub(crate) use values::corner_values;
 pub use write::write_obj;
 pub(crate) use write::write_obj_with;

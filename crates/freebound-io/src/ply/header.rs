@@ -1,7 +1,6 @@
 //! Header of a PLY file: its elements, their numbers, and the properties of each.
 
 use crate::mesh_file::{FaultPlace, ParseFaultKind, ReadError, fault_at};
-use crate::not_kept::FileData;
 use crate::obj::{Lines, quoted};
 
 /// Layout of a PLY file.
@@ -105,6 +104,19 @@ impl Scalar {
         }
     }
 
+    /// Number that stands for the full share of a colour.
+    pub(super) fn largest_colour(self) -> f64 {
+        match self {
+            Self::I8 => 127.0,
+            Self::U8 => 255.0,
+            Self::I16 => 32_767.0,
+            Self::U16 => 65_535.0,
+            Self::I32 => f64::from(i32::MAX),
+            Self::U32 => f64::from(u32::MAX),
+            Self::F32 | Self::F64 => 1.0,
+        }
+    }
+
     pub(super) fn is_integer(self) -> bool {
         !matches!(self, Self::F32 | Self::F64)
     }
@@ -128,14 +140,6 @@ impl Element {
 }
 
 impl Header {
-    /// Data of the vertices besides positions and texture coordinates.
-    pub(crate) fn data(&self) -> Vec<FileData> {
-        let vertex = self.elements.iter().find(|element| element.name == "vertex");
-        let has = |names: &[&str]| vertex.is_some_and(|element| element.property(names).is_some());
-        let normals = has(&["nx"]).then_some(FileData::Normals);
-        normals.into_iter().chain(has(&["red", "r", "diffuse_red"]).then_some(FileData::Colours)).collect()
-    }
-
     /// Parses the header at the beginning of a file.
     pub(super) fn of(bytes: &[u8]) -> Result<Self, ReadError> {
         let mut header = Self { encoding: Encoding::Text, elements: Vec::new(), length: 0, lines: 0 };

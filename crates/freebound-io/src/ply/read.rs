@@ -6,11 +6,12 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 
 use super::header::{Element, Header, Property};
 use super::numbers::Numbers;
 use super::{CORNER_NAMES, FACE_TEXTURE, STRIPS, TEXTURE_NAMES};
+use crate::file_values::FileValues;
 use crate::mesh_file::{
     FaultPlace, MeshFile, NO_TEXTURE, ParseFaultKind, ReadError, Source, SourceFormat, Texture, fault_at,
 };
@@ -64,6 +65,29 @@ impl Header {
     }
 }
 
+/// Names of the properties of a colour.
+const COLOURS: [[&str; 4]; 3] = [
+    ["red", "green", "blue", "alpha"],
+    ["r", "g", "b", "a"],
+    ["diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"],
+];
+
+impl Header {
+    /// Normals and colours of the vertices; `None` without any.
+    pub(crate) fn vertex_values(&self, bytes: &[u8]) -> (Option<FileValues>, Option<FileValues>) {
+        let mut reader = Reader::of(Numbers::of(bytes, self));
+        for element in &self.elements {
+            if element.name == "vertex" {
+                return reader.vertex_values(element).unwrap_or_default();
+            }
+            if (0..element.count).try_for_each(|_| reader.skip_all(&element.properties)).is_err() {
+                break;
+            }
+        }
+        (None, None)
+    }
+}
+
 /// Mesh as far as it is read.
 struct Reader<'a> {
     numbers: Numbers<'a>,
@@ -109,6 +133,31 @@ impl<'a> Reader<'a> {
             self.at_vertices.extend(texture.map(|[u, v]| DVec2::new(row[u], row[v])));
         }
         Ok(())
+    }
+
+    fn vertex_values(&mut self, element: &Element) -> Result<(Option<FileValues>, Option<FileValues>), ReadError> {
+        let single = |name: &str| element.property(&[name]).filter(|&at| element.properties[at].count.is_none());
+        let all = |names: &[&str]| names.iter().map(|name| single(name)).collect::<Option<Vec<usize>>>();
+        let normal = all(&["nx", "ny", "nz"]);
+        let colour = COLOURS.iter().find_map(|names| Some((all(&names[..3])?, single(names[3]))));
+        let (mut normals, mut colours) = (Vec::new(), Vec::new());
+        let mut row = vec![0.0; element.properties.len()];
+        for _ in 0..element.count {
+            for (property, value) in element.properties.iter().zip(&mut row) {
+                match property.count {
+                    None => *value = self.numbers.next(property.item)?,
+                    Some(_) => self.skip(property)?,
+                }
+            }
+            normals.extend(normal.as_ref().map(|at| DVec4::new(row[at[0]], row[at[1]], row[at[2]], 0.0)));
+            let share = |at: usize| row[at] / element.properties[at].item.largest_colour();
+            colours.extend(
+                colour
+                    .as_ref()
+                    .map(|(at, alpha)| DVec4::new(share(at[0]), share(at[1]), share(at[2]), alpha.map_or(1.0, share))),
+            );
+        }
+        Ok((normal.map(|_| FileValues::AtVertices(normals)), colour.map(|_| FileValues::AtVertices(colours))))
     }
 
     fn faces(&mut self, element: &Element, header_lines: u64) -> Result<(), ReadError> {

@@ -21,7 +21,7 @@ use std::io::{self, Write};
 use std::ops::Range;
 use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DVec2, DVec4};
 
 use super::header::{Element, Encoding, Header, Property, Scalar};
 use super::numbers::Numbers;
@@ -29,6 +29,7 @@ use super::plan::Plan;
 use super::row::Row;
 use super::{CORNER_NAMES, FACE_TEXTURE};
 use crate::Precision;
+use crate::corner_data::{CornerData, at_vertices, normals_of_vertices};
 use crate::finite::check_finite;
 use crate::mesh_file::{MeshFile, NO_TEXTURE, ReadError, Source, SourceFormat, Texture, coordinate_key};
 use freebound_core::mesh::{NewVertex, PolygonMesh, VertexId};
@@ -48,7 +49,7 @@ pub fn write_ply(out: &mut impl Write, mesh: &MeshFile, texture: &Texture, preci
     let texture = rounded.as_ref().unwrap_or(texture);
     check_finite(&texture.coordinates)?;
     let of_ply = mesh.source.as_ref().filter(|source| matches!(source.format, SourceFormat::Ply(_)));
-    let plain = || plain(&mesh.polygons).map_err(broken);
+    let plain = || plain(mesh).map_err(broken);
     let source = of_ply.map_or_else(|| plain().map(Cow::Owned), |source| Ok(Cow::Borrowed(source)))?;
     let SourceFormat::Ply(header) = &source.format else { return Ok(()) };
     let is_split = precision == Precision::F32 && !Plan::has_lists(header) && !texture.corners.contains(&NO_TEXTURE);
@@ -84,22 +85,43 @@ fn split_at_seams(mesh: &PolygonMesh, source: &Source, texture: &Texture) -> Opt
     (!copies.is_empty()).then(|| (split, source.with_vertices(&new_vertices)))
 }
 
-/// File with positions and faces only.
-fn plain(mesh: &PolygonMesh) -> Result<Source, ReadError> {
+/// File with positions and faces, and the normals and colours of the file that the mesh was read from. Normals are left
+/// out if a vertex has several.
+fn plain(file: &MeshFile) -> Result<Source, ReadError> {
+    let mesh = &file.polygons;
+    let data = CornerData::of(file);
+    let normals = data.normals.and_then(|normals| normals_of_vertices(mesh, &normals));
+    let colours = data.colours.map(|colours| at_vertices(mesh, &colours, DVec4::ONE));
     let most = (0..mesh.face_count()).map(|face| mesh.corner_range(face).len()).max().unwrap_or(0);
     let count = if u8::try_from(most).is_ok() { Scalar::U8 } else { Scalar::I32 };
-    let head = format!(
-        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\n\
-         property double z\nelement face {}\nproperty list {} uint {}\nend_header\n",
-        mesh.positions.len(),
-        mesh.face_count(),
-        count.name(),
-        CORNER_NAMES[0]
-    );
+    let properties = |kind: &str, names: &[&str]| {
+        let lines: Vec<String> = names.iter().map(|name| format!("property {kind} {name}\n")).collect();
+        lines.concat()
+    };
+    let head = [
+        format!("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.positions.len()),
+        properties("double", &["x", "y", "z"]),
+        normals.as_ref().map(|_| properties("float", &["nx", "ny", "nz"])).unwrap_or_default(),
+        colours.as_ref().map(|_| properties("uchar", &["red", "green", "blue", "alpha"])).unwrap_or_default(),
+        format!("element face {}\n", mesh.face_count()),
+        format!("property list {} uint {}\nend_header\n", count.name(), CORNER_NAMES[0]),
+    ];
     let mut row = Row::of(Encoding::LittleEndian);
-    row.bytes = head.into_bytes();
-    for position in &mesh.positions {
-        position.to_array().iter().for_each(|&x| row.number(Scalar::F64, x));
+    row.bytes = head.concat().into_bytes();
+    for (vertex, position) in mesh.positions.iter().enumerate() {
+        for x in position.to_array() {
+            row.number(Scalar::F64, x);
+        }
+        if let Some(normals) = &normals {
+            for x in normals[vertex].to_array() {
+                row.number(Scalar::F32, x);
+            }
+        }
+        if let Some(colours) = &colours {
+            for share in colours[vertex].clamp(DVec4::ZERO, DVec4::ONE).to_array() {
+                row.number(Scalar::U8, (255.0 * share).round());
+            }
+        }
     }
     for face in 0..mesh.face_count() {
         row.indices([count, Scalar::U32], mesh.face(face));

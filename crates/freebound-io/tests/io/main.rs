@@ -3,6 +3,7 @@
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
 mod bad_input;
+mod corner_data;
 mod formats;
 mod full_disk;
 mod gltf_hostile;

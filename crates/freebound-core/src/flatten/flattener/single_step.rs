@@ -51,7 +51,9 @@ impl RunStage for Natural {
         }
         let solution = solved.map_err(natural_failure)?;
         let stage = Stage::of_linear_solve(&settings.method);
-        Ok(Candidate { prepared: Some(prepared), ..Candidate::new(stage, settings.family(), solution) })
+        let note =
+            solution.convergence.map(|found| format!("spectral map, without gauge pins: {} solves", found.steps));
+        Ok(Candidate { prepared: Some(prepared), note, ..Candidate::new(stage, settings.family(), solution) })
     }
 
     fn has_more(&self, _: &Task, latest: Option<&StepState>) -> bool {

@@ -77,6 +77,12 @@ impl Charts {
         is_there.then(|| polygons.face(face as usize)[0]).and_then(|vertex| self.chart_of_vertex(vertex))
     }
 
+    /// Chart of a face of the given mesh; `None` if a repair left the face out.
+    pub fn chart_of_file_face(&self, face: FaceId) -> Option<usize> {
+        let in_whole = self.whole.face_of.iter().position(|&of| of == face.number())?;
+        self.chart_of_face(u32::try_from(in_whole).ok()?)
+    }
+
     /// Chart of a vertex of the whole mesh.
     pub fn chart_of_vertex(&self, vertex: VertexId) -> Option<usize> {
         self.chart_of_vertex.get(vertex.index()).copied().flatten().map(|chart| chart as usize)
