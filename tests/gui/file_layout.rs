@@ -38,12 +38,13 @@ fn findings_about_the_layout_of_a_file_lead_to_their_faces_on_any_chart() {
     assert!(!found.planar, "{found:?}");
     let of = |code: FindingCode| found.findings.iter().find(|finding| finding.code == code).expect("found");
     for finding in &found.findings {
-        assert!(window.words().iter().any(|words| words.contains(&finding.to_string()[1..])), "{:?}", window.words());
+        assert!(window.words().iter().any(|words| words.contains(&finding.headline()[1..])), "{:?}", window.words());
     }
     let source = window.editor().session.model().expect("open").source.polygons.clone();
     let mut go = |code: FindingCode| {
         let faces = of(code).pairs.first().map_or_else(|| vec![of(code).faces[0]], |pair| pair.to_vec());
-        window.click(&format!("Next of {}", code.name().replace('-', " ")));
+        let words = if of(code).count == 1 { "Show" } else { "Next" };
+        window.click(&format!("{words} of {}", code.name().replace('-', " ")));
         window.settle();
         let scene = window.editor().mesh_scene().expect("a scene").clone();
         let selected = window.editor().selection.vertices().clone();

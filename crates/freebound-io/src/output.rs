@@ -6,6 +6,7 @@ use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::charts::textured;
 use super::file_data::FileData;
@@ -16,12 +17,13 @@ use super::ply::write_ply;
 use super::raster::{Canvas, Colour, RasterPaint, View, colours, mesh_picture, plane_picture, write_png};
 use super::report::{Report, write_report};
 use super::svg::write_svg;
+use super::true_size::scale_to_true_size;
 use super::{Materials, MeshFile, PictureFile, Texture, WriteError, write_atomically, write_to_standard_output};
 use freebound_core::geom::Picture;
 use freebound_core::mesh::{DiskMesh, FaceId, Repaired, VertexId};
-use freebound_core::pipeline::{Fit, JoinedCharts, LaidChart, joined};
+use freebound_core::pipeline::{Fit, JoinedCharts, LaidChart, Placement, joined, prove_atlas};
 use freebound_core::problem::Embedding;
-use freebound_core::verify::{AtlasVerdict, Verdict};
+use freebound_core::verify::{AtlasVerdict, Verdict, verdict};
 
 /// Width and height of each half of a picture, pixels.
 const PICTURE_SIZE: u32 = 900;
@@ -247,6 +249,30 @@ impl Output<'_> {
         // The picture takes the place of the materials.
         let has_material = self.picture.is_some() && kind != OutputKind::Ply;
         found.into_iter().filter(|&data| data != FileData::Materials || !has_material).collect()
+    }
+
+    /// Scales packed charts to the area of the surface, and verifies them again. They keep their arrangement, which
+    /// fills more or less than the unit square.
+    ///
+    /// # Errors
+    ///
+    /// If the scales of the charts differ.
+    pub fn scale_to_true_size(&mut self) -> io::Result<()> {
+        let plane = DVec2::new(self.aspect, 1.0);
+        let laid = |chart: &LaidChart<'_>| chart.coordinates.iter().map(|uv| uv * plane).collect();
+        let mut embeddings: Vec<Embedding> = self.charts.iter().map(laid).collect();
+        scale_to_true_size(&self.charts, &mut embeddings)?;
+        self.charts.par_iter_mut().zip(embeddings).for_each(|(chart, embedding)| {
+            chart.verdict = verdict(chart.mesh, &embedding);
+            chart.coordinates = embedding;
+        });
+        self.aspect = 1.0;
+        self.report.packing = None;
+        self.report.atlas = Some(prove_atlas(&self.charts));
+        for chart in &mut self.report.charts {
+            (chart.placement, chart.density, chart.tile) = (Placement::True, 1.0, None);
+        }
+        Ok(())
     }
 
     /// Writes one file atomically. An OBJ file with a picture comes with two more, its material and the picture,

@@ -2,14 +2,9 @@
 
 use std::io;
 
-use glam::DVec2;
-use rayon::prelude::*;
-
-use super::Output;
 use freebound_core::flatten::true_area_factor;
-use freebound_core::pipeline::{LaidChart, Placement, prove_atlas};
+use freebound_core::pipeline::LaidChart;
 use freebound_core::problem::Embedding;
-use freebound_core::verify::verdict;
 
 /// Relative difference between scales that counts as none.
 const SAME_SCALE: f64 = 1e-3;
@@ -42,30 +37,4 @@ fn true_factor(charts: &[LaidChart<'_>], embeddings: &[Embedding]) -> io::Result
         return Err(io::Error::new(io::ErrorKind::InvalidData, text));
     }
     Ok(if most.is_finite() && most > 0.0 { most } else { 1.0 })
-}
-
-impl Output<'_> {
-    /// Scales packed charts to the area of the surface, and verifies them again. They keep their arrangement, which
-    /// fills more or less than the unit square.
-    ///
-    /// # Errors
-    ///
-    /// If the scales of the charts differ.
-    pub fn scale_to_true_size(&mut self) -> io::Result<()> {
-        let plane = DVec2::new(self.aspect, 1.0);
-        let laid = |chart: &LaidChart<'_>| chart.coordinates.iter().map(|uv| uv * plane).collect();
-        let mut embeddings: Vec<Embedding> = self.charts.iter().map(laid).collect();
-        scale_to_true_size(&self.charts, &mut embeddings)?;
-        self.charts.par_iter_mut().zip(embeddings).for_each(|(chart, embedding)| {
-            chart.verdict = verdict(chart.mesh, &embedding);
-            chart.coordinates = embedding;
-        });
-        self.aspect = 1.0;
-        self.report.packing = None;
-        self.report.atlas = Some(prove_atlas(&self.charts));
-        for chart in &mut self.report.charts {
-            (chart.placement, chart.density, chart.tile) = (Placement::True, 1.0, None);
-        }
-        Ok(())
-    }
 }

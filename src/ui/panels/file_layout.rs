@@ -42,23 +42,26 @@ fn findings(ui: &mut egui::Ui, found: &LayoutVerdict, requests: &mut Vec<Request
     }
 }
 
-/// Finding with its number, and buttons that show its elements in turn.
+/// Finding with its count, and buttons that show its elements in turn.
 fn finding_row(ui: &mut egui::Ui, finding: &Finding, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let (square, _) = ui.allocate_exact_size(egui::Vec2::splat(10.0), egui::Sense::hover());
         ui.painter().rect_filled(square, 1.0, colour_of(finding.severity, theme));
-        ui.label(sentence(&finding.to_string())).on_hover_text(severity_words(finding.severity));
+        ui.label(sentence(&finding.headline())).on_hover_text(severity_words(finding.severity));
     });
     let count = finding.faces.len().max(finding.pairs.len());
-    if count == 0 {
-        return;
-    }
     let place = ui.scope_id().with(("finding", finding.code.name()));
     let shown: Option<usize> = ui.data(|data| data.get_temp(place)).filter(|&at| at < count);
-    ui.horizontal(|ui| {
-        for (words, by) in [("Previous", count - 1), ("Next", 1)] {
-            let to = shown.map_or(if by == 1 { 0 } else { count - 1 }, |at| (at + by) % count);
+    let buttons: &[(&str, usize)] = match count {
+        0 => return,
+        1 => &[("Show", 0)],
+        _ => &[("Previous", count - 1), ("Next", 1)],
+    };
+    ui.horizontal_wrapped(|ui| {
+        for &(words, by) in buttons {
+            let first = if by > 1 { count - 1 } else { 0 };
+            let to = shown.map_or(first, |at| (at + by) % count);
             let button = ui.add(Button::new(words)).on_hover_text("Show it in both panes");
             let name = format!("{words} of {}", finding.code.name().replace('-', " "));
             if button.named(Role::Button, &name).clicked() {
@@ -67,8 +70,10 @@ fn finding_row(ui: &mut egui::Ui, finding: &Finding, requests: &mut Vec<Request>
             }
         }
         if let Some(at) = shown {
-            let faces: Vec<String> = faces_at(finding, at).iter().map(ToString::to_string).collect();
-            let words = format!("{} of {}: face {}", grouped(at + 1), grouped(count), faces.join(" and "));
+            let faces: Vec<String> = faces_at(finding, at).iter().map(|face| face.number().to_string()).collect();
+            let noun = if faces.len() == 1 { "face" } else { "faces" };
+            let of = if count == 1 { String::new() } else { format!("{} of {}: ", grouped(at + 1), grouped(count)) };
+            let words = format!("{of}{noun} {}", faces.join(" and "));
             ui.label(RichText::new(words).color(theme.weak_text));
         }
     });

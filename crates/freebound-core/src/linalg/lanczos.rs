@@ -36,6 +36,8 @@ pub struct Eigenpair {
     pub value: f64,
     /// Eigenvector x, of length 1.
     pub vector: Vec<C64>,
+    /// Weight in x of each vector that the operator was applied to, in order.
+    pub weights: Vec<f64>,
     /// Number of applications of the operator.
     pub applications: usize,
     /// Relative residual ‖T x − θ x‖ / |θ|.
@@ -83,7 +85,8 @@ pub fn greatest_eigenpair<E>(
         length = norm(&next);
         if !length.is_finite() {
             // The search for eigenvalues of a matrix with NaN entries would not end.
-            return Ok(Eigenpair { value: f64::NAN, vector: next, applications: basis.len(), residual: f64::NAN });
+            let (value, residual) = (f64::NAN, f64::NAN);
+            return Ok(Eigenpair { value, vector: next, weights: Vec::new(), applications: basis.len(), residual });
         }
         let (value, weights) = greatest_of(&diagonal, &beside);
         let residual = length * weights[weights.len() - 1].abs() / value.abs();
@@ -93,7 +96,7 @@ pub fn greatest_eigenpair<E>(
         if !is_continued {
             let combined = |place: usize| basis.iter().zip(&weights).map(|(v, &w)| v[place] * w).sum();
             let vector = (0..start.len()).map(combined).collect();
-            return Ok(Eigenpair { value, vector, applications: basis.len(), residual });
+            return Ok(Eigenpair { value, vector, weights, applications: basis.len(), residual });
         }
         beside.push(length);
     }

@@ -36,8 +36,11 @@ use crate::problem::{Control, Convergence, Embedding, SolveError, Stop};
 
 type C64 = Complex<f64>;
 
-/// Limits of the iteration. The tolerance keeps the asymmetry of a symmetric mesh below 1e-8.
-const LIMITS: EigenLimits = EigenLimits { tolerance: 1e-10, applications: 60 };
+/// Limits of the iteration. The tolerance keeps the asymmetry of a symmetric mesh below 1e-6.
+const LIMITS: EigenLimits = EigenLimits { tolerance: 1e-7, applications: 60 };
+
+/// Largest number of vectors over all vertices that are kept. They make the last application of the operator needless.
+const KEPT: usize = 12;
 
 /// Spectral map with the numbers of its solve.
 pub(crate) struct SpectralGauge {
@@ -83,9 +86,14 @@ pub(crate) fn spectral_gauge(
     let inverse = Inverse { free, site, pinned, energy: force.re.max(0.0), control };
     let mut start: Vec<C64> = site.mesh.boundary_loop().iter().map(|v| inverse.pinned[v.index()]).collect();
     centre(&mut start);
+    let mut kept: Vec<Vec<C64>> = Vec::new();
     let apply = |b: &[C64]| {
-        let mut boundary = inverse.on_boundary(&inverse.apply(b)?);
+        let whole = inverse.apply(b)?;
+        let mut boundary = inverse.on_boundary(&whole);
         centre(&mut boundary);
+        if kept.len() < KEPT {
+            kept.push(whole);
+        }
         Ok::<_, SolveError>(boundary)
     };
     let found = greatest_eigenpair(&start, LIMITS, apply)?;
@@ -94,13 +102,26 @@ pub(crate) fn spectral_gauge(
     if !has_converged {
         return Ok(None);
     }
-    let embedding = inverse.normed(inverse.apply(&found.vector)?);
+    let whole =
+        if found.applications <= KEPT { combined(&kept, &found.weights) } else { inverse.apply(&found.vector)? };
+    let embedding = inverse.normed(whole);
     if embedding.check_finite().is_err() {
         return Ok(None);
     }
     let (_, residual) = pencil_residual(site.mesh, free.equations(), &embedding, control)?;
     let convergence = Convergence { steps: found.applications, residual: found.residual, stop: Stop::Converged };
     Ok(Some(SpectralGauge { embedding, residual, convergence }))
+}
+
+/// Sum of vectors with these weights.
+fn combined(vectors: &[Vec<C64>], weights: &[f64]) -> Vec<C64> {
+    let mut sum = vec![C64::ZERO; vectors[0].len()];
+    for (vector, weight) in vectors.iter().zip(weights) {
+        for (sum, x) in sum.iter_mut().zip(vector) {
+            *sum += x * weight;
+        }
+    }
+    sum
 }
 
 impl Inverse<'_> {

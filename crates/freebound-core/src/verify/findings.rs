@@ -193,6 +193,14 @@ impl Finding {
         Self { code, severity: code.severity(), count, more: false, faces, pairs: Vec::new() }
     }
 
+    /// Count and description, without elements.
+    pub fn headline(&self) -> String {
+        let [_, one, many] = self.code.texts();
+        let more = if self.more { "more than " } else { "" };
+        let words = if self.count == 1 && !self.more { one } else { many };
+        format!("{more}{} {words}", self.count)
+    }
+
     /// Raises the severity.
     pub(super) fn into_error(self) -> Self {
         Self { severity: FindingSeverity::Error, ..self }
@@ -208,10 +216,7 @@ impl Finding {
 
 impl Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [_, one, many] = self.code.texts();
-        let more = if self.more { "more than " } else { "" };
-        let words = if self.count == 1 && !self.more { one } else { many };
-        write!(f, "{more}{} {words}", self.count)?;
+        f.write_str(&self.headline())?;
         let of_pair = |[a, b]: &[FaceId; 2]| format!("{} and {}", a.number(), b.number());
         let first = self.faces.first().map(|face| face.number().to_string());
         let first = first.or_else(|| self.pairs.first().map(of_pair));

@@ -51,9 +51,7 @@ impl RunStage for Natural {
         }
         let solution = solved.map_err(natural_failure)?;
         let stage = Stage::of_linear_solve(&settings.method);
-        let note =
-            solution.convergence.map(|found| format!("spectral map, without gauge pins: {} solves", found.steps));
-        Ok(Candidate { prepared: Some(prepared), note, ..Candidate::new(stage, settings.family(), solution) })
+        Ok(Candidate { prepared: Some(prepared), ..Candidate::new(stage, settings.family(), solution) })
     }
 
     fn has_more(&self, _: &Task, latest: Option<&StepState>) -> bool {
