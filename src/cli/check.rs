@@ -8,19 +8,20 @@ use super::awaited::await_report;
 use super::error::{CommandError, CommandOutcome};
 use super::opened::disk_of;
 use super::places::OutputPaths;
-use super::progress::go_on;
+use super::progress::{INTERRUPTED, go_on};
 use super::say::say;
 use super::standard::read_typed;
 use super::summary::{deliver, file_words, mesh_words, size_words};
 use crate::session::Model;
 use freebound_core::mesh::{DiskMesh, Part, Preparation, parts};
 use freebound_core::pipeline::{PreparedMesh, Surface};
+use freebound_core::problem::{Control, SolveError};
 use freebound_core::verify::{
     AtlasVerdict, ChartRelations, DistortionSummary, Finding, FindingSeverity, Verdict, distortion, equal_outlines,
     stacked_atlas_verdict, verdict,
 };
 use freebound_io::{
-    JudgedLayout, MeshReport, Report, Seconds, TextureError, TextureMesh, groups_of, verdict_as_in_file,
+    JudgeError, JudgedLayout, MeshReport, Report, Seconds, TextureError, TextureMesh, groups_of, verdict_as_in_file,
 };
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandError> {
@@ -33,14 +34,15 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandE
     let path = model.path_words();
     let read = start.elapsed().as_secs_f64();
     go_on()?;
+    let control = Control::new(&INTERRUPTED, &|_| {});
     let JudgedLayout { texture, labels, verdict } =
-        match model.source.judged_layout(arguments.options(), arguments.across_materials) {
+        match model.source.judged_layout(arguments.options(), arguments.across_materials, control) {
             Ok(found) => found,
-            Err(TextureError::None) => return check_mesh(&model, arguments, path, start),
-            Err(error) => return Err(CommandError::Texture { path, error }),
+            Err(JudgeError::Texture(TextureError::None)) => return check_mesh(&model, arguments, path, start),
+            Err(JudgeError::Texture(error)) => return Err(CommandError::Texture { path, error }),
+            Err(JudgeError::Cancelled) => return Err(SolveError::Cancelled.into()),
         };
-    let mut found = verdict.judged_by(&arguments.ignore, &arguments.denied_codes());
-    found.planar_in_f32 |= found.planar && model.source.is_turned_over();
+    let found = verdict.judged_by(&arguments.ignore, &arguments.denied_codes());
     go_on()?;
     let outcome = if found.passes { CommandOutcome::Fine } else { CommandOutcome::FallsShort };
     let mesh = MeshReport { warnings: model.source.warnings.clone(), ..MeshReport::default() };

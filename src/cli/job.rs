@@ -102,7 +102,7 @@ impl HeadlessJob<'_> {
         let mut output = finished_atlas(&charts, self.options.packing, self.options.arrangement);
         report_seams(&mut output, model, read);
         if self.fit == Fit::True {
-            let unequal = |error: std::io::Error| CommandError::Usage(format!("--fit true: {error}: remove it"));
+            let unequal = |error: std::io::Error| CommandError::Usage(format!("--fit true: {error}"));
             output.scale_to_true_size().map_err(unequal)?;
         }
         output.report.seconds.verify = before.elapsed().as_secs_f64();

@@ -1,5 +1,6 @@
 //! `freebound pack`: new places for the charts of an existing layout, without flattening.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::time::Instant;
 
@@ -73,6 +74,8 @@ fn write(
     let outputs = arguments.outputs();
     let mesh = outputs.iter().map(|&(kind, _)| kind).find(|kind| kind.is_mesh());
     file.round_to(arguments.precision, mesh.unwrap_or(OutputKind::Obj));
+    let not_kept = outputs.iter().flat_map(|&(kind, _)| file.not_kept_in(kind));
+    file.report.not_kept = not_kept.collect::<BTreeSet<_>>().into_iter().collect();
     progress.enter("writing");
     let before_writing = Instant::now();
     for (kind, path) in outputs {

@@ -69,8 +69,10 @@ pub(super) fn ending_words(solved: &SolvedProblem, output: &Output) -> String {
         };
         let steps = if count == 1 { "step" } else { "steps" };
         let stage = step.candidate.stage.words();
+        let is_chosen = outcome.problem.settings.method == Method::Auto && outcome.problem.targets.is_empty();
         let taken = match output.report.written_step {
-            Some(written) => format!("at step {written}, the best of {count}"),
+            Some(written) if is_chosen => format!("at step {written}, the best of {count}"),
+            Some(written) => format!("at step {written} of {count}"),
             None => format!("after {count} {steps}"),
         };
         words = format!("{words} {taken} ({stage}{boundary}{why})");
@@ -146,7 +148,7 @@ pub(super) fn mesh_words(mesh: &MeshReport) -> Option<String> {
     (!words.is_empty()).then(|| format!("mesh: {}", words.join(", ")))
 }
 
-/// Text for what was left out of the file.
+/// Text for what the reader left out of the file, or read once for several places.
 pub(super) fn file_words(mesh: &MeshReport) -> Option<String> {
     let words: Vec<String> = mesh.warnings.iter().map(ToString::to_string).collect();
     (!words.is_empty()).then(|| format!("file: {}", words.join(", ")))
@@ -239,6 +241,7 @@ pub(super) fn pack_summary(report: &Report, faults: Option<&Diagnosis>) -> Strin
     }));
     lines.extend(faults.map(|faults| format!("pack: not proved: a chart is no surface with a boundary\n{faults}")));
     lines.extend(rounding_words(report));
+    lines.extend(not_kept_words(report));
     let folded = report.packed_charts.iter().filter(|chart| !chart.was_planar).count();
     lines.extend(match folded {
         0 => None,
@@ -331,10 +334,15 @@ pub(super) fn comparison_summary(report: &ComparisonReport, by: Option<Column>) 
     lines.join("\n")
 }
 
+/// Step that is written: the last one, unless the report names another.
+fn written_of(steps: &[StepReport], written: Option<usize>) -> Option<&StepReport> {
+    steps.iter().rfind(|step| written.is_none_or(|written| step.index == written))
+}
+
 fn chart_words(chart: &ChartReport, packing: Option<PackingSummary>) -> String {
     let face = chart.first_face.number();
     let steps = counted(chart.steps.len(), "step", "steps");
-    let written = chart.steps.iter().rfind(|step| chart.written_step.is_none_or(|written| step.index == written));
+    let written = written_of(&chart.steps, chart.written_step);
     let stage = written.map(|step| format!(" ({})", step.stage.words())).unwrap_or_default();
     let faces = counted(chart.faces, "face", "faces");
     let energy = chart.distortion.symmetric_dirichlet.mean;
@@ -381,7 +389,8 @@ pub(super) fn summary(report: &Report, verdict: &str) -> String {
     lines.extend(seams_words(report));
     let family = report.family.map(|family| format!(", {family} weights")).unwrap_or_default();
     // Without a linear system there is no residual.
-    let residual = report.steps.last().and_then(|step| step.residual).filter(|residual| residual.is_finite());
+    let written = written_of(&report.steps, report.written_step);
+    let residual = written.and_then(|step| step.residual).filter(|residual| residual.is_finite());
     let residual = residual.map(|residual| format!("; residual {residual:.1e}")).unwrap_or_default();
     let in_f32 = report.verdict.as_ref().and_then(Verdict::summary_in_f32);
     let in_f32 = in_f32.map(|words| format!("; {words}")).unwrap_or_default();

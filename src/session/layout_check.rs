@@ -2,13 +2,16 @@
 
 use std::sync::Arc;
 
-use super::{Background, JobFailure, Session, Wake};
+use super::{Background, Message, MessagePlace, Session, Wake};
+use freebound_core::mesh::FaceId;
+use freebound_core::problem::Control;
 use freebound_core::verify::{LayoutOptions, LayoutVerdict};
+use freebound_io::JudgeError;
 
 /// Check of the layout of the open file. Its key is the number of the opening.
 pub(super) struct LayoutCheck {
-    job: Background<u64, Option<LayoutVerdict>>,
-    found: Option<(u64, Result<Arc<LayoutVerdict>, JobFailure>)>,
+    job: Background<u64, Result<LayoutVerdict, JudgeError>>,
+    found: Option<(u64, Result<Arc<LayoutVerdict>, String>)>,
 }
 
 /// State of the check of the open file's layout.
@@ -20,8 +23,8 @@ pub enum LayoutCheckState {
     Running,
     /// Finished.
     Done(Arc<LayoutVerdict>),
-    /// Failed.
-    Failed(JobFailure),
+    /// Failed, for this reason.
+    Failed(String),
 }
 
 impl LayoutCheck {
@@ -31,6 +34,12 @@ impl LayoutCheck {
 }
 
 impl Session {
+    /// Reports a face of the file that is not on the screen, because the mesh does not have it.
+    pub fn tell_left_out(&mut self, face: FaceId) {
+        let text = format!("face {} of the file is left out of the mesh", face.number());
+        self.messages.say(Message::note(MessagePlace::Mesh, text));
+    }
+
     /// State of the check of the open file's layout. `None` if the file has no texture coordinates.
     pub fn layout_check(&self) -> Option<LayoutCheckState> {
         self.model()?.source.texture.as_ref()?;
@@ -46,8 +55,10 @@ impl Session {
     /// Judges the texture coordinates of the open file in the background.
     pub(super) fn check_layout(&mut self) {
         let Some(model) = self.model().cloned() else { return };
-        let judge = move || model.source.judged_layout(LayoutOptions::default(), false).ok().map(|found| found.verdict);
-        self.layout_check.job.start(self.opening_revision(), move |_| judge());
+        self.layout_check.job.start(self.opening_revision(), move |cancel| {
+            let control = Control::new(cancel, &|_| {});
+            model.source.judged_layout(LayoutOptions::default(), false, control).map(|found| found.verdict)
+        });
     }
 
     /// Takes the result of the check.
@@ -57,12 +68,11 @@ impl Session {
             self.layout_check.job.cancel();
         }
         if let Some((of, outcome)) = self.layout_check.job.poll() {
-            let found = outcome.map(|found| found.map(Arc::new));
-            self.layout_check.found = match found {
-                Ok(None) => None,
-                Ok(Some(found)) => Some((of, Ok(found))),
-                Err(failure) => Some((of, Err(failure))),
+            let found = match outcome {
+                Ok(found) => found.map(Arc::new).map_err(|error| error.to_string()),
+                Err(failure) => Err(failure.words("the check")),
             };
+            self.layout_check.found = Some((of, found));
         }
     }
 }

@@ -11,6 +11,8 @@ pub enum FileData {
     Names,
     /// Normals, if the format has one for each vertex and a vertex has several.
     Normals,
+    /// Colours, if the format has one for each vertex and a vertex has several, or if it has no alpha.
+    Colours,
     /// Tangents, which follow from texture coordinates.
     Tangents,
     /// Further copies of meshes that nodes of a glTF file share.
@@ -24,6 +26,7 @@ impl FileData {
             Self::Materials => "materials",
             Self::Names => "names",
             Self::Normals => "normals",
+            Self::Colours => "colours",
             Self::Tangents => "tangents",
             Self::Copies => "copies of shared meshes",
         }

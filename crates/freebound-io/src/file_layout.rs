@@ -2,7 +2,8 @@
 
 use super::{MeshFile, TextureError, TextureMesh};
 use freebound_core::mesh::{FaceId, TriMesh};
-use freebound_core::verify::{LayoutOptions, LayoutVerdict, PlaneLayout, layout_verdict};
+use freebound_core::problem::Control;
+use freebound_core::verify::{LayoutOptions, LayoutVerdict, PlaneLayout, layout_verdict_with};
 
 /// Texture coordinates of a file with their verdict.
 #[derive(Clone, Debug)]
@@ -15,20 +16,38 @@ pub struct JudgedLayout {
     pub verdict: LayoutVerdict,
 }
 
+/// Reason why texture coordinates are not judged.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum JudgeError {
+    /// The file has no usable texture coordinates.
+    #[error(transparent)]
+    Texture(#[from] TextureError),
+    /// The caller cancelled.
+    #[error("the check was cancelled")]
+    Cancelled,
+}
+
 impl MeshFile {
     /// Judges the texture coordinates of the file. Faces of different materials may overlap, unless `across_materials`
     /// is true.
     ///
     /// # Errors
     ///
-    /// [`TextureError`] if the file has no texture coordinates.
-    pub fn judged_layout(&self, options: LayoutOptions, across_materials: bool) -> Result<JudgedLayout, TextureError> {
+    /// [`JudgeError`] if the file has no usable texture coordinates, or if the caller cancels.
+    pub fn judged_layout(
+        &self,
+        options: LayoutOptions,
+        across_materials: bool,
+        control: Control<'_>,
+    ) -> Result<JudgedLayout, JudgeError> {
         let (texture, bare_faces) = self.partial_texture_mesh()?;
         let labels = self.material_labels().ok().filter(|_| !across_materials);
         let groups = labels.as_ref().map(|labels| groups_of(labels, &texture.mesh)).unwrap_or_default();
         let coordinates = &texture.embedding;
         let layout = PlaneLayout { mesh: &texture.mesh, coordinates, groups: &groups, bare_faces: &bare_faces };
-        let verdict = layout_verdict(layout, options);
+        let mut verdict = layout_verdict_with(layout, options, control).map_err(|_| JudgeError::Cancelled)?;
+        // A file that stores 32-bit numbers with v down holds them, whatever 1 − v rounds.
+        verdict.planar_in_f32 |= verdict.planar && self.is_turned_over();
         Ok(JudgedLayout { texture, labels, verdict })
     }
 }

@@ -82,7 +82,7 @@ pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_cons
 pub use edges::{EdgeFault, EdgesError, parse_edges, read_edge_costs, read_edges, write_edges};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use file_data::FileData;
-pub use file_layout::{JudgedLayout, groups_of};
+pub use file_layout::{JudgeError, JudgedLayout, groups_of};
 pub use finished::ResultSource;
 pub use gltf::write_glb;
 pub use machine::{bytes_in_words, machine_memory_bytes, peak_memory_bytes};

@@ -1,11 +1,12 @@
 //! Data of a mesh file that a written mesh file does not hold.
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
-use crate::corner_data::{CornerData, normals_of_vertices};
+use crate::corner_data::{CornerData, at_vertices, normals_of_vertices};
 use crate::file_data::FileData;
 use crate::mesh_file::{MeshFile, ReadWarning, ReadWarningKind, SourceFormat, Texture};
 use crate::output::OutputKind;
+use freebound_core::mesh::VertexId;
 
 impl MeshFile {
     /// Data of this file that a mesh of the given kind with these texture coordinates does not hold, in the order of
@@ -19,10 +20,10 @@ impl MeshFile {
             SourceFormat::Gltf(scene) => scene.data(),
             SourceFormat::Obj | SourceFormat::Ply(_) => Vec::new(),
         };
-        if kind == OutputKind::Ply && !self.has_normals_of_vertices() {
-            found.push(FileData::Normals);
-        }
-        let shares = |warning: &ReadWarning| warning.kind == ReadWarningKind::SharedInstances;
+        found.extend(self.values_not_kept_in(kind));
+        let shares = |warning: &ReadWarning| {
+            matches!(warning.kind, ReadWarningKind::SharedInstances | ReadWarningKind::RepeatedNodes)
+        };
         if kind != OutputKind::Glb && self.warnings.iter().any(shares) {
             found.push(FileData::Copies);
         }
@@ -30,11 +31,30 @@ impl MeshFile {
         found
     }
 
-    /// True if no vertex has several normals, so that a PLY file holds them.
-    fn has_normals_of_vertices(&self) -> bool {
-        let is_of_ply = self.source.as_ref().is_some_and(|source| matches!(source.format, SourceFormat::Ply(_)));
-        let has = |normals: Vec<DVec3>| normals_of_vertices(&self.polygons, &normals).is_some();
-        is_of_ply || CornerData::of(self).normals.is_none_or(has)
+    /// Normals and colours that a file of this kind does not hold, as it has one for each vertex, or no alpha.
+    fn values_not_kept_in(&self, kind: OutputKind) -> Vec<FileData> {
+        let format = self.source.as_ref().map(|source| &source.format);
+        let is_carried = match kind {
+            OutputKind::Ply => matches!(format, Some(SourceFormat::Ply(_))),
+            OutputKind::Obj => matches!(format, Some(SourceFormat::Obj)),
+            _ => true,
+        };
+        if is_carried {
+            return Vec::new();
+        }
+        let data = CornerData::of(self);
+        let has_several = |normals: &Vec<DVec3>| normals_of_vertices(&self.polygons, normals).is_none();
+        let is_opaque = |colour: &DVec4| colour.w >= 1.0;
+        let loses_colours = |colours: &Vec<DVec4>| {
+            let first = at_vertices(&self.polygons, colours, DVec4::ONE);
+            let is_first = |(vertex, colour): (&VertexId, &DVec4)| first[vertex.index()] == *colour;
+            let has_alpha = kind == OutputKind::Obj && !colours.iter().all(is_opaque);
+            has_alpha || !self.polygons.corners.iter().zip(colours).all(is_first)
+        };
+        let normals = kind == OutputKind::Ply && data.normals.as_ref().is_some_and(has_several);
+        let colours = data.colours.as_ref().is_some_and(loses_colours);
+        let found = [(FileData::Normals, normals), (FileData::Colours, colours)];
+        found.into_iter().filter_map(|(data, is_lost)| is_lost.then_some(data)).collect()
     }
 
     /// True if all corners have the texture coordinates of the file.

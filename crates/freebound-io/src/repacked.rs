@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use super::file_data::FileData;
 use super::finite::check_finite;
 use super::gltf::{Shading, write_glb_with};
 use super::obj::{Materials, copy_materials, relocated, write_obj_with};
@@ -158,6 +159,11 @@ impl<'a> RepackedFile<'a> {
 
     fn source_place(&self) -> &Path {
         self.source_path.unwrap_or(Path::new("-"))
+    }
+
+    /// Data of the source that a mesh file of this kind does not hold.
+    pub fn not_kept_in(&self, kind: OutputKind) -> Vec<FileData> {
+        if kind.is_mesh() { self.source.not_kept_in(kind, &self.texture()) } else { Vec::new() }
     }
 
     fn texture(&self) -> Texture {

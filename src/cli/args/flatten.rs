@@ -156,6 +156,7 @@ impl FlattenArguments {
     pub fn arrangement(&self) -> Arrangement {
         let sizes = [self.pack.is_some(), self.gap.is_some(), self.rotations.is_some(), self.density.is_some()];
         let is_packed = sizes.contains(&true) || self.tiles.is_some() || !self.lock.is_empty();
+        let is_packed = is_packed || self.fit == Some(Fit::True);
         if self.solve.start.is_some() && !is_packed { Arrangement::AsGiven } else { Arrangement::Packed }
     }
 

@@ -205,6 +205,9 @@ impl Editor {
             self.pointer.keep_menu_below(vertex_count);
             let count = self.defect_count();
             self.selection.keep_defect_below(count);
+            if self.selection.is_map_due() {
+                self.frame();
+            }
         }
         self.tell_failures();
         self.pane_shading.refresh_picture(self.session.document());

@@ -52,7 +52,14 @@ impl Selection {
     /// true if the selection is to be framed.
     pub(super) fn come_back(&mut self, copies: impl Fn(VertexId) -> Vec<VertexId>) -> bool {
         self.vertices.extend(std::mem::take(&mut self.of_file).into_iter().flat_map(copies));
-        std::mem::take(&mut self.is_framed_later) && !self.vertices.is_empty()
+        self.is_framed_later && !self.vertices.is_empty()
+    }
+
+    /// True once if the selection is to be framed in the map, too, which follows the mesh.
+    pub(super) fn is_map_due(&mut self) -> bool {
+        let is_due = self.is_framed_later && !self.vertices.is_empty();
+        self.is_framed_later &= !is_due;
+        is_due
     }
 
     /// Adds vertices to the selection.

@@ -59,7 +59,14 @@ impl Editor {
             return;
         }
         let Some(scene) = self.mesh_scene() else { return };
-        let on_screen = vertices.into_iter().flat_map(|vertex| scene.in_file.copies(vertex)).collect();
+        if !self.is_of_session(scene) {
+            self.selection.await_mesh(vertices);
+            return;
+        }
+        let on_screen: Vec<VertexId> = vertices.iter().flat_map(|&vertex| scene.in_file.copies(vertex)).collect();
+        if on_screen.is_empty() {
+            self.session.tell_left_out(first);
+        }
         self.go_to_vertices(on_screen);
     }
 

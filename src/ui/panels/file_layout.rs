@@ -25,20 +25,20 @@ pub(super) fn file_layout(ui: &mut egui::Ui, session: &Session, requests: &mut V
                 ui.label("Checking");
             });
         }
-        LayoutCheckState::Failed(failure) => {
-            ui.colored_label(theme_of(ui).flipped, sentence(&failure.words("the check")));
+        LayoutCheckState::Failed(reason) => {
+            ui.colored_label(theme_of(ui).flipped, sentence(&reason));
         }
-        LayoutCheckState::Done(found) => findings(ui, &found, requests),
+        LayoutCheckState::Done(found) => findings(ui, session.opening_revision(), &found, requests),
     });
     ui.separator();
 }
 
-fn findings(ui: &mut egui::Ui, found: &LayoutVerdict, requests: &mut Vec<Request>) {
+fn findings(ui: &mut egui::Ui, opening: u64, found: &LayoutVerdict, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     let colour = if found.planar { theme.planar } else { theme.flipped };
     ui.colored_label(colour, sentence(&found.summary()));
     for finding in &found.findings {
-        finding_row(ui, finding, requests);
+        ui.push_id(opening, |ui| finding_row(ui, finding, requests));
     }
 }
 

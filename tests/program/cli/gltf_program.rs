@@ -121,3 +121,43 @@ fn what_a_file_holds_compressed_beside_what_is_read_does_not_come_along() {
     assert_eq!(after["bufferViews"][0]["extensions"], json!({"EXT_other": {"kept": 1}}));
     assert_eq!(after["meshes"][0]["primitives"][0]["extensions"], json!({"EXT_other": {"kept": 2}}));
 }
+
+#[test]
+fn what_the_format_of_the_written_mesh_does_not_hold_is_named() {
+    let program = Program::new();
+    let mut maker = plain(4, U16);
+    let tangents = maker.floats("VEC4", &[1.0, 0.0, 0.0, 1.0].repeat(25));
+    maker.json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = json!(tangents);
+    maker.json["meshes"][0]["name"] = json!("sheet");
+    maker.json["materials"] = json!([{"name": "A"}]);
+    maker.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+    maker.json["nodes"] = json!([{"mesh": 0}, {"mesh": 0, "translation": [9, 0, 0]}]);
+    fs::write(program.path("in.glb"), maker.glb()).expect("written");
+    let edge =
+        "o a\nv 0 0 0\nv 1 0 1\nv 1 1 1\nv 2 0 0\nvn 0 0 1\nvn 1 0 0\nusemtl b\nf 1//1 2//1 3//1\nf 2//2 4//2 3//2\n";
+    program.write("in.obj", edge);
+    let colours = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+        property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\nelement face 1\n\
+        property list uchar int vertex_indices\nend_header\n0 0 0 1 2 3 9\n1 0 0 1 2 3 9\n0 1 0 1 2 3 9\n3 0 1 2\n";
+    program.write("in.ply", colours);
+    let cases = [
+        ("in.glb", "out.glb", json!(["tangents"])),
+        ("in.glb", "out.obj", json!(["materials", "names", "tangents", "copies"])),
+        ("in.obj", "out.obj", Value::Null),
+        ("in.obj", "out.glb", json!(["names"])),
+        ("in.obj", "out.ply", json!(["materials", "names", "normals"])),
+        ("in.ply", "out.ply", Value::Null),
+        ("in.ply", "out.glb", Value::Null),
+        ("in.ply", "out.obj", json!(["colours"])),
+    ];
+    for (from, to, wanted) in cases {
+        let report = program.run(&["flatten", from, "-o", to, "--report", "-"]).expect(0).json();
+        assert_eq!(report["not_kept"], wanted, "{from} to {to}");
+    }
+    program.run(&["flatten", "in.obj", "-o", "flat.obj"]).expect(0);
+    let report = program.run(&["pack", "flat.obj", "-o", "out.ply", "--report", "-"]).expect(0).json();
+    assert_eq!(report["not_kept"], json!(["materials", "names", "normals"]));
+    let kept =
+        program.run(&["flatten", "out.glb", "--start", "uv", "-o", "again.glb", "--report", "-"]).expect(0).json();
+    assert_eq!(kept["not_kept"], Value::Null, "the texture coordinates are as they were");
+}

@@ -64,12 +64,12 @@ fn without_a_planar_map_the_step_with_the_fewest_faults_is_written_and_named() {
         .iter()
         .map(|step| step["flipped_faces"].as_u64().unwrap() + step["concave_polygons"].as_u64().unwrap())
         .collect();
-    let (least, last) = (faults.iter().min().expect("steps"), faults.last().expect("steps"));
-    assert!(least < last, "the case has a step that is better than the last: {faults:?}");
+    let (fewest, last) = (faults.iter().min().expect("steps"), faults.last().expect("steps"));
+    assert!(fewest < last, "the case has a step that is better than the last: {faults:?}");
     let written = usize::try_from(report["written_step"].as_u64().expect("not the last one")).unwrap();
-    assert_eq!(&faults[written], least, "{faults:?}");
+    assert_eq!(&faults[written], fewest, "{faults:?}");
     let listed = report["verdict"]["concave_polygons"].as_array().expect("a list").len();
-    assert_eq!(u64::try_from(listed).unwrap(), *least);
+    assert_eq!(u64::try_from(listed).unwrap(), *fewest);
     let summary = program.run(&flatten).expect(4).stdout;
     let wanted = format!("at step {written}, the best of {}", faults.len());
     assert!(summary.contains(&wanted), "{summary}");

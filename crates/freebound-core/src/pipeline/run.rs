@@ -15,10 +15,16 @@ pub struct SolvedProblem {
     pub ending: Result<Ending, SolveError>,
 }
 
-/// Faults of a step, the worst first: not one-to-one, and the number of polygons that other programs could fold.
-fn faults(step: &Step) -> (bool, usize) {
+/// Faults of a step, the worst first: not planar, not one-to-one, and the number of defects.
+fn faults(step: &Step) -> (bool, bool, usize) {
     let verdict = &step.verdict;
-    (!verdict.is_one_to_one(), verdict.flipped_faces.len() + verdict.concave_polygons.len())
+    let defects = [
+        verdict.flipped_faces.len(),
+        verdict.concave_polygons.len(),
+        verdict.boundary_crossings.len(),
+        verdict.crossed_holes.len(),
+    ];
+    (!verdict.planar, !verdict.is_one_to_one(), defects.iter().sum())
 }
 
 impl Problem {
@@ -34,7 +40,7 @@ impl Problem {
         control: Control<'_>,
         mut observe: impl FnMut(&Step) -> Result<(), E>,
     ) -> Result<SolvedProblem, E> {
-        // Other methods are asked for their last step.
+        // Only auto chooses among its steps.
         let looks_for_best = self.settings.method == Method::Auto && self.targets.is_empty();
         let mut kept: Option<Step> = None;
         loop {

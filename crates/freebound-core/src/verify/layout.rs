@@ -29,7 +29,7 @@ use crate::geom::{self, Bounds, Orientation, double_area, orientation, point_key
 use crate::mesh::union::{DisjointSets, ParitySets};
 use crate::mesh::{EdgeTable, FaceId, TriMesh, VertexId, is_zero_area, place_key};
 use crate::parallel::prelude::*;
-use crate::problem::Embedding;
+use crate::problem::{Control, Embedding, SolveError};
 
 use super::findings::{FINDINGS_LISTED, Finding, FindingCode, FindingSeverity};
 
@@ -104,24 +104,45 @@ pub struct LayoutVerdict {
 /// If a triangle names a vertex that the mesh or the coordinates lack, or `groups` is neither empty nor has a group for
 /// each triangle.
 pub fn layout_verdict(layout: PlaneLayout<'_>, options: LayoutOptions) -> LayoutVerdict {
+    layout_verdict_with(layout, options, Control::unattended()).expect("nothing cancels it")
+}
+
+/// Judges a layout unless the caller cancels.
+///
+/// # Errors
+///
+/// [`SolveError::Cancelled`] if cancelled.
+///
+/// # Panics
+///
+/// As [`layout_verdict`].
+pub fn layout_verdict_with(
+    layout: PlaneLayout<'_>,
+    options: LayoutOptions,
+    control: Control<'_>,
+) -> Result<LayoutVerdict, SolveError> {
     let joined = joined_vertices(layout);
     let (kept, duplicates) = without_duplicates(layout, &joined);
     let layout = kept.as_ref().map_or(layout, |(mesh, groups)| PlaneLayout { mesh, groups, ..layout });
+    control.go_on()?;
     let as_given = Judged::new(layout, &joined, options);
-    let mut findings = as_given.errors(FINDINGS_LISTED);
+    control.go_on()?;
+    let mut findings = as_given.errors(FINDINGS_LISTED, control);
+    control.go_on()?;
     let contradicts = |finding: &Finding| finding.severity == FindingSeverity::Error;
     let planar = !findings.iter().any(contradicts);
     let is_planar_in_f32 = || {
         let in_f32: Embedding = layout.coordinates.iter().map(|z| z.as_vec2().as_dvec2()).collect();
         let rounded = PlaneLayout { coordinates: &in_f32, ..layout };
-        !Judged::new(rounded, &joined_vertices(rounded), options).errors(1).iter().any(contradicts)
+        !Judged::new(rounded, &joined_vertices(rounded), options).errors(1, control).iter().any(contradicts)
     };
     let planar_in_f32 = planar && is_planar_in_f32();
+    control.go_on()?;
     findings.extend(as_given.remarks());
     findings.extend((!duplicates.is_empty()).then(|| Finding::of_faces(FindingCode::Duplicate, duplicates)));
     findings.sort_by_key(|finding| (finding.severity, finding.code));
     let (charts, triangles) = (as_given.chart_count, layout.mesh.face_count());
-    LayoutVerdict { planar, planar_in_f32, passes: planar, charts, triangles, findings }
+    Ok(LayoutVerdict { planar, planar_in_f32, passes: planar, charts, triangles, findings })
 }
 
 impl LayoutVerdict {
@@ -265,7 +286,7 @@ impl<'a> Judged<'a> {
     }
 
     /// Findings that can contradict that the layout is planar. Lists at most `most` pairs of overlapping faces.
-    fn errors(&self, most: usize) -> Vec<Finding> {
+    fn errors(&self, most: usize, control: Control<'_>) -> Vec<Finding> {
         let mut findings = vec![
             Finding::of_faces(FindingCode::NotFinite, self.faces_where(|face| self.turns[face].is_none())),
             Finding::of_faces(FindingCode::Flipped, self.flipped()),
@@ -273,7 +294,7 @@ impl<'a> Judged<'a> {
             Finding::of_faces(FindingCode::ConcavePolygon, self.concave_polygons()),
             self.without_place(),
         ];
-        findings.extend(self.overlaps(most));
+        findings.extend(self.overlaps(most, control));
         findings.retain(|finding| finding.count > 0);
         findings
     }
@@ -329,15 +350,15 @@ impl<'a> Judged<'a> {
     ///
     /// Faces that share a place exactly, and charts that share an outline, are stacked. Both cover one region, so only
     /// the first of them is compared with others. Each chart is also compared with itself.
-    fn overlaps(&self, most: usize) -> Vec<Finding> {
+    fn overlaps(&self, most: usize, control: Control<'_>) -> Vec<Finding> {
         let (lowest, stacked) = self.lowest_and_stacked();
-        let mut pairs = self.overlapping_pairs(&lowest, most + 1);
+        let mut pairs = self.overlapping_pairs(&lowest, most + 1, control);
         let upper = (0..self.chart_count).filter(|&chart| self.first_like[chart] != chart);
         let first_at_place = |chart: usize| -> Vec<usize> {
             let mut seen = HashSet::new();
             self.faces_of[chart].iter().copied().filter(|&face| seen.insert(corners_key(self.corners(face)))).collect()
         };
-        let within = upper.flat_map(|chart| self.overlapping_pairs(&first_at_place(chart), most + 1));
+        let within = upper.flat_map(|chart| self.overlapping_pairs(&first_at_place(chart), most + 1, control));
         pairs.extend(within.take((most + 1).saturating_sub(pairs.len())));
         let are_more = pairs.len() > most;
         let mut found: [Vec<[FaceId; 2]>; 3] = Default::default();
@@ -380,8 +401,8 @@ impl<'a> Judged<'a> {
         (lowest.into_iter().map(|at| lower[at]).collect(), stacked.collect())
     }
 
-    /// Pairs of overlapping faces of one group among some faces, at most `most`.
-    fn overlapping_pairs(&self, faces: &[usize], most: usize) -> Vec<[usize; 2]> {
+    /// Pairs of overlapping faces of one group among some faces, at most `most`. Too few if cancelled.
+    fn overlapping_pairs(&self, faces: &[usize], most: usize, control: Control<'_>) -> Vec<[usize; 2]> {
         let upright = |&face: &usize| {
             let [a, b, c] = self.corners(face);
             match self.turns[face]? {
@@ -392,7 +413,7 @@ impl<'a> Judged<'a> {
         };
         let (faces, triangles): (Vec<usize>, Vec<[DVec2; 3]>) = faces.iter().filter_map(upright).unzip();
         let group = |at: usize| self.layout.groups.get(faces[at]).copied().unwrap_or_default();
-        let pairs = geom::overlaps(&triangles, |a, b| group(a) == group(b), most);
+        let pairs = geom::overlaps(&triangles, |a, b| group(a) == group(b) && control.go_on().is_ok(), most);
         pairs.into_iter().map(|pair| pair.map(|at| faces[at])).collect()
     }
 

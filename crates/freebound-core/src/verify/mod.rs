@@ -28,7 +28,9 @@ pub use conflicts::{CONFLICTS_LISTED, Conflict, conflicts};
 pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Mean, Spread, distortion};
 pub use findings::{FINDINGS_LISTED, Finding, FindingCode, FindingSeverity};
 pub use hull_condition::{CornerKind, HullStanding, holes_turn_once, hull_standing, vertices_outside_hull};
-pub use layout::{LayoutOptions, LayoutVerdict, MOST_WITHOUT_PLACE, PixelGap, PlaneLayout, layout_verdict};
+pub use layout::{
+    LayoutOptions, LayoutVerdict, MOST_WITHOUT_PLACE, PixelGap, PlaneLayout, layout_verdict, layout_verdict_with,
+};
 pub use one_form::{OneFormIndices, index_range};
 pub use rounding::{Rounded, RoundingGrid, rounded};
 pub use uv_frame::UvFrame;

@@ -3,7 +3,8 @@
 //! All of its JSON and of its buffers is kept, and new data are appended. Tangents are dropped if texture coordinates
 //! change: a program that reads the file computes them. Vertices whose corners have different
 //! texture coordinates are duplicated with all their attributes. Without such vertices, indices and all attributes
-//! except texture coordinates stay unchanged. A mesh that several nodes show is duplicated for each of them. Pictures
+//! except texture coordinates stay unchanged. A mesh that several nodes show stays one mesh, unless the
+//! nodes were read with a mesh of their own each. Pictures
 //! beside the file are embedded.
 
 use std::collections::BTreeMap;
@@ -124,7 +125,7 @@ impl Carried<'_> {
         }
     }
 
-    /// Gives each node its own mesh; returns the mesh of each instance.
+    /// Gives each read instance its own mesh; returns the mesh of each instance.
     fn part_meshes(&mut self) -> Vec<usize> {
         let mut is_taken = vec![false; self.document.meshes.len()];
         let mut own = Vec::with_capacity(self.scene.shown.instances.len());

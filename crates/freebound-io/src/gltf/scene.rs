@@ -1,6 +1,6 @@
 //! Meshes that a file shows, their transforms, and the numbers of their vertices.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -60,6 +60,11 @@ pub(super) struct Instance {
 }
 
 impl Instance {
+    /// True if the transform has no volume, such as a scale of 0, which hides the node.
+    fn is_collapsed(&self) -> bool {
+        self.transform.is_some_and(|transform| transform.matrix3.determinant() == 0.0)
+    }
+
     /// True if the instance is a mirror image of its mesh: its triangles are reversed.
     pub(super) fn is_mirrored(&self) -> bool {
         self.transform.is_some_and(|transform| transform.matrix3.determinant() < 0.0)
@@ -215,16 +220,24 @@ impl Shown {
         Ok(own)
     }
 
-    /// Keeps the first instance of each mesh.
+    /// Keeps the first instance of each mesh that its node does not collapse, else the first.
     fn share(&mut self) {
-        let mut taken = BTreeSet::new();
+        let mut kept: BTreeMap<usize, usize> = BTreeMap::new();
+        for (number, instance) in self.instances.iter().enumerate() {
+            let first = *kept.entry(instance.mesh).or_insert(number);
+            if self.instances[first].is_collapsed() && !instance.is_collapsed() {
+                kept.insert(instance.mesh, number);
+            }
+        }
         let Self { instances, sharing, .. } = self;
+        let mut number = 0;
         instances.retain(|instance| {
-            let is_first = taken.insert(instance.mesh);
-            if !is_first {
+            let is_kept = kept[&instance.mesh] == number;
+            number += 1;
+            if !is_kept {
                 sharing.extend(instance.node);
             }
-            is_first
+            is_kept
         });
     }
 

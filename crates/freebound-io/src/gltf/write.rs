@@ -20,9 +20,11 @@ use crate::finite::check_finite;
 use crate::mesh_file::{MeshFile, NO_TEXTURE, SourceFormat, Texture};
 use freebound_core::mesh::VertexId;
 
-/// Writes a mesh with these texture coordinates as a binary glTF file (GLB). If the mesh was read from glTF, all of
-/// that file is kept. Otherwise the file holds triangles, texture coordinates, normals and colours, and a plain material, without which
-/// programs ignore texture coordinates. Corners without new texture coordinates keep those of the file, or have 0, 0.
+/// Writes a mesh with these texture coordinates as a binary glTF file (GLB).
+///
+/// If the mesh was read from glTF, all of that file is kept. Otherwise the file holds triangles, texture coordinates,
+/// normals and colours. It has a plain material, because programs ignore texture coordinates without one. Corners
+/// without new texture coordinates keep those of the file, or have 0, 0.
 ///
 /// # Errors
 ///

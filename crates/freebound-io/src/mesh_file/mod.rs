@@ -68,7 +68,7 @@ pub struct MeshFile {
     /// Origin of the mesh. A writer of its format starts from it, and writes its own statements instead of
     /// `statements`.
     pub source: Option<Source>,
-    /// Elements of the file that were left out. The rest was read.
+    /// Elements of the file that were left out, or that were read once for several places.
     pub warnings: Vec<ReadWarning>,
 }
 

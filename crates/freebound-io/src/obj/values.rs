@@ -9,14 +9,14 @@ use crate::file_values::{CornerValues, FileValues};
 /// Number of words of a vertex with a colour: keyword, position, colour.
 const COLOURED: usize = 7;
 
-/// Largest component of a colour that counts from 0 to 1. Some programs write 0 to 255.
-const LARGEST: f64 = 1.0;
+/// Largest component of colours that count from 0 to 1. Some programs write 0 to 255.
+const LARGEST: f64 = 2.0;
 
-/// Normals at corners and colours at vertices; `None` without any.
+/// Normals at corners and colours at vertices; `None` without any. A face may name elements that come later in the file.
 pub(crate) fn corner_values(bytes: &[u8]) -> (Option<FileValues>, Option<FileValues>) {
-    let (mut normals, mut colours): (Vec<DVec4>, Vec<DVec4>) = (Vec::new(), Vec::new());
+    let (mut normals, mut colours): (Vec<DVec4>, Vec<Option<DVec4>>) = (Vec::new(), Vec::new());
     let mut corners = CornerValues { starts: vec![0], ..CornerValues::default() };
-    let (mut vertex_count, mut has_colours) = (0_usize, false);
+    let mut normal_of: Vec<Option<usize>> = Vec::new();
     let (_, text) = split_mark(bytes);
     let mut joined = Vec::new();
     for line in Lines::of(text) {
@@ -24,11 +24,9 @@ pub(crate) fn corner_values(bytes: &[u8]) -> (Option<FileValues>, Option<FileVal
         let mut rest = words(line);
         match rest.next() {
             Some(b"v") => {
-                vertex_count += 1;
                 let is_coloured = words(line).count() >= COLOURED;
-                has_colours |= is_coloured;
                 let colour = is_coloured.then(|| numbers::<3>(rest.skip(3)).ok()).flatten();
-                colours.push(colour.map_or(DVec4::ONE, |[r, g, b]| DVec4::new(r, g, b, 1.0)));
+                colours.push(colour.map(|[r, g, b]| DVec4::new(r, g, b, 1.0)));
             }
             Some(b"vn") => {
                 let [x, y, z] = numbers(rest).unwrap_or_default();
@@ -37,29 +35,31 @@ pub(crate) fn corner_values(bytes: &[u8]) -> (Option<FileValues>, Option<FileVal
             Some(b"f") if !has_few_corners(rest.clone()) => {
                 for word in rest {
                     let (vertex, normal) = normal_of_corner(word).unwrap_or_default();
-                    let vertex = in_list(vertex, vertex_count).and_then(|vertex| u32::try_from(vertex).ok());
+                    let vertex = place_in_list(vertex, colours.len()).and_then(|vertex| u32::try_from(vertex).ok());
                     corners.vertices.push(vertex.unwrap_or(u32::MAX));
-                    let normal = normal.and_then(|normal| in_list(normal, normals.len()));
-                    corners.values.push(normal.map(|normal| normals[normal]));
+                    normal_of.push(normal.and_then(|normal| place_in_list(normal, normals.len())));
                 }
                 corners.starts.push(corners.vertices.len());
             }
             _ => {}
         }
     }
-    let largest = colours.iter().map(|colour| colour.truncate().max_element()).fold(0.0, f64::max);
-    if largest > LARGEST {
-        for colour in &mut colours {
-            *colour = (colour.truncate() / 255.0).extend(1.0);
-        }
-    }
+    let normal = |place: Option<usize>| normals.get(place?).copied();
+    corners.values = normal_of.into_iter().map(normal).collect();
     let has_normals = corners.values.iter().any(Option::is_some);
-    (has_normals.then_some(FileValues::AtCorners(corners)), has_colours.then_some(FileValues::AtVertices(colours)))
+    (has_normals.then_some(FileValues::AtCorners(corners)), shares(&colours).map(FileValues::AtVertices))
 }
 
-/// Place in a list of `count` elements so far, from an index of the file: from 1 on, or negative from the end.
-fn in_list(index: i64, count: usize) -> Option<usize> {
+/// Colours as shares from 0 to 1; vertices without a colour are white. `None` without any colour.
+fn shares(colours: &[Option<DVec4>]) -> Option<Vec<DVec4>> {
+    let largest = colours.iter().flatten().map(|colour| colour.truncate().max_element()).reduce(f64::max)?;
+    let whole = if largest > LARGEST { 255.0 } else { 1.0 };
+    let share = |colour: DVec4| (colour.truncate() / whole).extend(1.0);
+    Some(colours.iter().map(|colour| colour.map_or(DVec4::ONE, share)).collect())
+}
+
+/// Place in a list that has `count` elements so far, from an index of the file: from 1 on, or negative from the end.
+fn place_in_list(index: i64, count: usize) -> Option<usize> {
     let count = i64::try_from(count).ok()?;
-    let place = if index < 0 { count + index } else { index - 1 };
-    usize::try_from(place).ok().filter(|_| place < count)
+    usize::try_from(if index < 0 { count + index } else { index - 1 }).ok()
 }

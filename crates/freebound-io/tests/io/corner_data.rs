@@ -128,6 +128,35 @@ fn corners_without_a_normal_get_that_of_their_face_and_colours_up_to_255_are_sha
     assert_near(&found[1].0, &[0.0, 0.0, 1.0], 1e-6);
     assert_near(&found[4].0, &[0.0, 1.0, 0.0], 1e-6);
     assert_near(&found[0].1, &[1.0, 0.0, 0.0, 1.0], 1e-6);
+    assert_near(&found[4].1, &[1.0; 4], 1e-6);
+}
+
+#[test]
+fn faces_may_come_before_their_vertices_and_normals_and_a_share_may_be_a_little_above_one() {
+    let (elements, faces) = ROOF.split_at(ROOF.find("f ").expect("faces"));
+    let faces = faces.replace("-2//-1", "3//2");
+    let glb = written(&read(format!("{faces}{elements}").as_bytes()), OutputKind::Glb);
+    assert_roof(&glb, 1e-6);
+    let bright = ROOF.replace("2 0 0 1 1 1", "2 0 0 1 1.02 1");
+    let found = corners_of_glb(&written(&read(bright.as_bytes()), OutputKind::Glb));
+    assert_near(&found[0].1, &[1.0, 0.0, 0.0, 1.0], 1e-6);
+}
+
+#[test]
+fn normals_turn_with_the_node_of_a_mesh() {
+    let mut maker = freebound_testkit::glb::GlbMaker::new();
+    let position = maker.floats("VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0]);
+    #[expect(clippy::cast_possible_truncation, reason = "that is what the format holds")]
+    let normal = maker.floats("VEC3", &LEFT.map(|x| x as f32).repeat(3));
+    let attributes = serde_json::json!({"POSITION": position, "NORMAL": normal});
+    maker.push("meshes", serde_json::json!({"primitives": [{"attributes": attributes}]}));
+    maker.push("nodes", serde_json::json!({"mesh": 0, "scale": [2, 1, -1]}));
+    let obj = written(&read(&maker.glb()), OutputKind::Obj);
+    // The surface z = x becomes z = −x / 2. The mirror image turns the triangle over, and the normal stays outside.
+    let normals = lines(&obj, "vn");
+    let wanted = DVec3::new(-1.0, 0.0, -2.0) / 5.0_f64.sqrt();
+    assert_eq!(normals.len(), 1);
+    assert!(DVec3::from_slice(&normals[0]).distance(wanted) < 1e-6, "{normals:?}");
 }
 
 #[test]

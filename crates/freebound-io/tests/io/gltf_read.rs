@@ -178,6 +178,16 @@ fn nodes_of_one_mesh_share_it_at_the_place_of_the_first_and_copies_by_an_extensi
 }
 
 #[test]
+fn a_shared_mesh_is_read_at_its_first_node_that_does_not_collapse_it() {
+    let mut maker = plain(2, U16);
+    maker.json["nodes"] = json!([{"mesh": 0, "scale": [0, 0, 0]}, {"mesh": 0, "translation": [1, 2, 3]}, {"mesh": 0}]);
+    let file = read(&maker.glb());
+    assert_eq!(triangles(&file), seen(&maker.glb())[8..16]);
+    maker.json["nodes"] = json!([{"mesh": 0, "scale": [0, 0, 0]}, {"mesh": 0, "scale": [1, 0, 1]}]);
+    assert_eq!(triangles(&read(&maker.glb())), seen(&maker.glb())[..8], "all of them collapse it");
+}
+
+#[test]
 fn transforms_are_taken_in_64_bits() {
     let mut maker = plain(2, U16);
     maker.json["nodes"] = json!([{"mesh": 0, "translation": [0.1, 0.2, 0.3], "scale": [0.3, 0.3, 0.3]}]);

@@ -121,6 +121,13 @@ pub struct Step {
 }
 
 impl Step {
+    /// True if the step is the spectral map: no vertex is pinned, and the equations of the boundary are those of an
+    /// eigenvector.
+    pub fn is_spectral(&self) -> bool {
+        let is_natural = self.candidate.stage == Stage::Natural && self.candidate.solution.convergence.is_some();
+        is_natural || self.candidate.stage == Stage::Spectral
+    }
+
     /// Vertices with hard pins that are not on their targets, ascending.
     pub fn unmet(&self) -> Vec<VertexId> {
         let pins = if self.is_of_planar_start() { &self.set_aside } else { &self.candidate.solution.pins };

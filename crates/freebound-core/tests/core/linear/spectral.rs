@@ -1,9 +1,11 @@
 //! Spectral conformal maps: agreement with a dense eigensolver, no more energy than with pins, and no pin.
 
-use freebound_core::flatten::{Flattener, Step, solve_once};
+use freebound_core::flatten::{Flattener, Step, equation_of_step, solve_once};
 use freebound_core::linear::spectral;
 use freebound_core::mesh::{DiskMesh, TriMesh, VertexId};
-use freebound_core::problem::{Control, Embedding, Family, Method, Pins, Settings, SolveError, Stop, hard_pins};
+use freebound_core::problem::{
+    Control, Embedding, Family, Method, NoEquation, Pins, Settings, SolveError, Stop, hard_pins,
+};
 use freebound_core::weights::equations;
 use freebound_testkit::BuiltIn;
 use glam::{DVec2, DVec3};
@@ -286,6 +288,21 @@ fn without_pins_method_auto_begins_with_it_found_with_factors_of_two_pins() {
         assert!(linear.residual < 1e-7, "{name}: {:e}", linear.residual);
         let convergence = solution.convergence.unwrap();
         assert!(convergence.stop == Stop::Converged && convergence.steps <= 40, "{name}: {convergence:?}");
+    }
+}
+
+#[test]
+fn its_boundary_has_no_equation_of_its_own_and_its_inside_has() {
+    let mesh = disk(sheet(6, 0.4));
+    let step = auto(&mesh, &Pins::new());
+    assert!(step.is_spectral());
+    for vertex in mesh.vertices() {
+        let equation = equation_of_step(&mesh, &step, None, vertex);
+        if mesh.boundary_place(vertex).is_some() {
+            assert_eq!(equation.map(|_| ()), Err(NoEquation::OfEigenvector), "{vertex}");
+        } else {
+            equation.expect("an inner vertex has one");
+        }
     }
 }
 
