@@ -115,7 +115,7 @@ pub fn layout_verdict(layout: PlaneLayout<'_>, options: LayoutOptions) -> Layout
 ///
 /// # Panics
 ///
-/// As [`layout_verdict`].
+/// Panics of [`layout_verdict`].
 pub fn layout_verdict_with(
     layout: PlaneLayout<'_>,
     options: LayoutOptions,
