@@ -176,8 +176,8 @@ impl Prepared {
     /// Solves for the embedding with the pins on their targets.
     ///
     /// Fewer than two pins leave a similarity open. Without pins, the gauge pins fix it; with conformal weights, method
-    /// `auto` takes the spectral map instead. A single pin moves that solution onto its target. In both cases [`Settings::size`] determines the size; by default, the area of the
-    /// surface.
+    /// `auto` takes the spectral map instead. A single pin moves that solution onto its target. In both cases
+    /// [`Settings::size`] determines the size; by default, the area of the surface.
     ///
     /// # Errors
     ///
