@@ -5,7 +5,9 @@
 
 use freebound_core::geom::Picture;
 use freebound_core::mesh::{TriMesh, VertexId};
-use freebound_io::{decode_picture, read_stream};
+use freebound_io::{PictureFile, decode_picture, read_stream};
+use freebound_run::Model;
+use std::sync::Arc;
 
 /// Built-in mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -129,6 +131,17 @@ impl Example {
         let portrait =
             || decode_picture(include_bytes!("../assets/portrait.png")).expect("a test decodes the portrait");
         (self == Self::Face).then(portrait)
+    }
+
+    /// Picture that belongs to the mesh, as if it came from a file.
+    pub fn picture_file(self) -> Option<Arc<PictureFile>> {
+        let pixels = Arc::new(self.picture()?);
+        Some(Arc::new(PictureFile { name: "portrait".to_owned(), path: None, stamp: None, pixels }))
+    }
+
+    /// Model of the mesh, prepared for flattening.
+    pub fn model(self) -> Model {
+        Model::built_in(self.name(), self.title(), &self.mesh())
     }
 }
 

@@ -10,7 +10,7 @@ use super::awaited::await_report;
 use super::error::is_standard;
 use super::error::{CommandError, CommandOutcome};
 use super::morph::tour_of;
-use super::opened::{InputSpec, LoadedMesh, failure_of_layout};
+use super::opened::{InputSpec, LoadedMesh};
 use super::places::OutputPaths;
 use super::progress::go_on;
 use super::progress::{INTERRUPTED, ProgressLine};
@@ -55,7 +55,7 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<CommandOutcome, Comman
         let targets = targets_of_chart(&model, targets)?;
         let problem = Problem::new(&arguments.settings(), frame, aspect.is_some(), targets);
         if problem.settings.start == Start::File {
-            model.layout().map_err(|error| failure_of_layout(&model, error))?;
+            model.layout().map_err(|error| CommandError::of_layout(&model, error))?;
         }
         let problems = problems(arguments, &problem)?;
         let read = start.elapsed().as_secs_f64();

@@ -3,12 +3,14 @@
 use std::fmt::{self, Display, Formatter};
 use std::path::Path;
 
-use crate::session::{Model, MorphShortage};
+use crate::session::MorphShortage;
 use freebound_core::mesh::{Diagnosis, Done, Repair, Repairs};
 use freebound_core::problem::{Cause, Method, NamedOption as _, SolveError};
 use freebound_io::{
-    ConstraintsError, EdgesError, LayoutToPackError, MemoryShortage, PictureError, ReadError, TextureError, WriteError,
+    ConstraintsError, EdgesError, LayoutError, LayoutToPackError, MemoryShortage, PictureError, ReadError,
+    TextureError, WriteError,
 };
+use freebound_run::{Model, RunError};
 
 /// Exit status of an internal or system error.
 const INTERNAL: u8 = 1;
@@ -191,6 +193,49 @@ impl CommandError {
             return Self::Method { method: method.name(), error };
         }
         Self::Solve(error)
+    }
+
+    /// Error of a run of a mesh. Its message has the remedy.
+    pub(super) fn of_run(model: &Model, error: RunError<Self>) -> Self {
+        let path = model.path_words();
+        match error {
+            RunError::NotADisk(diagnosis) => Self::NotADisk { path, diagnosis, remedy: Remedy::of(model) },
+            RunError::Layout(error) => Self::of_layout(model, error),
+            RunError::Solve(error) => Self::Solve(error),
+            RunError::TrueSize(error) => Self::Usage(format!("--fit true: {error}")),
+            RunError::Observer(error) => error,
+            // Options that the mesh lacks data for.
+            error => Self::Usage(format!("{path}: {error}")),
+        }
+    }
+
+    /// Error of a mesh or chart that cannot start from its layout, with the remedy.
+    pub(super) fn of_layout(model: &Model, error: LayoutError) -> Self {
+        if let Some(file) = &model.layout_file {
+            return Self::of_other_layout(file.path.clone(), error);
+        }
+        let path = model.path_words();
+        match error {
+            LayoutError::Texture(error @ TextureError::Missing(_)) => Self::Texture { path, error },
+            LayoutError::Torn { .. } => {
+                let remedy = "add --charts uv to cut the surface along its texture seams, or remove --start uv";
+                Self::Usage(format!("{path}: {error}: {remedy}"))
+            }
+            LayoutError::Texture(_) | LayoutError::NoVertex { .. } => {
+                Self::Usage(format!("{path}: {error}: remove --start uv"))
+            }
+        }
+    }
+
+    /// Error of a mesh that cannot start from the layout of another file, with the remedy.
+    pub(super) fn of_other_layout(path: String, error: LayoutError) -> Self {
+        let remedy = match error {
+            LayoutError::Texture(error @ TextureError::Missing(_)) => return Self::Texture { path, error },
+            LayoutError::Texture(_) => "choose a file that has them, or remove --start",
+            LayoutError::Torn { .. } => "flatten this file itself with --charts uv --start uv",
+            LayoutError::NoVertex { .. } => "choose a layout of this mesh with equal vertex numbers",
+        };
+        Self::Usage(format!("{path}: {error}: {remedy}"))
     }
 
     /// Exit status: 1 internal, 2 invalid usage, 3 unusable input, 4 no embedding by this method or no morph, 130

@@ -21,18 +21,15 @@ use super::threads::set_threads;
 use super::tiles::ChartTiles;
 use super::typed::ChartSize;
 use crate::examples::Example;
-use crate::session::{Model, example_picture};
 use freebound_core::geom::{PackingOptions, PictureFrame};
 use freebound_core::mesh::FaceId;
 use freebound_core::pipeline::{Fit, PipelineOptions, Targets, hard_targets};
 use freebound_core::problem::{NamedOption as _, Settings};
 use freebound_io::{Materials, OutputKind, PictureFile, WriteError};
+use freebound_run::{Model, RunRequest};
 
 /// Folder for the example, relative to the current folder.
 const FOLDER: &str = "freebound-example";
-
-/// Rounds of relaxing of an unwrapped mesh that needed no seams.
-const UNWRAP_ROUNDS: usize = 40;
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<CommandOutcome, CommandError> {
     run_with(arguments, None)
@@ -40,7 +37,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<CommandOutcome, Comman
 
 /// Runs `unwrap`.
 pub(super) fn unwrap(arguments: &FlattenArguments) -> Result<CommandOutcome, CommandError> {
-    run_with(arguments, Some(UNWRAP_ROUNDS))
+    run_with(arguments, Some(RunRequest::UNWRAP_ROUNDS))
 }
 
 /// Flattens a mesh. `usual_rounds` of relaxing follow if the arguments do not say otherwise and a part of the mesh has
@@ -75,8 +72,7 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
         let locked = locked(&arguments.lock, &model)?;
         let aspect = picture.as_ref().map(PictureFile::aspect).or(solve.aspect);
         let settings = arguments.settings();
-        let has_map = model.automatic_seams().is_some_and(|seams| seams.corners.iter().all(Option::is_some));
-        let relax_rounds = settings.relax_rounds.or(usual_rounds.filter(|_| !has_map));
+        let relax_rounds = settings.relax_rounds.or_else(|| model.usual_rounds(usual_rounds));
         let options = PipelineOptions {
             preparation: model.prepared.form.clone(),
             distortion: None,
@@ -194,7 +190,7 @@ fn flatten_example() -> Result<CommandOutcome, CommandError> {
     std::fs::create_dir_all(folder).map_err(|source| WriteError::writing(folder, source))?;
     let [mesh, picture, report] = ["face.obj", "face.png", "face.json"].map(|name| folder.join(name));
     let landmarks = Example::Face.landmarks().into_iter();
-    let picture_of_face = example_picture(Example::Face).expect("the face has a portrait");
+    let picture_of_face = Example::Face.picture_file().expect("the face has a portrait");
     let job = HeadlessJob {
         options: PipelineOptions {
             frame: PictureFrame { aspect: picture_of_face.aspect(), ..PictureFrame::default() },
@@ -213,7 +209,7 @@ fn flatten_example() -> Result<CommandOutcome, CommandError> {
         locked: BTreeSet::new(),
     };
     let progress = ProgressLine::default();
-    let status = progress.follow(|| job.run(&Model::example(Example::Face), Instant::now(), &progress))?;
+    let status = progress.follow(|| job.run(&Example::Face.model(), Instant::now(), &progress))?;
     say(format_args!(
         "wrote face.obj with its material and picture, face.json and face.png (before and after) into {FOLDER}/"
     ))?;

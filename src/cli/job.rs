@@ -1,24 +1,21 @@
 //! Flattening without a screen, of one chart or several: solve, prove, write, print the summary.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::time::Instant;
-
-use rayon::prelude::*;
 
 use super::error::is_standard;
 use super::error::{CommandError, CommandOutcome};
-use super::opened::{disk_of, failure_of_layout};
+use super::opened::disk_of;
 use super::progress::{INTERRUPTED, ProgressLine, go_on};
 use super::report_file::put_report;
 use super::summary::{atlas_summary, deliver, ending_words, step_words, summary, warn_of};
-use crate::session::{Model, SolvedModel, finished_atlas};
-use freebound_core::flatten::Flattener;
-use freebound_core::pipeline::{Fit, PipelineOptions, Problem, SolvedProblem};
-use freebound_core::problem::{Control, Embedding, Phase, SolveError};
+use freebound_core::pipeline::{Fit, PipelineOptions, Problem};
+use freebound_core::problem::{Control, Phase, SolveError};
 use freebound_core::verify::{Conflict, conflicts};
-use freebound_io::{Materials, Output, OutputKind, PictureFile, Precision, SeamsReport, StepReport, StepsFolder};
+use freebound_io::{Materials, Output, OutputKind, PictureFile, Precision, StepsFolder};
+use freebound_run::{ChartProblem, Model, Run, RunError, SolvedRun};
 
 /// Flattening without a screen of a mesh that is read.
 pub(super) struct HeadlessJob<'a> {
@@ -48,66 +45,55 @@ impl HeadlessJob<'_> {
         progress: &ProgressLine,
     ) -> Result<CommandOutcome, CommandError> {
         let read = start.elapsed().as_secs_f64();
-        if model.prepared.chart.is_some() || self.options.packing.density.is_some() {
-            return self.run_atlas(model, start, progress);
+        let run = Run {
+            options: self.options.clone(),
+            fit: self.fit,
+            locked: self.locked.clone(),
+            keeps_materials: self.keeps_materials(model),
+        };
+        let is_packed = run.is_packed(model);
+        if is_packed {
+            self.refuse_idle_options(model)?;
         }
-        let mut folder = self.steps.map(StepsFolder::begin).transpose()?;
-        let problem = self.options.problem();
-        warn_of_conflicts(model, &problem)?;
-        let SolvedChart { solved, records } = solve(model, problem, folder.as_mut(), progress)?;
-        let mut output = model.finished(&solved.outcome, records, self.fit);
-        report_seams(&mut output, model, read);
+        let folder = self.steps.map(StepsFolder::begin).transpose()?.map(Mutex::new);
+        let charts = run.problems(model);
+        charts.iter().try_for_each(|chart| warn_of_conflicts(&chart.model, &chart.problem))?;
+        let solved = self.solve(&run, charts, model, folder.as_ref(), progress)?;
+        progress.enter("packing");
+        let mut output = solved.output(&run).map_err(|error| CommandError::of_run(model, RunError::TrueSize(error)))?;
+        output.report.seconds.read = read - output.report.seconds.cut;
+        let folder = folder.and_then(|folder| folder.into_inner().ok());
         self.write(&mut output, folder, start, progress)?;
-        self.conclude(&output, || summary(&output.report, &ending_words(&solved, &output)))
+        self.conclude(&output, || match &solved.charts[..] {
+            [chart] if !is_packed => summary(&output.report, &ending_words(&chart.solved, &output)),
+            _ => atlas_summary(&output.report),
+        })
     }
 
-    /// Flattens a mesh whose charts are packed. They are solved in parallel.
-    fn run_atlas(
+    /// Takes all steps of the method on all charts.
+    fn solve(
         &self,
+        run: &Run,
+        charts: Vec<ChartProblem>,
         model: &Model,
-        start: Instant,
+        folder: Option<&Mutex<StepsFolder>>,
         progress: &ProgressLine,
-    ) -> Result<CommandOutcome, CommandError> {
-        let read = start.elapsed().as_secs_f64();
-        self.refuse_idle_options(model)?;
-        let models: Vec<Model> = (0..model.chart_count()).into_par_iter().map(|chart| model.of_chart(chart)).collect();
-        let prepared: Vec<_> = models.iter().map(|model| &model.prepared).collect();
-        let problems = self.options.problems(&prepared);
-        models.iter().zip(&problems).try_for_each(|(model, problem)| warn_of_conflicts(model, problem))?;
-        let work = models.par_iter().zip(problems);
-        let solved: Vec<Result<SolvedChart, CommandError>> =
-            work.map(|(model, problem)| solve(model, problem, None, progress)).collect();
-        // Report the first failure in the order of the charts, independent of the threads.
-        let solved: Vec<SolvedChart> = solved.into_iter().collect::<Result<_, _>>()?;
-        progress.enter("packing");
-        let layouts = self.layouts_of_locked(&models)?;
-        let charts: Vec<SolvedModel<'_>> = models
-            .iter()
-            .zip(&solved)
-            .enumerate()
-            .map(|(number, (model, solved))| {
-                let of = model.prepared.chart.as_ref();
-                SolvedModel {
-                    model,
-                    outcome: &solved.solved.outcome,
-                    steps: &solved.records,
-                    size: of.map_or(1.0, |of| self.options.size_of(&of.charts, of.number)),
-                    tile: of.and_then(|of| self.options.tile_of(&of.charts, of.number)),
-                    locked: layouts.get(&number),
-                    keeps_materials: self.keeps_materials(model),
-                }
-            })
-            .collect();
-        let before = Instant::now();
-        let mut output = finished_atlas(&charts, self.options.packing, self.options.arrangement);
-        report_seams(&mut output, model, read);
-        if self.fit == Fit::True {
-            let unequal = |error: std::io::Error| CommandError::Usage(format!("--fit true: {error}"));
-            output.scale_to_true_size().map_err(unequal)?;
-        }
-        output.report.seconds.verify = before.elapsed().as_secs_f64();
-        self.write(&mut output, None, start, progress)?;
-        self.conclude(&output, || atlas_summary(&output.report))
+    ) -> Result<SolvedRun, CommandError> {
+        let report_phase = |phase: Phase| progress.enter(phase.words());
+        let control = Control::new(&INTERRUPTED, &report_phase);
+        let method = &self.options.settings.method;
+        let solved = run.solve(charts, control, |mesh, step| {
+            progress.reach(step_words(step));
+            if let Some(mut folder) = folder.and_then(|folder| folder.lock().ok()) {
+                progress.enter("drawing the step");
+                folder.add(mesh, step)?;
+            }
+            Ok(())
+        });
+        solved.map_err(|error| match error {
+            RunError::Solve(error) if error != SolveError::Cancelled => CommandError::of_method(method, error),
+            error => CommandError::of_run(model, error),
+        })
     }
 
     /// True if every mesh that is written keeps the materials of the file: in the format of the file, and without a
@@ -116,15 +102,6 @@ impl HeadlessJob<'_> {
         let own = if model.source.is_turned_over() { OutputKind::Glb } else { OutputKind::Obj };
         let mut meshes = self.outputs.iter().map(|&(kind, _)| kind).filter(|kind| kind.is_mesh());
         self.picture.is_none() && meshes.all(|kind| kind == own)
-    }
-
-    /// Layouts of the locked charts, by their numbers.
-    fn layouts_of_locked(&self, models: &[Model]) -> Result<BTreeMap<usize, Embedding>, CommandError> {
-        let layout = |&chart: &usize| {
-            let model = &models[chart];
-            Ok((chart, model.layout().map_err(|error| failure_of_layout(model, error))?))
-        };
-        self.locked.iter().map(layout).collect()
     }
 
     /// Rejects options that do not apply to packed charts.
@@ -206,14 +183,6 @@ impl HeadlessJob<'_> {
     }
 }
 
-/// Reports the automatic seams of a mesh, which were found while it was read, within `read` seconds.
-fn report_seams(output: &mut Output<'_>, model: &Model, read: f64) {
-    let seams = model.automatic_seams();
-    output.report.seams = seams.map(SeamsReport::of);
-    output.report.seconds.cut = seams.map_or(0.0, |seams| seams.seconds);
-    output.report.seconds.read = read - output.report.seconds.cut;
-}
-
 /// Warns of conflicting constraints on a mesh or chart.
 fn warn_of_conflicts(model: &Model, problem: &Problem) -> Result<(), CommandError> {
     let Problem { settings, .. } = problem;
@@ -224,44 +193,4 @@ fn warn_of_conflicts(model: &Model, problem: &Problem) -> Result<(), CommandErro
         warn_of(&model.path_words(), &in_file);
     }
     Ok(())
-}
-
-/// Takes all steps of the method.
-fn solve(
-    model: &Model,
-    problem: Problem,
-    mut folder: Option<&mut StepsFolder>,
-    progress: &ProgressLine,
-) -> Result<SolvedChart, CommandError> {
-    let mesh = disk_of(model)?;
-    let report_phase = |phase: Phase| progress.enter(phase.words());
-    let control = Control::new(&INTERRUPTED, &report_phase);
-    let method = problem.settings.method.clone();
-    let options = model.flattener_options(&problem).map_err(|error| failure_of_layout(model, error))?;
-    let flattener = Flattener::with_options(options);
-    let mut records: Vec<StepReport> = Vec::new();
-    let solved = problem.solve(mesh, flattener, control, |step| {
-        progress.reach(step_words(step));
-        records.push(StepReport::of(step));
-        if let Some(folder) = folder.as_deref_mut() {
-            progress.enter("drawing the step");
-            folder.add(mesh, step).map_err(CommandError::from)?;
-        }
-        Ok(())
-    });
-    let in_file = |error: SolveError| error.renumbered(|vertex| model.vertex_in_file(vertex));
-    match solved {
-        Ok(solved) => Ok(SolvedChart { solved, records }),
-        Err(CommandError::Solve(error)) if error != SolveError::Cancelled => {
-            Err(CommandError::of_method(&method, in_file(error)))
-        }
-        Err(error) => Err(error),
-    }
-}
-
-/// Chart at the end of its run.
-struct SolvedChart {
-    solved: SolvedProblem,
-    /// Report on each step.
-    records: Vec<StepReport>,
 }

@@ -65,7 +65,7 @@ use freebound_core::problem::{Family, Labels, Method, NamedOption};
 
 pub use args::{
     Arguments, CompareArguments, ComparisonFile, Cut, ExampleArguments, FlattenArguments, MeshArguments, PackArguments,
-    SeamKind, SolveArguments, StartOf, StudyArguments, Subcommands, ThreadArguments, TypedShape, UnwrapArguments,
+    SolveArguments, StartOf, StudyArguments, Subcommands, ThreadArguments, TypedShape, UnwrapArguments,
 };
 pub use error::{CommandError, CommandOutcome, Remedy};
 pub use figures::pairs;

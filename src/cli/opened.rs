@@ -12,10 +12,10 @@ use super::places::OutputPaths;
 use super::progress::ProgressLine;
 use super::seams::formed;
 use super::standard::read_typed;
-use crate::session::Model;
 use freebound_core::mesh::{DiskMesh, Fault, WeldDistance};
 use freebound_core::pipeline::{Surface, Targets};
-use freebound_io::{LayoutError, PictureFile, TextureError};
+use freebound_io::PictureFile;
+use freebound_run::Model;
 
 /// Files to load.
 #[derive(Clone, Copy)]
@@ -67,36 +67,7 @@ impl InputSpec<'_> {
 fn starting_from(model: Model, path: &Path, input: &MeshArguments) -> Result<Model, CommandError> {
     let layout = read_typed(path, input.reading)?.source;
     let path = name_of_input(path);
-    model.with_layout_of(path.clone(), &layout).map_err(|error| failure_of_other_layout(path, error))
-}
-
-/// Error of a mesh or chart that cannot start from its layout, with the remedy.
-pub(super) fn failure_of_layout(model: &Model, error: LayoutError) -> CommandError {
-    if let Some(file) = &model.layout_file {
-        return failure_of_other_layout(file.path.clone(), error);
-    }
-    let path = model.path_words();
-    match error {
-        LayoutError::Texture(error @ TextureError::Missing(_)) => CommandError::Texture { path, error },
-        LayoutError::Torn { .. } => {
-            let remedy = "add --charts uv to cut the surface along its texture seams, or remove --start uv";
-            CommandError::Usage(format!("{path}: {error}: {remedy}"))
-        }
-        LayoutError::Texture(_) | LayoutError::NoVertex { .. } => {
-            CommandError::Usage(format!("{path}: {error}: remove --start uv"))
-        }
-    }
-}
-
-/// Error of a mesh that cannot start from the layout of another file, with the remedy.
-fn failure_of_other_layout(path: String, error: LayoutError) -> CommandError {
-    let remedy = match error {
-        LayoutError::Texture(error @ TextureError::Missing(_)) => return CommandError::Texture { path, error },
-        LayoutError::Texture(_) => "choose a file that has them, or remove --start",
-        LayoutError::Torn { .. } => "flatten this file itself with --charts uv --start uv",
-        LayoutError::NoVertex { .. } => "choose a layout of this mesh with equal vertex numbers",
-    };
-    CommandError::Usage(format!("{path}: {error}: {remedy}"))
+    model.with_layout_of(path.clone(), &layout).map_err(|error| CommandError::of_other_layout(path, error))
 }
 
 /// Disk of the mesh, or an error with all faults that prevent it from being a disk.

@@ -5,11 +5,10 @@ use std::path::Path;
 use super::args::SolveArguments;
 use super::error::CommandError;
 use super::error::name_of_input;
-use crate::session::Model;
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Target, Targets};
-use freebound_core::problem::SolveError;
 use freebound_io::Constraints;
+use freebound_run::Model;
 
 /// Targets of all pins, by the vertices of the mesh, also with several charts. `input` is the mesh file.
 ///
@@ -18,8 +17,7 @@ use freebound_io::Constraints;
 /// [`CommandError`] if a file cannot be used, pins clash, or a vertex cannot be pinned.
 pub(super) fn targets_on(model: &Model, input: &Path, arguments: &SolveArguments) -> Result<Targets, CommandError> {
     let targets = gather(input, arguments, model.vertex_count_in_file())?;
-    refuse_pins_of_joined_vertices(model, &targets)?;
-    refuse_pins_of_no_face(model, &targets)?;
+    model.check_targets(&targets).map_err(|error| CommandError::of_run(model, error.with_observer()))?;
     Ok(targets)
 }
 
@@ -51,29 +49,6 @@ fn gather(input: &Path, arguments: &SolveArguments, vertex_count: usize) -> Resu
         }
     }
     Ok(targets)
-}
-
-/// Rejects pins of vertices that were joined with others. The vertex that they were joined with can be pinned instead.
-fn refuse_pins_of_joined_vertices(model: &Model, targets: &Targets) -> Result<(), CommandError> {
-    let Some(repaired) = model.whole_repaired() else { return Ok(()) };
-    match targets.keys().find_map(|&vertex| Some((vertex, repaired.stands_for(vertex)?))) {
-        Some((vertex, other)) => {
-            let text = format!("vertex {vertex} is pinned, but was joined with vertex {other}: pin {other}");
-            Err(CommandError::Usage(format!("{}: {text}", model.path_words())))
-        }
-        None => Ok(()),
-    }
-}
-
-/// Rejects pins of vertices without a chart, if the mesh has several charts.
-fn refuse_pins_of_no_face(model: &Model, targets: &Targets) -> Result<(), CommandError> {
-    let Some(of) = &model.prepared.chart else { return Ok(()) };
-    let count = model.vertex_count_in_file();
-    match targets.keys().find(|&&vertex| of.charts.chart_of_vertex(vertex).is_none()) {
-        Some(&vertex) if vertex.index() >= count => Err(SolveError::NoSuchVertex { vertex, count }.into()),
-        Some(&vertex) => Err(SolveError::UnusedVertex { vertex }.into()),
-        None => Ok(()),
-    }
 }
 
 /// Hard pin with the target of another hard pin.

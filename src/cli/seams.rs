@@ -1,13 +1,12 @@
 //! Requested preparation of a mesh, with its seams.
 
-use super::args::{Cut, MeshArguments, SeamKind};
+use super::args::{Cut, MeshArguments};
 use super::error::CommandError;
 use super::progress::{INTERRUPTED, ProgressLine};
-use crate::session::Model;
-use freebound_core::cutting::SeamOptions;
 use freebound_core::mesh::{Preparation, VertexId};
 use freebound_core::problem::Control;
 use freebound_io::{LabelError, TextureError, read_edge_costs, read_edges};
+use freebound_run::{Model, SeamKind};
 
 /// Mesh in the requested preparation. `model` is read, but not prepared.
 ///
@@ -47,26 +46,16 @@ fn cut(model: Model, arguments: &MeshArguments, progress: &ProgressLine) -> Resu
             None => Ok(model),
         };
     }
-    let usual = (!model.prepared.is_plain_disk()).then_some(SeamOptions::DISTORTION);
-    let Some(bound) = arguments.distortion.or(usual) else { return Ok(model) };
     progress.enter("cutting");
     let control = Control::new(&INTERRUPTED, &|_| {});
-    let most_charts = arguments.max_charts.map(|most| usize::try_from(most).unwrap_or(usize::MAX));
-    let visibility = arguments.seam_visibility.unwrap_or(SeamOptions::VISIBILITY);
-    let options = SeamOptions { most_charts, visibility, ..SeamOptions::new(bound) };
-    let seams = model.find_seams(&model.prepared.form, options, control, &|_| {})?;
-    Ok(model.cut_along(seams))
+    Ok(model.cut_automatically(arguments.automatic_cut(), control, &|_| {})?)
 }
 
 fn edges_of(model: &Model, kind: SeamKind) -> Result<Vec<[VertexId; 2]>, CommandError> {
-    let (option, edges) = match kind {
-        SeamKind::Sharp(degrees) => return Ok(model.crease_edges(degrees)),
-        SeamKind::Splits => return Ok(model.split_edges()),
-        SeamKind::Materials => ("materials", model.material_borders()),
-        SeamKind::Groups => ("groups", model.group_borders()),
+    let refused = |error: LabelError| {
+        CommandError::Usage(format!("{}: {error}: remove --seams {}", model.path_words(), kind.name()))
     };
-    let path = model.path_words();
-    edges.map_err(|error: LabelError| CommandError::Usage(format!("{path}: {error}: remove --seams {option}")))
+    model.edges_of(kind).map_err(refused)
 }
 
 /// Rejects a cut along texture coordinates if some corners have none.

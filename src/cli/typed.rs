@@ -1,12 +1,9 @@
 //! Parsers for values of options.
 
-use std::collections::BTreeSet;
-
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec2, UVec2};
 
-use super::args::{Denied, SeamKind};
-use crate::session::Model;
+use super::args::Denied;
 use freebound_core::cutting::SeamOptions;
 use freebound_core::geom::PackingOptions;
 use freebound_core::mesh::{VertexId, WeldDistance};
@@ -133,40 +130,4 @@ pub(super) fn parse_tiles(text: &str) -> Result<TileRule, String> {
         _ => number().map(TileRule::UpTo),
     };
     rule.ok_or_else(|| format!("write materials, groups or a number from 1 to {}", PackingOptions::MOST_TILES))
-}
-
-/// Parses "sharp", "sharp=degrees", "materials", "groups" or "splits".
-pub(super) fn parse_seam_kind(text: &str) -> Result<SeamKind, String> {
-    let parsed = || match text.split_once('=') {
-        Some(("sharp", degrees)) => {
-            let degrees: f64 = degrees.trim().parse().ok()?;
-            (degrees > 0.0 && degrees <= 180.0).then_some(SeamKind::Sharp(degrees))
-        }
-        None if text == "sharp" => Some(SeamKind::Sharp(Model::SHARP_DEGREES)),
-        None if text == "materials" => Some(SeamKind::Materials),
-        None if text == "groups" => Some(SeamKind::Groups),
-        None if text == "splits" => Some(SeamKind::Splits),
-        _ => None,
-    };
-    parsed().ok_or_else(|| "write sharp, sharp=DEGREES (above 0, up to 180), materials, groups or splits".to_owned())
-}
-
-/// Parts of a mesh that are flattened.
-#[derive(Clone, Debug)]
-pub enum Parts {
-    /// Part with the most faces.
-    Largest,
-    /// Parts with these numbers.
-    Numbered(BTreeSet<usize>),
-}
-
-/// Parses "largest", or numbers of parts separated by commas.
-pub(super) fn parse_parts(text: &str) -> Result<Parts, String> {
-    if text.trim() == "largest" {
-        return Ok(Parts::Largest);
-    }
-    let numbers: Result<BTreeSet<usize>, _> = text.split(',').map(|number| number.trim().parse()).collect();
-    numbers
-        .map(Parts::Numbered)
-        .map_err(|_| "write numbers separated by commas, for example 0,2, or largest".to_owned())
 }

@@ -7,35 +7,12 @@ use super::{ChartEdits, Document, Model};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Target, Targets};
 
-impl Model {
-    /// Number of vertices that a pin file can name. With several charts these are the vertices of the repaired mesh.
-    pub fn vertex_count_in_file(&self) -> usize {
-        let whole = self.prepared.chart.as_ref().map(|of| of.charts.whole().polygons().positions.len());
-        whole.unwrap_or_else(|| self.vertex_count())
-    }
-
-    /// Splits the targets of the mesh by chart. Targets on vertices that belong to no chart are dropped.
-    pub(super) fn by_chart(&self, of_mesh: Targets) -> BTreeMap<usize, Targets> {
-        let Some(of) = &self.prepared.chart else { return BTreeMap::from([(0, of_mesh)]) };
-        let mut found: BTreeMap<usize, Targets> = BTreeMap::new();
-        for (vertex, target) in of_mesh {
-            if let Some(chart) = of.charts.chart_of_vertex(vertex) {
-                found.entry(chart).or_default().insert(vertex, target);
-            }
-        }
-        for (&number, targets) in &mut found {
-            let chart = if number == of.number { (*of.chart).clone() } else { of.charts.chart(number) };
-            let own = |(vertex, target)| Some((chart.vertex_at(vertex)?, target));
-            *targets = std::mem::take(targets).into_iter().filter_map(own).collect();
-        }
-        found
-    }
-
+impl Document {
     /// Targets of all charts, on the vertices of the mesh.
-    pub(super) fn all_targets(&self, document: &Document) -> Targets {
-        let Some(of) = &self.prepared.chart else { return document.targets.clone() };
-        let here = (of.charts.pick(document.chart), &document.targets);
-        let elsewhere = document.elsewhere.iter().map(|(&number, edits)| (number, &edits.targets));
+    pub(super) fn all_targets(&self, model: &Model) -> Targets {
+        let Some(of) = &model.prepared.chart else { return self.targets.clone() };
+        let here = (of.charts.pick(self.chart), &self.targets);
+        let elsewhere = self.elsewhere.iter().map(|(&number, edits)| (number, &edits.targets));
         let mut all = Targets::new();
         for (number, targets) in std::iter::once(here).chain(elsewhere).filter(|(_, targets)| !targets.is_empty()) {
             let chart = if number == of.number { Arc::clone(&of.chart) } else { Arc::new(of.charts.chart(number)) };
@@ -45,9 +22,7 @@ impl Model {
         }
         all
     }
-}
 
-impl Document {
     /// Applies the chart data of a project: pins on the vertices of the mesh, and relaxation rounds of charts that are
     /// not shown.
     pub(super) fn take_charts(&mut self, model: &Model, targets: Targets, relaxed: &BTreeMap<usize, usize>) {

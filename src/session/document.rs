@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::model::example_picture;
 use crate::examples::Example;
 use freebound_core::geom::{PackingOptions, PictureFrame, VAxis};
 use freebound_core::mesh::{Charts, FaceId, Preparation, VertexId};
@@ -82,7 +81,7 @@ impl Document {
         let landmarks = example.landmarks().into_iter();
         Self {
             targets: hard_targets(landmarks.map(|landmark| (landmark.vertex, landmark.target.into()))),
-            picture: example_picture(example),
+            picture: example.picture_file(),
             ..Self::default()
         }
     }

@@ -26,7 +26,7 @@ impl Session {
         self.files.put_on_table(&opened);
         let Opened { model, document, remarks, .. } = opened;
         // An example only takes its first step, so that the user can watch the others.
-        let waits = model.example.is_some() && is_mesh;
+        let waits = model.built_in.is_some() && is_mesh;
         let warnings: Vec<String> = model.source.warnings.iter().map(ToString::to_string).collect();
         let touching = model.prepared.touching_vertices;
         self.document = document;
@@ -157,7 +157,7 @@ impl Session {
         if self.refuses_formless() {
             return;
         }
-        let targets = self.model().map(|model| model.all_targets(&self.document)).unwrap_or_default();
+        let targets = self.model().map(|model| self.document.all_targets(model)).unwrap_or_default();
         if targets.is_empty() {
             return self.complain("there are no constraints to write: pin a vertex first", None);
         }

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Background, Message, MessagePlace, Session, Wake};
-use freebound_core::mesh::FaceId;
+use super::{Background, Session, Wake};
 use freebound_core::problem::Control;
 use freebound_core::verify::{LayoutOptions, LayoutVerdict};
 use freebound_io::JudgeError;
@@ -34,12 +33,6 @@ impl LayoutCheck {
 }
 
 impl Session {
-    /// Reports a face of the file that is not on the screen, because the mesh does not have it.
-    pub fn tell_left_out(&mut self, face: FaceId) {
-        let text = format!("face {} of the file is left out of the mesh", face.number());
-        self.messages.say(Message::note(MessagePlace::Mesh, text));
-    }
-
     /// State of the check of the open file's layout. `None` if the file has no texture coordinates.
     pub fn layout_check(&self) -> Option<LayoutCheckState> {
         self.model()?.source.texture.as_ref()?;

@@ -47,8 +47,6 @@
 //! | `open_project`       | of files: the open project, and the document in its saved state        |
 //! | `opened`             | result of opening a file                                               |
 //! | `large`              | requests to open files; files that need much memory                    |
-//! | `model`              | opened mesh                                                            |
-//! | `seam_edges`         | edges of a mesh that seams usually follow                              |
 //! | `saving`             | projects being written                                                 |
 //! | `recovery`           | recovery copies                                                        |
 //! | `folder`             | display of a file's folder                                             |
@@ -84,7 +82,6 @@ mod large;
 mod layout_check;
 mod live;
 mod messages;
-mod model;
 mod morphing;
 mod morphs;
 mod open_mesh;
@@ -98,7 +95,6 @@ mod recovery;
 mod reshaping;
 mod runs;
 mod saving;
-mod seam_edges;
 mod seams;
 mod solving;
 mod state;
@@ -117,12 +113,13 @@ pub use comparing::{Contender, ContenderState};
 pub use comparison::{Compared, comparison_report};
 pub use document::{ChartEdits, Command, Document, Shape};
 pub use drag::{LivePreview, MovedVertices, Preview};
+pub use freebound_run::{Model, SolvedModel, finished_atlas};
 pub use history::History;
 pub use large::LargeFile;
 pub use layout_check::LayoutCheckState;
 pub use messages::{Message, MessagePlace, Severity, named};
 use messages::{Messages, Written};
-pub use model::{LayoutFile, Model, SolvedModel, example_picture, finished_atlas};
+
 pub use morphing::MorphState;
 pub use morphs::{MORPH_FRAMES, MissingLeg, MorphLeg, MorphShortage, MorphStop, MorphStops, MorphTour, morph_end};
 pub use preferences::Preferences;

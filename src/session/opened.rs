@@ -6,7 +6,6 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::messages::named;
-use super::model::example_picture;
 use super::{Document, Message, MessagePlace, Model};
 use crate::examples::Example;
 use freebound_core::mesh::{FaceId, Preparation, VertexId};
@@ -98,7 +97,7 @@ impl Opened {
 
     /// Opens a built-in mesh with its picture and constraints.
     pub(super) fn example(example: Example) -> Self {
-        Self::mesh(Model::example(example), Document::of_example(example))
+        Self::mesh(example.model(), Document::of_example(example))
     }
 
     fn mesh(model: Model, document: Document) -> Self {
@@ -166,7 +165,7 @@ fn project_mesh(
     match source {
         ProjectSource::Example(name) => {
             let example = example_called(name).ok_or_else(|| OpenError::NoExample { name: name.clone() })?;
-            Ok((Model::example(example).in_form(form).mapped(Control::unattended()), None))
+            Ok((example.model().in_form(form).mapped(Control::unattended()), None))
         }
         ProjectSource::File { path, .. } if !path.exists() => Err(OpenError::NoMesh { mesh: path.clone() }),
         ProjectSource::File { path, stamp } => {
@@ -188,7 +187,7 @@ fn change_remark(path: &Path, stamp: Option<&FileStamp>, mesh: &Model) -> Option
 
 fn project_picture(source: &ProjectSource, remarks: &mut Vec<Message>) -> Option<Arc<PictureFile>> {
     match source {
-        ProjectSource::Example(name) => example_called(name).and_then(example_picture),
+        ProjectSource::Example(name) => example_called(name).and_then(Example::picture_file),
         ProjectSource::File { path, stamp } => {
             let remedy = "open another picture, or repair this one and open the project again";
             let picture = if path.exists() {

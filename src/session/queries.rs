@@ -7,7 +7,7 @@ use super::{
     JobFailure, LargeFile, Message, MessagePlace, Model, RecentFiles, Recoverable, RunStop, Session, StopConditions,
     Timeline,
 };
-use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::mesh::{DiskMesh, FaceId, VertexId};
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::Pins;
 use freebound_core::verify::Conflict;
@@ -140,6 +140,12 @@ impl Session {
     /// Reports a background job without an outcome. `work` is a noun, such as "drawing".
     pub fn tell_failure(&mut self, place: MessagePlace, work: &str, failure: &JobFailure) {
         self.messages.fail_background(place, work, failure);
+    }
+
+    /// Reports a face of the file that is not on the screen, because the mesh does not have it.
+    pub fn tell_left_out(&mut self, face: FaceId) {
+        let text = format!("face {} of the file is left out of the mesh", face.number());
+        self.messages.say(Message::note(MessagePlace::Mesh, text));
     }
 
     /// Reports a failure in the embedding pane, with its remedy.

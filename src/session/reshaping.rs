@@ -42,7 +42,7 @@ impl Reshaped {
     /// Preparation with the document's edits, transferred to the new vertices and charts.
     pub(super) fn shape(&self, document: &Document) -> Shape {
         let mut pins = Targets::new();
-        for (vertex, target) in self.before.all_targets(document) {
+        for (vertex, target) in document.all_targets(&self.before) {
             if let Some(now) = self.vertices_now.get(vertex.index()).copied().flatten() {
                 pins.entry(now).or_insert(target);
             }

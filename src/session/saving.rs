@@ -68,16 +68,16 @@ impl ProjectSaves {
 
 /// Origin of a mesh.
 fn source_of(model: &Model) -> Option<ProjectSource> {
-    let example = model.example.map(|example| ProjectSource::Example(example.name().to_owned()));
+    let built_in = model.built_in.map(|name| ProjectSource::Example(name.to_owned()));
     let file = || Some(ProjectSource::File { path: model.path.clone()?, stamp: model.stamp.clone() });
-    example.or_else(file)
+    built_in.or_else(file)
 }
 
 /// Origin of a picture. A picture without a file belongs to the built-in mesh.
 fn picture_source(picture: &PictureFile, model: &Model) -> Option<ProjectSource> {
     match &picture.path {
         Some(path) => Some(ProjectSource::File { path: path.clone(), stamp: picture.stamp.clone() }),
-        None => model.example.map(|example| ProjectSource::Example(example.name().to_owned())),
+        None => model.built_in.map(|name| ProjectSource::Example(name.to_owned())),
     }
 }
 
@@ -92,7 +92,7 @@ pub(super) fn project_of(model: &Model, document: &Document) -> Option<ProjectFi
     project.relaxed = document.relaxed;
     project.picture = document.picture.as_ref().and_then(|picture| picture_source(picture, model));
     project.v_axis = document.v_axis;
-    project.targets = model.all_targets(document);
+    project.targets = document.all_targets(model);
     project.chart = document.chart;
     project.packing = document.packing;
     project.sizes = document.sizes.iter().map(|(face, &size)| (face.number(), size)).collect();

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashSet;
 
 use super::{MeshFile, NO_TEXTURE, ProvedEmbedding, Refined, RefinedChart, Texture};
-use freebound_core::mesh::{PolygonMesh, Repaired, VertexId};
+use freebound_core::mesh::{NewVertex, PolygonMesh, Repaired, VertexId};
 use freebound_core::pipeline::LaidChart;
 use freebound_core::problem::Embedding;
 
@@ -17,19 +17,39 @@ fn refined<'b>(chart: &'b LaidChart<'_>) -> RefinedChart<'b> {
     RefinedChart { mesh: chart.mesh, refinement: chart.refinement, vertex_of: chart.vertex_of }
 }
 
+/// Mesh of a file with texture coordinates.
+#[derive(Clone, Debug)]
+pub struct TexturedMesh<'a> {
+    /// Mesh of the file, with the new vertices if there are any.
+    pub mesh: Cow<'a, MeshFile>,
+    /// Texture coordinates, per corner.
+    pub texture: Texture,
+    /// New vertices, on edges of the file. Their numbers follow those of the file's vertices.
+    pub new_vertices: Vec<NewVertex>,
+    /// Face of the file that each face is, or is a part of. Absent if the faces are those of the file.
+    pub face_of: Option<Vec<u32>>,
+}
+
+impl<'a> TexturedMesh<'a> {
+    /// File without new vertices.
+    fn of_file(source: &'a MeshFile, texture: Texture) -> Self {
+        Self { mesh: Cow::Borrowed(source), texture, new_vertices: Vec::new(), face_of: None }
+    }
+}
+
 /// Mesh of the file, with the new vertices if there are any, and the coordinates of its charts, per corner.
 pub(crate) fn textured<'a>(
     charts: &[LaidChart<'_>],
     source: &'a MeshFile,
     repaired: Option<&Repaired>,
-) -> (Cow<'a, MeshFile>, Texture) {
+) -> TexturedMesh<'a> {
     if let ([LaidChart { refinement: None, coordinates, .. }], None) = (charts, repaired) {
-        return (Cow::Borrowed(source), Texture::per_vertex(&source.polygons, coordinates));
+        return TexturedMesh::of_file(source, Texture::per_vertex(&source.polygons, coordinates));
     }
     if let Some(repaired) = repaired.filter(|_| charts.iter().all(|chart| chart.refinement.is_none())) {
         let texture = texture_of_repaired(charts, &source.polygons, repaired);
         let left_out = repaired.left_out().iter().map(|&face| LeftOut { face: face as usize, in_file: face as usize });
-        return (Cow::Borrowed(source), beside_own(texture, source, &source.polygons, left_out));
+        return TexturedMesh::of_file(source, beside_own(texture, source, &source.polygons, left_out));
     }
     let parts: Vec<RefinedChart<'_>> = charts.iter().map(refined).collect();
     let refined = Refined::of_charts(source, repaired, &parts);
@@ -39,7 +59,8 @@ pub(crate) fn textured<'a>(
     let faces = refined.face_of.iter().enumerate().filter(|(_, of)| left_out.contains(of));
     let faces = faces.map(|(face, &of)| LeftOut { face, in_file: of as usize });
     let texture = beside_own(texture, source, &refined.mesh.polygons, faces);
-    (Cow::Owned(refined.mesh), texture)
+    let (new_vertices, face_of) = (refined.new_vertices, Some(refined.face_of));
+    TexturedMesh { mesh: Cow::Owned(refined.mesh), texture, new_vertices, face_of }
 }
 
 /// Face of a part that was left out: its number in the written mesh and in the file.

@@ -74,6 +74,7 @@ mod unfinished;
 
 pub use animation::{AnimationForm, AnimationFrame, write_animation};
 pub use atomic::{WriteError, try_place, write_atomically, write_durably, write_to_standard_output};
+pub use charts::TexturedMesh;
 pub use comparison::{
     Cell, ChartNumber, Column, ComparisonReport, ComparisonSeconds, Direction, LeftOutReport, LegReport, MethodError,
     MethodReport, MethodSeconds, MorphReport, ResultReport, TimedStep, VerdictCounts,

@@ -10,12 +10,12 @@ use freebound_core::mesh::VertexId;
 
 impl MeshFile {
     /// Data of this file that a mesh of the given kind with these texture coordinates does not hold, in the order of
-    /// [`FileData`].
-    pub(crate) fn not_kept_in(&self, kind: OutputKind, texture: &Texture) -> Vec<FileData> {
+    /// [`FileData`]. The coordinates are computed only if they matter.
+    pub(crate) fn not_kept_in(&self, kind: OutputKind, texture: impl FnOnce() -> Texture) -> Vec<FileData> {
         let Some(source) = &self.source else { return Vec::new() };
         let mut found = match &source.format {
             SourceFormat::Obj if kind != OutputKind::Obj => self.data_of_obj(kind),
-            SourceFormat::Gltf(_) if kind == OutputKind::Glb && self.has_texture(texture) => Vec::new(),
+            SourceFormat::Gltf(_) if kind == OutputKind::Glb && self.has_texture(&texture()) => Vec::new(),
             SourceFormat::Gltf(scene) if kind == OutputKind::Glb => scene.texture_data(),
             SourceFormat::Gltf(scene) => scene.data(),
             SourceFormat::Obj | SourceFormat::Ply(_) => Vec::new(),

@@ -1,6 +1,5 @@
 //! Files that a finished flattening is written to, by their kind.
 
-use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
@@ -8,7 +7,7 @@ use std::path::{Path, PathBuf};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::charts::textured;
+use super::charts::{TexturedMesh, textured};
 use super::file_data::FileData;
 use super::finite::check_finite;
 use super::gltf::{Shading, write_glb_with};
@@ -18,7 +17,7 @@ use super::raster::{Canvas, Colour, RasterPaint, View, colours, mesh_picture, pl
 use super::report::{Report, write_report};
 use super::svg::write_svg;
 use super::true_size::scale_to_true_size;
-use super::{Materials, MeshFile, PictureFile, Texture, WriteError, write_atomically, write_to_standard_output};
+use super::{Materials, MeshFile, PictureFile, WriteError, write_atomically, write_to_standard_output};
 use freebound_core::geom::Picture;
 use freebound_core::mesh::{DiskMesh, FaceId, Repaired, VertexId};
 use freebound_core::pipeline::{Fit, JoinedCharts, LaidChart, Placement, joined, prove_atlas};
@@ -73,7 +72,7 @@ static FORMATS: [Format; 6] = [
         ending: "-flat.obj",
         title: "Save the mesh with texture coordinates",
         write: |output, path, out| {
-            let (mesh, texture) = output.textured();
+            let TexturedMesh { mesh, texture, .. } = output.textured();
             write_obj_with(out, &mesh, &relocated(&mesh, output.source_place(), path), &texture)
         },
     },
@@ -83,7 +82,7 @@ static FORMATS: [Format; 6] = [
         ending: "-flat.ply",
         title: "Save the mesh with texture coordinates as PLY",
         write: |output, _, out| {
-            let (mesh, texture) = output.textured();
+            let TexturedMesh { mesh, texture, .. } = output.textured();
             write_ply(out, &mesh, &texture, output.report.precision.unwrap_or_default())
         },
     },
@@ -93,7 +92,7 @@ static FORMATS: [Format; 6] = [
         ending: "-flat.glb",
         title: "Save the mesh with texture coordinates as GLB",
         write: |output, _, out| {
-            let (mesh, texture) = output.textured();
+            let TexturedMesh { mesh, texture, .. } = output.textured();
             // The picture of a material comes with the other materials.
             let is_of_material = |picture: &&PictureFile| {
                 let of_material = output.source_path.and_then(|path| material_picture(&mesh, path));
@@ -245,7 +244,7 @@ impl Output<'_> {
         if !kind.is_mesh() {
             return Vec::new();
         }
-        let found = self.source.not_kept_in(kind, &self.textured().1);
+        let found = self.source.not_kept_in(kind, || self.textured().texture);
         // The picture takes the place of the materials.
         let has_material = self.picture.is_some() && kind != OutputKind::Ply;
         found.into_iter().filter(|&data| data != FileData::Materials || !has_material).collect()
@@ -286,11 +285,11 @@ impl Output<'_> {
         self.check().map_err(|source| WriteError::writing(path, source))?;
         match (kind, self.picture, self.materials) {
             (OutputKind::Obj, Some(picture), _) => {
-                let (mesh, texture) = self.textured();
+                let TexturedMesh { mesh, texture, .. } = self.textured();
                 picture.write_beside(path, &mesh, &texture)
             }
             (OutputKind::Obj, None, Materials::Copied) => {
-                let (mesh, texture) = self.textured();
+                let TexturedMesh { mesh, texture, .. } = self.textured();
                 let (edits, copies) = copy_materials(&mesh, self.source_place(), path)?;
                 write_atomically(path, |out| write_obj_with(out, &mesh, &edits, &texture))?;
                 Ok(std::iter::once(path.to_owned()).chain(copies).collect())
@@ -326,7 +325,7 @@ impl Output<'_> {
     }
 
     /// Mesh of the file, with the new vertices if there are any, and its coordinates per corner.
-    fn textured(&self) -> (Cow<'_, MeshFile>, Texture) {
+    pub fn textured(&self) -> TexturedMesh<'_> {
         textured(&self.charts, self.source, self.repaired)
     }
 }

@@ -163,7 +163,7 @@ impl<'a> RepackedFile<'a> {
 
     /// Data of the source that a mesh file of this kind does not hold.
     pub fn not_kept_in(&self, kind: OutputKind) -> Vec<FileData> {
-        if kind.is_mesh() { self.source.not_kept_in(kind, &self.texture()) } else { Vec::new() }
+        if kind.is_mesh() { self.source.not_kept_in(kind, || self.texture()) } else { Vec::new() }
     }
 
     fn texture(&self) -> Texture {

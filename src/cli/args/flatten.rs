@@ -6,13 +6,13 @@ use std::str::FromStr as _;
 use clap::Args;
 use glam::{DVec2, UVec2};
 
-use super::solve::ONLY_ON_SHAPES;
 use super::{MeshArguments, SolveArguments, TypedShape};
 use crate::cli::typed::{ChartSize, TileRule, choice, parse_chart_size, parse_density, parse_pixels, parse_tiles};
 use freebound_core::geom::{PackingOptions, Rotations, Stacking};
 use freebound_core::pipeline::{Arrangement, Fit};
 use freebound_core::problem::{Method, NamedOption as _, Settings};
 use freebound_io::{OutputKind, PictureFile, Precision};
+use freebound_run::MethodOption;
 
 /// Arguments of `flatten`.
 #[derive(Debug, Args)]
@@ -176,8 +176,9 @@ impl FlattenArguments {
 
     /// First given option that does not apply to the method, with the reason.
     pub fn idle_option(&self) -> Option<(&'static str, &'static str)> {
-        if self.boundary.is_some() && self.method.boundary_shape().is_none() {
-            return Some(("--boundary", ONLY_ON_SHAPES));
+        let unused = MethodOption::Boundary.unused_by(&self.method).filter(|_| self.boundary.is_some());
+        if let Some(why) = unused {
+            return Some(("--boundary", why));
         }
         self.solve.idle_option(std::slice::from_ref(&self.method))
     }

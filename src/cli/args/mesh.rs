@@ -2,13 +2,15 @@
 
 use std::ffi::OsString;
 use std::path::PathBuf;
+use std::str::FromStr as _;
 
 use clap::builder::{OsStringValueParser, TypedValueParser as _};
 use clap::{Args, ValueEnum};
 
 use super::ReadingArguments;
-use crate::cli::typed::{Parts, parse_distortion, parse_parts, parse_seam_kind, parse_visibility, parse_weld_distance};
+use crate::cli::typed::{parse_distortion, parse_visibility, parse_weld_distance};
 use freebound_core::mesh::{HoleTreatment, Preparation, Repairs, WeldDistance};
+use freebound_run::{AutomaticCut, PartChoice, SeamKind};
 
 /// The mesh, and what is made of its faces.
 #[derive(Debug, Args)]
@@ -65,13 +67,13 @@ pub struct MeshArguments {
     /// `sharp` takes edges with an angle of 60 degrees or more between the faces; `sharp=DEGREES` sets the angle.
     /// `splits` takes edges that `--repair all` or `--weld` joins: where another program has split the mesh at its seams.
     /// Separate several kinds by commas.
-    #[arg(long, value_name = "sharp[=DEGREES],materials,groups,splits", value_delimiter = ',', value_parser = parse_seam_kind)]
+    #[arg(long, value_name = "sharp[=DEGREES],materials,groups,splits", value_delimiter = ',', value_parser = SeamKind::from_str)]
     pub seams: Vec<SeamKind>,
     /// Parts of the mesh to flatten: numbers separated by commas, or `largest`. Default: all.
     ///
     /// Parts are numbered from 0 in the order of their first faces. Other parts stay unchanged.
-    #[arg(long, value_name = "LIST|largest", value_parser = parse_parts, hide_short_help = true)]
-    pub parts: Option<Parts>,
+    #[arg(long, value_name = "LIST|largest", value_parser = PartChoice::from_str, hide_short_help = true)]
+    pub parts: Option<PartChoice>,
     /// Charts of the mesh. Each chart is flattened separately.
     #[arg(long, value_enum, default_value_t, hide_short_help = true)]
     pub charts: ChartsOf,
@@ -91,6 +93,12 @@ impl MeshArguments {
         let mut form = Preparation { repair, holes, cut: self.cut != Cut::None, ..Preparation::default() };
         form.seams.of_texture = self.charts == ChartsOf::Uv;
         form
+    }
+
+    /// Search for automatic seams.
+    pub fn automatic_cut(&self) -> AutomaticCut {
+        let most_charts = self.max_charts.map(|most| usize::try_from(most).unwrap_or(usize::MAX));
+        AutomaticCut { distortion: self.distortion, most_charts, visibility: self.seam_visibility }
     }
 }
 
@@ -126,19 +134,6 @@ impl From<OsString> for Cut {
             _ => Self::Along(text.into()),
         }
     }
-}
-
-/// Value of `--seams`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SeamKind {
-    /// Edges whose face normals differ by at least this angle, degrees.
-    Sharp(f64),
-    /// Edges between faces of different materials.
-    Materials,
-    /// Edges between faces of different groups or objects.
-    Groups,
-    /// Edges at which the file's mesh is split, and joined by a repair.
-    Splits,
 }
 
 /// Value of `--charts`.

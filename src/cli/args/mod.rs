@@ -34,7 +34,7 @@ use crate::examples::ExampleFiles;
 pub(super) use check::{CheckArguments, Denied};
 pub use compare::{CompareArguments, ComparisonFile};
 pub use flatten::{FlattenArguments, UnwrapArguments};
-pub use mesh::{Cut, MeshArguments, SeamKind};
+pub use mesh::{Cut, MeshArguments};
 pub use pack::PackArguments;
 pub(super) use reading::ReadingArguments;
 pub use shape::TypedShape;

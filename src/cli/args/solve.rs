@@ -12,9 +12,7 @@ use crate::cli::typed::{choice, parse_aspect, parse_pin};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
 use freebound_core::problem::{Family, Growth, Method, Settings, Spacing, Start, Treatment};
-
-/// Reason for rejecting a shape's options for other methods.
-pub(super) const ONLY_ON_SHAPES: &str = "only convex, stretch and lee have a boundary shape";
+use freebound_run::MethodOption;
 
 /// Pins, and settings of the solver but for the method.
 #[derive(Debug, Args)]
@@ -127,40 +125,19 @@ impl SolveArguments {
 
     /// All given options that do not apply to a method, with the reasons.
     fn idle_options(&self, method: &Method) -> Vec<(&'static str, &'static str)> {
-        let splits = *method == Method::Auto;
-        let of_family =
-            if method.is_one_to_one() { "it solves no weighted equations" } else { "its weights are fixed" };
-        let treats_pins = method.uses_pins() && !method.only_places_pins();
-        let of_treatment = if method.uses_pins() {
-            "its equations do not depend on pins"
-        } else {
-            "it places the whole boundary itself"
-        };
-        let of_splits = match method {
-            Method::Matchmaker => "it always adds vertices",
-            _ => "only auto has this choice",
-        };
         let cases = [
-            (self.spacing.is_some(), method.boundary_shape().is_some(), "--spacing", ONLY_ON_SHAPES),
-            (self.layers.is_some(), method.is_padded(), "--layers", "only lee puts layers around the mesh"),
-            (self.family.is_some(), method.uses_family(), "--family", of_family),
-            (!self.pins.is_empty(), method.uses_pins(), "--pin", "it places the whole boundary itself"),
-            (self.constraints.is_some(), method.uses_pins(), "--constraints", "it places the whole boundary itself"),
-            (self.treatment.is_some(), treats_pins, "--treatment", of_treatment),
-            (self.max_steps.is_some(), method.iterates(), "--max-steps", "it does not iterate"),
-            (self.no_new_vertices, splits, "--no-new-vertices", of_splits),
-            (
-                self.start.is_some(),
-                method.continues_from_layout(),
-                "--start",
-                "it computes its map from the surface alone",
-            ),
-            (self.growth.is_some(), method.bends_boundary(), "--growth", "only auto and virtual-boundary use it"),
+            (self.spacing.is_some(), MethodOption::Spacing, "--spacing"),
+            (self.layers.is_some(), MethodOption::Layers, "--layers"),
+            (self.family.is_some(), MethodOption::Family, "--family"),
+            (!self.pins.is_empty(), MethodOption::Pins, "--pin"),
+            (self.constraints.is_some(), MethodOption::Pins, "--constraints"),
+            (self.treatment.is_some(), MethodOption::Treatment, "--treatment"),
+            (self.max_steps.is_some(), MethodOption::MaxSteps, "--max-steps"),
+            (self.no_new_vertices, MethodOption::NewVertices, "--no-new-vertices"),
+            (self.start.is_some(), MethodOption::Start, "--start"),
+            (self.growth.is_some(), MethodOption::Growth, "--growth"),
         ];
-        cases
-            .into_iter()
-            .filter(|(given, applies, ..)| *given && !applies)
-            .map(|(_, _, option, why)| (option, why))
-            .collect()
+        let given = cases.into_iter().filter(|(given, ..)| *given);
+        given.filter_map(|(_, option, name)| Some((name, option.unused_by(method)?))).collect()
     }
 }

@@ -4,7 +4,6 @@ use std::fs;
 use std::path::Path;
 
 use freebound::examples::Example;
-use freebound::session::Model;
 use freebound_core::flatten::Flattener;
 use freebound_core::geom::{Picture, PictureFrame, VAxis};
 use freebound_core::mesh::DiskMesh;
@@ -153,7 +152,7 @@ fn where_names_are_taken_again_and_again_they_are_counted_up() {
 
 #[test]
 fn a_picture_of_no_file_is_not_written_over_files_of_others() {
-    let model = Model::example(Example::Dome);
+    let model = Example::Dome.model();
     let mesh: &DiskMesh = model.disk().unwrap();
     let step = Flattener::new(Settings::default(), Pins::new()).step(mesh, Control::unattended()).unwrap();
     let outcome = Outcome::new(mesh, Problem::default(), step);
@@ -194,7 +193,7 @@ fn the_material_replaces_those_before_it_and_groups_stay() {
 
 #[test]
 fn where_v_runs_down_it_runs_up_in_the_file_and_the_verdict_is_on_that() {
-    let model = Model::example(Example::Dome);
+    let model = Example::Dome.model();
     let mesh: &DiskMesh = model.disk().unwrap();
     let frame = PictureFrame { aspect: 2.0, v_axis: VAxis::Down };
     let targets = [(3, [0.2, 0.8]), (40, [0.8, 0.7]), (11, [0.7, 0.1])];

@@ -5,9 +5,10 @@ use std::fs;
 use super::sources::root;
 
 /// Source folders by their short names in the document.
-const SHORT: [(&str, &str); 4] = [
+const SHORT: [(&str, &str); 5] = [
     ("core/", "crates/freebound-core/src/"),
     ("io/", "crates/freebound-io/src/"),
+    ("run/", "crates/freebound-run/src/"),
     ("testkit/", "crates/freebound-testkit/src/"),
     ("", ""),
 ];

@@ -4,11 +4,17 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Source folders of all crates, the program first.
-pub(crate) const CRATES: [&str; 4] =
-    ["src", "crates/freebound-core/src", "crates/freebound-io/src", "crates/freebound-testkit/src"];
+pub(crate) const CRATES: [&str; 5] = [
+    "src",
+    "crates/freebound-core/src",
+    "crates/freebound-io/src",
+    "crates/freebound-run/src",
+    "crates/freebound-testkit/src",
+];
 
 /// Folders of all tests.
-pub(crate) const TESTS: [&str; 3] = ["tests", "crates/freebound-core/tests", "crates/freebound-io/tests"];
+pub(crate) const TESTS: [&str; 4] =
+    ["tests", "crates/freebound-core/tests", "crates/freebound-io/tests", "crates/freebound-run/tests"];
 
 /// Rust file.
 pub(crate) struct Source {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use freebound::examples::Example;
-use freebound::session::{Action, Model, RecentFiles, SaveRequest, Session, Severity};
+use freebound::session::{Action, RecentFiles, SaveRequest, Session, Severity};
 use freebound_core::flatten::Flattener;
 use freebound_core::geom::{Picture, PictureFrame};
 use freebound_core::mesh::{PolygonMesh, VertexId};
@@ -40,7 +40,7 @@ fn a_broken_list_is_an_empty_one() {
 
 /// First step of the dome with hard pins, on a picture twice as wide as high.
 fn first_step() -> Outcome {
-    let model = Model::example(Example::Dome);
+    let model = Example::Dome.model();
     let mesh = model.disk().expect("a dome is a disk");
     let frame = PictureFrame { aspect: 2.0, ..PictureFrame::default() };
     let targets = [(3, [0.2, 0.2]), (40, [0.8, 0.3]), (11, [0.7, 0.9])];
@@ -53,7 +53,7 @@ fn first_step() -> Outcome {
 
 /// Largest error of the hard pins in the report.
 fn reported(outcome: &Outcome) -> Option<f64> {
-    let model = Model::example(Example::Dome);
+    let model = Example::Dome.model();
     let finished = model.finished(outcome, Vec::new(), Fit::Unit);
     finished.report.pins.and_then(|pins| pins.max_hard_error)
 }

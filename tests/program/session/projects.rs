@@ -148,7 +148,7 @@ fn an_example_s_project_names_the_example() {
     place(&mut session, 5, Target::hard(DVec2::new(0.5, 0.25)));
     settled(&mut session, Action::SaveProject(project_in(&folder)));
     let after = reopened(&project_in(&folder));
-    assert_eq!(after.model().expect("open").example, Some(Example::Face));
+    assert_eq!(after.model().expect("open").built_in, Some(Example::Face.name()));
     assert_eq!(after.document(), session.document());
     assert!(after.document().picture.is_some(), "the portrait belongs to it");
 }
@@ -224,7 +224,7 @@ fn a_missing_mesh_is_named_and_what_was_open_stays() {
     fs::remove_file(folder.path().join("dome.obj")).unwrap();
     let mut session = opened(Example::Ell);
     settled(&mut session, Action::Open(project_in(&folder)));
-    assert_eq!(session.model().expect("still open").example, Some(Example::Ell));
+    assert_eq!(session.model().expect("still open").built_in, Some(Example::Ell.name()));
     let message = session.messages().last().expect("said");
     assert!(message.text.contains("dome.obj") && message.remedy.is_some(), "{message:?}");
 }

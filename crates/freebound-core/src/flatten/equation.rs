@@ -22,10 +22,7 @@ pub fn equation_of_step(
     match step.candidate.stage {
         Stage::Convex(_) if mesh.boundary_place(vertex).is_some() => return Err(NoEquation::Prescribed),
         Stage::Lee(_) if mesh.boundary_place(vertex).is_some() => return Err(NoEquation::Peeled),
-        Stage::Natural if step.is_spectral() && mesh.boundary_place(vertex).is_some() => {
-            return Err(NoEquation::OfEigenvector);
-        }
-        Stage::Spectral if mesh.boundary_place(vertex).is_some() => return Err(NoEquation::OfEigenvector),
+        _ if step.is_spectral() && mesh.boundary_place(vertex).is_some() => return Err(NoEquation::OfEigenvector),
         _ => {}
     }
     match (source, &step.candidate.virtual_boundary) {

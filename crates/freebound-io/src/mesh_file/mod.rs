@@ -145,6 +145,12 @@ impl MeshFile {
 
 impl From<&TriMesh> for MeshFile {
     fn from(mesh: &TriMesh) -> Self {
-        Self { polygons: mesh.into(), ..Self::default() }
+        PolygonMesh::from(mesh).into()
+    }
+}
+
+impl From<PolygonMesh> for MeshFile {
+    fn from(polygons: PolygonMesh) -> Self {
+        Self { polygons, ..Self::default() }
     }
 }

@@ -18,6 +18,8 @@ pub struct Refined {
     corners: Vec<u32>,
     /// Face of the file that each face equals or is a part of.
     pub(crate) face_of: Vec<u32>,
+    /// New vertices, on edges of the file. Their numbers follow those of the file's vertices.
+    pub(crate) new_vertices: Vec<NewVertex>,
 }
 
 /// Chart of a mesh, refined or unchanged.
@@ -78,6 +80,7 @@ impl Refined {
             mesh: MeshFile { polygons, statements, source: changed, ..MeshFile::default() },
             corners: faces.slots,
             face_of: faces.face_of,
+            new_vertices: new.vertices,
         }
     }
 

@@ -118,12 +118,7 @@ impl<'a> Reader<'a> {
         let mut row = vec![0.0; element.properties.len()];
         for _ in 0..element.count {
             let place = self.numbers.place();
-            for (property, value) in element.properties.iter().zip(&mut row) {
-                match property.count {
-                    None => *value = self.numbers.next(property.item)?,
-                    Some(_) => self.skip(property)?,
-                }
-            }
+            self.row(element, &mut row)?;
             let position = DVec3::new(row[x], row[y], row[z]);
             if !position.is_finite() {
                 let place = if matches!(place, FaultPlace::Line(_)) { self.numbers.place() } else { place };
@@ -131,6 +126,17 @@ impl<'a> Reader<'a> {
             }
             self.mesh.positions.push(position);
             self.at_vertices.extend(texture.map(|[u, v]| DVec2::new(row[u], row[v])));
+        }
+        Ok(())
+    }
+
+    /// Reads the single numbers of an item, and skips its lists.
+    fn row(&mut self, element: &Element, row: &mut [f64]) -> Result<(), ReadError> {
+        for (property, value) in element.properties.iter().zip(row) {
+            match property.count {
+                None => *value = self.numbers.next(property.item)?,
+                Some(_) => self.skip(property)?,
+            }
         }
         Ok(())
     }
@@ -143,12 +149,7 @@ impl<'a> Reader<'a> {
         let (mut normals, mut colours) = (Vec::new(), Vec::new());
         let mut row = vec![0.0; element.properties.len()];
         for _ in 0..element.count {
-            for (property, value) in element.properties.iter().zip(&mut row) {
-                match property.count {
-                    None => *value = self.numbers.next(property.item)?,
-                    Some(_) => self.skip(property)?,
-                }
-            }
+            self.row(element, &mut row)?;
             normals.extend(normal.as_ref().map(|at| DVec4::new(row[at[0]], row[at[1]], row[at[2]], 0.0)));
             let share = |at: usize| row[at] / element.properties[at].item.largest_colour();
             colours.extend(

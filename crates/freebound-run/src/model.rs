@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::examples::Example;
 use freebound_core::cutting::SeamOptions;
 use freebound_core::flatten::Options;
 use freebound_core::geom::PackingOptions;
@@ -16,7 +15,7 @@ use freebound_core::pipeline::{
 };
 use freebound_core::problem::{Control, Embedding, Settings, SolveError, Start};
 use freebound_io::{
-    FileStamp, LayoutError, MeshFile, Output, PictureFile, ReadError, ReadOptions, ResultSource, StepReport, Texture,
+    FileStamp, LayoutError, MeshFile, Output, ReadError, ReadOptions, ResultSource, StepReport, Texture,
     read_mesh_with, read_stream_with,
 };
 
@@ -32,8 +31,8 @@ pub struct Model {
     pub path: Option<PathBuf>,
     /// State of the file when it was read, by which a project recognises it.
     pub stamp: Option<FileStamp>,
-    /// Built-in mesh, if the model is one.
-    pub example: Option<Example>,
+    /// Name of the built-in mesh, if the model is one.
+    pub built_in: Option<&'static str>,
     /// Content of the file, to be written back with the result. Its faces are reversed if the preparation reverses
     /// them.
     pub source: Arc<MeshFile>,
@@ -80,8 +79,7 @@ impl Model {
     /// Errors of [`read_until`](Self::read_until).
     pub fn read_formless(path: &Path, options: ReadOptions, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
         let source = read_mesh_with(path, options, &mut |_| flow(is_enough))?;
-        let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-        Ok(Self::as_in_file(name, Some(path.to_owned()), source))
+        Ok(Self::of_file(path, Arc::new(source)))
     }
 
     /// Reads a stream like [`read_formless`](Self::read_formless) reads a file. `name` becomes the name of the model.
@@ -96,24 +94,33 @@ impl Model {
         is_enough: &dyn Fn() -> bool,
     ) -> Result<Self, ReadError> {
         let source = read_stream_with(stream, options, &mut |_| flow(is_enough))?;
-        Ok(Self::as_in_file(name.to_owned(), None, source))
+        Ok(Self::in_memory(name, Arc::new(source)))
     }
 
-    /// Model of a built-in mesh.
-    pub fn example(example: Example) -> Self {
-        let source = MeshFile::from(&example.mesh());
-        let model = Self::as_in_file(example.title().to_owned(), None, source);
-        Self { example: Some(example), ..model.in_form(Preparation::default()) }
+    /// Model of a built-in mesh. `name` identifies it, `title` is for people.
+    pub fn built_in(name: &'static str, title: &str, mesh: &TriMesh) -> Self {
+        let model = Self::as_in_file(title.to_owned(), None, Arc::new(MeshFile::from(mesh)));
+        Self { built_in: Some(name), ..model.in_form(Preparation::default()) }
+    }
+
+    /// Model of a mesh in memory, which is not prepared yet. `name` stands for a path in messages and reports.
+    pub fn in_memory(name: &str, mesh: Arc<MeshFile>) -> Self {
+        Self::as_in_file(name.to_owned(), None, mesh)
+    }
+
+    /// Model of a file that was read before, which is not prepared yet.
+    pub fn of_file(path: &Path, mesh: Arc<MeshFile>) -> Self {
+        Self::as_in_file(name_of(path), Some(path.to_owned()), mesh)
     }
 
     /// Model of a file that is not prepared or diagnosed yet.
-    fn as_in_file(name: String, path: Option<PathBuf>, source: MeshFile) -> Self {
+    fn as_in_file(name: String, path: Option<PathBuf>, source: Arc<MeshFile>) -> Self {
         Self {
             name,
             path,
             stamp: None,
-            example: None,
-            source: Arc::new(source),
+            built_in: None,
+            source,
             prepared: PreparedMesh::default(),
             seams_found: Vec::new(),
             layout_file: None,
@@ -145,7 +152,7 @@ impl Model {
 
     /// Model that knows automatic seams. It is not cut along them.
     #[must_use = "the mesh itself stays as it is"]
-    pub(super) fn knowing(&self, seams: Arc<AutomaticSeams>) -> Self {
+    pub fn knowing(&self, seams: Arc<AutomaticSeams>) -> Self {
         let mut seams_found = self.seams_found.clone();
         seams_found.retain(|known| known.form != seams.form);
         seams_found.push(seams);
@@ -160,7 +167,7 @@ impl Model {
     /// Model that knows the map of its automatic seams. The map is computed if it is not known. A model without such
     /// seams, and a computation that is cancelled or fails, change nothing.
     #[must_use = "the mesh itself stays as it is"]
-    pub(super) fn mapped(self, control: Control<'_>) -> Self {
+    pub fn mapped(self, control: Control<'_>) -> Self {
         let form = &self.prepared.form;
         let Some(bound) = form.seams.bound().filter(|_| self.automatic_seams().is_none()) else { return self };
         let labels = labels_for(&self.source, form);
@@ -183,7 +190,7 @@ impl Model {
     }
 
     /// Automatic seams that were found for a preparation without them and a bound.
-    pub(super) fn known_seams(&self, form: &Preparation, bound: f64) -> Option<&Arc<AutomaticSeams>> {
+    pub fn known_seams(&self, form: &Preparation, bound: f64) -> Option<&Arc<AutomaticSeams>> {
         let is_for = |known: &&Arc<AutomaticSeams>| {
             let seams = known.form.seams.without_automatic();
             known.bound.to_bits() == bound.to_bits() && Preparation { seams, ..known.form.clone() } == *form
@@ -223,7 +230,7 @@ impl Model {
     }
 
     /// Model of the wanted chart, if the mesh has several charts.
-    pub(super) fn with_chart(self, wanted: Option<usize>) -> Self {
+    pub fn with_chart(self, wanted: Option<usize>) -> Self {
         match self.prepared.chart.as_ref().map(|of| of.charts.pick(wanted)) {
             Some(number) => self.of_chart(number),
             None => self,
@@ -237,7 +244,7 @@ impl Model {
     }
 
     /// True if this is the wanted chart, or the mesh has only one.
-    pub(super) fn is_chart(&self, wanted: Option<usize>) -> bool {
+    pub fn is_chart(&self, wanted: Option<usize>) -> bool {
         self.prepared.chart.as_ref().is_none_or(|of| of.number == of.charts.pick(wanted))
     }
 
@@ -271,7 +278,7 @@ impl Model {
 
     /// Origin of the mesh, for messages and reports.
     pub fn path_words(&self) -> String {
-        match (&self.path, self.example) {
+        match (&self.path, self.built_in) {
             (Some(path), _) => path.display().to_string(),
             (None, Some(_)) => format!("built-in: {}", self.name),
             (None, None) => self.name.clone(),
@@ -313,7 +320,7 @@ impl Model {
     }
 
     /// Name of the layout that a run with these settings starts from. `None` if the run starts from scratch.
-    pub(super) fn start_words(&self, settings: &Settings) -> Option<String> {
+    pub fn start_words(&self, settings: &Settings) -> Option<String> {
         let from_file = || self.layout_file.as_ref().map_or_else(|| "uv".to_owned(), |file| file.path.clone());
         (settings.start == Start::File && settings.method.continues_from_layout()).then(from_file)
     }
@@ -417,12 +424,11 @@ fn labels_for(source: &MeshFile, form: &Preparation) -> Option<Vec<u32>> {
     if form.seams.of_texture { source.texture_labels().ok() } else { None }
 }
 
-fn flow(is_enough: &dyn Fn() -> bool) -> ControlFlow<()> {
-    if is_enough() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+/// Name of a file without its folder.
+fn name_of(path: &Path) -> String {
+    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
-/// Picture that belongs to a built-in mesh.
-pub fn example_picture(example: Example) -> Option<Arc<PictureFile>> {
-    let pixels = Arc::new(example.picture()?);
-    Some(Arc::new(PictureFile { name: "portrait".to_owned(), path: None, stamp: None, pixels }))
+fn flow(is_enough: &dyn Fn() -> bool) -> ControlFlow<()> {
+    if is_enough() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

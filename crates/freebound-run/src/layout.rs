@@ -1,0 +1,234 @@
+//! A finished run as arrays.
+
+use std::borrow::Cow;
+use std::collections::{BTreeSet, HashMap};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::{Model, Run, SolvedRun};
+use freebound_core::mesh::{FaceId, NewVertex, VertexId};
+use freebound_core::pipeline::LaidChart;
+use freebound_core::problem::Embedding;
+use freebound_core::verify::{FaceDistortion, distortion};
+use freebound_io::{MeshFile, Output, OutputKind, Precision, Report, Texture, TexturedMesh, WriteError};
+
+/// Value in [`MeshLayout::chart_of_face`] for a face that is not flattened.
+pub const NO_CHART: u32 = u32::MAX;
+
+/// Texture coordinates of a mesh, with their proof and their report.
+///
+/// Faces and vertices of the mesh keep their numbers. New vertices come after all others; a face that they split is
+/// replaced by its parts, in place.
+#[derive(Debug)]
+pub struct MeshLayout {
+    /// The mesh, with the new vertices if there are any.
+    pub mesh: Arc<MeshFile>,
+    /// Texture coordinates, v up, and the index of each corner's coordinate.
+    pub texture: Texture,
+    /// New vertices, on edges of the input.
+    pub new_vertices: Vec<NewVertex>,
+    /// Face of the input that each face is, or is a part of. Absent if the faces are those of the input.
+    pub face_of: Option<Vec<u32>>,
+    /// Chart of each face, or [`NO_CHART`].
+    pub chart_of_face: Vec<u32>,
+    /// Triangles of the proof, in the order of the faces. A face that is not flattened has one without distortion.
+    pub triangles: Vec<TriangleOfFace>,
+    /// Report of the run. It holds the verdict.
+    pub report: Report,
+    planar: bool,
+    summary: String,
+    model: Model,
+    run: Run,
+    solved: SolvedRun,
+}
+
+/// Triangle of a face, with its distortion.
+#[derive(Clone, Copy, Debug)]
+pub struct TriangleOfFace {
+    /// Number of the face in the mesh of the layout.
+    pub face: u32,
+    /// Distortion of the triangle, at the scale at which its chart has the area of its surface. Absent if the face is
+    /// not flattened.
+    pub distortion: Option<FaceDistortion>,
+}
+
+impl TriangleOfFace {
+    /// Greater and lesser singular value of the map from the surface to the plane.
+    pub fn singular_values(&self) -> Option<[f64; 2]> {
+        let FaceDistortion { angle, area, .. } = self.distortion?;
+        Some([(area * angle).sqrt(), (area / angle).sqrt()])
+    }
+}
+
+impl MeshLayout {
+    /// Lays out a solved run, and proves the layout in a precision.
+    pub(super) fn new(model: Model, run: Run, solved: SolvedRun, precision: Option<Precision>) -> io::Result<Self> {
+        let mut output = solved.output(&run)?;
+        output.round_to(Some(precision.unwrap_or_default()), OutputKind::Obj);
+        let (planar, summary) = (output.is_planar(), output.summary());
+        let TexturedMesh { mesh, texture, new_vertices, face_of } = output.textured();
+        let mesh = match mesh {
+            Cow::Borrowed(_) => Arc::clone(&model.source),
+            Cow::Owned(mesh) => Arc::new(mesh),
+        };
+        let laid = triangles_of(&output, face_of.as_deref(), model.source.polygons.face_count());
+        let mut chart_of_face = vec![NO_CHART; mesh.polygons.face_count()];
+        laid.iter().for_each(|triangle| chart_of_face[triangle.face as usize] = triangle.chart);
+        let flattened = laid.iter().map(|triangle| (triangle.face, Some(triangle.distortion)));
+        let left_out = (0..).zip(&chart_of_face).filter(|(_, chart)| **chart == NO_CHART).map(|(face, _)| (face, None));
+        let triangles = flattened.chain(left_out).map(|(face, distortion)| TriangleOfFace { face, distortion });
+        let mut triangles: Vec<TriangleOfFace> = triangles.collect();
+        triangles.sort_by_key(|triangle| triangle.face);
+        let report = output.report;
+        Ok(Self {
+            mesh,
+            texture,
+            new_vertices,
+            face_of,
+            chart_of_face,
+            triangles,
+            report,
+            planar,
+            summary,
+            model,
+            run,
+            solved,
+        })
+    }
+
+    /// True if the coordinates are proved one-to-one.
+    pub fn is_planar(&self) -> bool {
+        self.planar
+    }
+
+    /// Verdict in lower-case words.
+    pub fn summary(&self) -> &str {
+        &self.summary
+    }
+
+    /// True if the coordinates are proved one-to-one, all hard pins are met, and charts have the density that was asked
+    /// for.
+    pub fn is_fine(&self) -> bool {
+        self.planar && self.unmet_pins().is_empty() && !self.misses_density()
+    }
+
+    /// Vertices with hard pins that are not at their targets.
+    pub fn unmet_pins(&self) -> Vec<VertexId> {
+        let of_charts = self.report.charts.iter().map(|chart| &chart.pins);
+        self.report.pins.iter().chain(of_charts).flat_map(|pins| pins.unmet.iter().copied()).collect()
+    }
+
+    fn misses_density(&self) -> bool {
+        self.report.packing.is_some_and(|packing| packing.unmet_density().is_some())
+    }
+
+    /// The mesh in its preparation.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Charts with their last steps.
+    pub fn solved(&self) -> &SolvedRun {
+        &self.solved
+    }
+
+    /// Coordinates in 64 bits, laid out and proved again.
+    ///
+    /// # Errors
+    ///
+    /// Errors of [`SolvedRun::output`].
+    pub fn output(&self) -> io::Result<Output<'_>> {
+        self.solved.output(&self.run)
+    }
+
+    /// Texture coordinate of each corner, `None` at corners of faces that are not flattened.
+    pub fn corner_coordinates(&self) -> impl Iterator<Item = Option<DVec2>> {
+        self.texture.corners.iter().map(|&number| self.texture.coordinates.get(number as usize).copied())
+    }
+
+    /// Inner edges of the mesh whose sides have different coordinates, by its vertices, in ascending order.
+    pub fn cut_edges(&self) -> Vec<[VertexId; 2]> {
+        let polygons = &self.mesh.polygons;
+        let mut sides: HashMap<[VertexId; 2], Vec<[u32; 2]>> = HashMap::new();
+        for face in 0..polygons.face_count() {
+            let range = polygons.corner_range(face);
+            let count = range.len();
+            for at in 0..count {
+                let [a, b] = [range.start + at, range.start + (at + 1) % count];
+                let [v, w] = [polygons.corners[a], polygons.corners[b]];
+                let [s, t] = [self.texture.corners[a], self.texture.corners[b]];
+                let (edge, side) = if v < w { ([v, w], [s, t]) } else { ([w, v], [t, s]) };
+                sides.entry(edge).or_default().push(side);
+            }
+        }
+        let is_cut = |sides: &[[u32; 2]]| sides.iter().any(|side| *side != sides[0]);
+        let mut edges: Vec<_> = sides.into_iter().filter(|(_, sides)| is_cut(sides)).map(|(edge, _)| edge).collect();
+        edges.sort_unstable();
+        edges
+    }
+
+    /// Writes a mesh file with the coordinates, or another kind of file, in the precision that is usual for its kind or
+    /// in a given one. Returns the files written, `path` first.
+    ///
+    /// # Errors
+    ///
+    /// If a file cannot be written.
+    pub fn write(
+        &self,
+        path: &Path,
+        kind: OutputKind,
+        precision: Option<Precision>,
+    ) -> Result<Vec<PathBuf>, WriteError> {
+        let mut output = self.output().map_err(|source| WriteError::writing(path, source))?;
+        output.round_to(precision, if kind.is_mesh() { kind } else { OutputKind::Obj });
+        output.report.not_kept = output.not_kept_in(kind).into_iter().collect::<BTreeSet<_>>().into_iter().collect();
+        output.write(kind, path)
+    }
+}
+
+/// Triangle of a chart, with its place in the written mesh.
+struct LaidTriangle {
+    face: u32,
+    chart: u32,
+    distortion: FaceDistortion,
+}
+
+/// Triangles of all charts, in the order of the faces of `mesh`. `face_of` is the face of the input for each face of
+/// `mesh`, if they differ.
+fn triangles_of(output: &Output<'_>, face_of: Option<&[u32]>, input_faces: usize) -> Vec<LaidTriangle> {
+    // First written face of each face of the input.
+    let mut first: Vec<u32> = vec![0; input_faces + 1];
+    match face_of {
+        Some(face_of) => {
+            face_of.iter().for_each(|&face| first[face as usize + 1] += 1);
+            (0..input_faces).for_each(|face| first[face + 1] += first[face]);
+        }
+        None => (0..).zip(&mut first).for_each(|(face, first)| *first = face),
+    }
+    let plane = DVec2::new(output.aspect, 1.0);
+    let mut laid = Vec::new();
+    for (chart, of_chart) in (0..).zip(&output.charts) {
+        let measured = measured(of_chart, plane);
+        let triangles = of_chart.mesh.mesh();
+        let polygons: Vec<u32> = (0..measured.len()).map(|face| triangles.polygon(FaceId::from_index(face))).collect();
+        let mut distortions = measured.into_iter();
+        for polygon in polygons.chunk_by(|a, b| a == b) {
+            let [begin, end] = [first[polygon[0] as usize], first[polygon[0] as usize + 1]];
+            // The face is whole, or each of its triangles is a face.
+            let faces = (begin..end).cycle().take(polygon.len());
+            laid.extend(faces.zip(&mut distortions).map(|(face, distortion)| LaidTriangle { face, chart, distortion }));
+        }
+    }
+    laid.sort_by_key(|triangle| triangle.face);
+    laid
+}
+
+/// Distortion of the triangles of a chart, in the plane.
+fn measured(chart: &LaidChart<'_>, plane: DVec2) -> Vec<FaceDistortion> {
+    let in_plane: Embedding = chart.coordinates.par_iter().map(|uv| *uv * plane).collect::<Vec<_>>().into();
+    distortion(chart.mesh, &in_plane).faces
+}

@@ -1,0 +1,3 @@
+//! Tests of runs from a mesh in memory to a layout.
+
+mod layouts;

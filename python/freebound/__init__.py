@@ -1,0 +1,45 @@
+"""Flattens meshes into the plane with hard constraints and an exact proof of every result.
+
+>>> import freebound
+>>> layout = freebound.unwrap("model.obj")
+>>> layout.verdict.planar
+True
+>>> layout.save("unwrapped.obj")
+['unwrapped.obj']
+"""
+
+from ._check import check
+from ._errors import Cancelled, Error, InputError, NotProved, OptionError
+from ._freebound import VERSION as __version__
+from ._freebound import Step
+from ._layout import Layout, Verdict
+from ._map import MapRecord, map
+from ._mesh import Mesh, read
+from ._plot import plot
+from ._run import Drag, Flattener, Job, Pack, equations, flatten, start, unwrap
+
+__all__ = [
+    "Cancelled",
+    "Drag",
+    "Error",
+    "Flattener",
+    "InputError",
+    "Job",
+    "Layout",
+    "MapRecord",
+    "Mesh",
+    "NotProved",
+    "OptionError",
+    "Pack",
+    "Step",
+    "Verdict",
+    "__version__",
+    "check",
+    "equations",
+    "flatten",
+    "map",
+    "plot",
+    "read",
+    "start",
+    "unwrap",
+]

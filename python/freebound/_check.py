@@ -1,0 +1,43 @@
+"""Check of given texture coordinates."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import _arrays, _freebound
+from ._errors import OptionError
+
+
+def check(
+    vertices: Any,
+    faces: Any = None,
+    corner_uv: Any = None,
+    *,
+    stacked: bool = False,
+    gap: float | None = None,
+    size: int | tuple[int, int] | None = None,
+    scale_ratio: float | None = None,
+) -> dict[str, Any]:
+    """Decides exactly if a layout is one-to-one, and lists its defects.
+
+    >>> freebound.check("model.obj")["planar"]
+    True
+
+    Args:
+        vertices: positions, shape (n, 3); or a :class:`Mesh`; or the path of a mesh file with texture coordinates.
+        faces: shape (m, 3) or (m, 4), or (indices, offsets).
+        corner_uv: texture coordinates of the corners, shape (c, 2), v up. NaN where there are none.
+        stacked: True if faces may share exactly one place.
+        gap: smallest distance of two charts in pixels. Default: not tested.
+        size: width and height of the picture in pixels, or one number for both. Default: 1024.
+        scale_ratio: largest ratio of a chart's scale to the usual scale. Default: 2.
+
+    Returns:
+        A dictionary with ``planar``, ``f32`` (planar in 32 bits), ``passes``, ``charts``, ``triangles`` and
+        ``findings``. Each finding has a ``code``, a ``severity`` and the faces or vertices at fault.
+    """
+    mesh = _arrays.mesh_of(vertices, faces, corner_uv)
+    if mesh.corner_uv is None:
+        raise OptionError("corner_uv: the mesh has no texture coordinates: pass them")
+    picture = None if size is None else ([size, size] if isinstance(size, int) else list(size))
+    return _freebound.check(mesh, stacked, gap, picture, scale_ratio)

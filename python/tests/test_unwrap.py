@@ -1,0 +1,121 @@
+"""Any mesh: automatic seams, charts and packing."""
+
+import numpy as np
+import pytest
+
+import freebound
+from meshes import ball, cube, grid, write_obj
+
+
+def test_a_closed_mesh_is_cut_and_packed_with_little_distortion():
+    vertices, faces = ball()
+    layout = freebound.unwrap(vertices, faces, distortion=4.2, pack=freebound.Pack(size=512, gap=4))
+    assert layout.verdict.planar and layout.energy <= 4.2
+    assert layout.uv.min() >= 0 and layout.uv.max() <= 1
+    assert len(layout.cut_edges) > 0 and (layout.chart >= 0).all()
+    # The check of a layout is another algorithm than its proof.
+    found = freebound.check(vertices, faces, layout.corner_uv)
+    assert found["planar"] and found["charts"] == layout.chart.max() + 1
+
+
+def test_cut_edges_are_those_at_which_the_coordinates_differ():
+    vertices, faces = cube()
+    layout = freebound.unwrap(vertices, faces)
+    sides = {}
+    for face, places in zip(faces, layout.corner_uv.reshape(-1, 4, 2)):
+        for k in range(4):
+            a, b = face[k], face[(k + 1) % 4]
+            ends = (tuple(places[k]), tuple(places[(k + 1) % 4]))
+            sides.setdefault((min(a, b), max(a, b)), []).append(ends if a < b else ends[::-1])
+    differing = sorted(edge for edge, both in sides.items() if both[0] != both[1])
+    assert differing == [tuple(edge) for edge in layout.cut_edges]
+
+
+def test_seams_can_be_given_by_edges_and_by_kind():
+    vertices, faces = cube()
+    by_kind = freebound.unwrap(vertices, faces, seams="sharp=60")
+    assert by_kind.chart.max() == 5 and by_kind.energy == pytest.approx(4, abs=1e-9)
+    edges = {tuple(sorted((face[k], face[(k + 1) % 4]))) for face in faces for k in range(4)}
+    by_edges = freebound.unwrap(vertices, faces, seams=np.array(sorted(edges)))
+    assert np.array_equal(by_edges.corner_uv, by_kind.corner_uv)
+
+
+def test_a_corner_names_one_side_of_a_seam():
+    vertices, faces, _ = grid(4, 4, 0)
+    middle = [(5 * row + 2, 5 * (row + 1) + 2) for row in range(4)]
+    corners = faces.ravel()
+    right = next(k for k, face in enumerate(faces) if 2 in face and (vertices[face, 0] >= 0.5).all())
+    at = 3 * right + int(np.flatnonzero(faces[right] == 2)[0])
+    layout = freebound.flatten(
+        vertices, faces, seams=middle, repair="all", cut="shortest",
+        corner_pins={at: (0.7, 0.1), 3 * right + (at + 1) % 3: (0.9, 0.3)},
+    )
+    assert corners[at] == 2 and (layout.corner_uv[at] == (0.7, 0.1)).all()
+    other = [k for k in np.flatnonzero(corners == 2) if not (layout.corner_uv[k] == (0.7, 0.1)).all()]
+    assert other, "the other side of the seam lies elsewhere"
+
+
+def test_sizes_and_parts_of_charts_are_those_asked_for():
+    vertices, faces = cube()
+    layout = freebound.unwrap(vertices, faces, seams="sharp", chart_size={0: 2.0})
+    flat = layout.corner_uv.reshape(-1, 4, 2)
+    side = np.linalg.norm(flat[:, 1] - flat[:, 0], axis=1)
+    assert side[0] == pytest.approx(2 * side[1], rel=1e-6)
+    with pytest.raises(freebound.OptionError, match="chart 9"):
+        freebound.unwrap(vertices, faces, seams="sharp", chart_size={9: 2.0})
+    two = np.concatenate([vertices, vertices + 3])
+    both = np.concatenate([faces, faces + 8])
+    one = freebound.unwrap(two, both, parts=1)
+    assert (one.chart[:6] == -1).all() and (one.chart[6:] >= 0).all()
+    assert np.isnan(one.corner_uv[:24]).all() and (one.faces[:6] == -1).all()
+    assert np.isnan(one.singular_values[:6]).all()
+
+
+def test_a_check_finds_what_was_damaged():
+    vertices, faces = ball()
+    layout = freebound.unwrap(vertices, faces)
+    damaged = layout.corner_uv.copy()
+    damaged[0] = damaged[0] + 0.5
+    found = freebound.check(vertices, faces, damaged)
+    assert not found["planar"] and found["findings"]
+    with pytest.raises(freebound.OptionError):
+        freebound.check(vertices, faces)
+
+
+def test_threads_do_not_change_the_bytes():
+    vertices, faces = ball(40, 20)
+    layouts = [freebound.unwrap(vertices, faces, threads=threads) for threads in (1, 2, 3)]
+    assert all(layout.uv.tobytes() == layouts[0].uv.tobytes() for layout in layouts)
+
+
+def test_materials_are_kept_with_trimesh(tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    vertices, faces = ball()
+    mesh = trimesh.Trimesh(vertices, faces, process=False)
+    layout = freebound.unwrap(mesh.vertices, mesh.faces)
+    material = trimesh.visual.material.PBRMaterial(baseColorFactor=[200, 30, 40, 255], name="red")
+    unwrapped = trimesh.Trimesh(
+        layout.vertices[layout.source], layout.faces, process=False,
+        visual=trimesh.visual.TextureVisuals(uv=layout.uv, material=material),
+    )
+    assert unwrapped.area == pytest.approx(mesh.area, rel=1e-12)
+    unwrapped.export(tmp_path / "ball.glb")
+    again = trimesh.load(tmp_path / "ball.glb", force="mesh", process=False)
+    assert np.allclose(again.visual.uv, layout.uv, atol=1e-6) and again.visual.material.name == "red"
+    assert freebound.check(tmp_path / "ball.glb")["planar"]
+    # The file keeps its material when it is unwrapped itself.
+    freebound.unwrap(tmp_path / "ball.glb").save(tmp_path / "again.glb")
+    assert trimesh.load(tmp_path / "again.glb", force="mesh").visual.material.name == "red"
+
+
+def test_the_program_and_the_package_write_the_same_bytes(tmp_path, program):
+    vertices, faces = ball()
+    path = write_obj(tmp_path / "ball.obj", vertices, faces)
+    program("unwrap", path, "-o", tmp_path / "program.obj")
+    freebound.unwrap(path).save(tmp_path / "package.obj")
+    assert (tmp_path / "program.obj").read_bytes() == (tmp_path / "package.obj").read_bytes()
+    vertices, faces, _ = grid()
+    path = write_obj(tmp_path / "grid.obj", vertices, faces)
+    program("flatten", path, "-o", tmp_path / "program.obj", "--pin", "0:0.1,0.2", "--pin", "12:0.8,0.3")
+    freebound.flatten(path, pins={0: (0.1, 0.2), 12: (0.8, 0.3)}).save(tmp_path / "package.obj")
+    assert (tmp_path / "program.obj").read_bytes() == (tmp_path / "package.obj").read_bytes()
