@@ -40,15 +40,14 @@ def mesh_of(vertices: Any, faces: Any = None, corner_uv: Any = None) -> _freebou
 def corners_of(faces: Any) -> tuple[np.ndarray, np.ndarray | None]:
     """Vertex of each corner, and the starts of the faces; None for triangles."""
     if isinstance(faces, tuple) and len(faces) == 2:
-        corners, starts = (_integers("faces", part) for part in faces)
-        return corners.reshape(-1), starts.reshape(-1)
+        return _integers("faces", faces[0]).reshape(-1), _integers("faces", faces[1]).reshape(-1)
     try:
         table = _integers("faces", faces)
     except ValueError:
         # Lists of different lengths.
         rows = [_integers("faces", row) for row in faces]
-        starts = np.concatenate([[0], np.cumsum([len(row) for row in rows])]).astype(np.int64)
-        return np.concatenate(rows), starts
+        ends = np.cumsum([len(row) for row in rows])
+        return np.concatenate(rows), np.concatenate([[0], ends]).astype(np.int64)
     if table.ndim != 2 or table.shape[1] < 3:
         raise OptionError(f"faces: pass an array of shape (n, 3) or (n, 4), or (indices, offsets), not {table.shape}")
     count, size = table.shape
@@ -121,7 +120,7 @@ def request(options: dict[str, Any]) -> tuple[str, dict[str, Any]]:
         options["seam_kinds"] = kinds
     pack = options.get("pack")
     if pack is not None:
-        if not dataclasses.is_dataclass(pack):
+        if not dataclasses.is_dataclass(pack) or isinstance(pack, type):
             raise OptionError("pack: pass a freebound.Pack")
         fields = {name: value for name, value in dataclasses.asdict(pack).items() if value is not None}
         if isinstance(fields.get("size"), (int, np.integer)):

@@ -1,21 +1,22 @@
 """Native module. The package wraps it: use `freebound`."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Self, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 VERSION: str
 
+@final
 class Mesh:
-    def __init__(
-        self,
+    def __new__(
+        cls,
         vertices: NDArray[np.float64],
         corners: NDArray[np.int64],
         starts: NDArray[np.int64] | None,
         corner_uv: NDArray[np.float64] | None,
-    ) -> None: ...
+    ) -> Self: ...
     @staticmethod
     def read(path: str) -> Mesh: ...
     @property
@@ -31,8 +32,9 @@ class Mesh:
     @property
     def warnings(self) -> list[str]: ...
 
+@final
 class Job:
-    def __init__(self, mesh: Mesh, options: str, lists: dict[str, Any]) -> None: ...
+    def __new__(cls, mesh: Mesh, options: str, lists: dict[str, Any]) -> Self: ...
     def cancel(self) -> None: ...
     def wait(self, timeout: float | None = None) -> bool: ...
     def result(self, timeout: float | None = None) -> _Layout: ...
@@ -81,12 +83,13 @@ class _Layout:
     def write(self, path: str, precision: str | None = None) -> list[str]: ...
 
 class _Flattener:
-    def __new__(cls, mesh: Mesh, options: str, lists: dict[str, Any]) -> _Flattener: ...
+    def __new__(cls, mesh: Mesh, options: str, lists: dict[str, Any]) -> Self: ...
     def __iter__(self) -> _Flattener: ...
     def __next__(self) -> Step: ...
     @property
     def ending(self) -> str | None: ...
 
+@final
 class Step:
     """Step of a method."""
 
@@ -123,7 +126,7 @@ class Step:
         """Numbers of the step as the report has them."""
 
 class _Drag:
-    def __new__(cls, layout: _Layout, threads: int | None = None) -> _Drag: ...
+    def __new__(cls, layout: _Layout, threads: int | None = None) -> Self: ...
     def advance(self, vertex: int, target: Sequence[float]) -> tuple[NDArray[np.float64], dict[str, Any]]: ...
 
 def check(

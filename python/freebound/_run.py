@@ -94,7 +94,8 @@ def _start(vertices: Any, faces: Any, layout: Any, options: dict[str, Any]) -> J
 def _finished(job: Job, progress: Callable[[dict[str, Any]], None] | None) -> Layout:
     try:
         while not job.wait(_INTERVAL if progress else None):
-            progress(job.progress)
+            if progress:
+                progress(job.progress)
     except BaseException:
         job.cancel()
         raise

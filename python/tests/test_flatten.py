@@ -137,7 +137,7 @@ def test_wrong_options_and_meshes_are_named(tmp_path):
     assert found.value.faults
     with pytest.raises(freebound.OptionError, match="9999"):
         freebound.flatten(vertices, faces, pins={9999: (0, 0)})
-    with pytest.raises(freebound.InputError):
+    with pytest.raises(freebound.OptionError):
         freebound.flatten(vertices, faces, pins={0: (0, 0), 12: (0, 0)})
     with pytest.raises(freebound.InputError):
         freebound.read(tmp_path / "missing.obj")
