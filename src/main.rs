@@ -9,7 +9,7 @@ use freebound::cli::{Arguments, run, run_example, warn};
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     match arguments.command {
-        Some(command) => run(&command),
+        Some(command) => run(&command, arguments.progress),
         None => open(arguments.file.as_deref()),
     }
 }

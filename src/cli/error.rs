@@ -13,7 +13,7 @@ use freebound_io::{
 use freebound_run::{Model, RunError};
 
 /// Exit status of an internal or system error.
-const INTERNAL: u8 = 1;
+pub(super) const INTERNAL: u8 = 1;
 
 /// Exit status of invalid usage. clap uses this number, too.
 pub(super) const WRONG_USE: u8 = 2;
@@ -53,6 +53,8 @@ pub enum CommandOutcome {
     Fine,
     /// The result is written, but is not planar or misses a constraint.
     FallsShort,
+    /// A batch has ended. The number is the worst exit status of its meshes.
+    Batch(u8),
 }
 
 /// Error of a command that failed.

@@ -11,6 +11,7 @@ pub(super) fn conclude(outcome: Result<CommandOutcome, CommandError>, subject: O
     match outcome {
         Ok(CommandOutcome::Fine) => ExitCode::SUCCESS,
         Ok(CommandOutcome::FallsShort) => ExitCode::from(FALLS_SHORT),
+        Ok(CommandOutcome::Batch(worst)) => ExitCode::from(worst),
         Err(failure) => {
             warn(message_of(&failure, subject.map(|subject| subject.mesh)));
             if let Some(subject) = subject {

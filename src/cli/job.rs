@@ -83,7 +83,7 @@ impl HeadlessJob<'_> {
         let control = Control::new(&INTERRUPTED, &report_phase);
         let method = &self.options.settings.method;
         let solved = run.solve(charts, control, |mesh, step| {
-            progress.reach(step_words(step));
+            progress.reach_step(step, step_words(step));
             if let Some(mut folder) = folder.and_then(|folder| folder.lock().ok()) {
                 progress.enter("drawing the step");
                 folder.add(mesh, step)?;

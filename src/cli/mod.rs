@@ -8,6 +8,7 @@
 //! | `flatten`     | commands `flatten` and `unwrap`; the example if no window can be opened                |
 //! | `job`         | flattening of one chart or several, with outputs and summary             |
 //! | `pack`        | command `pack`: new places for the charts of an existing layout          |
+//! | `batch/`      | command `batch`: many meshes side by side                                |
 //! | `check`       | command `check`: diagnosis of a mesh, verdict on its texture coordinates |
 //! | `compare`     | command `compare`: several methods on one mesh                           |
 //! | `morph`       | planar morph through the maps of compared methods                        |
@@ -21,6 +22,7 @@
 //! | `pins`        | requested pins                                                           |
 //! | `places`      | clashes between the files of a run                                       |
 //! | `seams`       | requested preparation of a mesh, with its seams                          |
+//! | `shell`       | completions for shells, and manual pages                                 |
 //! | `standard`    | `-` as a file: standard input and output                                 |
 //! | `say`         | lines on standard output and standard error                              |
 //! | `error`       | errors of a command: their messages and exit statuses                    |
@@ -32,6 +34,7 @@
 
 mod args;
 mod awaited;
+mod batch;
 mod check;
 mod compare;
 mod error;
@@ -51,6 +54,7 @@ mod progress;
 mod report_file;
 mod say;
 mod seams;
+mod shell;
 mod standard;
 mod study;
 mod summary;
@@ -64,16 +68,19 @@ use self::failed::ReportTarget;
 use freebound_core::problem::{Family, Labels, Method, NamedOption};
 
 pub use args::{
-    Arguments, CompareArguments, ComparisonFile, Cut, ExampleArguments, FlattenArguments, MeshArguments, PackArguments,
-    SolveArguments, StartOf, StudyArguments, Subcommands, ThreadArguments, TypedShape, UnwrapArguments,
+    Arguments, BatchArguments, BatchCommand, BatchFormat, CompareArguments, ComparisonFile, CompletionsArguments, Cut,
+    ExampleArguments, FlattenArguments, ManArguments, MeshArguments, PackArguments, SolveArguments, StartOf,
+    StudyArguments, Subcommands, ThreadArguments, TypedShape, UnwrapArguments,
 };
 pub use error::{CommandError, CommandOutcome, Remedy};
 pub use figures::pairs;
 pub use flatten::run_example;
+pub use progress::ProgressForm;
 pub use say::warn;
 
 /// Runs a command and returns its exit status.
-pub fn run(command: &Subcommands) -> ExitCode {
+pub fn run(command: &Subcommands, form: ProgressForm) -> ExitCode {
+    progress::set_form(form);
     progress::stop_on_interrupt();
     let (outcome, subject) = match command {
         Subcommands::Flatten(arguments) => (flatten::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
@@ -83,6 +90,9 @@ pub fn run(command: &Subcommands) -> ExitCode {
         Subcommands::Pack(arguments) => (pack::run(arguments), Some((&arguments.mesh, &arguments.report))),
         Subcommands::Compare(arguments) => (compare::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
         Subcommands::Check(arguments) => (check::run(arguments), Some((&arguments.mesh, &arguments.report))),
+        Subcommands::Batch(arguments) => (batch::run(arguments), None),
+        Subcommands::Completions(arguments) => (shell::completions(arguments.shell), None),
+        Subcommands::Man(arguments) => (shell::man(&arguments.folder), None),
         Subcommands::Figures(arguments) => (figures::run(&arguments.folder), None),
         Subcommands::Study(arguments) => (study::run(arguments), None),
         Subcommands::Example(arguments) => (example::run(arguments), None),

@@ -1,14 +1,18 @@
 //! Progress on the terminal, and Ctrl-C.
 
 use std::io::{IsTerminal as _, Write as _};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use super::awaited::forget_awaited;
+use clap::ValueEnum;
+use serde::Serialize;
+
 use super::error::INTERRUPTED as INTERRUPTED_CODE;
 use super::say::warn;
+use freebound_core::flatten::Step;
 use freebound_core::problem::SolveError;
 use freebound_io::discard_unfinished;
 
@@ -63,7 +67,53 @@ fn end() {
     std::process::exit(INTERRUPTED_CODE.into());
 }
 
-/// Progress line, shown on a terminal if the work takes over half a second.
+/// Form of the progress on standard error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum ProgressForm {
+    /// A line that changes, on a terminal only
+    #[default]
+    Line,
+    /// A line of JSON for each change, at most ten each second
+    Json,
+    /// Nothing
+    None,
+}
+
+/// Form of the progress of this process.
+static FORM: OnceLock<ProgressForm> = OnceLock::new();
+
+/// Sets the form of the progress. Only the first call counts.
+pub(super) fn set_form(form: ProgressForm) {
+    FORM.set(form).ok();
+}
+
+/// Progress of a command as a line of JSON. Field names are part of the interface.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+struct ProgressNumbers {
+    /// Current activity.
+    activity: &'static str,
+    /// Stage that made the last step.
+    stage: Option<&'static str>,
+    /// Index of the last step.
+    step: Option<usize>,
+    /// Mean energy of the last step, if its stage measures it; 4 is an isometric map.
+    energy: Option<f64>,
+    /// Number of finished items of a command that has many.
+    done: Option<u64>,
+    /// Number of all items.
+    total: Option<u64>,
+}
+
+/// Line of JSON with the time.
+#[derive(Serialize)]
+struct TimedProgress<'a> {
+    #[serde(flatten)]
+    numbers: &'a ProgressNumbers,
+    /// Time since the start of the command.
+    seconds: f64,
+}
+
+/// Progress of a command. On a terminal its line appears if the work takes over half a second.
 #[derive(Debug, Default)]
 pub(super) struct ProgressLine {
     words: Mutex<Words>,
@@ -76,6 +126,8 @@ struct Words {
     done: String,
     /// Current activity.
     doing: &'static str,
+    /// Numbers of the last result.
+    numbers: ProgressNumbers,
 }
 
 impl ProgressLine {
@@ -83,6 +135,25 @@ impl ProgressLine {
     pub(super) fn enter(&self, words: &'static str) {
         if let Ok(mut line) = self.words.lock() {
             line.doing = words;
+            line.numbers.activity = words;
+        }
+    }
+
+    /// Sets the last step as the last result. `words` describe it.
+    pub(super) fn reach_step(&self, step: &Step, words: String) {
+        if let Ok(mut line) = self.words.lock() {
+            line.done = words;
+            line.numbers.stage = Some(step.candidate.stage.name());
+            line.numbers.step = Some(step.index);
+            line.numbers.energy = step.candidate.progress.map(|progress| progress.energy);
+        }
+    }
+
+    /// Sets the number of finished items as the last result.
+    pub(super) fn reach_items(&self, done: u64, total: u64, items: &str) {
+        if let Ok(mut line) = self.words.lock() {
+            line.done = format!("{done} of {total} {items}");
+            (line.numbers.done, line.numbers.total) = (Some(done), Some(total));
         }
     }
 
@@ -101,11 +172,44 @@ impl ProgressLine {
         )
     }
 
-    /// Runs `work` while the terminal shows the progress line.
+    /// Runs `work` while standard error shows the progress.
     pub(super) fn follow<T>(&self, work: impl FnOnce() -> T) -> T {
-        if !std::io::stderr().is_terminal() {
-            return work();
+        match FORM.get().copied().unwrap_or_default() {
+            ProgressForm::Json => self.follow_in_json(work),
+            ProgressForm::Line if std::io::stderr().is_terminal() => self.follow_on_terminal(work),
+            ProgressForm::Line | ProgressForm::None => work(),
         }
+    }
+
+    fn follow_in_json<T>(&self, work: impl FnOnce() -> T) -> T {
+        std::thread::scope(|scope| {
+            let (done, wait) = sync_channel::<()>(0);
+            let start = Instant::now();
+            let tell = move || {
+                let mut last = ProgressNumbers::default();
+                loop {
+                    let is_over = wait.recv_timeout(TICK) != Err(RecvTimeoutError::Timeout);
+                    let now = self.words.lock().map(|words| words.numbers.clone()).unwrap_or_default();
+                    if now != last {
+                        let line = TimedProgress { numbers: &now, seconds: start.elapsed().as_secs_f64() };
+                        let text = serde_json::to_string(&line).unwrap_or_default();
+                        writeln!(std::io::stderr(), "{text}").ok();
+                        last = now;
+                    }
+                    if is_over {
+                        return;
+                    }
+                }
+            };
+            let ticker = std::thread::Builder::new().name("progress".to_owned()).spawn_scoped(scope, tell);
+            let result = work();
+            drop(done);
+            drop(ticker);
+            result
+        })
+    }
+
+    fn follow_on_terminal<T>(&self, work: impl FnOnce() -> T) -> T {
         std::thread::scope(|scope| {
             let (done, wait) = sync_channel::<()>(0);
             let ticker = std::thread::Builder::new().name("progress".to_owned()).spawn_scoped(scope, move || {

@@ -122,7 +122,7 @@ fn studied_mesh(
     let name = name_of_input(path);
     let records = study.records(&subject, control, || {
         let count = done.fetch_add(1, Ordering::Relaxed) + 1;
-        progress.reach(format!("{name}: {count} of {} runs", study.runs));
+        progress.reach_items(count, study.runs, &format!("runs on {name}"));
     })?;
     Ok(Studied { mesh: name, form: subject.form, limits: study.limits, records })
 }

@@ -131,3 +131,16 @@ pub(super) fn parse_tiles(text: &str) -> Result<TileRule, String> {
     };
     rule.ok_or_else(|| format!("write materials, groups or a number from 1 to {}", PackingOptions::MOST_TILES))
 }
+
+/// Parses a number of bytes with an optional K, M or G.
+pub(super) fn parse_memory(text: &str) -> Result<u64, String> {
+    let text = text.trim();
+    let (digits, shift) = match text.char_indices().last() {
+        Some((at, 'k' | 'K')) => (&text[..at], 10),
+        Some((at, 'm' | 'M')) => (&text[..at], 20),
+        Some((at, 'g' | 'G')) => (&text[..at], 30),
+        _ => (text, 0),
+    };
+    let bytes = digits.trim().parse::<u64>().ok().and_then(|number| number.checked_mul(1 << shift));
+    bytes.filter(|&bytes| bytes > 0).ok_or_else(|| "write bytes, or a number with K, M or G, for example 4G".to_owned())
+}

@@ -3,6 +3,7 @@
 //! | file      | content                                       |
 //! |-----------|-----------------------------------------------|
 //! | `mod`     | commands; arguments of `figures`              |
+//! | `batch`   | arguments of `batch`                          |
 //! | `check`   | arguments of `check`                          |
 //! | `mesh`    | arguments for the mesh and its preparation    |
 //! | `solve`   | arguments for pins and settings of the solver |
@@ -14,6 +15,7 @@
 //! | `study`   | arguments of `study`                          |
 //! | `threads` | argument for the number of threads            |
 
+mod batch;
 mod check;
 mod compare;
 mod flatten;
@@ -29,8 +31,10 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::cli::progress::ProgressForm;
 use crate::examples::ExampleFiles;
 
+pub use batch::{BatchArguments, BatchCommand, BatchFormat};
 pub(super) use check::{CheckArguments, Denied};
 pub use compare::{CompareArguments, ComparisonFile};
 pub use flatten::{FlattenArguments, UnwrapArguments};
@@ -48,6 +52,9 @@ pub use threads::ThreadArguments;
 pub struct Arguments {
     /// Mesh to open in the editor. Default: the built-in example.
     pub file: Option<PathBuf>,
+    /// Form of the progress on standard error.
+    #[arg(long, global = true, value_enum, default_value_t, hide_short_help = true)]
+    pub progress: ProgressForm,
     /// Command to run without a window.
     #[command(subcommand)]
     pub command: Option<Subcommands>,
@@ -85,6 +92,13 @@ const PACK_HELP: &str = "Examples:
 Exit status: 0 planar and proved, 1 internal error, 2 wrong use, 3 unusable input,
 4 packed, but a chart folds or overlaps itself, 130 interrupted.";
 
+const BATCH_HELP: &str = "Examples:
+  freebound batch models --output-dir unwrapped
+  freebound batch scans.txt --output-dir out --resume --format glb -- --distortion 4.2
+
+Exit status: 0 all planar and proved, 1 an internal error, 2 wrong use, 3 an unusable mesh,
+4 a mesh that is not planar or misses a constraint, 130 interrupted. The worst one counts.";
+
 const STUDY_HELP: &str = "Exit status: 0 all runs completed, with any results, 1 internal error, 2 wrong use, \
                           3 unusable input, 130 interrupted.";
 
@@ -107,6 +121,12 @@ pub enum Subcommands {
     /// Every chart keeps its shape. Charts are the pieces of the layout that share edges.
     #[command(after_help = PACK_HELP)]
     Pack(Box<PackArguments>),
+    /// Flatten or unwrap many meshes side by side.
+    ///
+    /// Prints one line of JSON for each mesh as it ends. A mesh that cannot be used stops nothing. The exit status is the
+    /// worst of all meshes.
+    #[command(after_help = BATCH_HELP)]
+    Batch(Box<BatchArguments>),
     /// Run several methods on a mesh and compare their results.
     #[command(after_help = COMPARE_HELP)]
     Compare(Box<CompareArguments>),
@@ -117,12 +137,31 @@ pub enum Subcommands {
     Example(ExampleArguments),
     /// List methods and families of weights with their sources.
     Methods,
+    /// Print completions for a shell.
+    Completions(CompletionsArguments),
+    /// Write manual pages of all commands.
+    Man(ManArguments),
     /// Recompute the figures of the paper: drawings (SVG), pictures (PNG) and a table (CSV).
     #[command(after_help = EXIT_HELP)]
     Figures(FiguresArguments),
     /// Run the mean-value iteration on random pins; count planar results and iterations.
     #[command(after_help = STUDY_HELP)]
     Study(StudyArguments),
+}
+
+/// Arguments of `completions`.
+#[derive(Debug, Args)]
+pub struct CompletionsArguments {
+    /// Shell to write completions for.
+    #[arg(value_enum)]
+    pub shell: clap_complete::Shell,
+}
+
+/// Arguments of `man`.
+#[derive(Debug, Args)]
+pub struct ManArguments {
+    /// Folder to write into, created if it is missing.
+    pub folder: PathBuf,
 }
 
 /// Arguments of `example`.

@@ -8,6 +8,8 @@ use freebound_core::pipeline::Target;
 use freebound_core::problem::{BoundaryShape, Family, Growth, Method, NamedOption, Settings, Spacing, Treatment};
 use glam::DVec2;
 
+use super::program::Program;
+
 /// Arguments of `flatten` with an option.
 fn parsed(option: &str, value: &str) -> Option<FlattenArguments> {
     let arguments = Arguments::try_parse_from(["freebound", "flatten", "mesh.obj", option, value]).ok()?;
@@ -89,4 +91,25 @@ fn what_is_not_typed_follows_from_the_method() {
     assert_eq!(Settings::default().by(Method::Slim).max_steps(), 20);
     assert_eq!(parsed("--layers", "7").expect("a number").settings().layers, 7);
     assert!(parsed("--layers", "0").is_none() && parsed("--layers", "101").is_none());
+}
+
+#[test]
+fn completions_and_manual_pages_name_every_command() {
+    let program = Program::new();
+    let commands: Vec<String> =
+        Arguments::command().get_subcommands().map(|command| command.get_name().to_owned()).collect();
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let text = program.run(&["completions", shell]).expect(0).stdout;
+        assert!(commands.iter().all(|command| text.contains(command.as_str())), "{shell}");
+        assert!(text.contains("--distortion") || text.contains("distortion"), "{shell}");
+    }
+    program.run(&["man", "pages"]).expect(0);
+    for name in
+        commands.iter().map(|command| format!("pages/freebound-{command}.1")).chain(["pages/freebound.1".into()])
+    {
+        let page = std::fs::read_to_string(program.path(&name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert!(page.contains(".SH NAME") && page.contains(".SH OPTIONS"), "{name}");
+    }
+    let unwrap = std::fs::read_to_string(program.path("pages/freebound-unwrap.1")).expect("a page");
+    assert!(unwrap.contains("freebound unwrap") || unwrap.contains("freebound\\-unwrap"), "{unwrap}");
 }

@@ -3,6 +3,7 @@
 pub(crate) mod agreement;
 pub(crate) mod arguments;
 pub(crate) mod atlas;
+pub(crate) mod batch;
 pub(crate) mod book;
 pub(crate) mod charts;
 pub(crate) mod charts_packed;
