@@ -1,0 +1,62 @@
+"""The examples, and the code of the book, run as they stand."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import freebound
+from meshes import ball, cube, grid, write_obj
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = ROOT / "python" / "examples"
+
+
+def run(name, *arguments):
+    command = [sys.executable, str(EXAMPLES / name), *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_materials_are_kept_with_trimesh(tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    vertices, faces = ball()
+    red = trimesh.visual.material.PBRMaterial(baseColorFactor=[200, 30, 40, 255], name="red")
+    visual = trimesh.visual.TextureVisuals(uv=np.zeros((len(vertices), 2)), material=red)
+    trimesh.Trimesh(vertices, faces, visual=visual, process=False).export(tmp_path / "in.glb")
+    assert "planar: proved" in run("materials_with_trimesh.py", tmp_path / "in.glb", tmp_path / "out.glb")
+    again = trimesh.load(tmp_path / "out.glb", force="mesh", process=False)
+    assert again.visual.material.name == "red" and len(again.faces) == len(faces)
+    assert freebound.check(tmp_path / "out.glb")["planar"]
+
+
+def test_landmarks_are_met_and_their_distortion_is_that_of_the_report():
+    assert "worst face" in run("landmarks.py")
+
+
+def test_a_thousand_files_are_run_by_processes_and_a_second_run_keeps_them(tmp_path):
+    folder = tmp_path / "in"
+    folder.mkdir()
+    vertices, faces = cube()
+    for k in range(1000):
+        write_obj(folder / f"box{k}.obj", vertices * (1, 1, 1 + k / 1000), faces)
+    assert "{'proved': 1000} 0 of an earlier run" in run("many_files.py", folder, tmp_path / "out")
+    (tmp_path / "out" / "box7.obj").unlink()
+    assert "{'proved': 1000} 999 of an earlier run" in run("many_files.py", folder, tmp_path / "out")
+
+
+@pytest.mark.parametrize("page", ["python.md"])
+def test_the_code_of_the_book_runs_as_it_stands(page, tmp_path, monkeypatch):
+    text = (ROOT / "book" / "src" / page).read_text()
+    blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+    assert len(blocks) > 5
+    monkeypatch.chdir(tmp_path)
+    write_obj(tmp_path / "model.obj", *ball())
+    write_obj(tmp_path / "sheet.obj", *grid()[:2])
+    names = {"__name__": "book"}
+    for block in blocks:
+        exec(compile(block, page, "exec"), names)  # noqa: S102
