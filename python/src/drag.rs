@@ -55,8 +55,8 @@ impl Drag {
             });
             Ok::<_, std::io::Error>(laid)
         };
-        let begun = py.detach(|| in_pool(threads, begin)).map_err(PyRuntimeError::new_err)?;
-        let Some((mesh, embedding)) = begun.map_err(|error| errors::option_error(py, error))? else {
+        let start = py.detach(|| in_pool(threads, begin)).map_err(PyRuntimeError::new_err)?;
+        let Some((mesh, embedding)) = start.map_err(|error| errors::option_error(py, error))? else {
             return Err(errors::option_error(py, "the layout has no chart"));
         };
         Ok(Self { mesh, state: Mutex::new(State { problem, embedding, solver: None }), threads })

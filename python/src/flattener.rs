@@ -20,7 +20,7 @@ use super::{arrays, errors};
 #[pyclass(frozen, module = "freebound", name = "_Flattener", subclass)]
 pub(crate) struct Flattener {
     mesh: Arc<DiskMesh>,
-    flattener: Mutex<CoreFlattener>,
+    steps: Mutex<CoreFlattener>,
     threads: usize,
 }
 
@@ -32,7 +32,7 @@ impl Flattener {
         let request = options.request(py, &lists)?;
         let threads = options.threads.map_or(0, usize::from);
         let model = mesh.model();
-        let prepared = py.detach(|| in_pool(threads, || request.prepared(model, Control::unattended())));
+        let prepared = py.detach(|| in_pool(threads, || request.prepared(&model, Control::unattended())));
         let model = prepared.map_err(PyRuntimeError::new_err)?.map_err(|error| errors::of_run(py, &error))?;
         let Some(disk) = model.disk().filter(|_| model.chart_count() == 1) else {
             let faulty = match &model.prepared.surface {
@@ -47,8 +47,8 @@ impl Flattener {
         let problem = request.run.options.problem();
         let options =
             model.flattener_options(&problem).map_err(|error| errors::of_run(py, &RunError::Layout(error)))?;
-        let flattener = Mutex::new(CoreFlattener::with_options(options));
-        Ok(Self { mesh: Arc::clone(disk), flattener, threads })
+        let steps = Mutex::new(CoreFlattener::with_options(options));
+        Ok(Self { mesh: Arc::clone(disk), steps, threads })
     }
 
     fn __iter__(slf: Py<Self>) -> Py<Self> {
@@ -58,7 +58,7 @@ impl Flattener {
     /// Next step; None at the end of the method.
     fn __next__(&self, py: Python<'_>) -> PyResult<Option<FlattenerStep>> {
         let next = || {
-            let mut flattener = self.flattener.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut flattener = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
             if flattener.ending().is_some() { None } else { Some(flattener.step(&self.mesh, Control::unattended())) }
         };
         match py.detach(|| in_pool(self.threads, next)).map_err(PyRuntimeError::new_err)? {
@@ -71,7 +71,7 @@ impl Flattener {
     /// Reason of the end; None while the method runs.
     #[getter]
     fn ending(&self) -> Option<String> {
-        let flattener = self.flattener.lock().unwrap_or_else(PoisonError::into_inner);
+        let flattener = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
         flattener.ending().map(|ending| format!("{ending:?}").to_lowercase())
     }
 }

@@ -66,7 +66,7 @@ pub(crate) fn in_pool<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) 
 }
 
 impl Shared {
-    fn run(&self, request: &RunRequest, model: Model, threads: usize) {
+    fn run(&self, request: &RunRequest, model: &Model, threads: usize) {
         let report = |phase: Phase| self.note(|progress| progress.phase = phase.words());
         let control = Control::new(&self.cancel, &report);
         let observe = |_: &_, step: &Step| {
@@ -117,7 +117,7 @@ impl Job {
         let (model, threads) = (mesh.model(), options.threads.map_or(0, usize::from));
         let shared = Arc::new(Shared::default());
         let of_thread = Arc::clone(&shared);
-        let work = move || of_thread.run(&request, model, threads);
+        let work = move || of_thread.run(&request, &model, threads);
         let thread = std::thread::Builder::new().name("freebound".to_owned()).spawn(work);
         thread.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         Ok(Self { shared, start: Instant::now() })

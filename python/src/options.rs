@@ -110,7 +110,7 @@ impl Options {
         serde_json::from_str(text).map_err(|error| errors::option_error(py, words(&error)))
     }
 
-    /// RunRequest of these options.
+    /// Request of these options.
     pub(crate) fn request(&self, py: Python<'_>, lists: &Lists<'_>) -> PyResult<RunRequest> {
         self.made(lists).map_err(|Wrong(why)| errors::option_error(py, why))
     }

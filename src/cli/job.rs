@@ -58,7 +58,12 @@ impl HeadlessJob<'_> {
         let folder = self.steps.map(StepsFolder::begin).transpose()?.map(Mutex::new);
         let charts = run.problems(model);
         charts.iter().try_for_each(|chart| warn_of_conflicts(&chart.model, &chart.problem))?;
-        let solved = self.solve(&run, charts, model, folder.as_ref(), progress)?;
+        let solved = solve(&run, charts, folder.as_ref(), progress).map_err(|error| match error {
+            RunError::Solve(error) if error != SolveError::Cancelled => {
+                CommandError::of_method(&self.options.settings.method, error)
+            }
+            error => CommandError::of_run(model, error),
+        })?;
         progress.enter("packing");
         let mut output = solved.output(&run).map_err(|error| CommandError::of_run(model, RunError::TrueSize(error)))?;
         output.report.seconds.read = read - output.report.seconds.cut;
@@ -67,32 +72,6 @@ impl HeadlessJob<'_> {
         self.conclude(&output, || match &solved.charts[..] {
             [chart] if !is_packed => summary(&output.report, &ending_words(&chart.solved, &output)),
             _ => atlas_summary(&output.report),
-        })
-    }
-
-    /// Takes all steps of the method on all charts.
-    fn solve(
-        &self,
-        run: &Run,
-        charts: Vec<ChartProblem>,
-        model: &Model,
-        folder: Option<&Mutex<StepsFolder>>,
-        progress: &ProgressLine,
-    ) -> Result<SolvedRun, CommandError> {
-        let report_phase = |phase: Phase| progress.enter(phase.words());
-        let control = Control::new(&INTERRUPTED, &report_phase);
-        let method = &self.options.settings.method;
-        let solved = run.solve(charts, control, |mesh, step| {
-            progress.reach_step(step, step_words(step));
-            if let Some(mut folder) = folder.and_then(|folder| folder.lock().ok()) {
-                progress.enter("drawing the step");
-                folder.add(mesh, step)?;
-            }
-            Ok(())
-        });
-        solved.map_err(|error| match error {
-            RunError::Solve(error) if error != SolveError::Cancelled => CommandError::of_method(method, error),
-            error => CommandError::of_run(model, error),
         })
     }
 
@@ -193,4 +172,23 @@ fn warn_of_conflicts(model: &Model, problem: &Problem) -> Result<(), CommandErro
         warn_of(&model.path_words(), &in_file);
     }
     Ok(())
+}
+
+/// Takes all steps of the method on all charts.
+fn solve(
+    run: &Run,
+    charts: Vec<ChartProblem>,
+    folder: Option<&Mutex<StepsFolder>>,
+    progress: &ProgressLine,
+) -> Result<SolvedRun, RunError<CommandError>> {
+    let report_phase = |phase: Phase| progress.enter(phase.words());
+    let control = Control::new(&INTERRUPTED, &report_phase);
+    run.solve(charts, control, |mesh, step| {
+        progress.reach_step(step, step_words(step));
+        if let Some(mut folder) = folder.and_then(|folder| folder.lock().ok()) {
+            progress.enter("drawing the step");
+            folder.add(mesh, step)?;
+        }
+        Ok(())
+    })
 }

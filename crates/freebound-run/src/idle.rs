@@ -21,7 +21,7 @@ pub enum MethodOption {
     MaxSteps,
     /// Permission to split edges.
     NewVertices,
-    /// MeshLayout to start from.
+    /// Layout to start from.
     Start,
     /// Growth of the pinned boundary.
     Growth,

@@ -77,7 +77,9 @@ impl MeshLayout {
         };
         let laid = triangles_of(&output, face_of.as_deref(), model.source.polygons.face_count());
         let mut chart_of_face = vec![NO_CHART; mesh.polygons.face_count()];
-        laid.iter().for_each(|triangle| chart_of_face[triangle.face as usize] = triangle.chart);
+        for triangle in &laid {
+            chart_of_face[triangle.face as usize] = triangle.chart;
+        }
         let flattened = laid.iter().map(|triangle| (triangle.face, Some(triangle.distortion)));
         let left_out = (0..).zip(&chart_of_face).filter(|(_, chart)| **chart == NO_CHART).map(|(face, _)| (face, None));
         let triangles = flattened.chain(left_out).map(|(face, distortion)| TriangleOfFace { face, distortion });
@@ -158,10 +160,13 @@ impl MeshLayout {
             let range = polygons.corner_range(face);
             let count = range.len();
             for at in 0..count {
-                let [a, b] = [range.start + at, range.start + (at + 1) % count];
-                let [v, w] = [polygons.corners[a], polygons.corners[b]];
-                let [s, t] = [self.texture.corners[a], self.texture.corners[b]];
-                let (edge, side) = if v < w { ([v, w], [s, t]) } else { ([w, v], [t, s]) };
+                let corners = [range.start + at, range.start + (at + 1) % count];
+                let mut edge = corners.map(|corner| polygons.corners[corner]);
+                let mut side = corners.map(|corner| self.texture.corners[corner]);
+                if edge[0] > edge[1] {
+                    edge.reverse();
+                    side.reverse();
+                }
                 sides.entry(edge).or_default().push(side);
             }
         }
@@ -204,7 +209,9 @@ fn triangles_of(output: &Output<'_>, face_of: Option<&[u32]>, input_faces: usize
     let mut first: Vec<u32> = vec![0; input_faces + 1];
     match face_of {
         Some(face_of) => {
-            face_of.iter().for_each(|&face| first[face as usize + 1] += 1);
+            for &face in face_of {
+                first[face as usize + 1] += 1;
+            }
             (0..input_faces).for_each(|face| first[face + 1] += first[face]);
         }
         None => (0..).zip(&mut first).for_each(|(face, first)| *first = face),

@@ -25,7 +25,7 @@
 //! let faces: [&[u32]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[2, 0, 3]];
 //! let mesh = PolygonMesh::from_arrays(&positions, &faces);
 //! let mesh = Model::in_memory("tetrahedron", Arc::new(mesh.into()));
-//! let layout = RunRequest::unwrap().run(mesh)?;
+//! let layout = RunRequest::unwrap().run(&mesh)?;
 //! assert!(layout.is_planar());
 //! assert_eq!(layout.texture.corners.len(), 12);
 //! # Ok::<(), freebound_run::RunError>(())

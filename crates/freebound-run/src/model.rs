@@ -230,6 +230,7 @@ impl Model {
     }
 
     /// Model of the wanted chart, if the mesh has several charts.
+    #[must_use = "the mesh itself stays as it is"]
     pub fn with_chart(self, wanted: Option<usize>) -> Self {
         match self.prepared.chart.as_ref().map(|of| of.charts.pick(wanted)) {
             Some(number) => self.of_chart(number),

@@ -91,7 +91,7 @@ impl RunRequest {
     ///
     /// [`RunError`] if there is no layout. A layout that is not proved planar is no error here: see
     /// [`MeshLayout::is_fine`].
-    pub fn run(&self, mesh: Model) -> Result<MeshLayout, RunError> {
+    pub fn run(&self, mesh: &Model) -> Result<MeshLayout, RunError> {
         self.run_with(mesh, Control::unattended(), |_, _| Ok::<(), Infallible>(()))
     }
 
@@ -103,7 +103,7 @@ impl RunRequest {
     /// Errors of [`run`](Self::run), and of `observe`.
     pub fn run_with<E: Display + Send>(
         &self,
-        mesh: Model,
+        mesh: &Model,
         control: Control<'_>,
         observe: impl Fn(&DiskMesh, &Step) -> Result<(), E> + Sync,
     ) -> Result<MeshLayout, RunError<E>> {
@@ -122,7 +122,7 @@ impl RunRequest {
     /// # Errors
     ///
     /// [`RunError::Request`] if the mesh lacks what an option needs, and [`RunError::Solve`] if the caller cancels.
-    pub fn prepared(&self, mesh: Model, control: Control<'_>) -> Result<Model, RunError> {
+    pub fn prepared(&self, mesh: &Model, control: Control<'_>) -> Result<Model, RunError> {
         let mut form = self.preparation.clone();
         if form.seams.of_texture {
             mesh.source.texture_labels().map_err(|error| RunError::Request(RequestFault::Texture(error)))?;

@@ -60,7 +60,9 @@ pub(super) fn run(arguments: &BatchArguments) -> Result<CommandOutcome, CommandE
         std::thread::scope(|scope| {
             let worker = || batch.work(&progress);
             let workers: Vec<_> = (0..jobs).map(|_| scope.spawn(worker)).collect();
-            workers.into_iter().for_each(|worker| drop(worker.join()));
+            for worker in workers {
+                drop(worker.join());
+            }
         });
     });
     let state = batch.state.into_inner().unwrap_or_else(PoisonError::into_inner);

@@ -95,15 +95,12 @@ impl Record {
         };
         self.faces = report["mesh"]["faces"].as_u64();
         let energy = |of: &Value| of["distortion"]["symmetric_dirichlet"]["mean"].as_f64();
-        match report["charts"].as_array() {
-            Some(charts) => {
-                self.charts = Some(charts.len() as u64);
-                self.energy = charts.iter().filter_map(energy).reduce(f64::max);
-            }
-            None => {
-                self.charts = self.faces.map(|_| 1);
-                self.energy = energy(&report);
-            }
+        if let Some(charts) = report["charts"].as_array() {
+            self.charts = Some(charts.len() as u64);
+            self.energy = charts.iter().filter_map(energy).reduce(f64::max);
+        } else {
+            self.charts = self.faces.map(|_| 1);
+            self.energy = energy(&report);
         }
         self.peak_memory_bytes = report["peak_memory_bytes"].as_u64();
         if let Some(message) = report["error"]["message"].as_str() {

@@ -35,7 +35,7 @@ fn balls() -> PolygonMesh {
 
 /// Pins that hold the boundary of a sheet, and turn its middle half around. No map without new vertices meets them.
 fn swirl(sheet: &PolygonMesh) -> RunRequest {
-    let [low, high] = [DVec3::min, DVec3::max].map(|of| sheet.positions.iter().copied().reduce(of).unwrap());
+    let [low, high] = [DVec3::min, DVec3::max].map(|of| sheet.positions.iter().copied().reduce(of).expect("vertices"));
     let mut targets = Targets::new();
     for (number, position) in (0..).zip(&sheet.positions) {
         let at = ((*position - low) / (high - low)).truncate();
@@ -55,7 +55,7 @@ fn swirl(sheet: &PolygonMesh) -> RunRequest {
 #[test]
 fn a_disk_has_a_coordinate_for_each_vertex_and_a_triangle_for_each_face() {
     let mesh = sheet();
-    let layout = RunRequest::default().run(model(mesh.clone())).expect("a disk");
+    let layout = RunRequest::default().run(&model(mesh.clone())).expect("a disk");
     assert!(layout.is_fine() && layout.new_vertices.is_empty() && layout.face_of.is_none());
     assert_eq!(layout.texture.coordinates.len(), mesh.positions.len());
     assert_eq!(layout.mesh.polygons, mesh);
@@ -66,7 +66,7 @@ fn a_disk_has_a_coordinate_for_each_vertex_and_a_triangle_for_each_face() {
 
 #[test]
 fn the_singular_values_sum_up_to_the_energy_of_the_report() {
-    let layout = RunRequest::default().run(model(sheet())).expect("a disk");
+    let layout = RunRequest::default().run(&model(sheet())).expect("a disk");
     let area = |face: u32| {
         let [a, b, c] =
             [0, 1, 2].map(|k| layout.mesh.polygons.positions[layout.mesh.polygons.face(face as usize)[k].index()]);
@@ -88,7 +88,7 @@ fn parts_that_are_not_chosen_have_no_chart_and_no_coordinates() {
     let mesh = balls();
     let count = mesh.face_count() / 2;
     let request = RunRequest { parts: Some(PartChoice::Numbered([1].into())), ..RunRequest::unwrap() };
-    let layout = request.run(model(mesh)).expect("a ball");
+    let layout = request.run(&model(mesh)).expect("a ball");
     assert!(layout.is_fine());
     assert!(layout.chart_of_face[..count].iter().all(|&chart| chart == NO_CHART));
     assert!(layout.chart_of_face[count..].iter().all(|&chart| chart != NO_CHART));
@@ -96,7 +96,7 @@ fn parts_that_are_not_chosen_have_no_chart_and_no_coordinates() {
     assert_eq!(layout.triangles.len(), 2 * count);
     assert!(layout.triangles[..count].iter().all(|triangle| triangle.distortion.is_none()));
     let missing = RunRequest { parts: Some(PartChoice::Numbered([7].into())), ..RunRequest::unwrap() };
-    let refused = missing.run(model(balls()));
+    let refused = missing.run(&model(balls()));
     assert!(
         matches!(refused, Err(RunError::Request(RequestFault::Part(fault))) if fault.part == 7 && fault.count == 2)
     );
@@ -106,7 +106,7 @@ fn parts_that_are_not_chosen_have_no_chart_and_no_coordinates() {
 fn new_vertices_lie_on_their_edges_and_their_faces_name_the_faces_of_the_input() {
     let mesh = sheet();
     let request = swirl(&mesh);
-    let layout = request.run(model(mesh.clone())).expect("auto ends planar");
+    let layout = request.run(&model(mesh.clone())).expect("auto ends planar");
     assert!(layout.is_fine() && !layout.new_vertices.is_empty());
     let polygons = &layout.mesh.polygons;
     for (new, position) in layout.new_vertices.iter().zip(&polygons.positions[mesh.positions.len()..]) {
@@ -136,12 +136,12 @@ fn a_pin_at_a_corner_holds_one_side_of_a_seam() {
         corner_pins: vec![(0, Target::hard(DVec2::new(0.25, 0.5))), (1, Target::hard(DVec2::new(0.5, 0.5)))],
         ..RunRequest::unwrap()
     };
-    let layout = request.run(model(mesh)).expect("a cube");
+    let layout = request.run(&model(mesh)).expect("a cube");
     let at: Vec<_> = layout.corner_coordinates().collect();
     assert_eq!([at[0], at[1]], [Some(DVec2::new(0.25, 0.5)), Some(DVec2::new(0.5, 0.5))]);
     assert!(layout.is_planar() && !layout.cut_edges().is_empty());
     let outside = RunRequest { corner_pins: vec![(99, Target::hard(DVec2::ZERO))], ..RunRequest::unwrap() };
-    let refused = outside.run(model(cubes_of_quads().0));
+    let refused = outside.run(&model(cubes_of_quads().0));
     assert!(matches!(refused, Err(RunError::Request(RequestFault::NoSuchCorner(99)))));
 }
 
@@ -160,13 +160,13 @@ fn sizes_name_charts_and_charts_that_are_not_there_are_refused() {
         chart_sizes: sizes,
         ..RunRequest::unwrap()
     };
-    let layout = sized([(0, 2.0)].into()).run(model(mesh.clone())).expect("a cube");
+    let layout = sized([(0, 2.0)].into()).run(&model(mesh.clone())).expect("a cube");
     let side = |face: usize| {
         let at: Vec<DVec2> = layout.corner_coordinates().skip(4 * face).take(2).flatten().collect();
         at[0].distance(at[1])
     };
     assert!((1..faces).all(|face| (side(0) / side(face) - 2.0).abs() < 1e-6));
-    let refused = sized([(6, 2.0)].into()).run(model(mesh));
+    let refused = sized([(6, 2.0)].into()).run(&model(mesh));
     assert!(matches!(refused, Err(RunError::Request(RequestFault::NoSuchChart { chart: 6, count: 6 }))));
 }
 
@@ -174,7 +174,7 @@ fn sizes_name_charts_and_charts_that_are_not_there_are_refused() {
 fn a_layout_that_misses_a_pin_is_returned_and_says_so() {
     let mut request = swirl(&sheet());
     request.run.options.settings = Settings { new_vertices: false, ..Settings::default() };
-    let layout = request.run(model(sheet())).expect("a planar map");
+    let layout = request.run(&model(sheet())).expect("a planar map");
     assert!(layout.is_planar() && !layout.is_fine() && !layout.unmet_pins().is_empty());
 }
 
@@ -182,23 +182,23 @@ fn a_layout_that_misses_a_pin_is_returned_and_says_so() {
 fn a_run_can_be_cancelled_by_its_flag_and_by_its_observer() {
     let cancel = std::sync::atomic::AtomicBool::new(true);
     let control = Control::new(&cancel, &|_| {});
-    let ended = RunRequest::unwrap().run_with(model(balls()), control, |_, _| Ok::<(), String>(()));
+    let ended = RunRequest::unwrap().run_with(&model(balls()), control, |_, _| Ok::<(), String>(()));
     assert!(matches!(ended, Err(RunError::Solve(SolveError::Cancelled))));
     let stopped =
-        RunRequest::default().run_with(model(sheet()), Control::unattended(), |_, _| Err("enough".to_owned()));
+        RunRequest::default().run_with(&model(sheet()), Control::unattended(), |_, _| Err("enough".to_owned()));
     assert!(matches!(stopped, Err(RunError::Observer(words)) if words == "enough"));
 }
 
 #[test]
 fn a_mesh_that_is_no_disk_is_refused_with_its_faults() {
-    let refused = RunRequest::default().run(model(cubes_of_quads().0));
+    let refused = RunRequest::default().run(&model(cubes_of_quads().0));
     assert!(matches!(refused, Err(RunError::NotADisk(diagnosis)) if !diagnosis.faults.is_empty()));
 }
 
 #[test]
 fn a_layout_is_written_in_any_format_and_read_again() {
     let folder = tempfile::tempdir().expect("a folder");
-    let layout = RunRequest::unwrap().run(model(balls())).expect("balls");
+    let layout = RunRequest::unwrap().run(&model(balls())).expect("balls");
     for name in ["balls.obj", "balls.ply", "balls.glb"] {
         let path = folder.path().join(name);
         layout.write(&path, OutputKind::of_mesh(&path), None).expect("written");
@@ -213,11 +213,11 @@ fn the_whole_of_a_run_depends_on_its_own_options_only() {
     let packing = PackingOptions { picture: [256, 256], gap: 8, ..PackingOptions::default() };
     let mut request = RunRequest::unwrap();
     request.run.options.packing = packing;
-    let first = request.run(model(balls())).expect("balls");
+    let first = request.run(&model(balls())).expect("balls");
     let natural =
         RunRequest { run: Run { options: with_method(Method::Natural), ..Run::default() }, ..RunRequest::default() };
-    natural.run(model(sheet())).expect("a sheet");
-    let again = request.run(model(balls())).expect("balls");
+    natural.run(&model(sheet())).expect("a sheet");
+    let again = request.run(&model(balls())).expect("balls");
     assert_eq!(first.texture, again.texture);
 }
 
