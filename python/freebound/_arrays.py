@@ -23,18 +23,21 @@ def mesh_of(vertices: Any, faces: Any = None, corner_uv: Any = None) -> _freebou
     if isinstance(vertices, (str, os.PathLike)):
         vertices = Mesh.read(vertices)
     if isinstance(vertices, Mesh):
-        if faces is not None or corner_uv is not None:
+        if faces is not None:
             raise OptionError("a mesh has faces of its own: pass the mesh alone")
-        return vertices._native
+        native = vertices._native
+        return native if corner_uv is None else native.with_uv(_uv_of(corner_uv))
     if faces is None:
         raise OptionError("faces: pass them with the vertices, or pass a freebound.Mesh or a path")
     points = np.ascontiguousarray(vertices, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] != 3:
         raise OptionError(f"vertices: pass an array of shape (n, 3), not {points.shape}")
     corners, starts = corners_of(faces)
-    if corner_uv is not None:
-        corner_uv = np.ascontiguousarray(corner_uv, dtype=np.float64).reshape(-1, 2)
-    return _freebound.Mesh(points, corners, starts, corner_uv)
+    return _freebound.Mesh(points, corners, starts, None if corner_uv is None else _uv_of(corner_uv))
+
+
+def _uv_of(corner_uv: Any) -> np.ndarray:
+    return np.ascontiguousarray(corner_uv, dtype=np.float64).reshape(-1, 2)
 
 
 def corners_of(faces: Any) -> tuple[np.ndarray, np.ndarray | None]:
@@ -129,6 +132,9 @@ def request(options: dict[str, Any]) -> tuple[str, dict[str, Any]]:
     parts = options.get("parts")
     if parts is not None and not isinstance(parts, str):
         options["parts"] = ",".join(str(part) for part in np.atleast_1d(parts))
+    sizes = options.get("chart_size")
+    if sizes is not None:
+        options["chart_size"] = {int(chart): float(size) for chart, size in sizes.items()}
     repair = options.get("repair")
     if repair is not None and not isinstance(repair, str):
         options["repair"] = ",".join(repair)

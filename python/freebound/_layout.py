@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _arrays
+from ._errors import NotProved
 
 
 @dataclass(frozen=True)
@@ -111,9 +112,19 @@ class Layout:
         """Singular values of the map of each triangle, the greater first, shape (t, 2).
 
         They are at the scale at which the chart has the area of its surface, as in the report. NaN for faces that are
-        not flattened.
+        not flattened, and for triangles that the map collapses.
         """
         return self._native.singular_values
+
+    @cached_property
+    def triangle_area(self) -> np.ndarray:
+        """Area of each triangle of ``singular_values`` in space, shape (t,); 0 for faces that are not flattened."""
+        return self._native.triangle_area
+
+    @cached_property
+    def triangle_energy(self) -> np.ndarray:
+        """Symmetric Dirichlet energy of each triangle, shape (t,); 4 is isometric. NaN for faces that are not flattened."""
+        return self._native.triangle_energy
 
     @cached_property
     def report(self) -> dict[str, Any]:
@@ -144,26 +155,9 @@ class Layout:
 
     @property
     def energy(self) -> float:
-        """Mean symmetric Dirichlet energy; 4 is an isometric map. Charts count by their faces' areas in space."""
-        values = self.singular_values
-        area = self._areas()
-        used = np.isfinite(values[:, 0]) & (values[:, 1] > 0) & (area > 0)
-        squares = values[used] ** 2
-        return float(np.average((squares + 1 / squares).sum(axis=1), weights=area[used]))
-
-    def _areas(self) -> np.ndarray:
-        """Area in space of each triangle of ``singular_values``; polygons count with equal shares."""
-        corners = self._native.vertex_corners
-        starts = self._native.starts
-        if starts is None:
-            starts = np.arange(0, len(corners) + 1, 3)
-        points = self.vertices[corners]
-        following = np.arange(len(corners)) + 1
-        following[starts[1:] - 1] = starts[:-1]
-        first = np.repeat(points[starts[:-1]], np.diff(starts), axis=0)
-        double = np.add.reduceat(np.cross(points - first, points[following] - first), starts[:-1], axis=0)
-        areas = np.linalg.norm(double, axis=1) / 2
-        return areas[self.triangle_face] / np.bincount(self.triangle_face, minlength=len(areas))[self.triangle_face]
+        """Mean symmetric Dirichlet energy of all triangles by their areas in space; 4 is an isometric map."""
+        used = self.triangle_area > 0
+        return float(np.average(self.triangle_energy[used], weights=self.triangle_area[used]))
 
     def save(self, path: str | os.PathLike[str], *, precision: str | None = None) -> list[str]:
         """Writes the mesh with its coordinates (.obj, .ply, .glb), a drawing (.svg, .png) or the report (.json).
@@ -171,14 +165,20 @@ class Layout:
         A mesh that came from a file keeps everything else of the file. Coordinates are rounded to the precision of the
         format and proved again.
 
+        Raises:
+            NotProved: the layout is planar, and rounding folds it. The file is written all the same.
+
         Args:
             path: file to write. Its extension names the format.
-            precision: "f64" or "f32". Default: 64 bits for OBJ, 32 bits for PLY and GLB.
+            precision: "f64" or "f32". Default: that of the run, or 64 bits for OBJ and 32 bits for PLY and GLB.
 
         Returns:
             The files written, ``path`` first.
         """
-        return [os.fspath(file) for file in self._native.write(os.fspath(path), precision)]
+        files, planar, summary = self._native.write(os.fspath(path), precision)
+        if self._native.planar and not planar:
+            raise NotProved(f"{os.fspath(path)}: the rounded coordinates are not planar: {summary}", layout=self)
+        return [os.fspath(file) for file in files]
 
     def __repr__(self) -> str:
         return f"<freebound.Layout: {len(self.chart)} faces, {self._native.summary}>"

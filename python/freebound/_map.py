@@ -64,7 +64,8 @@ def map(
     ...         print(record.input, record.status)
 
     A file that fails stops nothing. Each result is written whole or not at all, with a record beside it. A second run
-    keeps results whose input and options are unchanged. Files of equal names are told apart by their folders.
+    keeps results whose input, options, version and bytes are unchanged; glTF files with files of their own (.gltf) are run
+    again. Results with equal names get numbers.
 
     Args:
         files: paths of meshes, or URLs that ``fsspec`` opens.
@@ -76,18 +77,25 @@ def map(
         resume: False to run all files again.
         progress: function that receives each record.
         options: options of :func:`flatten`.
+
+    Raises:
+        OptionError: an option is wrong, or a result would replace one of the files.
     """
     paths = [os.fspath(path) for path in files]
     outputs = _outputs(paths, os.fspath(output_dir), suffix)
     # Wrong options fail at once, not in every file.
     text, lists = _arrays.request({"unwrap": unwrap, **options})
     _freebound.check_options(text, lists)
-    key = hashlib.sha256(text.encode())
+    key = hashlib.sha256(f"{_freebound.VERSION} {text}".encode())
     for name in sorted(lists):
         key.update(name.encode())
         key.update(b"" if lists[name] is None else lists[name].tobytes())
     tasks = [(path, output, unwrap, options, key.hexdigest(), resume) for path, output in zip(paths, outputs)]
-    for record in _records(tasks, executor):
+    return _told(_records(tasks, executor), progress)
+
+
+def _told(records: Iterator[MapRecord], progress: Callable[[MapRecord], None] | None) -> Iterator[MapRecord]:
+    for record in records:
         if progress:
             progress(record)
         yield record
@@ -118,21 +126,29 @@ def _failed(task: tuple[Any, ...], message: str) -> MapRecord:
 
 
 def _outputs(paths: Sequence[str], folder: str, suffix: str | None) -> list[str]:
-    """Path of the result of each file. Files of equal names get numbers."""
+    """Path of the result of each file. Results with equal names get numbers."""
     writable = (".obj", ".ply", ".glb")
-    taken: dict[str, int] = {}
-    outputs = []
+    inputs = {_place(path) for path in paths}
+    outputs: list[str] = []
+    taken: set[str] = set()
     for path in paths:
         stem, extension = posixpath.splitext(posixpath.basename(path.replace(os.sep, "/")))
         extension = suffix or (extension.lower() if extension.lower() in writable else ".obj")
         if extension not in writable:
             raise OptionError(f"suffix: choose one of {', '.join(writable)}")
-        name = stem + extension
-        taken[name] = taken.get(name, 0) + 1
-        if taken[name] > 1:
-            name = f"{stem}-{taken[name]}{extension}"
+        name, count = stem + extension, 1
+        while name in taken:
+            count += 1
+            name = f"{stem}-{count}{extension}"
+        taken.add(name)
         outputs.append(posixpath.join(folder, name))
+        if _place(outputs[-1]) in inputs:
+            raise OptionError(f"{outputs[-1]}: the result would replace a mesh: choose another folder")
     return outputs
+
+
+def _place(path: str) -> str:
+    return path if _is_remote(path) else os.path.realpath(path)
 
 
 def _is_remote(path: str) -> bool:
@@ -155,13 +171,6 @@ def _read_bytes(path: str) -> bytes:
         return file.read()
 
 
-def _exists(path: str) -> bool:
-    if _is_remote(path):
-        system, name = _filesystem(path)
-        return system.exists(name)
-    return os.path.exists(path)
-
-
 def _write_whole(path: str, content: bytes) -> None:
     """Writes a file aside and renames it; object stores write whole objects."""
     if _is_remote(path):
@@ -175,14 +184,32 @@ def _write_whole(path: str, content: bytes) -> None:
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(content)
+        # A new file is as readable as others, not for its owner alone.
+        mask = os.umask(0)
+        os.umask(mask)
+        os.chmod(aside, 0o666 & ~mask)
         os.replace(aside, path)
     except BaseException:
         os.unlink(aside)
         raise
 
 
-def _kept(output: str, digest: str) -> MapRecord | None:
+def _remove(path: str) -> None:
+    try:
+        if _is_remote(path):
+            system, name = _filesystem(path)
+            system.rm_file(name)
+        else:
+            os.unlink(path)
+    except FileNotFoundError:
+        pass
+
+
+def _kept(path: str, output: str, digest: str) -> MapRecord | None:
     """Record of an earlier run, if its input, its options and its result are unchanged."""
+    if path.lower().endswith(".gltf"):
+        # Its buffers are files of their own.
+        return None
     try:
         record = MapRecord(**json.loads(_read_bytes(output + _RECORD)))
         if record.input_digest != digest:
@@ -191,31 +218,37 @@ def _kept(output: str, digest: str) -> MapRecord | None:
             return None
     except (OSError, ValueError, TypeError):
         return None
-    return MapRecord(**{**asdict(record), "resumed": True})
+    kept = {"input": path, "output": None if record.output is None else output, "resumed": True}
+    return MapRecord(**{**asdict(record), **kept})
 
 
 def _one(path: str, output: str, unwrap: bool, options: dict[str, Any], key: str, resume: bool) -> MapRecord:
     """Runs one file, and writes its result and its record."""
     start = time.perf_counter()
     digest = ""
+
+    def ended(status: str, error: BaseException) -> MapRecord:
+        return MapRecord(path, None, status, str(error), time.perf_counter() - start, digest, None, 0, None)
+
     try:
         content = _read_bytes(path)
         digest = hashlib.sha256(key.encode() + content).hexdigest()
-        kept = _kept(output, digest) if resume else None
+        kept = _kept(path, output, digest) if resume else None
         if kept is not None:
             return kept
-        record = _solved(path, content, output, unwrap, options, digest, start)
-    except NotProved as error:
-        record = MapRecord(path, None, "not-proved", str(error), time.perf_counter() - start, digest, None, 0, None)
-    except Error as error:
-        record = MapRecord(path, None, "refused", str(error), time.perf_counter() - start, digest, None, 0, None)
-    except OSError as error:
-        return MapRecord(path, None, "failed", str(error), time.perf_counter() - start, digest, None, 0, None)
-    try:
+        # Neither the record nor the result of an earlier run stays beside those of this one.
+        _remove(output + _RECORD)
+        _remove(output)
+        try:
+            record = _solved(path, content, output, unwrap, options, digest, start)
+        except NotProved as error:
+            record = ended("not-proved", error)
+        except Error as error:
+            record = ended("refused", error)
         _write_whole(output + _RECORD, json.dumps(asdict(record)).encode())
-    except OSError as error:
-        return MapRecord(**{**asdict(record), "status": "failed", "message": str(error)})
-    return record
+        return record
+    except Exception as error:  # noqa: BLE001 - a file that fails stops nothing
+        return ended("failed", error)
 
 
 def _solved(
@@ -232,10 +265,19 @@ def _solved(
             with open(local, "wb") as file:
                 file.write(content)
         layout = (unwrap_mesh if unwrap else flatten_mesh)(Mesh.read(local), **options)
-        result = os.path.join(folder, "result" + posixpath.splitext(output)[1])
-        layout.save(result)
-        written = _read_bytes(result)
-    _write_whole(output, written)
+        try:
+            if _is_remote(output):
+                # A mesh from a store lies beside the result, so that the names of its materials stay as they are.
+                result = os.path.join(folder, "result" + posixpath.splitext(output)[1])
+                layout.save(result)
+                _write_whole(output, _read_bytes(result))
+            else:
+                os.makedirs(os.path.dirname(output) or ".", exist_ok=True)
+                layout.save(output)
+        except NotProved:
+            _remove(output)
+            raise
+        written = _read_bytes(output)
     return MapRecord(
         input=path,
         output=output,

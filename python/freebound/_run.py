@@ -53,7 +53,7 @@ class Job:
         return self._native.progress
 
     def cancel(self) -> None:
-        """Asks the run to stop. :meth:`result` then raises :class:`Cancelled`."""
+        """Asks the run to stop. :meth:`result` then raises :class:`Cancelled`, unless the run had ended before."""
         self._native.cancel()
 
     def wait(self, timeout: float | None = None) -> bool:
@@ -158,8 +158,8 @@ def flatten(
 
     Raises:
         NotProved: the map is not planar or misses a hard pin. The error holds the layout.
-        InputError: the mesh or the pins cannot be used. The error lists the faults.
-        OptionError: an option is wrong.
+        InputError: the mesh cannot be used. The error lists the faults.
+        OptionError: an option or a pin is wrong.
     """
     given = {"pins": pins, "corner_pins": corner_pins, "method": method, **options}
     return _finished(_start(vertices, faces, layout, given), progress)
@@ -200,10 +200,14 @@ class Flattener(_freebound._Flattener):
     >>> for step in freebound.Flattener(vertices, faces, pins=pins, method="iterate"):
     ...     print(step.index, step.stage, len(step.flipped))
 
-    The arguments are those of :func:`flatten`. The mesh must be one disk after its repairs.
+    The arguments are those of :func:`flatten`, but for those of the layout: fit, pack, lock, chart_size and precision.
+    The mesh must be one disk after its repairs.
     """
 
     def __new__(cls, vertices: Any, faces: Any = None, *, layout: Any = None, **options: Any) -> Flattener:
+        for name in ("fit", "pack", "lock", "chart_size", "precision"):
+            if name in options:
+                raise OptionError(f"{name}: steps are not laid out: use flatten")
         if layout is not None:
             options["start"] = True
         mesh = _arrays.mesh_of(vertices, faces, None if layout is True else layout)

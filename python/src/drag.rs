@@ -12,7 +12,7 @@ use numpy::PyArray2;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use super::job::in_pool;
+use super::job::{in_pool, interruptible};
 use super::layout::Layout;
 use super::{arrays, errors};
 
@@ -77,14 +77,14 @@ impl Drag {
         }
         let (vertex, target) = (VertexId::new(vertex), DVec2::from_array(target));
         let count = self.mesh.real_vertex_count();
-        let work = || {
+        let work = |control: Control<'_>| {
             let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-            let verdict = state.advance(&self.mesh, vertex, target)?;
+            let verdict = state.advance(&self.mesh, vertex, target, control)?;
             let frame = state.problem.frame;
             let coordinates: Vec<DVec2> = state.embedding[..count].iter().map(|&z| frame.uv_from_plane(z)).collect();
             Some((coordinates, verdict))
         };
-        let moved = py.detach(|| in_pool(self.threads, work)).map_err(PyRuntimeError::new_err)?;
+        let moved = interruptible(py, self.threads, work)?;
         let Some((coordinates, verdict)) = moved else {
             return Err(errors::not_proved(py, "the layout is not planar, so it cannot be dragged", None));
         };
@@ -94,7 +94,7 @@ impl Drag {
 
 impl State {
     /// Moves a vertex, and returns the verdict. `None` if the layout is not planar.
-    fn advance(&mut self, mesh: &DiskMesh, vertex: VertexId, target: DVec2) -> Option<Verdict> {
+    fn advance(&mut self, mesh: &DiskMesh, vertex: VertexId, target: DVec2, control: Control<'_>) -> Option<Verdict> {
         let is_same = self.solver.as_ref().is_some_and(|solver| solver.dragged() == [vertex]);
         if !is_same {
             let place = self.problem.frame.uv_from_plane(self.embedding[vertex]);
@@ -106,7 +106,7 @@ impl State {
         let (solver, aim) = (self.solver.as_mut()?, self.problem.drag_target());
         let mut last = None;
         for _ in 0..MOST_FRAMES {
-            let frame = solver.drag(mesh, &aim, Control::unattended()).ok()?;
+            let frame = solver.drag(mesh, &aim, control).ok()?;
             let is_at_rest = frame.is_at_rest;
             last = Some(frame.verdict);
             if is_at_rest {

@@ -11,7 +11,7 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use super::job::in_pool;
+use super::job::{in_pool, interruptible};
 use super::mesh::Mesh;
 use super::options::{Lists, Options};
 use super::{arrays, errors};
@@ -43,10 +43,12 @@ impl Flattener {
             };
             return Err(errors::of_run(py, &RunError::NotADisk(Box::new(faulty))));
         };
-        model.check_targets(&request.run.options.targets).map_err(|error| errors::of_run(py, &error))?;
-        let problem = request.run.options.problem();
-        let options =
-            model.flattener_options(&problem).map_err(|error| errors::of_run(py, &RunError::Layout(error)))?;
+        let begin = || {
+            let targets = request.targets_on(&model)?;
+            model.flattener_options(&request.run.options.problem_with(targets)).map_err(RunError::Layout)
+        };
+        let options = py.detach(|| in_pool(threads, begin)).map_err(PyRuntimeError::new_err)?;
+        let options = options.map_err(|error: RunError| errors::of_run(py, &error))?;
         let steps = Mutex::new(CoreFlattener::with_options(options));
         Ok(Self { mesh: Arc::clone(disk), steps, threads })
     }
@@ -57,11 +59,11 @@ impl Flattener {
 
     /// Next step; None at the end of the method.
     fn __next__(&self, py: Python<'_>) -> PyResult<Option<FlattenerStep>> {
-        let next = || {
+        let next = |control: Control<'_>| {
             let mut flattener = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
-            if flattener.ending().is_some() { None } else { Some(flattener.step(&self.mesh, Control::unattended())) }
+            if flattener.ending().is_some() { None } else { Some(flattener.step(&self.mesh, control)) }
         };
-        match py.detach(|| in_pool(self.threads, next)).map_err(PyRuntimeError::new_err)? {
+        match interruptible(py, self.threads, next)? {
             None => Ok(None),
             Some(Ok(step)) => Ok(Some(FlattenerStep { mesh: Arc::clone(&self.mesh), step })),
             Some(Err(error)) => Err(errors::of_solve(py, &error)),
@@ -70,9 +72,9 @@ impl Flattener {
 
     /// Reason of the end; None while the method runs.
     #[getter]
-    fn ending(&self) -> Option<String> {
-        let flattener = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
-        flattener.ending().map(|ending| format!("{ending:?}").to_lowercase())
+    fn ending(&self, py: Python<'_>) -> Option<String> {
+        let ending = py.detach(|| self.steps.lock().unwrap_or_else(PoisonError::into_inner).ending());
+        ending.map(|ending| format!("{ending:?}").to_lowercase())
     }
 }
 

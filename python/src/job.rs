@@ -2,6 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -54,6 +55,8 @@ struct Shared {
 pub(crate) struct Job {
     shared: Arc<Shared>,
     start: Instant,
+    /// Process whose thread works.
+    process: u32,
 }
 
 /// Runs work in a pool of its own, and turns a panic into a message.
@@ -62,6 +65,41 @@ pub(crate) fn in_pool<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) 
     catch_unwind(AssertUnwindSafe(|| pool.install(work))).map_err(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
         format!("internal error, please report it: {}", text.unwrap_or("no message"))
+    })
+}
+
+/// Runs work in a pool of its own. A signal cancels it.
+pub(crate) fn interruptible<T: Send>(
+    py: Python<'_>,
+    threads: usize,
+    work: impl FnOnce(Control<'_>) -> T + Send,
+) -> PyResult<T> {
+    let cancel = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        let (done, wait) = sync_channel(1);
+        let cancel = &cancel;
+        let run = move || done.send(in_pool(threads, || work(Control::new(cancel, &|_| {})))).ok();
+        let thread = std::thread::Builder::new().name("freebound".to_owned()).spawn_scoped(scope, run);
+        thread.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        let mut wait = wait;
+        loop {
+            let (back, received) = py.detach(move || {
+                let received = wait.recv_timeout(TICK);
+                (wait, received)
+            });
+            wait = back;
+            match received {
+                Ok(found) => return found.map_err(PyRuntimeError::new_err),
+                Err(RecvTimeoutError::Timeout) => {
+                    if let Err(signal) = py.check_signals() {
+                        cancel.store(true, Ordering::Relaxed);
+                        py.detach(move || wait.recv().map(drop).ok());
+                        return Err(signal);
+                    }
+                }
+                Err(RecvTimeoutError::Disconnected) => return Err(PyRuntimeError::new_err("the thread has ended")),
+            }
+        }
     })
 }
 
@@ -120,7 +158,7 @@ impl Job {
         let work = move || of_thread.run(&request, &model, threads);
         let thread = std::thread::Builder::new().name("freebound".to_owned()).spawn(work);
         thread.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
-        Ok(Self { shared, start: Instant::now() })
+        Ok(Self { shared, start: Instant::now(), process: std::process::id() })
     }
 
     /// Asks the run to stop.
@@ -133,7 +171,17 @@ impl Job {
     fn wait(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<bool> {
         let limit = timeout.map(|seconds| Duration::try_from_secs_f64(seconds.max(0.0)).unwrap_or(Duration::MAX));
         let start = Instant::now();
+        let mut cancelled: Option<Instant> = None;
         loop {
+            if self.process != std::process::id() && self.shared.ended.get().is_none() {
+                return Err(PyRuntimeError::new_err("the run belongs to the process before the fork"));
+            }
+            if self.shared.cancel.load(Ordering::Relaxed)
+                && cancelled.get_or_insert_with(Instant::now).elapsed() >= GRACE
+            {
+                // The thread ends at its next check, and nobody sees its result.
+                self.shared.finish(Err(Failure::Run(SolveError::Cancelled.into())));
+            }
             let left = limit.map_or(TICK, |limit| limit.saturating_sub(start.elapsed()).min(TICK));
             if py.detach(|| self.shared.wait(left)) {
                 return Ok(true);
@@ -148,11 +196,6 @@ impl Job {
     /// Layout of the run. Waits for it, at most for some seconds.
     #[pyo3(signature = (timeout=None))]
     fn result(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<Layout> {
-        let is_cancelled = || self.shared.cancel.load(Ordering::Relaxed);
-        if is_cancelled() && !py.detach(|| self.shared.wait(GRACE)) {
-            // The thread ends at its next check, and nobody sees its result.
-            self.shared.finish(Err(Failure::Run(SolveError::Cancelled.into())));
-        }
         if !self.wait(py, timeout)? {
             return Err(PyTimeoutError::new_err("the run has not ended yet"));
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use freebound_core::problem::NamedOption as _;
 use freebound_io::{OutputKind, Precision};
-use freebound_run::MeshLayout;
+use freebound_run::{MeshLayout, TriangleOfFace};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
@@ -133,6 +133,21 @@ impl Layout {
         arrays::table(py, values)
     }
 
+    /// Area of each triangle on the surface; 0 if its face is not flattened.
+    #[getter]
+    fn triangle_area<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        arrays::list(py, self.inner.triangles.iter().map(|triangle| triangle.area).collect())
+    }
+
+    /// Symmetric Dirichlet energy of each triangle; NaN if its face is not flattened.
+    #[getter]
+    fn triangle_energy<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        let energy = |triangle: &TriangleOfFace| {
+            triangle.distortion.map_or(f64::NAN, |distortion| distortion.symmetric_dirichlet())
+        };
+        arrays::list(py, self.inner.triangles.iter().map(energy).collect())
+    }
+
     #[getter]
     fn planar(&self) -> bool {
         self.inner.is_planar()
@@ -155,9 +170,15 @@ impl Layout {
         Ok(made.clone_ref(py))
     }
 
-    /// Writes a file of the kind that its extension names, and returns the files written.
+    /// Writes a file of the kind that its extension names. Returns the files written, if the written numbers are planar,
+    /// and the verdict on them.
     #[pyo3(signature = (path, precision=None))]
-    fn write(&self, py: Python<'_>, path: PathBuf, precision: Option<String>) -> PyResult<Vec<PathBuf>> {
+    fn write(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        precision: Option<String>,
+    ) -> PyResult<(Vec<PathBuf>, bool, String)> {
         let precision = precision
             .map(|name| {
                 let wrong = || errors::option_error(py, format!("precision: choose one of {}", Precision::names()));
@@ -179,6 +200,7 @@ impl Layout {
         };
         let write = || self.inner.write(&path, kind, precision);
         let written = py.detach(|| in_pool(0, write)).map_err(PyRuntimeError::new_err)?;
-        written.map_err(|error| PyOSError::new_err(error.to_string()))
+        let written = written.map_err(|error| PyOSError::new_err(error.to_string()))?;
+        Ok((written.files, written.planar, written.summary))
     }
 }

@@ -76,6 +76,13 @@ impl Mesh {
         Ok(Self { file: Arc::new(file), path: Some(path) })
     }
 
+    /// The mesh with other texture coordinates of its corners.
+    fn with_uv(&self, py: Python<'_>, corner_uv: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
+        let texture = Some(texture_of(py, &corner_uv, self.file.polygons.corners.len())?);
+        let file = Arc::new(MeshFile { texture, ..self.file.as_ref().clone() });
+        Ok(Self { file, path: self.path.clone() })
+    }
+
     /// Path of the file, or None.
     #[getter]
     fn path(&self) -> Option<&Path> {
@@ -138,7 +145,7 @@ fn starts_of(py: Python<'_>, starts: &[i64], corner_count: usize) -> PyResult<Ve
         let message = "faces: offsets begin with 0 and end with the number of corners, below 2^32";
         return Err(errors::option_error(py, message));
     }
-    let short = (0..).zip(starts.windows(2)).filter(|(_, pair)| pair[1] - pair[0] < 3);
+    let short = (0..).zip(starts.windows(2)).filter(|(_, pair)| pair[1].saturating_sub(pair[0]) < 3);
     let short: Vec<u32> = short.map(|(face, _)| face).collect();
     if !short.is_empty() {
         let message = format!("{} faces have fewer than 3 corners", short.len());

@@ -13,7 +13,7 @@ use freebound_core::problem::{
     BoundaryShape, Family, Growth, Method, NamedOption, PinKind, Settings, Spacing, Start, Treatment,
 };
 use freebound_io::Precision;
-use freebound_run::{AutomaticCut, MethodOption, PartChoice, Run, RunRequest, SeamKind};
+use freebound_run::{AutomaticCut, MethodOption, PartChoice, Run, RunRequest, SeamKind, picture_of_aspect};
 use glam::DVec2;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
@@ -107,7 +107,11 @@ fn parsed<T: FromStr<Err: Display>>(option: &str, text: Option<&String>) -> Resu
 impl Options {
     /// Options of a JSON object.
     pub(crate) fn of_json(py: Python<'_>, text: &str) -> PyResult<Self> {
-        serde_json::from_str(text).map_err(|error| errors::option_error(py, words(&error)))
+        let mut json = serde_json::Deserializer::from_str(text);
+        serde_path_to_error::deserialize(&mut json).map_err(|error| {
+            let (path, why) = (error.path().to_string(), words(error.inner()));
+            errors::option_error(py, if path == "." { why } else { format!("{path}: {why}") })
+        })
     }
 
     /// Request of these options.
@@ -124,6 +128,12 @@ impl Options {
             return Err(Wrong::new("aspect", "pass width over height, above 0"));
         }
         let fit: Option<Fit> = named("fit", self.fit.as_ref())?;
+        if self.start && fit == Some(Fit::Unit) {
+            return Err(Wrong::new("fit", "a layout to start from keeps its position: remove fit=\"unit\""));
+        }
+        if !self.start && !self.lock.is_empty() {
+            return Err(Wrong::new("lock", "charts are locked at a layout to start from: pass one"));
+        }
         let options = PipelineOptions {
             settings,
             frame: PictureFrame { aspect: aspect.unwrap_or(1.0), ..PictureFrame::default() },
@@ -276,8 +286,12 @@ impl Options {
     }
 
     fn packing(&self) -> Result<PackingOptions, Wrong> {
-        let usual = PackingOptions::default();
+        let picture = self.aspect.map_or(PackingOptions::default().picture, picture_of_aspect);
+        let usual = PackingOptions { picture, ..PackingOptions::default() };
         let Some(pack) = &self.pack else { return Ok(usual) };
+        if pack.size.is_some() && self.aspect.is_some() {
+            return Err(Wrong::new("pack.size", "the aspect ratio sets the picture: remove one of them"));
+        }
         let sides = 1..=PackingOptions::LONGEST_SIDE;
         if pack.size.is_some_and(|size| !size.iter().all(|side| sides.contains(side))) {
             return Err(Wrong::new("pack.size", format!("pass pixels from 1 to {}", PackingOptions::LONGEST_SIDE)));
@@ -355,8 +369,13 @@ fn pinned(option: &str, table: Option<&PyReadonlyArray2<'_, f64>>) -> Result<Vec
 }
 
 fn targets(lists: &Lists<'_>) -> Result<Targets, Wrong> {
-    let pins = pinned("pins", lists.pins.as_ref())?;
-    Ok(pins.into_iter().map(|(vertex, target)| (VertexId::new(vertex), target)).collect())
+    let mut targets = Targets::new();
+    for (vertex, target) in pinned("pins", lists.pins.as_ref())? {
+        if targets.insert(VertexId::new(vertex), target).is_some() {
+            return Err(Wrong::new("pins", format!("vertex {vertex} is pinned twice")));
+        }
+    }
+    Ok(targets)
 }
 
 fn corner_pins(lists: &Lists<'_>) -> Result<Vec<(usize, Target)>, Wrong> {

@@ -65,8 +65,47 @@ def test_equal_names_are_told_apart_and_formats_can_be_chosen(tmp_path):
     assert all(record.status == "proved" for record in records)
     with pytest.raises(freebound.OptionError):
         list(freebound.map(paths, tmp_path / "out", suffix=".stl"))
+    # Before anything is asked for.
     with pytest.raises(freebound.OptionError):
-        list(freebound.map(paths, tmp_path / "out", metod="auto"))
+        freebound.map(paths, tmp_path / "out", metod="auto")
+
+
+def test_no_result_replaces_a_mesh_or_another_result(tmp_path):
+    vertices, faces = cube()
+    for name in ("a", "b", "c"):
+        (tmp_path / name).mkdir()
+    paths = [write_obj(tmp_path / place, vertices, faces) for place in ("a/box.obj", "b/box.obj", "c/box-2.obj")]
+    records = list(freebound.map(paths, tmp_path / "out"))
+    assert len({record.output for record in records}) == 3
+    before = paths[0].read_bytes()
+    with pytest.raises(freebound.OptionError):
+        freebound.map(paths, tmp_path / "a")
+    assert paths[0].read_bytes() == before
+
+
+def test_results_keep_the_way_to_their_materials_and_can_be_read_by_others(tmp_path):
+    vertices, faces = cube()
+    folder = tmp_path / "in"
+    folder.mkdir()
+    path = write_obj(folder / "box.obj", vertices, faces)
+    path.write_text("mtllib box.mtl\nusemtl red\n" + path.read_text())
+    (folder / "box.mtl").write_text("newmtl red\nKd 1 0 0\n")
+    [record] = freebound.map([path], tmp_path / "out")
+    [library] = [line.split()[1] for line in open(record.output) if line.startswith("mtllib")]
+    assert (tmp_path / "out" / library).resolve() == (folder / "box.mtl").resolve()
+    (tmp_path / "plain").touch()
+    assert (tmp_path / "out" / "box.obj").stat().st_mode == (tmp_path / "plain").stat().st_mode
+    assert (tmp_path / "out" / "box.obj.freebound.json").stat().st_mode == (tmp_path / "plain").stat().st_mode
+
+
+def test_a_result_that_is_not_made_again_does_not_stay(tmp_path):
+    vertices, faces = cube()
+    path = write_obj(tmp_path / "box.obj", vertices, faces)
+    [record] = freebound.map([path], tmp_path / "out")
+    assert record.status == "proved"
+    path.write_text("v 0 0 nan\nf 1 2 3\n")
+    [record] = freebound.map([path], tmp_path / "out")
+    assert record.status == "refused" and not (tmp_path / "out" / "box.obj").exists()
 
 
 def test_object_stores_are_read_and_written():

@@ -23,6 +23,15 @@ def test_the_iteration_shows_each_step():
     assert "Step 0" in repr(steps[0])
 
 
+def test_pins_of_corners_are_met_and_options_of_the_layout_are_refused():
+    vertices, faces, _ = grid()
+    corner = int(np.flatnonzero(faces.ravel() == 70)[0])
+    steps = list(freebound.Flattener(vertices, faces, pins={0: (0, 0), 12: (1, 0)}, corner_pins={corner: (0.4, 0.5)}))
+    assert (steps[-1].uv[70] == (0.4, 0.5)).all()
+    with pytest.raises(freebound.OptionError):
+        freebound.Flattener(vertices, faces, pack=freebound.Pack(size=512))
+
+
 def test_a_mesh_that_is_no_disk_has_no_steps():
     with pytest.raises(freebound.InputError):
         freebound.Flattener(*cube())

@@ -71,6 +71,32 @@ def test_sizes_and_parts_of_charts_are_those_asked_for():
     assert np.isnan(one.singular_values[:6]).all()
 
 
+def test_the_mean_energy_of_polygons_is_that_of_the_report():
+    vertices, _, quads = grid()
+    layout = freebound.flatten(vertices, quads, relax=2)
+    assert layout.energy == pytest.approx(layout.report["distortion"]["symmetric_dirichlet"]["mean"], rel=1e-12)
+    assert len(layout.triangle_face) == 2 * len(quads)
+
+
+def test_options_that_contradict_each_other_are_refused():
+    vertices, faces = cube()
+    for wrong in (
+        {"fit": "true", "pack": freebound.Pack(density=10.0)},
+        {"fit": "true", "chart_size": {0: 2.0}, "seams": "sharp"},
+        {"fit": "true", "aspect": 2.0},
+        {"aspect": 2.0, "pack": freebound.Pack(size=512)},
+        {"lock": [0]},
+        {"chart_size": {0: 2.0}, "cut": "shortest"},
+        {"relax": "many"},
+        {"pins": ([1, 1], [(0, 0), (1, 1)])},
+        {"corner_pins": {0: (0, 0), 23: (1, 1)}, "seams": None, "cut": "shortest", "pins": {0: (0.5, 0.5)}},
+    ):
+        with pytest.raises(freebound.OptionError):
+            freebound.unwrap(vertices, faces, **wrong)
+    with pytest.raises(freebound.OptionError, match="relax"):
+        freebound.unwrap(vertices, faces, relax="many")
+
+
 def test_a_check_finds_what_was_damaged():
     vertices, faces = ball()
     layout = freebound.unwrap(vertices, faces)
@@ -114,6 +140,9 @@ def test_the_program_and_the_package_write_the_same_bytes(tmp_path, program):
     program("unwrap", path, "-o", tmp_path / "program.obj")
     freebound.unwrap(path).save(tmp_path / "package.obj")
     assert (tmp_path / "program.obj").read_bytes() == (tmp_path / "package.obj").read_bytes()
+    program("unwrap", path, "-o", tmp_path / "program.ply", "--aspect", "2:1")
+    freebound.unwrap(path, aspect=2.0).save(tmp_path / "package.ply")
+    assert (tmp_path / "program.ply").read_bytes() == (tmp_path / "package.ply").read_bytes()
     vertices, faces, _ = grid()
     path = write_obj(tmp_path / "grid.obj", vertices, faces)
     program("flatten", path, "-o", tmp_path / "program.obj", "--pin", "0:0.1,0.2", "--pin", "12:0.8,0.3")

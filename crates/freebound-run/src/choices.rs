@@ -5,8 +5,17 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use super::Model;
+use freebound_core::geom::PackingOptions;
 use freebound_core::mesh::{PartFaces, Preparation, VertexId};
 use freebound_io::LabelError;
+use glam::{DVec2, UVec2};
+
+/// Size of the picture that charts are packed into for an aspect ratio, pixels: the longer side is the usual one.
+pub fn picture_of_aspect(aspect: f64) -> [u32; 2] {
+    let usual = UVec2::from_array(PackingOptions::default().picture).as_dvec2();
+    let size = usual * DVec2::new(aspect, 1.0) / aspect.max(1.0);
+    size.round().max(DVec2::ONE).as_u64vec2().as_uvec2().to_array()
+}
 
 /// Kind of edges that a mesh is cut along.
 #[derive(Clone, Copy, Debug, PartialEq)]

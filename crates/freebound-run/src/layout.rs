@@ -41,6 +41,7 @@ pub struct MeshLayout {
     pub report: Report,
     planar: bool,
     summary: String,
+    precision: Option<Precision>,
     model: Model,
     run: Run,
     solved: SolvedRun,
@@ -51,15 +52,18 @@ pub struct MeshLayout {
 pub struct TriangleOfFace {
     /// Number of the face in the mesh of the layout.
     pub face: u32,
+    /// Area of the triangle on the surface; 0 if the face is not flattened.
+    pub area: f64,
     /// Distortion of the triangle, at the scale at which its chart has the area of its surface. Absent if the face is
     /// not flattened.
     pub distortion: Option<FaceDistortion>,
 }
 
 impl TriangleOfFace {
-    /// Greater and lesser singular value of the map from the surface to the plane.
+    /// Greater and lesser singular value of the map from the surface to the plane. `None` also if the map collapses the
+    /// triangle.
     pub fn singular_values(&self) -> Option<[f64; 2]> {
-        let FaceDistortion { angle, area, .. } = self.distortion?;
+        let FaceDistortion { angle, area, .. } = self.distortion.filter(|distortion| distortion.area > 0.0)?;
         Some([(area * angle).sqrt(), (area / angle).sqrt()])
     }
 }
@@ -80,10 +84,14 @@ impl MeshLayout {
         for triangle in &laid {
             chart_of_face[triangle.face as usize] = triangle.chart;
         }
-        let flattened = laid.iter().map(|triangle| (triangle.face, Some(triangle.distortion)));
-        let left_out = (0..).zip(&chart_of_face).filter(|(_, chart)| **chart == NO_CHART).map(|(face, _)| (face, None));
-        let triangles = flattened.chain(left_out).map(|(face, distortion)| TriangleOfFace { face, distortion });
-        let mut triangles: Vec<TriangleOfFace> = triangles.collect();
+        let flattened = laid.iter().map(|&LaidTriangle { face, area, distortion, .. }| TriangleOfFace {
+            face,
+            area,
+            distortion: Some(distortion),
+        });
+        let left_out = (0..).zip(&chart_of_face).filter(|(_, chart)| **chart == NO_CHART);
+        let left_out = left_out.map(|(face, _)| TriangleOfFace { face, area: 0.0, distortion: None });
+        let mut triangles: Vec<TriangleOfFace> = flattened.chain(left_out).collect();
         triangles.sort_by_key(|triangle| triangle.face);
         let report = output.report;
         Ok(Self {
@@ -96,6 +104,7 @@ impl MeshLayout {
             report,
             planar,
             summary,
+            precision,
             model,
             run,
             solved,
@@ -176,8 +185,8 @@ impl MeshLayout {
         edges
     }
 
-    /// Writes a mesh file with the coordinates, or another kind of file, in the precision that is usual for its kind or
-    /// in a given one. Returns the files written, `path` first.
+    /// Writes a mesh file with the coordinates, or another kind of file. Default of the precision: that of the request, or
+    /// the usual one of the kind. Coordinates that 32 bits fold are written, and are not planar.
     ///
     /// # Errors
     ///
@@ -187,18 +196,31 @@ impl MeshLayout {
         path: &Path,
         kind: OutputKind,
         precision: Option<Precision>,
-    ) -> Result<Vec<PathBuf>, WriteError> {
+    ) -> Result<WrittenLayout, WriteError> {
         let mut output = self.output().map_err(|source| WriteError::writing(path, source))?;
-        output.round_to(precision, if kind.is_mesh() { kind } else { OutputKind::Obj });
+        output.round_to(precision.or(self.precision), if kind.is_mesh() { kind } else { OutputKind::Obj });
         output.report.not_kept = output.not_kept_in(kind).into_iter().collect::<BTreeSet<_>>().into_iter().collect();
-        output.write(kind, path)
+        let files = output.write(kind, path)?;
+        Ok(WrittenLayout { files, planar: output.is_planar(), summary: output.summary() })
     }
+}
+
+/// Layout in a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrittenLayout {
+    /// Files that were written, that of the layout first.
+    pub files: Vec<PathBuf>,
+    /// True if the written numbers are proved one-to-one.
+    pub planar: bool,
+    /// Verdict on the written numbers in lower-case words.
+    pub summary: String,
 }
 
 /// Triangle of a chart, with its place in the written mesh.
 struct LaidTriangle {
     face: u32,
     chart: u32,
+    area: f64,
     distortion: FaceDistortion,
 }
 
@@ -222,12 +244,15 @@ fn triangles_of(output: &Output<'_>, face_of: Option<&[u32]>, input_faces: usize
         let measured = measured(of_chart, plane);
         let triangles = of_chart.mesh.mesh();
         let polygons: Vec<u32> = (0..measured.len()).map(|face| triangles.polygon(FaceId::from_index(face))).collect();
-        let mut distortions = measured.into_iter();
+        let mut measured = (0..).zip(measured);
         for polygon in polygons.chunk_by(|a, b| a == b) {
             let [begin, end] = [first[polygon[0] as usize], first[polygon[0] as usize + 1]];
             // The face is whole, or each of its triangles is a face.
             let faces = (begin..end).cycle().take(polygon.len());
-            laid.extend(faces.zip(&mut distortions).map(|(face, distortion)| LaidTriangle { face, chart, distortion }));
+            laid.extend(faces.zip(&mut measured).map(|(face, (number, distortion))| {
+                let area = 0.5 * triangles.double_area_vector(FaceId::new(number)).length();
+                LaidTriangle { face, chart, area, distortion }
+            }));
         }
     }
     laid.sort_by_key(|triangle| triangle.face);

@@ -42,9 +42,9 @@ mod run;
 mod seam_edges;
 
 pub use automatic_cut::AutomaticCut;
-pub use choices::{NoSuchPart, PartChoice, SeamKind};
+pub use choices::{NoSuchPart, PartChoice, SeamKind, picture_of_aspect};
 pub use idle::MethodOption;
-pub use layout::{MeshLayout, NO_CHART, TriangleOfFace};
+pub use layout::{MeshLayout, NO_CHART, TriangleOfFace, WrittenLayout};
 pub use model::{LayoutFile, Model, SolvedModel, finished_atlas};
 pub use request::{RequestFault, RunRequest};
 pub use run::{ChartProblem, ChartRun, Run, RunError, SolvedRun};

@@ -1,13 +1,13 @@
 //! Entry point: everything that a run needs, and its result as arrays.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::convert::Infallible;
 use std::fmt::Display;
 
 use super::{AutomaticCut, MeshLayout, Model, NoSuchPart, PartChoice, Run, RunError, SeamKind};
 use freebound_core::flatten::Step;
 use freebound_core::mesh::{DiskMesh, Preparation, Repairs, VertexId};
-use freebound_core::pipeline::{PipelineOptions, Surface, Target, Targets};
+use freebound_core::pipeline::{Fit, PipelineOptions, Surface, Target, Targets};
 use freebound_core::problem::{Control, Settings, SolveError};
 use freebound_io::{LabelError, Precision, TextureError};
 
@@ -50,6 +50,20 @@ pub enum RequestFault {
     /// A pinned corner belongs to a face that is left out, or does not exist.
     #[error("corner {0} cannot be pinned: its face is not flattened")]
     NoSuchCorner(usize),
+    /// A vertex is pinned twice, by itself or by corners of one chart.
+    #[error("vertex {0} is pinned twice: remove one of the pins")]
+    PinnedTwice(VertexId),
+    /// The size of a chart that is not packed.
+    #[error("chart {chart} has a size, but {why}, so it is not packed")]
+    IdleSize {
+        /// Number of the chart.
+        chart: usize,
+        /// Reason why the chart is not packed.
+        why: &'static str,
+    },
+    /// True size does not go with another option.
+    #[error("fit true: {0}")]
+    TrueSize(&'static str),
     /// A chart that a size or a lock names does not exist.
     #[error("there is no chart {chart}: the mesh has {count}, numbered from 0")]
     NoSuchChart {
@@ -145,7 +159,11 @@ impl RunRequest {
     }
 
     /// Targets of all pins, by the vertices of the prepared mesh.
-    fn targets_on(&self, model: &Model) -> Result<Targets, RunError> {
+    ///
+    /// # Errors
+    ///
+    /// Errors of [`Model::check_targets`], and [`RunError::Request`] for a corner without a vertex.
+    pub fn targets_on(&self, model: &Model) -> Result<Targets, RunError> {
         let mut targets = self.run.options.targets.clone();
         model.check_targets(&targets)?;
         if self.corner_pins.is_empty() {
@@ -159,7 +177,9 @@ impl RunRequest {
         };
         for &(corner, target) in &self.corner_pins {
             let vertex = vertex_at(corner).ok_or(RunError::Request(RequestFault::NoSuchCorner(corner)))?;
-            targets.insert(vertex, target);
+            if targets.insert(vertex, target).is_some() {
+                return Err(RunError::Request(RequestFault::PinnedTwice(model.vertex_in_file(vertex))));
+            }
         }
         Ok(targets)
     }
@@ -172,6 +192,8 @@ impl RunRequest {
         if let Some(&chart) = numbers.find(|&&chart| chart >= count) {
             return Err(RequestFault::NoSuchChart { chart, count });
         }
+        self.check_sizes(model, &targets)?;
+        self.check_true_size(model, &targets)?;
         let charts = model.prepared.chart.as_ref().map(|of| &of.charts);
         let sizes = self.chart_sizes.iter().filter_map(|(&chart, &size)| Some((charts?.first_face(chart), size)));
         let relax_rounds = options.settings.relax_rounds.or_else(|| model.usual_rounds(self.usual_relax_rounds));
@@ -185,6 +207,39 @@ impl RunRequest {
             },
             ..self.run.clone()
         })
+    }
+
+    /// Rejects sizes of charts that are not packed.
+    fn check_sizes(&self, model: &Model, targets: &Targets) -> Result<(), RequestFault> {
+        let charts = model.prepared.chart.as_ref().map(|of| &of.charts);
+        let chart_of = |vertex: &VertexId| charts.and_then(|charts| charts.chart_of_vertex(*vertex));
+        let pinned: BTreeSet<usize> = targets.keys().filter_map(chart_of).collect();
+        for &chart in self.chart_sizes.keys() {
+            let faults = [
+                (charts.is_none(), "it is the only chart"),
+                (pinned.contains(&chart), "it is pinned"),
+                (self.run.locked.contains(&chart), "it is locked"),
+            ];
+            if let Some((_, why)) = faults.into_iter().find(|(is_so, _)| *is_so) {
+                return Err(RequestFault::IdleSize { chart, why });
+            }
+        }
+        Ok(())
+    }
+
+    /// Rejects true size if other options set the scale.
+    fn check_true_size(&self, model: &Model, targets: &Targets) -> Result<(), RequestFault> {
+        let Run { options, fit, locked, .. } = &self.run;
+        let is_packed = self.run.is_packed(model);
+        let has_own_scales = !(targets.is_empty() && self.chart_sizes.is_empty() && locked.is_empty());
+        let faults = [
+            (options.has_picture, "the map is scaled to a picture"),
+            (is_packed && has_own_scales, "charts with pins, locks or sizes have scales of their own"),
+            (options.packing.density.is_some(), "the density sets the size of the charts"),
+            (is_packed && options.packing.tiles > 1, "tiles are unit squares"),
+        ];
+        let fault = faults.into_iter().find(|(is_so, _)| *is_so && *fit == Fit::True);
+        fault.map_or(Ok(()), |(_, why)| Err(RequestFault::TrueSize(why)))
     }
 }
 

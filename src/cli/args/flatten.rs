@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr as _;
 
 use clap::Args;
-use glam::{DVec2, UVec2};
+use glam::UVec2;
 
 use super::{MeshArguments, SolveArguments, TypedShape};
 use crate::cli::typed::{ChartSize, TileRule, choice, parse_chart_size, parse_density, parse_pixels, parse_tiles};
@@ -12,7 +12,7 @@ use freebound_core::geom::{PackingOptions, Rotations, Stacking};
 use freebound_core::pipeline::{Arrangement, Fit};
 use freebound_core::problem::{Method, NamedOption as _, Settings};
 use freebound_io::{OutputKind, PictureFile, Precision};
-use freebound_run::MethodOption;
+use freebound_run::{MethodOption, picture_of_aspect};
 
 /// Arguments of `flatten`.
 #[derive(Debug, Args)]
@@ -143,11 +143,7 @@ impl FlattenArguments {
         let stack = self.stack.unwrap_or(options.stack);
         let options = PackingOptions { gap, rotations, stack, density: self.density, ..options };
         let of_picture = picture.map(|picture| UVec2::new(picture.pixels.width, picture.pixels.height));
-        let of_aspect = self
-            .solve
-            .aspect
-            .map(|aspect| UVec2::from_array(options.picture).as_dvec2() * DVec2::new(aspect, 1.0) / aspect.max(1.0));
-        let of_aspect = of_aspect.map(|size| size.round().max(DVec2::ONE).as_u64vec2().as_uvec2());
+        let of_aspect = self.solve.aspect.map(|aspect| UVec2::from_array(picture_of_aspect(aspect)));
         let picture = self.pack.or(of_picture).or(of_aspect).map_or(options.picture, |size| size.to_array());
         PackingOptions { picture, ..options }
     }
