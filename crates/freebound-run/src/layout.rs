@@ -41,10 +41,17 @@ pub struct MeshLayout {
     pub report: Report,
     planar: bool,
     summary: String,
-    precision: Option<Precision>,
-    model: Model,
-    run: Run,
-    solved: SolvedRun,
+    origin: FinishedRun,
+}
+
+/// Run that a layout comes from, for writing it again in another precision.
+#[derive(Debug)]
+pub(super) struct FinishedRun {
+    pub(super) model: Model,
+    pub(super) run: Run,
+    pub(super) solved: SolvedRun,
+    /// Precision of the request.
+    pub(super) precision: Option<Precision>,
 }
 
 /// Triangle of a face, with its distortion.
@@ -70,8 +77,9 @@ impl TriangleOfFace {
 
 impl MeshLayout {
     /// Lays out a solved run, and proves the layout in a precision.
-    pub(super) fn new(model: Model, run: Run, solved: SolvedRun, precision: Option<Precision>) -> io::Result<Self> {
-        let mut output = solved.output(&run)?;
+    pub(super) fn new(origin: FinishedRun) -> io::Result<Self> {
+        let FinishedRun { model, run, solved, precision } = &origin;
+        let mut output = solved.output(run)?;
         output.round_to(Some(precision.unwrap_or_default()), OutputKind::Obj);
         let (planar, summary) = (output.is_planar(), output.summary());
         let TexturedMesh { mesh, texture, new_vertices, face_of } = output.textured();
@@ -94,21 +102,7 @@ impl MeshLayout {
         let mut triangles: Vec<TriangleOfFace> = flattened.chain(left_out).collect();
         triangles.sort_by_key(|triangle| triangle.face);
         let report = output.report;
-        Ok(Self {
-            mesh,
-            texture,
-            new_vertices,
-            face_of,
-            chart_of_face,
-            triangles,
-            report,
-            planar,
-            summary,
-            precision,
-            model,
-            run,
-            solved,
-        })
+        Ok(Self { mesh, texture, new_vertices, face_of, chart_of_face, triangles, report, planar, summary, origin })
     }
 
     /// True if the coordinates are proved one-to-one.
@@ -139,12 +133,12 @@ impl MeshLayout {
 
     /// The mesh in its preparation.
     pub fn model(&self) -> &Model {
-        &self.model
+        &self.origin.model
     }
 
     /// Charts with their last steps.
     pub fn solved(&self) -> &SolvedRun {
-        &self.solved
+        &self.origin.solved
     }
 
     /// Coordinates in 64 bits, laid out and proved again.
@@ -153,7 +147,7 @@ impl MeshLayout {
     ///
     /// Errors of [`SolvedRun::output`].
     pub fn output(&self) -> io::Result<Output<'_>> {
-        self.solved.output(&self.run)
+        self.origin.solved.output(&self.origin.run)
     }
 
     /// Texture coordinate of each corner, `None` at corners of faces that are not flattened.
@@ -198,7 +192,7 @@ impl MeshLayout {
         precision: Option<Precision>,
     ) -> Result<WrittenLayout, WriteError> {
         let mut output = self.output().map_err(|source| WriteError::writing(path, source))?;
-        output.round_to(precision.or(self.precision), if kind.is_mesh() { kind } else { OutputKind::Obj });
+        output.round_to(precision.or(self.origin.precision), if kind.is_mesh() { kind } else { OutputKind::Obj });
         output.report.not_kept = output.not_kept_in(kind).into_iter().collect::<BTreeSet<_>>().into_iter().collect();
         let files = output.write(kind, path)?;
         Ok(WrittenLayout { files, planar: output.is_planar(), summary: output.summary() })

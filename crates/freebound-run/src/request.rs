@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::convert::Infallible;
 use std::fmt::Display;
 
+use super::layout::FinishedRun;
 use super::{AutomaticCut, MeshLayout, Model, NoSuchPart, PartChoice, Run, RunError, SeamKind};
 use freebound_core::flatten::Step;
 use freebound_core::mesh::{DiskMesh, Preparation, Repairs, VertexId};
@@ -128,7 +129,7 @@ impl RunRequest {
         let targets = self.targets_on(&model).map_err(RunError::with_observer)?;
         let run = self.run_on(&model, targets).map_err(RunError::Request)?;
         let solved = run.solve(run.problems(&model), control, observe)?;
-        MeshLayout::new(model, run, solved, self.precision).map_err(RunError::TrueSize)
+        MeshLayout::new(FinishedRun { model, run, solved, precision: self.precision }).map_err(RunError::TrueSize)
     }
 
     /// Mesh in its preparation, cut along its seams.

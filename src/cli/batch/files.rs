@@ -1,12 +1,12 @@
 //! Meshes of a batch, and the places of their results.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::super::args::{BatchArguments, BatchFormat};
 use super::super::error::CommandError;
-use freebound_io::{is_same_file, memory_to_read};
+use freebound_io::memory_to_read;
 
 /// Extensions of meshes.
 const EXTENSIONS: [&str; 6] = ["obj", "ply", "glb", "gltf", "stl", "off"];
@@ -32,17 +32,19 @@ pub(super) struct BatchFile {
 ///
 /// # Errors
 ///
-/// [`CommandError::Usage`] if an argument is missing or no mesh, there are no meshes, or a result would replace a mesh.
+/// [`CommandError::Usage`] if a folder or a list cannot be read, an argument is no mesh, there are no meshes, or a result
+/// would replace a mesh.
 pub(super) fn files(arguments: &BatchArguments) -> Result<Vec<BatchFile>, CommandError> {
     let mut found = Vec::new();
     for input in &arguments.inputs {
-        gather(input, &mut found)?;
+        gather(input, &arguments.output_dir, &mut found)?;
     }
     if found.is_empty() {
         let endings = EXTENSIONS.map(|extension| format!(".{extension}")).join(", ");
         return Err(CommandError::Usage(format!("there are no meshes: name files that end in {endings}")));
     }
-    let mut taken: BTreeMap<PathBuf, usize> = BTreeMap::new();
+    let inputs: BTreeSet<PathBuf> = found.iter().map(|found| whole_path(&found.input)).collect();
+    let mut taken = BTreeSet::new();
     let mut seen = BTreeSet::new();
     let mut files = Vec::new();
     for Found { input, place } in found {
@@ -50,9 +52,9 @@ pub(super) fn files(arguments: &BatchArguments) -> Result<Vec<BatchFile>, Comman
             continue;
         }
         let output = arguments.output_dir.join(name_of_result(&place, arguments.format, &mut taken));
-        if is_same_file(&input, &output) {
-            let text = "the result would replace the mesh: choose another --output-dir";
-            return Err(CommandError::Usage(format!("{}: {text}", input.display())));
+        if inputs.contains(&whole_path(&output)) {
+            let text = "the result would replace a mesh: choose another --output-dir";
+            return Err(CommandError::Usage(format!("{}: {text}", output.display())));
         }
         let to_read = memory_to_read(&input).unwrap_or(0);
         let memory = BASE_MEMORY.saturating_add(to_read.saturating_mul(MEMORY_RATIO));
@@ -72,10 +74,22 @@ fn is_mesh(path: &Path) -> bool {
     EXTENSIONS.contains(&extension.as_str())
 }
 
-fn gather(input: &Path, found: &mut Vec<Found>) -> Result<(), CommandError> {
+/// Path without links, as far as it exists.
+fn whole_path(path: &Path) -> PathBuf {
+    if let Ok(path) = path.canonicalize() {
+        return path;
+    }
+    match (path.parent().filter(|parent| !parent.as_os_str().is_empty()), path.file_name()) {
+        (Some(parent), Some(name)) => whole_path(parent).join(name),
+        _ => std::path::absolute(path).unwrap_or_else(|_| path.to_owned()),
+    }
+}
+
+/// Collects the meshes of an argument. The folder of results is passed over.
+fn gather(input: &Path, results: &Path, found: &mut Vec<Found>) -> Result<(), CommandError> {
     let unreadable = |error: std::io::Error| CommandError::Usage(format!("{}: {error}", input.display()));
     if input.is_dir() {
-        return gather_folder(input, input, found).map_err(unreadable);
+        return gather_folder(input, input, &whole_path(results), found).map_err(unreadable);
     }
     let is_list = input.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("txt"));
     if !is_list {
@@ -94,21 +108,23 @@ fn gather(input: &Path, found: &mut Vec<Found>) -> Result<(), CommandError> {
     lines.map(|line| folder.join(line)).try_for_each(|path| {
         let place = path.file_name().map(PathBuf::from).unwrap_or_default();
         if path.is_dir() {
-            return gather(&path, found);
+            return gather(&path, results, found);
         }
         found.push(Found { input: path, place });
         Ok(())
     })
 }
 
-fn gather_folder(root: &Path, folder: &Path, found: &mut Vec<Found>) -> std::io::Result<()> {
+fn gather_folder(root: &Path, folder: &Path, results: &Path, found: &mut Vec<Found>) -> std::io::Result<()> {
     let mut entries: Vec<PathBuf> =
         fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<_>>()?;
     entries.sort();
     for path in entries {
         // Links to folders are not followed: they may form a circle.
         if path.is_dir() && !path.is_symlink() {
-            gather_folder(root, &path, found)?;
+            if whole_path(&path) != results {
+                gather_folder(root, &path, results, found)?;
+            }
         } else if path.is_file() && is_mesh(&path) {
             let place = path.strip_prefix(root).unwrap_or(&path).to_owned();
             found.push(Found { input: path, place });
@@ -118,7 +134,7 @@ fn gather_folder(root: &Path, folder: &Path, found: &mut Vec<Found>) -> std::io:
 }
 
 /// Name of a result. Results with the name of an earlier one get a number.
-fn name_of_result(place: &Path, format: Option<BatchFormat>, taken: &mut BTreeMap<PathBuf, usize>) -> PathBuf {
+fn name_of_result(place: &Path, format: Option<BatchFormat>, taken: &mut BTreeSet<PathBuf>) -> PathBuf {
     let own = place.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let is_written = ["obj", "ply", "glb"].contains(&own.as_str());
     let extension = match format {
@@ -126,14 +142,12 @@ fn name_of_result(place: &Path, format: Option<BatchFormat>, taken: &mut BTreeMa
         None if is_written => own.as_str(),
         None => "obj",
     };
-    let name = place.with_extension(extension);
-    let count = taken.entry(name.clone()).or_default();
-    *count += 1;
-    if *count == 1 {
-        return name;
-    }
     let stem = place.file_stem().unwrap_or_default().to_string_lossy();
-    place.with_file_name(format!("{stem}-{count}.{extension}"))
+    let numbered = (2..).map(|count: usize| place.with_file_name(format!("{stem}-{count}.{extension}")));
+    let mut names = std::iter::once(place.with_extension(extension)).chain(numbered);
+    let name = names.find(|name| !taken.contains(name)).expect("one of endless names is free");
+    taken.insert(name.clone());
+    name
 }
 
 #[cfg(test)]
@@ -142,11 +156,12 @@ mod tests {
 
     #[test]
     fn results_with_equal_names_get_numbers_and_formats_that_are_not_written_become_obj() {
-        let mut taken = BTreeMap::new();
+        let mut taken = BTreeSet::new();
         let mut name = |place: &str, format| name_of_result(Path::new(place), format, &mut taken);
         assert_eq!(name("a/box.stl", None), Path::new("a/box.obj"));
         assert_eq!(name("a/box.OBJ", None), Path::new("a/box-2.obj"));
         assert_eq!(name("b/box.ply", None), Path::new("b/box.ply"));
         assert_eq!(name("b/box.off", Some(BatchFormat::Ply)), Path::new("b/box-2.ply"));
+        assert_eq!(name("a/box-2.obj", None), Path::new("a/box-2-2.obj"));
     }
 }

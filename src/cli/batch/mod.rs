@@ -13,6 +13,7 @@ mod files;
 mod record;
 
 use std::ffi::OsString;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::{Condvar, Mutex, PoisonError};
@@ -20,10 +21,10 @@ use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
 use self::files::{BatchFile, files};
-use self::record::{Record, Status};
+use self::record::{BatchOptions, Record, Status};
 use clap::Parser as _;
 
-use super::args::{Arguments, BatchArguments};
+use super::args::{Arguments, BatchArguments, Subcommands};
 use super::error::{CommandError, CommandOutcome, WRONG_USE};
 use super::progress::{ProgressLine, go_on, is_interrupted};
 use super::say::{say, warn};
@@ -41,13 +42,17 @@ pub(super) fn run(arguments: &BatchArguments) -> Result<CommandOutcome, CommandE
     let files = files(arguments)?;
     let cores = available_parallelism().map_or(1, Into::into);
     let jobs = arguments.jobs.map_or(cores, Into::into).min(files.len());
-    let options = options_of(arguments, (cores / jobs).max(1));
+    let options = options_of(arguments);
     check_options(&options)?;
+    let has_threads = options.iter().any(|option| option.to_string_lossy().starts_with("--threads"));
+    let threads = (!has_threads).then(|| format!("--threads={}", (cores / jobs).max(1)));
     let program = std::env::current_exe().map_err(|error| CommandError::Usage(format!("the program: {error}")))?;
     let memory = arguments.memory.unwrap_or_else(|| machine_memory_bytes().unwrap_or(USUAL_MEMORY) / 2);
     let batch = Batch {
         program: &program,
         options: &options,
+        recorded: BatchOptions::of(&options),
+        threads,
         files: &files,
         resume: arguments.resume,
         memory,
@@ -80,11 +85,9 @@ pub(super) fn run(arguments: &BatchArguments) -> Result<CommandOutcome, CommandE
 }
 
 /// Command with its options, as each mesh gets them.
-fn options_of(arguments: &BatchArguments, threads: usize) -> Vec<OsString> {
-    let has_threads = arguments.options.iter().any(|option| option.to_string_lossy().starts_with("--threads"));
-    let threads = (!has_threads).then(|| format!("--threads={threads}").into());
+fn options_of(arguments: &BatchArguments) -> Vec<OsString> {
     let command = OsString::from(arguments.command.name());
-    std::iter::once(command).chain(arguments.options.iter().cloned()).chain(threads).collect()
+    std::iter::once(command).chain(arguments.options.iter().cloned()).collect()
 }
 
 /// Rejects options that are wrong for every mesh.
@@ -95,7 +98,24 @@ fn check_options(options: &[OsString]) -> Result<(), CommandError> {
         let text = error.to_string();
         CommandError::Usage(text.trim().trim_start_matches("error: ").to_owned())
     };
-    Arguments::try_parse_from(words.chain(own)).map(drop).map_err(refused)
+    let parsed = Arguments::try_parse_from(words.chain(own)).map_err(refused)?;
+    let flatten = match &parsed.command {
+        Some(Subcommands::Flatten(arguments)) => arguments.as_ref(),
+        Some(Subcommands::Unwrap(arguments)) => &arguments.flatten,
+        _ => return Ok(()),
+    };
+    // All meshes would write one file.
+    let files = [
+        ("--svg", flatten.svg.is_some()),
+        ("--png", flatten.png.is_some()),
+        ("--steps", flatten.steps.is_some()),
+        ("--copy-materials", flatten.copy_materials),
+        ("--picture", flatten.picture.is_some()),
+    ];
+    match files.into_iter().find(|(_, is_given)| *is_given) {
+        Some((option, _)) => Err(CommandError::Usage(format!("{option} writes files of its own: run flatten for it"))),
+        None => Ok(()),
+    }
 }
 
 /// Sentence on all meshes.
@@ -120,6 +140,10 @@ fn summary(records: &[Record], elapsed: Duration) -> String {
 struct Batch<'a> {
     program: &'a Path,
     options: &'a [OsString],
+    /// Options as records have them.
+    recorded: BatchOptions,
+    /// Option for the threads of each mesh. Results do not depend on it.
+    threads: Option<String>,
     files: &'a [BatchFile],
     resume: bool,
     /// Memory for all meshes at once, bytes.
@@ -145,7 +169,10 @@ impl Batch<'_> {
     /// Runs meshes until none is left.
     fn work(&self, progress: &ProgressLine) {
         while let Some(file) = self.take() {
-            let done = self.record(file);
+            // A panic must not keep memory from other meshes.
+            let done = catch_unwind(AssertUnwindSafe(|| self.record(file)));
+            let done =
+                done.unwrap_or_else(|_| Err(CommandError::StandardOutput(std::io::Error::other("internal error"))));
             let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
             state.in_use -= file.memory;
             self.freed.notify_all();
@@ -176,10 +203,9 @@ impl Batch<'_> {
     /// Runs a mesh, unless the result of an earlier run can be kept.
     fn record(&self, file: &BatchFile) -> Result<Record, CommandError> {
         let start = Instant::now();
-        let options: Vec<String> = self.options.iter().map(|option| option.to_string_lossy().into_owned()).collect();
         let input_sha256 = FileStamp::read(&file.input).ok().map(|stamp| stamp.sha256);
         if self.resume
-            && let Some(kept) = Record::kept(file, &options, input_sha256.as_deref())
+            && let Some(kept) = Record::kept(file, &self.recorded, input_sha256.as_deref())
         {
             return Ok(kept);
         }
@@ -210,7 +236,8 @@ impl Batch<'_> {
             peak_memory_bytes: None,
             input_sha256,
             output_sha256: None,
-            options,
+            options: self.recorded.words.clone(),
+            option_files: self.recorded.files.clone(),
             freebound: env!("CARGO_PKG_VERSION").to_owned(),
             resumed: false,
         };
@@ -224,7 +251,15 @@ impl Batch<'_> {
     /// Runs the command on a mesh. An interrupt ends it.
     fn run(&self, file: &BatchFile, report: &Path) -> Result<End, CommandError> {
         let mut command = Command::new(self.program);
-        command.args(self.options).arg("-o").arg(&file.output).arg("--report").arg(report).arg("--").arg(&file.input);
+        command
+            .args(self.options)
+            .args(&self.threads)
+            .arg("-o")
+            .arg(&file.output)
+            .arg("--report")
+            .arg(report)
+            .arg("--")
+            .arg(&file.input);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let failed = |error: std::io::Error| CommandError::StandardOutput(error);
         let mut child = command.spawn().map_err(failed)?;

@@ -1,5 +1,7 @@
 //! Record of one mesh of a batch: a line on standard output, and a file beside the result.
 
+use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -41,6 +43,8 @@ pub(super) struct Record {
     pub(super) output_sha256: Option<String>,
     /// Command and its options.
     pub(super) options: Vec<String>,
+    /// SHA-256 of the files that options name.
+    pub(super) option_files: BTreeMap<String, String>,
     /// Version of the program.
     pub(super) freebound: String,
     /// True if the result is that of an earlier run.
@@ -62,6 +66,29 @@ pub(super) enum Status {
     Failed,
 }
 
+/// Command of a batch with its options, and the files that they name.
+#[derive(Clone, Debug, Default)]
+pub(super) struct BatchOptions {
+    /// Command and options.
+    pub(super) words: Vec<String>,
+    /// SHA-256 of each file that an option names.
+    pub(super) files: BTreeMap<String, String>,
+}
+
+impl BatchOptions {
+    /// Options of these words. The value of an option is a word, or the end of a word behind `=` or `:`.
+    pub(super) fn of(words: &[OsString]) -> Self {
+        let words: Vec<String> = words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+        let values = |word: &String| {
+            let ends = ['=', ':'].map(|sign| word.split_once(sign).map(|(_, end)| end.to_owned()));
+            std::iter::once(word.clone()).chain(ends.into_iter().flatten()).collect::<Vec<_>>()
+        };
+        let files = words.iter().flat_map(values).filter(|value| Path::new(value).is_file());
+        let files = files.filter_map(|file| Some((file.clone(), FileStamp::read(Path::new(&file)).ok()?.sha256)));
+        Self { files: files.collect(), words }
+    }
+}
+
 impl Record {
     /// Path of the record of a mesh.
     pub(super) fn path(file: &BatchFile) -> PathBuf {
@@ -70,17 +97,23 @@ impl Record {
         name.into()
     }
 
-    /// Record of an earlier run, if mesh, options, version and result have not changed.
-    pub(super) fn kept(file: &BatchFile, options: &[String], input: Option<&str>) -> Option<Self> {
-        let record: Self = serde_json::from_slice(&fs::read(Self::path(file)).ok()?).ok()?;
-        let is_of_run = record.options == options && record.freebound == env!("CARGO_PKG_VERSION");
+    /// Record of an earlier run, if mesh, options, version and result have not changed. A mesh with files of its own is
+    /// run again.
+    pub(super) fn kept(file: &BatchFile, options: &BatchOptions, input: Option<&str>) -> Option<Self> {
+        let has_files = file.input.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gltf"));
+        let text = fs::read(Self::path(file)).ok().filter(|_| !has_files)?;
+        let record: Self = serde_json::from_slice(&text).ok()?;
+        let has_options = record.options == options.words && record.option_files == options.files;
+        let is_of_run = has_options && record.freebound == env!("CARGO_PKG_VERSION");
         let is_of_input = input.is_some() && record.input_sha256.as_deref() == input;
         let is_whole = match &record.output_sha256 {
             Some(digest) => FileStamp::read(&file.output).is_ok_and(|stamp| stamp.sha256 == *digest),
             None => true,
         };
         let is_final = record.status != Status::Failed;
-        (is_of_run && is_of_input && is_whole && is_final).then_some(Self { resumed: true, ..record })
+        let output = record.output.as_ref().map(|_| file.output.clone());
+        let is_kept = is_of_run && is_of_input && is_whole && is_final;
+        is_kept.then_some(Self { input: file.input.clone(), output, resumed: true, ..record })
     }
 
     /// Writes the record beside the result.

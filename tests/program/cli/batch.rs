@@ -105,11 +105,48 @@ fn wrong_options_end_a_batch_before_its_first_mesh() {
         &["batch", "in/notes.md", "--output-dir", "out"],
         &["batch", "missing", "--output-dir", "out"],
         &["batch", "in", "--output-dir", "in"],
+        &["batch", "in", "--output-dir", "out", "--", "--svg", "all.svg"],
+        &["batch", "in", "--output-dir", "out", "--", "--steps", "steps"],
     ] {
         let run = program.run(wrong);
         assert_eq!((run.status, run.stdout.as_str()), (Some(2), ""), "{wrong:?}: {run:?}");
         assert!(!program.path("out").exists(), "{wrong:?}");
     }
+}
+
+#[test]
+fn no_result_replaces_a_mesh_that_is_still_to_be_run_or_another_result() {
+    let program = with_balls(1);
+    std::fs::copy(program.path("in/ball0.obj"), program.path("in/ball0-2.obj")).expect("a copy");
+    std::fs::rename(program.path("in/ball0.obj"), program.path("ball0.obj")).expect("moved");
+    program.write("in/ball0.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    // The OFF file's result would be in/ball0.obj, which is free, but ball0-2.obj is a mesh.
+    let meshes = ["batch", "in", "ball0.obj", "--output-dir", "in"];
+    let run = program.run(&meshes);
+    assert_eq!((run.status, run.stdout.as_str()), (Some(2), ""), "{run:?}");
+    assert!(!program.path("in/ball0.obj").exists() && program.path("in/ball0-2.obj").is_file());
+    let apart = records(&program.run(&["batch", "in", "ball0.obj", "--output-dir", "in/out"]).expect(0));
+    let outputs: BTreeSet<&str> = apart.values().map(|record| record["output"].as_str().expect("a path")).collect();
+    assert_eq!(outputs.len(), 3);
+    // The folder of results holds no meshes to run.
+    let again = program.run(&["batch", "in", "--output-dir", "in/out", "--resume"]).expect(0);
+    assert_eq!(records(&again).len(), 2, "{again:?}");
+}
+
+#[test]
+fn a_result_is_kept_for_any_number_of_jobs_and_made_again_if_a_file_of_an_option_changes() {
+    let program = with_balls(1);
+    std::fs::copy(program.path("in/ball0.obj"), program.path("in/other.obj")).expect("a copy");
+    program.write("costs.txt", "0 1 1000\n");
+    let run = |jobs: &str| {
+        let options =
+            ["batch", "in", "--output-dir", "out", "--resume", "--jobs", jobs, "--", "--cut-weights", "costs.txt"];
+        let found = records(&program.run(&options).expect(0));
+        found.values().filter(|record| record["resumed"] == json!(true)).count()
+    };
+    assert_eq!([run("1"), run("2"), run("1")], [0, 2, 2]);
+    program.write("costs.txt", "0 1 10\n");
+    assert_eq!(run("2"), 0);
 }
 
 #[test]
