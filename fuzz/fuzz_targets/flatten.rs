@@ -3,15 +3,16 @@
 #![no_main]
 
 use freebound_core::mesh::Preparation;
-use freebound::session::Model;
 use freebound_core::flatten::{Options, flatten};
+use freebound_io::ReadOptions;
+use freebound_run::Model;
 use libfuzzer_sys::fuzz_target;
 
 /// Face limit: larger meshes only take longer.
 const MOST_FACES: usize = 120;
 
 fuzz_target!(|bytes: &[u8]| {
-    let Ok(model) = Model::read_stream("bytes", bytes, &|| false) else { return };
+    let Ok(model) = Model::read_stream("bytes", bytes, ReadOptions::default(), &|| false) else { return };
     let model = model.in_form(Preparation::default().with_all_repairs());
     if model.source.polygons.corners.len() > 3 * MOST_FACES {
         return;

@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Freebound in the UV editor: unwrap, relax, pack and check, with a proof."""
+
+import bpy
+
+from . import operators, panel
+
+
+def register():
+    for cls in (*operators.CLASSES, *panel.CLASSES):
+        bpy.utils.register_class(cls)
+    operators.add_properties()
+    panel.add_menus()
+
+
+def unregister():
+    panel.remove_menus()
+    operators.remove_properties()
+    for cls in reversed((*operators.CLASSES, *panel.CLASSES)):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Selected faces of all meshes in edit mode, as one mesh of arrays, and texture coordinates back into them."""
+
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+
+
+class Nothing(Exception):
+    """There is nothing to work on. The message tells what to do."""
+
+
+@dataclass
+class Part:
+    """Selected faces of one object."""
+
+    object: object
+    faces: np.ndarray
+    """Numbers of the faces in the mesh of the object."""
+    loops: np.ndarray
+    """Numbers of their corners."""
+    edges: np.ndarray
+    """Vertices of all edges of the mesh."""
+    first_vertex: int
+    """Number of the first vertex in the joined mesh."""
+
+
+@dataclass
+class Selection:
+    """Selected faces of all objects, joined to one mesh."""
+
+    parts: list[Part] = field(default_factory=list)
+    vertices: np.ndarray = None
+    corners: np.ndarray = None
+    starts: np.ndarray = None
+    seams: np.ndarray = None
+    """Marked seams by their vertices, shape (e, 2)."""
+    uv: np.ndarray = None
+    """Coordinates of the corners."""
+    pinned: np.ndarray = None
+    """True for each corner that is pinned."""
+    weights: np.ndarray = None
+    """Weight of each corner's vertex in the group of soft pins, or NaN."""
+
+    def faces(self):
+        """Faces for the package."""
+        return self.corners, self.starts
+
+
+@contextmanager
+def object_mode(context):
+    """Leaves edit mode for a while: the arrays of a mesh are those of the edited mesh only then."""
+    if context.mode != "EDIT_MESH":
+        yield
+        return
+    edited = list(context.objects_in_mode)
+    active = context.view_layer.objects.active
+    bpy.ops.object.mode_set(mode="OBJECT")
+    try:
+        yield
+    finally:
+        # Only selected objects enter edit mode together.
+        was_selected = {item: item.select_get() for item in edited}
+        for item in edited:
+            item.select_set(True)
+        context.view_layer.objects.active = active
+        bpy.ops.object.mode_set(mode="EDIT")
+        for item, selected in was_selected.items():
+            item.select_set(selected)
+
+
+def objects_of(context):
+    """Objects in edit mode, each mesh once. Outside edit mode: the active object."""
+    if context.mode == "EDIT_MESH":
+        return list(context.objects_in_mode_unique_data)
+    active = context.active_object
+    return [active] if active is not None and active.type == "MESH" else []
+
+
+def _numbers(collection, name, dtype, width=1):
+    values = np.empty(len(collection) * width, dtype=dtype)
+    collection.foreach_get(name, values)
+    return values.reshape(-1, width) if width > 1 else values
+
+
+def gather(context, group="", needs_uv=False):
+    """Selected faces with their seams, coordinates and pins. ``group`` is the vertex group of soft pins."""
+    is_edited = context.mode == "EDIT_MESH"
+    objects = objects_of(context)
+    with object_mode(context):
+        return _gathered(objects, is_edited, group, needs_uv)
+
+
+def _gathered(objects, is_edited, group, needs_uv):
+    selection = Selection()
+    vertices, corners, sizes, seams, uvs, pins, weights = [], [], [], [], [], [], []
+    count = 0
+    for item in objects:
+        mesh = item.data
+        chosen = _numbers(mesh.polygons, "select", bool) & ~_numbers(mesh.polygons, "hide", bool)
+        if not is_edited:
+            chosen[:] = True
+        faces = np.flatnonzero(chosen)
+        if not len(faces):
+            continue
+        layer = mesh.uv_layers.active
+        if layer is None:
+            if needs_uv:
+                continue
+            layer = mesh.uv_layers.new()
+        starts = _numbers(mesh.polygons, "loop_start", np.int32)[faces]
+        totals = _numbers(mesh.polygons, "loop_total", np.int32)[faces]
+        firsts = np.cumsum(totals) - totals
+        loops = np.arange(totals.sum()) + np.repeat(starts - firsts, totals)
+        co = _numbers(mesh.vertices, "co", np.float32, 3).astype(np.float64)
+        matrix = np.array(item.matrix_world, dtype=np.float64)
+        vertex = _numbers(mesh.loops, "vertex_index", np.int32)[loops].astype(np.int64)
+        edges = _numbers(mesh.edges, "vertices", np.int32, 2).astype(np.int64)
+        marked = _numbers(mesh.edges, "use_seam", bool) if len(mesh.edges) else np.zeros(0, dtype=bool)
+        vertices.append(co @ matrix[:3, :3].T + matrix[:3, 3])
+        corners.append(vertex + count)
+        sizes.append(totals)
+        seams.append(edges[marked] + count)
+        uvs.append(_numbers(layer.uv, "vector", np.float32, 2)[loops].astype(np.float64))
+        pins.append(_pins(layer, len(mesh.loops))[loops])
+        weights.append(_weights(item, group)[vertex])
+        selection.parts.append(Part(item, faces, loops, edges, count))
+        count += len(co)
+    if not selection.parts:
+        raise Nothing("select faces that have a UV map" if needs_uv else "select faces of a mesh first")
+    selection.vertices = np.concatenate(vertices)
+    selection.corners = np.concatenate(corners)
+    selection.starts = np.concatenate([[0], np.cumsum(np.concatenate(sizes))]).astype(np.int64)
+    selection.seams = np.concatenate(seams)
+    selection.uv = np.concatenate(uvs)
+    selection.pinned = np.concatenate(pins)
+    selection.weights = np.concatenate(weights)
+    return selection
+
+
+def _pins(layer, count):
+    values = np.zeros(count, dtype=bool)
+    if len(layer.pin) == count:
+        layer.pin.foreach_get("value", values)
+    return values
+
+
+def _weights(item, group):
+    """Weight of each vertex in a group, NaN outside it."""
+    weights = np.full(len(item.data.vertices), np.nan)
+    index = item.vertex_groups.find(group) if group else -1
+    if index >= 0:
+        for vertex in item.data.vertices:
+            for entry in vertex.groups:
+                if entry.group == index and entry.weight > 0:
+                    weights[vertex.index] = entry.weight
+    return weights
+
+
+def corner_pins(selection):
+    """Pins for the package: one for each vertex and place. Pins of vertices in the group are soft."""
+    at = np.flatnonzero(selection.pinned)
+    if not len(at):
+        return None
+    rows = np.column_stack([selection.corners[at], selection.uv[at]])
+    _, first = np.unique(rows, axis=0, return_index=True)
+    at = at[np.sort(first)]
+    return at, selection.uv[at], selection.weights[at]
+
+
+def write(context, selection, corner_uv, cut_edges=None):
+    """Puts coordinates into the active UV maps, and marks seams. Returns the number of newly marked edges."""
+    marked, begin = 0, 0
+    with object_mode(context):
+        for part in selection.parts:
+            mesh = part.object.data
+            end = begin + len(part.loops)
+            own = corner_uv[begin:end]
+            layer = mesh.uv_layers.active
+            values = _numbers(layer.uv, "vector", np.float32, 2)
+            is_known = np.isfinite(own).all(axis=1)
+            values[part.loops[is_known]] = own[is_known].astype(np.float32)
+            layer.uv.foreach_set("vector", values.ravel())
+            if cut_edges is not None and len(cut_edges):
+                marked += _mark(mesh, part, cut_edges)
+            mesh.update()
+            begin = end
+    return marked
+
+
+def _mark(mesh, part, cut_edges):
+    own = cut_edges - part.first_vertex
+    count = len(mesh.vertices)
+    own = own[((own >= 0) & (own < count)).all(axis=1)]
+    keys = own.min(axis=1) * count + own.max(axis=1)
+    edges = part.edges.min(axis=1) * count + part.edges.max(axis=1)
+    seam = _numbers(mesh.edges, "use_seam", bool)
+    new = np.isin(edges, keys) & ~seam
+    mesh.edges.foreach_set("use_seam", seam | new)
+    return int(new.sum())
+
+
+def select(context, selection, faces):
+    """Selects faces of the joined mesh, and nothing else."""
+    begin = 0
+    chosen = np.zeros(len(selection.starts) - 1, dtype=bool)
+    chosen[list(faces)] = True
+    is_edited = context.mode == "EDIT_MESH"
+    with object_mode(context):
+        for part in selection.parts:
+            mesh = part.object.data
+            end = begin + len(part.faces)
+            values = np.zeros(len(mesh.polygons), dtype=bool)
+            values[part.faces] = chosen[begin:end]
+            mesh.vertices.foreach_set("select", np.zeros(len(mesh.vertices), dtype=bool))
+            mesh.edges.foreach_set("select", np.zeros(len(mesh.edges), dtype=bool))
+            mesh.polygons.foreach_set("select", values)
+            mesh.update()
+            begin = end
+        if is_edited:
+            context.tool_settings.mesh_select_mode = (False, False, True)

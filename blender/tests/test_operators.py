@@ -1,0 +1,317 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Operators on twenty meshes, judged by Blender's own selection of overlaps and by the signs of its own triangles."""
+
+import math
+
+import numpy as np
+import pytest
+
+bpy = pytest.importorskip("bpy")
+
+
+@pytest.fixture(autouse=True)
+def fresh():
+    """An empty file with the extension."""
+    import freebound_uv
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    freebound_uv.register()
+    yield
+    freebound_uv.unregister()
+
+
+def edit(*objects):
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.object.select_all(action="DESELECT")
+    for item in objects:
+        item.select_set(True)
+    bpy.context.view_layer.objects.active = objects[0]
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+
+
+def in_object_mode():
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def uv_of(item):
+    in_object_mode()
+    layer = item.data.uv_layers.active
+    values = np.empty(2 * len(layer.uv), dtype=np.float32)
+    layer.uv.foreach_get("vector", values)
+    return values.reshape(-1, 2)
+
+
+def flips(item):
+    """Triangles of Blender's own triangulation that are turned over."""
+    uv = uv_of(item).astype(np.float64)
+    mesh = item.data
+    mesh.calc_loop_triangles()
+    loops = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
+    mesh.loop_triangles.foreach_get("loops", loops)
+    a, b, c = uv[loops.reshape(-1, 3)].transpose(1, 0, 2)
+    return int(((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0] < 0).sum())
+
+
+def overlaps(*objects):
+    """Corners that Blender selects as overlapping."""
+    edit(*objects)
+    bpy.context.scene.tool_settings.use_uv_select_sync = False
+    bpy.ops.uv.select_overlap()
+    in_object_mode()
+    count = 0
+    for item in objects:
+        attribute = item.data.attributes.get(".uv_select_vert")
+        if attribute is not None:
+            chosen = np.empty(len(attribute.data), dtype=bool)
+            attribute.data.foreach_get("value", chosen)
+            count += int(chosen.sum())
+    return count
+
+
+def mesh_of(vertices, faces, name="mesh"):
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata([tuple(vertex) for vertex in vertices], [], [tuple(face) for face in faces])
+    item = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(item)
+    bpy.context.view_layer.objects.active = item
+    return item
+
+
+def primitive(name, **options):
+    getattr(bpy.ops.mesh, f"primitive_{name}_add")(**options)
+    return bpy.context.active_object
+
+
+def wavy(columns=14, rows=11):
+    x, y = np.meshgrid(np.arange(columns + 1) / columns, np.arange(rows + 1) / rows)
+    vertices = np.column_stack([x.ravel(), y.ravel(), (0.2 * np.sin(5 * x) * np.cos(4 * y)).ravel()])
+    corner = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    quads = np.column_stack([corner, corner + 1, corner + columns + 2, corner + columns + 1])
+    return vertices, quads
+
+
+def with_bevel(item):
+    edit(item)
+    bpy.ops.mesh.bevel(offset=0.1, segments=3)
+    in_object_mode()
+    return item
+
+
+def with_inset(item):
+    edit(item)
+    bpy.ops.mesh.inset(thickness=0.1, use_individual=True)
+    in_object_mode()
+    return item
+
+
+def with_dissolved(item):
+    """Larger polygons."""
+    edit(item)
+    bpy.ops.mesh.dissolve_limited(angle_limit=math.radians(8))
+    in_object_mode()
+    return item
+
+
+def house():
+    """Concave polygons."""
+    vertices = [(0, 0, 0), (4, 0, 0), (4, 3, 0), (2, 1.5, 0), (0, 3, 0)]
+    top = [(x, y, 2) for x, y, _ in vertices]
+    sides = [(k, (k + 1) % 5, (k + 1) % 5 + 5, k + 5) for k in range(5)]
+    return mesh_of(vertices + top, [(4, 3, 2, 1, 0), (5, 6, 7, 8, 9), *sides], "house")
+
+
+MESHES = {
+    "cube": lambda: primitive("cube"),
+    "sphere": lambda: primitive("uv_sphere"),
+    "monkey": lambda: primitive("monkey"),
+    "torus": lambda: primitive("torus"),
+    "cone": lambda: primitive("cone"),
+    "cylinder": lambda: primitive("cylinder"),
+    "tube": lambda: primitive("cylinder", end_fill_type="NOTHING"),
+    "plane": lambda: primitive("plane"),
+    "circle": lambda: primitive("circle", fill_type="NGON", vertices=17),
+    "grid": lambda: primitive("grid", x_subdivisions=20, y_subdivisions=15),
+    "icosphere": lambda: primitive("ico_sphere", subdivisions=4),
+    "wavy": lambda: mesh_of(*wavy()),
+    "house": house,
+    "bevelled": lambda: with_bevel(primitive("cube")),
+    "inset": lambda: with_inset(primitive("ico_sphere", subdivisions=2)),
+    "polygons": lambda: with_dissolved(primitive("monkey")),
+    "scaled": lambda: primitive("cube", scale=(1, 5, 0.2)),
+    "tiny": lambda: primitive("uv_sphere", radius=1e-4),
+    "fan": lambda: primitive("circle", fill_type="TRIFAN", vertices=12),
+    "coarse": lambda: primitive("uv_sphere", segments=5, ring_count=3),
+}
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_every_mesh_is_unwrapped_without_flips_and_overlaps(name):
+    item = MESHES[name]()
+    before = len(item.data.vertices), len(item.data.polygons)
+    edit(item)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    verdict = bpy.context.window_manager.freebound_verdict
+    assert "proved" in verdict
+    assert bpy.context.mode == "EDIT_MESH"
+    assert (flips(item), overlaps(item)) == (0, 0)
+    uv = uv_of(item)
+    assert uv.min() >= 0 and uv.max() <= 1
+    assert before == (len(item.data.vertices), len(item.data.polygons)), "the topology stays"
+    edit(item)
+    for operator in (bpy.ops.uv.freebound_relax, bpy.ops.uv.freebound_pack):
+        assert operator() == {"FINISHED"}
+        assert (flips(item), overlaps(item)) == (0, 0)
+        edit(item)
+    assert bpy.ops.uv.freebound_check() == {"FINISHED"}
+    assert "proved" in bpy.context.window_manager.freebound_verdict
+
+
+def pin(item, places):
+    """Pins all corners of some vertices."""
+    in_object_mode()
+    mesh = item.data
+    layer = mesh.uv_layers.active or mesh.uv_layers.new()
+    for loop in mesh.loops:
+        if loop.vertex_index in places:
+            layer.uv[loop.index].vector = places[loop.vertex_index]
+            layer.pin_ensure()
+            layer.pin[loop.index].value = True
+
+
+def test_pins_are_kept_to_the_last_bit():
+    item = mesh_of(*wavy())
+    places = {0: (0.1, 0.2), 14: (0.9, 0.15), 90: (0.45, 0.55), 179: (0.8, 0.9)}
+    pin(item, places)
+    edit(item)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    uv = uv_of(item)
+    for loop in item.data.loops:
+        if loop.vertex_index in places:
+            expected = np.array(places[loop.vertex_index], dtype=np.float32)
+            assert (uv[loop.index] == expected).all()
+    assert (flips(item), overlaps(item)) == (0, 0)
+    edit(item)
+    assert bpy.ops.uv.freebound_relax(rounds=5) == {"FINISHED"}
+    again = uv_of(item)
+    assert all((again[loop.index] == uv[loop.index]).all() for loop in item.data.loops if loop.vertex_index in places)
+
+
+def test_a_group_makes_pins_soft():
+    item = mesh_of(*wavy())
+    pin(item, {0: (0, 0), 14: (1, 0), 90: (0.9, 0.1)})
+    item.vertex_groups.new(name="soft").add([90], 0.5, "REPLACE")
+    edit(item)
+    assert bpy.ops.uv.freebound_unwrap(soft_pins="soft") == {"FINISHED"}
+    uv = uv_of(item)
+    at = [uv[loop.index] for loop in item.data.loops if loop.vertex_index == 90]
+    assert not np.allclose(at[0], (0.9, 0.1), atol=1e-3)
+
+
+def test_marked_seams_are_used_and_no_others_are_added_unless_asked_for():
+    item = primitive("cube")
+    in_object_mode()
+    for edge in item.data.edges:
+        edge.use_seam = True
+    edit(item)
+    assert bpy.ops.uv.freebound_unwrap(adds_seams=False) == {"FINISHED"}
+    assert bpy.context.window_manager.freebound_verdict.startswith("6 charts")
+    ball = primitive_in_object_mode("uv_sphere")
+    edit(ball)
+    assert bpy.ops.uv.freebound_unwrap(marks_seams=False) == {"FINISHED"}
+    in_object_mode()
+    assert not any(edge.use_seam for edge in ball.data.edges)
+    edit(ball)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    in_object_mode()
+    assert any(edge.use_seam for edge in ball.data.edges)
+
+
+def primitive_in_object_mode(name):
+    in_object_mode()
+    return primitive(name)
+
+
+def test_only_selected_faces_change():
+    item = primitive("grid", x_subdivisions=8, y_subdivisions=8)
+    layer = item.data.uv_layers.active or item.data.uv_layers.new()
+    layer.uv.foreach_set("vector", np.full(2 * len(layer.uv), 0.25, dtype=np.float32))
+    edit(item)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    in_object_mode()
+    chosen = np.arange(len(item.data.polygons)) < 20
+    item.data.polygons.foreach_set("select", chosen)
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    uv = uv_of(item).reshape(-1, 4, 2)
+    assert (uv[20:] == 0.25).all() and not (uv[:20] == 0.25).all()
+
+
+def test_all_objects_in_edit_mode_share_one_picture():
+    first, second = primitive("cube"), primitive_in_object_mode("uv_sphere")
+    second.location.x = 5
+    bpy.context.view_layer.update()
+    edit(first, second)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    assert flips(first) == flips(second) == 0
+    assert overlaps(first, second) == 0
+    assert min(uv_of(first).min(), uv_of(second).min()) >= 0
+
+
+def test_the_active_of_two_maps_is_written_and_linked_data_once():
+    item = primitive("cube")
+    in_object_mode()
+    mesh = item.data
+    other = mesh.uv_layers.active or mesh.uv_layers.new(name="first")
+    other.uv.foreach_set("vector", np.full(2 * len(other.uv), 0.5, dtype=np.float32))
+    mesh.uv_layers.active = mesh.uv_layers.new(name="second")
+    twin = bpy.data.objects.new("twin", mesh)
+    bpy.context.scene.collection.objects.link(twin)
+    edit(item, twin)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    in_object_mode()
+    values = np.empty(2 * len(mesh.loops), dtype=np.float32)
+    mesh.uv_layers[0].uv.foreach_get("vector", values)
+    assert (values == 0.5).all()
+    assert flips(item) == 0 and overlaps(item) == 0
+
+
+def test_a_check_selects_what_is_wrong():
+    item = primitive("grid", x_subdivisions=6, y_subdivisions=6)
+    edit(item)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    in_object_mode()
+    layer = item.data.uv_layers.active
+    inner = next(vertex.index for vertex in item.data.vertices if abs(vertex.co.x) < 0.2 and abs(vertex.co.y) < 0.2)
+    for loop in item.data.loops:
+        if loop.vertex_index == inner:
+            layer.uv[loop.index].vector.x += 0.4
+    edit(item)
+    assert bpy.ops.uv.freebound_check() == {"FINISHED"}
+    assert "Not one-to-one" in bpy.context.window_manager.freebound_verdict
+    in_object_mode()
+    chosen = [face.index for face in item.data.polygons if face.select]
+    assert 0 < len(chosen) < len(item.data.polygons)
+
+
+def test_without_faces_the_message_tells_what_to_do():
+    item = primitive("cube")
+    edit(item)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    with pytest.raises(RuntimeError, match="[Ss]elect faces"):
+        bpy.ops.uv.freebound_unwrap()
+    assert bpy.context.mode == "EDIT_MESH"
+
+
+def test_the_judges_of_these_tests_see_flips_and_overlaps():
+    item = mesh_of(*wavy())
+    edit(item)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    in_object_mode()
+    layer = item.data.uv_layers.active
+    for loop in item.data.loops:
+        if loop.vertex_index == 90:
+            layer.uv[loop.index].vector.x += 0.3
+    assert flips(item) > 0 and overlaps(item) > 0
