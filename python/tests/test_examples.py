@@ -1,5 +1,6 @@
 """The examples, and the code of the book, run as they stand."""
 
+import json
 import re
 import subprocess
 import sys
@@ -60,3 +61,19 @@ def test_the_code_of_the_book_runs_as_it_stands(page, tmp_path, monkeypatch):
     names = {"__name__": "book"}
     for block in blocks:
         exec(compile(block, page, "exec"), names)  # noqa: S102
+
+
+def test_the_notebook_draws_figure_4_with_the_flips_of_the_program(monkeypatch):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    monkeypatch.chdir(EXAMPLES)
+    notebook = json.loads((EXAMPLES / "figure4.ipynb").read_text())
+    names = {"__name__": "notebook"}
+    for cell in notebook["cells"]:
+        if cell["cell_type"] == "code":
+            exec(compile("".join(cell["source"]), "figure4.ipynb", "exec"), names)  # noqa: S102
+    # As `freebound figures` draws them: src/cli/figures/pairs.rs.
+    kinds = [name for name, _ in names["weights"]]
+    assert [[names["flips"][pair, kind] for kind in kinds] for pair in names["pairs"]] == [[4, 2, 1], [8, 5, 4]]
+    assert all(count >= 1 for count in names["iterations"].values())
+    assert not any(cell.get("outputs") for cell in notebook["cells"])

@@ -51,8 +51,8 @@ pub enum RequestFault {
     /// A pinned corner belongs to a face that is left out, or does not exist.
     #[error("corner {0} cannot be pinned: its face is not flattened")]
     NoSuchCorner(usize),
-    /// A vertex is pinned twice, by itself or by corners of one chart.
-    #[error("vertex {0} is pinned twice: remove one of the pins")]
+    /// A vertex is pinned to two places, by itself or by corners of one chart.
+    #[error("vertex {0} is pinned to two places: remove one of the pins")]
     PinnedTwice(VertexId),
     /// The size of a chart that is not packed.
     #[error("chart {chart} has a size, but {why}, so it is not packed")]
@@ -178,7 +178,8 @@ impl RunRequest {
         };
         for &(corner, target) in &self.corner_pins {
             let vertex = vertex_at(corner).ok_or(RunError::Request(RequestFault::NoSuchCorner(corner)))?;
-            if targets.insert(vertex, target).is_some() {
+            // Several corners may name one place.
+            if targets.insert(vertex, target).is_some_and(|before| before != target) {
                 return Err(RunError::Request(RequestFault::PinnedTwice(model.vertex_in_file(vertex))));
             }
         }

@@ -140,6 +140,15 @@ fn a_pin_at_a_corner_holds_one_side_of_a_seam() {
     let at: Vec<_> = layout.corner_coordinates().collect();
     assert_eq!([at[0], at[1]], [Some(DVec2::new(0.25, 0.5)), Some(DVec2::new(0.5, 0.5))]);
     assert!(layout.is_planar() && !layout.cut_edges().is_empty());
+    // The same place again is no contradiction; another place is.
+    let doubled = |uv: DVec2| RunRequest {
+        seam_kinds: vec![SeamKind::Sharp(60.0)],
+        corner_pins: vec![(0, Target::hard(DVec2::new(0.25, 0.5))), (0, Target::hard(uv))],
+        ..RunRequest::unwrap()
+    };
+    doubled(DVec2::new(0.25, 0.5)).run(&model(cubes_of_quads().0)).expect("one place");
+    let refused = doubled(DVec2::new(0.5, 0.5)).run(&model(cubes_of_quads().0));
+    assert!(matches!(refused, Err(RunError::Request(RequestFault::PinnedTwice(_)))));
     let outside = RunRequest { corner_pins: vec![(99, Target::hard(DVec2::ZERO))], ..RunRequest::unwrap() };
     let refused = outside.run(&model(cubes_of_quads().0));
     assert!(matches!(refused, Err(RunError::Request(RequestFault::NoSuchCorner(99)))));
