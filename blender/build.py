@@ -10,13 +10,24 @@ import sys
 import tempfile
 from pathlib import Path
 
-#: Platforms of Blender by the ends of the names of wheels.
+#: Platforms of Blender by the system and the processor in the names of wheels.
 PLATFORMS = {
-    "x86_64.whl": "linux-x64",
-    "aarch64.whl": "linux-arm64",
-    "win_amd64.whl": "windows-x64",
-    "arm64.whl": "macos-arm64",
+    ("manylinux", "x86_64"): "linux-x64",
+    ("manylinux", "aarch64"): "linux-arm64",
+    ("win", "amd64"): "windows-x64",
+    ("win", "arm64"): "windows-arm64",
+    ("macosx", "arm64"): "macos-arm64",
+    ("macosx", "x86_64"): "macos-x64",
 }
+
+
+def platform_of(wheel):
+    """Platform of a wheel by its name."""
+    tag = Path(wheel).stem.rsplit("-", 1)[-1]
+    for (system, processor), platform in PLATFORMS.items():
+        if tag.startswith(system) and tag.endswith(processor):
+            return platform
+    raise SystemExit(f"{wheel}: Blender does not run on the platform {tag}")
 
 
 def command_of(tool):
@@ -31,10 +42,9 @@ def build(tool, output, wheels):
         staged = Path(folder) / "freebound_uv"
         shutil.copytree(source, staged, ignore=shutil.ignore_patterns("__pycache__"))
         (staged / "wheels").mkdir()
-        platforms = set()
+        platforms = {platform_of(wheel) for wheel in wheels}
         for wheel in wheels:
             shutil.copy(wheel, staged / "wheels")
-            platforms.update(platform for end, platform in PLATFORMS.items() if str(wheel).endswith(end))
         names = ", ".join(f'"./wheels/{Path(wheel).name}"' for wheel in wheels)
         kinds = ", ".join(f'"{platform}"' for platform in sorted(platforms))
         with open(staged / "blender_manifest.toml", "a") as manifest:
@@ -42,8 +52,11 @@ def build(tool, output, wheels):
         Path(output).mkdir(parents=True, exist_ok=True)
         run = command_of(tool)
         subprocess.run([*run, "validate", str(staged)], check=True)
-        subprocess.run([*run, "build", "--source-dir", str(staged), "--output-dir", str(output)], check=True)
-    [zip_file] = Path(output).glob("freebound_uv-*.zip")
+        built = Path(folder) / "built"
+        built.mkdir()
+        subprocess.run([*run, "build", "--source-dir", str(staged), "--output-dir", str(built)], check=True)
+        [zip_file] = built.glob("*.zip")
+        zip_file = Path(shutil.copy(zip_file, output))
     subprocess.run([*run, "validate", str(zip_file)], check=True)
     return zip_file
 

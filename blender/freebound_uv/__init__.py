@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Freebound in the UV editor: unwrap, relax, pack and check, with a proof."""
+"""Freebound in the UV editor: unwrap and check, with a proof."""
 
 import bpy
 

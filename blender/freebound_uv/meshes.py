@@ -12,11 +12,19 @@ class Nothing(Exception):
     """There is nothing to work on. The message tells what to do."""
 
 
+class Changed(Exception):
+    """A mesh has changed since its faces were gathered."""
+
+
 @dataclass
 class Part:
     """Selected faces of one object."""
 
     object: object
+    map_name: str
+    """UV map, or an empty text if there is none yet."""
+    size: tuple
+    """Numbers of vertices, edges, faces and corners of the mesh."""
     faces: np.ndarray
     """Numbers of the faces in the mesh of the object."""
     loops: np.ndarray
@@ -61,10 +69,10 @@ def object_mode(context):
     try:
         yield
     finally:
-        # Only selected objects enter edit mode together.
-        was_selected = {item: item.select_get() for item in edited}
-        for item in edited:
-            item.select_set(True)
+        # The selected objects enter edit mode together, and no others.
+        was_selected = {item: item.select_get() for item in context.view_layer.objects}
+        for item in was_selected:
+            item.select_set(item in edited)
         context.view_layer.objects.active = active
         bpy.ops.object.mode_set(mode="EDIT")
         for item, selected in was_selected.items():
@@ -106,16 +114,16 @@ def _gathered(objects, is_edited, group, needs_uv):
         if not len(faces):
             continue
         layer = mesh.uv_layers.active
-        if layer is None:
-            if needs_uv:
-                continue
-            layer = mesh.uv_layers.new()
+        if layer is None and needs_uv:
+            continue
+        matrix = np.array(item.matrix_world, dtype=np.float64)
+        if np.linalg.matrix_rank(matrix[:3, :3]) < 3:
+            raise Nothing(f"{item.name} is scaled to nothing: change its scale")
         starts = _numbers(mesh.polygons, "loop_start", np.int32)[faces]
         totals = _numbers(mesh.polygons, "loop_total", np.int32)[faces]
         firsts = np.cumsum(totals) - totals
         loops = np.arange(totals.sum()) + np.repeat(starts - firsts, totals)
         co = _numbers(mesh.vertices, "co", np.float32, 3).astype(np.float64)
-        matrix = np.array(item.matrix_world, dtype=np.float64)
         vertex = _numbers(mesh.loops, "vertex_index", np.int32)[loops].astype(np.int64)
         edges = _numbers(mesh.edges, "vertices", np.int32, 2).astype(np.int64)
         marked = _numbers(mesh.edges, "use_seam", bool) if len(mesh.edges) else np.zeros(0, dtype=bool)
@@ -123,10 +131,14 @@ def _gathered(objects, is_edited, group, needs_uv):
         corners.append(vertex + count)
         sizes.append(totals)
         seams.append(edges[marked] + count)
-        uvs.append(_numbers(layer.uv, "vector", np.float32, 2)[loops].astype(np.float64))
-        pins.append(_pins(layer, len(mesh.loops))[loops])
+        if layer is None:
+            uvs.append(np.zeros((len(loops), 2)))
+            pins.append(np.zeros(len(loops), dtype=bool))
+        else:
+            uvs.append(_numbers(layer.uv, "vector", np.float32, 2)[loops].astype(np.float64))
+            pins.append(_pins(layer, len(mesh.loops))[loops])
         weights.append(_weights(item, group)[vertex])
-        selection.parts.append(Part(item, faces, loops, edges, count))
+        selection.parts.append(Part(item, layer.name if layer else "", _size(mesh), faces, loops, edges, count))
         count += len(co)
     if not selection.parts:
         raise Nothing("select faces that have a UV map" if needs_uv else "select faces of a mesh first")
@@ -138,6 +150,10 @@ def _gathered(objects, is_edited, group, needs_uv):
     selection.pinned = np.concatenate(pins)
     selection.weights = np.concatenate(weights)
     return selection
+
+
+def _size(mesh):
+    return len(mesh.vertices), len(mesh.edges), len(mesh.polygons), len(mesh.loops)
 
 
 def _pins(layer, count):
@@ -160,25 +176,22 @@ def _weights(item, group):
 
 
 def corner_pins(selection):
-    """Pins for the package: one for each vertex and place. Pins of vertices in the group are soft."""
+    """Pins for the package, one for each pinned corner. Pins of vertices in the group are soft."""
     at = np.flatnonzero(selection.pinned)
-    if not len(at):
-        return None
-    rows = np.column_stack([selection.corners[at], selection.uv[at]])
-    _, first = np.unique(rows, axis=0, return_index=True)
-    at = at[np.sort(first)]
-    return at, selection.uv[at], selection.weights[at]
+    return (at, selection.uv[at], selection.weights[at]) if len(at) else None
 
 
 def write(context, selection, corner_uv, cut_edges=None):
     """Puts coordinates into the active UV maps, and marks seams. Returns the number of newly marked edges."""
     marked, begin = 0, 0
     with object_mode(context):
+        if not all(_is_unchanged(part) for part in selection.parts):
+            raise Changed("the meshes have changed while they were unwrapped: try again")
         for part in selection.parts:
             mesh = part.object.data
             end = begin + len(part.loops)
             own = corner_uv[begin:end]
-            layer = mesh.uv_layers.active
+            layer = mesh.uv_layers.get(part.map_name) if part.map_name else mesh.uv_layers.new()
             values = _numbers(layer.uv, "vector", np.float32, 2)
             is_known = np.isfinite(own).all(axis=1)
             values[part.loops[is_known]] = own[is_known].astype(np.float32)
@@ -188,6 +201,14 @@ def write(context, selection, corner_uv, cut_edges=None):
             mesh.update()
             begin = end
     return marked
+
+
+def _is_unchanged(part):
+    try:
+        mesh = part.object.data
+    except ReferenceError:
+        return False
+    return _size(mesh) == part.size and (not part.map_name or part.map_name in mesh.uv_layers)
 
 
 def _mark(mesh, part, cut_edges):

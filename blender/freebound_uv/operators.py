@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Operators of the UV editor."""
 
+import math
+
 import bpy
 import freebound
 import numpy as np
@@ -18,12 +20,19 @@ def _picture(context):
     return tuple(image.size) if image is not None and min(image.size) > 0 else None
 
 
+#: Longer side of the picture for which charts are packed if an aspect ratio is given, pixels.
+_SIDE = 1024
+
+
 def _packing(context, margin):
     """Options of packing for the picture in the editor."""
     size = _picture(context)
     if size is None:
-        return {"pack": freebound.Pack(size=1024, gap=margin)}
-    return {"pack": freebound.Pack(size=size, gap=margin)}
+        return {"pack": freebound.Pack(size=_SIDE, gap=margin)}
+    if size[0] == size[1]:
+        return {"pack": freebound.Pack(size=size, gap=margin)}
+    # The coordinates are stretched with the picture, whose size is given by its aspect.
+    return {"aspect": size[0] / size[1], "pack": freebound.Pack(gap=math.ceil(margin * _SIDE / max(size)))}
 
 
 def tell(context, text):
@@ -36,8 +45,14 @@ class _Run:
 
     bl_options = {"REGISTER", "UNDO"}
 
+    #: Job that runs for a person. There is one at a time.
+    running = None
+
     @classmethod
     def poll(cls, context):
+        if _Run.running is not None:
+            cls.poll_message_set("A run of Freebound is under way")
+            return False
         if meshes.objects_of(context):
             return True
         cls.poll_message_set("Edit a mesh first")
@@ -47,8 +62,12 @@ class _Run:
         """Starts the run. Returns the job."""
         raise NotImplementedError
 
-    def _end(self, context, layout):
-        """Puts the layout into the meshes. Returns a sentence on it."""
+    def _words(self, layout):
+        """Sentence on a layout."""
+        raise NotImplementedError
+
+    def _put(self, context, layout):
+        """Puts the layout into the meshes. Returns a sentence on what was done beside it."""
         raise NotImplementedError
 
     def _start(self, context):
@@ -59,24 +78,30 @@ class _Run:
             return None
 
     def _finish(self, context, job):
+        warning = ""
         try:
             layout = job.result()
         except freebound.NotProved as error:
             layout = error.layout
-            if layout is None or not layout.verdict.planar:
+            if layout is None or not layout.verdict.planar_in_f32:
                 tell(context, _sentence(error))
                 self.report({"ERROR"}, _sentence(error))
                 return {"CANCELLED"}
-            self.report({"WARNING"}, _sentence(error))
+            warning = _sentence(error)
         except freebound.Cancelled:
             self.report({"INFO"}, "Cancelled")
             return {"CANCELLED"}
         except (freebound.Error, RuntimeError) as error:
             self.report({"ERROR"}, _sentence(error))
             return {"CANCELLED"}
-        text = self._end(context, layout)
-        tell(context, text)
-        self.report({"INFO"}, text)
+        try:
+            text = self._words(layout)
+            text += self._put(context, layout)
+        except meshes.Changed as error:
+            self.report({"ERROR"}, _sentence(error))
+            return {"CANCELLED"}
+        tell(context, f"{text}. {warning}" if warning else text)
+        self.report({"WARNING"} if warning else {"INFO"}, f"{text}. {warning}" if warning else text)
         return {"FINISHED"}
 
     def execute(self, context):
@@ -86,26 +111,38 @@ class _Run:
     def invoke(self, context, event):
         if bpy.app.background or context.window is None:
             return self.execute(context)
-        self._job = self._start(context)
+        self._job = _Run.running = self._start(context)
         if self._job is None:
             return {"CANCELLED"}
+        self._workspace = context.workspace
         self._timer = context.window_manager.event_timer_add(_TICK, window=context.window)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        if event.type == "ESC":
-            self._job.cancel()
-        if event.type != "TIMER" and event.type != "ESC":
-            return {"PASS_THROUGH"} if not self._job.done else {"RUNNING_MODAL"}
-        if not self._job.wait(0) and event.type != "ESC":
+        if event.type == "TIMER":
+            if self._job.wait(0):
+                self._leave(context)
+                return self._finish(context, self._job)
             state = self._job.progress
             words = state["stage"] or "working"
-            context.workspace.status_text_set(f"Freebound: {words}, {state['seconds']:.1f} s. Esc cancels")
-            return {"RUNNING_MODAL"}
-        context.workspace.status_text_set(None)
+            self._workspace.status_text_set(f"Freebound: {words}, {state['seconds']:.1f} s. Esc cancels")
+            # Other timers have handlers of their own.
+            return {"PASS_THROUGH"}
+        if event.type == "ESC" and event.value == "PRESS":
+            self._job.cancel()
+        # The meshes must stay as they are until the layout is put into them.
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context):
+        """Blender ends the operator, for example because another file is opened."""
+        self._job.cancel()
+        self._leave(context)
+
+    def _leave(self, context):
+        _Run.running = None
+        self._workspace.status_text_set(None)
         context.window_manager.event_timer_remove(self._timer)
-        return self._finish(context, self._job)
 
 
 def _sentence(error):
@@ -169,73 +206,14 @@ class FREEBOUND_OT_unwrap(_Run, bpy.types.Operator):
         selection = self._selection
         return freebound.start(selection.vertices, selection.faces(), unwrap=True, **options)
 
-    def _end(self, context, layout):
+    def _words(self, layout):
+        charts = layout.chart.max() + 1
+        return f"{charts} chart{'s' if charts != 1 else ''}, no overlaps: proved; energy {layout.energy:.3f}"
+
+    def _put(self, context, layout):
         seams = layout.cut_edges if self.adds_seams and self.marks_seams else None
         marked = meshes.write(context, self._selection, layout.corner_uv, seams)
-        added = f", {marked} seams marked" if marked else ""
-        charts = layout.chart.max() + 1
-        return f"{charts} chart{'s' if charts != 1 else ''}, no overlaps: proved; energy {layout.energy:.3f}{added}"
-
-
-class FREEBOUND_OT_relax(_Run, bpy.types.Operator):
-    """Lower the distortion of the selected charts. Pinned coordinates stay, and charts stay in place"""
-
-    bl_idname = "uv.freebound_relax"
-    bl_label = "Freebound Relax"
-
-    rounds: IntProperty(name="Rounds", description="Rounds of relaxing", default=20, min=1, max=500)
-    soft_pins: StringProperty(name="Soft Pins", description="Vertex group whose pinned vertices may move", default="")
-
-    def _begin(self, context):
-        selection = self._selection = meshes.gather(context, self.soft_pins, needs_uv=True)
-        return freebound.start(
-            selection.vertices,
-            selection.faces(),
-            layout=selection.uv,
-            charts="uv",
-            repair="all",
-            corner_pins=meshes.corner_pins(selection),
-            new_vertices=False,
-            relax=self.rounds,
-            precision="f32",
-        )
-
-    def _end(self, context, layout):
-        meshes.write(context, self._selection, layout.corner_uv)
-        return f"relaxed, no overlaps: proved; energy {layout.energy:.3f}"
-
-
-class FREEBOUND_OT_pack(_Run, bpy.types.Operator):
-    """Pack the selected charts by their shapes into the unit square, at one density"""
-
-    bl_idname = "uv.freebound_pack"
-    bl_label = "Freebound Pack"
-
-    margin: IntProperty(name="Margin", description="Least distance of charts, pixels", default=4, min=0, max=1024)
-    rotates: BoolProperty(name="Rotate", description="Charts may be rotated", default=True)
-
-    def _begin(self, context):
-        selection = self._selection = meshes.gather(context, needs_uv=True)
-        pack = _packing(context, self.margin)["pack"]
-        rotations = "free" if self.rotates else "none"
-        return freebound.start(
-            selection.vertices,
-            selection.faces(),
-            layout=selection.uv,
-            charts="uv",
-            repair="all",
-            new_vertices=False,
-            relax=0,
-            precision="f32",
-            pack=freebound.Pack(size=pack.size, gap=pack.gap, rotations=rotations),
-        )
-
-    def _end(self, context, layout):
-        meshes.write(context, self._selection, layout.corner_uv)
-        packing = layout.report.get("packing") or {}
-        covered = packing.get("coverage")
-        covered = f", {100 * covered:.0f} % covered" if covered is not None else ""
-        return f"packed, no overlaps: proved{covered}"
+        return f"; {marked} seams marked" if marked else ""
 
 
 class FREEBOUND_OT_check(bpy.types.Operator):
@@ -256,20 +234,31 @@ class FREEBOUND_OT_check(bpy.types.Operator):
         except (meshes.Nothing, freebound.Error) as error:
             self.report({"ERROR"}, _sentence(error))
             return {"CANCELLED"}
-        faces = set()
+        faces, codes = set(), set()
         for finding in found["findings"]:
-            if finding["severity"] != "note":
-                faces.update(_faces_of(finding))
+            if finding["severity"] != "note" or finding["code"] in _SELECTED_NOTES:
+                own = _faces_of(finding)
+                faces.update(own)
+                if own:
+                    codes.add(finding["code"])
+        bare = np.isnan(selection.uv).any(axis=1)
+        if bare.any():
+            faces.update((np.searchsorted(selection.starts, np.flatnonzero(bare), side="right") - 1).tolist())
+            codes.add("not-a-number")
         if faces:
             meshes.select(context, selection, faces)
-        errors = [finding["code"] for finding in found["findings"] if finding["severity"] == "error"]
-        if found["planar"]:
-            text = f"{found['charts']} charts, no overlaps: proved"
-        else:
-            text = f"Not one-to-one: {', '.join(sorted(set(errors)))}; {len(faces)} faces selected"
+        is_fine = found["planar"] and not bare.any()
+        charts = found["charts"]
+        text = f"{charts} chart{'s' if charts != 1 else ''}, no overlaps: proved" if is_fine else "Not one-to-one"
+        if codes:
+            text += f"; {len(faces)} faces selected: {', '.join(sorted(codes))}"
         tell(context, text)
-        self.report({"INFO"} if found["planar"] else {"WARNING"}, text)
+        self.report({"INFO"} if is_fine else {"WARNING"}, text)
         return {"FINISHED"}
+
+
+#: Findings whose faces are selected although they harm no proof.
+_SELECTED_NOTES = {"mirrored"}
 
 
 def _faces_of(finding):
@@ -289,4 +278,4 @@ def remove_properties():
     del bpy.types.WindowManager.freebound_verdict
 
 
-CLASSES = (FREEBOUND_OT_unwrap, FREEBOUND_OT_relax, FREEBOUND_OT_pack, FREEBOUND_OT_check)
+CLASSES = (FREEBOUND_OT_unwrap, FREEBOUND_OT_check)

@@ -161,10 +161,6 @@ def test_every_mesh_is_unwrapped_without_flips_and_overlaps(name):
     assert uv.min() >= 0 and uv.max() <= 1
     assert before == (len(item.data.vertices), len(item.data.polygons)), "the topology stays"
     edit(item)
-    for operator in (bpy.ops.uv.freebound_relax, bpy.ops.uv.freebound_pack):
-        assert operator() == {"FINISHED"}
-        assert (flips(item), overlaps(item)) == (0, 0)
-        edit(item)
     assert bpy.ops.uv.freebound_check() == {"FINISHED"}
     assert "proved" in bpy.context.window_manager.freebound_verdict
 
@@ -193,10 +189,40 @@ def test_pins_are_kept_to_the_last_bit():
             expected = np.array(places[loop.vertex_index], dtype=np.float32)
             assert (uv[loop.index] == expected).all()
     assert (flips(item), overlaps(item)) == (0, 0)
+
+
+def test_a_pinned_vertex_on_a_seam_is_kept_in_each_of_its_charts():
+    item = mesh_of(*wavy())
+    in_object_mode()
+    for edge in item.data.edges:
+        x = [item.data.vertices[vertex].co.x for vertex in edge.vertices]
+        edge.use_seam = all(abs(place - 0.5) < 1e-6 for place in x)
+    mesh = item.data
+    layer = mesh.uv_layers.new()
+    layer.pin_ensure()
+    expected = {}
+    for face in mesh.polygons:
+        side = 0.4 if face.center.x < 0.5 else 0.6
+        for loop in face.loop_indices:
+            at = mesh.vertices[mesh.loops[loop].vertex_index].co
+            if abs(at.x - 0.5) < 1e-6 and at.y in (0, 1):
+                expected[loop] = np.array((side, 0.1 + 0.8 * at.y), dtype=np.float32)
+                layer.uv[loop].vector = expected[loop]
+                layer.pin[loop].value = True
+    assert len(expected) == 4
     edit(item)
-    assert bpy.ops.uv.freebound_relax(rounds=5) == {"FINISHED"}
-    again = uv_of(item)
-    assert all((again[loop.index] == uv[loop.index]).all() for loop in item.data.loops if loop.vertex_index in places)
+    assert bpy.ops.uv.freebound_unwrap(adds_seams=False) == {"FINISHED"}
+    uv = uv_of(item)
+    assert all((uv[loop] == place).all() for loop, place in expected.items())
+    assert (flips(item), overlaps(item)) == (0, 0)
+    # Charts that their pins lay upon each other are refused by name, and nothing changes.
+    for loop in expected:
+        mesh.uv_layers.active.uv[loop].vector.x = 0.5
+    before = uv_of(item)
+    edit(item)
+    with pytest.raises(RuntimeError, match="overlap"):
+        bpy.ops.uv.freebound_unwrap(adds_seams=False)
+    assert (uv_of(item) == before).all()
 
 
 def test_a_group_makes_pins_soft():
@@ -267,6 +293,7 @@ def test_the_active_of_two_maps_is_written_and_linked_data_once():
     other = mesh.uv_layers.active or mesh.uv_layers.new(name="first")
     other.uv.foreach_set("vector", np.full(2 * len(other.uv), 0.5, dtype=np.float32))
     mesh.uv_layers.active = mesh.uv_layers.new(name="second")
+    assert (uv_of(item) == 0.5).all(), "a new map is a copy"
     twin = bpy.data.objects.new("twin", mesh)
     bpy.context.scene.collection.objects.link(twin)
     edit(item, twin)
@@ -275,6 +302,7 @@ def test_the_active_of_two_maps_is_written_and_linked_data_once():
     values = np.empty(2 * len(mesh.loops), dtype=np.float32)
     mesh.uv_layers[0].uv.foreach_get("vector", values)
     assert (values == 0.5).all()
+    assert uv_of(item).std() > 0.1
     assert flips(item) == 0 and overlaps(item) == 0
 
 
@@ -294,6 +322,118 @@ def test_a_check_selects_what_is_wrong():
     in_object_mode()
     chosen = [face.index for face in item.data.polygons if face.select]
     assert 0 < len(chosen) < len(item.data.polygons)
+
+
+def test_a_check_selects_mirrored_charts_and_corners_without_numbers():
+    item = primitive("grid", x_subdivisions=3, y_subdivisions=3)
+    edit(item)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    uv = uv_of(item)
+    uv[:, 0] = 1 - uv[:, 0]
+    item.data.uv_layers.active.uv.foreach_set("vector", uv.ravel())
+    edit(item)
+    assert bpy.ops.uv.freebound_check() == {"FINISHED"}
+    assert "mirrored" in bpy.context.window_manager.freebound_verdict
+    in_object_mode()
+    item.data.uv_layers.active.uv[0].vector.x = float("nan")
+    edit(item)
+    assert bpy.ops.uv.freebound_check() == {"FINISHED"}
+    assert bpy.context.window_manager.freebound_verdict.startswith("Not one-to-one")
+
+
+def test_objects_that_are_not_edited_stay_out_of_edit_mode():
+    first, second = primitive("cube"), primitive_in_object_mode("cone")
+    edit(first)
+    second.select_set(True)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    assert list(bpy.context.objects_in_mode) == [first] and second.select_get()
+
+
+def test_a_run_that_fails_changes_nothing():
+    item = mesh_of([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)])
+    item.scale = (1, 1, 0)
+    bpy.context.view_layer.update()
+    edit(item)
+    with pytest.raises(RuntimeError, match="scale"):
+        bpy.ops.uv.freebound_unwrap()
+    in_object_mode()
+    assert not item.data.uv_layers
+
+
+def test_a_mesh_that_changed_during_a_run_is_left_alone():
+    from freebound_uv import meshes
+
+    item = primitive("cube")
+    edit(item)
+    selection = meshes.gather(bpy.context)
+    bpy.ops.mesh.subdivide()
+    with pytest.raises(meshes.Changed):
+        meshes.write(bpy.context, selection, selection.uv)
+    assert bpy.context.mode == "EDIT_MESH"
+
+
+class Fake:
+    """Parts of a context that a modal operator uses, and what was told to them."""
+
+    def __init__(self):
+        self.window = self
+        self.workspace = self
+        self.window_manager = bpy.context.window_manager
+        self.said = []
+
+    def status_text_set(self, text):
+        self.said.append(text)
+
+
+def test_a_modal_run_tells_its_progress_and_ends_by_escape():
+    from types import SimpleNamespace
+
+    import freebound
+    from freebound_uv import operators
+
+    class Timers:
+        removed = 0
+
+        def event_timer_remove(self, timer):
+            Timers.removed += 1
+
+    x, y = np.meshgrid(np.arange(400) / 40, np.arange(400) / 40)
+    vertices = np.column_stack([x.ravel(), y.ravel(), np.sin(x.ravel()) * np.cos(y.ravel())])
+    first = (np.arange(399)[:, None] * 400 + np.arange(399)).ravel()
+    faces = np.column_stack([first, first + 1, first + 401, first + 400])
+    reports = []
+    run = operators._Run()
+    run.report = lambda kind, text: reports.append(text)
+    run._workspace, run._timer = Fake(), object()
+    run._job = operators._Run.running = freebound.start(vertices, faces, unwrap=True, distortion=4.0001)
+    context = SimpleNamespace(window_manager=Timers())
+    assert run.modal(context, SimpleNamespace(type="TIMER", value="NOTHING")) == {"PASS_THROUGH"}
+    assert "Esc cancels" in run._workspace.said[-1]
+    assert run.modal(context, SimpleNamespace(type="LEFTMOUSE", value="PRESS")) == {"RUNNING_MODAL"}
+    assert run.modal(context, SimpleNamespace(type="ESC", value="RELEASE")) == {"RUNNING_MODAL"}
+    assert not run._job.done
+    assert run.modal(context, SimpleNamespace(type="ESC", value="PRESS")) == {"RUNNING_MODAL"}
+    while not run._job.wait(0.05):
+        assert run.modal(context, SimpleNamespace(type="TIMER", value="NOTHING")) == {"PASS_THROUGH"}
+    assert run.modal(context, SimpleNamespace(type="TIMER", value="NOTHING")) == {"CANCELLED"}
+    assert reports == ["Cancelled"] and run._workspace.said[-1] is None
+    assert Timers.removed == 1 and operators._Run.running is None
+
+
+def test_a_picture_that_is_not_square_keeps_the_shapes_of_faces():
+    from types import SimpleNamespace
+
+    from freebound_uv import operators
+
+    context = SimpleNamespace(space_data=SimpleNamespace(image=SimpleNamespace(size=(2048, 1024))))
+    import freebound
+
+    vertices, quads = wavy()
+    vertices[:, 2] = 0
+    layout = freebound.unwrap(vertices, quads, precision="f32", **operators._packing(context, 4))
+    side = np.diff(layout.corner_uv.reshape(-1, 4, 2)[:, :3], axis=1) * (2048, 1024)
+    lengths = np.linalg.norm(side, axis=2)
+    assert np.allclose(lengths[:, 0] / lengths[:, 1], (1 / 14) / (1 / 11), rtol=1e-3)
 
 
 def test_without_faces_the_message_tells_what_to_do():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from dataclasses import dataclass
 from functools import cached_property
@@ -155,8 +156,13 @@ class Layout:
 
     @property
     def energy(self) -> float:
-        """Mean symmetric Dirichlet energy of all triangles by their areas in space; 4 is an isometric map."""
+        """Mean symmetric Dirichlet energy of all triangles by their areas in space; 4 is an isometric map.
+
+        NaN for a mesh without area.
+        """
         used = self.triangle_area > 0
+        if not used.any():
+            return math.nan
         return float(np.average(self.triangle_energy[used], weights=self.triangle_area[used]))
 
     def save(self, path: str | os.PathLike[str], *, precision: str | None = None) -> list[str]:
