@@ -14,6 +14,9 @@ from pathlib import Path
 PLATFORMS = {
     ("manylinux", "x86_64"): "linux-x64",
     ("manylinux", "aarch64"): "linux-arm64",
+    # Built for this machine alone.
+    ("linux", "x86_64"): "linux-x64",
+    ("linux", "aarch64"): "linux-arm64",
     ("win", "amd64"): "windows-x64",
     ("win", "arm64"): "windows-arm64",
     ("macosx", "arm64"): "macos-arm64",
