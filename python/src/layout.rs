@@ -35,7 +35,7 @@ impl Layout {
         if !self.inner.is_planar() {
             return format!("the layout is not proved planar: {}", self.inner.summary());
         }
-        match &self.inner.unmet_pins()[..] {
+        match &self.inner.report.unmet_pins()[..] {
             [] => "the charts do not have the density that was asked for".to_owned(),
             pins => {
                 let vertices: Vec<String> = pins.iter().map(ToString::to_string).collect();
@@ -155,7 +155,7 @@ impl Layout {
 
     #[getter]
     fn unmet_pins(&self) -> Vec<u32> {
-        self.inner.unmet_pins().iter().map(|vertex| vertex.number()).collect()
+        self.inner.report.unmet_pins().iter().map(|vertex| vertex.number()).collect()
     }
 
     #[getter]

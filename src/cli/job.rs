@@ -155,10 +155,8 @@ impl HeadlessJob<'_> {
         } else {
             deliver(report, self.report, words)?;
         }
-        let of_charts = report.charts.iter().map(|chart| &chart.pins);
-        let are_met = report.pins.iter().chain(of_charts).all(|pins| pins.unmet.is_empty());
-        let has_density = report.packing.is_none_or(|packing| packing.unmet_density().is_none());
-        Ok(if output.is_planar() && are_met && has_density { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
+        let is_fine = output.is_planar() && report.meets_request();
+        Ok(if is_fine { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
     }
 }
 

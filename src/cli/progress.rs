@@ -124,9 +124,7 @@ pub(super) struct ProgressLine {
 struct Words {
     /// Last result: the newest step.
     done: String,
-    /// Current activity.
-    doing: &'static str,
-    /// Numbers of the last result.
+    /// Current activity, and numbers of the last result.
     numbers: ProgressNumbers,
 }
 
@@ -134,7 +132,6 @@ impl ProgressLine {
     /// Sets the current activity.
     pub(super) fn enter(&self, words: &'static str) {
         if let Ok(mut line) = self.words.lock() {
-            line.doing = words;
             line.numbers.activity = words;
         }
     }
@@ -168,7 +165,10 @@ impl ProgressLine {
     fn line(&self) -> String {
         self.words.lock().map_or_else(
             |_| "working".to_owned(),
-            |line| if line.done.is_empty() { line.doing.to_owned() } else { format!("{}; {}", line.done, line.doing) },
+            |line| {
+                let Words { done, numbers } = &*line;
+                if done.is_empty() { numbers.activity.to_owned() } else { format!("{done}; {}", numbers.activity) }
+            },
         )
     }
 

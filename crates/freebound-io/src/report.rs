@@ -109,6 +109,17 @@ impl Report {
             ..Self::default()
         }
     }
+
+    /// Vertices with hard pins that are not at their targets, of all charts.
+    pub fn unmet_pins(&self) -> Vec<VertexId> {
+        let of_charts = self.charts.iter().map(|chart| &chart.pins);
+        self.pins.iter().chain(of_charts).flat_map(|pins| pins.unmet.iter().copied()).collect()
+    }
+
+    /// True if all hard pins are at their targets, and charts have the density that was asked for.
+    pub fn meets_request(&self) -> bool {
+        self.unmet_pins().is_empty() && self.packing.is_none_or(|packing| packing.unmet_density().is_none())
+    }
 }
 
 /// Automatic seams of a mesh.

@@ -118,17 +118,7 @@ impl MeshLayout {
     /// True if the coordinates are proved one-to-one, all hard pins are met, and charts have the density that was asked
     /// for.
     pub fn is_fine(&self) -> bool {
-        self.planar && self.unmet_pins().is_empty() && !self.misses_density()
-    }
-
-    /// Vertices with hard pins that are not at their targets.
-    pub fn unmet_pins(&self) -> Vec<VertexId> {
-        let of_charts = self.report.charts.iter().map(|chart| &chart.pins);
-        self.report.pins.iter().chain(of_charts).flat_map(|pins| pins.unmet.iter().copied()).collect()
-    }
-
-    fn misses_density(&self) -> bool {
-        self.report.packing.is_some_and(|packing| packing.unmet_density().is_some())
+        self.planar && self.report.meets_request()
     }
 
     /// The mesh in its preparation.
@@ -218,8 +208,8 @@ struct LaidTriangle {
     distortion: FaceDistortion,
 }
 
-/// Triangles of all charts, in the order of the faces of `mesh`. `face_of` is the face of the input for each face of
-/// `mesh`, if they differ.
+/// Triangles of all charts, one chart after the other. `face_of` is the face of the input for each face of the written
+/// mesh, if they differ.
 fn triangles_of(output: &Output<'_>, face_of: Option<&[u32]>, input_faces: usize) -> Vec<LaidTriangle> {
     // First written face of each face of the input.
     let mut first: Vec<u32> = vec![0; input_faces + 1];
@@ -249,7 +239,6 @@ fn triangles_of(output: &Output<'_>, face_of: Option<&[u32]>, input_faces: usize
             }));
         }
     }
-    laid.sort_by_key(|triangle| triangle.face);
     laid
 }
 

@@ -184,7 +184,7 @@ fn a_layout_that_misses_a_pin_is_returned_and_says_so() {
     let mut request = swirl(&sheet());
     request.run.options.settings = Settings { new_vertices: false, ..Settings::default() };
     let layout = request.run(&model(sheet())).expect("a planar map");
-    assert!(layout.is_planar() && !layout.is_fine() && !layout.unmet_pins().is_empty());
+    assert!(layout.is_planar() && !layout.is_fine() && !layout.report.unmet_pins().is_empty());
 }
 
 #[test]
