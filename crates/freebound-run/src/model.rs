@@ -147,7 +147,13 @@ impl Model {
     #[must_use = "the mesh itself stays as it is"]
     pub fn cut_along(&self, seams: AutomaticSeams) -> Self {
         let form = seams.form.clone();
-        self.knowing(Arc::new(seams)).in_form(form)
+        let uncut = |form: &Preparation| Preparation { seams: form.seams.without_automatic(), ..form.clone() };
+        // A plain disk that needs no seam is prepared already.
+        let is_prepared = self.prepared.is_plain_disk()
+            && [&self.prepared.form, &form].iter().all(|form| form.seams.automatic().is_empty())
+            && uncut(&self.prepared.form) == uncut(&form);
+        let model = self.knowing(Arc::new(seams));
+        if is_prepared { model.asking_for(form) } else { model.in_form(form) }
     }
 
     /// Model that knows automatic seams. It is not cut along them.
@@ -211,6 +217,12 @@ impl Model {
         report: SeamReport<'_>,
     ) -> Result<AutomaticSeams, SolveError> {
         let source = self.source_in(form);
+        if *form == self.prepared.form {
+            let uncut = AutomaticSeams::of_uncut(&self.prepared, &source.polygons, options, control)?;
+            if let Some(seams) = uncut {
+                return Ok(seams);
+            }
+        }
         let labels = labels_for(&source, form);
         let to_cut = MeshToCut { mesh: &source.polygons, labels: labels.as_deref(), form };
         AutomaticSeams::find(to_cut, options, control, report)

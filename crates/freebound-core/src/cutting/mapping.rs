@@ -36,6 +36,10 @@ pub(super) const LARGE: usize = 30_000;
 /// over and over have 10⁵ to 10¹⁴.
 const HOPELESS: f64 = 1e5;
 
+/// Energy of the first map above that of an isometric map, relative to the allowed one, above which relaxing hardly meets
+/// the bound. Relaxing leaves some 0.3 of it.
+const TOO_FAR: f64 = 4.0;
+
 /// Energy after one round of relaxing above which a one-to-one map is given up.
 const STILL_HOPELESS: f64 = 1e3;
 
@@ -111,6 +115,18 @@ impl<'a> Mapping<'a> {
         let opened = self.surface.opened(&is_seam)?;
         let maps = opened.mapped(|chart| self.run(chart, None).finished())?;
         Ok(joined(is_seam, &opened, maps))
+    }
+
+    /// Map without seams, if it meets the bound. `None` if it does not, or if the surface is no disk.
+    pub(super) fn uncut(self) -> Result<Option<Mapped>, SolveError> {
+        let is_seam = vec![false; self.surface.edges.len()];
+        if !self.surface.is_disk() {
+            return Ok(None);
+        }
+        let Ok(opened) = self.surface.opened(&is_seam) else { return Ok(None) };
+        let [chart] = &opened.charts[..] else { return Ok(None) };
+        let map = self.run(chart, None).finished_within(self.options.bound)?;
+        Ok(map.map(|map| joined(is_seam, &opened, vec![map])))
     }
 
     /// Map along the seams of a cut. If a one-to-one map would take very many steps, a local map is found instead, and
@@ -258,12 +274,7 @@ impl<'a> Mapping<'a> {
     where
         'a: 'b,
     {
-        let settings = Settings { relax_rounds: Some(self.options.rounds), ..Settings::default() };
-        let options =
-            Options { settings, layout_is_free: start.is_some(), layout: start.map(Arc::new), ..Options::default() };
-        let enough = SeamOptions::ISOMETRIC + ENOUGH * (self.options.bound - SeamOptions::ISOMETRIC);
-        let enough = (disk.face_count() > LARGE).then_some(enough);
-        Run { disk, polygons, flattener: Flattener::with_options(options), enough, control: self.control }
+        Run::new([disk, polygons], start, self.options, self.control)
     }
 
     /// Map without folds that may overlap itself. `None` if folds remain.
@@ -292,7 +303,49 @@ struct Run<'a> {
     control: Control<'a>,
 }
 
-impl Run<'_> {
+/// Map of a disk without seams, if it meets the bound.
+///
+/// # Errors
+///
+/// [`SolveError::Cancelled`].
+pub(crate) fn uncut_map(
+    polygons: &DiskMesh,
+    options: SeamOptions,
+    control: Control<'_>,
+) -> Result<Option<Embedding>, SolveError> {
+    let disk = polygons.without_polygons();
+    let map = Run::new([&disk, polygons], None, options, control).finished_within(options.bound)?;
+    Ok(map.map(|map| map.embedding))
+}
+
+impl<'a> Run<'a> {
+    /// Run of a disk, given without and with its polygons, from a start or from scratch.
+    fn new(
+        [disk, polygons]: [&'a DiskMesh; 2],
+        start: Option<Embedding>,
+        options: SeamOptions,
+        control: Control<'a>,
+    ) -> Self {
+        let settings = Settings { relax_rounds: Some(options.rounds), ..Settings::default() };
+        let enough = SeamOptions::ISOMETRIC + ENOUGH * (options.bound - SeamOptions::ISOMETRIC);
+        let enough = (disk.face_count() > LARGE).then_some(enough);
+        let options =
+            Options { settings, layout_is_free: start.is_some(), layout: start.map(Arc::new), ..Options::default() };
+        Self { disk, polygons, flattener: Flattener::with_options(options), enough, control }
+    }
+
+    /// Takes all steps. `None` if the map misses a bound on its energy, or if its first step is far above it.
+    fn finished_within(self, bound: f64) -> Result<Option<ChartMap>, SolveError> {
+        let too_far = SeamOptions::ISOMETRIC + TOO_FAR * (bound - SeamOptions::ISOMETRIC);
+        let disk = self.disk;
+        let is_too_far =
+            |step: &Step| !step.verdict.planar || mean_energy(disk, &step.candidate.solution.embedding) > too_far;
+        match self.finished_unless(|step| Ok(step.index == 0 && is_too_far(step))) {
+            Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
+            map => Ok(map.ok().flatten().filter(|map| map.energy <= bound)),
+        }
+    }
+
     /// Takes all steps.
     fn finished(self) -> Result<ChartMap, SolveError> {
         Ok(self.finished_unless(|_| Ok(false))?.expect("the run was not given up"))
@@ -333,8 +386,11 @@ impl Run<'_> {
     }
 
     fn is_over(&self, step: &Step) -> bool {
-        let energy = step.candidate.progress.map_or(f64::INFINITY, |progress| progress.energy);
-        let is_enough = self.enough.is_some_and(|enough| step.verdict.planar && energy <= enough);
+        let energy = || match step.candidate.progress {
+            Some(progress) => progress.energy,
+            None => mean_energy(self.disk, &step.candidate.solution.embedding),
+        };
+        let is_enough = self.enough.is_some_and(|enough| step.verdict.planar && energy() <= enough);
         is_enough || self.flattener.ending().is_some()
     }
 }

@@ -22,6 +22,7 @@ mod search;
 mod surface;
 mod visibility;
 
+pub(crate) use mapping::uncut_map;
 pub use search::SeamOptions;
 pub(crate) use search::{BestCut, PartCut, PartToCut};
 pub(crate) use surface::EdgeCosts;

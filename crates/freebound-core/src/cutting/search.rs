@@ -284,6 +284,17 @@ impl PartToCut<'_> {
         search.run(report)
     }
 
+    /// Maps the part without a cut, if it is a disk whose map meets the bound. No cut is cheaper.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    pub(crate) fn uncut(&self) -> Result<Option<PartCut>, SolveError> {
+        let surface = CutSurface::new(self.part, self.costs);
+        let mapping = Mapping { surface: &surface, options: self.options, control: self.control };
+        Ok(mapping.uncut()?.map(|map| PartCut::new(&surface, map)))
+    }
+
     /// Maps the part along given seams.
     ///
     /// # Errors

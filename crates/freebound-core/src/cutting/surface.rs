@@ -30,14 +30,15 @@ pub(crate) struct EdgeCosts {
 }
 
 impl EdgeCosts {
-    /// Costs that were stated, times factors of the surface's shape if there are any, for each edge.
-    pub(crate) fn new(stated: Vec<f64>, shape: Option<Vec<f64>>) -> Self {
+    /// Costs that were stated, for each edge.
+    pub(crate) fn new(stated: Vec<f64>) -> Self {
         let is_avoided = stated.iter().map(|&cost| cost >= Seams::AVOIDED).collect();
-        let relative = match shape {
-            Some(shape) => stated.iter().zip(shape).map(|(stated, shape)| stated * shape).collect(),
-            None => stated,
-        };
-        Self { relative, is_avoided }
+        Self { relative: stated, is_avoided }
+    }
+
+    /// Multiplies the costs by factors of the surface's shape, one for each edge.
+    pub(crate) fn multiply(&mut self, shape: &[f64]) {
+        self.relative.iter_mut().zip(shape).for_each(|(cost, factor)| *cost *= factor);
     }
 }
 
@@ -200,6 +201,11 @@ impl<'a> CutSurface<'a> {
         let used = (0..self.vertex_count()).filter(|&v| self.starts[v] < self.starts[v + 1]).count();
         let faces = self.part.polygons().face_count();
         (2 + self.edges.len()).saturating_sub(self.is_required.len() + used + faces) / 2
+    }
+
+    /// True if the surface is a disk once its small holes are filled.
+    pub(super) fn is_disk(&self) -> bool {
+        self.genus() == 0 && self.is_required.iter().filter(|is_required| **is_required).count() == 1
     }
 
     /// The surface opened along seams, with small holes filled.

@@ -6,7 +6,7 @@ use std::time::Instant;
 use glam::DVec2;
 
 use super::PreparedMesh;
-use crate::cutting::{BestCut, EdgeCosts, PartCut, PartToCut, SeamOptions, costs_of_shape};
+use crate::cutting::{BestCut, EdgeCosts, PartCut, PartToCut, SeamOptions, costs_of_shape, uncut_map};
 use crate::mesh::{PolygonMesh, Preparation, Repair, Repaired, VertexId};
 use crate::parallel::prelude::*;
 use crate::problem::{Control, Embedding, SolveError};
@@ -76,7 +76,9 @@ impl AutomaticSeams {
         control: Control<'_>,
         report: SeamReport<'_>,
     ) -> Result<Self, SolveError> {
-        let (mesh, parts) = (to_cut.mesh, PartsToCut::new(to_cut, options.visibility, control)?);
+        let (mesh, mut parts) = (to_cut.mesh, PartsToCut::new(to_cut));
+        let uncut = parts.uncut(options, control)?;
+        parts.add_costs_of_shape(|number| uncut[number].is_none(), options.visibility, control)?;
         let progress = |number: usize, best: BestCut<'_>, is_final: bool| SeamProgress {
             part: number,
             part_count: parts.parts.len(),
@@ -87,11 +89,41 @@ impl AutomaticSeams {
             is_final,
         };
         parts.seams(options, control, |number, part| {
-            let found = part.cut(&|best| report(progress(number, best, false)))?;
+            let found = match &uncut[number] {
+                Some(uncut) => uncut.clone(),
+                None => part.cut(&|best| report(progress(number, best, false)))?,
+            };
             let best = BestCut { is_seam: &found.is_seam, length: found.length, energy: found.energy };
             report(progress(number, best, true));
             Ok(found)
         })
+    }
+
+    /// Maps a plain disk in its preparation, if its map meets the bound without a seam. `None` if it does not, or if the
+    /// mesh is no plain disk.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    pub fn of_uncut(
+        prepared: &PreparedMesh,
+        mesh: &PolygonMesh,
+        options: SeamOptions,
+        control: Control<'_>,
+    ) -> Result<Option<Self>, SolveError> {
+        let start = Instant::now();
+        let Some(disk) = prepared.disk().filter(|_| prepared.is_plain_disk()) else { return Ok(None) };
+        let Some(map) = uncut_map(disk, options, control)? else { return Ok(None) };
+        let repaired = prepared.repaired.as_deref();
+        let polygons = repaired.map_or(mesh, Repaired::polygons);
+        let mut corners = vec![None; mesh.corners.len()];
+        for (corner, vertex) in polygons.corners.iter().enumerate() {
+            corners[repaired.map_or(corner, |repaired| repaired.corner_of(corner))] = Some(map[*vertex]);
+        }
+        let form = &prepared.form;
+        let form = Preparation { seams: form.seams.with_automatic([], options.bound), ..form.clone() };
+        let seconds = start.elapsed().as_secs_f64();
+        Ok(Some(Self { form, corners, length: 0.0, area: disk.area(), bound: options.bound, seconds }))
     }
 
     /// Maps the parts of a mesh along the automatic seams of its preparation, which a search found before.
@@ -102,7 +134,7 @@ impl AutomaticSeams {
     pub fn along(to_cut: MeshToCut<'_>, options: SeamOptions, control: Control<'_>) -> Result<Self, SolveError> {
         let MeshToCut { mesh, form, .. } = to_cut;
         let automatic = form.seams.automatic();
-        let parts = PartsToCut::new(to_cut, 0.0, control)?;
+        let parts = PartsToCut::new(to_cut);
         // The search has joined charts already.
         let options = SeamOptions { most_charts: None, ..options };
         let seams = parts.seams(options, control, |number, part| {
@@ -136,26 +168,47 @@ struct PartsToCut<'a> {
 }
 
 impl<'a> PartsToCut<'a> {
-    /// Parts of a mesh in its preparation, without the automatic seams. `visibility` is the weight of what a seam
-    /// shows.
-    fn new(
-        MeshToCut { mesh, labels, form }: MeshToCut<'a>,
-        visibility: f64,
-        control: Control<'_>,
-    ) -> Result<Self, SolveError> {
+    /// Parts of a mesh in its preparation, without the automatic seams. Edges have the costs that were stated.
+    fn new(MeshToCut { mesh, labels, form }: MeshToCut<'a>) -> Self {
         let start = Instant::now();
         let uncut = Preparation { cut: false, seams: form.seams.without_automatic(), ..form.clone() };
         let repaired = uncut.repaired_along(mesh, labels);
         let are_finite = repaired.polygons().positions.iter().all(|position| position.is_finite());
         let parts = if repaired.has_faces() && are_finite { repaired.separate_parts() } else { Vec::new() };
         let cost = |edge: [VertexId; 2]| form.seams.costs().get(&edge).copied().unwrap_or(1.0);
-        let costs_of = |part: &Repaired| {
-            let stated = part.by_edge_in(mesh, cost);
-            let shape = costs_of_shape(part, visibility, control)?;
-            Ok::<EdgeCosts, SolveError>(EdgeCosts::new(stated, shape))
+        let costs = parts.iter().map(|part| EdgeCosts::new(part.by_edge_in(mesh, cost))).collect();
+        Self { mesh, form, parts, costs, area: repaired.triangulate().area(), start }
+    }
+
+    /// One part.
+    fn part<'b>(&'b self, number: usize, options: SeamOptions, control: Control<'b>) -> PartToCut<'b> {
+        PartToCut { part: &self.parts[number], costs: &self.costs[number], options, control }
+    }
+
+    /// Maps of the parts that need no cut.
+    fn uncut(&self, options: SeamOptions, control: Control<'_>) -> Result<Vec<Option<PartCut>>, SolveError> {
+        let numbers = (0..self.parts.len()).into_par_iter().with_max_len(1);
+        let uncut = |number: usize| {
+            if self.parts[number].is_oriented() { self.part(number, options, control).uncut() } else { Ok(None) }
         };
-        let costs = parts.iter().map(costs_of).collect::<Result<_, _>>()?;
-        Ok(Self { mesh, form, parts, costs, area: repaired.triangulate().area(), start })
+        let found: Vec<Result<Option<PartCut>, SolveError>> = numbers.map(uncut).collect();
+        found.into_iter().collect()
+    }
+
+    /// Makes seams prefer creases and hidden places, in the parts that are cut. `visibility` is the weight of what a
+    /// seam shows.
+    fn add_costs_of_shape(
+        &mut self,
+        is_cut: impl Fn(usize) -> bool,
+        visibility: f64,
+        control: Control<'_>,
+    ) -> Result<(), SolveError> {
+        for (number, part) in self.parts.iter().enumerate().filter(|(number, _)| is_cut(*number)) {
+            if let Some(shape) = costs_of_shape(part, visibility, control)? {
+                self.costs[number].multiply(&shape);
+            }
+        }
+        Ok(())
     }
 
     /// Seams of all parts. `cut` cuts one of them, by its number. A part that cannot be cut gets no seams.
@@ -169,8 +222,7 @@ impl<'a> PartsToCut<'a> {
             if !self.parts[number].is_oriented() {
                 return Ok(None);
             }
-            let part = PartToCut { part: &self.parts[number], costs: &self.costs[number], options, control };
-            match cut(number, part) {
+            match cut(number, self.part(number, options, control)) {
                 Ok(found) => Ok(Some(found)),
                 Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
                 Err(_) => Ok(None),
@@ -209,8 +261,7 @@ impl<'a> PartsToCut<'a> {
                 Some(before) if before.chart_count > most => before,
                 cut => return Ok(cut),
             };
-            let part = PartToCut { part: &self.parts[number], costs: &self.costs[number], options, control };
-            match part.joined(&before, most) {
+            match self.part(number, options, control).joined(&before, most) {
                 Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
                 after => Ok(after.ok().flatten().or(Some(before))),
             }

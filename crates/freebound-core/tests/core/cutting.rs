@@ -114,6 +114,27 @@ fn a_surface_that_is_nearly_flat_is_not_cut() {
 }
 
 #[test]
+fn a_disk_that_needs_no_cut_has_the_map_of_the_search() {
+    let mesh = polygons(&shaped(12, 9, |x, y| DVec3::new(x, y, 0.1 * (5.0 * x).sin())));
+    let prepared = PreparedMesh::new(&mesh, None, form());
+    let options = SeamOptions::new(4.1);
+    let uncut =
+        AutomaticSeams::of_uncut(&prepared, &mesh, options, Control::unattended()).unwrap().expect("flat enough");
+    let found = seams_of(&mesh, 4.1);
+    assert_eq!((&uncut.form, &uncut.corners), (&found.form, &found.corners));
+    assert!(uncut.edges().is_empty() && energy_along(&mesh, &uncut) < 4.1);
+}
+
+#[test]
+fn a_surface_above_the_bound_has_no_map_without_a_cut() {
+    for mesh in [ball_with_hole(20, 12), cube()] {
+        let prepared = PreparedMesh::new(&mesh, None, form());
+        let uncut = AutomaticSeams::of_uncut(&prepared, &mesh, SeamOptions::new(4.1), Control::unattended());
+        assert!(uncut.unwrap().is_none());
+    }
+}
+
+#[test]
 fn a_tube_is_opened_from_end_to_end() {
     let turn = |x: f64| (std::f64::consts::TAU * x).sin_cos();
     // The last column of vertices coincides with the first.
