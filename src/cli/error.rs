@@ -197,6 +197,14 @@ impl CommandError {
         Self::Solve(error)
     }
 
+    /// Error of an option that names a chart by a number that no chart has.
+    pub(super) fn no_such_chart(option: &str, chart: usize, count: usize) -> Self {
+        Self::Usage(match count {
+            1 => format!("{option} {chart}: the mesh has only chart 0"),
+            _ => format!("{option} {chart}: the mesh has charts 0 to {}", count.saturating_sub(1)),
+        })
+    }
+
     /// Error of a run of a mesh. Its message has the remedy.
     pub(super) fn of_run(model: &Model, error: RunError<Self>) -> Self {
         let path = model.path_words();

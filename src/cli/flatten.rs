@@ -115,10 +115,9 @@ pub(super) fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), Comm
 
 /// Numbers of locked charts.
 fn locked(given: &[usize], model: &Model) -> Result<BTreeSet<usize>, CommandError> {
-    let last = model.chart_count() - 1;
-    match given.iter().find(|&&chart| chart > last) {
-        Some(chart) if last == 0 => Err(CommandError::Usage(format!("--lock {chart}: the mesh has only chart 0"))),
-        Some(chart) => Err(CommandError::Usage(format!("--lock {chart}: the mesh has charts 0 to {last}"))),
+    let count = model.chart_count();
+    match given.iter().find(|&&chart| chart >= count) {
+        Some(&chart) => Err(CommandError::no_such_chart("--lock", chart, count)),
         None => Ok(given.iter().copied().collect()),
     }
 }

@@ -14,7 +14,8 @@ use super::report_file::put_report;
 use super::standard::read_typed;
 use super::summary::{deliver, pack_summary};
 use crate::session::Model;
-use freebound_io::{Materials, OutputKind, PictureFile, RepackedFile};
+use freebound_core::pipeline::RepackError;
+use freebound_io::{LayoutToPackError, Materials, OutputKind, PictureFile, RepackedFile};
 
 pub(super) fn run(arguments: &PackArguments) -> Result<CommandOutcome, CommandError> {
     refuse_unwritten_formats(arguments.output.as_deref())?;
@@ -56,10 +57,13 @@ fn packed<'a>(
     picture: Option<&PictureFile>,
 ) -> Result<RepackedFile<'a>, CommandError> {
     let path = model.path_words();
-    let file = RepackedFile::new(&model.source, path.clone(), arguments.packing(picture));
+    let file = RepackedFile::new(&model.source, path.clone(), &arguments.packing(picture));
     let materials = if arguments.copy_materials { Materials::Copied } else { Materials::Stay };
     match file {
         Ok(file) => Ok(RepackedFile { source_path: model.path.as_deref(), materials, ..file }),
+        Err(LayoutToPackError::Repack(RepackError::NoSuchChart { chart, count })) => {
+            Err(CommandError::no_such_chart("--lock", chart, count))
+        }
         Err(error) => Err(CommandError::LayoutToPack { path, error }),
     }
 }

@@ -14,9 +14,9 @@ use super::{
     MeshFile, MeshReport, NO_TEXTURE, OutputKind, Precision, Report, RoundingReport, Seconds, Texture, TextureError,
     WriteError, write_atomically, write_to_standard_output,
 };
-use freebound_core::geom::{Orientation, PackingOptions, orientation};
+use freebound_core::geom::{Orientation, orientation};
 use freebound_core::mesh::{EdgeTable, FaceId};
-use freebound_core::pipeline::{ChartSizes, GivenLayout, NO_COORDINATE, RepackError, Repacked, repack};
+use freebound_core::pipeline::{GivenLayout, NO_COORDINATE, RepackError, RepackOptions, Repacked, repack};
 
 /// Layout of a file with new places for its charts.
 #[derive(Debug)]
@@ -46,12 +46,10 @@ pub enum LayoutToPackError {
 }
 
 /// Rules for packing the layout of a file.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct LayoutPacking {
-    /// Picture, gap and rotations.
-    pub options: PackingOptions,
-    /// Sizes of the charts.
-    pub sizes: ChartSizes,
+    /// Picture, sizes and locked charts.
+    pub options: RepackOptions,
     /// Width over height of the picture of the given layout.
     pub aspect: f64,
 }
@@ -62,12 +60,12 @@ impl<'a> RepackedFile<'a> {
     /// # Errors
     ///
     /// [`LayoutToPackError`] if faces have no usable texture coordinates.
-    pub fn new(source: &'a MeshFile, name: String, packing: LayoutPacking) -> Result<Self, LayoutToPackError> {
+    pub fn new(source: &'a MeshFile, name: String, packing: &LayoutPacking) -> Result<Self, LayoutToPackError> {
         let start = Instant::now();
         let texture = source.complete_texture()?;
         let (mesh, coordinates, corners) = (&source.polygons, &texture.coordinates[..], &texture.corners[..]);
         let layout = GivenLayout { mesh, coordinates, corners, aspect: packing.aspect };
-        let repacked = repack(layout, packing.sizes, packing.options)?;
+        let repacked = repack(layout, &packing.options)?;
         let edges = EdgeTable::new(repacked.mesh.vertex_count(), &repacked.mesh.triangles);
         let boundary_vertices = edges.edges().filter(|sides| sides.len() == 1).count();
         let (vertices, faces) = (source.polygons.positions.len(), repacked.mesh.face_count());

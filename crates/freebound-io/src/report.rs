@@ -18,7 +18,7 @@ use freebound_core::verify::{AtlasVerdict, DistortionSummary, LayoutVerdict, Ver
 pub const REPORT_SCHEMA: u32 = 2;
 
 /// Report of a run. Field names are part of the interface.
-#[derive(Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Report {
     /// Version of the report format.
     pub schema: u32,
@@ -171,7 +171,7 @@ impl ShapeReport {
 }
 
 /// Input mesh of a run.
-#[derive(Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct MeshReport {
     /// Path or name of the mesh.
     pub path: String,
@@ -267,7 +267,7 @@ impl MeshReport {
 }
 
 /// Chart of a mesh with several. Vertices are numbered by the mesh.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct ChartReport {
     /// First face of the chart.
     pub first_face: FaceId,

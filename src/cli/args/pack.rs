@@ -8,7 +8,7 @@ use glam::UVec2;
 use super::ReadingArguments;
 use crate::cli::typed::{choice, parse_aspect, parse_density, parse_pixels};
 use freebound_core::geom::{PackingOptions, Rotations, Stacking};
-use freebound_core::pipeline::ChartSizes;
+use freebound_core::pipeline::{ChartSizes, LockedCharts, RepackOptions};
 use freebound_core::problem::NamedOption as _;
 use freebound_io::{LayoutPacking, OutputKind, PictureFile, Precision};
 
@@ -55,6 +55,12 @@ pub struct PackArguments {
     /// Keep the sizes of the charts relative to each other. Default: equal density for all charts.
     #[arg(long)]
     pub keep_sizes: bool,
+    /// Keep these charts in place, and pack the others around them.
+    ///
+    /// Charts are numbered from 0, in the order of their first faces, as in the report. The other charts get no more
+    /// pixels per unit of length than these. If there is no room, they lie to the right of the picture.
+    #[arg(long, value_name = "CHART,…", value_delimiter = ',')]
+    pub lock: Vec<usize>,
     /// Precision in which texture coordinates are proved and written. Default: 64 bits for OBJ, 32 bits for PLY and GLB.
     ///
     /// PLY files of 32 bits have the form that most programs read: `s` and `t` as float, and a copy of each vertex on a
@@ -94,7 +100,9 @@ impl PackArguments {
         };
         let sizes = if self.keep_sizes { ChartSizes::AsGiven } else { ChartSizes::EqualDensity };
         let [width, height] = picture.map(f64::from);
-        LayoutPacking { options, sizes, aspect: self.from_aspect.unwrap_or(width / height) }
+        let locked = LockedCharts::Numbered(self.lock.iter().copied().collect());
+        let options = RepackOptions { packing: options, sizes, locked };
+        LayoutPacking { options, aspect: self.from_aspect.unwrap_or(width / height) }
     }
 
     /// Files to write, apart from the report.

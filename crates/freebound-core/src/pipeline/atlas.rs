@@ -13,6 +13,7 @@ use std::collections::BTreeSet;
 
 use glam::DVec2;
 
+use super::pieces::{PackedPieces, Piece, PiecesToPack, first_column_beside};
 use super::stacks::{Stackable, stacks};
 use super::{
     Fit, LaidChart, Outcome, PackingSummary, PinsSummary, Placement, PreparedMesh, StackedChart, StackedOn,
@@ -20,8 +21,7 @@ use super::{
 };
 use crate::flatten::true_area_factor;
 use crate::geom::{
-    Bounds, ChartShape, FIRST_UDIM_TILE, Packing, PackingInput, PackingOptions, Rotations, Similarity, Stacking,
-    corner_of_tile, double_area, is_simple, pack, pack_beside, turning_number,
+    Bounds, ChartShape, FIRST_UDIM_TILE, PackingOptions, Similarity, Stacking, double_area, is_simple, turning_number,
 };
 use crate::mesh::{DiskMesh, FaceId, MeasuredSurface, SurfaceFaces, VertexId};
 use crate::parallel::prelude::*;
@@ -141,32 +141,8 @@ pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions, arrangemen
 fn packed<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Atlas<'a> {
     let mut laid = kept(charts, options);
     let stacked = stacked_charts(charts, options.stack);
-    let mut plan = PackingPlan::new(charts, &laid, &stacked, options);
-    let mut packing = plan.pack(options);
-    if packing.scale == 0.0 && !plan.fixed.is_empty() {
-        // The charts that stay leave no room.
-        plan = PackingPlan { fixed: Vec::new(), beside: first_column_beside(&laid), ..plan };
-        packing = plan.pack(options);
-    }
-    let mut options_used = options;
-    if let Some(density) = plan.density_of_fixed(&laid, &packing).filter(|_| options.density.is_none())
-        && density < packing.scale
-    {
-        // Free charts get no more pixels than those that stay.
-        let even = PackingOptions { density: Some(density), ..options };
-        let evened = plan.pack(even);
-        if evened.picture == packing.picture && evened.scale > 0.0 {
-            (packing, options_used) = (evened, even);
-        }
-    }
-    if options.rotations == Rotations::Free && plan.has_folds(&packing) {
-        let quarter = |options| plan.pack(PackingOptions { rotations: Rotations::Quarter, ..options });
-        let picture = packing.picture;
-        packing = quarter(options_used);
-        if packing.picture != picture {
-            packing = quarter(options);
-        }
-    }
+    let plan = PackingPlan::new(charts, &laid, &stacked, options);
+    let packing = plan.pack(&laid, options);
     let summary = plan.summary(&packing, &laid, options);
     for (k, &chart) in plan.free.iter().enumerate() {
         laid[chart] = Some(plan.laid(&packing, k));
@@ -220,9 +196,9 @@ struct PackingPlan<'a, 'b> {
     free: Vec<usize>,
     /// Charts that are packed, at their size.
     pieces: Vec<Piece>,
-    /// Shapes of the charts that stay. Empty if the others are packed beside them.
+    /// Shapes of the charts that the others are packed around. Empty if they are packed beside them.
     fixed: Vec<ChartShape>,
-    /// Whole u at which the first tile begins.
+    /// Whole u at which the first tile begins if charts are packed beside those that stay.
     beside: f64,
 }
 
@@ -245,27 +221,26 @@ impl<'a, 'b> PackingPlan<'a, 'b> {
             }
         }
         let is_inside = |laid: &Embedding| Bounds::of(laid.iter().copied()).union(Bounds::UNIT) == Bounds::UNIT;
+        let beside = first_column_beside(laid.iter().flatten());
         let leave_the_square = options.tiles <= 1 && !charts.iter().any(SolvedChart::is_locked);
         if leave_the_square && !laid.iter().flatten().all(is_inside) {
-            return Self { charts, free, pieces, fixed: Vec::new(), beside: first_column_beside(laid) };
+            return Self { charts, free, pieces, fixed: Vec::new(), beside };
         }
         let fixed = charts.par_iter().zip(laid).filter_map(|(chart, laid)| Some(chart.fixed_shape(laid.as_ref()?)));
-        Self { charts, free, pieces, fixed: fixed.collect(), beside: 0.0 }
+        Self { charts, free, pieces, fixed: fixed.collect(), beside }
     }
 
-    fn pack(&self, options: PackingOptions) -> Packing {
-        let shapes: Vec<ChartShape> = self.pieces.iter().map(|piece| piece.shape.clone()).collect();
+    /// Packs the charts. `laid` has the coordinates of those that stay.
+    fn pack(&self, laid: &[Option<Embedding>], options: PackingOptions) -> PackedPieces {
         let tiles: Vec<Option<u32>> = self.free.iter().map(|&chart| self.charts[chart].tile).collect();
-        let input = PackingInput { shapes: &shapes, tiles: &tiles, fixed: &self.fixed };
-        pack_beside(input, options, &|| false).expect("a packing that nobody cancels")
+        let pieces = self.pieces.iter().collect::<Vec<_>>();
+        let pieces = PiecesToPack { pieces: &pieces, tiles: &tiles, fixed: &self.fixed, beside: self.beside };
+        pieces.pack(options, &|picture| self.density_of_fixed(laid, picture), &|packing| self.has_folds(packing))
     }
 
-    /// Density of the charts that stay on the picture of a packing: pixels per unit of length on the surface. `None` if no
-    /// chart stays, or the others are packed beside them.
-    fn density_of_fixed(&self, laid: &[Option<Embedding>], packing: &Packing) -> Option<f64> {
-        let on_picture = packing.picture.as_dvec2();
-        let stay = self.charts.iter().zip(laid).filter(|_| !self.fixed.is_empty());
-        let areas = stay.filter_map(|(chart, laid)| {
+    /// Density of the charts that stay on a picture: pixels per unit of length on the surface. `None` if no chart stays.
+    fn density_of_fixed(&self, laid: &[Option<Embedding>], on_picture: DVec2) -> Option<f64> {
+        let areas = self.charts.iter().zip(laid).filter_map(|(chart, laid)| {
             Some([chart.area_on(laid.as_ref()?, on_picture), chart.size.powi(2) * chart.disk().area()])
         });
         let [pixels, area] = areas.fold([0.0; 2], |sum, [pixels, area]| [sum[0] + pixels, sum[1] + area]);
@@ -273,12 +248,12 @@ impl<'a, 'b> PackingPlan<'a, 'b> {
     }
 
     /// Texture coordinates of packed chart `k`.
-    fn laid(&self, packing: &Packing, k: usize) -> Embedding {
-        self.pieces[k].laid(self.charts[self.free[k]].embedding(), packing, k, self.beside)
+    fn laid(&self, packing: &PackedPieces, k: usize) -> Embedding {
+        self.pieces[k].laid(self.charts[self.free[k]].embedding(), packing, k)
     }
 
     /// True if rounding folds a packed chart.
-    fn has_folds(&self, packing: &Packing) -> bool {
+    fn has_folds(&self, packing: &PackedPieces) -> bool {
         let is_folded = |(k, &chart): (usize, &usize)| {
             let solved = &self.charts[chart];
             let proved = |coordinates: &Embedding| {
@@ -290,9 +265,14 @@ impl<'a, 'b> PackingPlan<'a, 'b> {
     }
 
     /// Summary of a packing. `laid` has the coordinates of the charts that stay.
-    fn summary(&self, packing: &Packing, laid: &[Option<Embedding>], options: PackingOptions) -> PackingSummary {
+    fn summary(
+        &self,
+        PackedPieces { packing, is_around, .. }: &PackedPieces,
+        laid: &[Option<Embedding>],
+        options: PackingOptions,
+    ) -> PackingSummary {
         let on_picture = packing.picture.as_dvec2();
-        let stay = || self.charts.iter().zip(laid).filter(|_| !self.fixed.is_empty());
+        let stay = || self.charts.iter().zip(laid).filter(|_| *is_around);
         let area =
             |(chart, laid): (&SolvedChart<'_>, &Option<Embedding>)| Some(chart.area_on(laid.as_ref()?, on_picture));
         let packed_area = self.pieces.iter().map(|piece| piece.area).sum::<f64>() * packing.scale.powi(2);
@@ -310,26 +290,6 @@ fn udim_tile(coordinates: &Embedding) -> Option<u32> {
     let is_numbered = (0.0..10.0).contains(&column) && (0.0..MOST_UDIM_ROWS).contains(&row);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small whole numbers")]
     is_numbered.then(|| FIRST_UDIM_TILE + column as u32 + 10 * row as u32)
-}
-
-/// Whole u at which packed charts begin: to the right of the charts with pins, or 0 if there are none.
-fn first_column_beside(laid: &[Option<Embedding>]) -> f64 {
-    let held = laid.iter().flatten().map(Embedding::bounds).fold(Bounds::EMPTY, Bounds::union);
-    if held.high.x.is_finite() { held.high.x.max(1.0).ceil() } else { 0.0 }
-}
-
-pub(super) fn pack_pieces<'p>(pieces: impl IntoIterator<Item = &'p Piece>, options: PackingOptions) -> Packing {
-    let shapes: Vec<ChartShape> = pieces.into_iter().map(|piece| piece.shape.clone()).collect();
-    pack(&shapes, options, &|| false).expect("a packing that nobody cancels")
-}
-
-/// Chart at the area of its surface times the square of its size.
-pub(super) struct Piece {
-    /// Factor that scales the embedding.
-    pub(super) factor: f64,
-    pub(super) shape: ChartShape,
-    /// Area that the chart covers, at its size.
-    pub(super) area: f64,
 }
 
 impl Piece {
@@ -363,15 +323,6 @@ impl Piece {
             return triangles_of(mesh.mesh().real_triangles(), at);
         }
         if step.verdict.planar { outline(mesh, at) } else { triangles_of(mesh.mesh().real_triangles(), at) }
-    }
-
-    /// Texture coordinates of an embedding as packed piece `k`. The first tile begins at u = `beside`.
-    pub(super) fn laid(&self, embedding: &Embedding, packing: &Packing, k: usize, beside: f64) -> Embedding {
-        let place = packing.places[k];
-        let corner = corner_of_tile(place.tile as usize) + DVec2::new(beside, 0.0);
-        let coordinate =
-            |&z: &DVec2| place.position(z * self.factor, packing.scale) / packing.picture.as_dvec2() + corner;
-        embedding.iter().map(coordinate).collect()
     }
 }
 

@@ -112,7 +112,7 @@ impl Draft {
 
 impl GivenLayout<'_> {
     /// Coordinate of a corner.
-    fn coordinate(&self, place: usize) -> DVec2 {
+    pub(super) fn coordinate(&self, place: usize) -> DVec2 {
         self.coordinates[self.corners[place] as usize]
     }
 }
@@ -178,6 +178,11 @@ impl GivenChart {
         Self { area: mesh.area(), area_in_plane, is_planar: seen.is_some(), seen, mesh, plane }
     }
 
+    /// Polygons of the chart, by their numbers in the input.
+    pub(super) fn polygons(&self) -> impl Iterator<Item = FaceId> {
+        (0..self.mesh.face_count()).map(|face| FaceId::new(self.mesh.polygon(FaceId::from_index(face))))
+    }
+
     pub(super) fn first_face(&self) -> FaceId {
         FaceId::new(self.mesh.polygon(FaceId::new(0)))
     }
@@ -188,7 +193,7 @@ impl GivenChart {
     }
 
     /// Shape in the plane, scaled: the outline of a chart that is one-to-one, the triangles of any other.
-    pub(super) fn shape(&self, factor: f64) -> ChartShape {
+    pub(super) fn shape(&self, factor: DVec2) -> ChartShape {
         let at = |vertex: &VertexId| self.plane[*vertex] * factor;
         let Some(seen) = &self.seen else { return triangles_of(&self.mesh.triangles, at) };
         let in_plane = |vertices: &Vec<VertexId>| -> Vec<DVec2> {
@@ -232,11 +237,15 @@ impl GivenChart {
         proved(&self.mesh) || proved(&self.mesh.clone().without_repeats().without_collapsed(&self.plane))
     }
 
+    /// Area that the triangles have at texture coordinates on a picture, in pixels.
+    pub(super) fn area_at(&self, coordinates: &Embedding, picture: DVec2) -> f64 {
+        let doubled = |face: &[VertexId; 3]| double_area(face.map(|vertex| coordinates[vertex] * picture)).abs();
+        self.mesh.triangles.iter().map(doubled).sum::<f64>() / 2.0
+    }
+
     /// Average number of pixels of a picture per unit of length on the surface. 0 for a surface without area.
     pub(super) fn density(&self, coordinates: &Embedding, picture: DVec2) -> f64 {
-        let doubled = |face: &[VertexId; 3]| double_area(face.map(|vertex| coordinates[vertex] * picture)).abs();
-        let pixels = self.mesh.triangles.iter().map(doubled).sum::<f64>() / 2.0;
-        let density = (pixels / self.area).sqrt();
+        let density = (self.area_at(coordinates, picture) / self.area).sqrt();
         if density.is_finite() { density } else { 0.0 }
     }
 }

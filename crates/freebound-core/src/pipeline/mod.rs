@@ -14,6 +14,7 @@
 //! | `outcome` | a proved step with its distortion and its final coordinates |
 //! | `laid_chart` | charts with final coordinates, and their proof as one mesh |
 //! | `atlas` | layout of several charts: packing, placement, proof |
+//! | `pieces` | charts as pieces of a packing, around charts that stay |
 //! | `stacks` | charts with congruent surfaces that share one place |
 //! | `repack`, `given_charts` | new places for the charts of a given layout, without flattening |
 //! | `unwrap` | the easy calls: any mesh to a proved atlas, and the proof of a given layout |
@@ -26,6 +27,7 @@ mod given_charts;
 mod laid_chart;
 mod options;
 mod outcome;
+mod pieces;
 mod prepared_mesh;
 mod problem;
 mod repack;
@@ -43,7 +45,7 @@ pub use options::PipelineOptions;
 pub use outcome::{Outcome, pins_summary, upright};
 pub use prepared_mesh::{ChartOf, PreparedMesh, Surface};
 pub use problem::Problem;
-pub use repack::{ChartSizes, GivenLayout, RepackError, Repacked, RepackedChart, repack};
+pub use repack::{ChartSizes, GivenLayout, LockedCharts, RepackError, RepackOptions, Repacked, RepackedChart, repack};
 pub use run::SolvedProblem;
 pub use stacks::StackedChart;
 pub use summary::{Fit, PackingSummary, PinsSummary, Placement, SoftPinSummary, StackedOn};

@@ -2,19 +2,19 @@
 //!
 //! A *chart* is a connected piece of the mesh in texture space: faces that share an edge with both of its texture
 //! coordinates. Every chart keeps its shape up to a similarity. By default all charts get one density. A chart that is
-//! one-to-one is packed by its outline, any other by the triangles that it covers. Only the layout matters: the surface
+//! one-to-one is packed by its outline, any other by the triangles that it covers. Locked charts keep their place. Only the layout matters: the surface
 //! may be closed, or not manifold.
 
 use std::collections::{BTreeSet, HashMap};
 
 use glam::DVec2;
 
-use super::atlas::{Piece, pack_pieces};
 use super::given_charts::{GivenChart, GivenCharts};
 use super::laid_chart::stacked_parts;
+use super::pieces::{PackedPieces, Piece, PiecesToPack, first_column_beside};
 use super::stacks::{Stackable, stacks};
-use super::{PackingSummary, StackedChart, StackedOn};
-use crate::geom::{Packing, PackingOptions, Rotations, Stacking};
+use super::{NO_COORDINATE, PackingSummary, StackedChart, StackedOn};
+use crate::geom::{ChartShape, PackingOptions, Stacking};
 use crate::mesh::{Diagnosis, FaceId, PolygonMesh, TriMesh, VertexId, parts};
 use crate::parallel::prelude::*;
 use crate::problem::Embedding;
@@ -48,6 +48,33 @@ pub enum ChartSizes {
     AsGiven,
 }
 
+/// Charts of a layout that stay in place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LockedCharts {
+    /// Charts by their numbers, in the order of their first faces.
+    Numbered(BTreeSet<usize>),
+    /// Charts that have one of these faces.
+    WithFaces(BTreeSet<FaceId>),
+}
+
+impl Default for LockedCharts {
+    fn default() -> Self {
+        Self::Numbered(BTreeSet::new())
+    }
+}
+
+/// Rules for packing a layout.
+#[derive(Clone, Debug, Default)]
+pub struct RepackOptions {
+    /// Picture, gap and rotations.
+    pub packing: PackingOptions,
+    /// Sizes of the charts.
+    pub sizes: ChartSizes,
+    /// Charts that keep their coordinates to the last bit. The others are packed around them, with no more pixels per unit
+    /// of length, or to their right if they leave no room.
+    pub locked: LockedCharts,
+}
+
 /// Reason why a layout cannot be packed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -61,6 +88,22 @@ pub enum RepackError {
     /// These faces have corners at infinite coordinates or at ones that are not numbers.
     #[error("{} faces have texture coordinates that are not finite, the first is face {}", .0.len(), .0[0].number())]
     NotFinite(Vec<FaceId>),
+    /// A locked chart does not exist.
+    #[error("there is no chart {chart} to lock: the layout has {count}, numbered from 0")]
+    NoSuchChart {
+        /// Number of the chart.
+        chart: usize,
+        /// Number of charts.
+        count: usize,
+    },
+    /// A face of a locked chart does not exist.
+    #[error("there is no face {face} to lock: the mesh has {count}, numbered from 0")]
+    NoSuchFace {
+        /// Number of the face.
+        face: FaceId,
+        /// Number of faces.
+        count: usize,
+    },
 }
 
 /// Chart at its new place.
@@ -145,49 +188,112 @@ impl Repacked {
     }
 }
 
-/// Packs the charts of a layout again, into the picture of `options`, or into several tiles.
+/// Packs the charts of a layout again, into the picture of the options, or into several tiles.
 ///
 /// # Errors
 ///
-/// [`RepackError`] if faces have no usable texture coordinates.
+/// [`RepackError`] if faces have no usable texture coordinates, or if a locked chart does not exist.
 ///
 /// # Panics
 ///
 /// If `corners` has another length than the corners of the mesh, or an index is out of range.
-pub fn repack(layout: GivenLayout<'_>, sizes: ChartSizes, options: PackingOptions) -> Result<Repacked, RepackError> {
+pub fn repack(layout: GivenLayout<'_>, options: &RepackOptions) -> Result<Repacked, RepackError> {
     let given = GivenCharts::of(layout)?;
-    let pieces: Vec<Piece> = pieces_of(&given.charts, sizes);
-    let stacked = stacked_charts(&given.charts, &pieces, options.stack);
-    let free: Vec<usize> = (0..pieces.len()).filter(|&chart| stacked[chart].is_none()).collect();
-    let packed = packed_upright(&given.charts, &pieces, &free, options);
-    let mut laid: Vec<Option<Embedding>> = vec![None; pieces.len()];
+    let pieces = pieces_of(&given.charts, options.sizes);
+    let mut plan =
+        RepackPlan { given: &given, pieces, stacked: Vec::new(), laid: given.locked(layout, &options.locked)? };
+    plan.stacked = plan.stacked_charts(options.packing.stack);
+    let free: Vec<usize> = (0..plan.pieces.len()).filter(|&chart| plan.is_free(chart)).collect();
+    let packed = plan.packed(&free, layout.aspect, options);
+    let summary = plan.summary(&free, &packed, options.packing);
     for (k, &chart) in free.iter().enumerate() {
-        laid[chart] = Some(pieces[chart].laid(&given.charts[chart].plane, &packed, k, 0.0));
+        plan.laid[chart] = Some(plan.laid(&packed, &free, k));
     }
+    let RepackPlan { stacked, mut laid, .. } = plan;
     for (chart, on) in stacked.iter().enumerate().filter_map(|(chart, on)| Some((chart, on.as_ref()?))) {
         laid[chart] = laid[on.on.chart].as_ref().map(|representative| on.coordinates(representative));
     }
     let laid: Vec<Embedding> = laid.into_iter().flatten().collect();
-    Ok(given.repacked(&laid, &stacked, summary_of(&pieces, &free, &packed, options)))
+    Ok(given.repacked(&laid, &stacked, summary))
 }
 
-/// Packing of the free charts. If rounding folds a turned chart, quarter turns are used instead.
-fn packed_upright(charts: &[GivenChart], pieces: &[Piece], free: &[usize], options: PackingOptions) -> Packing {
-    let own: Vec<&Piece> = free.iter().map(|&chart| &pieces[chart]).collect();
-    let packing = pack_pieces(own.iter().copied(), options);
-    let is_folded = |(k, &chart): (usize, &usize)| {
-        charts[chart].is_planar && !charts[chart].is_planar_at(&own[k].laid(&charts[chart].plane, &packing, k, 0.0))
-    };
-    if options.rotations == Rotations::Free && free.par_iter().enumerate().any(is_folded) {
-        return pack_pieces(own.iter().copied(), PackingOptions { rotations: Rotations::Quarter, ..options });
+/// Charts to pack.
+struct RepackPlan<'a> {
+    given: &'a GivenCharts,
+    pieces: Vec<Piece>,
+    /// Charts that lie on others.
+    stacked: Vec<Option<StackedChart>>,
+    /// Coordinates of the charts that stay.
+    laid: Vec<Option<Embedding>>,
+}
+
+impl RepackPlan<'_> {
+    /// True for a chart that is packed at a place of its own.
+    fn is_free(&self, chart: usize) -> bool {
+        self.laid[chart].is_none() && self.stacked[chart].is_none()
     }
-    packing
-}
 
-fn summary_of(pieces: &[Piece], free: &[usize], packing: &Packing, options: PackingOptions) -> PackingSummary {
-    let covered = free.iter().map(|&chart| pieces[chart].area).sum::<f64>() * packing.scale.powi(2);
-    let tiles: BTreeSet<u32> = packing.places.iter().map(|place| place.tile).collect();
-    PackingSummary::new(packing, options, tiles.len(), covered)
+    /// Packing of the free charts. `aspect` is that of the picture of the given layout.
+    fn packed(&self, free: &[usize], aspect: f64, options: &RepackOptions) -> PackedPieces {
+        let pieces: Vec<&Piece> = free.iter().map(|&chart| &self.pieces[chart]).collect();
+        let plane = DVec2::new(aspect, 1.0);
+        let of_locked = self.given.charts.iter().zip(&self.laid);
+        let fixed: Vec<ChartShape> =
+            of_locked.filter(|(_, laid)| laid.is_some()).map(|(chart, _)| chart.shape(1.0 / plane)).collect();
+        let beside = first_column_beside(self.laid.iter().flatten());
+        let to_pack = PiecesToPack { pieces: &pieces, tiles: &[], fixed: &fixed, beside };
+        let is_folded = |packed: &PackedPieces, (k, &chart): (usize, &usize)| {
+            let chart = &self.given.charts[chart];
+            chart.is_planar && !chart.is_planar_at(&self.laid(packed, free, k))
+        };
+        to_pack.pack(options.packing, &|picture| self.density_of_locked(picture, options.sizes), &|packed| {
+            free.par_iter().enumerate().any(|chart| is_folded(packed, chart))
+        })
+    }
+
+    /// Coordinates of free chart `k`.
+    fn laid(&self, packed: &PackedPieces, free: &[usize], k: usize) -> Embedding {
+        self.pieces[free[k]].laid(&self.given.charts[free[k]].plane, packed, k)
+    }
+
+    /// Density of the charts that stay, at which the others match them. With given sizes all charts then keep their sizes.
+    fn density_of_locked(&self, picture: DVec2, sizes: ChartSizes) -> Option<f64> {
+        let of_locked = self.given.charts.iter().zip(&self.laid).zip(&self.pieces);
+        let areas = of_locked.filter_map(|((chart, laid), piece)| {
+            let pixels = chart.area_at(laid.as_ref()?, picture);
+            Some([pixels, if sizes == ChartSizes::AsGiven { piece.area } else { chart.area }])
+        });
+        let [pixels, area] = areas.fold([0.0; 2], |sum, [pixels, area]| [sum[0] + pixels, sum[1] + area]);
+        Some((pixels / area).sqrt()).filter(|density| density.is_finite() && *density > 0.0)
+    }
+
+    fn summary(&self, free: &[usize], packed: &PackedPieces, options: PackingOptions) -> PackingSummary {
+        let packing = &packed.packing;
+        let picture = packing.picture.as_dvec2();
+        let of_locked = self.given.charts.iter().zip(&self.laid).filter(|_| packed.is_around);
+        let locked: f64 = of_locked.filter_map(|(chart, laid)| Some(chart.area_at(laid.as_ref()?, picture))).sum();
+        let own = free.iter().map(|&chart| self.pieces[chart].area).sum::<f64>() * packing.scale.powi(2);
+        let tiles: BTreeSet<u32> = packing.places.iter().map(|place| place.tile).collect();
+        PackingSummary::new(packing, options, tiles.len().max(1), own + locked)
+    }
+
+    fn stacked_charts(&self, stacking: Stacking) -> Vec<Option<StackedChart>> {
+        let charts = &self.given.charts;
+        if stacking == Stacking::None {
+            return vec![None; charts.len()];
+        }
+        let stackable = |((chart, piece), laid): ((&GivenChart, &Piece), &Option<Embedding>)| {
+            let surface = if laid.is_none() { chart.measured(piece.factor)? } else { return None };
+            Some(Stackable { surface, size: 1.0, tile: None })
+        };
+        let all = charts.par_iter().zip(&self.pieces).zip(&self.laid);
+        let found = stacks(&all.map(stackable).collect::<Vec<_>>(), stacking);
+        let in_charts = |(chart, stacked): (usize, Option<StackedChart>)| {
+            let StackedChart { on, vertex_of } = stacked?;
+            Some(StackedChart { on, vertex_of: charts[chart].in_chart(&charts[on.chart], &vertex_of) })
+        };
+        found.into_iter().enumerate().map(in_charts).collect()
+    }
 }
 
 /// Charts scaled to the lengths of the surface: each by itself, or all by one factor.
@@ -199,28 +305,44 @@ fn pieces_of(charts: &[GivenChart], sizes: ChartSizes) -> Vec<Piece> {
         let own = (chart.area / chart.area_in_plane).sqrt();
         let is_usable = own.is_normal() && chart.extent() * own <= MOST_EXTENT * chart.area.sqrt();
         let factor = if sizes == ChartSizes::EqualDensity && is_usable { own } else { of_whole };
-        Piece { factor, shape: chart.shape(factor), area: chart.area_in_plane * factor * factor }
+        Piece { factor, shape: chart.shape(DVec2::splat(factor)), area: chart.area_in_plane * factor * factor }
     };
     charts.par_iter().map(piece).collect()
 }
 
-fn stacked_charts(charts: &[GivenChart], pieces: &[Piece], stacking: Stacking) -> Vec<Option<StackedChart>> {
-    if stacking == Stacking::None {
-        return vec![None; charts.len()];
-    }
-    let stackable = |(chart, piece): (&GivenChart, &Piece)| {
-        let surface = chart.measured(piece.factor)?;
-        Some(Stackable { surface, size: 1.0, tile: None })
-    };
-    let found = stacks(&charts.par_iter().zip(pieces).map(stackable).collect::<Vec<_>>(), stacking);
-    let in_charts = |(chart, stacked): (usize, Option<StackedChart>)| {
-        let StackedChart { on, vertex_of } = stacked?;
-        Some(StackedChart { on, vertex_of: charts[chart].in_chart(&charts[on.chart], &vertex_of) })
-    };
-    found.into_iter().enumerate().map(in_charts).collect()
-}
-
 impl GivenCharts {
+    /// Given coordinates of the locked charts.
+    fn locked(&self, layout: GivenLayout<'_>, locked: &LockedCharts) -> Result<Vec<Option<Embedding>>, RepackError> {
+        let count = self.charts.len();
+        let is_locked: Vec<bool> = match locked {
+            LockedCharts::Numbered(numbers) => {
+                if let Some(&chart) = numbers.range(count..).next() {
+                    return Err(RepackError::NoSuchChart { chart, count });
+                }
+                (0..count).map(|chart| numbers.contains(&chart)).collect()
+            }
+            LockedCharts::WithFaces(faces) => {
+                let count = layout.mesh.face_count();
+                if let Some(&face) = faces.range(FaceId::from_index(count)..).next() {
+                    return Err(RepackError::NoSuchFace { face, count });
+                }
+                let has_one = |chart: &GivenChart| chart.polygons().any(|face| faces.contains(&face));
+                self.charts.iter().map(has_one).collect()
+            }
+        };
+        let mut coordinates = vec![DVec2::ZERO; self.charts.iter().map(|chart| chart.plane.len()).sum()];
+        for (place, &vertex) in self.corners.iter().enumerate().filter(|(_, vertex)| **vertex != NO_COORDINATE) {
+            coordinates[vertex as usize] = layout.coordinate(place);
+        }
+        let mut rest = &coordinates[..];
+        let of_chart = |(chart, is_locked): (&GivenChart, bool)| {
+            let (own, others) = rest.split_at(chart.plane.len());
+            rest = others;
+            is_locked.then(|| own.to_vec().into())
+        };
+        Ok(self.charts.iter().zip(is_locked).map(of_chart).collect())
+    }
+
     /// Result for the coordinates of each chart.
     fn repacked(self, laid: &[Embedding], stacked: &[Option<StackedChart>], packing: PackingSummary) -> Repacked {
         let picture = DVec2::from(packing.picture.map(f64::from));

@@ -1,14 +1,17 @@
 //! New places for the charts of a given layout.
 
 use freebound_core::geom::{PackingOptions, Random, Stacking};
-use freebound_core::mesh::PolygonMesh;
-use freebound_core::pipeline::{ChartSizes, GivenLayout, NO_COORDINATE, RepackError, Repacked, repack};
+use freebound_core::mesh::{FaceId, PolygonMesh};
+use freebound_core::pipeline::{
+    ChartSizes, GivenLayout, LockedCharts, NO_COORDINATE, RepackError, RepackOptions, Repacked, repack,
+};
 use freebound_testkit::{fan, grid, tetrahedron};
 use glam::DVec2;
 use proptest::prelude::*;
 
-fn options(stack: Stacking) -> PackingOptions {
-    PackingOptions { picture: [256; 2], stack, ..PackingOptions::default() }
+fn rules(sizes: ChartSizes, stack: Stacking) -> RepackOptions {
+    let packing = PackingOptions { picture: [256; 2], stack, ..PackingOptions::default() };
+    RepackOptions { packing, sizes, locked: LockedCharts::default() }
 }
 
 /// Layout of a flat mesh: each face alone, or the positions themselves.
@@ -50,7 +53,7 @@ impl Layout {
     }
 
     fn repacked(&self, sizes: ChartSizes, stack: Stacking) -> Repacked {
-        repack(self.given(), sizes, options(stack)).expect("a layout")
+        repack(self.given(), &rules(sizes, stack)).expect("a layout")
     }
 }
 
@@ -131,14 +134,14 @@ fn charts_that_touch_at_a_corner_part_there() {
 fn unusable_coordinates_are_named() {
     let mut layout = Layout::flat((&grid(2, 1)).into());
     layout.corners[4] = NO_COORDINATE;
-    let missing = repack(layout.given(), ChartSizes::AsGiven, options(Stacking::None));
+    let missing = repack(layout.given(), &rules(ChartSizes::AsGiven, Stacking::None));
     assert!(matches!(missing, Err(RepackError::Missing(faces)) if faces.len() == 1 && faces[0].number() == 1));
     let mut layout = Layout::flat((&grid(2, 1)).into());
     layout.coordinates[0].x = f64::NAN;
-    let infinite = repack(layout.given(), ChartSizes::AsGiven, options(Stacking::None));
+    let infinite = repack(layout.given(), &rules(ChartSizes::AsGiven, Stacking::None));
     assert!(matches!(infinite, Err(RepackError::NotFinite(_))), "{infinite:?}");
     let none = Layout::flat(PolygonMesh::default());
-    assert_eq!(repack(none.given(), ChartSizes::AsGiven, options(Stacking::None)).err(), Some(RepackError::NoFaces));
+    assert_eq!(repack(none.given(), &rules(ChartSizes::AsGiven, Stacking::None)).err(), Some(RepackError::NoFaces));
 }
 
 proptest! {
@@ -159,4 +162,68 @@ proptest! {
             prop_assert_eq!(stacks, expected);
         }
     }
+}
+
+/// Rules that lock some charts.
+fn locking(locked: LockedCharts, sizes: ChartSizes) -> RepackOptions {
+    RepackOptions { locked, ..rules(sizes, Stacking::None) }
+}
+
+/// A layout whose first chart lies in a corner of the picture and the others anywhere.
+fn with_one_in_the_corner() -> Layout {
+    let mut layout = Layout::scattered((&grid(3, 2)).into(), &mut Random(7));
+    let own = [DVec2::new(0.05, 0.05), DVec2::new(0.25, 0.05), DVec2::new(0.05, 0.25)];
+    layout.coordinates[..3].copy_from_slice(&own);
+    layout
+}
+
+#[test]
+fn locked_charts_keep_their_bits_and_the_others_are_packed_around_them() {
+    let layout = with_one_in_the_corner();
+    for sizes in [ChartSizes::EqualDensity, ChartSizes::AsGiven] {
+        let locked = LockedCharts::WithFaces([FaceId::new(0)].into());
+        let packed = repack(layout.given(), &locking(locked, sizes)).unwrap();
+        let corner = |corner: usize| packed.coordinates[packed.corners[corner] as usize];
+        assert_eq!([0, 1, 2].map(corner), [0, 1, 2].map(|at| layout.coordinates[at]));
+        assert!(
+            packed.is_planar() && packed.coordinates.iter().all(|z| z.min_element() > 0.0 && z.max_element() < 1.0)
+        );
+        let moved = (3..layout.corners.len()).filter(|&at| corner(at) != layout.coordinates[at]).count();
+        assert_eq!(moved, layout.corners.len() - 3);
+        // The others get no more pixels than the locked chart.
+        let densest = packed.charts[1..].iter().map(|chart| chart.density).fold(0.0, f64::max);
+        assert!(sizes == ChartSizes::AsGiven || densest <= packed.charts[0].density * (1.0 + 1e-9));
+        let by_number = locking(LockedCharts::Numbered([0].into()), sizes);
+        assert_eq!(repack(layout.given(), &by_number).unwrap().coordinates, packed.coordinates);
+    }
+}
+
+#[test]
+fn charts_lie_beside_a_locked_chart_that_fills_the_picture() {
+    let mut layout = with_one_in_the_corner();
+    layout.coordinates[..3].copy_from_slice(&[DVec2::new(-9.0, -9.0), DVec2::new(19.0, -9.0), DVec2::new(0.0, 29.0)]);
+    let locked = locking(LockedCharts::Numbered([0].into()), ChartSizes::EqualDensity);
+    let packed = repack(layout.given(), &locked).unwrap();
+    assert!(packed.is_planar());
+    let others = &packed.corners[3..];
+    assert!(others.iter().all(|&at| packed.coordinates[at as usize].x > 19.0));
+}
+
+#[test]
+fn all_charts_may_be_locked() {
+    let layout = Layout::flat((&grid(3, 2)).into());
+    let packed = repack(layout.given(), &locking(LockedCharts::Numbered([0].into()), ChartSizes::AsGiven)).unwrap();
+    let kept: Vec<DVec2> = packed.corners.iter().map(|&at| packed.coordinates[at as usize]).collect();
+    assert_eq!(kept, layout.corners.iter().map(|&at| layout.coordinates[at as usize]).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_lock_of_a_chart_or_face_that_does_not_exist_is_refused() {
+    let layout = Layout::flat((&grid(3, 2)).into());
+    let error = |locked| repack(layout.given(), &locking(locked, ChartSizes::AsGiven)).err();
+    let chart = error(LockedCharts::Numbered([0, 1].into()));
+    assert_eq!(chart, Some(RepackError::NoSuchChart { chart: 1, count: 1 }));
+    let face = FaceId::new(12);
+    let wrong = error(LockedCharts::WithFaces([FaceId::new(3), face].into()));
+    assert_eq!(wrong, Some(RepackError::NoSuchFace { face, count: 12 }));
 }
