@@ -15,6 +15,7 @@ from ._freebound import Step
 from ._layout import Layout, Verdict
 from ._map import MapRecord, map
 from ._mesh import Mesh, read
+from ._pack import Packed, pack
 from ._plot import plot
 from ._run import Drag, Flattener, Job, Pack, equations, flatten, start, unwrap
 
@@ -31,6 +32,7 @@ __all__ = [
     "NotProved",
     "OptionError",
     "Pack",
+    "Packed",
     "Step",
     "Verdict",
     "__version__",
@@ -38,6 +40,7 @@ __all__ = [
     "equations",
     "flatten",
     "map",
+    "pack",
     "plot",
     "read",
     "start",

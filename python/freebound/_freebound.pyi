@@ -44,6 +44,18 @@ class Job:
     @property
     def progress(self) -> dict[str, Any]: ...
 
+@final
+class _Packed:
+    @property
+    def corner_uv(self) -> NDArray[np.float64]: ...
+    @property
+    def chart(self) -> NDArray[np.int64]: ...
+    @property
+    def planar(self) -> bool: ...
+    @property
+    def report(self) -> dict[str, Any]: ...
+    def write(self, path: str, precision: str | None = None) -> tuple[list[str], bool]: ...
+
 class _Layout:
     @property
     def vertices(self) -> NDArray[np.float64]: ...
@@ -132,7 +144,13 @@ class Step:
 
 class _Drag:
     def __new__(cls, layout: _Layout, threads: int | None = None) -> Self: ...
-    def advance(self, vertex: int, target: Sequence[float]) -> tuple[NDArray[np.float64], dict[str, Any]]: ...
+    @property
+    def at_rest(self) -> bool:
+        """True if no vertex moved in the last frame."""
+
+    def advance(
+        self, vertex: int, target: Sequence[float], frames: int | None = None
+    ) -> tuple[NDArray[np.float64], dict[str, Any]]: ...
 
 def check(
     mesh: Mesh,
@@ -145,3 +163,11 @@ def check_options(options: str, lists: dict[str, Any]) -> None: ...
 def equations(
     mesh: Mesh, family: str, free: bool
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.complex128]]: ...
+
+def pack(
+    mesh: Mesh,
+    options: str,
+    locked: NDArray[np.int64] | None = None,
+    keeps_sizes: bool = False,
+    aspect: float | None = None,
+) -> _Packed: ...

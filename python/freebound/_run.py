@@ -226,10 +226,21 @@ class Drag(_freebound._Drag):
     def __new__(cls, layout: Layout, threads: int | None = None) -> Drag:
         return super().__new__(cls, layout._native, threads)
 
-    def move(self, vertex: int, target: tuple[float, float]) -> tuple[np.ndarray, dict[str, Any]]:
-        """Moves a vertex towards a place. Returns the coordinates, shape (n, 2), and the verdict on them."""
+    def move(
+        self, vertex: int, target: tuple[float, float], *, frames: int | None = None
+    ) -> tuple[np.ndarray, dict[str, Any]]:
+        """Moves a vertex towards a place. Returns the coordinates, shape (n, 2), and the verdict on them.
+
+        Args:
+            vertex: vertex of the layout.
+            target: place to move it to.
+            frames: most frames. With 1 a call takes a frame of an editor; call it again until :attr:`at_rest` is true.
+                Default: until the layout is at rest.
+        """
+        if frames is not None and frames < 1:
+            raise OptionError("frames: pass a number of 1 or more")
         u, v = (float(number) for number in target)
-        return self.advance(int(vertex), [u, v])
+        return self.advance(int(vertex), [u, v], frames)
 
 
 def equations(vertices: Any, faces: Any = None, *, family: str = "mean-value", boundary: str = "free") -> Any:

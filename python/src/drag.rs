@@ -24,6 +24,8 @@ struct State {
     problem: Problem,
     embedding: Embedding,
     solver: Option<DragSolver>,
+    /// True if no vertex moved in the last frame.
+    is_at_rest: bool,
 }
 
 /// Planar layout whose vertices can be dragged.
@@ -59,15 +61,24 @@ impl Drag {
         let Some((mesh, embedding)) = start.map_err(|error| errors::option_error(py, error))? else {
             return Err(errors::option_error(py, "the layout has no chart"));
         };
-        Ok(Self { mesh, state: Mutex::new(State { problem, embedding, solver: None }), threads })
+        Ok(Self { mesh, state: Mutex::new(State { problem, embedding, solver: None, is_at_rest: true }), threads })
     }
 
-    /// Drags a vertex towards a place, until nothing moves. Returns the coordinates (n, 2) and the verdict.
+    /// True if no vertex moved in the last frame.
+    #[getter]
+    fn at_rest(&self) -> bool {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner).is_at_rest
+    }
+
+    /// Drags a vertex towards a place, until nothing moves, or for some frames. Returns the coordinates (n, 2) and the
+    /// verdict.
+    #[pyo3(signature = (vertex, target, frames=None))]
     fn advance<'py>(
         &self,
         py: Python<'py>,
         vertex: u32,
         target: [f64; 2],
+        frames: Option<usize>,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyAny>)> {
         if vertex as usize >= self.mesh.real_vertex_count() {
             return Err(errors::option_error(py, format!("vertex {vertex} is not there")));
@@ -79,7 +90,8 @@ impl Drag {
         let count = self.mesh.real_vertex_count();
         let work = |control: Control<'_>| {
             let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-            let verdict = state.advance(&self.mesh, vertex, target, control)?;
+            let pull = Pull { vertex, target, frames: frames.unwrap_or(MOST_FRAMES).clamp(1, MOST_FRAMES) };
+            let verdict = state.advance(&self.mesh, pull, control)?;
             let frame = state.problem.frame;
             let coordinates: Vec<DVec2> = state.embedding[..count].iter().map(|&z| frame.uv_from_plane(z)).collect();
             Some((coordinates, verdict))
@@ -92,9 +104,18 @@ impl Drag {
     }
 }
 
+/// Vertex that is dragged towards a place, for some frames.
+#[derive(Clone, Copy)]
+struct Pull {
+    vertex: VertexId,
+    target: DVec2,
+    frames: usize,
+}
+
 impl State {
     /// Moves a vertex, and returns the verdict. `None` if the layout is not planar.
-    fn advance(&mut self, mesh: &DiskMesh, vertex: VertexId, target: DVec2, control: Control<'_>) -> Option<Verdict> {
+    fn advance(&mut self, mesh: &DiskMesh, pull: Pull, control: Control<'_>) -> Option<Verdict> {
+        let Pull { vertex, target, frames } = pull;
         let is_same = self.solver.as_ref().is_some_and(|solver| solver.dragged() == [vertex]);
         if !is_same {
             let place = self.problem.frame.uv_from_plane(self.embedding[vertex]);
@@ -105,11 +126,11 @@ impl State {
         self.problem.targets.insert(vertex, Target::hard(target));
         let (solver, aim) = (self.solver.as_mut()?, self.problem.drag_target());
         let mut last = None;
-        for _ in 0..MOST_FRAMES {
+        for _ in 0..frames {
             let frame = solver.drag(mesh, &aim, control).ok()?;
-            let is_at_rest = frame.is_at_rest;
+            self.is_at_rest = frame.is_at_rest;
             last = Some(frame.verdict);
-            if is_at_rest {
+            if self.is_at_rest {
                 break;
             }
         }

@@ -1,6 +1,6 @@
 //! Finished layouts.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use freebound_core::problem::NamedOption as _;
@@ -179,28 +179,43 @@ impl Layout {
         path: PathBuf,
         precision: Option<String>,
     ) -> PyResult<(Vec<PathBuf>, bool, String)> {
-        let precision = precision
-            .map(|name| {
-                let wrong = || errors::option_error(py, format!("precision: choose one of {}", Precision::names()));
-                Precision::named(&name).ok_or_else(wrong)
-            })
-            .transpose()?;
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        let kind = match extension.as_str() {
-            "obj" => OutputKind::Obj,
-            "ply" => OutputKind::Ply,
-            "glb" => OutputKind::Glb,
-            "svg" => OutputKind::Svg,
-            "png" => OutputKind::Png,
-            "json" => OutputKind::Json,
-            _ => {
-                let message = format!("{}: end the name in .obj, .ply, .glb, .svg, .png or .json", path.display());
-                return Err(errors::option_error(py, message));
-            }
-        };
+        let precision = precision.map(|name| precision_of(py, &name)).transpose()?;
+        let kind = kind_of(py, &path, &KINDS)?;
         let write = || self.inner.write(&path, kind, precision);
         let written = py.detach(|| in_pool(0, write)).map_err(PyRuntimeError::new_err)?;
         let written = written.map_err(|error| PyOSError::new_err(error.to_string()))?;
         Ok((written.files, written.planar, written.summary))
     }
+}
+
+/// Kinds of files that a layout can be written to.
+const KINDS: [OutputKind; 6] =
+    [OutputKind::Obj, OutputKind::Ply, OutputKind::Glb, OutputKind::Svg, OutputKind::Png, OutputKind::Json];
+
+/// Kind of file that an extension names, one of `kinds`.
+pub(crate) fn kind_of(py: Python<'_>, path: &Path, kinds: &[OutputKind]) -> PyResult<OutputKind> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let is_named = |kind: &&OutputKind| extension_of(**kind) == extension;
+    kinds.iter().find(is_named).copied().ok_or_else(|| {
+        let names: Vec<String> = kinds.iter().map(|&kind| format!(".{}", extension_of(kind))).collect();
+        let (last, others) = names.split_last().expect("there are kinds");
+        errors::option_error(py, format!("{}: end the name in {} or {last}", path.display(), others.join(", ")))
+    })
+}
+
+fn extension_of(kind: OutputKind) -> &'static str {
+    match kind {
+        OutputKind::Obj => "obj",
+        OutputKind::Ply => "ply",
+        OutputKind::Glb => "glb",
+        OutputKind::Svg => "svg",
+        OutputKind::Png => "png",
+        OutputKind::Json => "json",
+    }
+}
+
+/// Precision of this name.
+pub(crate) fn precision_of(py: Python<'_>, name: &str) -> PyResult<Precision> {
+    let wrong = || errors::option_error(py, format!("precision: choose one of {}", Precision::names()));
+    Precision::named(name).ok_or_else(wrong)
 }

@@ -8,6 +8,7 @@
 //! | `errors`    | errors of the package                                    |
 //! | `job`       | a run on a thread of its own                             |
 //! | `layout`    | finished layouts                                         |
+//! | `packed`    | new places for the charts of a given layout               |
 //! | `flattener` | a method step by step                                    |
 //! | `drag`      | dragged pins                                             |
 //! | `equations` | the matrices of the paper                                |
@@ -21,6 +22,7 @@ mod job;
 mod layout;
 mod mesh;
 mod options;
+mod packed;
 
 /// Native module of the package `freebound`.
 #[pyo3::pymodule]
@@ -39,6 +41,8 @@ mod _freebound {
     use super::mesh::{Mesh, check};
     #[pymodule_export]
     use super::options::check_options;
+    #[pymodule_export]
+    use super::packed::{Packed, pack};
 
     /// Version of the package.
     #[pymodule_export]

@@ -119,6 +119,12 @@ impl Options {
         self.made(lists).map_err(|Wrong(why)| errors::option_error(py, why))
     }
 
+    /// Packing and precision of these options.
+    pub(crate) fn packing_and_precision(&self, py: Python<'_>) -> PyResult<(PackingOptions, Option<Precision>)> {
+        let both = || Ok((self.packing()?, named::<Precision>("precision", self.precision.as_ref())?));
+        both().map_err(|Wrong(why)| errors::option_error(py, why))
+    }
+
     fn made(&self, lists: &Lists<'_>) -> Result<RunRequest, Wrong> {
         let usual = if self.unwrap { RunRequest::unwrap() } else { RunRequest::default() };
         let automatic_cut = self.automatic_cut(&usual)?;

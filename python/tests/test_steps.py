@@ -74,3 +74,19 @@ def test_a_dragged_vertex_reaches_its_place_and_the_layout_stays_planar():
         drag.move(100000, (0, 0))
     with pytest.raises(freebound.OptionError):
         freebound.Drag(freebound.unwrap(*cube(), seams="sharp"))
+
+
+def test_a_drag_may_go_frame_by_frame():
+    layout = freebound.flatten(*grid()[:2])
+    whole, once = freebound.Drag(layout), freebound.Drag(layout)
+    target = tuple(layout.uv[0] + 0.05)
+    places, _ = whole.move(0, target)
+    frames = 0
+    while frames == 0 or not once.at_rest:
+        stepped, verdict = once.move(0, target, frames=1)
+        assert verdict["planar"]
+        frames += 1
+    assert frames > 1 and whole.at_rest
+    assert (places == stepped).all()
+    with pytest.raises(freebound.OptionError, match="frames"):
+        once.move(0, target, frames=0)

@@ -148,3 +148,46 @@ def test_the_program_and_the_package_write_the_same_bytes(tmp_path, program):
     program("flatten", path, "-o", tmp_path / "program.obj", "--pin", "0:0.1,0.2", "--pin", "12:0.8,0.3")
     freebound.flatten(path, pins={0: (0.1, 0.2), 12: (0.8, 0.3)}).save(tmp_path / "package.obj")
     assert (tmp_path / "program.obj").read_bytes() == (tmp_path / "package.obj").read_bytes()
+
+
+def scattered():
+    """A cube with a chart for each face, all in one place."""
+    vertices, faces = cube()
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * 0.25 + 0.125
+    return vertices, faces, np.tile(square, (6, 1))
+
+
+def test_charts_of_a_given_layout_are_packed_and_keep_their_shapes(tmp_path):
+    vertices, faces, uv = scattered()
+    assert not freebound.check(vertices, faces, uv)["planar"]
+    packed = freebound.pack(vertices, faces, uv, pack=freebound.Pack(size=256, gap=4))
+    assert packed.planar and packed.chart.tolist() == list(range(6)) and packed.report["packing"]["gap"] == 4
+    # The check of a layout is another algorithm than its proof.
+    assert freebound.check(vertices, faces, packed.corner_uv, gap=3.9, size=256)["passes"]
+    sides = np.linalg.norm(np.diff(packed.corner_uv.reshape(-1, 4, 2), axis=1), axis=2)
+    assert np.ptp(sides) < 1e-12
+    file, *_ = packed.save(tmp_path / "packed.obj")
+    assert np.array_equal(freebound.read(file).corner_uv, packed.corner_uv)
+    with pytest.raises(freebound.OptionError, match="png"):
+        packed.save(tmp_path / "packed.png")
+
+
+@pytest.mark.parametrize("lock", [[2], np.arange(6) == 2])
+def test_locked_charts_keep_their_bits_and_others_are_packed_around_them(lock):
+    vertices, faces, uv = scattered()
+    packed = freebound.pack(vertices, faces, uv, lock=lock)
+    assert packed.planar and np.array_equal(packed.corner_uv[8:12], uv[8:12])
+    others = np.delete(packed.corner_uv.reshape(-1, 4, 2), 2, axis=0)
+    assert others.min() >= 0 and others.max() <= 1 and (others != uv[:4]).any(axis=(1, 2)).all()
+
+
+def test_wrong_options_of_packing_are_refused():
+    vertices, faces, uv = scattered()
+    for options in ({"lock": [6]}, {"lock": [-1]}, {"lock": [True]}, {"lock": [0.5]}, {"aspect": 0}, {"precision": "f16"}):
+        with pytest.raises(freebound.OptionError):
+            freebound.pack(vertices, faces, uv, **options)
+    with pytest.raises(freebound.OptionError, match="pass them"):
+        freebound.pack(vertices, faces)
+    with pytest.raises(freebound.InputError) as caught:
+        freebound.pack(vertices, faces, np.where(np.arange(24)[:, None] < 4, np.nan, uv))
+    assert caught.value.faults

@@ -1,0 +1,118 @@
+"""New places for the charts of a given layout."""
+
+from __future__ import annotations
+
+import os
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from . import _arrays, _freebound
+from ._errors import NotProved, OptionError
+from ._run import Pack
+
+
+class Packed:
+    """Given layout whose charts have new places. Arrays are read-only."""
+
+    def __init__(self, native: Any) -> None:
+        self._native = native
+
+    @cached_property
+    def corner_uv(self) -> np.ndarray:
+        """Texture coordinates of the corners, in the order of the faces, shape (c, 2)."""
+        return self._native.corner_uv
+
+    @cached_property
+    def chart(self) -> np.ndarray:
+        """Chart of each face, shape (m,); −1 for faces without a triangle."""
+        return self._native.chart
+
+    @property
+    def planar(self) -> bool:
+        """True if the layout is one-to-one: no face is flipped, and no two faces overlap. Decided exactly."""
+        return self._native.planar
+
+    @cached_property
+    def report(self) -> dict[str, Any]:
+        """Report of the packing, as ``freebound pack`` writes it."""
+        return self._native.report
+
+    def save(self, path: str | os.PathLike[str], *, precision: str | None = None) -> list[str]:
+        """Writes the mesh with its coordinates (.obj, .ply, .glb) or a drawing (.svg).
+
+        Raises:
+            NotProved: the layout is planar, and rounding folds it. The file is written all the same.
+
+        Args:
+            path: file to write. Its extension names the format.
+            precision: "f64" or "f32". Default: 64 bits for OBJ and 32 bits for PLY and GLB.
+
+        Returns:
+            The files written, ``path`` first.
+        """
+        files, planar = self._native.write(os.fspath(path), precision)
+        if self.planar and not planar:
+            raise NotProved(f"{os.fspath(path)}: the rounded coordinates are not planar")
+        return [os.fspath(file) for file in files]
+
+    def __repr__(self) -> str:
+        return f"<freebound.Packed: {self.chart.max() + 1} charts, {'planar' if self.planar else 'not planar'}>"
+
+
+def pack(
+    vertices: Any,
+    faces: Any = None,
+    corner_uv: Any = None,
+    *,
+    pack: Pack | None = None,
+    lock: Any = None,
+    keep_sizes: bool = False,
+    aspect: float | None = None,
+    precision: str | None = None,
+    threads: int | None = None,
+) -> Packed:
+    """Packs the charts of a given layout, without flattening. Each chart keeps its shape.
+
+    >>> packed = freebound.pack("model.obj", pack=freebound.Pack(size=2048, gap=8))
+
+    Args:
+        vertices: positions, shape (n, 3); or a :class:`Mesh`; or the path of a mesh file with texture coordinates.
+        faces: shape (m, 3) or (m, 4), or (indices, offsets).
+        corner_uv: texture coordinates of the corners, shape (c, 2), v up.
+        pack: packing of the charts.
+        lock: numbers of faces, or True for each face, shape (m,). Charts with one of these faces keep their coordinates
+            to the last bit, and the others are packed around them.
+        keep_sizes: True to keep the sizes of the charts relative to each other. Default: one density for all charts.
+        aspect: width over height of the picture of the given layout. Default: that of the new picture.
+        precision: "f32" to round the coordinates to 32 bits, and to prove them so.
+        threads: number of threads. Default: all cores.
+
+    Raises:
+        InputError: the mesh has no complete texture coordinates.
+        OptionError: an option is wrong.
+    """
+    mesh = _arrays.mesh_of(vertices, faces, corner_uv)
+    if mesh.corner_uv is None:
+        raise OptionError("corner_uv: the mesh has no texture coordinates: pass them")
+    if aspect is not None and not (np.isfinite(aspect) and aspect > 0):
+        raise OptionError("aspect: pass width over height, above 0")
+    options, _ = _arrays.request({"pack": pack, "precision": precision, "threads": threads})
+    return Packed(_freebound.pack(mesh, options, _locked(mesh, lock), keep_sizes, aspect))
+
+
+def _locked(mesh: Any, lock: Any) -> np.ndarray | None:
+    if lock is None:
+        return None
+    faces = np.asarray(lock)
+    if faces.dtype == bool:
+        count = len(mesh.corners) // 3 if mesh.starts is None else len(mesh.starts) - 1
+        if faces.shape != (count,):
+            raise OptionError(f"lock: pass an array of shape ({count},), True for each face to lock")
+        faces = np.flatnonzero(faces)
+    if faces.size == 0:
+        return None
+    if faces.ndim != 1 or not np.issubdtype(faces.dtype, np.integer):
+        raise OptionError("lock: pass numbers of faces, or True for each face")
+    return np.ascontiguousarray(faces, dtype=np.int64)

@@ -1,0 +1,138 @@
+//! New places for the charts of a given layout.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use freebound_core::mesh::FaceId;
+use freebound_core::pipeline::{ChartSizes, LockedCharts, RepackError, RepackOptions, Repacked};
+use freebound_io::{FaultReport, LayoutPacking, LayoutToPackError, Materials, MeshFile, OutputKind, Report};
+use freebound_io::{RepackedFile, WriteError};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
+use pyo3::exceptions::{PyOSError, PyRuntimeError};
+use pyo3::prelude::*;
+
+use super::job::in_pool;
+use super::layout::{kind_of, precision_of};
+use super::mesh::Mesh;
+use super::options::Options;
+use super::{arrays, errors};
+
+/// Layout with new places for its charts.
+#[pyclass(frozen, module = "freebound", name = "_Packed")]
+pub(crate) struct Packed {
+    source: Arc<MeshFile>,
+    path: Option<PathBuf>,
+    repacked: Repacked,
+    report: Report,
+}
+
+impl Packed {
+    fn file(&self) -> RepackedFile<'_> {
+        RepackedFile {
+            source: &self.source,
+            source_path: self.path.as_deref(),
+            materials: Materials::Stay,
+            repacked: self.repacked.clone(),
+            report: self.report.clone(),
+        }
+    }
+}
+
+#[pymethods]
+impl Packed {
+    #[getter]
+    fn corner_uv<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let coordinates = &self.repacked.coordinates;
+        let at = |&number: &u32| coordinates.get(number as usize).map_or([f64::NAN; 2], |uv| uv.to_array());
+        arrays::table(py, self.repacked.corners.iter().map(at))
+    }
+
+    /// Chart of each face, −1 for faces without a triangle.
+    #[getter]
+    fn chart<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        let mut chart_of = vec![-1; self.source.polygons.face_count()];
+        let mut first = 0;
+        for (number, chart) in (0..).zip(&self.repacked.charts) {
+            for face in first..first + chart.faces {
+                chart_of[self.repacked.mesh.polygon(FaceId::from_index(face)) as usize] = number;
+            }
+            first += chart.faces;
+        }
+        arrays::list(py, chart_of)
+    }
+
+    #[getter]
+    fn planar(&self) -> bool {
+        self.repacked.is_planar()
+    }
+
+    #[getter]
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        errors::to_python(py, &self.report)
+    }
+
+    /// Writes a file of the kind that its extension names. Returns the files written, and if the written numbers are
+    /// planar.
+    #[pyo3(signature = (path, precision=None))]
+    fn write(&self, py: Python<'_>, path: PathBuf, precision: Option<&str>) -> PyResult<(Vec<PathBuf>, bool)> {
+        let precision = precision.map(|name| precision_of(py, name)).transpose()?;
+        let kind = kind_of(py, &path, &[OutputKind::Obj, OutputKind::Ply, OutputKind::Glb, OutputKind::Svg])?;
+        let mut file = self.file();
+        let write = || -> Result<_, WriteError> {
+            file.round_to(precision, if kind.is_mesh() { kind } else { OutputKind::Obj });
+            let files = file.write(kind, &path)?;
+            Ok((files, file.repacked.is_planar()))
+        };
+        let written = py.detach(|| in_pool(0, write)).map_err(PyRuntimeError::new_err)?;
+        written.map_err(|error| PyOSError::new_err(error.to_string()))
+    }
+}
+
+/// Packs the charts of a mesh. `options` is a JSON object; `locked` are faces whose charts stay in place; `aspect` is
+/// width over height of the picture of the given layout.
+#[pyfunction]
+#[pyo3(signature = (mesh, options, locked=None, keeps_sizes=false, aspect=None))]
+pub(crate) fn pack(
+    py: Python<'_>,
+    mesh: &Mesh,
+    options: &str,
+    locked: Option<PyReadonlyArray1<'_, i64>>,
+    keeps_sizes: bool,
+    aspect: Option<f64>,
+) -> PyResult<Packed> {
+    let options = Options::of_json(py, options)?;
+    let (packing, precision) = options.packing_and_precision(py)?;
+    let threads = options.threads.map_or(0, usize::from);
+    let [width, height] = packing.picture.map(f64::from);
+    let mut faces = BTreeSet::new();
+    for &face in locked.iter().map(PyReadonlyArray1::as_slice).collect::<Result<Vec<_>, _>>()?.into_iter().flatten() {
+        let number =
+            u32::try_from(face).map_err(|_| errors::option_error(py, format!("lock: there is no face {face}")))?;
+        faces.insert(FaceId::new(number));
+    }
+    let sizes = if keeps_sizes { ChartSizes::AsGiven } else { ChartSizes::EqualDensity };
+    let options = RepackOptions { packing, sizes, locked: LockedCharts::WithFaces(faces) };
+    let packing = LayoutPacking { options, aspect: aspect.unwrap_or(width / height) };
+    let (source, path) = (Arc::clone(&mesh.file), mesh.model().path_words());
+    let work = || {
+        let mut file = RepackedFile::new(&source, path, &packing)?;
+        if precision.is_some() {
+            file.round_to(precision, OutputKind::Obj);
+        }
+        Ok((file.repacked, file.report))
+    };
+    match py.detach(|| in_pool(threads, work)).map_err(PyRuntimeError::new_err)? {
+        Ok((repacked, report)) => {
+            let path = mesh.model().path.as_deref().map(PathBuf::from);
+            Ok(Packed { source: Arc::clone(&mesh.file), path, repacked, report })
+        }
+        Err(LayoutToPackError::Texture(error)) => {
+            Err(errors::input_error(py, &error, &FaultReport::of_texture(&error)))
+        }
+        Err(LayoutToPackError::Repack(RepackError::NoSuchFace { face, .. })) => {
+            Err(errors::option_error(py, format!("lock: there is no face {}", face.number())))
+        }
+        Err(error) => Err(errors::input_error(py, error, &[])),
+    }
+}
