@@ -56,6 +56,11 @@ class Selection:
         """Faces for the package."""
         return self.corners, self.starts
 
+    @property
+    def is_hard(self):
+        """True for each corner that is pinned, and whose vertex is not in the group of soft pins."""
+        return self.pinned & np.isnan(self.weights)
+
 
 @contextmanager
 def object_mode(context):
@@ -95,13 +100,25 @@ def _numbers(collection, name, dtype, width=1):
 
 def gather(context, group="", needs_uv=False):
     """Selected faces with their seams, coordinates and pins. ``group`` is the vertex group of soft pins."""
+    return gather_with_others(context, group, needs_uv, False)[0]
+
+
+def gather_with_others(context, group="", needs_uv=False, is_around=True):
+    """Selected faces, and the faces with coordinates that are not selected, or None. Outside edit mode all are selected."""
     is_edited = context.mode == "EDIT_MESH"
     objects = objects_of(context)
     with object_mode(context):
-        return _gathered(objects, is_edited, group, needs_uv)
+        selection = _arrays(objects, is_edited, group, needs_uv)
+        others = None
+        if is_edited and is_around:
+            try:
+                others = _arrays(objects, is_edited, needs_uv=True, is_other=True)
+            except Nothing:
+                pass
+    return selection, others
 
 
-def _gathered(objects, is_edited, group, needs_uv):
+def _arrays(objects, is_edited, group="", needs_uv=False, is_other=False):
     selection = Selection()
     vertices, corners, sizes, seams, uvs, pins, weights = [], [], [], [], [], [], []
     count = 0
@@ -110,7 +127,7 @@ def _gathered(objects, is_edited, group, needs_uv):
         chosen = _numbers(mesh.polygons, "select", bool) & ~_numbers(mesh.polygons, "hide", bool)
         if not is_edited:
             chosen[:] = True
-        faces = np.flatnonzero(chosen)
+        faces = np.flatnonzero(~chosen if is_other else chosen)
         if not len(faces):
             continue
         layer = mesh.uv_layers.active
@@ -175,14 +192,9 @@ def _weights(item, group):
     return weights
 
 
-def corner_pins(selection):
-    """Pins for the package, one for each pinned corner. Pins of vertices in the group are soft."""
-    at = np.flatnonzero(selection.pinned)
-    return (at, selection.uv[at], selection.weights[at]) if len(at) else None
-
-
-def write(context, selection, corner_uv, cut_edges=None):
-    """Puts coordinates into the active UV maps, and marks seams. Returns the number of newly marked edges."""
+def write(context, selection, corner_uv, cut_edges=None, pins=None):
+    """Puts coordinates into the active UV maps, marks seams, and pins corners. Corners without coordinates stay. Returns
+    the number of newly marked edges."""
     marked, begin = 0, 0
     with object_mode(context):
         if not all(_is_unchanged(part) for part in selection.parts):
@@ -198,9 +210,19 @@ def write(context, selection, corner_uv, cut_edges=None):
             layer.uv.foreach_set("vector", values.ravel())
             if cut_edges is not None and len(cut_edges):
                 marked += _mark(mesh, part, cut_edges)
+            if pins is not None:
+                _pin(layer, len(mesh.loops), part.loops[pins[(pins >= begin) & (pins < end)] - begin])
             mesh.update()
             begin = end
     return marked
+
+
+def _pin(layer, count, loops):
+    if len(loops):
+        is_pinned = _pins(layer, count)
+        is_pinned[loops] = True
+        layer.pin_ensure()
+        layer.pin.foreach_set("value", is_pinned)
 
 
 def _is_unchanged(part):

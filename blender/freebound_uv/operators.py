@@ -1,43 +1,34 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators of the UV editor."""
-
-import math
+"""Operators of the UV editor that run the solver, and the check."""
 
 import bpy
 import freebound
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-from . import meshes
+from . import meshes, solving
+from .solving import Sheet, sentence
+from .tasks import Task
 
 #: Seconds between two looks at a run.
 _TICK = 0.1
 
 
-def _picture(context):
+def picture_size(context):
     """Width and height of the picture in the UV editor, or None."""
     image = getattr(context.space_data, "image", None)
     return tuple(image.size) if image is not None and min(image.size) > 0 else None
 
 
-#: Longer side of the picture for which charts are packed if an aspect ratio is given, pixels.
-_SIDE = 1024
+def is_running():
+    """True while a run is under way."""
+    return _Run.running is not None
 
 
-def _packing(context, margin):
-    """Options of packing for the picture in the editor."""
-    size = _picture(context)
-    if size is None:
-        return {"pack": freebound.Pack(size=_SIDE, gap=margin)}
-    if size[0] == size[1]:
-        return {"pack": freebound.Pack(size=size, gap=margin)}
-    # The coordinates are stretched with the picture, whose size is given by its aspect.
-    return {"aspect": size[0] / size[1], "pack": freebound.Pack(gap=math.ceil(margin * _SIDE / max(size)))}
-
-
-def tell(context, text):
+def tell(context, text, is_fine):
     """Shows a verdict in the panel."""
     context.window_manager.freebound_verdict = text
+    context.window_manager.freebound_is_fine = is_fine
 
 
 class _Run:
@@ -45,12 +36,19 @@ class _Run:
 
     bl_options = {"REGISTER", "UNDO"}
 
-    #: Job that runs for a person. There is one at a time.
+    #: Task that runs for a person. There is one at a time.
     running = None
+
+    margin: IntProperty(name="Margin", description="Least distance of charts, pixels", default=4, min=0, max=1024)
+    is_around: BoolProperty(
+        name="Around Others",
+        description="Keep faces that are not selected in place, and lay no chart over them",
+        default=True,
+    )
 
     @classmethod
     def poll(cls, context):
-        if _Run.running is not None:
+        if is_running():
             cls.poll_message_set("A run of Freebound is under way")
             return False
         if meshes.objects_of(context):
@@ -58,61 +56,54 @@ class _Run:
         cls.poll_message_set("Edit a mesh first")
         return False
 
-    def _begin(self, context):
-        """Starts the run. Returns the job."""
+    def _gather(self, context):
+        """Selected faces and the others."""
         raise NotImplementedError
 
-    def _words(self, layout):
-        """Sentence on a layout."""
-        raise NotImplementedError
-
-    def _put(self, context, layout):
-        """Puts the layout into the meshes. Returns a sentence on what was done beside it."""
+    def _work_of(self):
+        """Function that solves, in a thread of its own: of the task, the faces, the others and the picture."""
         raise NotImplementedError
 
     def _start(self, context):
         try:
-            return self._begin(context)
-        except (meshes.Nothing, freebound.Error) as error:
-            self.report({"ERROR"}, _sentence(error))
+            self._selection, others = self._gather(context)
+        except meshes.Nothing as error:
+            self.report({"ERROR"}, sentence(error))
             return None
+        selection, sheet = self._selection, Sheet(picture_size(context), self.margin)
+        # The thread must not reach the operator, which Blender may end before.
+        work = self._work_of()
+        return Task(lambda task: work(task, selection, others, sheet))
 
-    def _finish(self, context, job):
-        warning = ""
+    def _finish(self, context, task):
         try:
-            layout = job.result()
-        except freebound.NotProved as error:
-            layout = error.layout
-            if layout is None or not layout.verdict.planar_in_f32:
-                tell(context, _sentence(error))
-                self.report({"ERROR"}, _sentence(error))
-                return {"CANCELLED"}
-            warning = _sentence(error)
+            done = task.result()
+            marked = meshes.write(context, self._selection, done.corner_uv, done.seams)
         except freebound.Cancelled:
             self.report({"INFO"}, "Cancelled")
             return {"CANCELLED"}
-        except (freebound.Error, RuntimeError) as error:
-            self.report({"ERROR"}, _sentence(error))
+        except freebound.NotProved as error:
+            tell(context, sentence(error), False)
+            self.report({"ERROR"}, sentence(error))
             return {"CANCELLED"}
-        try:
-            text = self._words(layout)
-            text += self._put(context, layout)
-        except meshes.Changed as error:
-            self.report({"ERROR"}, _sentence(error))
+        except (freebound.Error, meshes.Changed, RuntimeError) as error:
+            self.report({"ERROR"}, sentence(error))
             return {"CANCELLED"}
-        tell(context, f"{text}. {warning}" if warning else text)
-        self.report({"WARNING"} if warning else {"INFO"}, f"{text}. {warning}" if warning else text)
+        text = f"{done.text}; {marked} seams marked" if marked else done.text
+        text = f"{text}. {done.warning}" if done.warning else text
+        tell(context, text, not done.warning)
+        self.report({"WARNING"} if done.warning else {"INFO"}, text)
         return {"FINISHED"}
 
     def execute(self, context):
-        job = self._start(context)
-        return {"CANCELLED"} if job is None else self._finish(context, job)
+        task = self._start(context)
+        return {"CANCELLED"} if task is None else self._finish(context, task)
 
     def invoke(self, context, event):
         if bpy.app.background or context.window is None:
             return self.execute(context)
-        self._job = _Run.running = self._start(context)
-        if self._job is None:
+        self._task = _Run.running = self._start(context)
+        if self._task is None:
             return {"CANCELLED"}
         self._workspace = context.workspace
         self._timer = context.window_manager.event_timer_add(_TICK, window=context.window)
@@ -121,33 +112,26 @@ class _Run:
 
     def modal(self, context, event):
         if event.type == "TIMER":
-            if self._job.wait(0):
+            if self._task.wait(0):
                 self._leave(context)
-                return self._finish(context, self._job)
-            state = self._job.progress
-            words = state["stage"] or "working"
-            self._workspace.status_text_set(f"Freebound: {words}, {state['seconds']:.1f} s. Esc cancels")
+                return self._finish(context, self._task)
+            self._workspace.status_text_set(f"Freebound: {self._task.progress}. Esc cancels")
             # Other timers have handlers of their own.
             return {"PASS_THROUGH"}
         if event.type == "ESC" and event.value == "PRESS":
-            self._job.cancel()
+            self._task.cancel()
         # The meshes must stay as they are until the layout is put into them.
         return {"RUNNING_MODAL"}
 
     def cancel(self, context):
         """Blender ends the operator, for example because another file is opened."""
-        self._job.cancel()
+        self._task.cancel()
         self._leave(context)
 
     def _leave(self, context):
         _Run.running = None
         self._workspace.status_text_set(None)
         context.window_manager.event_timer_remove(self._timer)
-
-
-def _sentence(error):
-    text = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
-    return text[:1].upper() + text[1:]
 
 
 class FREEBOUND_OT_unwrap(_Run, bpy.types.Operator):
@@ -181,39 +165,62 @@ class FREEBOUND_OT_unwrap(_Run, bpy.types.Operator):
         ],
         default="fill",
     )
-    margin: IntProperty(name="Margin", description="Least distance of charts, pixels", default=4, min=0, max=1024)
     soft_pins: StringProperty(
         name="Soft Pins",
         description="Vertex group whose pinned vertices may move; its weights pull",
         default="",
     )
 
-    def _begin(self, context):
-        self._selection = meshes.gather(context, self.soft_pins)
-        pins = meshes.corner_pins(self._selection)
-        options = {
-            "seams": self._selection.seams if len(self._selection.seams) else None,
-            "corner_pins": pins,
-            "new_vertices": False,
-            "holes": self.holes,
-            "precision": "f32",
-            **_packing(context, self.margin),
-        }
-        if self.adds_seams:
-            options.update(cut="auto", distortion=self.distortion)
-        else:
-            options.update(cut="shortest")
-        selection = self._selection
-        return freebound.start(selection.vertices, selection.faces(), unwrap=True, **options)
+    def _gather(self, context):
+        return meshes.gather_with_others(context, self.soft_pins, is_around=self.is_around)
 
-    def _words(self, layout):
-        charts = layout.chart.max() + 1
-        return f"{charts} chart{'s' if charts != 1 else ''}, no overlaps: proved; energy {layout.energy:.3f}"
+    def _work_of(self):
+        cut = {"cut": "auto", "distortion": self.distortion} if self.adds_seams else {"cut": "shortest"}
+        options = {"holes": self.holes, **cut}
+        marks = self.adds_seams and self.marks_seams
+        return lambda *given: solving.unwrap(*given, options, marks)
 
-    def _put(self, context, layout):
-        seams = layout.cut_edges if self.adds_seams and self.marks_seams else None
-        marked = meshes.write(context, self._selection, layout.corner_uv, seams)
-        return f"; {marked} seams marked" if marked else ""
+
+class FREEBOUND_OT_relax(_Run, bpy.types.Operator):
+    """Lower the distortion of the selected charts. Pinned coordinates stay, and so do the places of the charts"""
+
+    bl_idname = "uv.freebound_relax"
+    bl_label = "Freebound Relax"
+
+    rounds: IntProperty(
+        name="Rounds",
+        description="Most rounds of relaxing",
+        default=40,
+        min=1,
+        max=1000,
+    )
+
+    def _gather(self, context):
+        return meshes.gather_with_others(context, needs_uv=True, is_around=self.is_around)
+
+    def _work_of(self):
+        rounds = self.rounds
+        return lambda *given: solving.relax(*given, rounds)
+
+
+class FREEBOUND_OT_pack(_Run, bpy.types.Operator):
+    """Pack the charts of the selected faces. Charts with pins stay, and faces that are not selected"""
+
+    bl_idname = "uv.freebound_pack"
+    bl_label = "Freebound Pack"
+
+    keeps_sizes: BoolProperty(
+        name="Keep Sizes",
+        description="Keep the sizes of the charts relative to each other. Otherwise all get one texel density",
+        default=False,
+    )
+
+    def _gather(self, context):
+        return meshes.gather_with_others(context, needs_uv=True, is_around=self.is_around)
+
+    def _work_of(self):
+        keeps_sizes = self.keeps_sizes
+        return lambda *given: solving.pack(*given, keeps_sizes)
 
 
 class FREEBOUND_OT_check(bpy.types.Operator):
@@ -232,7 +239,7 @@ class FREEBOUND_OT_check(bpy.types.Operator):
             selection = meshes.gather(context, needs_uv=True)
             found = freebound.check(selection.vertices, selection.faces(), selection.uv)
         except (meshes.Nothing, freebound.Error) as error:
-            self.report({"ERROR"}, _sentence(error))
+            self.report({"ERROR"}, sentence(error))
             return {"CANCELLED"}
         faces, codes = set(), set()
         for finding in found["findings"]:
@@ -252,7 +259,7 @@ class FREEBOUND_OT_check(bpy.types.Operator):
         text = f"{charts} chart{'s' if charts != 1 else ''}, no overlaps: proved" if is_fine else "Not one-to-one"
         if codes:
             text += f"; {len(faces)} faces selected: {', '.join(sorted(codes))}"
-        tell(context, text)
+        tell(context, text, is_fine)
         self.report({"INFO"} if is_fine else {"WARNING"}, text)
         return {"FINISHED"}
 
@@ -272,10 +279,12 @@ def _faces_of(finding):
 
 def add_properties():
     bpy.types.WindowManager.freebound_verdict = StringProperty(name="Verdict", default="")
+    bpy.types.WindowManager.freebound_is_fine = BoolProperty(name="Proved", default=False)
 
 
 def remove_properties():
     del bpy.types.WindowManager.freebound_verdict
+    del bpy.types.WindowManager.freebound_is_fine
 
 
-CLASSES = (FREEBOUND_OT_unwrap, FREEBOUND_OT_check)
+CLASSES = (FREEBOUND_OT_unwrap, FREEBOUND_OT_relax, FREEBOUND_OT_pack, FREEBOUND_OT_check)

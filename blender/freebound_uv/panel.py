@@ -3,7 +3,19 @@
 
 import bpy
 
-from . import operators
+from . import dragging, operators
+
+#: Entries of the panel and the menus: operator, icon, and True if it needs the UV editor.
+_ENTRIES = (
+    (operators.FREEBOUND_OT_unwrap, "UV", False),
+    (operators.FREEBOUND_OT_relax, "MOD_SMOOTH", False),
+    (operators.FREEBOUND_OT_pack, "PACKAGE", False),
+    (dragging.FREEBOUND_OT_drag_pin, "PINNED", True),
+    (operators.FREEBOUND_OT_check, "VIEWZOOM", False),
+)
+
+#: Average width of a letter, and width of the borders of a box, in pixels at a scale of 1.
+_LETTER, _BORDER = 7, 40
 
 
 class FREEBOUND_PT_panel(bpy.types.Panel):
@@ -19,29 +31,48 @@ class FREEBOUND_PT_panel(bpy.types.Panel):
 
     def draw(self, context):
         layout = self.layout
+        row = layout.row()
+        row.scale_y = 1.4
+        first, *others = _ENTRIES
+        _button(row, *first[:2])
         column = layout.column(align=True)
-        for operator in operators.CLASSES:
-            column.operator(operator.bl_idname, text=operator.bl_label.removeprefix("Freebound "))
-        verdict = context.window_manager.freebound_verdict
-        box = layout.box()
-        if verdict:
-            # A label does not wrap.
-            words, line = verdict.split(" "), ""
-            for word in words:
-                if len(line) + len(word) > 32:
-                    box.label(text=line)
-                    line = ""
-                line = f"{line} {word}".strip()
-            box.label(text=line)
+        for operator, icon, _ in others:
+            _button(column, operator, icon)
+        manager = context.window_manager
+        box = layout.box().column(align=True)
+        if not manager.freebound_verdict:
+            lines, icon = ["Select faces, then unwrap.", "P pins the selected coordinates."], "INFO"
         else:
-            box.label(text="Select faces, then unwrap.")
-            box.label(text="P pins coordinates.")
+            scale = context.preferences.system.ui_scale
+            letters = int((context.region.width / scale - _BORDER) / _LETTER)
+            lines = _wrapped(manager.freebound_verdict, max(letters, 12))
+            icon = "CHECKMARK" if manager.freebound_is_fine else "ERROR"
+        for number, line in enumerate(lines):
+            box.label(text=line, icon=icon if number == 0 else "BLANK1")
+
+
+def _button(layout, operator, icon):
+    layout.operator(operator.bl_idname, text=operator.bl_label.removeprefix("Freebound "), icon=icon)
+
+
+def _wrapped(text, letters):
+    """Lines of a text, because a label does not wrap."""
+    lines = [""]
+    for word in text.split():
+        longer = f"{lines[-1]} {word}".strip()
+        if len(longer) > letters and lines[-1]:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return lines
 
 
 def draw_menu(self, context):
     self.layout.separator()
-    for operator in operators.CLASSES:
-        self.layout.operator(operator.bl_idname)
+    is_uv_editor = context.area is not None and context.area.type == "IMAGE_EDITOR"
+    for operator, icon, needs_editor in _ENTRIES:
+        if is_uv_editor or not needs_editor:
+            self.layout.operator(operator.bl_idname, icon=icon)
 
 
 MENUS = ("IMAGE_MT_uvs", "VIEW3D_MT_uv_map")

@@ -390,6 +390,7 @@ def test_a_modal_run_tells_its_progress_and_ends_by_escape():
 
     import freebound
     from freebound_uv import operators
+    from freebound_uv.tasks import Task
 
     class Timers:
         removed = 0
@@ -405,15 +406,16 @@ def test_a_modal_run_tells_its_progress_and_ends_by_escape():
     run = operators._Run()
     run.report = lambda kind, text: reports.append(text)
     run._workspace, run._timer = Fake(), object()
-    run._job = operators._Run.running = freebound.start(vertices, faces, unwrap=True, distortion=4.0001)
+    job = freebound.start(vertices, faces, unwrap=True, distortion=4.0001)
+    run._task = operators._Run.running = Task(lambda task: task.run("Unwrapping", job))
     context = SimpleNamespace(window_manager=Timers())
     assert run.modal(context, SimpleNamespace(type="TIMER", value="NOTHING")) == {"PASS_THROUGH"}
     assert "Esc cancels" in run._workspace.said[-1]
     assert run.modal(context, SimpleNamespace(type="LEFTMOUSE", value="PRESS")) == {"RUNNING_MODAL"}
     assert run.modal(context, SimpleNamespace(type="ESC", value="RELEASE")) == {"RUNNING_MODAL"}
-    assert not run._job.done
+    assert not job.done
     assert run.modal(context, SimpleNamespace(type="ESC", value="PRESS")) == {"RUNNING_MODAL"}
-    while not run._job.wait(0.05):
+    while not run._task.wait(0.05):
         assert run.modal(context, SimpleNamespace(type="TIMER", value="NOTHING")) == {"PASS_THROUGH"}
     assert run.modal(context, SimpleNamespace(type="TIMER", value="NOTHING")) == {"CANCELLED"}
     assert reports == ["Cancelled"] and run._workspace.said[-1] is None
@@ -421,19 +423,323 @@ def test_a_modal_run_tells_its_progress_and_ends_by_escape():
 
 
 def test_a_picture_that_is_not_square_keeps_the_shapes_of_faces():
-    from types import SimpleNamespace
-
-    from freebound_uv import operators
-
-    context = SimpleNamespace(space_data=SimpleNamespace(image=SimpleNamespace(size=(2048, 1024))))
     import freebound
+    from freebound_uv.solving import Sheet
 
     vertices, quads = wavy()
     vertices[:, 2] = 0
-    layout = freebound.unwrap(vertices, quads, precision="f32", **operators._packing(context, 4))
-    side = np.diff(layout.corner_uv.reshape(-1, 4, 2)[:, :3], axis=1) * (2048, 1024)
-    lengths = np.linalg.norm(side, axis=2)
-    assert np.allclose(lengths[:, 0] / lengths[:, 1], (1 / 14) / (1 / 11), rtol=1e-3)
+    sheet = Sheet((2048, 1024), 4)
+    layout = freebound.unwrap(vertices, quads, precision="f32", **sheet.options)
+    packed = freebound.pack(vertices, quads, layout.corner_uv, pack=sheet.pack)
+    for uv in (layout.corner_uv, packed.corner_uv):
+        side = np.diff(uv.reshape(-1, 4, 2)[:, :3], axis=1) * (2048, 1024)
+        lengths = np.linalg.norm(side, axis=2)
+        assert np.allclose(lengths[:, 0] / lengths[:, 1], (1 / 14) / (1 / 11), rtol=1e-3)
+
+
+def two_sheets():
+    """Two wavy sheets of one object beside each other. The faces of the second are the later half."""
+    vertices, quads = wavy()
+    item = mesh_of(np.vstack([vertices, vertices + (2, 0, 0)]), np.vstack([quads, quads + len(vertices)]))
+    return item, len(quads)
+
+
+def lay(item, of_corner):
+    """Coordinates of all corners, by a function of the vertex's place and the face."""
+    in_object_mode()
+    mesh = item.data
+    layer = mesh.uv_layers.active or mesh.uv_layers.new()
+    values = np.empty((len(mesh.loops), 2), dtype=np.float32)
+    for face in mesh.polygons:
+        for loop in face.loop_indices:
+            values[loop] = of_corner(mesh.vertices[mesh.loops[loop].vertex_index].co, face.index)
+    layer.uv.foreach_set("vector", values.ravel())
+    return values
+
+
+def select_faces(item, chosen):
+    edit(item)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    in_object_mode()
+    item.data.polygons.foreach_set("select", chosen)
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
+def test_charts_are_packed_around_faces_that_are_not_selected():
+    item, half = two_sheets()
+    corner = 4 * half
+    lay(item, lambda co, face: (0.5 * co.x, 0.5 * co.y) if face < half else (0.1, 0.1))
+    before = uv_of(item)
+    chosen = np.arange(2 * half) >= half
+    select_faces(item, chosen)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    assert "around the others" in bpy.context.window_manager.freebound_verdict
+    uv = uv_of(item)
+    assert (uv[:corner] == before[:corner]).all()
+    assert uv.min() >= 0 and uv.max() <= 1 and (flips(item), overlaps(item)) == (0, 0)
+    # The new chart has no more texels than the other.
+    areas = [np.prod(np.ptp(part, axis=0)) for part in (uv[:corner], uv[corner:])]
+    assert areas[1] < 1.3 * areas[0]
+    # Packed alone, it fills the picture.
+    select_faces(item, chosen)
+    assert bpy.ops.uv.freebound_unwrap(is_around=False) == {"FINISHED"}
+    assert (uv_of(item)[:corner] == before[:corner]).all() and np.ptp(uv_of(item)[corner:], axis=0).max() > 0.9
+
+
+def test_a_single_chart_keeps_the_margin_to_the_edge_of_the_picture():
+    item = mesh_of(*wavy())
+    edit(item)
+    assert bpy.ops.uv.freebound_unwrap(margin=64) == {"FINISHED"}
+    uv = uv_of(item)
+    # Half the margin, of 1024 pixels.
+    assert uv.min() >= 0.03125 and uv.max() <= 1 - 0.03125
+
+
+def energy(item):
+    import freebound
+    from freebound_uv import meshes
+
+    edit(item)
+    selection = meshes.gather(bpy.context)
+    layout = freebound.flatten(
+        selection.vertices, selection.faces(), layout=selection.uv, charts="uv", relax=0, new_vertices=False
+    )
+    return layout.energy
+
+
+def test_relaxing_lowers_the_distortion_and_keeps_pins_and_places():
+    item, half = two_sheets()
+    lay(item, lambda co, face: (0.4 * co.x, 0.2 * co.y) if face < half else (1.4 - 0.4 * co.y, 0.2 * co.x))
+    pinned = {0: (0.0, 0.0), 14: (0.4, 0.0)}
+    pin(item, pinned)
+    before, corner = uv_of(item), 4 * half
+    was = energy(item)
+    edit(item)
+    assert bpy.ops.uv.freebound_relax() == {"FINISHED"}
+    uv = uv_of(item)
+    assert energy(item) < was - 0.3
+    for loop in item.data.loops:
+        if loop.vertex_index in pinned:
+            assert (uv[loop.index] == before[loop.index]).all()
+    assert (flips(item), overlaps(item)) == (0, 0)
+    # The chart without pins stays about its place.
+    assert np.allclose(uv[corner:].mean(axis=0), before[corner:].mean(axis=0), atol=0.02)
+
+
+def test_a_relaxed_chart_that_would_cover_others_is_packed_beside_them():
+    item, half = two_sheets()
+    # Stretched, the first sheet just leaves room for the second.
+    lay(item, lambda co, face: (0.45 * co.x, 0.9 * co.y) if face < half else (0.46 + 0.2 * (co.x - 2), 0.2 * co.y))
+    before, corner = uv_of(item), 4 * half
+    select_faces(item, np.arange(2 * half) < half)
+    assert bpy.ops.uv.freebound_relax() == {"FINISHED"}
+    assert "around the others" in bpy.context.window_manager.freebound_verdict
+    assert (uv_of(item)[corner:] == before[corner:]).all()
+    assert (flips(item), overlaps(item)) == (0, 0)
+
+
+def test_packing_moves_whole_charts_and_leaves_pinned_ones():
+    item, half = two_sheets()
+    lay(item, lambda co, face: (0.3 * co.x, 0.3 * co.y) if face < half else (0.3 * (co.x - 2), 0.3 * co.y))
+    pin(item, {0: (0.0, 0.0)})
+    before, corner = uv_of(item), 4 * half
+    edit(item)
+    assert bpy.ops.uv.freebound_pack() == {"FINISHED"}
+    uv = uv_of(item)
+    assert (uv[:corner] == before[:corner]).all() and (uv[corner:] != before[corner:]).any()
+    assert (flips(item), overlaps(item)) == (0, 0)
+    assert "2 charts packed" in bpy.context.window_manager.freebound_verdict
+
+
+def test_packing_may_keep_the_sizes_of_charts():
+    item, half = two_sheets()
+    lay(item, lambda co, face: (0.4 * co.x, 0.4 * co.y) if face < half else (0.1 * (co.x - 2), 0.1 * co.y))
+    corner = 4 * half
+
+    def ratio():
+        uv = uv_of(item)
+        side = [np.linalg.norm(part[1] - part[0]) for part in (uv[:corner], uv[corner:])]
+        return side[0] / side[1]
+
+    edit(item)
+    assert bpy.ops.uv.freebound_pack(keeps_sizes=True) == {"FINISHED"}
+    assert abs(ratio() - 4) < 1e-4
+    edit(item)
+    assert bpy.ops.uv.freebound_pack() == {"FINISHED"}
+    assert abs(ratio() - 1) < 1e-4
+
+
+def test_relaxing_and_packing_need_a_map():
+    item = mesh_of(*wavy())
+    for operator in (bpy.ops.uv.freebound_relax, bpy.ops.uv.freebound_pack):
+        edit(item)
+        with pytest.raises(RuntimeError, match="UV map"):
+            operator()
+
+
+def flat_sheet():
+    item = mesh_of(*wavy())
+    lay(item, lambda co, face: (0.2 + 0.6 * co.x, 0.2 + 0.6 * co.y))
+    return item
+
+
+def test_a_dragged_corner_takes_the_chart_along_and_pins_stay():
+    item = flat_sheet()
+    pinned = {0: (0.2, 0.2), 179: (0.8, 0.8)}
+    pin(item, pinned)
+    edit(item)
+    to = (0.62, 0.47)
+    assert bpy.ops.uv.freebound_drag_pin(start=(0.5, 0.5), target=to) == {"FINISHED"}
+    assert "proved" in bpy.context.window_manager.freebound_verdict
+    uv = uv_of(item)
+    at = np.linalg.norm(uv - np.array(to), axis=1).min()
+    assert at < 1e-6 and (flips(item), overlaps(item)) == (0, 0)
+    for loop in item.data.loops:
+        if loop.vertex_index in pinned:
+            assert (uv[loop.index] == np.array(pinned[loop.vertex_index], dtype=np.float32)).all()
+    # The dragged corner is pinned now, in each of its faces.
+    layer = item.data.uv_layers.active
+    is_pinned = np.array([entry.value for entry in layer.pin])
+    assert is_pinned.sum() == 1 + 1 + 4
+
+
+def test_a_corner_that_is_dragged_beyond_the_chart_stops_before_faces_flip():
+    item = flat_sheet()
+    pin(item, {0: (0.2, 0.2), 14: (0.8, 0.2), 165: (0.2, 0.8), 179: (0.8, 0.8)})
+    edit(item)
+    assert bpy.ops.uv.freebound_drag_pin(start=(0.5, 0.5), target=(3, 0.5)) == {"FINISHED"}
+    assert (flips(item), overlaps(item)) == (0, 0)
+
+
+def test_a_chart_that_overlaps_itself_is_not_dragged():
+    item = mesh_of(*wavy())
+    lay(item, lambda co, face: (abs(co.x - 0.5), co.y))
+    edit(item)
+    with pytest.raises(RuntimeError, match="unwrap or relax it first"):
+        bpy.ops.uv.freebound_drag_pin(start=(0.2, 0.5), target=(0.3, 0.5))
+
+
+def test_a_chart_with_holes_is_dragged():
+    item = primitive("monkey")
+    edit(item)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    uv = uv_of(item)
+    near = uv[len(uv) // 2]
+    edit(item)
+    assert bpy.ops.uv.freebound_drag_pin(start=near, target=near + 0.01) == {"FINISHED"}
+    assert (flips(item), overlaps(item)) == (0, 0)
+    assert (uv_of(item) != uv).any()
+
+
+class View:
+    """View of 1000 pixels for the unit square."""
+
+    def view_to_region(self, x, y, clip=True):
+        return (1000 * x, 1000 * y)
+
+    def region_to_view(self, x, y):
+        return (x / 1000, y / 1000)
+
+
+def dragging(item):
+    """Drag of a person, with a context that stands for the window's."""
+    from types import SimpleNamespace
+
+    from freebound_uv import dragging
+
+    charts = SimpleNamespace(type="WINDOW", x=100, y=50, width=1000, height=1000, view2d=View())
+    panel = SimpleNamespace(type="UI", x=900, y=50, width=200, height=1000)
+    context = SimpleNamespace(
+        mode="EDIT_MESH",
+        objects_in_mode=[item],
+        objects_in_mode_unique_data=[item],
+        view_layer=bpy.context.view_layer,
+        area=SimpleNamespace(type="IMAGE_EDITOR", regions=[panel, charts]),
+        window=SimpleNamespace(cursor_set=lambda name: None),
+        workspace=Fake(),
+        window_manager=SimpleNamespace(
+            modal_handler_add=lambda operator: None,
+            event_timer_add=lambda seconds, window: "timer",
+            event_timer_remove=lambda timer: None,
+            freebound_verdict="",
+            freebound_is_fine=False,
+        ),
+    )
+    kind = dragging.FREEBOUND_OT_drag_pin
+    drag = SimpleNamespace(pins=True, said=[], bl_label=kind.bl_label)
+    for name, method in vars(kind).items():
+        if callable(method) and name not in ("poll", "execute", "cancel"):
+            setattr(drag, name, lambda *given, method=method: method(drag, *given))
+    drag.report = lambda kind, text: drag.said.append(text)
+
+    def event(kind, value, x, y):
+        return SimpleNamespace(type=kind, value=value, mouse_x=x + 100, mouse_y=y + 50)
+
+    return drag, context, event
+
+
+def dragging_loops(drag):
+    """Corners again after a visit to object mode."""
+    from freebound_uv import dragging
+
+    return dragging._EditedLoops(drag._selection, drag._grab)
+
+
+def test_a_chart_that_is_dragged_over_another_is_told():
+    item, half = two_sheets()
+    lay(item, lambda co, face: (0.4 * co.x, 0.4 * co.y) if face < half else (0.5 + 0.4 * (co.x - 2), 0.4 * co.y))
+    edit(item)
+    assert bpy.ops.uv.freebound_drag_pin(start=(0.2, 0.2), target=(0.6, 0.2)) == {"FINISHED"}
+    assert "Pack" in bpy.context.window_manager.freebound_verdict
+    assert not bpy.context.window_manager.freebound_is_fine
+
+
+def test_a_person_drags_corners_one_after_another_and_each_stays_pinned():
+    item = flat_sheet()
+    edit(item)
+    drag, context, event = dragging(item)
+    # From a button of the panel.
+    assert drag.invoke(context, event("LEFTMOUSE", "RELEASE", 850, 500)) == {"RUNNING_MODAL"}
+    for near, to in (((500, 475), (690, 450)), ((400, 600), (340, 670))):
+        uv = 1000 * uv_of(item)
+        x, y = uv[np.linalg.norm(uv - near, axis=1).argmin()].round().astype(int)
+        edit(item)
+        assert drag.modal(context, event("LEFTMOUSE", "PRESS", x, y)) == {"RUNNING_MODAL"}
+        for step in range(11):
+            place = (x + (to[0] - x) * step // 10, y + (to[1] - y) * step // 10)
+            assert drag.modal(context, event("MOUSEMOVE", "NOTHING", *place)) == {"RUNNING_MODAL"}
+            assert drag.modal(context, event("TIMER", "NOTHING", *place)) == {"RUNNING_MODAL"}
+        assert drag.modal(context, event("LEFTMOUSE", "RELEASE", *to)) == {"RUNNING_MODAL"}
+    assert drag.modal(context, event("WHEELUPMOUSE", "PRESS", 500, 500)) == {"PASS_THROUGH"}
+    assert drag.modal(context, event("RET", "PRESS", 500, 500)) == {"FINISHED"}
+    uv = uv_of(item)
+    for to in ((0.69, 0.45), (0.34, 0.67)):
+        assert np.linalg.norm(uv - to, axis=1).min() < 1e-6
+    assert (flips(item), overlaps(item)) == (0, 0)
+    is_pinned = np.array([entry.value for entry in item.data.uv_layers.active.pin])
+    assert np.allclose(np.unique(uv[is_pinned], axis=0), [(0.34, 0.67), (0.69, 0.45)])
+
+
+def test_a_drag_that_is_put_back_leaves_every_coordinate_as_it_was():
+    item = flat_sheet()
+    before = uv_of(item)
+    edit(item)
+    drag, context, event = dragging(item)
+    drag.invoke(context, event("RET", "PRESS", 0, 0))
+    drag.modal(context, event("LEFTMOUSE", "PRESS", 503, 475))
+    drag.modal(context, event("MOUSEMOVE", "NOTHING", 640, 450))
+    drag.modal(context, event("TIMER", "NOTHING", 640, 450))
+    assert (uv_of(item) != before).any()
+    edit(item)
+    drag._loops = dragging_loops(drag)
+    assert drag.modal(context, event("ESC", "PRESS", 640, 450)) == {"RUNNING_MODAL"}
+    assert (uv_of(item) == before).all() and not len(item.data.uv_layers.active.pin)
+    edit(item)
+    assert drag.modal(context, event("LEFTMOUSE", "PRESS", 50, 750)) == {"RUNNING_MODAL"}
+    assert drag.said[-1] == "Press on a corner of a chart"
+    # A click on the panel ends the drag and reaches the panel.
+    assert drag.modal(context, event("LEFTMOUSE", "PRESS", 850, 500)) == {"FINISHED", "PASS_THROUGH"}
+    assert context.workspace.said[-1] is None
 
 
 def test_without_faces_the_message_tells_what_to_do():
