@@ -134,6 +134,27 @@ fn relative_sizes_stay_if_that_is_asked_for() {
 }
 
 #[test]
+fn locked_charts_keep_their_numbers_and_the_others_are_packed_around_them() {
+    let program = Program::new();
+    program.write("in.obj", &obj_text(&parts()));
+    program.run(&["flatten", "in.obj", "-o", "flat.obj"]).expect(0);
+    let arguments = ["pack", "flat.obj", "-o", "packed.obj", "--pack", "300x300", "--lock", "0,2", "--report", "-"];
+    let report = program.run(&arguments).expect(0).json();
+    let [before, after] = ["flat.obj", "packed.obj"].map(|name| read_mesh(&program.path(name)).expect("written"));
+    assert_one_to_one(&after);
+    let charts = report["packed_charts"].as_array().expect("charts");
+    let chart_of = part_of_faces(&after);
+    let part_of = |chart: usize| chart_of[usize::try_from(charts[chart]["first_face"].as_u64().expect("a number")).expect("few")];
+    let locked = [0, 2].map(part_of);
+    for (face, (before, after)) in polygons(&before).iter().zip(polygons(&after)).enumerate() {
+        assert_eq!(*before == after, locked.contains(&chart_of[face]), "face {face}");
+    }
+    let wrong = program.run(&["pack", "flat.obj", "-o", "out.obj", "--lock", "4"]).expect(2);
+    assert_message("pack-lock", &wrong.stderr);
+    assert!(!program.path("out.obj").exists());
+}
+
+#[test]
 fn a_density_is_met_in_as_many_tiles_as_it_needs() {
     let program = Program::new();
     program.write("in.obj", &obj_text(&parts()));

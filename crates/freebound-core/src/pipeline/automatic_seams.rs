@@ -180,7 +180,7 @@ impl<'a> PartsToCut<'a> {
         Self { mesh, form, parts, costs, area: repaired.triangulate().area(), start }
     }
 
-    /// One part.
+    /// Part of this number.
     fn part<'b>(&'b self, number: usize, options: SeamOptions, control: Control<'b>) -> PartToCut<'b> {
         PartToCut { part: &self.parts[number], costs: &self.costs[number], options, control }
     }
