@@ -30,6 +30,11 @@ impl Layout {
         self.inner.is_fine()
     }
 
+    /// Triangles of the proof. The first call computes them, in a pool of its own.
+    fn triangles(&self, py: Python<'_>) -> PyResult<&[TriangleOfFace]> {
+        py.detach(|| in_pool(0, || self.inner.triangles())).map_err(PyRuntimeError::new_err)
+    }
+
     /// Reason why the layout is not what was asked for.
     pub(crate) fn shortfall(&self) -> String {
         if !self.inner.is_planar() {
@@ -123,29 +128,29 @@ impl Layout {
     }
 
     #[getter]
-    fn triangle_face<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        arrays::list(py, self.inner.triangles.iter().map(|triangle| triangle.face.into()).collect())
+    fn triangle_face<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        Ok(arrays::list(py, self.triangles(py)?.iter().map(|triangle| triangle.face.into()).collect()))
     }
 
     #[getter]
     fn singular_values<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let values = self.inner.triangles.iter().map(|triangle| triangle.singular_values().unwrap_or([f64::NAN; 2]));
+        let values = self.triangles(py)?.iter().map(|triangle| triangle.singular_values().unwrap_or([f64::NAN; 2]));
         arrays::table(py, values)
     }
 
     /// Area of each triangle on the surface; 0 if its face is not flattened.
     #[getter]
-    fn triangle_area<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        arrays::list(py, self.inner.triangles.iter().map(|triangle| triangle.area).collect())
+    fn triangle_area<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        Ok(arrays::list(py, self.triangles(py)?.iter().map(|triangle| triangle.area).collect()))
     }
 
     /// Symmetric Dirichlet energy of each triangle; NaN if its face is not flattened.
     #[getter]
-    fn triangle_energy<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn triangle_energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let energy = |triangle: &TriangleOfFace| {
             triangle.distortion.map_or(f64::NAN, |distortion| distortion.symmetric_dirichlet())
         };
-        arrays::list(py, self.inner.triangles.iter().map(energy).collect())
+        Ok(arrays::list(py, self.triangles(py)?.iter().map(energy).collect()))
     }
 
     #[getter]

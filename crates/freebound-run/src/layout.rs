@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -35,12 +35,11 @@ pub struct MeshLayout {
     pub face_of: Option<Vec<u32>>,
     /// Chart of each face, or [`NO_CHART`].
     pub chart_of_face: Vec<u32>,
-    /// Triangles of the proof, in the order of the faces. A face that is not flattened has one without distortion.
-    pub triangles: Vec<TriangleOfFace>,
     /// Report of the run. It holds the verdict.
     pub report: Report,
     planar: bool,
     summary: String,
+    triangles: OnceLock<Vec<TriangleOfFace>>,
     origin: FinishedRun,
 }
 
@@ -78,31 +77,45 @@ impl TriangleOfFace {
 impl MeshLayout {
     /// Lays out a solved run, and proves the layout in a precision.
     pub(super) fn new(origin: FinishedRun) -> io::Result<Self> {
-        let FinishedRun { model, run, solved, precision } = &origin;
-        let mut output = solved.output(run)?;
-        output.round_to(Some(precision.unwrap_or_default()), OutputKind::Obj);
+        let output = origin.output()?;
         let (planar, summary) = (output.is_planar(), output.summary());
         let TexturedMesh { mesh, texture, new_vertices, face_of } = output.textured();
+        let source = &origin.model.source;
         let mesh = match mesh {
-            Cow::Borrowed(_) => Arc::clone(&model.source),
+            Cow::Borrowed(_) => Arc::clone(source),
             Cow::Owned(mesh) => Arc::new(mesh),
         };
-        let laid = triangles_of(&output, face_of.as_deref(), model.source.polygons.face_count());
         let mut chart_of_face = vec![NO_CHART; mesh.polygons.face_count()];
-        for triangle in &laid {
-            chart_of_face[triangle.face as usize] = triangle.chart;
+        let faces = faces_of_triangles(&output, face_of.as_deref(), source.polygons.face_count());
+        for (chart, faces) in (0..).zip(faces) {
+            for face in faces {
+                chart_of_face[face as usize] = chart;
+            }
         }
-        let flattened = laid.iter().map(|&LaidTriangle { face, area, distortion, .. }| TriangleOfFace {
-            face,
-            area,
-            distortion: Some(distortion),
-        });
-        let left_out = (0..).zip(&chart_of_face).filter(|(_, chart)| **chart == NO_CHART);
-        let left_out = left_out.map(|(face, _)| TriangleOfFace { face, area: 0.0, distortion: None });
-        let mut triangles: Vec<TriangleOfFace> = flattened.chain(left_out).collect();
-        triangles.sort_by_key(|triangle| triangle.face);
-        let report = output.report;
-        Ok(Self { mesh, texture, new_vertices, face_of, chart_of_face, triangles, report, planar, summary, origin })
+        let (report, triangles) = (output.report, OnceLock::new());
+        Ok(Self { mesh, texture, new_vertices, face_of, chart_of_face, report, planar, summary, triangles, origin })
+    }
+
+    /// Triangles of the proof, in the order of the faces. A face that is not flattened has one without distortion. The
+    /// first call computes them.
+    pub fn triangles(&self) -> &[TriangleOfFace] {
+        self.triangles.get_or_init(|| {
+            let output = self.origin.output().expect("the run was laid out before");
+            let plane = DVec2::new(output.aspect, 1.0);
+            let faces = faces_of_triangles(&output, self.face_of.as_deref(), self.model().source.polygons.face_count());
+            let mut triangles = Vec::with_capacity(faces.iter().map(Vec::len).sum());
+            for (chart, faces) in output.charts.iter().zip(faces) {
+                let mesh = chart.mesh.mesh();
+                for ((number, face), distortion) in (0..).zip(faces).zip(measured(chart, plane)) {
+                    let area = 0.5 * mesh.double_area_vector(FaceId::new(number)).length();
+                    triangles.push(TriangleOfFace { face, area, distortion: Some(distortion) });
+                }
+            }
+            let left_out = (0..).zip(&self.chart_of_face).filter(|(_, chart)| **chart == NO_CHART);
+            triangles.extend(left_out.map(|(face, _)| TriangleOfFace { face, area: 0.0, distortion: None }));
+            triangles.sort_by_key(|triangle| triangle.face);
+            triangles
+        })
     }
 
     /// True if the coordinates are proved one-to-one.
@@ -200,17 +213,18 @@ pub struct WrittenLayout {
     pub summary: String,
 }
 
-/// Triangle of a chart, with its place in the written mesh.
-struct LaidTriangle {
-    face: u32,
-    chart: u32,
-    area: f64,
-    distortion: FaceDistortion,
+impl FinishedRun {
+    /// The run laid out and proved in its precision.
+    fn output(&self) -> io::Result<Output<'_>> {
+        let mut output = self.solved.output(&self.run)?;
+        output.round_to(Some(self.precision.unwrap_or_default()), OutputKind::Obj);
+        Ok(output)
+    }
 }
 
-/// Triangles of all charts, one chart after the other. `face_of` is the face of the input for each face of the written
-/// mesh, if they differ.
-fn triangles_of(output: &Output<'_>, face_of: Option<&[u32]>, input_faces: usize) -> Vec<LaidTriangle> {
+/// Written face of each triangle, chart by chart. `face_of` is the face of the input for each face of the written mesh, if
+/// they differ.
+fn faces_of_triangles(output: &Output<'_>, face_of: Option<&[u32]>, input_faces: usize) -> Vec<Vec<u32>> {
     // First written face of each face of the input.
     let mut first: Vec<u32> = vec![0; input_faces + 1];
     match face_of {
@@ -222,24 +236,19 @@ fn triangles_of(output: &Output<'_>, face_of: Option<&[u32]>, input_faces: usize
         }
         None => (0..).zip(&mut first).for_each(|(face, first)| *first = face),
     }
-    let plane = DVec2::new(output.aspect, 1.0);
-    let mut laid = Vec::new();
-    for (chart, of_chart) in (0..).zip(&output.charts) {
-        let measured = measured(of_chart, plane);
-        let triangles = of_chart.mesh.mesh();
-        let polygons: Vec<u32> = (0..measured.len()).map(|face| triangles.polygon(FaceId::from_index(face))).collect();
-        let mut measured = (0..).zip(measured);
+    let faces_of = |chart: &LaidChart<'_>| {
+        let triangles = chart.mesh.mesh();
+        let count = triangles.real_face_count();
+        let polygons: Vec<u32> = (0..count).map(|face| triangles.polygon(FaceId::from_index(face))).collect();
+        let mut faces = Vec::with_capacity(count);
         for polygon in polygons.chunk_by(|a, b| a == b) {
             let [begin, end] = [first[polygon[0] as usize], first[polygon[0] as usize + 1]];
             // The face is whole, or each of its triangles is a face.
-            let faces = (begin..end).cycle().take(polygon.len());
-            laid.extend(faces.zip(&mut measured).map(|(face, (number, distortion))| {
-                let area = 0.5 * triangles.double_area_vector(FaceId::new(number)).length();
-                LaidTriangle { face, chart, area, distortion }
-            }));
+            faces.extend((begin..end).cycle().take(polygon.len()));
         }
-    }
-    laid
+        faces
+    };
+    output.charts.iter().map(faces_of).collect()
 }
 
 /// Distortion of the triangles of a chart, in the plane.

@@ -144,7 +144,8 @@ fn locked_charts_keep_their_numbers_and_the_others_are_packed_around_them() {
     assert_one_to_one(&after);
     let charts = report["packed_charts"].as_array().expect("charts");
     let chart_of = part_of_faces(&after);
-    let part_of = |chart: usize| chart_of[usize::try_from(charts[chart]["first_face"].as_u64().expect("a number")).expect("few")];
+    let part_of =
+        |chart: usize| chart_of[usize::try_from(charts[chart]["first_face"].as_u64().expect("a number")).expect("few")];
     let locked = [0, 2].map(part_of);
     for (face, (before, after)) in polygons(&before).iter().zip(polygons(&after)).enumerate() {
         assert_eq!(*before == after, locked.contains(&chart_of[face]), "face {face}");

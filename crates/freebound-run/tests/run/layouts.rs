@@ -59,7 +59,7 @@ fn a_disk_has_a_coordinate_for_each_vertex_and_a_triangle_for_each_face() {
     assert!(layout.is_fine() && layout.new_vertices.is_empty() && layout.face_of.is_none());
     assert_eq!(layout.texture.coordinates.len(), mesh.positions.len());
     assert_eq!(layout.mesh.polygons, mesh);
-    let faces: Vec<u32> = layout.triangles.iter().map(|triangle| triangle.face).collect();
+    let faces: Vec<u32> = layout.triangles().iter().map(|triangle| triangle.face).collect();
     assert_eq!(faces, (0..u32::try_from(mesh.face_count()).unwrap()).collect::<Vec<_>>());
     assert!(layout.chart_of_face.iter().all(|&chart| chart == 0) && layout.cut_edges().is_empty());
 }
@@ -73,7 +73,7 @@ fn the_singular_values_sum_up_to_the_energy_of_the_report() {
         (b - a).cross(c - a).length()
     };
     let mut sums = [0.0; 2];
-    for triangle in &layout.triangles {
+    for triangle in layout.triangles() {
         let [s, t] = triangle.singular_values().expect("flattened");
         let weight = area(triangle.face);
         sums[0] += weight * (s * s + t * t + 1.0 / (s * s) + 1.0 / (t * t));
@@ -93,8 +93,8 @@ fn parts_that_are_not_chosen_have_no_chart_and_no_coordinates() {
     assert!(layout.chart_of_face[..count].iter().all(|&chart| chart == NO_CHART));
     assert!(layout.chart_of_face[count..].iter().all(|&chart| chart != NO_CHART));
     assert!(layout.texture.corners[..3 * count].iter().all(|&corner| corner == NO_TEXTURE));
-    assert_eq!(layout.triangles.len(), 2 * count);
-    assert!(layout.triangles[..count].iter().all(|triangle| triangle.distortion.is_none()));
+    assert_eq!(layout.triangles().len(), 2 * count);
+    assert!(layout.triangles()[..count].iter().all(|triangle| triangle.distortion.is_none()));
     let missing = RunRequest { parts: Some(PartChoice::Numbered([7].into())), ..RunRequest::unwrap() };
     let refused = missing.run(&model(balls()));
     assert!(
@@ -114,7 +114,7 @@ fn new_vertices_lie_on_their_edges_and_their_faces_name_the_faces_of_the_input()
         assert!((a.lerp(b, new.at) - *position).length() < 1e-12);
     }
     let face_of = layout.face_of.as_ref().expect("faces are split");
-    assert_eq!((face_of.len(), layout.triangles.len()), (polygons.face_count(), polygons.face_count()));
+    assert_eq!((face_of.len(), layout.triangles().len()), (polygons.face_count(), polygons.face_count()));
     // The parts of a face lie in its plane.
     let normal = |mesh: &PolygonMesh, face: usize| {
         let [a, b, c] = [0, 1, 2].map(|k| mesh.positions[mesh.face(face)[k].index()]);
