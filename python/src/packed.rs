@@ -8,6 +8,7 @@ use freebound_core::mesh::FaceId;
 use freebound_core::pipeline::{ChartSizes, LockedCharts, RepackError, RepackOptions, Repacked};
 use freebound_io::{FaultReport, LayoutPacking, LayoutToPackError, Materials, MeshFile, OutputKind, Report};
 use freebound_io::{RepackedFile, WriteError};
+use glam::DVec2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
@@ -44,7 +45,7 @@ impl Packed {
     #[getter]
     fn corner_uv<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let coordinates = &self.repacked.coordinates;
-        let at = |&number: &u32| coordinates.get(number as usize).map_or([f64::NAN; 2], |uv| uv.to_array());
+        let at = |&number: &u32| coordinates.get(number as usize).map_or([f64::NAN; 2], DVec2::to_array);
         arrays::table(py, self.repacked.corners.iter().map(at))
     }
 
