@@ -8,7 +8,7 @@ import numpy as np
 from bpy.props import BoolProperty, FloatVectorProperty
 
 from . import meshes, operators
-from .solving import sentence
+from .solving import refuse_bare, sentence
 
 #: Largest distance of the mouse from the corner that it grabs, pixels.
 _REACH = 24
@@ -24,15 +24,12 @@ class Grab:
     """Corner of a chart that is dragged. Pinned corners of the chart stay."""
 
     def __init__(self, selection, corner):
-        count = len(selection.starts) - 1
-        if np.isnan(selection.uv).any():
-            raise freebound.InputError("corners have coordinates that are no numbers: unwrap the faces first")
+        refuse_bare(selection)
         # Nothing is packed: all charts are locked.
         chart_of = freebound.pack(
-            selection.vertices, selection.faces(), selection.uv, lock=np.ones(count, dtype=bool)
+            selection.vertices, selection.faces(), selection.uv, lock=np.ones(selection.face_count, dtype=bool)
         ).chart
-        sizes = np.diff(selection.starts)
-        face_of = np.repeat(np.arange(count), sizes)
+        face_of = selection.face_of
         is_own = chart_of == chart_of[face_of[corner]]
         self.corners = np.flatnonzero(is_own[face_of])
         """Corners of the chart, by their numbers in the selection."""
@@ -42,7 +39,7 @@ class Grab:
         _, first, self._vertex_of = np.unique(keys, axis=0, return_index=True, return_inverse=True)
         self._vertex_of = self._vertex_of.ravel()
         vertices = selection.vertices[selection.corners[self.corners[first]]]
-        faces = self._vertex_of, np.concatenate([[0], np.cumsum(sizes[is_own])])
+        faces = self._vertex_of, np.concatenate([[0], np.cumsum(np.diff(selection.starts)[is_own])])
         self._vertex = int(self._vertex_of[np.searchsorted(self.corners, corner)])
         self.grabbed = self.corners[self._vertex_of == self._vertex]
         """Corners at the place that is dragged."""
@@ -102,12 +99,14 @@ class _EditedLoops:
     def write(self, at, uv):
         for corner in at:
             self._loops[corner].uv = uv[corner]
-        for mesh, _ in self._meshes:
-            bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+        self._update()
 
     def pin(self, at):
         for corner in at:
             self._loops[corner].pin_uv = True
+        self._update()
+
+    def _update(self):
         for mesh, _ in self._meshes:
             bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 

@@ -57,6 +57,16 @@ class Selection:
         return self.corners, self.starts
 
     @property
+    def face_count(self):
+        """Number of faces."""
+        return len(self.starts) - 1
+
+    @property
+    def face_of(self):
+        """Face of each corner."""
+        return np.repeat(np.arange(self.face_count), np.diff(self.starts))
+
+    @property
     def is_hard(self):
         """True for each corner that is pinned, and whose vertex is not in the group of soft pins."""
         return self.pinned & np.isnan(self.weights)
@@ -248,7 +258,7 @@ def _mark(mesh, part, cut_edges):
 def select(context, selection, faces):
     """Selects faces of the joined mesh, and nothing else."""
     begin = 0
-    chosen = np.zeros(len(selection.starts) - 1, dtype=bool)
+    chosen = np.zeros(selection.face_count, dtype=bool)
     chosen[list(faces)] = True
     is_edited = context.mode == "EDIT_MESH"
     with object_mode(context):

@@ -7,7 +7,7 @@ import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from . import meshes, solving
-from .solving import Sheet, sentence
+from .solving import Sheet, counted, sentence
 from .tasks import Task
 
 #: Seconds between two looks at a run.
@@ -57,8 +57,8 @@ class _Run:
         return False
 
     def _gather(self, context):
-        """Selected faces and the others."""
-        raise NotImplementedError
+        """Selected faces with coordinates, and the others."""
+        return meshes.gather_with_others(context, needs_uv=True, is_around=self.is_around)
 
     def _work_of(self):
         """Function that solves, in a thread of its own: of the task, the faces, the others and the picture."""
@@ -195,9 +195,6 @@ class FREEBOUND_OT_relax(_Run, bpy.types.Operator):
         max=1000,
     )
 
-    def _gather(self, context):
-        return meshes.gather_with_others(context, needs_uv=True, is_around=self.is_around)
-
     def _work_of(self):
         rounds = self.rounds
         return lambda *given: solving.relax(*given, rounds)
@@ -214,9 +211,6 @@ class FREEBOUND_OT_pack(_Run, bpy.types.Operator):
         description="Keep the sizes of the charts relative to each other. Otherwise all get one texel density",
         default=False,
     )
-
-    def _gather(self, context):
-        return meshes.gather_with_others(context, needs_uv=True, is_around=self.is_around)
 
     def _work_of(self):
         keeps_sizes = self.keeps_sizes
@@ -250,13 +244,12 @@ class FREEBOUND_OT_check(bpy.types.Operator):
                     codes.add(finding["code"])
         bare = np.isnan(selection.uv).any(axis=1)
         if bare.any():
-            faces.update((np.searchsorted(selection.starts, np.flatnonzero(bare), side="right") - 1).tolist())
+            faces.update(selection.face_of[bare].tolist())
             codes.add("not-a-number")
         if faces:
             meshes.select(context, selection, faces)
         is_fine = found["planar"] and not bare.any()
-        charts = found["charts"]
-        text = f"{charts} chart{'s' if charts != 1 else ''}, no overlaps: proved" if is_fine else "Not one-to-one"
+        text = f"{counted(found['charts'])}, no overlaps: proved" if is_fine else "Not one-to-one"
         if codes:
             text += f"; {len(faces)} faces selected: {', '.join(sorted(codes))}"
         tell(context, text, is_fine)

@@ -61,11 +61,9 @@ def unwrap(task, selection, others, sheet, options, marks_seams):
         **options,
     )
     layout, warning = _solved(task, "Unwrapping", job)
-    charts = int(layout.chart.max()) + 1
-    text = f"{_counted(charts)}, no overlaps: proved; energy {layout.energy:.3f}"
-    done = Done(layout.corner_uv, text, warning, layout.cut_edges if marks_seams else None)
-    is_pinned = selection.is_hard.any()
-    if others is not None or (charts == 1 and not is_pinned):
+    done = Done(layout.corner_uv, _proved(layout), warning, layout.cut_edges if marks_seams else None)
+    is_single = layout.chart.max() == 0 and not selection.is_hard.any()
+    if others is not None or is_single:
         task.enter("Packing")
         _settle(done, selection, others, sheet)
     return done
@@ -73,7 +71,7 @@ def unwrap(task, selection, others, sheet, options, marks_seams):
 
 def relax(task, selection, others, sheet, rounds):
     """Lowers the distortion of the charts. Each stays where it is, unless it would overlap others."""
-    _refuse_bare(selection)
+    refuse_bare(selection)
     aspect = {"aspect": sheet.options["aspect"]} if "aspect" in sheet.options else {}
     job = freebound.start(
         selection.vertices,
@@ -87,8 +85,7 @@ def relax(task, selection, others, sheet, rounds):
         **aspect,
     )
     layout, warning = _solved(task, "Relaxing", job)
-    text = f"{_counted(int(layout.chart.max()) + 1)}, no overlaps: proved; energy {layout.energy:.3f}"
-    done = Done(layout.corner_uv, text, warning)
+    done = Done(layout.corner_uv, _proved(layout), warning)
     if others is not None:
         task.enter("Checking")
         vertices, faces, uv, _ = _joined(selection, done.corner_uv, others)
@@ -103,11 +100,11 @@ def relax(task, selection, others, sheet, rounds):
 
 def pack(task, selection, others, sheet, keeps_sizes):
     """Packs the charts of the selected faces, around pinned charts and faces that are not selected."""
-    _refuse_bare(selection)
+    refuse_bare(selection)
     task.enter("Packing")
     done = Done(selection.uv, "")
     packed = _settle(done, selection, others, sheet, keeps_sizes)
-    charts = _counted(len(np.unique(packed.chart[: len(selection.starts) - 1])))
+    charts = counted(len(np.unique(packed.chart[: selection.face_count])))
     if packed.planar:
         done.text = f"{charts} packed, no overlaps: proved"
     else:
@@ -116,7 +113,13 @@ def pack(task, selection, others, sheet, keeps_sizes):
     return done
 
 
-def _counted(charts):
+def _proved(layout):
+    """Verdict on a proved layout in words."""
+    return f"{counted(int(layout.chart.max()) + 1)}, no overlaps: proved; energy {layout.energy:.3f}"
+
+
+def counted(charts):
+    """Number of charts in words."""
     return f"{charts} chart{'s' if charts != 1 else ''}"
 
 
@@ -126,7 +129,8 @@ def _pins(selection):
     return (at, selection.uv[at], selection.weights[at]) if len(at) else None
 
 
-def _refuse_bare(selection):
+def refuse_bare(selection):
+    """Rejects corners without coordinates."""
     if np.isnan(selection.uv).any():
         raise freebound.InputError("corners have coordinates that are no numbers: unwrap the faces first")
 
@@ -148,8 +152,8 @@ def sentence(error):
 
 
 def _joined(selection, corner_uv, others):
-    """Mesh of the selected faces and the others, its coordinates, and True for each face of the others. Faces without
-    coordinates are left out; the last array has the numbers of the faces that are not."""
+    """Mesh of the selected faces and the others, and its coordinates. Faces without coordinates are left out: the last
+    pair has True for each corner that is in, and the numbers of the faces that are in."""
     parts = [(selection, corner_uv)] + ([(others, others.uv)] if others is not None else [])
     corners, sizes, uv, first = [], [], [], 0
     for part, coordinates in parts:
@@ -169,11 +173,9 @@ def _joined(selection, corner_uv, others):
 def _settle(done, selection, others, sheet, keeps_sizes=False):
     """Packs the selected charts around pinned ones and the others. Changes ``done``, and returns the packing."""
     vertices, faces, uv, (of_corner, used) = _joined(selection, done.corner_uv, others)
-    count = len(selection.starts) - 1
-    face_of = np.repeat(np.arange(count), np.diff(selection.starts))
-    is_locked = np.ones(count + (len(others.starts) - 1 if others is not None else 0), dtype=bool)
-    is_locked[:count] = False
-    is_locked[face_of[selection.is_hard]] = True
+    count = selection.face_count
+    is_locked = np.arange(count + (others.face_count if others is not None else 0)) >= count
+    is_locked[selection.face_of[selection.is_hard]] = True
     packed = freebound.pack(
         vertices, faces, uv, pack=sheet.pack, lock=is_locked[used], keep_sizes=keeps_sizes, precision="f32"
     )

@@ -36,6 +36,14 @@ def mesh_of(vertices: Any, faces: Any = None, corner_uv: Any = None) -> _freebou
     return _freebound.Mesh(points, corners, starts, None if corner_uv is None else _uv_of(corner_uv))
 
 
+def mesh_with_uv(vertices: Any, faces: Any, corner_uv: Any) -> _freebound.Mesh:
+    """Native mesh that has texture coordinates."""
+    mesh = mesh_of(vertices, faces, corner_uv)
+    if not mesh.has_uv:
+        raise OptionError("corner_uv: the mesh has no texture coordinates: pass them")
+    return mesh
+
+
 def _uv_of(corner_uv: Any) -> np.ndarray:
     return np.ascontiguousarray(corner_uv, dtype=np.float64).reshape(-1, 2)
 

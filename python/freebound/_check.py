@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 from . import _arrays, _freebound
-from ._errors import OptionError
 
 
 def check(
@@ -36,8 +35,6 @@ def check(
         A dictionary with ``planar``, ``f32`` (planar in 32 bits), ``passes``, ``charts``, ``triangles`` and
         ``findings``. Each finding has a ``code``, a ``severity`` and the faces or vertices at fault.
     """
-    mesh = _arrays.mesh_of(vertices, faces, corner_uv)
-    if mesh.corner_uv is None:
-        raise OptionError("corner_uv: the mesh has no texture coordinates: pass them")
+    mesh = _arrays.mesh_with_uv(vertices, faces, corner_uv)
     picture = None if size is None else ([size, size] if isinstance(size, int) else list(size))
     return _freebound.check(mesh, stacked, gap, picture, scale_ratio)

@@ -31,6 +31,14 @@ class Mesh:
     @property
     def corner_uv(self) -> NDArray[np.float64] | None: ...
     @property
+    def has_uv(self) -> bool:
+        """True if the mesh has texture coordinates."""
+
+    @property
+    def face_count(self) -> int:
+        """Number of faces."""
+
+    @property
     def warnings(self) -> list[str]: ...
 
 @final

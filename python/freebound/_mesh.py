@@ -67,9 +67,7 @@ class Mesh:
         return self._native.warnings
 
     def __repr__(self) -> str:
-        starts = self._native.starts
-        faces = len(self._native.corners) // 3 if starts is None else len(starts) - 1
-        return f"<freebound.Mesh: {len(self.vertices)} vertices, {faces} faces>"
+        return f"<freebound.Mesh: {len(self.vertices)} vertices, {self._native.face_count} faces>"
 
 
 def read(path: str | os.PathLike[str]) -> Mesh:

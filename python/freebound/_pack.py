@@ -93,9 +93,7 @@ def pack(
         InputError: the mesh has no complete texture coordinates.
         OptionError: an option is wrong.
     """
-    mesh = _arrays.mesh_of(vertices, faces, corner_uv)
-    if mesh.corner_uv is None:
-        raise OptionError("corner_uv: the mesh has no texture coordinates: pass them")
+    mesh = _arrays.mesh_with_uv(vertices, faces, corner_uv)
     if aspect is not None and not (np.isfinite(aspect) and aspect > 0):
         raise OptionError("aspect: pass width over height, above 0")
     options, _ = _arrays.request({"pack": pack, "precision": precision, "threads": threads})
@@ -107,9 +105,8 @@ def _locked(mesh: Any, lock: Any) -> np.ndarray | None:
         return None
     faces = np.asarray(lock)
     if faces.dtype == bool:
-        count = len(mesh.corners) // 3 if mesh.starts is None else len(mesh.starts) - 1
-        if faces.shape != (count,):
-            raise OptionError(f"lock: pass an array of shape ({count},), True for each face to lock")
+        if faces.shape != (mesh.face_count,):
+            raise OptionError(f"lock: pass an array of shape ({mesh.face_count},), True for each face to lock")
         faces = np.flatnonzero(faces)
     if faces.size == 0:
         return None

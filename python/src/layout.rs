@@ -82,7 +82,7 @@ impl Layout {
 
     #[getter]
     fn corner_uv<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        mesh::corner_uv(py, &self.inner.texture)
+        mesh::corner_uv(py, &self.inner.texture.coordinates, &self.inner.texture.corners)
     }
 
     #[getter]

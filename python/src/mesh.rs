@@ -110,7 +110,19 @@ impl Mesh {
     /// Texture coordinates of the corners, shape (c, 2), NaN at corners without; None if the mesh has none.
     #[getter]
     fn corner_uv<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
-        self.file.texture.as_ref().map(|texture| corner_uv(py, texture)).transpose()
+        self.file.texture.as_ref().map(|texture| corner_uv(py, &texture.coordinates, &texture.corners)).transpose()
+    }
+
+    /// True if the mesh has texture coordinates.
+    #[getter]
+    fn has_uv(&self) -> bool {
+        self.file.texture.is_some()
+    }
+
+    /// Number of faces.
+    #[getter]
+    fn face_count(&self) -> usize {
+        self.file.polygons.face_count()
     }
 
     /// Remarks of the reader.
@@ -126,10 +138,14 @@ pub(crate) fn starts<'py>(py: Python<'py>, polygons: &PolygonMesh) -> Option<Bou
     Some(arrays::list(py, starts.iter().map(|&start| start.into()).collect()))
 }
 
-/// Texture coordinates of corners, NaN at corners without.
-pub(crate) fn corner_uv<'py>(py: Python<'py>, texture: &Texture) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let at = |&number: &u32| texture.coordinates.get(number as usize).map_or([f64::NAN; 2], DVec2::to_array);
-    arrays::table(py, texture.corners.iter().map(at))
+/// Texture coordinates of corners, by their numbers in a list. NaN at corners with a number beyond it.
+pub(crate) fn corner_uv<'py>(
+    py: Python<'py>,
+    coordinates: &[DVec2],
+    corners: &[u32],
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let at = |&number: &u32| coordinates.get(number as usize).map_or([f64::NAN; 2], DVec2::to_array);
+    arrays::table(py, corners.iter().map(at))
 }
 
 fn refused(py: Python<'_>, kind: &'static str, message: String, elements: FaultElements) -> PyErr {

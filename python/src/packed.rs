@@ -2,28 +2,26 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use freebound_core::mesh::FaceId;
 use freebound_core::pipeline::{ChartSizes, LockedCharts, RepackError, RepackOptions, Repacked};
-use freebound_io::{FaultReport, LayoutPacking, LayoutToPackError, Materials, MeshFile, OutputKind, Report};
-use freebound_io::{RepackedFile, WriteError};
-use glam::DVec2;
+use freebound_io::WriteError;
+use freebound_io::{FaultReport, LayoutPacking, LayoutToPackError, Materials, OutputKind, RepackedFile, Report};
+use freebound_run::Model;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 
 use super::job::in_pool;
 use super::layout::{kind_of, precision_of};
-use super::mesh::Mesh;
+use super::mesh::{self, Mesh};
 use super::options::Options;
 use super::{arrays, errors};
 
 /// Layout with new places for its charts.
 #[pyclass(frozen, module = "freebound", name = "_Packed")]
 pub(crate) struct Packed {
-    source: Arc<MeshFile>,
-    path: Option<PathBuf>,
+    model: Model,
     repacked: Repacked,
     report: Report,
 }
@@ -31,8 +29,8 @@ pub(crate) struct Packed {
 impl Packed {
     fn file(&self) -> RepackedFile<'_> {
         RepackedFile {
-            source: &self.source,
-            source_path: self.path.as_deref(),
+            source: &self.model.source,
+            source_path: self.model.path.as_deref(),
             materials: Materials::Stay,
             repacked: self.repacked.clone(),
             report: self.report.clone(),
@@ -44,23 +42,17 @@ impl Packed {
 impl Packed {
     #[getter]
     fn corner_uv<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let coordinates = &self.repacked.coordinates;
-        let at = |&number: &u32| coordinates.get(number as usize).map_or([f64::NAN; 2], DVec2::to_array);
-        arrays::table(py, self.repacked.corners.iter().map(at))
+        mesh::corner_uv(py, &self.repacked.coordinates, &self.repacked.corners)
     }
 
     /// Chart of each face, −1 for faces without a triangle.
     #[getter]
     fn chart<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        let mut chart_of = vec![-1; self.source.polygons.face_count()];
-        let mut first = 0;
-        for (number, chart) in (0..).zip(&self.repacked.charts) {
-            for face in first..first + chart.faces {
-                chart_of[self.repacked.mesh.polygon(FaceId::from_index(face)) as usize] = number;
-            }
-            first += chart.faces;
+        let mut chart_of = vec![u32::MAX; self.model.source.polygons.face_count()];
+        for (face, chart) in self.repacked.chart_of_triangles() {
+            chart_of[face as usize] = u32::try_from(chart).unwrap_or(u32::MAX);
         }
-        arrays::list(py, chart_of)
+        arrays::list(py, chart_of.into_iter().map(arrays::number).collect())
     }
 
     #[getter]
@@ -106,34 +98,30 @@ pub(crate) fn pack(
     let (packing, precision) = options.packing_and_precision(py)?;
     let threads = options.threads.map_or(0, usize::from);
     let [width, height] = packing.picture.map(f64::from);
-    let mut faces = BTreeSet::new();
-    for &face in locked.iter().map(PyReadonlyArray1::as_slice).collect::<Result<Vec<_>, _>>()?.into_iter().flatten() {
-        let number =
-            u32::try_from(face).map_err(|_| errors::option_error(py, format!("lock: there is no face {face}")))?;
-        faces.insert(FaceId::new(number));
-    }
+    let no_face = |face: i64| errors::option_error(py, format!("lock: there is no face {face}"));
+    let locked = match &locked {
+        Some(faces) => faces.as_slice()?,
+        None => &[],
+    };
+    let faces = locked.iter().map(|&face| u32::try_from(face).map(FaceId::new).map_err(|_| no_face(face)));
+    let faces = faces.collect::<PyResult<BTreeSet<FaceId>>>()?;
     let sizes = if keeps_sizes { ChartSizes::AsGiven } else { ChartSizes::EqualDensity };
     let options = RepackOptions { packing, sizes, locked: LockedCharts::WithFaces(faces) };
     let packing = LayoutPacking { options, aspect: aspect.unwrap_or(width / height) };
-    let (source, path) = (Arc::clone(&mesh.file), mesh.model().path_words());
+    let model = mesh.model();
     let work = || {
-        let mut file = RepackedFile::new(&source, path, &packing)?;
+        let mut file = RepackedFile::new(&model.source, model.path_words(), &packing)?;
         if precision.is_some() {
             file.round_to(precision, OutputKind::Obj);
         }
         Ok((file.repacked, file.report))
     };
     match py.detach(|| in_pool(threads, work)).map_err(PyRuntimeError::new_err)? {
-        Ok((repacked, report)) => {
-            let path = mesh.model().path.as_deref().map(PathBuf::from);
-            Ok(Packed { source: Arc::clone(&mesh.file), path, repacked, report })
-        }
+        Ok((repacked, report)) => Ok(Packed { model, repacked, report }),
         Err(LayoutToPackError::Texture(error)) => {
             Err(errors::input_error(py, &error, &FaultReport::of_texture(&error)))
         }
-        Err(LayoutToPackError::Repack(RepackError::NoSuchFace { face, .. })) => {
-            Err(errors::option_error(py, format!("lock: there is no face {}", face.number())))
-        }
+        Err(LayoutToPackError::Repack(RepackError::NoSuchFace { face, .. })) => Err(no_face(face.number().into())),
         Err(error) => Err(errors::input_error(py, error, &[])),
     }
 }

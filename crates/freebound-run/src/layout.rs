@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use glam::DVec2;
-use rayon::prelude::*;
 
 use super::{Model, Run, SolvedRun};
 use freebound_core::mesh::{FaceId, NewVertex, VertexId};
@@ -39,8 +38,18 @@ pub struct MeshLayout {
     pub report: Report,
     planar: bool,
     summary: String,
+    laid: Vec<LaidTriangles>,
     triangles: OnceLock<Vec<TriangleOfFace>>,
     origin: FinishedRun,
+}
+
+/// Triangles of a chart in the plane.
+#[derive(Debug)]
+struct LaidTriangles {
+    /// Position of each vertex of the chart's mesh: texture coordinates, u times the aspect of the picture.
+    plane: Embedding,
+    /// Face of each triangle in the mesh of the layout.
+    faces: Vec<u32>,
 }
 
 /// Run that a layout comes from, for writing it again in another precision.
@@ -77,7 +86,8 @@ impl TriangleOfFace {
 impl MeshLayout {
     /// Lays out a solved run, and proves the layout in a precision.
     pub(super) fn new(origin: FinishedRun) -> io::Result<Self> {
-        let output = origin.output()?;
+        let mut output = origin.solved.output(&origin.run)?;
+        output.round_to(Some(origin.precision.unwrap_or_default()), OutputKind::Obj);
         let (planar, summary) = (output.is_planar(), output.summary());
         let TexturedMesh { mesh, texture, new_vertices, face_of } = output.textured();
         let source = &origin.model.source;
@@ -87,28 +97,41 @@ impl MeshLayout {
         };
         let mut chart_of_face = vec![NO_CHART; mesh.polygons.face_count()];
         let faces = faces_of_triangles(&output, face_of.as_deref(), source.polygons.face_count());
-        for (chart, faces) in (0..).zip(faces) {
-            for face in faces {
+        for (chart, faces) in (0..).zip(&faces) {
+            for &face in faces {
                 chart_of_face[face as usize] = chart;
             }
         }
-        let (report, triangles) = (output.report, OnceLock::new());
-        Ok(Self { mesh, texture, new_vertices, face_of, chart_of_face, report, planar, summary, triangles, origin })
+        let plane = DVec2::new(output.aspect, 1.0);
+        let in_plane = |chart: &LaidChart<'_>| chart.coordinates.iter().map(|uv| *uv * plane).collect();
+        let laid =
+            output.charts.iter().zip(faces).map(|(chart, faces)| LaidTriangles { plane: in_plane(chart), faces });
+        let (laid, report, triangles) = (laid.collect(), output.report, OnceLock::new());
+        Ok(Self {
+            mesh,
+            texture,
+            new_vertices,
+            face_of,
+            chart_of_face,
+            report,
+            planar,
+            summary,
+            laid,
+            triangles,
+            origin,
+        })
     }
 
     /// Triangles of the proof, in the order of the faces. A face that is not flattened has one without distortion. The
     /// first call computes them.
     pub fn triangles(&self) -> &[TriangleOfFace] {
         self.triangles.get_or_init(|| {
-            // The run was laid out before, so that it has no error now.
-            let Ok(output) = self.origin.output() else { return Vec::new() };
-            let plane = DVec2::new(output.aspect, 1.0);
-            let faces = faces_of_triangles(&output, self.face_of.as_deref(), self.model().source.polygons.face_count());
-            let mut triangles = Vec::with_capacity(faces.iter().map(Vec::len).sum());
-            for (chart, faces) in output.charts.iter().zip(faces) {
-                let mesh = chart.mesh.mesh();
-                for ((number, face), distortion) in (0..).zip(faces).zip(measured(chart, plane)) {
-                    let area = 0.5 * mesh.double_area_vector(FaceId::new(number)).length();
+            let mut triangles = Vec::with_capacity(self.laid.iter().map(|laid| laid.faces.len()).sum());
+            for (chart, laid) in self.solved().charts.iter().zip(&self.laid) {
+                let mesh = chart.mesh();
+                let distortions = distortion(mesh, &laid.plane).faces;
+                for ((number, &face), distortion) in (0..).zip(&laid.faces).zip(distortions) {
+                    let area = 0.5 * mesh.mesh().double_area_vector(FaceId::new(number)).length();
                     triangles.push(TriangleOfFace { face, area, distortion: Some(distortion) });
                 }
             }
@@ -214,15 +237,6 @@ pub struct WrittenLayout {
     pub summary: String,
 }
 
-impl FinishedRun {
-    /// The run laid out and proved in its precision.
-    fn output(&self) -> io::Result<Output<'_>> {
-        let mut output = self.solved.output(&self.run)?;
-        output.round_to(Some(self.precision.unwrap_or_default()), OutputKind::Obj);
-        Ok(output)
-    }
-}
-
 /// Written face of each triangle, chart by chart. `face_of` is the face of the input for each face of the written mesh, if
 /// they differ.
 fn faces_of_triangles(output: &Output<'_>, face_of: Option<&[u32]>, input_faces: usize) -> Vec<Vec<u32>> {
@@ -250,10 +264,4 @@ fn faces_of_triangles(output: &Output<'_>, face_of: Option<&[u32]>, input_faces:
         faces
     };
     output.charts.iter().map(of_chart).collect()
-}
-
-/// Distortion of the triangles of a chart, in the plane.
-fn measured(chart: &LaidChart<'_>, plane: DVec2) -> Vec<FaceDistortion> {
-    let in_plane: Embedding = chart.coordinates.par_iter().map(|uv| *uv * plane).collect::<Vec<_>>().into();
-    distortion(chart.mesh, &in_plane).faces
 }

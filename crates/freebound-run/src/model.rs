@@ -147,11 +147,8 @@ impl Model {
     #[must_use = "the mesh itself stays as it is"]
     pub fn cut_along(&self, seams: AutomaticSeams) -> Self {
         let form = seams.form.clone();
-        let uncut = |form: &Preparation| Preparation { seams: form.seams.without_automatic(), ..form.clone() };
         // A plain disk that needs no seam is prepared already.
-        let is_prepared = self.prepared.is_plain_disk()
-            && [&self.prepared.form, &form].iter().all(|form| form.seams.automatic().is_empty())
-            && uncut(&self.prepared.form) == uncut(&form);
+        let is_prepared = self.prepared.is_plain_disk() && self.prepared.form.prepares_like(&form);
         let model = self.knowing(Arc::new(seams));
         if is_prepared { model.asking_for(form) } else { model.in_form(form) }
     }
@@ -217,15 +214,15 @@ impl Model {
         report: SeamReport<'_>,
     ) -> Result<AutomaticSeams, SolveError> {
         let source = self.source_in(form);
-        if *form == self.prepared.form {
-            let uncut = AutomaticSeams::of_uncut(&self.prepared, &source.polygons, options, control)?;
-            if let Some(seams) = uncut {
-                return Ok(seams);
-            }
-        }
         let labels = labels_for(&source, form);
         let to_cut = MeshToCut { mesh: &source.polygons, labels: labels.as_deref(), form };
-        AutomaticSeams::find(to_cut, options, control, report)
+        if *form != self.prepared.form || !self.prepared.is_plain_disk() {
+            return AutomaticSeams::find(to_cut, options, control, report);
+        }
+        match AutomaticSeams::of_uncut(&self.prepared, &source.polygons, options, control)? {
+            Some(seams) => Ok(seams),
+            None => AutomaticSeams::find_cut(to_cut, options, control, report),
+        }
     }
 
     /// Copy that asks for another preparation. Its faces are unchanged.

@@ -179,6 +179,12 @@ impl SolvedRun {
 }
 
 impl ChartRun {
+    /// Mesh of the last step: the chart, or its refinement.
+    pub(super) fn mesh(&self) -> &DiskMesh {
+        let disk = self.model.prepared.disk().expect("only a disk is solved");
+        self.solved.outcome.step.candidate.mesh(disk)
+    }
+
     fn to_lay(&self, run: &Run) -> SolvedModel<'_> {
         let of = self.model.prepared.chart.as_ref();
         SolvedModel {

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 
 use glam::DVec2;
 
-use super::pieces::{PackedPieces, Piece, PiecesToPack, first_column_beside};
+use super::pieces::{PackedPieces, Piece, PiecesToPack, density_of, first_column_beside};
 use super::stacks::{Stackable, stacks};
 use super::{
     Fit, LaidChart, Outcome, PackingSummary, PinsSummary, Placement, PreparedMesh, StackedChart, StackedOn,
@@ -243,8 +243,7 @@ impl<'a, 'b> PackingPlan<'a, 'b> {
         let areas = self.charts.iter().zip(laid).filter_map(|(chart, laid)| {
             Some([chart.area_on(laid.as_ref()?, on_picture), chart.size.powi(2) * chart.disk().area()])
         });
-        let [pixels, area] = areas.fold([0.0; 2], |sum, [pixels, area]| [sum[0] + pixels, sum[1] + area]);
-        Some((pixels / area).sqrt()).filter(|density| density.is_finite() && *density > 0.0)
+        density_of(areas)
     }
 
     /// Texture coordinates of packed chart `k`.

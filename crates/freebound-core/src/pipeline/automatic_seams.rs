@@ -76,27 +76,26 @@ impl AutomaticSeams {
         control: Control<'_>,
         report: SeamReport<'_>,
     ) -> Result<Self, SolveError> {
-        let (mesh, mut parts) = (to_cut.mesh, PartsToCut::new(to_cut));
+        let parts = PartsToCut::new(to_cut);
         let uncut = parts.uncut(options, control)?;
-        parts.add_costs_of_shape(|number| uncut[number].is_none(), options.visibility, control)?;
-        let progress = |number: usize, best: BestCut<'_>, is_final: bool| SeamProgress {
-            part: number,
-            part_count: parts.parts.len(),
-            edges: parts.parts[number].seams_in(mesh, best.is_seam),
-            length: best.length,
-            area: parts.area,
-            energy: best.energy,
-            is_final,
-        };
-        parts.seams(options, control, |number, part| {
-            let found = match &uncut[number] {
-                Some(uncut) => uncut.clone(),
-                None => part.cut(&|best| report(progress(number, best, false)))?,
-            };
-            let best = BestCut { is_seam: &found.is_seam, length: found.length, energy: found.energy };
-            report(progress(number, best, true));
-            Ok(found)
-        })
+        parts.found(&uncut, options, control, report)
+    }
+
+    /// Finds seams like [`find`](Self::find), without a look at maps that need no cut. For a mesh whose map without a cut
+    /// misses the bound.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
+    pub fn find_cut(
+        to_cut: MeshToCut<'_>,
+        options: SeamOptions,
+        control: Control<'_>,
+        report: SeamReport<'_>,
+    ) -> Result<Self, SolveError> {
+        let parts = PartsToCut::new(to_cut);
+        let uncut = vec![None; parts.parts.len()];
+        parts.found(&uncut, options, control, report)
     }
 
     /// Maps a plain disk in its preparation, if its map meets the bound without a seam. `None` if it does not, or if the
@@ -193,6 +192,35 @@ impl<'a> PartsToCut<'a> {
         };
         let found: Vec<Result<Option<PartCut>, SolveError>> = numbers.map(uncut).collect();
         found.into_iter().collect()
+    }
+
+    /// Seams of the parts. `uncut` has the maps of those that need no cut.
+    fn found(
+        mut self,
+        uncut: &[Option<PartCut>],
+        options: SeamOptions,
+        control: Control<'_>,
+        report: SeamReport<'_>,
+    ) -> Result<AutomaticSeams, SolveError> {
+        self.add_costs_of_shape(|number| uncut[number].is_none(), options.visibility, control)?;
+        let progress = |number: usize, best: BestCut<'_>, is_final: bool| SeamProgress {
+            part: number,
+            part_count: self.parts.len(),
+            edges: self.parts[number].seams_in(self.mesh, best.is_seam),
+            length: best.length,
+            area: self.area,
+            energy: best.energy,
+            is_final,
+        };
+        self.seams(options, control, |number, part| {
+            let found = match &uncut[number] {
+                Some(uncut) => uncut.clone(),
+                None => part.cut(&|best| report(progress(number, best, false)))?,
+            };
+            let best = BestCut { is_seam: &found.is_seam, length: found.length, energy: found.energy };
+            report(progress(number, best, true));
+            Ok(found)
+        })
     }
 
     /// Makes seams prefer creases and hidden places, in the parts that are cut. `visibility` is the weight of what a

@@ -93,6 +93,13 @@ impl PiecesToPack<'_> {
     }
 }
 
+/// Density of charts: pixels per unit of length on the surface. `areas` has the area of each chart in pixels and on the
+/// surface. `None` if there is no chart with area.
+pub(super) fn density_of(areas: impl Iterator<Item = [f64; 2]>) -> Option<f64> {
+    let [pixels, area] = areas.fold([0.0; 2], |sum, [pixels, area]| [sum[0] + pixels, sum[1] + area]);
+    Some((pixels / area).sqrt()).filter(|density| density.is_finite() && *density > 0.0)
+}
+
 /// Whole u at which packed charts begin: to the right of the charts that stay, or 0 if there are none.
 pub(super) fn first_column_beside<'a>(laid: impl Iterator<Item = &'a Embedding>) -> f64 {
     let held = laid.map(Embedding::bounds).fold(Bounds::EMPTY, Bounds::union);

@@ -11,7 +11,7 @@ use glam::DVec2;
 
 use super::given_charts::{GivenChart, GivenCharts};
 use super::laid_chart::stacked_parts;
-use super::pieces::{PackedPieces, Piece, PiecesToPack, first_column_beside};
+use super::pieces::{PackedPieces, Piece, PiecesToPack, density_of, first_column_beside};
 use super::stacks::{Stackable, stacks};
 use super::{NO_COORDINATE, PackingSummary, StackedChart, StackedOn};
 use crate::geom::{ChartShape, PackingOptions, Stacking};
@@ -164,6 +164,13 @@ impl Repacked {
         }
     }
 
+    /// Polygon of each triangle, by its number in the input, with its chart.
+    pub fn chart_of_triangles(&self) -> impl Iterator<Item = (u32, usize)> {
+        let charts = self.charts.iter().enumerate();
+        let chart_of = charts.flat_map(|(number, chart)| std::iter::repeat_n(number, chart.faces));
+        (0..self.mesh.face_count()).map(|face| self.mesh.polygon(FaceId::from_index(face))).zip(chart_of)
+    }
+
     fn prove(&mut self) {
         // Without redundant faces, which repairs leave in a file, as a second try.
         self.verdict = self.proved(&self.mesh).or_else(|_| {
@@ -174,13 +181,7 @@ impl Repacked {
 
     fn proved(&self, mesh: &TriMesh) -> Result<AtlasVerdict, Box<Diagnosis>> {
         let parts = parts(mesh)?;
-        let mut first = 0;
-        let mut chart_of_polygon = HashMap::new();
-        for (number, chart) in self.charts.iter().enumerate() {
-            let faces = (first..first + chart.faces).map(FaceId::from_index);
-            chart_of_polygon.extend(faces.map(|face| (self.mesh.polygon(face), number)));
-            first += chart.faces;
-        }
+        let chart_of_polygon: HashMap<u32, usize> = self.chart_of_triangles().collect();
         let on = |chart: usize| Some(self.charts[chart].stacked?.chart);
         let stacked_on = stacked_parts(&parts, |face| chart_of_polygon[&mesh.polygon(face)], on);
         let relations = ChartRelations { stacked_on, ..ChartRelations::default() };
@@ -200,16 +201,16 @@ impl Repacked {
 pub fn repack(layout: GivenLayout<'_>, options: &RepackOptions) -> Result<Repacked, RepackError> {
     let given = GivenCharts::of(layout)?;
     let pieces = pieces_of(&given.charts, options.sizes);
-    let mut plan =
-        RepackPlan { given: &given, pieces, stacked: Vec::new(), laid: given.locked(layout, &options.locked)? };
-    plan.stacked = plan.stacked_charts(options.packing.stack);
-    let free: Vec<usize> = (0..plan.pieces.len()).filter(|&chart| plan.is_free(chart)).collect();
-    let packed = plan.packed(&free, layout.aspect, options);
-    let summary = plan.summary(&free, &packed, options.packing);
+    let mut laid = given.locked(layout, &options.locked)?;
+    let stacked = stacked_charts(&given.charts, &pieces, &laid, options.packing.stack);
+    let free = (0..pieces.len()).filter(|&chart| laid[chart].is_none() && stacked[chart].is_none()).collect();
+    let plan = RepackPlan { charts: &given.charts, pieces, free, locked: &laid };
+    let packed = plan.packed(layout.aspect, options);
+    let summary = plan.summary(&packed, options.packing);
+    let RepackPlan { pieces, free, .. } = plan;
     for (k, &chart) in free.iter().enumerate() {
-        plan.laid[chart] = Some(plan.laid(&packed, &free, k));
+        laid[chart] = Some(pieces[chart].laid(&given.charts[chart].plane, &packed, k));
     }
-    let RepackPlan { stacked, mut laid, .. } = plan;
     for (chart, on) in stacked.iter().enumerate().filter_map(|(chart, on)| Some((chart, on.as_ref()?))) {
         laid[chart] = laid[on.on.chart].as_ref().map(|representative| on.coordinates(representative));
     }
@@ -219,81 +220,74 @@ pub fn repack(layout: GivenLayout<'_>, options: &RepackOptions) -> Result<Repack
 
 /// Charts to pack.
 struct RepackPlan<'a> {
-    given: &'a GivenCharts,
+    charts: &'a [GivenChart],
+    /// All charts, at their sizes.
     pieces: Vec<Piece>,
-    /// Charts that lie on others.
-    stacked: Vec<Option<StackedChart>>,
+    /// Numbers of the charts that are packed at places of their own.
+    free: Vec<usize>,
     /// Coordinates of the charts that stay.
-    laid: Vec<Option<Embedding>>,
+    locked: &'a [Option<Embedding>],
 }
 
 impl RepackPlan<'_> {
-    /// True for a chart that is packed at a place of its own.
-    fn is_free(&self, chart: usize) -> bool {
-        self.laid[chart].is_none() && self.stacked[chart].is_none()
-    }
-
     /// Packing of the free charts. `aspect` is that of the picture of the given layout.
-    fn packed(&self, free: &[usize], aspect: f64, options: &RepackOptions) -> PackedPieces {
-        let pieces: Vec<&Piece> = free.iter().map(|&chart| &self.pieces[chart]).collect();
+    fn packed(&self, aspect: f64, options: &RepackOptions) -> PackedPieces {
+        let pieces: Vec<&Piece> = self.free.iter().map(|&chart| &self.pieces[chart]).collect();
         let plane = DVec2::new(aspect, 1.0);
-        let of_locked = self.given.charts.iter().zip(&self.laid);
-        let fixed: Vec<ChartShape> =
-            of_locked.filter(|(_, laid)| laid.is_some()).map(|(chart, _)| chart.shape(1.0 / plane)).collect();
-        let beside = first_column_beside(self.laid.iter().flatten());
+        let of_locked = self.charts.iter().zip(self.locked).filter(|(_, laid)| laid.is_some());
+        let fixed: Vec<ChartShape> = of_locked.map(|(chart, _)| chart.shape(1.0 / plane)).collect();
+        let beside = first_column_beside(self.locked.iter().flatten());
         let to_pack = PiecesToPack { pieces: &pieces, tiles: &[], fixed: &fixed, beside };
         let is_folded = |packed: &PackedPieces, (k, &chart): (usize, &usize)| {
-            let chart = &self.given.charts[chart];
-            chart.is_planar && !chart.is_planar_at(&self.laid(packed, free, k))
+            let given = &self.charts[chart];
+            given.is_planar && !given.is_planar_at(&self.pieces[chart].laid(&given.plane, packed, k))
         };
         to_pack.pack(options.packing, &|picture| self.density_of_locked(picture, options.sizes), &|packed| {
-            free.par_iter().enumerate().any(|chart| is_folded(packed, chart))
+            self.free.par_iter().enumerate().any(|chart| is_folded(packed, chart))
         })
-    }
-
-    /// Coordinates of free chart `k`.
-    fn laid(&self, packed: &PackedPieces, free: &[usize], k: usize) -> Embedding {
-        self.pieces[free[k]].laid(&self.given.charts[free[k]].plane, packed, k)
     }
 
     /// Density of the charts that stay, at which the others match them. With given sizes all charts then keep their sizes.
     fn density_of_locked(&self, picture: DVec2, sizes: ChartSizes) -> Option<f64> {
-        let of_locked = self.given.charts.iter().zip(&self.laid).zip(&self.pieces);
+        let of_locked = self.charts.iter().zip(self.locked).zip(&self.pieces);
         let areas = of_locked.filter_map(|((chart, laid), piece)| {
             let pixels = chart.area_at(laid.as_ref()?, picture);
             Some([pixels, if sizes == ChartSizes::AsGiven { piece.area } else { chart.area }])
         });
-        let [pixels, area] = areas.fold([0.0; 2], |sum, [pixels, area]| [sum[0] + pixels, sum[1] + area]);
-        Some((pixels / area).sqrt()).filter(|density| density.is_finite() && *density > 0.0)
+        density_of(areas)
     }
 
-    fn summary(&self, free: &[usize], packed: &PackedPieces, options: PackingOptions) -> PackingSummary {
+    fn summary(&self, packed: &PackedPieces, options: PackingOptions) -> PackingSummary {
         let packing = &packed.packing;
         let picture = packing.picture.as_dvec2();
-        let of_locked = self.given.charts.iter().zip(&self.laid).filter(|_| packed.is_around);
+        let of_locked = self.charts.iter().zip(self.locked).filter(|_| packed.is_around);
         let locked: f64 = of_locked.filter_map(|(chart, laid)| Some(chart.area_at(laid.as_ref()?, picture))).sum();
-        let own = free.iter().map(|&chart| self.pieces[chart].area).sum::<f64>() * packing.scale.powi(2);
+        let own = self.free.iter().map(|&chart| self.pieces[chart].area).sum::<f64>() * packing.scale.powi(2);
         let tiles: BTreeSet<u32> = packing.places.iter().map(|place| place.tile).collect();
         PackingSummary::new(packing, options, tiles.len().max(1), own + locked)
     }
+}
 
-    fn stacked_charts(&self, stacking: Stacking) -> Vec<Option<StackedChart>> {
-        let charts = &self.given.charts;
-        if stacking == Stacking::None {
-            return vec![None; charts.len()];
-        }
-        let stackable = |((chart, piece), laid): ((&GivenChart, &Piece), &Option<Embedding>)| {
-            let surface = if laid.is_none() { chart.measured(piece.factor)? } else { return None };
-            Some(Stackable { surface, size: 1.0, tile: None })
-        };
-        let all = charts.par_iter().zip(&self.pieces).zip(&self.laid);
-        let found = stacks(&all.map(stackable).collect::<Vec<_>>(), stacking);
-        let in_charts = |(chart, stacked): (usize, Option<StackedChart>)| {
-            let StackedChart { on, vertex_of } = stacked?;
-            Some(StackedChart { on, vertex_of: charts[chart].in_chart(&charts[on.chart], &vertex_of) })
-        };
-        found.into_iter().enumerate().map(in_charts).collect()
+/// Charts that lie on others. Those with coordinates in `laid` stay, and share no place.
+fn stacked_charts(
+    charts: &[GivenChart],
+    pieces: &[Piece],
+    laid: &[Option<Embedding>],
+    stacking: Stacking,
+) -> Vec<Option<StackedChart>> {
+    if stacking == Stacking::None {
+        return vec![None; charts.len()];
     }
+    let stackable = |((chart, piece), laid): ((&GivenChart, &Piece), &Option<Embedding>)| {
+        let surface = if laid.is_none() { chart.measured(piece.factor)? } else { return None };
+        Some(Stackable { surface, size: 1.0, tile: None })
+    };
+    let found = stacks(&charts.par_iter().zip(pieces).zip(laid).map(stackable).collect::<Vec<_>>(), stacking);
+    let in_charts = |(chart, stacked): (usize, Option<StackedChart>)| {
+        let StackedChart { on, vertex_of } = stacked?;
+        Some(StackedChart { on, vertex_of: charts[chart].in_chart(&charts[on.chart], &vertex_of) })
+    };
+    found.into_iter().enumerate().map(in_charts).collect()
 }
 
 /// Charts scaled to the lengths of the surface: each by itself, or all by one factor.

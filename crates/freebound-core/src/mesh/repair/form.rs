@@ -36,6 +36,11 @@ pub enum HoleTreatment {
 }
 
 impl Preparation {
+    /// True if two preparations differ at most in the bound of their automatic seams: they prepare any mesh alike.
+    pub fn prepares_like(&self, other: &Self) -> bool {
+        Self { seams: self.seams.bound_as(&other.seams), ..self.clone() } == *other
+    }
+
     /// Adds all repairs that can help to make disks, and cutting.
     #[must_use]
     pub fn with_all_repairs(&self) -> Self {

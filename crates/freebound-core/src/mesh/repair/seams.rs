@@ -74,6 +74,11 @@ impl Seams {
         Self { automatic: Arc::default(), bound: None, ..self.clone() }
     }
 
+    /// Seams with the bound of others.
+    pub(super) fn bound_as(&self, other: &Self) -> Self {
+        Self { bound: other.bound, ..self.clone() }
+    }
+
     /// Seams that list the automatic edges too.
     #[must_use = "the seams themselves stay as they are"]
     pub fn all_listed(&self) -> Self {
