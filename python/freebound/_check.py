@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable
 from typing import Any
 
 from . import _arrays, _freebound
@@ -16,6 +18,8 @@ def check(
     gap: float | None = None,
     size: int | tuple[int, int] | None = None,
     scale_ratio: float | None = None,
+    listed: int | None = None,
+    stop: Callable[[], bool] | None = None,
 ) -> dict[str, Any]:
     """Decides exactly if a layout is one-to-one, and lists its defects.
 
@@ -30,6 +34,12 @@ def check(
         gap: smallest distance of two charts in pixels. Default: not tested.
         size: width and height of the picture in pixels, or one number for both. Default: 1024.
         scale_ratio: largest ratio of a chart's scale to the usual scale. Default: 2.
+        listed: largest number of faces or pairs that a finding lists. Default: 1000.
+        stop: function that is called about twenty times a second. The check ends if it returns True.
+
+    Raises:
+        InputError: the mesh has no texture coordinates.
+        Cancelled: ``stop`` returned True.
 
     Returns:
         A dictionary with ``planar``, ``f32`` (planar in 32 bits), ``passes``, ``charts``, ``triangles`` and
@@ -37,4 +47,5 @@ def check(
     """
     mesh = _arrays.mesh_with_uv(vertices, faces, corner_uv)
     picture = None if size is None else ([size, size] if isinstance(size, int) else list(size))
-    return _freebound.check(mesh, stacked, gap, picture, scale_ratio)
+    options = {"stacked": stacked, "gap": gap, "size": picture, "scale_ratio": scale_ratio, "listed": listed}
+    return _freebound.check(mesh, json.dumps(options), stop)

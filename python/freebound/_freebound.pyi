@@ -1,6 +1,6 @@
 """Native module. The package wraps it: use `freebound`."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Self, final
 
 import numpy as np
@@ -162,10 +162,8 @@ class _Drag:
 
 def check(
     mesh: Mesh,
-    stacked: bool = False,
-    gap: float | None = None,
-    picture: Sequence[int] | None = None,
-    scale_ratio: float | None = None,
+    options: str,
+    stop: Callable[[], bool] | None = None,
 ) -> dict[str, Any]: ...
 def check_options(options: str, lists: dict[str, Any]) -> None: ...
 def equations(
@@ -175,7 +173,6 @@ def equations(
 def pack(
     mesh: Mesh,
     options: str,
-    locked: NDArray[np.int64] | None = None,
-    keeps_sizes: bool = False,
-    aspect: float | None = None,
+    rules: dict[str, Any],
+    stop: Callable[[], bool] | None = None,
 ) -> _Packed: ...

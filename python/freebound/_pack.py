@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
@@ -58,7 +59,9 @@ class Packed:
         return [os.fspath(file) for file in files]
 
     def __repr__(self) -> str:
-        return f"<freebound.Packed: {self.chart.max() + 1} charts, {'planar' if self.planar else 'not planar'}>"
+        count = self.chart.max() + 1
+        verdict = "planar" if self.planar else "not planar"
+        return f"<freebound.Packed: {count} chart{'s' if count != 1 else ''}, {verdict}>"
 
 
 def pack(
@@ -72,6 +75,7 @@ def pack(
     aspect: float | None = None,
     precision: str | None = None,
     threads: int | None = None,
+    stop: Callable[[], bool] | None = None,
 ) -> Packed:
     """Packs the charts of a given layout, without flattening. Each chart keeps its shape.
 
@@ -83,21 +87,22 @@ def pack(
         corner_uv: texture coordinates of the corners, shape (c, 2), v up.
         pack: packing of the charts.
         lock: numbers of faces, or True for each face, shape (m,). Charts with one of these faces keep their coordinates
-            to the last bit, and the others are packed around them.
+            to the last bit, unless "f32" rounds them, and the others are packed around them.
         keep_sizes: True to keep the sizes of the charts relative to each other. Default: one density for all charts.
         aspect: width over height of the picture of the given layout. Default: that of the new picture.
         precision: "f32" to round the coordinates to 32 bits, and to prove them so.
         threads: number of threads. Default: all cores.
+        stop: function that is called about twenty times a second. The packing ends if it returns True.
 
     Raises:
         InputError: the mesh has no complete texture coordinates.
         OptionError: an option is wrong.
+        Cancelled: ``stop`` returned True.
     """
     mesh = _arrays.mesh_with_uv(vertices, faces, corner_uv)
-    if aspect is not None and not (np.isfinite(aspect) and aspect > 0):
-        raise OptionError("aspect: pass width over height, above 0")
     options, _ = _arrays.request({"pack": pack, "precision": precision, "threads": threads})
-    return Packed(_freebound.pack(mesh, options, _locked(mesh, lock), keep_sizes, aspect))
+    rules = {"locked": _locked(mesh, lock), "keeps_sizes": keep_sizes, "aspect": aspect}
+    return Packed(_freebound.pack(mesh, options, rules, stop))
 
 
 def _locked(mesh: Any, lock: Any) -> np.ndarray | None:

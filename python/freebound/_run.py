@@ -149,9 +149,10 @@ def flatten(
         progress: function that receives :attr:`Job.progress`, at most ten times a second.
         options: options of ``freebound flatten`` with underscores for dashes: family, boundary, spacing, layers,
             treatment, max_steps, relax, new_vertices (False: never split edges), growth, aspect (width over height),
-            repair, weld, holes, cut, distortion, max_charts, seam_visibility, charts, parts, fit, lock, precision,
+            repair, weld, holes, cut, distortion, max_charts, seam_visibility, charts, parts, fit, precision,
             threads; ``seams``, an array of edges of shape (e, 2) or kinds such as "sharp=60"; ``cut_weights``,
-            ``{(a, b): cost}``; ``pack``, a :class:`Pack`; ``chart_size``, ``{chart: size}``.
+            ``{(a, b): cost}``; ``pack``, a :class:`Pack`; ``chart_size``, ``{chart: size}``; ``lock``, charts of the given
+            layout that stay in place, or True for all, which may then overlap.
 
     Returns:
         The proved layout, with all hard pins at their targets to the last bit.
@@ -235,7 +236,7 @@ class Drag(_freebound._Drag):
             vertex: vertex of the layout.
             target: place to move it to.
             frames: most frames. With 1 a call takes a frame of an editor; call it again until :attr:`at_rest` is true.
-                Default: until the layout is at rest.
+                Default: until the layout is at rest, at most 200.
         """
         if frames is not None and frames < 1:
             raise OptionError("frames: pass a number of 1 or more")

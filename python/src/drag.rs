@@ -1,5 +1,6 @@
 //! Dragged pins: every frame is proved.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use freebound_core::bijective::DragSolver;
@@ -16,16 +17,14 @@ use super::job::{in_pool, interruptible};
 use super::layout::Layout;
 use super::{arrays, errors};
 
-/// Largest number of frames of one move.
-const MOST_FRAMES: usize = 200;
+/// Largest number of frames of a move that names none.
+const USUAL_FRAMES: usize = 200;
 
 /// State of a drag.
 struct State {
     problem: Problem,
     embedding: Embedding,
     solver: Option<DragSolver>,
-    /// True if no vertex moved in the last frame.
-    is_at_rest: bool,
 }
 
 /// Planar layout whose vertices can be dragged.
@@ -33,6 +32,8 @@ struct State {
 pub(crate) struct Drag {
     mesh: Arc<DiskMesh>,
     state: Mutex<State>,
+    /// True if no vertex moved in the last frame.
+    is_at_rest: AtomicBool,
     threads: usize,
 }
 
@@ -61,16 +62,17 @@ impl Drag {
         let Some((mesh, embedding)) = start.map_err(|error| errors::option_error(py, error))? else {
             return Err(errors::option_error(py, "the layout has no chart"));
         };
-        Ok(Self { mesh, state: Mutex::new(State { problem, embedding, solver: None, is_at_rest: true }), threads })
+        let state = Mutex::new(State { problem, embedding, solver: None });
+        Ok(Self { mesh, state, is_at_rest: AtomicBool::new(true), threads })
     }
 
     /// True if no vertex moved in the last frame.
     #[getter]
     fn at_rest(&self) -> bool {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner).is_at_rest
+        self.is_at_rest.load(Ordering::Relaxed)
     }
 
-    /// Drags a vertex towards a place, until nothing moves, or for some frames. Returns the coordinates (n, 2) and the
+    /// Drags a vertex towards a place, until nothing moves or for some frames. Returns the coordinates (n, 2) and the
     /// verdict.
     #[pyo3(signature = (vertex, target, frames=None))]
     fn advance<'py>(
@@ -90,13 +92,14 @@ impl Drag {
         let count = self.mesh.real_vertex_count();
         let work = |control: Control<'_>| {
             let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-            let pull = Pull { vertex, target, frames: frames.unwrap_or(MOST_FRAMES).clamp(1, MOST_FRAMES) };
-            let verdict = state.advance(&self.mesh, pull, control)?;
+            let pull = Pull { vertex, target, frames: frames.unwrap_or(USUAL_FRAMES).max(1) };
+            let (verdict, is_at_rest) = state.advance(&self.mesh, pull, control)?;
+            self.is_at_rest.store(is_at_rest, Ordering::Relaxed);
             let frame = state.problem.frame;
             let coordinates: Vec<DVec2> = state.embedding[..count].iter().map(|&z| frame.uv_from_plane(z)).collect();
             Some((coordinates, verdict))
         };
-        let moved = interruptible(py, self.threads, work)?;
+        let moved = interruptible(py, self.threads, None, work)?;
         let Some((coordinates, verdict)) = moved else {
             return Err(errors::not_proved(py, "the layout is not planar, so it cannot be dragged", None));
         };
@@ -113,8 +116,9 @@ struct Pull {
 }
 
 impl State {
-    /// Moves a vertex, and returns the verdict. `None` if the layout is not planar.
-    fn advance(&mut self, mesh: &DiskMesh, pull: Pull, control: Control<'_>) -> Option<Verdict> {
+    /// Moves a vertex, and returns the verdict, and true if no vertex moved in the last frame. `None` if the layout is not
+    /// planar.
+    fn advance(&mut self, mesh: &DiskMesh, pull: Pull, control: Control<'_>) -> Option<(Verdict, bool)> {
         let Pull { vertex, target, frames } = pull;
         let is_same = self.solver.as_ref().is_some_and(|solver| solver.dragged() == [vertex]);
         if !is_same {
@@ -128,9 +132,9 @@ impl State {
         let mut last = None;
         for _ in 0..frames {
             let frame = solver.drag(mesh, &aim, control).ok()?;
-            self.is_at_rest = frame.is_at_rest;
-            last = Some(frame.verdict);
-            if self.is_at_rest {
+            let is_at_rest = frame.is_at_rest;
+            last = Some((frame.verdict, is_at_rest));
+            if is_at_rest {
                 break;
             }
         }

@@ -63,7 +63,7 @@ impl Flattener {
             let mut flattener = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
             if flattener.ending().is_some() { None } else { Some(flattener.step(&self.mesh, control)) }
         };
-        match interruptible(py, self.threads, next)? {
+        match interruptible(py, self.threads, None, next)? {
             None => Ok(None),
             Some(Ok(step)) => Ok(Some(FlattenerStep { mesh: Arc::clone(&self.mesh), step })),
             Some(Err(error)) => Err(errors::of_solve(py, &error)),

@@ -68,10 +68,11 @@ pub(crate) fn in_pool<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) 
     })
 }
 
-/// Runs work in a pool of its own. A signal cancels it.
+/// Runs work in a pool of its own. A signal cancels it, and so does `stop`, a function of Python, if it returns true.
 pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     threads: usize,
+    stop: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(Control<'_>) -> T + Send,
 ) -> PyResult<T> {
     let cancel = AtomicBool::new(false);
@@ -91,10 +92,12 @@ pub(crate) fn interruptible<T: Send>(
             match received {
                 Ok(found) => return found.map_err(PyRuntimeError::new_err),
                 Err(RecvTimeoutError::Timeout) => {
-                    if let Err(signal) = py.check_signals() {
+                    let asked =
+                        py.check_signals().and_then(|()| stop.map_or(Ok(false), |stop| stop.call0()?.is_truthy()));
+                    if !matches!(asked, Ok(false)) {
                         cancel.store(true, Ordering::Relaxed);
                         py.detach(move || wait.recv().map(drop).ok());
-                        return Err(signal);
+                        return Err(asked.err().unwrap_or_else(|| errors::cancelled(py)));
                     }
                 }
                 Err(RecvTimeoutError::Disconnected) => return Err(PyRuntimeError::new_err("the thread has ended")),

@@ -8,7 +8,7 @@
 //! | `errors`    | errors of the package                                    |
 //! | `job`       | a run on a thread of its own                             |
 //! | `layout`    | finished layouts                                         |
-//! | `packed`    | new places for the charts of a given layout               |
+//! | `packed`    | new places for the charts of a given layout              |
 //! | `flattener` | a method step by step                                    |
 //! | `drag`      | dragged pins                                             |
 //! | `equations` | the matrices of the paper                                |

@@ -16,8 +16,9 @@ use glam::{DVec2, DVec3};
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use serde::Deserialize;
 
-use super::job::in_pool;
+use super::job::{in_pool, interruptible};
 use super::{arrays, errors};
 
 /// Mesh with the other contents of its file, if it came from one.
@@ -207,25 +208,43 @@ fn texture_of(py: Python<'_>, uv: &PyReadonlyArray2<'_, f64>, corner_count: usiz
     Ok(texture)
 }
 
-/// Judges the texture coordinates of a mesh, and returns the verdict as a dictionary.
+/// Options of a check.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CheckOptions {
+    stacked: bool,
+    gap: Option<f64>,
+    size: Option<[u32; 2]>,
+    scale_ratio: Option<f64>,
+    listed: Option<usize>,
+}
+
+impl CheckOptions {
+    fn of_layout(&self) -> LayoutOptions {
+        let usual = LayoutOptions::default();
+        let [width, height] = self.size.unwrap_or(PackingOptions::default().picture).map(f64::from);
+        LayoutOptions {
+            accepts_stacks: self.stacked,
+            gap: self.gap.map(|least| PixelGap { least, picture: DVec2::new(width, height) }),
+            scale_ratio: self.scale_ratio.unwrap_or(usual.scale_ratio),
+            listed: self.listed.unwrap_or(usual.listed),
+        }
+    }
+}
+
+/// Judges the texture coordinates of a mesh, and returns the verdict as a dictionary. `options` is a JSON object; the
+/// check ends if `stop` returns true.
 #[pyfunction]
-#[pyo3(signature = (mesh, stacked=false, gap=None, picture=None, scale_ratio=None))]
+#[pyo3(signature = (mesh, options, stop=None))]
 pub(crate) fn check<'py>(
     py: Python<'py>,
     mesh: &Mesh,
-    stacked: bool,
-    gap: Option<f64>,
-    picture: Option<[u32; 2]>,
-    scale_ratio: Option<f64>,
+    options: &str,
+    stop: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let [width, height] = picture.unwrap_or(PackingOptions::default().picture).map(f64::from);
-    let options = LayoutOptions {
-        accepts_stacks: stacked,
-        gap: gap.map(|least| PixelGap { least, picture: DVec2::new(width, height) }),
-        scale_ratio: scale_ratio.unwrap_or(LayoutOptions::default().scale_ratio),
-    };
-    let judge = || mesh.file.judged_layout(options, false, Control::unattended());
-    match py.detach(|| in_pool(0, judge)).map_err(PyRuntimeError::new_err)? {
+    let options: CheckOptions = serde_json::from_str(options).map_err(|error| errors::option_error(py, error))?;
+    let judge = |control: Control<'_>| mesh.file.judged_layout(options.of_layout(), false, control);
+    match interruptible(py, 0, stop, judge)? {
         Ok(judged) => errors::to_python(py, &judged.verdict),
         Err(JudgeError::Texture(error)) => Err(errors::input_error(py, &error, &FaultReport::of_texture(&error))),
         Err(JudgeError::Cancelled) => Err(errors::cancelled(py)),

@@ -1,6 +1,6 @@
 //! Options of a run. The package passes them as one JSON object, and lists of numbers as arrays.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 use std::num::NonZeroUsize;
 use std::str::FromStr;
@@ -51,9 +51,39 @@ pub(crate) struct Options {
     fit: Option<String>,
     pack: Option<Pack>,
     chart_size: BTreeMap<usize, f64>,
-    lock: Vec<usize>,
+    lock: Lock,
     precision: Option<String>,
     pub(crate) threads: Option<NonZeroUsize>,
+}
+
+/// Charts that are locked.
+#[derive(Debug, Deserialize)]
+#[serde(untagged, expecting = "pass numbers of charts, or True for all")]
+enum Lock {
+    All(bool),
+    Charts(Vec<usize>),
+}
+
+impl Default for Lock {
+    fn default() -> Self {
+        Self::Charts(Vec::new())
+    }
+}
+
+impl Lock {
+    fn is_empty(&self) -> bool {
+        match self {
+            Self::All(all) => !all,
+            Self::Charts(charts) => charts.is_empty(),
+        }
+    }
+
+    fn numbers(&self) -> BTreeSet<usize> {
+        match self {
+            Self::All(_) => BTreeSet::new(),
+            Self::Charts(charts) => charts.iter().copied().collect(),
+        }
+    }
 }
 
 /// Options of packing.
@@ -164,14 +194,10 @@ impl Options {
                 .map_err(|why: <SeamKind as FromStr>::Err| Wrong::new("seams", why))?,
             automatic_cut,
             parts: parsed::<PartChoice>("parts", self.parts.as_ref())?,
-            run: Run {
-                options,
-                fit: fit.unwrap_or_default(),
-                locked: self.lock.iter().copied().collect(),
-                keeps_materials: false,
-            },
+            run: Run { options, fit: fit.unwrap_or_default(), locked: self.lock.numbers(), keeps_materials: false },
             corner_pins: corner_pins(lists)?,
             chart_sizes: self.chart_size.clone(),
+            locks_all_charts: matches!(self.lock, Lock::All(true)),
             usual_relax_rounds: usual.usual_relax_rounds,
             precision: named::<Precision>("precision", self.precision.as_ref())?,
         })

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use freebound_core::mesh::FaceId;
 use freebound_core::pipeline::{ChartSizes, LockedCharts, RepackError, RepackOptions, Repacked};
+use freebound_core::problem::Control;
 use freebound_io::WriteError;
 use freebound_io::{FaultReport, LayoutPacking, LayoutToPackError, Materials, OutputKind, RepackedFile, Report};
 use freebound_run::Model;
@@ -12,7 +13,7 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 
-use super::job::in_pool;
+use super::job::{in_pool, interruptible};
 use super::layout::{kind_of, precision_of};
 use super::mesh::{self, Mesh};
 use super::options::Options;
@@ -82,22 +83,37 @@ impl Packed {
     }
 }
 
-/// Packs the charts of a mesh. `options` is a JSON object; `locked` are faces whose charts stay in place; `aspect` is
-/// width over height of the picture of the given layout.
+/// Rules for the charts of a given layout.
+#[derive(FromPyObject)]
+pub(crate) struct ChartRules<'py> {
+    /// Faces whose charts stay in place.
+    #[pyo3(item)]
+    locked: Option<PyReadonlyArray1<'py, i64>>,
+    #[pyo3(item)]
+    keeps_sizes: bool,
+    /// Width over height of the picture of the given layout.
+    #[pyo3(item)]
+    aspect: Option<f64>,
+}
+
+/// Packs the charts of a mesh. `options` is a JSON object; the packing ends if `stop` returns true.
 #[pyfunction]
-#[pyo3(signature = (mesh, options, locked=None, keeps_sizes=false, aspect=None))]
+#[pyo3(signature = (mesh, options, rules, stop=None))]
 pub(crate) fn pack(
     py: Python<'_>,
     mesh: &Mesh,
     options: &str,
-    locked: Option<PyReadonlyArray1<'_, i64>>,
-    keeps_sizes: bool,
-    aspect: Option<f64>,
+    rules: ChartRules<'_>,
+    stop: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Packed> {
     let options = Options::of_json(py, options)?;
     let (packing, precision) = options.packing_and_precision(py)?;
     let threads = options.threads.map_or(0, usize::from);
     let [width, height] = packing.picture.map(f64::from);
+    let ChartRules { locked, keeps_sizes, aspect } = rules;
+    if aspect.is_some_and(|aspect| !(aspect.is_normal() && aspect > 0.0)) {
+        return Err(errors::option_error(py, "aspect: pass width over height, above 0"));
+    }
     let no_face = |face: i64| errors::option_error(py, format!("lock: there is no face {face}"));
     let locked = match &locked {
         Some(faces) => faces.as_slice()?,
@@ -109,18 +125,19 @@ pub(crate) fn pack(
     let options = RepackOptions { packing, sizes, locked: LockedCharts::WithFaces(faces) };
     let packing = LayoutPacking { options, aspect: aspect.unwrap_or(width / height) };
     let model = mesh.model();
-    let work = || {
-        let mut file = RepackedFile::new(&model.source, model.path_words(), &packing)?;
+    let work = |control: Control<'_>| {
+        let mut file = RepackedFile::new(&model.source, model.path_words(), &packing, control)?;
         if precision.is_some() {
             file.round_to(precision, OutputKind::Obj);
         }
         Ok((file.repacked, file.report))
     };
-    match py.detach(|| in_pool(threads, work)).map_err(PyRuntimeError::new_err)? {
+    match interruptible(py, threads, stop, work)? {
         Ok((repacked, report)) => Ok(Packed { model, repacked, report }),
         Err(LayoutToPackError::Texture(error)) => {
             Err(errors::input_error(py, &error, &FaultReport::of_texture(&error)))
         }
+        Err(LayoutToPackError::Repack(RepackError::Cancelled)) => Err(errors::cancelled(py)),
         Err(LayoutToPackError::Repack(RepackError::NoSuchFace { face, .. })) => Err(no_face(face.number().into())),
         Err(error) => Err(errors::input_error(py, error, &[])),
     }

@@ -181,6 +181,66 @@ def test_locked_charts_keep_their_bits_and_others_are_packed_around_them(lock):
     assert others.min() >= 0 and others.max() <= 1 and (others != uv[:4]).any(axis=(1, 2)).all()
 
 
+def test_a_packing_with_all_charts_locked_reports_their_density():
+    vertices, faces, uv = scattered()
+    packed = freebound.pack(vertices, faces, uv, pack=freebound.Pack(density=1e6), lock=np.ones(6, dtype=bool))
+    assert (packed.corner_uv == uv).all()
+    charts = [chart["density"] for chart in packed.report["packed_charts"]]
+    assert min(charts) <= packed.report["packing"]["density"] <= max(charts)
+    assert "wanted_density" not in packed.report["packing"]
+
+
+def test_all_charts_of_a_given_layout_may_be_locked_although_they_overlap():
+    vertices, faces, _ = grid(8, 6)
+    twice = np.vstack([vertices, vertices + (2, 0, 0)]), np.vstack([faces, faces + len(vertices)])
+    # Both sheets at one place, each sheared.
+    uv = np.tile((vertices[:, :2] @ [[0.5, 0.0], [0.2, 0.5]])[faces].reshape(-1, 2), (2, 1))
+    with pytest.raises(freebound.NotProved) as failure:
+        freebound.flatten(*twice, layout=uv, charts="uv", relax=30, lock=True)
+    layout = failure.value.layout
+    first, second = np.array_split(layout.corner_uv, 2)
+    assert np.allclose(first, second, atol=1e-9) and not layout.verdict.planar
+    assert np.allclose(first.mean(axis=0), uv.mean(axis=0), atol=0.02)
+    assert freebound.check(twice[0], twice[1], np.vstack([first, second + 3.0]))["planar"]
+    # Without locks they are packed.
+    assert freebound.flatten(*twice, layout=uv, charts="uv", relax=30).verdict.planar
+    with pytest.raises(freebound.OptionError, match="lock"):
+        freebound.flatten(*twice, layout=uv, charts="uv", lock="all")
+
+
+def test_a_function_stops_a_packing_and_a_check():
+    random = np.random.default_rng(5)
+    low = random.random((40_000, 2))
+    uv = (low[:, None] + 0.05 * random.random((40_000, 3, 2))).reshape(-1, 2)
+    vertices, faces = np.column_stack([uv, np.zeros(len(uv))]), np.arange(len(uv)).reshape(-1, 3)
+    calls = []
+
+    def stop():
+        calls.append(len(calls))
+        return True
+
+    for work, options in ((freebound.pack, {}), (freebound.check, {"listed": 10_000_000})):
+        with pytest.raises(freebound.Cancelled):
+            work(vertices, faces, uv, stop=stop, **options)
+    assert calls == [0, 1]
+
+    def broken():
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        freebound.pack(vertices, faces, uv, stop=broken)
+
+
+def test_a_check_lists_as_many_faces_as_are_asked_for():
+    vertices, faces, _ = grid(60, 40)
+    # All faces lie on a line.
+    uv = (vertices[:, :2] @ [[1, 0], [0.37, 0]])[faces].reshape(-1, 2)
+    for listed, count in ((None, 1000), (7, 7), (10_000, len(faces))):
+        found = freebound.check(vertices, faces, uv, listed=listed)["findings"]
+        degenerate = next(finding for finding in found if finding["code"] == "degenerate")
+        assert (degenerate["count"], len(degenerate["faces"])) == (len(faces), count)
+
+
 def test_wrong_options_of_packing_are_refused():
     vertices, faces, uv = scattered()
     for options in ({"lock": [6]}, {"lock": [-1]}, {"lock": [True]}, {"lock": [0.5]}, {"aspect": 0}, {"precision": "f16"}):

@@ -9,12 +9,13 @@ use super::awaited::await_report;
 use super::error::{CommandError, CommandOutcome, is_standard};
 use super::flatten::refuse_unwritten_formats;
 use super::places::OutputPaths;
-use super::progress::{ProgressLine, go_on};
+use super::progress::{INTERRUPTED, ProgressLine, go_on};
 use super::report_file::put_report;
 use super::standard::read_typed;
 use super::summary::{deliver, pack_summary};
 use crate::session::Model;
 use freebound_core::pipeline::RepackError;
+use freebound_core::problem::{Control, SolveError};
 use freebound_io::{LayoutToPackError, Materials, OutputKind, PictureFile, RepackedFile};
 
 pub(super) fn run(arguments: &PackArguments) -> Result<CommandOutcome, CommandError> {
@@ -57,13 +58,15 @@ fn packed<'a>(
     picture: Option<&PictureFile>,
 ) -> Result<RepackedFile<'a>, CommandError> {
     let path = model.path_words();
-    let file = RepackedFile::new(&model.source, path.clone(), &arguments.packing(picture));
+    let control = Control::new(&INTERRUPTED, &|_| {});
+    let file = RepackedFile::new(&model.source, path.clone(), &arguments.packing(picture), control);
     let materials = if arguments.copy_materials { Materials::Copied } else { Materials::Stay };
     match file {
         Ok(file) => Ok(RepackedFile { source_path: model.path.as_deref(), materials, ..file }),
         Err(LayoutToPackError::Repack(RepackError::NoSuchChart { chart, count })) => {
             Err(CommandError::no_such_chart("--lock", chart, count))
         }
+        Err(LayoutToPackError::Repack(RepackError::Cancelled)) => Err(SolveError::Cancelled.into()),
         Err(error) => Err(CommandError::LayoutToPack { path, error }),
     }
 }

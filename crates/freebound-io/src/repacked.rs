@@ -16,7 +16,8 @@ use super::{
 };
 use freebound_core::geom::{Orientation, orientation};
 use freebound_core::mesh::{EdgeTable, FaceId};
-use freebound_core::pipeline::{GivenLayout, NO_COORDINATE, RepackError, RepackOptions, Repacked, repack};
+use freebound_core::pipeline::{GivenLayout, NO_COORDINATE, RepackError, RepackOptions, Repacked, repack_with};
+use freebound_core::problem::Control;
 
 /// Layout of a file with new places for its charts.
 #[derive(Debug)]
@@ -59,13 +60,19 @@ impl<'a> RepackedFile<'a> {
     ///
     /// # Errors
     ///
-    /// [`LayoutToPackError`] if faces have no usable texture coordinates.
-    pub fn new(source: &'a MeshFile, name: String, packing: &LayoutPacking) -> Result<Self, LayoutToPackError> {
+    /// [`LayoutToPackError`] if faces have no usable texture coordinates, a locked chart does not exist, or the caller
+    /// cancels.
+    pub fn new(
+        source: &'a MeshFile,
+        name: String,
+        packing: &LayoutPacking,
+        control: Control<'_>,
+    ) -> Result<Self, LayoutToPackError> {
         let start = Instant::now();
         let texture = source.complete_texture()?;
         let (mesh, coordinates, corners) = (&source.polygons, &texture.coordinates[..], &texture.corners[..]);
         let layout = GivenLayout { mesh, coordinates, corners, aspect: packing.aspect };
-        let repacked = repack(layout, &packing.options)?;
+        let repacked = repack_with(layout, &packing.options, control)?;
         let edges = EdgeTable::new(repacked.mesh.vertex_count(), &repacked.mesh.triangles);
         let boundary_vertices = edges.edges().filter(|sides| sides.len() == 1).count();
         let (vertices, faces) = (source.polygons.positions.len(), repacked.mesh.face_count());

@@ -30,6 +30,8 @@ pub struct RunRequest {
     pub corner_pins: Vec<(usize, Target)>,
     /// Sizes of packed charts relative to the others, by the numbers of the charts. Default: 1.
     pub chart_sizes: BTreeMap<usize, f64>,
+    /// True if every chart stays where the layout to start from has it, even if charts overlap there.
+    pub locks_all_charts: bool,
     /// Rounds of relaxing if the settings name none, and a part has no map from the search for seams.
     pub usual_relax_rounds: Option<usize>,
     /// Precision in which coordinates are proved. Default: 64 bits.
@@ -188,9 +190,10 @@ impl RunRequest {
 
     /// Run of the prepared mesh.
     fn run_on(&self, model: &Model, targets: Targets) -> Result<Run, RequestFault> {
-        let options = &self.run.options;
+        let Run { options, locked, .. } = &self.run;
         let count = model.chart_count();
-        let mut numbers = self.chart_sizes.keys().chain(&self.run.locked);
+        let locked = if self.locks_all_charts { (0..count).collect() } else { locked.clone() };
+        let mut numbers = self.chart_sizes.keys().chain(&locked);
         if let Some(&chart) = numbers.find(|&&chart| chart >= count) {
             return Err(RequestFault::NoSuchChart { chart, count });
         }
@@ -207,6 +210,7 @@ impl RunRequest {
                 targets,
                 ..options.clone()
             },
+            locked,
             ..self.run.clone()
         })
     }
@@ -220,7 +224,7 @@ impl RunRequest {
             let faults = [
                 (charts.is_none(), "it is the only chart"),
                 (pinned.contains(&chart), "it is pinned"),
-                (self.run.locked.contains(&chart), "it is locked"),
+                (self.locks_all_charts || self.run.locked.contains(&chart), "it is locked"),
             ];
             if let Some((_, why)) = faults.into_iter().find(|(is_so, _)| *is_so) {
                 return Err(RequestFault::IdleSize { chart, why });
@@ -233,7 +237,8 @@ impl RunRequest {
     fn check_true_size(&self, model: &Model, targets: &Targets) -> Result<(), RequestFault> {
         let Run { options, fit, locked, .. } = &self.run;
         let is_packed = self.run.is_packed(model);
-        let has_own_scales = !(targets.is_empty() && self.chart_sizes.is_empty() && locked.is_empty());
+        let has_own_scales =
+            self.locks_all_charts || !(targets.is_empty() && self.chart_sizes.is_empty() && locked.is_empty());
         let faults = [
             (options.has_picture, "the map is scaled to a picture"),
             (is_packed && has_own_scales, "charts with pins, locks or sizes have scales of their own"),

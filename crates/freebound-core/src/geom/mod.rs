@@ -49,7 +49,7 @@ pub use orient::{Orientation, double_area, orientation};
 pub(crate) use overlaps::overlaps;
 pub use packing::{
     ChartShape, FIRST_UDIM_TILE, Packed, Packing, PackingInput, PackingOptions, Rotations, Stacking, corner_of_tile,
-    pack, pack_beside,
+    pack,
 };
 pub use picture::Picture;
 pub use picture_frame::{PictureFrame, VAxis};

@@ -13,19 +13,17 @@ use std::collections::BTreeSet;
 
 use glam::DVec2;
 
-use super::pieces::{PackedPieces, Piece, PiecesToPack, density_of, first_column_beside};
+use super::pieces::{PackedPieces, Piece, PiecesToPack, StayingChart, density_of, first_column_beside, udim_tile};
 use super::stacks::{Stackable, stacks};
 use super::{
     Fit, LaidChart, Outcome, PackingSummary, PinsSummary, Placement, PreparedMesh, StackedChart, StackedOn,
     pins_summary, prove_atlas, upright,
 };
 use crate::flatten::true_area_factor;
-use crate::geom::{
-    Bounds, ChartShape, FIRST_UDIM_TILE, PackingOptions, Similarity, Stacking, double_area, is_simple, turning_number,
-};
+use crate::geom::{Bounds, ChartShape, PackingOptions, Similarity, Stacking, double_area, is_simple, turning_number};
 use crate::mesh::{DiskMesh, FaceId, MeasuredSurface, SurfaceFaces, VertexId};
 use crate::parallel::prelude::*;
-use crate::problem::Embedding;
+use crate::problem::{Control, Embedding};
 use crate::verify::{AtlasVerdict, DistortionSummary, distortion, verdict};
 
 /// Least extent of a packed chart without area, relative to the root of the area of all charts: about a pixel of the picture.
@@ -36,9 +34,6 @@ const NO_AREA: f64 = 1e-9;
 
 /// Distance from given coordinates, relative to their extent, up to which a locked chart takes their numbers.
 const AGREEMENT: f64 = 1e-9;
-
-/// Number of rows of tiles that have UDIM numbers of four digits.
-const MOST_UDIM_ROWS: f64 = 899.0;
 
 /// Placement of charts without pins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -234,16 +229,15 @@ impl<'a, 'b> PackingPlan<'a, 'b> {
     fn pack(&self, laid: &[Option<Embedding>], options: PackingOptions) -> PackedPieces {
         let tiles: Vec<Option<u32>> = self.free.iter().map(|&chart| self.charts[chart].tile).collect();
         let pieces = self.pieces.iter().collect::<Vec<_>>();
-        let pieces = PiecesToPack { pieces: &pieces, tiles: &tiles, fixed: &self.fixed, beside: self.beside };
-        pieces.pack(options, &|picture| self.density_of_fixed(laid, picture), &|packing| self.has_folds(packing))
+        let control = Control::unattended();
+        let pieces = PiecesToPack { pieces: &pieces, tiles: &tiles, fixed: &self.fixed, beside: self.beside, control };
+        let density_of_fixed = |picture| self.density_of_fixed(laid, picture);
+        pieces.pack(options, &density_of_fixed, &|packing| self.has_folds(packing)).expect("nothing cancels it")
     }
 
     /// Density of the charts that stay on a picture: pixels per unit of length on the surface. `None` if no chart stays.
     fn density_of_fixed(&self, laid: &[Option<Embedding>], on_picture: DVec2) -> Option<f64> {
-        let areas = self.charts.iter().zip(laid).filter_map(|(chart, laid)| {
-            Some([chart.area_on(laid.as_ref()?, on_picture), chart.size.powi(2) * chart.disk().area()])
-        });
-        density_of(areas)
+        density_of(self.staying(laid, on_picture).iter().map(|chart| [chart.pixels, chart.area]))
     }
 
     /// Texture coordinates of packed chart `k`.
@@ -263,32 +257,21 @@ impl<'a, 'b> PackingPlan<'a, 'b> {
         self.free.par_iter().enumerate().any(is_folded)
     }
 
-    /// Summary of a packing. `laid` has the coordinates of the charts that stay.
-    fn summary(
-        &self,
-        PackedPieces { packing, is_around, .. }: &PackedPieces,
-        laid: &[Option<Embedding>],
-        options: PackingOptions,
-    ) -> PackingSummary {
-        let on_picture = packing.picture.as_dvec2();
-        let stay = || self.charts.iter().zip(laid).filter(|_| *is_around);
-        let area =
-            |(chart, laid): (&SolvedChart<'_>, &Option<Embedding>)| Some(chart.area_on(laid.as_ref()?, on_picture));
-        let packed_area = self.pieces.iter().map(|piece| piece.area).sum::<f64>() * packing.scale.powi(2);
-        let area = packed_area + stay().filter_map(area).sum::<f64>();
-        let tiles = stay().filter_map(|(_, laid)| Some(udim_tile(laid.as_ref()?)? - FIRST_UDIM_TILE));
-        let tiles: BTreeSet<u32> = tiles.chain(packing.places.iter().map(|place| place.tile)).collect();
-        PackingSummary::new(packing, options, tiles.len(), area)
+    /// Charts that stay on a picture. `laid` has their coordinates.
+    fn staying<'l>(&self, laid: &'l [Option<Embedding>], picture: DVec2) -> Vec<StayingChart<'l>> {
+        let staying = |(chart, laid): (&SolvedChart<'_>, &'l Option<Embedding>)| {
+            let coordinates = laid.as_ref()?;
+            let area = chart.size.powi(2) * chart.disk().area();
+            Some(StayingChart { coordinates, pixels: chart.area_on(coordinates, picture), area })
+        };
+        self.charts.iter().zip(laid).filter_map(staying).collect()
     }
-}
 
-/// UDIM number of the tile that holds the centre of the box of coordinates. `None` if it has no number.
-fn udim_tile(coordinates: &Embedding) -> Option<u32> {
-    let Bounds { low, high } = coordinates.bounds();
-    let [column, row] = ((low + high) / 2.0).floor().to_array();
-    let is_numbered = (0.0..10.0).contains(&column) && (0.0..MOST_UDIM_ROWS).contains(&row);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small whole numbers")]
-    is_numbered.then(|| FIRST_UDIM_TILE + column as u32 + 10 * row as u32)
+    /// Summary of a packing. `laid` has the coordinates of the charts that stay.
+    fn summary(&self, packed: &PackedPieces, laid: &[Option<Embedding>], options: PackingOptions) -> PackingSummary {
+        let area = self.pieces.iter().map(|piece| piece.area).sum();
+        packed.summary(options, area, &self.staying(laid, packed.packing.picture.as_dvec2()))
+    }
 }
 
 impl Piece {

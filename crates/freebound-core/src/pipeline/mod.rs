@@ -45,7 +45,9 @@ pub use options::PipelineOptions;
 pub use outcome::{Outcome, pins_summary, upright};
 pub use prepared_mesh::{ChartOf, PreparedMesh, Surface};
 pub use problem::Problem;
-pub use repack::{ChartSizes, GivenLayout, LockedCharts, RepackError, RepackOptions, Repacked, RepackedChart, repack};
+pub use repack::{
+    ChartSizes, GivenLayout, LockedCharts, RepackError, RepackOptions, Repacked, RepackedChart, repack, repack_with,
+};
 pub use run::SolvedProblem;
 pub use stacks::StackedChart;
 pub use summary::{Fit, PackingSummary, PinsSummary, Placement, SoftPinSummary, StackedOn};

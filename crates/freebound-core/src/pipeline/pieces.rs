@@ -1,9 +1,17 @@
 //! Charts as pieces of a packing, around charts that stay in place.
 
+use std::collections::BTreeSet;
+
 use glam::DVec2;
 
-use crate::geom::{Bounds, ChartShape, Packing, PackingInput, PackingOptions, Rotations, corner_of_tile, pack_beside};
-use crate::problem::Embedding;
+use super::PackingSummary;
+use crate::geom::{
+    Bounds, ChartShape, FIRST_UDIM_TILE, Packing, PackingInput, PackingOptions, Rotations, corner_of_tile, pack,
+};
+use crate::problem::{Control, Embedding, SolveError};
+
+/// Number of rows of tiles that have UDIM numbers of four digits.
+const MOST_UDIM_ROWS: f64 = 899.0;
 
 /// Chart at the area of its surface times the square of its size.
 pub(super) struct Piece {
@@ -36,6 +44,7 @@ pub(super) struct PiecesToPack<'a> {
     pub(super) fixed: &'a [ChartShape],
     /// Whole u at which the first tile begins if the pieces are packed beside.
     pub(super) beside: f64,
+    pub(super) control: Control<'a>,
 }
 
 /// Packed pieces.
@@ -47,19 +56,56 @@ pub(super) struct PackedPieces {
     pub(super) is_around: bool,
 }
 
+/// Chart that stays where it is.
+#[derive(Clone, Copy)]
+pub(super) struct StayingChart<'a> {
+    pub(super) coordinates: &'a Embedding,
+    /// Area on the picture, pixels.
+    pub(super) pixels: f64,
+    /// Area of the surface, at the size of the chart.
+    pub(super) area: f64,
+}
+
+impl PackedPieces {
+    /// True if the shapes that stay leave no room for the pieces.
+    fn has_no_room(&self) -> bool {
+        self.is_around && self.packing.scale == 0.0
+    }
+
+    /// Summary of a packing. `area` is that of the pieces. The charts that stay count if the pieces lie around them.
+    /// Without a piece the density is theirs.
+    pub(super) fn summary(&self, options: PackingOptions, area: f64, staying: &[StayingChart<'_>]) -> PackingSummary {
+        let staying = if self.is_around { staying } else { &[] };
+        let packing = &self.packing;
+        let covered = area * packing.scale.powi(2) + staying.iter().map(|chart| chart.pixels).sum::<f64>();
+        let tiles_of_others = staying.iter().filter_map(|chart| Some(udim_tile(chart.coordinates)? - FIRST_UDIM_TILE));
+        let tiles: BTreeSet<u32> = tiles_of_others.chain(packing.places.iter().map(|place| place.tile)).collect();
+        let summary = PackingSummary::new(packing, options, tiles.len().max(1), covered);
+        if !packing.places.is_empty() {
+            return summary;
+        }
+        let density = density_of(staying.iter().map(|chart| [chart.pixels, chart.area])).unwrap_or(0.0);
+        PackingSummary { density, wanted_density: None, ..summary }
+    }
+}
+
 impl PiecesToPack<'_> {
     /// Packs the pieces. `fixed_density` is the density of the charts that stay on a picture: pixels per unit of length
     /// on the surface. The pieces get no more. If `has_folds` is true because rounding folds a turned chart, pieces are
     /// turned by quarters.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`].
     pub(super) fn pack(
         self,
         options: PackingOptions,
         fixed_density: &dyn Fn(DVec2) -> Option<f64>,
         has_folds: &dyn Fn(&PackedPieces) -> bool,
-    ) -> PackedPieces {
-        let mut found = self.packed(!self.fixed.is_empty(), options);
-        if found.is_around && found.packing.scale == 0.0 {
-            found = self.packed(false, options);
+    ) -> Result<PackedPieces, SolveError> {
+        let mut found = self.packed(!self.fixed.is_empty(), options)?;
+        if found.has_no_room() {
+            found = self.packed(false, options)?;
         }
         let (is_around, picture) = (found.is_around, found.packing.picture);
         let mut used = options;
@@ -69,28 +115,41 @@ impl PiecesToPack<'_> {
             && density < found.packing.scale
         {
             let even = PackingOptions { density: Some(density), ..options };
-            let evened = self.packed(is_around, even);
+            let evened = self.packed(is_around, even)?;
             if evened.packing.picture == picture && evened.packing.scale > 0.0 {
                 (found, used) = (evened, even);
             }
         }
         if options.rotations == Rotations::Free && has_folds(&found) {
             let quarter = |options| PackingOptions { rotations: Rotations::Quarter, ..options };
-            found = self.packed(is_around, quarter(used));
+            found = self.packed(is_around, quarter(used))?;
             if found.packing.picture != picture {
-                found = self.packed(is_around, quarter(options));
+                found = self.packed(is_around, quarter(options))?;
+            }
+            if found.has_no_room() {
+                found = self.packed(false, quarter(options))?;
             }
         }
-        found
+        Ok(found)
     }
 
-    fn packed(self, is_around: bool, options: PackingOptions) -> PackedPieces {
+    fn packed(self, is_around: bool, options: PackingOptions) -> Result<PackedPieces, SolveError> {
         let shapes: Vec<ChartShape> = self.pieces.iter().map(|piece| piece.shape.clone()).collect();
         let fixed = if is_around { self.fixed } else { &[] };
         let input = PackingInput { shapes: &shapes, tiles: self.tiles, fixed };
-        let packing = pack_beside(input, options, &|| false).expect("a packing that nobody cancels");
-        PackedPieces { packing, beside: if is_around { 0.0 } else { self.beside }, is_around }
+        let is_cancelled = || self.control.go_on().is_err();
+        let packing = pack(input, options, &is_cancelled).ok_or(SolveError::Cancelled)?;
+        Ok(PackedPieces { packing, beside: if is_around { 0.0 } else { self.beside }, is_around })
     }
+}
+
+/// UDIM number of the tile that holds the centre of the box of coordinates. `None` if it has no number.
+pub(super) fn udim_tile(coordinates: &Embedding) -> Option<u32> {
+    let Bounds { low, high } = coordinates.bounds();
+    let [column, row] = ((low + high) / 2.0).floor().to_array();
+    let is_numbered = (0.0..10.0).contains(&column) && (0.0..MOST_UDIM_ROWS).contains(&row);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small whole numbers")]
+    is_numbered.then(|| FIRST_UDIM_TILE + column as u32 + 10 * row as u32)
 }
 
 /// Density of charts: pixels per unit of length on the surface. `areas` has the area of each chart in pixels and on the

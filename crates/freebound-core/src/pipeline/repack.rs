@@ -2,8 +2,8 @@
 //!
 //! A *chart* is a connected piece of the mesh in texture space: faces that share an edge with both of its texture
 //! coordinates. Every chart keeps its shape up to a similarity. By default all charts get one density. A chart that is
-//! one-to-one is packed by its outline, any other by the triangles that it covers. Locked charts keep their place. Only the layout matters: the surface
-//! may be closed, or not manifold.
+//! one-to-one is packed by its outline, any other by the triangles that it covers. Locked charts keep their place. Only
+//! the layout matters: the surface may be closed, or not manifold.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -11,13 +11,13 @@ use glam::DVec2;
 
 use super::given_charts::{GivenChart, GivenCharts};
 use super::laid_chart::stacked_parts;
-use super::pieces::{PackedPieces, Piece, PiecesToPack, density_of, first_column_beside};
+use super::pieces::{PackedPieces, Piece, PiecesToPack, StayingChart, density_of, first_column_beside};
 use super::stacks::{Stackable, stacks};
 use super::{NO_COORDINATE, PackingSummary, StackedChart, StackedOn};
 use crate::geom::{ChartShape, PackingOptions, Stacking};
 use crate::mesh::{Diagnosis, FaceId, PolygonMesh, TriMesh, VertexId, parts};
 use crate::parallel::prelude::*;
-use crate::problem::Embedding;
+use crate::problem::{Control, Embedding, SolveError};
 use crate::verify::{AtlasVerdict, ChartRelations, RoundingGrid, stacked_atlas_verdict};
 
 /// Greatest extent of a chart that is scaled to the area of its surface, relative to the root of that area. Charts that
@@ -70,8 +70,8 @@ pub struct RepackOptions {
     pub packing: PackingOptions,
     /// Sizes of the charts.
     pub sizes: ChartSizes,
-    /// Charts that keep their coordinates to the last bit. The others are packed around them, with no more pixels per unit
-    /// of length, or to their right if they leave no room.
+    /// Charts that keep their coordinates to the last bit; [`Repacked::round_to`] rounds them like all others. The others
+    /// are packed around them, with no more pixels per unit of length, or to their right if they leave no room.
     pub locked: LockedCharts,
 }
 
@@ -104,6 +104,9 @@ pub enum RepackError {
         /// Number of faces.
         count: usize,
     },
+    /// The caller cancelled the packing.
+    #[error("{}", SolveError::Cancelled)]
+    Cancelled,
 }
 
 /// Chart at its new place.
@@ -199,14 +202,31 @@ impl Repacked {
 ///
 /// If `corners` has another length than the corners of the mesh, or an index is out of range.
 pub fn repack(layout: GivenLayout<'_>, options: &RepackOptions) -> Result<Repacked, RepackError> {
+    repack_with(layout, options, Control::unattended())
+}
+
+/// Packs the charts of a layout again, unless the caller cancels.
+///
+/// # Errors
+///
+/// Errors of [`repack`], and [`RepackError::Cancelled`].
+///
+/// # Panics
+///
+/// Panics of [`repack`].
+pub fn repack_with(
+    layout: GivenLayout<'_>,
+    options: &RepackOptions,
+    control: Control<'_>,
+) -> Result<Repacked, RepackError> {
     let given = GivenCharts::of(layout)?;
     let pieces = pieces_of(&given.charts, options.sizes);
     let mut laid = given.locked(layout, &options.locked)?;
     let stacked = stacked_charts(&given.charts, &pieces, &laid, options.packing.stack);
     let free = (0..pieces.len()).filter(|&chart| laid[chart].is_none() && stacked[chart].is_none()).collect();
     let plan = RepackPlan { charts: &given.charts, pieces, free, locked: &laid };
-    let packed = plan.packed(layout.aspect, options);
-    let summary = plan.summary(&packed, options.packing);
+    let packed = plan.packed(layout.aspect, options, control).map_err(|_| RepackError::Cancelled)?;
+    let summary = plan.summary(&packed, options);
     let RepackPlan { pieces, free, .. } = plan;
     for (k, &chart) in free.iter().enumerate() {
         laid[chart] = Some(pieces[chart].laid(&given.charts[chart].plane, &packed, k));
@@ -215,6 +235,7 @@ pub fn repack(layout: GivenLayout<'_>, options: &RepackOptions) -> Result<Repack
         laid[chart] = laid[on.on.chart].as_ref().map(|representative| on.coordinates(representative));
     }
     let laid: Vec<Embedding> = laid.into_iter().flatten().collect();
+    control.go_on().map_err(|_| RepackError::Cancelled)?;
     Ok(given.repacked(&laid, &stacked, summary))
 }
 
@@ -231,13 +252,13 @@ struct RepackPlan<'a> {
 
 impl RepackPlan<'_> {
     /// Packing of the free charts. `aspect` is that of the picture of the given layout.
-    fn packed(&self, aspect: f64, options: &RepackOptions) -> PackedPieces {
+    fn packed(&self, aspect: f64, options: &RepackOptions, control: Control<'_>) -> Result<PackedPieces, SolveError> {
         let pieces: Vec<&Piece> = self.free.iter().map(|&chart| &self.pieces[chart]).collect();
         let plane = DVec2::new(aspect, 1.0);
         let of_locked = self.charts.iter().zip(self.locked).filter(|(_, laid)| laid.is_some());
         let fixed: Vec<ChartShape> = of_locked.map(|(chart, _)| chart.shape(1.0 / plane)).collect();
         let beside = first_column_beside(self.locked.iter().flatten());
-        let to_pack = PiecesToPack { pieces: &pieces, tiles: &[], fixed: &fixed, beside };
+        let to_pack = PiecesToPack { pieces: &pieces, tiles: &[], fixed: &fixed, beside, control };
         let is_folded = |packed: &PackedPieces, (k, &chart): (usize, &usize)| {
             let given = &self.charts[chart];
             given.is_planar && !given.is_planar_at(&self.pieces[chart].laid(&given.plane, packed, k))
@@ -249,22 +270,25 @@ impl RepackPlan<'_> {
 
     /// Density of the charts that stay, at which the others match them. With given sizes all charts then keep their sizes.
     fn density_of_locked(&self, picture: DVec2, sizes: ChartSizes) -> Option<f64> {
-        let of_locked = self.charts.iter().zip(self.locked).zip(&self.pieces);
-        let areas = of_locked.filter_map(|((chart, laid), piece)| {
-            let pixels = chart.area_at(laid.as_ref()?, picture);
-            Some([pixels, if sizes == ChartSizes::AsGiven { piece.area } else { chart.area }])
-        });
-        density_of(areas)
+        density_of(self.staying(picture, sizes).iter().map(|chart| [chart.pixels, chart.area]))
     }
 
-    fn summary(&self, packed: &PackedPieces, options: PackingOptions) -> PackingSummary {
-        let packing = &packed.packing;
-        let picture = packing.picture.as_dvec2();
-        let of_locked = self.charts.iter().zip(self.locked).filter(|_| packed.is_around);
-        let locked: f64 = of_locked.filter_map(|(chart, laid)| Some(chart.area_at(laid.as_ref()?, picture))).sum();
-        let own = self.free.iter().map(|&chart| self.pieces[chart].area).sum::<f64>() * packing.scale.powi(2);
-        let tiles: BTreeSet<u32> = packing.places.iter().map(|place| place.tile).collect();
-        PackingSummary::new(packing, options, tiles.len().max(1), own + locked)
+    /// Charts that stay on a picture.
+    fn staying(&self, picture: DVec2, sizes: ChartSizes) -> Vec<StayingChart<'_>> {
+        let of_locked = self.charts.iter().zip(self.locked).zip(&self.pieces);
+        let staying = of_locked.filter_map(|((chart, laid), piece)| {
+            let coordinates = laid.as_ref()?;
+            let area = if sizes == ChartSizes::AsGiven { piece.area } else { chart.area };
+            Some(StayingChart { coordinates, pixels: chart.area_at(coordinates, picture), area })
+        });
+        staying.collect()
+    }
+
+    fn summary(&self, packed: &PackedPieces, options: &RepackOptions) -> PackingSummary {
+        let area = self.free.iter().map(|&chart| self.pieces[chart].area).sum();
+        let picture = packed.packing.picture.as_dvec2();
+        // The density is that of the surface, whatever the sizes.
+        packed.summary(options.packing, area, &self.staying(picture, ChartSizes::EqualDensity))
     }
 }
 

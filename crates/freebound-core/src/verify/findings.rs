@@ -177,20 +177,18 @@ pub struct Finding {
     /// True if there are more pairs than counted.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "std::ops::Not::not"))]
     pub more: bool,
-    /// Faces, or the first faces of charts, ascending, at most [`FINDINGS_LISTED`].
+    /// Faces, or the first faces of charts, ascending. At most [`FINDINGS_LISTED`] unless more are asked for.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
     pub faces: Vec<FaceId>,
-    /// Pairs of faces, or of the first faces of charts, ascending, at most [`FINDINGS_LISTED`].
+    /// Pairs of faces, or of the first faces of charts, ascending. At most [`FINDINGS_LISTED`] unless more are asked for.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
     pub pairs: Vec<[FaceId; 2]>,
 }
 
 impl Finding {
     /// Finding about faces, or about charts by their first faces.
-    pub fn of_faces(code: FindingCode, mut faces: Vec<FaceId>) -> Self {
-        let count = faces.len();
-        faces.truncate(FINDINGS_LISTED);
-        Self { code, severity: code.severity(), count, more: false, faces, pairs: Vec::new() }
+    pub fn of_faces(code: FindingCode, faces: Vec<FaceId>) -> Self {
+        Self { code, severity: code.severity(), count: faces.len(), more: false, faces, pairs: Vec::new() }
     }
 
     /// Count and description, without elements.

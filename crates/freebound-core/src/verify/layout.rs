@@ -70,11 +70,13 @@ pub struct LayoutOptions {
     pub gap: Option<PixelGap>,
     /// Largest ratio of a chart's scale to the usual scale, and of the usual scale to the chart's.
     pub scale_ratio: f64,
+    /// Largest number of faces or pairs that a finding lists.
+    pub listed: usize,
 }
 
 impl Default for LayoutOptions {
     fn default() -> Self {
-        Self { accepts_stacks: false, gap: None, scale_ratio: 2.0 }
+        Self { accepts_stacks: false, gap: None, scale_ratio: 2.0, listed: FINDINGS_LISTED }
     }
 }
 
@@ -127,7 +129,7 @@ pub fn layout_verdict_with(
     control.go_on()?;
     let as_given = Judged::new(layout, &joined, options);
     control.go_on()?;
-    let mut findings = as_given.errors(FINDINGS_LISTED, control);
+    let mut findings = as_given.errors(options.listed, control);
     control.go_on()?;
     let contradicts = |finding: &Finding| finding.severity == FindingSeverity::Error;
     let planar = !findings.iter().any(contradicts);
@@ -141,6 +143,9 @@ pub fn layout_verdict_with(
     findings.extend(as_given.remarks());
     findings.extend((!duplicates.is_empty()).then(|| Finding::of_faces(FindingCode::Duplicate, duplicates)));
     findings.sort_by_key(|finding| (finding.severity, finding.code));
+    for finding in &mut findings {
+        finding.faces.truncate(options.listed);
+    }
     let (charts, triangles) = (as_given.chart_count, layout.mesh.face_count());
     Ok(LayoutVerdict { planar, planar_in_f32, passes: planar, charts, triangles, findings })
 }
@@ -445,7 +450,7 @@ impl<'a> Judged<'a> {
         ];
         if let Some(gap) = self.options.gap {
             let pairs = self.near_charts(gap);
-            findings.push(Finding::of_pairs(FindingCode::Gap, pairs, FINDINGS_LISTED));
+            findings.push(Finding::of_pairs(FindingCode::Gap, pairs, self.options.listed));
         }
         findings.retain(|finding| finding.count > 0);
         findings

@@ -195,18 +195,9 @@ impl Packed {
     }
 }
 
-/// Packs shapes. `None` if `is_cancelled` returned true.
-pub fn pack(shapes: &[ChartShape], options: PackingOptions, is_cancelled: &dyn Fn() -> bool) -> Option<Packing> {
-    pack_beside(PackingInput { shapes, ..PackingInput::default() }, options, is_cancelled)
-}
-
 /// Packs shapes into tiles, around shapes that do not move. `None` if `is_cancelled` returned true. If the shapes that
 /// do not move leave no room, the scale of the packing is 0.
-pub fn pack_beside(
-    input: PackingInput<'_>,
-    options: PackingOptions,
-    is_cancelled: &dyn Fn() -> bool,
-) -> Option<Packing> {
+pub fn pack(input: PackingInput<'_>, options: PackingOptions, is_cancelled: &dyn Fn() -> bool) -> Option<Packing> {
     let side = |pixels: u32| pixels.clamp(1, PackingOptions::LONGEST_SIDE);
     let mut picture = UVec2::from_array(options.picture.map(side));
     let was_cancelled = Cell::new(false);

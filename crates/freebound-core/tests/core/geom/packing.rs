@@ -1,6 +1,6 @@
 //! Packing of shapes: the gap, the page's edge, turns and degenerate shapes, checked without the packer's grids.
 
-use freebound_core::geom::{ChartShape, Packing, PackingInput, PackingOptions, Rotations, pack, pack_beside};
+use freebound_core::geom::{ChartShape, Packing, PackingInput, PackingOptions, Rotations, pack};
 use freebound_testkit::Random;
 use glam::DVec2;
 
@@ -13,8 +13,12 @@ fn options(picture: [u32; 2], gap: u32, rotations: Rotations) -> PackingOptions 
     PackingOptions { picture, gap, rotations, ..PackingOptions::default() }
 }
 
+fn only(shapes: &[ChartShape]) -> PackingInput<'_> {
+    PackingInput { shapes, ..PackingInput::default() }
+}
+
 fn packed(shapes: &[ChartShape], options: PackingOptions) -> Packing {
-    pack(shapes, options, &|| false).expect("nobody cancels")
+    pack(only(shapes), options, &|| false).expect("nobody cancels")
 }
 
 /// Edges of a shape at its place, in pixels, with each tile at its place.
@@ -300,11 +304,11 @@ fn one_square_fills_the_page_and_a_diagonal_strip_turns() {
 fn a_cancelled_packing_is_none() {
     for count in [0, 1, 2, 30, 1500] {
         let shapes = stars(count, 1);
-        assert_eq!(pack(&shapes, options([256, 256], 2, Rotations::Free), &|| true), None);
+        assert_eq!(pack(only(&shapes), options([256, 256], 2, Rotations::Free), &|| true), None);
     }
     let calls = std::cell::Cell::new(0);
     let later = || calls.replace(calls.get() + 1) > 5;
-    assert_eq!(pack(&stars(30, 1), options([256, 256], 2, Rotations::Free), &later), None);
+    assert_eq!(pack(only(&stars(30, 1)), options([256, 256], 2, Rotations::Free), &later), None);
 }
 
 fn at_density(picture: [u32; 2], gap: u32, density: f64) -> PackingOptions {
@@ -396,7 +400,7 @@ fn in_tiles(picture: [u32; 2], gap: u32, tiles: u32) -> PackingOptions {
 }
 
 fn packed_beside(input: PackingInput<'_>, options: PackingOptions) -> Packing {
-    pack_beside(input, options, &|| false).expect("nobody cancels")
+    pack(input, options, &|| false).expect("nobody cancels")
 }
 
 /// Number of tiles that hold shapes.

@@ -1,10 +1,13 @@
 //! New places for the charts of a given layout.
 
+use std::sync::atomic::AtomicBool;
+
 use freebound_core::geom::{PackingOptions, Random, Stacking};
 use freebound_core::mesh::{FaceId, PolygonMesh};
 use freebound_core::pipeline::{
-    ChartSizes, GivenLayout, LockedCharts, NO_COORDINATE, RepackError, RepackOptions, Repacked, repack,
+    ChartSizes, GivenLayout, LockedCharts, NO_COORDINATE, RepackError, RepackOptions, Repacked, repack, repack_with,
 };
+use freebound_core::problem::Control;
 use freebound_testkit::{fan, grid, tetrahedron};
 use glam::DVec2;
 use proptest::prelude::*;
@@ -212,9 +215,38 @@ fn charts_lie_beside_a_locked_chart_that_fills_the_picture() {
 #[test]
 fn all_charts_may_be_locked() {
     let layout = Layout::flat((&grid(3, 2)).into());
-    let packed = repack(layout.given(), &locking(LockedCharts::Numbered([0].into()), ChartSizes::AsGiven)).unwrap();
+    let mut options = locking(LockedCharts::Numbered([0].into()), ChartSizes::AsGiven);
+    options.packing.density = Some(1e6);
+    let packed = repack(layout.given(), &options).unwrap();
     let kept: Vec<DVec2> = packed.corners.iter().map(|&at| packed.coordinates[at as usize]).collect();
     assert_eq!(kept, layout.corners.iter().map(|&at| layout.coordinates[at as usize]).collect::<Vec<_>>());
+    // The density is that of the chart, and none is wanted, because nothing is packed.
+    assert!((packed.packing.density / packed.charts[0].density - 1.0).abs() < 1e-12);
+    assert_eq!((packed.packing.unmet_density(), packed.packing.tiles), (None, 1));
+}
+
+#[test]
+fn tiles_that_hold_locked_charts_alone_count() {
+    let mut layout = with_one_in_the_corner();
+    for corner in &mut layout.coordinates[..3] {
+        corner.x += 1.0;
+    }
+    let locked = locking(LockedCharts::Numbered([0].into()), ChartSizes::EqualDensity);
+    let options = RepackOptions { packing: PackingOptions { tiles: 2, ..locked.packing }, ..locked };
+    let packed = repack(layout.given(), &options).unwrap();
+    let is_in_first = |z: &DVec2| z.x < 1.0;
+    assert!(packed.is_planar() && packed.coordinates.iter().skip(3).all(is_in_first), "the others lie in one tile");
+    assert_eq!(packed.packing.tiles, 2);
+    let area = area(&packed).abs();
+    assert!((packed.packing.covered - area / 2.0).abs() < 1e-9, "{} and {area}", packed.packing.covered);
+}
+
+#[test]
+fn packing_ends_if_it_is_cancelled() {
+    let layout = with_one_in_the_corner();
+    let (stop, options) = (AtomicBool::new(true), RepackOptions::default());
+    let cancelled = repack_with(layout.given(), &options, Control::new(&stop, &|_| {}));
+    assert_eq!(cancelled.err(), Some(RepackError::Cancelled));
 }
 
 #[test]
