@@ -8,7 +8,7 @@ import numpy as np
 from bpy.props import BoolProperty, FloatVectorProperty
 
 from . import meshes, operators
-from .solving import refuse_bare, sentence
+from .solving import is_mirrored, refuse_bare, sentence, told_of_chart
 
 #: Largest distance of the mouse from the corner that it grabs, pixels.
 _REACH = 24
@@ -21,9 +21,10 @@ _NAVIGATION = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "
 
 
 class Grab:
-    """Corner of a chart that is dragged. Pinned corners of the chart stay."""
+    """Corner of a chart that is dragged. Pinned corners of the chart stay, and corners that faces beside the chart
+    share."""
 
-    def __init__(self, selection, corner):
+    def __init__(self, selection, corner, aspect=1.0):
         refuse_bare(selection)
         # Nothing is packed: all charts are locked.
         chart_of = freebound.pack(
@@ -31,6 +32,8 @@ class Grab:
         ).chart
         face_of = selection.face_of
         is_own = chart_of == chart_of[face_of[corner]]
+        # A mirrored chart is dragged in the mirror.
+        self._side = np.array((-1.0 if is_mirrored(selection, chart_of)[corner] else 1.0, 1.0))
         self.corners = np.flatnonzero(is_own[face_of])
         """Corners of the chart, by their numbers in the selection."""
         uv = selection.uv[self.corners]
@@ -43,14 +46,16 @@ class Grab:
         self._vertex = int(self._vertex_of[np.searchsorted(self.corners, corner)])
         self.grabbed = self.corners[self._vertex_of == self._vertex]
         """Corners at the place that is dragged."""
-        is_pinned = selection.is_hard[self.corners] & (self._vertex_of != self._vertex)
-        pins = {int(self._vertex_of[at]): tuple(uv[at]) for at in np.flatnonzero(is_pinned)}
-        layout = freebound.flatten(
-            vertices, faces, layout=uv, pins=pins or None, relax=0, new_vertices=False, precision="f32"
-        )
+        is_attached = selection.is_attached[self.corners]
+        if is_attached[self._vertex_of == self._vertex].any():
+            raise meshes.Nothing("faces that are not shown hold this corner: show or select them")
+        is_pinned = (selection.pinned[self.corners] | is_attached) & (self._vertex_of != self._vertex)
+        pins = {int(self._vertex_of[at]): tuple(uv[at] * self._side) for at in np.flatnonzero(is_pinned)}
+        options = {"relax": 0, "new_vertices": False, "precision": "f32", "aspect": aspect}
+        layout = freebound.flatten(vertices, faces, layout=uv * self._side, pins=pins or None, **options)
         self.uv = uv.astype(np.float32)
         """Coordinates of the corners of the chart."""
-        if (layout.corner_uv.astype(np.float32) != self.uv).any():
+        if ((layout.corner_uv * self._side).astype(np.float32) != self.uv).any():
             # The solver had to change it.
             raise freebound.NotProved("the chart is not one-to-one")
         self._drag = freebound.Drag(layout)
@@ -58,10 +63,10 @@ class Grab:
     def move(self, target, frames=None):
         """Drags towards a place, until nothing moves, or for some frames. Returns the corners that moved, by their
         position in ``corners``."""
-        places, verdict = self._drag.move(self._vertex, target, frames=frames)
+        places, verdict = self._drag.move(self._vertex, tuple(self._side * target), frames=frames)
         if not (verdict["planar"] and verdict["f32"]):
             return np.zeros(0, dtype=np.int64)
-        uv = places[self._vertex_of].astype(np.float32)
+        uv = (places * self._side)[self._vertex_of].astype(np.float32)
         moved = np.flatnonzero((uv != self.uv).any(axis=1))
         self.uv = uv
         return moved
@@ -111,6 +116,11 @@ class _EditedLoops:
             bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 
 
+def _is_undo(event):
+    """True for the keys of undo and redo."""
+    return event.type == "Z" and (event.ctrl or event.oskey)
+
+
 def _holds(region, event):
     """True if the mouse is over a region. A hidden region has a size of 1."""
     x, y = event.mouse_x - region.x, event.mouse_y - region.y
@@ -122,7 +132,8 @@ class FREEBOUND_OT_drag_pin(bpy.types.Operator):
 
     bl_idname = "uv.freebound_drag_pin"
     bl_label = "Freebound Drag Pin"
-    bl_options = {"REGISTER"}
+    # Without "REGISTER": a drag with other places makes no sense to repeat or to adjust.
+    bl_options = {"UNDO"}
 
     start: FloatVectorProperty(name="From", description="Coordinates near the corner to drag", size=2)
     target: FloatVectorProperty(name="To", description="Coordinates to drag the corner to", size=2)
@@ -146,7 +157,7 @@ class FREEBOUND_OT_drag_pin(bpy.types.Operator):
 
         if not self._grabbed(context, nearest):
             return {"CANCELLED"}
-        self._grab.move(self.target)
+        self._grab.move(np.array(self.target))
         uv = np.full(self._selection.uv.shape, np.nan)
         uv[self._grab.corners] = self._grab.uv
         try:
@@ -172,6 +183,20 @@ class FREEBOUND_OT_drag_pin(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
+        try:
+            return self._handled(context, event)
+        except Exception:
+            # Blender removes the operator, so nothing of it may stay.
+            context.window.cursor_set("DEFAULT")
+            self._ended(context)
+            raise
+
+    def _handled(self, context, event):
+        if event.type == "TIMER":
+            if self._grab is not None:
+                self._take_frame()
+            # Other timers have handlers of their own.
+            return {"PASS_THROUGH"}
         if self._grab is not None:
             return self._dragging(context, event)
         if event.type == "LEFTMOUSE" and event.value == "PRESS":
@@ -188,7 +213,7 @@ class FREEBOUND_OT_drag_pin(bpy.types.Operator):
                 return self._ended(context) | {"PASS_THROUGH"}
         elif event.type in {"RET", "NUMPAD_ENTER", "RIGHTMOUSE", "ESC"} and event.value == "PRESS":
             return self._ended(context)
-        elif event.type in _NAVIGATION or event.type.startswith("TIMER"):
+        elif event.type in _NAVIGATION or _is_undo(event):
             return {"PASS_THROUGH"}
         return {"RUNNING_MODAL"}
 
@@ -200,9 +225,7 @@ class FREEBOUND_OT_drag_pin(bpy.types.Operator):
         """Event while a corner is dragged."""
         if event.type == "MOUSEMOVE":
             at = event.mouse_x - self._region.x, event.mouse_y - self._region.y
-            self._target = self._region.view2d.region_to_view(*at)
-        elif event.type == "TIMER":
-            self._take_frame()
+            self._target = np.array(self._region.view2d.region_to_view(*at))
         elif event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
             self._put_back("Put back")
         elif event.type == "LEFTMOUSE" and event.value == "RELEASE":
@@ -233,14 +256,15 @@ class FREEBOUND_OT_drag_pin(bpy.types.Operator):
         """Takes the corner that ``nearest`` finds. Returns True if there is one."""
         self._grab = None
         try:
-            self._selection = meshes.gather(context, needs_uv=True)
+            self._selection = meshes.gather_shown(context)
             corner = nearest(self._selection.uv)
             if corner is None:
                 self.report({"INFO"}, "Press on a corner of a chart")
                 return False
-            grab = Grab(self._selection, corner)
+            size = operators.picture_size(context)
+            grab = Grab(self._selection, corner, size[0] / size[1] if size else 1.0)
             # The first frame takes longest.
-            grab.move(grab.place)
+            grab.move(grab.place.astype(np.float64))
             self._grab = grab
             return True
         except freebound.NotProved:
@@ -278,17 +302,17 @@ class FREEBOUND_OT_drag_pin(bpy.types.Operator):
     def _ended(self, context):
         context.window_manager.event_timer_remove(self._timer)
         self._workspace.status_text_set(None)
-        return {"FINISHED"}
+        # Each drag was a step of undo by itself.
+        return {"CANCELLED"}
 
     def _tell(self, context):
         u, v = self._grab.place
-        text = f"Dragged to ({u:.3f}, {v:.3f}), one-to-one: proved"
         uv = self._selection.uv.copy()
         uv[self._grab.corners] = self._grab.uv
-        covers = not freebound.check(self._selection.vertices, self._selection.faces(), uv)["planar"]
-        text += ". Charts lie over each other: Pack moves them apart" if covers else ""
-        operators.tell(context, text, not covers)
-        self.report({"WARNING"} if covers else {"INFO"}, text)
+        text, warning = told_of_chart(self._selection, uv, self._grab.corners)
+        text = f"Dragged to ({u:.3f}, {v:.3f}), {text}" + (f". {warning}" if warning else "")
+        operators.tell(context, text, not warning)
+        self.report({"WARNING"} if warning else {"INFO"}, text)
 
 
 CLASSES = (FREEBOUND_OT_drag_pin,)

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Selected faces of all meshes in edit mode, as one mesh of arrays, and texture coordinates back into them."""
 
+import hashlib
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
@@ -18,17 +19,19 @@ class Changed(Exception):
 
 @dataclass
 class Part:
-    """Selected faces of one object."""
+    """Faces of one object."""
 
     object: object
     map_name: str
     """UV map, or an empty text if there is none yet."""
-    size: tuple
-    """Numbers of vertices, edges, faces and corners of the mesh."""
+    digest: bytes
+    """Digest of the mesh and its UV map."""
     faces: np.ndarray
     """Numbers of the faces in the mesh of the object."""
     loops: np.ndarray
     """Numbers of their corners."""
+    loop_vertices: np.ndarray
+    """Vertices of these corners in the mesh of the object."""
     edges: np.ndarray
     """Vertices of all edges of the mesh."""
     first_vertex: int
@@ -36,25 +39,18 @@ class Part:
 
 
 @dataclass
-class Selection:
-    """Selected faces of all objects, joined to one mesh."""
+class Faces:
+    """Faces of all objects, joined to one mesh."""
 
-    parts: list[Part] = field(default_factory=list)
-    vertices: np.ndarray = None
-    corners: np.ndarray = None
-    starts: np.ndarray = None
-    seams: np.ndarray = None
-    """Marked seams by their vertices, shape (e, 2)."""
-    uv: np.ndarray = None
+    parts: list[Part]
+    corners: np.ndarray
+    """Vertices of the corners, in the joined mesh."""
+    starts: np.ndarray
+    """First corner of each face, and the number of corners."""
+    uv: np.ndarray
     """Coordinates of the corners."""
-    pinned: np.ndarray = None
+    pinned: np.ndarray
     """True for each corner that is pinned."""
-    weights: np.ndarray = None
-    """Weight of each corner's vertex in the group of soft pins, or NaN."""
-
-    def faces(self):
-        """Faces for the package."""
-        return self.corners, self.starts
 
     @property
     def face_count(self):
@@ -66,10 +62,54 @@ class Selection:
         """Face of each corner."""
         return np.repeat(np.arange(self.face_count), np.diff(self.starts))
 
+    def of_faces(self, is_wanted):
+        """True for each face if ``is_wanted`` is true for one of its corners."""
+        return np.logical_or.reduceat(is_wanted, self.starts[:-1])
+
+    def without(self, is_left_out):
+        """Copy without some faces. It has no parts."""
+        kept = ~is_left_out
+        of_corner = np.repeat(kept, np.diff(self.starts))
+        starts = np.concatenate([[0], np.cumsum(np.diff(self.starts)[kept])]).astype(np.int64)
+        return Faces([], self.corners[of_corner], starts, self.uv[of_corner], self.pinned[of_corner])
+
+
+@dataclass
+class Selection(Faces):
+    """Selected faces of all objects."""
+
+    vertices: np.ndarray
+    """Positions of all vertices of all objects, in the world."""
+    seams: np.ndarray
+    """Marked seams by their vertices, shape (e, 2)."""
+    weights: np.ndarray
+    """Weight of each corner's vertex in the group of soft pins, or NaN."""
+    others: Faces | None = None
+    """Other faces that have coordinates."""
+    is_around: bool = False
+    """True if the others are kept clear."""
+    new_count: int = 0
+    """Number of other faces with the coordinates of a new UV map. They are not in ``others``."""
+
+    def faces(self):
+        """Faces for the package."""
+        return self.corners, self.starts
+
     @property
-    def is_hard(self):
-        """True for each corner that is pinned, and whose vertex is not in the group of soft pins."""
-        return self.pinned & np.isnan(self.weights)
+    def is_attached(self):
+        """True for each corner that shares its vertex and its coordinates with a face that is not selected."""
+        is_attached = np.zeros(len(self.corners), dtype=bool)
+        if self.others is not None:
+            own, others = np.isin(self.corners, self.others.corners), np.isin(self.others.corners, self.corners)
+            is_attached[own] = np.isin(_places(self, own), _places(self.others, others))
+        return is_attached
+
+
+def _places(faces, chosen):
+    """Vertex and coordinates of each chosen corner, as one value."""
+    # Adding 0 turns −0 into 0.
+    rows = np.column_stack([faces.corners[chosen].astype(np.float64), faces.uv[chosen] + 0.0])
+    return np.ascontiguousarray(rows).view([("", np.float64)] * 3).ravel()
 
 
 @contextmanager
@@ -108,79 +148,165 @@ def _numbers(collection, name, dtype, width=1):
     return values.reshape(-1, width) if width > 1 else values
 
 
-def gather(context, group="", needs_uv=False):
-    """Selected faces with their seams, coordinates and pins. ``group`` is the vertex group of soft pins."""
-    return gather_with_others(context, group, needs_uv, False)[0]
-
-
-def gather_with_others(context, group="", needs_uv=False, is_around=True):
-    """Selected faces, and the faces with coordinates that are not selected, or None. Outside edit mode all are selected."""
+def gather(context, group="", needs_uv=False, is_around=False):
+    """Selected faces with their seams, coordinates and pins, and all others. Outside edit mode all faces are selected.
+    ``group`` is the vertex group of soft pins."""
     is_edited = context.mode == "EDIT_MESH"
     objects = objects_of(context)
-    with object_mode(context):
-        selection = _arrays(objects, is_edited, group, needs_uv)
-        others = None
-        if is_edited and is_around:
-            try:
-                others = _arrays(objects, is_edited, needs_uv=True, is_other=True)
-            except Nothing:
-                pass
-    return selection, others
+    if group and not any(group in item.vertex_groups for item in objects):
+        raise Nothing(f"there is no vertex group {group}: choose one for soft pins, or clear its name")
+    uses_uv_selection = is_edited and _is_uv_editor(context) and not context.tool_settings.use_uv_select_sync
 
-
-def _arrays(objects, is_edited, group="", needs_uv=False, is_other=False):
-    selection = Selection()
-    vertices, corners, sizes, seams, uvs, pins, weights = [], [], [], [], [], [], []
-    count = 0
-    for item in objects:
-        mesh = item.data
-        chosen = _numbers(mesh.polygons, "select", bool) & ~_numbers(mesh.polygons, "hide", bool)
+    def chosen(mesh):
+        visible = ~_numbers(mesh.polygons, "hide", bool)
         if not is_edited:
-            chosen[:] = True
-        faces = np.flatnonzero(~chosen if is_other else chosen)
-        if not len(faces):
-            continue
+            return np.ones(len(visible), dtype=bool)
+        chosen = visible & _numbers(mesh.polygons, "select", bool)
+        return chosen & _uv_selected(mesh) if uses_uv_selection else chosen
+
+    missing = "select faces in the UV editor first" if uses_uv_selection else "select faces of a mesh first"
+    return _gathered(context, objects, chosen, (group, needs_uv, is_around), missing)
+
+
+def gather_shown(context):
+    """Faces that the UV editor shows, and all others."""
+    shows_all = context.mode != "EDIT_MESH" or context.tool_settings.use_uv_select_sync
+
+    def chosen(mesh):
+        visible = ~_numbers(mesh.polygons, "hide", bool)
+        return visible if shows_all else visible & _numbers(mesh.polygons, "select", bool)
+
+    return _gathered(context, objects_of(context), chosen, ("", True, True), "the UV editor shows no faces")
+
+
+def gather_all(context):
+    """All faces that have a UV map."""
+    return _gathered(
+        context,
+        objects_of(context),
+        lambda mesh: np.ones(len(mesh.polygons), dtype=bool),
+        ("", True, False),
+        "edit a mesh first",
+    )
+
+
+def _gathered(context, objects, chosen, options, missing):
+    group, needs_uv, is_around = options
+    with object_mode(context):
+        positions, firsts, count = [], {}, 0
+        for item in objects:
+            co = _numbers(item.data.vertices, "co", np.float32, 3).astype(np.float64)
+            matrix = np.array(item.matrix_world, dtype=np.float64)
+            positions.append(co @ matrix[:3, :3].T + matrix[:3, 3])
+            firsts[item] = count
+            count += len(co)
+        chosen_of = {item: chosen(item.data) for item in objects}
+        own = _joined(firsts, chosen_of, needs_uv)
+        if own is None:
+            has_faces = any(mask.any() for mask in chosen_of.values())
+            raise Nothing("select faces that have a UV map" if has_faces else missing)
+        for part in own.parts:
+            if np.linalg.matrix_rank(np.array(part.object.matrix_world, dtype=np.float64)[:3, :3]) < 3:
+                raise Nothing(f"{part.object.name} is scaled to nothing: change its scale")
+        others = _joined(firsts, {item: ~mask for item, mask in chosen_of.items()}, True)
+        seams = [_seams(part) for part in own.parts]
+        weights = [_weights(part, group)[part.loop_vertices] for part in own.parts]
+    selection = Selection(
+        **vars(own),
+        vertices=np.concatenate(positions),
+        seams=np.concatenate(seams),
+        weights=np.concatenate(weights),
+        is_around=is_around,
+    )
+    if others is not None:
+        is_new = _is_new(others)
+        selection.new_count = int(is_new.sum())
+        selection.others = others.without(is_new | _has_no_place(others))
+        if not selection.others.face_count:
+            selection.others = None
+    return selection
+
+
+def _joined(firsts, chosen_of, needs_uv):
+    """Chosen faces of all objects, or None. ``firsts`` has the number of each object's first vertex."""
+    parts, corners, sizes, uvs, pins = [], [], [], [], []
+    for item, first in firsts.items():
+        mesh, faces = item.data, np.flatnonzero(chosen_of[item])
         layer = mesh.uv_layers.active
-        if layer is None and needs_uv:
+        if not len(faces) or (layer is None and needs_uv):
             continue
-        matrix = np.array(item.matrix_world, dtype=np.float64)
-        if np.linalg.matrix_rank(matrix[:3, :3]) < 3:
-            raise Nothing(f"{item.name} is scaled to nothing: change its scale")
         starts = _numbers(mesh.polygons, "loop_start", np.int32)[faces]
         totals = _numbers(mesh.polygons, "loop_total", np.int32)[faces]
-        firsts = np.cumsum(totals) - totals
-        loops = np.arange(totals.sum()) + np.repeat(starts - firsts, totals)
-        co = _numbers(mesh.vertices, "co", np.float32, 3).astype(np.float64)
-        vertex = _numbers(mesh.loops, "vertex_index", np.int32)[loops].astype(np.int64)
+        loops = np.arange(totals.sum()) + np.repeat(starts - (np.cumsum(totals) - totals), totals)
+        vertices = _numbers(mesh.loops, "vertex_index", np.int32)[loops].astype(np.int64)
         edges = _numbers(mesh.edges, "vertices", np.int32, 2).astype(np.int64)
-        marked = _numbers(mesh.edges, "use_seam", bool) if len(mesh.edges) else np.zeros(0, dtype=bool)
-        vertices.append(co @ matrix[:3, :3].T + matrix[:3, 3])
-        corners.append(vertex + count)
+        name = layer.name if layer else ""
+        parts.append(Part(item, name, _digest(mesh, layer), faces, loops, vertices, edges, first))
+        corners.append(vertices + first)
         sizes.append(totals)
-        seams.append(edges[marked] + count)
         if layer is None:
             uvs.append(np.zeros((len(loops), 2)))
             pins.append(np.zeros(len(loops), dtype=bool))
         else:
             uvs.append(_numbers(layer.uv, "vector", np.float32, 2)[loops].astype(np.float64))
             pins.append(_pins(layer, len(mesh.loops))[loops])
-        weights.append(_weights(item, group)[vertex])
-        selection.parts.append(Part(item, layer.name if layer else "", _size(mesh), faces, loops, edges, count))
-        count += len(co)
-    if not selection.parts:
-        raise Nothing("select faces that have a UV map" if needs_uv else "select faces of a mesh first")
-    selection.vertices = np.concatenate(vertices)
-    selection.corners = np.concatenate(corners)
-    selection.starts = np.concatenate([[0], np.cumsum(np.concatenate(sizes))]).astype(np.int64)
-    selection.seams = np.concatenate(seams)
-    selection.uv = np.concatenate(uvs)
-    selection.pinned = np.concatenate(pins)
-    selection.weights = np.concatenate(weights)
-    return selection
+    if not parts:
+        return None
+    starts = np.concatenate([[0], np.cumsum(np.concatenate(sizes))]).astype(np.int64)
+    return Faces(parts, np.concatenate(corners), starts, np.concatenate(uvs), np.concatenate(pins))
 
 
-def _size(mesh):
-    return len(mesh.vertices), len(mesh.edges), len(mesh.polygons), len(mesh.loops)
+def _is_uv_editor(context):
+    return context.area is not None and context.area.type == "IMAGE_EDITOR"
+
+
+def _uv_selected(mesh):
+    """True for each face that is selected in the UV editor."""
+    attribute = mesh.attributes.get(".uv_select_face")
+    if attribute is None:
+        return np.zeros(len(mesh.polygons), dtype=bool)
+    return _numbers(attribute.data, "value", bool)
+
+
+def _seams(part):
+    edges = part.object.data.edges
+    marked = _numbers(edges, "use_seam", bool) if len(edges) else np.zeros(0, dtype=bool)
+    return part.edges[marked] + part.first_vertex
+
+
+def _has_no_place(faces):
+    """True for each face whose corners lie at one point, or have coordinates that are no numbers."""
+    low = np.minimum.reduceat(faces.uv, faces.starts[:-1])
+    high = np.maximum.reduceat(faces.uv, faces.starts[:-1])
+    return ~(np.isfinite(low) & np.isfinite(high)).all(axis=1) | (low == high).all(axis=1)
+
+
+def _is_new(faces):
+    """True for each face with the coordinates that Blender gives the faces of a new map, if there are several."""
+    sizes = np.diff(faces.starts)
+    size = np.repeat(sizes, sizes)
+    at = np.arange(len(size)) - np.repeat(faces.starts[:-1], sizes)
+    angle = 2 * np.pi * at / size
+    on_circle = 0.5 + 0.5 * np.column_stack([np.sin(angle), np.cos(angle)])
+    on_square = np.column_stack([(at == 1) | (at == 2), at >= 2]).astype(np.float64)
+    expected = np.where((size <= 4)[:, None], on_square, on_circle)
+    is_new = ~faces.of_faces((abs(faces.uv - expected) > 1e-6).any(axis=1))
+    return is_new if is_new.sum() > 1 else np.zeros_like(is_new)
+
+
+def _digest(mesh, layer):
+    digest = hashlib.blake2b()
+    for array in (
+        _numbers(mesh.vertices, "co", np.float32, 3),
+        _numbers(mesh.edges, "vertices", np.int32, 2),
+        _numbers(mesh.polygons, "loop_start", np.int32),
+        _numbers(mesh.loops, "vertex_index", np.int32),
+    ):
+        digest.update(array.tobytes())
+    if layer is not None:
+        digest.update(_numbers(layer.uv, "vector", np.float32, 2).tobytes())
+        digest.update(_pins(layer, len(mesh.loops)).tobytes())
+    return digest.digest()
 
 
 def _pins(layer, count):
@@ -190,12 +316,13 @@ def _pins(layer, count):
     return values
 
 
-def _weights(item, group):
+def _weights(part, group):
     """Weight of each vertex in a group, NaN outside it."""
-    weights = np.full(len(item.data.vertices), np.nan)
-    index = item.vertex_groups.find(group) if group else -1
+    vertices = part.object.data.vertices
+    weights = np.full(len(vertices), np.nan)
+    index = part.object.vertex_groups.find(group) if group else -1
     if index >= 0:
-        for vertex in item.data.vertices:
+        for vertex in vertices:
             for entry in vertex.groups:
                 if entry.group == index and entry.weight > 0:
                     weights[vertex.index] = entry.weight
@@ -208,12 +335,13 @@ def write(context, selection, corner_uv, cut_edges=None, pins=None):
     marked, begin = 0, 0
     with object_mode(context):
         if not all(_is_unchanged(part) for part in selection.parts):
-            raise Changed("the meshes have changed while they were unwrapped: try again")
+            raise Changed("the meshes have changed in the meantime, and nothing was written: try again")
         for part in selection.parts:
             mesh = part.object.data
             end = begin + len(part.loops)
             own = corner_uv[begin:end]
-            layer = mesh.uv_layers.get(part.map_name) if part.map_name else mesh.uv_layers.new()
+            # Faces that are not selected have no place in a new map.
+            layer = mesh.uv_layers.get(part.map_name) if part.map_name else mesh.uv_layers.new(do_init=False)
             values = _numbers(layer.uv, "vector", np.float32, 2)
             is_known = np.isfinite(own).all(axis=1)
             values[part.loops[is_known]] = own[is_known].astype(np.float32)
@@ -240,7 +368,10 @@ def _is_unchanged(part):
         mesh = part.object.data
     except ReferenceError:
         return False
-    return _size(mesh) == part.size and (not part.map_name or part.map_name in mesh.uv_layers)
+    if not part.map_name:
+        return not mesh.uv_layers and _digest(mesh, None) == part.digest
+    layer = mesh.uv_layers.get(part.map_name)
+    return layer is not None and _digest(mesh, layer) == part.digest
 
 
 def _mark(mesh, part, cut_edges):
@@ -256,8 +387,8 @@ def _mark(mesh, part, cut_edges):
 
 
 def select(context, selection, faces):
-    """Selects faces of the joined mesh, and nothing else."""
-    begin = 0
+    """Selects faces of the joined mesh, and nothing else. Returns how many of them are hidden."""
+    begin = hidden = 0
     chosen = np.zeros(selection.face_count, dtype=bool)
     chosen[list(faces)] = True
     is_edited = context.mode == "EDIT_MESH"
@@ -267,6 +398,9 @@ def select(context, selection, faces):
             end = begin + len(part.faces)
             values = np.zeros(len(mesh.polygons), dtype=bool)
             values[part.faces] = chosen[begin:end]
+            is_hidden = _numbers(mesh.polygons, "hide", bool)
+            hidden += int((values & is_hidden).sum())
+            values &= ~is_hidden
             mesh.vertices.foreach_set("select", np.zeros(len(mesh.vertices), dtype=bool))
             mesh.edges.foreach_set("select", np.zeros(len(mesh.edges), dtype=bool))
             mesh.polygons.foreach_set("select", values)
@@ -274,3 +408,4 @@ def select(context, selection, faces):
             begin = end
         if is_edited:
             context.tool_settings.mesh_select_mode = (False, False, True)
+    return hidden

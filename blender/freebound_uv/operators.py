@@ -58,22 +58,26 @@ class _Run:
 
     def _gather(self, context):
         """Selected faces with coordinates, and the others."""
-        return meshes.gather_with_others(context, needs_uv=True, is_around=self.is_around)
+        return meshes.gather(context, needs_uv=True, is_around=self.is_around)
 
     def _work_of(self):
-        """Function that solves, in a thread of its own: of the task, the faces, the others and the picture."""
+        """Function that solves, in a thread of its own: of the task, the faces and the picture."""
         raise NotImplementedError
 
     def _start(self, context):
         try:
-            self._selection, others = self._gather(context)
+            self._selection = self._gather(context)
         except meshes.Nothing as error:
-            self.report({"ERROR"}, sentence(error))
+            self._refuse(context, error)
             return None
         selection, sheet = self._selection, Sheet(picture_size(context), self.margin)
         # The thread must not reach the operator, which Blender may end before.
         work = self._work_of()
-        return Task(lambda task: work(task, selection, others, sheet))
+        return Task(lambda task: work(task, selection, sheet))
+
+    def _refuse(self, context, error):
+        tell(context, sentence(error), False)
+        self.report({"ERROR"}, sentence(error))
 
     def _finish(self, context, task):
         try:
@@ -82,12 +86,9 @@ class _Run:
         except freebound.Cancelled:
             self.report({"INFO"}, "Cancelled")
             return {"CANCELLED"}
-        except freebound.NotProved as error:
-            tell(context, sentence(error), False)
-            self.report({"ERROR"}, sentence(error))
-            return {"CANCELLED"}
-        except (freebound.Error, meshes.Changed, RuntimeError) as error:
-            self.report({"ERROR"}, sentence(error))
+        except Exception as error:
+            # Whatever went wrong, the meshes are as before, and the person reads why.
+            self._refuse(context, error)
             return {"CANCELLED"}
         text = f"{done.text}; {marked} seams marked" if marked else done.text
         text = f"{text}. {done.warning}" if done.warning else text
@@ -172,7 +173,7 @@ class FREEBOUND_OT_unwrap(_Run, bpy.types.Operator):
     )
 
     def _gather(self, context):
-        return meshes.gather_with_others(context, self.soft_pins, is_around=self.is_around)
+        return meshes.gather(context, self.soft_pins, is_around=self.is_around)
 
     def _work_of(self):
         cut = {"cut": "auto", "distortion": self.distortion} if self.adds_seams else {"cut": "shortest"}
@@ -182,7 +183,7 @@ class FREEBOUND_OT_unwrap(_Run, bpy.types.Operator):
 
 
 class FREEBOUND_OT_relax(_Run, bpy.types.Operator):
-    """Lower the distortion of the selected charts. Pinned coordinates stay, and so do the places of the charts"""
+    """Lower the distortion of the selected charts. Pinned coordinates stay. A chart moves only if it grew over another"""
 
     bl_idname = "uv.freebound_relax"
     bl_label = "Freebound Relax"
@@ -201,7 +202,7 @@ class FREEBOUND_OT_relax(_Run, bpy.types.Operator):
 
 
 class FREEBOUND_OT_pack(_Run, bpy.types.Operator):
-    """Pack the charts of the selected faces. Charts with pins stay, and faces that are not selected"""
+    """Pack the charts of the selected faces. Charts with pins stay, and charts that are partly selected"""
 
     bl_idname = "uv.freebound_pack"
     bl_label = "Freebound Pack"
@@ -218,7 +219,7 @@ class FREEBOUND_OT_pack(_Run, bpy.types.Operator):
 
 
 class FREEBOUND_OT_check(bpy.types.Operator):
-    """Select all faces that are flipped, overlap others, or have other defects in the active UV map"""
+    """Check all faces of the edited meshes, and select those that are flipped, overlap, or have other defects"""
 
     bl_idname = "uv.freebound_check"
     bl_label = "Freebound Check"
@@ -226,48 +227,57 @@ class FREEBOUND_OT_check(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
+        if is_running():
+            cls.poll_message_set("A run of Freebound is under way")
+            return False
         return bool(meshes.objects_of(context))
 
     def execute(self, context):
         try:
-            selection = meshes.gather(context, needs_uv=True)
-            found = freebound.check(selection.vertices, selection.faces(), selection.uv)
+            selection = meshes.gather_all(context)
+            found = freebound.check(selection.vertices, selection.faces(), selection.uv, listed=solving.LISTED)
         except (meshes.Nothing, freebound.Error) as error:
+            tell(context, sentence(error), False)
             self.report({"ERROR"}, sentence(error))
             return {"CANCELLED"}
-        faces, codes = set(), set()
+        is_wrong, codes = np.zeros(selection.face_count, dtype=bool), set()
         for finding in found["findings"]:
-            if finding["severity"] != "note" or finding["code"] in _SELECTED_NOTES:
-                own = _faces_of(finding)
-                faces.update(own)
-                if own:
-                    codes.add(finding["code"])
-        bare = np.isnan(selection.uv).any(axis=1)
+            if finding["severity"] != "note" or finding["code"] == "mirrored":
+                own = np.array([*finding.get("faces", []), *sum(finding.get("pairs", []), [])], dtype=np.int64)
+                if finding["code"] in _OF_CHARTS:
+                    own = _with_charts(selection, own)
+                is_wrong[own] = True
+                codes.update([finding["code"]] if len(own) else [])
+        bare = selection.of_faces(np.isnan(selection.uv).any(axis=1))
         if bare.any():
-            faces.update(selection.face_of[bare].tolist())
+            is_wrong |= bare
             codes.add("not-a-number")
-        if faces:
-            meshes.select(context, selection, faces)
+        hidden = meshes.select(context, selection, np.flatnonzero(is_wrong)) if is_wrong.any() else 0
         is_fine = found["planar"] and not bare.any()
         text = f"{counted(found['charts'])}, no overlaps: proved" if is_fine else "Not one-to-one"
         if codes:
-            text += f"; {len(faces)} faces selected: {', '.join(sorted(codes))}"
+            text += f"; {is_wrong.sum() - hidden} faces selected: {', '.join(sorted(codes))}"
+        if hidden:
+            text += f"; {hidden} more are hidden"
         tell(context, text, is_fine)
         self.report({"INFO"} if is_fine else {"WARNING"}, text)
         return {"FINISHED"}
 
 
-#: Findings whose faces are selected although they harm no proof.
-_SELECTED_NOTES = {"mirrored"}
+#: Findings that name charts by their first faces.
+_OF_CHARTS = {"mirrored", "outside", "scale", "tiles"}
 
 
-def _faces_of(finding):
-    """Faces of a finding, however it lists them."""
-    faces = set()
-    for name, value in finding.items():
-        if name in ("faces", "pairs", "face_pairs") and isinstance(value, list):
-            faces.update(np.array(value, dtype=np.int64).ravel().tolist())
-    return faces
+def _with_charts(selection, faces):
+    """All faces of the charts of some faces."""
+    usable = ~selection.of_faces(~np.isfinite(selection.uv).all(axis=1))
+    number_of = np.flatnonzero(usable)
+    some = selection.without(~usable)
+    charts = np.full(selection.face_count, -1)
+    charts[number_of] = freebound.pack(
+        selection.vertices, (some.corners, some.starts), some.uv, lock=np.ones(some.face_count, dtype=bool)
+    ).chart
+    return np.flatnonzero(np.isin(charts, charts[faces]) & (charts >= 0))
 
 
 def add_properties():

@@ -3,6 +3,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import partial
 
 import freebound
 import numpy as np
@@ -41,81 +42,235 @@ class Done:
 
     corner_uv: np.ndarray
     text: str
-    """Verdict in words."""
+    """What was done, in words."""
     warning: str = ""
     seams: np.ndarray | None = None
     """Edges between charts, by vertices of the selection."""
 
 
-def unwrap(task, selection, others, sheet, options, marks_seams):
-    """Unwraps the selected faces. Faces of ``others`` stay, and the charts are packed around them."""
+def unwrap(task, selection, sheet, options, marks_seams):
+    """Unwraps the selected faces. Charts with pins stay at their pins, and the others are packed around them."""
     job = freebound.start(
         selection.vertices,
         selection.faces(),
         unwrap=True,
         seams=selection.seams if len(selection.seams) else None,
-        corner_pins=_pins(selection),
+        corner_pins=_pins(selection, selection.pinned),
         new_vertices=False,
         precision="f32",
         **sheet.options,
         **options,
     )
     layout, warning = _solved(task, "Unwrapping", job)
-    done = Done(layout.corner_uv, _proved(layout), warning, layout.cut_edges if marks_seams else None)
-    is_single = layout.chart.max() == 0 and not selection.is_hard.any()
-    if others is not None or is_single:
-        task.enter("Packing")
-        _settle(done, selection, others, sheet)
+    if not layout.verdict.planar_in_f32:
+        raise freebound.NotProved(warning, layout=layout)
+    seams = layout.cut_edges if marks_seams else None
+    done = Done(layout.corner_uv, counted(int(layout.chart.max()) + 1), warning, seams)
+    is_single = layout.chart.max() == 0 and not selection.pinned.any()
+    if not is_single and _around(selection) is None:
+        done.text += f", {_PROVED}"
+    else:
+        is_free = ~selection.of_faces(selection.pinned)
+        packed = _pack(task, selection, done, sheet, is_free)
+        done.text += ", packed around the others" if _around(selection) is not None and is_free.any() else ""
+        _tell_overlaps(task, selection, done, packed.planar)
+    done.text += f"; energy {layout.energy:.3f}"
     return done
 
 
-def relax(task, selection, others, sheet, rounds):
-    """Lowers the distortion of the charts. Each stays where it is, unless it would overlap others."""
+def relax(task, selection, sheet, rounds):
+    """Lowers the distortion of the charts. Each stays where it is, unless it would come to lie over another."""
     refuse_bare(selection)
     aspect = {"aspect": sheet.options["aspect"]} if "aspect" in sheet.options else {}
+    chart_of = _charts(task, selection)
+    held = selection.pinned | selection.is_attached
+    # A mirrored chart is relaxed in the mirror.
+    side = np.where(is_mirrored(selection, chart_of), -1.0, 1.0)[:, None] * (1, 0) + (0, 1)
     job = freebound.start(
         selection.vertices,
         selection.faces(),
-        layout=selection.uv,
+        layout=selection.uv * side,
         charts="uv",
-        corner_pins=_pins(selection),
+        corner_pins=_pins(selection, held, selection.uv * side),
+        lock=True,
         relax=rounds,
         new_vertices=False,
         precision="f32",
         **aspect,
     )
-    layout, warning = _solved(task, "Relaxing", job)
-    done = Done(layout.corner_uv, _proved(layout), warning)
-    if others is not None:
-        task.enter("Checking")
-        vertices, faces, uv, _ = _joined(selection, done.corner_uv, others)
-        if not freebound.check(vertices, faces, uv)["planar"]:
-            if not freebound.check(others.vertices, others.faces(), others.uv)["planar"]:
-                done.warning = done.warning or "Faces that are not selected overlap others"
-            else:
-                task.enter("Packing")
-                _settle(done, selection, others, sheet)
+    layout, _ = _solved(task, "Relaxing", job)
+    done = Done(np.array(layout.corner_uv) * side, "")
+    done.corner_uv[held] = selection.uv[held]
+    _keep_stacks(selection, chart_of, done.corner_uv)
+    check = partial(task.call, "Checking", freebound.check)
+    before = _overlaps(selection, selection.uv, check)
+    after = _overlaps(selection, done.corner_uv, check)
+    spoiled = np.isin(chart_of, chart_of[sorted(after.faces_at_fault - before.faces_at_fault)])
+    if spoiled.any():
+        of_corner = spoiled[selection.face_of]
+        done.corner_uv[of_corner] = selection.uv[of_corner]
+        after = _overlaps(selection, done.corner_uv, check)
+    relaxed = len(np.unique(chart_of[~spoiled]))
+    done.text = f"{counted(relaxed)} relaxed"
+    moved = _colliding(selection, chart_of, before, after)
+    planar = after.planar
+    if moved:
+        is_free = np.isin(chart_of, sorted(moved)) & ~selection.of_faces(held)
+        planar = _pack(task, selection, done, sheet, is_free, keeps_sizes=True).planar
+        done.text += f", {len(moved)} moved"
+    _tell_overlaps(task, selection, done, planar)
+    done.text += f"; energy {layout.energy:.3f}"
+    if spoiled.any():
+        done.warning = f"{counted(len(np.unique(chart_of[spoiled])))} left as before, because of pins or small faces"
     return done
 
 
-def pack(task, selection, others, sheet, keeps_sizes):
-    """Packs the charts of the selected faces, around pinned charts and faces that are not selected."""
+def pack(task, selection, sheet, keeps_sizes):
+    """Packs the charts of the selected faces. Charts with pins stay, and charts that are partly selected."""
     refuse_bare(selection)
-    task.enter("Packing")
     done = Done(selection.uv, "")
-    packed = _settle(done, selection, others, sheet, keeps_sizes)
-    charts = counted(len(np.unique(packed.chart[: selection.face_count])))
-    if packed.planar:
-        done.text = f"{charts} packed, no overlaps: proved"
-    else:
-        done.text = f"{charts} packed"
-        done.warning = "Faces overlap: Check selects them"
+    is_held = selection.of_faces(selection.pinned | selection.is_attached)
+    packed = _pack(task, selection, done, sheet, ~is_held, keeps_sizes)
+    charts = packed.chart[: selection.face_count]
+    held = np.unique(charts[is_held])
+    done.text = f"{counted(len(np.setdiff1d(charts, held)))} packed"
+    if len(held):
+        done.text += f", {len(held)} stayed"
+    _tell_overlaps(task, selection, done, packed.planar)
     return done
 
 
-def _proved(layout):
-    """Verdict on a proved layout in words."""
-    return f"{counted(int(layout.chart.max()) + 1)}, no overlaps: proved; energy {layout.energy:.3f}"
+#: Verdict on a layout of which every pair of faces was compared exactly.
+_PROVED = "no overlaps: proved"
+
+#: Largest number of overlapping pairs of faces that are looked at.
+LISTED = 1_000_000
+
+
+@dataclass
+class Overlaps:
+    """What an exact check says about a layout. Faces that are not selected come after the selected ones."""
+
+    planar: bool
+    faces_at_fault: set
+    """Selected faces that spoil a chart by themselves."""
+    pairs: np.ndarray
+    """Pairs of overlapping faces of different charts, shape (p, 2)."""
+    touches_selection: bool
+    """True if a selected face is at fault."""
+
+
+def _overlaps(selection, corner_uv, check=freebound.check):
+    """Checks the selected faces together with the others that are kept clear."""
+    vertices, faces, uv, (_, used) = _joined(selection, corner_uv)
+    others = np.arange(len(faces[1]) - 1 - len(used)) + selection.face_count
+    number_of = np.concatenate([used, others])
+    found = check(vertices, faces, uv, listed=LISTED)
+    pairs, alone, touched = [], set(), False
+    for finding in found["findings"]:
+        if finding["severity"] != "error":
+            continue
+        own_pairs = number_of[np.array(finding.get("pairs", []), dtype=np.int64).reshape(-1, 2)]
+        at_fault = np.concatenate([number_of[np.array(finding.get("faces", []), dtype=np.int64)], own_pairs.ravel()])
+        own = at_fault[at_fault < selection.face_count]
+        touched |= len(own) > 0
+        if finding["code"] in ("overlap-of-charts", "overlap-mirrored"):
+            pairs.append(own_pairs)
+        elif finding["code"] != "stacked":
+            alone.update(own.tolist())
+    pairs = np.concatenate([np.zeros((0, 2), dtype=np.int64), *pairs])
+    return Overlaps(found["planar"] and found["f32"], alone, pairs, touched)
+
+
+def _tell_overlaps(task, selection, done, planar):
+    """Adds the verdict on the selected faces and the others to the words. ``planar`` is True if it is known."""
+    check = partial(task.call, "Checking", freebound.check)
+    found = None if planar else _overlaps(selection, done.corner_uv, check)
+    if found is None or found.planar:
+        done.text += f", {_PROVED}"
+    elif found.touches_selection:
+        done.warning = done.warning or "Selected faces overlap others: Check selects them"
+    else:
+        done.text += ", selected faces overlap nothing: proved"
+        done.warning = done.warning or "Faces that are not selected overlap: Check selects them"
+    if selection.new_count and selection.is_around:
+        done.text += f"; {selection.new_count} faces are not unwrapped yet"
+
+
+def told_of_chart(selection, corner_uv, corners):
+    """Verdict in words on the chart of some corners, and a warning or an empty text."""
+    found = _overlaps(selection, corner_uv)
+    if found.planar:
+        return _PROVED, ""
+    is_own = np.zeros(selection.face_count + 1 + found.pairs.max(initial=0), dtype=bool)
+    is_own[selection.face_of[corners]] = True
+    if is_own[found.pairs].any():
+        return "one-to-one: proved", "The chart lies over others: Pack moves them apart"
+    return "the chart overlaps nothing: proved", "Other faces overlap: Check selects them"
+
+
+def _charts(task, selection):
+    """Chart of each selected face, by its coordinates."""
+    everything = np.ones(selection.face_count, dtype=bool)
+    packed = task.call(
+        "Finding charts", freebound.pack, selection.vertices, selection.faces(), selection.uv, lock=everything
+    )
+    return packed.chart
+
+
+def is_mirrored(selection, chart_of):
+    """True for each corner of a chart that is turned over."""
+    area = np.zeros(selection.face_count)
+    before = np.arange(len(selection.uv)) - 1
+    before[selection.starts[:-1]] = selection.starts[1:] - 1
+    cross = selection.uv[before, 0] * selection.uv[:, 1] - selection.uv[before, 1] * selection.uv[:, 0]
+    np.add.at(area, selection.face_of, cross)
+    of_chart = np.bincount(chart_of + 1, weights=area)
+    return (of_chart[chart_of + 1] < 0)[selection.face_of]
+
+
+def _boxes(selection, chart_of):
+    """Box of each chart: largest coordinates, and largest negated ones. The first row is of faces without a chart."""
+    boxes = np.full((chart_of.max() + 2, 4), -np.inf)
+    np.maximum.at(boxes, chart_of[selection.face_of] + 1, np.column_stack([selection.uv, -selection.uv]))
+    return boxes
+
+
+def _keep_stacks(selection, chart_of, corner_uv):
+    """Lays charts without pins that shared all places with another onto it again. Changes ``corner_uv``."""
+    held = set(chart_of[selection.of_faces(selection.pinned | selection.is_attached)].tolist())
+    chart_of_corner = chart_of[selection.face_of]
+    _, first, like = np.unique(_boxes(selection, chart_of), axis=0, return_index=True, return_inverse=True)
+    for upper, lower in enumerate(first[like.ravel()] - 1, start=-1):
+        if upper in held or lower in (-1, upper):
+            continue
+        above, below = chart_of_corner == upper, chart_of_corner == lower
+        places, at = np.unique(selection.uv[below], axis=0, return_index=True)
+        both = np.concatenate([places, selection.uv[above]])
+        _, number = np.unique(both, axis=0, return_inverse=True)
+        number = number.ravel()
+        if number.max() < len(places):
+            corner_uv[above] = corner_uv[below][at][number[len(places) :]]
+
+
+def _colliding(selection, chart_of, before, after):
+    """Charts that may move, and that overlap others only now. Of two such charts the later one is enough."""
+    count = selection.face_count
+
+    def pairs(found):
+        """Pairs of charts. Each face that is not selected is a chart of its own, with a number above the charts."""
+        own = np.concatenate([chart_of, np.arange(found.pairs.max(initial=-1) + 1 - count) + chart_of.max() + 1])
+        return {tuple(sorted(pair)) for pair in own[found.pairs].tolist()}
+
+    stays = set(chart_of[selection.of_faces(selection.pinned | selection.is_attached)].tolist())
+    boxes = _boxes(selection, chart_of)
+    moved = set()
+    for low, high in sorted(pairs(after) - pairs(before)):
+        is_stacked = high <= chart_of.max() and (boxes[low + 1] == boxes[high + 1]).all()
+        movable = [chart for chart in (high, low) if chart <= chart_of.max() and chart not in stays]
+        if movable and not is_stacked and not moved.intersection((low, high)):
+            moved.add(movable[0])
+    return moved
 
 
 def counted(charts):
@@ -123,10 +278,11 @@ def counted(charts):
     return f"{charts} chart{'s' if charts != 1 else ''}"
 
 
-def _pins(selection):
+def _pins(selection, is_pinned, uv=None):
     """Pins for the package, one for each pinned corner. Pins of vertices in the group are soft."""
-    at = np.flatnonzero(selection.pinned)
-    return (at, selection.uv[at], selection.weights[at]) if len(at) else None
+    uv = selection.uv if uv is None else uv
+    at = np.flatnonzero(is_pinned)
+    return (at, uv[at], selection.weights[at]) if len(at) else None
 
 
 def refuse_bare(selection):
@@ -140,7 +296,7 @@ def _solved(task, words, job):
     try:
         return task.run(words, job), ""
     except freebound.NotProved as error:
-        if error.layout is None or not error.layout.verdict.planar_in_f32:
+        if error.layout is None:
             raise
         return error.layout, sentence(error)
 
@@ -151,43 +307,38 @@ def sentence(error):
     return text[:1].upper() + text[1:]
 
 
-def _joined(selection, corner_uv, others):
-    """Mesh of the selected faces and the others, and its coordinates. Faces without coordinates are left out: the last
-    pair has True for each corner that is in, and the numbers of the faces that are in."""
-    parts = [(selection, corner_uv)] + ([(others, others.uv)] if others is not None else [])
-    corners, sizes, uv, first = [], [], [], 0
-    for part, coordinates in parts:
-        corners.append(part.corners + first)
-        sizes.append(np.diff(part.starts))
-        uv.append(coordinates)
-        first += len(part.vertices)
-    corners, sizes, uv = (np.concatenate(arrays) for arrays in (corners, sizes, uv))
-    is_known = np.isfinite(uv).all(axis=1)
-    is_used = np.logical_and.reduceat(is_known, np.cumsum(sizes) - sizes)
+def _around(selection):
+    """Faces that are kept clear, or None."""
+    return selection.others if selection.is_around else None
+
+
+def _joined(selection, corner_uv):
+    """Mesh of the selected faces and those that are kept clear, and its coordinates. Selected faces without coordinates
+    are left out: the last pair has True for each selected corner that is in, and the selected faces that are in."""
+    sizes = np.diff(selection.starts)
+    is_used = np.logical_and.reduceat(np.isfinite(corner_uv).all(axis=1), selection.starts[:-1])
     of_corner = np.repeat(is_used, sizes)
-    starts = np.concatenate([[0], np.cumsum(sizes[is_used])])
-    vertices = np.concatenate([part.vertices for part, _ in parts])
-    return vertices, (corners[of_corner], starts), uv[of_corner], (of_corner, np.flatnonzero(is_used))
+    corners, uv, sizes = selection.corners[of_corner], corner_uv[of_corner], sizes[is_used]
+    others = _around(selection)
+    if others is not None:
+        corners = np.concatenate([corners, others.corners])
+        uv = np.concatenate([uv, others.uv])
+        sizes = np.concatenate([sizes, np.diff(others.starts)])
+    starts = np.concatenate([[0], np.cumsum(sizes)])
+    return selection.vertices, (corners, starts), uv, (of_corner, np.flatnonzero(is_used))
 
 
-def _settle(done, selection, others, sheet, keeps_sizes=False):
-    """Packs the selected charts around pinned ones and the others. Changes ``done``, and returns the packing."""
-    vertices, faces, uv, (of_corner, used) = _joined(selection, done.corner_uv, others)
-    count = selection.face_count
-    is_locked = np.arange(count + (others.face_count if others is not None else 0)) >= count
-    is_locked[selection.face_of[selection.is_hard]] = True
-    packed = freebound.pack(
-        vertices, faces, uv, pack=sheet.pack, lock=is_locked[used], keep_sizes=keeps_sizes, precision="f32"
-    )
-    corners = len(selection.uv)
-    own = np.flatnonzero(of_corner[:corners])
+def _pack(task, selection, done, sheet, is_free, keeps_sizes=False):
+    """Packs the charts of the free faces around all others. Changes ``done``, and returns the packing."""
+    vertices, faces, uv, (of_corner, used) = _joined(selection, done.corner_uv)
+    is_locked = np.ones(len(faces[1]) - 1, dtype=bool)
+    is_locked[: len(used)] = ~is_free[used]
+    options = {"pack": sheet.pack, "keep_sizes": keeps_sizes, "precision": "f32", "lock": is_locked}
+    packed = task.call("Packing", freebound.pack, vertices, faces, uv, **options)
     settled = np.array(done.corner_uv)
-    settled[own] = packed.corner_uv[: len(own)]
+    settled[of_corner] = packed.corner_uv[: of_corner.sum()]
+    is_moved = (settled != done.corner_uv).any(axis=1) & of_corner
     done.corner_uv = settled
-    if not packed.planar and others is not None:
-        done.warning = done.warning or "Faces that are not selected overlap, or leave no proof: Check selects them"
-    elif others is not None:
-        done.text += "; packed around the others"
-    if len(own) and not is_locked[:count].all() and settled[own].max() > 1:
+    if settled[is_moved].max(initial=0) > 1:
         done.warning = done.warning or "The others leave no room: the charts lie beside the picture"
     return packed

@@ -36,11 +36,10 @@ class Task:
         finally:
             self._job = None
 
-    def enter(self, words):
-        """Names the next part of the work. Stops the work if it was cancelled."""
+    def call(self, words, function, *given, **named):
+        """Result of a function of the package that takes ``stop``."""
         self._words = words
-        if self._is_cancelled:
-            raise freebound.Cancelled("the run was cancelled")
+        return function(*given, **named, stop=lambda: self._is_cancelled)
 
     @property
     def progress(self):

@@ -533,7 +533,7 @@ def test_a_relaxed_chart_that_would_cover_others_is_packed_beside_them():
     before, corner = uv_of(item), 4 * half
     select_faces(item, np.arange(2 * half) < half)
     assert bpy.ops.uv.freebound_relax() == {"FINISHED"}
-    assert "around the others" in bpy.context.window_manager.freebound_verdict
+    assert "1 moved" in bpy.context.window_manager.freebound_verdict
     assert (uv_of(item)[corner:] == before[corner:]).all()
     assert (flips(item), overlaps(item)) == (0, 0)
 
@@ -548,7 +548,7 @@ def test_packing_moves_whole_charts_and_leaves_pinned_ones():
     uv = uv_of(item)
     assert (uv[:corner] == before[:corner]).all() and (uv[corner:] != before[corner:]).any()
     assert (flips(item), overlaps(item)) == (0, 0)
-    assert "2 charts packed" in bpy.context.window_manager.freebound_verdict
+    assert "1 chart packed, 1 stayed" in bpy.context.window_manager.freebound_verdict
 
 
 def test_packing_may_keep_the_sizes_of_charts():
@@ -655,6 +655,8 @@ def dragging(item):
         objects_in_mode_unique_data=[item],
         view_layer=bpy.context.view_layer,
         area=SimpleNamespace(type="IMAGE_EDITOR", regions=[panel, charts]),
+        space_data=None,
+        tool_settings=SimpleNamespace(use_uv_select_sync=True),
         window=SimpleNamespace(cursor_set=lambda name: None),
         workspace=Fake(),
         window_manager=SimpleNamespace(
@@ -673,7 +675,7 @@ def dragging(item):
     drag.report = lambda kind, text: drag.said.append(text)
 
     def event(kind, value, x, y):
-        return SimpleNamespace(type=kind, value=value, mouse_x=x + 100, mouse_y=y + 50)
+        return SimpleNamespace(type=kind, value=value, mouse_x=x + 100, mouse_y=y + 50, ctrl=False, oskey=False)
 
     return drag, context, event
 
@@ -708,10 +710,10 @@ def test_a_person_drags_corners_one_after_another_and_each_stays_pinned():
         for step in range(11):
             place = (x + (to[0] - x) * step // 10, y + (to[1] - y) * step // 10)
             assert drag.modal(context, event("MOUSEMOVE", "NOTHING", *place)) == {"RUNNING_MODAL"}
-            assert drag.modal(context, event("TIMER", "NOTHING", *place)) == {"RUNNING_MODAL"}
+            assert drag.modal(context, event("TIMER", "NOTHING", *place)) == {"PASS_THROUGH"}
         assert drag.modal(context, event("LEFTMOUSE", "RELEASE", *to)) == {"RUNNING_MODAL"}
     assert drag.modal(context, event("WHEELUPMOUSE", "PRESS", 500, 500)) == {"PASS_THROUGH"}
-    assert drag.modal(context, event("RET", "PRESS", 500, 500)) == {"FINISHED"}
+    assert drag.modal(context, event("RET", "PRESS", 500, 500)) == {"CANCELLED"}, "the drags are steps of undo"
     uv = uv_of(item)
     for to in ((0.69, 0.45), (0.34, 0.67)):
         assert np.linalg.norm(uv - to, axis=1).min() < 1e-6
@@ -738,8 +740,349 @@ def test_a_drag_that_is_put_back_leaves_every_coordinate_as_it_was():
     assert drag.modal(context, event("LEFTMOUSE", "PRESS", 50, 750)) == {"RUNNING_MODAL"}
     assert drag.said[-1] == "Press on a corner of a chart"
     # A click on the panel ends the drag and reaches the panel.
-    assert drag.modal(context, event("LEFTMOUSE", "PRESS", 850, 500)) == {"FINISHED", "PASS_THROUGH"}
+    assert drag.modal(context, event("LEFTMOUSE", "PRESS", 850, 500)) == {"CANCELLED", "PASS_THROUGH"}
     assert context.workspace.said[-1] is None
+
+
+def verdict():
+    """Words of the panel, and True if nothing is wrong."""
+    manager = bpy.context.window_manager
+    return manager.freebound_verdict, manager.freebound_is_fine
+
+
+def sheets(count):
+    """Wavy sheets of one object in a row, and the number of faces of each."""
+    vertices, quads = wavy()
+    places = [vertices + (2 * k, 0, 0) for k in range(count)]
+    return mesh_of(np.vstack(places), np.vstack([quads + k * len(vertices) for k in range(count)])), len(quads)
+
+
+def lay_sheets(item, half, *places):
+    """Lays sheet k at a place (u, v, width, height). A negative width mirrors it."""
+
+    def of_corner(co, face):
+        u, v, width, height = places[face // half]
+        return u + width * (co.x - 2 * (face // half)), v + height * co.y
+
+    return lay(item, of_corner)
+
+
+@pytest.mark.parametrize("operator", ["relax", "unwrap", "pack"])
+def test_overlaps_with_faces_that_are_not_selected_are_told(operator):
+    item, half = sheets(2)
+    lay_sheets(item, half, (0, 0, 0.4, 0.4), (0.2, 0.2, 0.4, 0.4))
+    # Pins hold the selected sheet on the other.
+    pin(item, {0: (0.0, 0.0), 14: (0.4, 0.0)})
+    select_faces(item, np.arange(2 * half) < half)
+    assert getattr(bpy.ops.uv, f"freebound_{operator}")() == {"FINISHED"}
+    text, is_fine = verdict()
+    assert not is_fine and "no overlaps" not in text and "Check" in text
+    assert bpy.ops.uv.freebound_check() == {"FINISHED"}
+    in_object_mode()
+    chosen = np.array([face.select for face in item.data.polygons])
+    assert chosen[:half].any() and chosen[half:].any() and not chosen.all()
+
+
+def test_overlaps_of_other_faces_alone_leave_the_proof_of_the_selected():
+    item, half = sheets(3)
+    lay_sheets(item, half, (0, 0, 0.3, 0.3), (0.5, 0.5, 0.3, 0.3), (0.6, 0.6, 0.3, 0.3))
+    select_faces(item, np.arange(3 * half) < half)
+    assert bpy.ops.uv.freebound_relax() == {"FINISHED"}
+    text, is_fine = verdict()
+    assert not is_fine and "selected faces overlap nothing: proved" in text
+
+
+@pytest.mark.parametrize("is_around", [True, False])
+def test_soft_pins_hold_their_chart_in_place(is_around):
+    item, half = sheets(2)
+    lay_sheets(item, half, (0, 0, 0.4, 0.4), (0.6, 0.6, 0.3, 0.3))
+    soft = {0: (0.1, 0.1), 14: (0.4, 0.1), 165: (0.1, 0.4)}
+    pin(item, soft)
+    item.vertex_groups.new(name="soft").add(list(soft), 0.9, "REPLACE")
+    select_faces(item, np.arange(2 * half) < half)
+    assert bpy.ops.uv.freebound_unwrap(soft_pins="soft", is_around=is_around) == {"FINISHED"}
+    uv = uv_of(item)
+    for loop in item.data.loops:
+        if loop.vertex_index in soft:
+            assert np.linalg.norm(uv[loop.index] - soft[loop.vertex_index]) < 0.05
+
+
+def test_a_group_that_is_not_there_is_named():
+    item = mesh_of(*wavy())
+    edit(item)
+    with pytest.raises(RuntimeError, match="no vertex group lips"):
+        bpy.ops.uv.freebound_unwrap(soft_pins="lips")
+    assert verdict()[1] is False
+
+
+def test_only_charts_that_come_to_overlap_are_moved_by_relaxing():
+    item, half = sheets(3)
+    # The first is stretched, and would grow over the second.
+    lay_sheets(item, half, (0, 0, 0.2, 0.9), (0.21, 0.4, 0.2, 0.17), (0.7, 0.7, 0.2, 0.17))
+    before, corner = uv_of(item), 4 * half
+    edit(item)
+    assert bpy.ops.uv.freebound_relax() == {"FINISHED"}
+    text, is_fine = verdict()
+    assert is_fine and "3 charts relaxed, 1 moved, no overlaps: proved" in text
+    assert (flips(item), overlaps(item)) == (0, 0)
+    uv = uv_of(item)
+    shift = [np.linalg.norm((uv - before)[k * corner : (k + 1) * corner].mean(axis=0)) for k in range(3)]
+    assert shift[0] < 1e-3 and shift[2] < 1e-3 and shift[1] > 0.05
+    sides = [np.linalg.norm(uv[k * corner + 1] - uv[k * corner]) for k in (1, 2)]
+    assert abs(sides[0] / sides[1] - 1) < 1e-3, "sizes stay"
+
+
+def test_mirrored_and_stacked_charts_stay_so():
+    item, half = sheets(3)
+    lay_sheets(item, half, (0.5, 0, -0.4, 0.3), (0.5, 0.5, 0.4, 0.3), (0.5, 0.5, 0.4, 0.3))
+    corner = 4 * half
+    before = uv_of(item)
+    before[2 * corner :] = before[corner : 2 * corner]
+    item.data.uv_layers.active.uv.foreach_set("vector", before.ravel())
+    was = energy_of_sheet(item, half)
+    edit(item)
+    assert bpy.ops.uv.freebound_relax() == {"FINISHED"}
+    assert "moved" not in verdict()[0]
+    uv = uv_of(item)
+    assert flips(item) == 2 * half and energy_of_sheet(item, half) < was
+    assert (uv[corner : 2 * corner] == uv[2 * corner :]).all()
+    assert np.allclose(uv[:corner].mean(axis=0), before[:corner].mean(axis=0), atol=0.02)
+
+
+def energy_of_sheet(item, half):
+    """Energy of the mirror image of the first sheet."""
+    import freebound
+
+    vertices, quads = wavy()
+    uv = uv_of(item)[: 4 * half].astype(np.float64) * (-1, 1)
+    return freebound.flatten(vertices, quads, layout=uv, relax=0, new_vertices=False).energy
+
+
+def test_charts_that_are_partly_selected_are_not_torn():
+    for operator in (bpy.ops.uv.freebound_pack, bpy.ops.uv.freebound_relax):
+        item = mesh_of(*wavy())
+        lay(item, lambda co, face: (0.2 + 0.6 * co.x, 0.2 + 0.2 * co.y))
+        before = uv_of(item)
+        chosen = np.arange(len(item.data.polygons)) < 70
+        select_faces(item, chosen)
+        assert operator() == {"FINISHED"} and verdict()[1]
+        uv = uv_of(item)
+        assert (uv[4 * 70 :] == before[4 * 70 :]).all()
+        places = {}
+        for loop in item.data.loops:
+            places.setdefault(loop.vertex_index, set()).add(tuple(uv[loop.index].tolist()))
+        assert all(len(own) == 1 for own in places.values()), "each vertex has one place"
+        assert (flips(item), overlaps(item)) == (0, 0)
+
+
+def test_a_new_mesh_is_unwrapped_part_by_part():
+    for has_map in (False, True):
+        item, half = sheets(2)
+        if has_map:
+            item.data.uv_layers.new()
+        for k in range(2):
+            select_faces(item, np.arange(2 * half) // half == k)
+            assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+            text, is_fine = verdict()
+            assert is_fine and ("not unwrapped yet" in text) == (has_map and k == 0)
+        uv = uv_of(item)
+        assert uv.min() >= 0 and uv.max() <= 1 and (flips(item), overlaps(item)) == (0, 0)
+
+
+def test_the_selection_of_the_uv_editor_counts_if_it_is_not_synchronized():
+    from types import SimpleNamespace
+
+    from freebound_uv import meshes
+
+    item, half = sheets(2)
+    lay_sheets(item, half, (0, 0, 0.4, 0.4), (0.5, 0.5, 0.4, 0.4))
+    edit(item)
+    bpy.context.scene.tool_settings.use_uv_select_sync = False
+    bpy.ops.uv.select_all(action="DESELECT")
+    context = SimpleNamespace(
+        mode="EDIT_MESH",
+        objects_in_mode=[item],
+        objects_in_mode_unique_data=[item],
+        view_layer=bpy.context.view_layer,
+        area=SimpleNamespace(type="IMAGE_EDITOR"),
+        tool_settings=bpy.context.scene.tool_settings,
+    )
+    with pytest.raises(meshes.Nothing, match="UV editor"):
+        meshes.gather(context)
+    bpy.ops.uv.select_all(action="SELECT")
+    assert meshes.gather(context).face_count == 2 * half
+    in_object_mode()
+    attribute = item.data.attributes[".uv_select_face"]
+    attribute.data.foreach_set("value", np.arange(2 * half) < half)
+    bpy.ops.object.mode_set(mode="EDIT")
+    selection = meshes.gather(context)
+    assert selection.face_count == half and selection.others.face_count == half
+    context.area.type = "VIEW_3D"
+    assert meshes.gather(context).face_count == 2 * half
+
+
+def test_a_map_that_changed_during_a_run_is_left_alone():
+    from freebound_uv import meshes
+
+    item = flat_sheet()
+    edit(item)
+    selection = meshes.gather(bpy.context)
+    in_object_mode()
+    item.data.uv_layers.active.uv[7].vector.x += 0.1
+    before = uv_of(item)
+    edit(item)
+    with pytest.raises(meshes.Changed):
+        meshes.write(bpy.context, selection, selection.uv)
+    assert (uv_of(item) == before).all()
+
+
+@pytest.mark.parametrize("function", ["pack", "check"])
+def test_escape_ends_a_packing_and_a_check(function):
+    import freebound
+    from freebound_uv.tasks import Task
+
+    random = np.random.default_rng(5)
+    low = random.random((40000, 2))
+    uv = (low[:, None] + 0.05 * random.random((40000, 3, 2))).reshape(-1, 2)
+    vertices, faces = np.column_stack([uv, np.zeros(len(uv))]), np.arange(len(uv)).reshape(-1, 3)
+    work = {"pack": freebound.pack, "check": freebound.check}[function]
+    options = {"listed": 10**7} if function == "check" else {}
+    task = Task(lambda task: task.call("Working", work, vertices, faces, uv, **options))
+    assert not task.wait(0.02)
+    task.cancel()
+    with pytest.raises(freebound.Cancelled):
+        task.result()
+
+
+def test_a_run_that_fails_takes_the_old_verdict_back():
+    item = mesh_of(*wavy())
+    edit(item)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"} and verdict()[1]
+    bpy.ops.mesh.select_all(action="DESELECT")
+    with pytest.raises(RuntimeError, match="[Ss]elect faces"):
+        bpy.ops.uv.freebound_unwrap()
+    text, is_fine = verdict()
+    assert not is_fine and "elect faces" in text
+
+
+def test_pins_beyond_the_picture_are_no_lack_of_room():
+    item, half = sheets(2)
+    lay_sheets(item, half, (1.2, 0, 0.4, 0.4), (0.2, 0.2, 0.4, 0.4))
+    pin(item, {0: (1.2, 0.0), 14: (1.6, 0.0)})
+    edit(item)
+    assert bpy.ops.uv.freebound_pack() == {"FINISHED"}
+    assert verdict()[1], verdict()
+
+
+def test_a_check_reads_all_faces_and_selects_whole_mirrored_charts():
+    item, half = sheets(2)
+    lay_sheets(item, half, (0.4, 0, -0.4, 0.4), (0.5, 0.5, 0.4, 0.4))
+    # Of the mirrored sheet nothing is selected, and a few of its faces are hidden.
+    select_faces(item, np.arange(2 * half) >= half + 100)
+    in_object_mode()
+    item.data.polygons.foreach_set("hide", np.arange(2 * half) < 3)
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert bpy.ops.uv.freebound_check() == {"FINISHED"}
+    text, is_fine = verdict()
+    assert is_fine and f"{half - 3} faces selected: mirrored; 3 more are hidden" in text
+    in_object_mode()
+    chosen = np.array([face.select for face in item.data.polygons])
+    assert (chosen == ((np.arange(2 * half) < half) & (np.arange(2 * half) >= 3))).all()
+
+
+def grabbed(item, near, aspect=1.0):
+    """Grab of the corner nearest to a place."""
+    from freebound_uv import dragging, meshes
+
+    edit(item)
+    selection = meshes.gather_shown(bpy.context)
+    return dragging.Grab(selection, int(np.linalg.norm(selection.uv - near, axis=1).argmin()), aspect)
+
+
+def test_a_drag_keeps_shapes_on_a_picture_that_is_not_square():
+    vertices, quads = wavy()
+    item = mesh_of(vertices * (1, 1, 0), quads)
+    lay(item, lambda co, face: (0.1 + 0.2 * co.x, 0.1 + 0.4 * co.y))
+    pin(item, {0: (0.1, 0.1)})
+    for aspect, is_rigid in ((2.0, True), (1.0, False)):
+        grab = grabbed(item, (0.3, 0.1), aspect)
+
+        def lengths(grab=grab):
+            sides = np.diff(grab.uv.astype(np.float64).reshape(-1, 4, 2), axis=1) * (2, 1)
+            return np.linalg.norm(sides, axis=2)
+
+        before = lengths()
+        # Turned by 60 degrees about the pin.
+        grab.move(np.array((0.2, 0.1 + 0.4 * 3**0.5 / 2)))
+        assert (abs(lengths() / before - 1).max() < 0.1) == is_rigid
+
+
+def test_a_mirrored_chart_is_dragged_and_stays_mirrored():
+    item = mesh_of(*wavy())
+    lay(item, lambda co, face: (0.8 - 0.6 * co.x, 0.2 + 0.6 * co.y))
+    count = flips(item)
+    edit(item)
+    assert bpy.ops.uv.freebound_drag_pin(start=(0.5, 0.5), target=(0.6, 0.45)) == {"FINISHED"}
+    assert verdict()[1] and flips(item) == count > 0 and overlaps(item) == 0
+    assert np.linalg.norm(uv_of(item) - (0.6, 0.45), axis=1).min() < 1e-6
+
+
+def test_a_drag_knows_faces_that_are_not_selected():
+    item, half = sheets(2)
+    lay_sheets(item, half, (0, 0, 0.4, 0.4), (0.5, 0, 0.4, 0.4))
+    for shows_all in (True, False):
+        select_faces(item, np.arange(2 * half) < half)
+        bpy.context.scene.tool_settings.use_uv_select_sync = shows_all
+        assert bpy.ops.uv.freebound_drag_pin(start=(0.2, 0.2), target=(0.6, 0.2)) == {"FINISHED"}
+        text, is_fine = verdict()
+        assert not is_fine and "Pack" in text
+        lay_sheets(item, half, (0, 0, 0.4, 0.4), (0.5, 0, 0.4, 0.4))
+    # Corners that hidden faces share stay.
+    select_faces(item, np.arange(2 * half) < half)
+    in_object_mode()
+    item.data.polygons.foreach_set("hide", (np.arange(2 * half) < 14))
+    bpy.ops.object.mode_set(mode="EDIT")
+    before = uv_of(item)
+    edit_again(item)
+    assert bpy.ops.uv.freebound_drag_pin(start=(0.2, 0.2), target=(0.22, 0.22)) == {"FINISHED"}
+    assert (uv_of(item)[: 4 * 14] == before[: 4 * 14]).all()
+
+
+def edit_again(item):
+    bpy.context.view_layer.objects.active = item
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
+def test_an_error_during_a_drag_leaves_nothing_behind():
+    item = flat_sheet()
+    edit(item)
+    drag, context, event = dragging(item)
+    removed = []
+    context.window_manager.event_timer_remove = removed.append
+    drag.invoke(context, event("RET", "PRESS", 0, 0))
+    drag.modal(context, event("LEFTMOUSE", "PRESS", 503, 475))
+
+    def broken(frames=1):
+        raise ZeroDivisionError
+
+    drag._take_frame = broken
+    with pytest.raises(ZeroDivisionError):
+        drag.modal(context, event("TIMER", "NOTHING", 503, 475))
+    assert removed == ["timer"] and context.workspace.said[-1] is None
+
+
+def test_undo_is_left_to_blender_between_drags():
+    item = flat_sheet()
+    edit(item)
+    drag, context, event = dragging(item)
+    drag.invoke(context, event("RET", "PRESS", 0, 0))
+    key = event("Z", "PRESS", 0, 0)
+    assert drag.modal(context, key) == {"RUNNING_MODAL"}
+    key.ctrl = True
+    assert drag.modal(context, key) == {"PASS_THROUGH"}
+    from freebound_uv import dragging as module
+
+    assert module.FREEBOUND_OT_drag_pin.bl_options == {"UNDO"}
 
 
 def test_without_faces_the_message_tells_what_to_do():
