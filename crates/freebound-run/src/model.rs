@@ -219,7 +219,7 @@ impl Model {
         if *form != self.prepared.form || !self.prepared.is_plain_disk() {
             return AutomaticSeams::find(to_cut, options, control, report);
         }
-        match AutomaticSeams::of_uncut(&self.prepared, &source.polygons, options, control)? {
+        match AutomaticSeams::of_uncut(&self.prepared, &source.polygons, options, control, report)? {
             Some(seams) => Ok(seams),
             None => AutomaticSeams::find_cut(to_cut, options, control, report),
         }

@@ -303,7 +303,7 @@ struct Run<'a> {
     control: Control<'a>,
 }
 
-/// Map of a disk without seams, if it meets the bound.
+/// Map of a disk without seams and its mean energy, if it meets the bound.
 ///
 /// # Errors
 ///
@@ -312,10 +312,10 @@ pub(crate) fn uncut_map(
     polygons: &DiskMesh,
     options: SeamOptions,
     control: Control<'_>,
-) -> Result<Option<Embedding>, SolveError> {
+) -> Result<Option<(Embedding, f64)>, SolveError> {
     let disk = polygons.without_polygons();
     let map = Run::new([&disk, polygons], None, options, control).finished_within(options.bound)?;
-    Ok(map.map(|map| map.embedding))
+    Ok(map.map(|map| (map.embedding, map.energy)))
 }
 
 impl<'a> Run<'a> {

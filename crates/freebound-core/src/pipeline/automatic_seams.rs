@@ -99,7 +99,7 @@ impl AutomaticSeams {
     }
 
     /// Maps a plain disk in its preparation, if its map meets the bound without a seam. `None` if it does not, or if the
-    /// mesh is no plain disk.
+    /// mesh is no plain disk. `report` receives the map.
     ///
     /// # Errors
     ///
@@ -109,10 +109,11 @@ impl AutomaticSeams {
         mesh: &PolygonMesh,
         options: SeamOptions,
         control: Control<'_>,
+        report: SeamReport<'_>,
     ) -> Result<Option<Self>, SolveError> {
         let start = Instant::now();
         let Some(disk) = prepared.disk().filter(|_| prepared.is_plain_disk()) else { return Ok(None) };
-        let Some(map) = uncut_map(disk, options, control)? else { return Ok(None) };
+        let Some((map, energy)) = uncut_map(disk, options, control)? else { return Ok(None) };
         let repaired = prepared.repaired.as_deref();
         let polygons = repaired.map_or(mesh, Repaired::polygons);
         let mut corners = vec![None; mesh.corners.len()];
@@ -122,7 +123,9 @@ impl AutomaticSeams {
         let form = &prepared.form;
         let form = Preparation { seams: form.seams.with_automatic([], options.bound), ..form.clone() };
         let seconds = start.elapsed().as_secs_f64();
-        Ok(Some(Self { form, corners, length: 0.0, area: disk.area(), bound: options.bound, seconds }))
+        let (area, edges) = (disk.area(), Vec::new());
+        report(SeamProgress { part: 0, part_count: 1, edges, length: 0.0, area, energy, is_final: true });
+        Ok(Some(Self { form, corners, length: 0.0, area, bound: options.bound, seconds }))
     }
 
     /// Maps the parts of a mesh along the automatic seams of its preparation, which a search found before.

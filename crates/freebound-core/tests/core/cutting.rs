@@ -118,18 +118,25 @@ fn a_disk_that_needs_no_cut_has_the_map_of_the_search() {
     let mesh = polygons(&shaped(12, 9, |x, y| DVec3::new(x, y, 0.1 * (5.0 * x).sin())));
     let prepared = PreparedMesh::new(&mesh, None, form());
     let options = SeamOptions::new(4.1);
-    let uncut =
-        AutomaticSeams::of_uncut(&prepared, &mesh, options, Control::unattended()).unwrap().expect("flat enough");
+    let news = Mutex::new(Vec::new());
+    let report = |progress| news.lock().unwrap().push(progress);
+    let uncut = AutomaticSeams::of_uncut(&prepared, &mesh, options, Control::unattended(), &report);
+    let uncut = uncut.unwrap().expect("flat enough");
     let found = seams_of(&mesh, 4.1);
     assert_eq!((&uncut.form, &uncut.corners), (&found.form, &found.corners));
     assert!(uncut.edges().is_empty() && energy_along(&mesh, &uncut) < 4.1);
+    let [SeamProgress { is_final: true, part_count: 1, energy, .. }] = news.into_inner().unwrap()[..] else {
+        panic!("one report")
+    };
+    assert!(energy < 4.1);
 }
 
 #[test]
 fn a_surface_above_the_bound_has_no_map_without_a_cut() {
     for mesh in [ball_with_hole(20, 12), cube()] {
         let prepared = PreparedMesh::new(&mesh, None, form());
-        let uncut = AutomaticSeams::of_uncut(&prepared, &mesh, SeamOptions::new(4.1), Control::unattended());
+        let quiet = |_| panic!("nothing is found");
+        let uncut = AutomaticSeams::of_uncut(&prepared, &mesh, SeamOptions::new(4.1), Control::unattended(), &quiet);
         assert!(uncut.unwrap().is_none());
     }
 }
