@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import _arrays
+from ._check import check
 from ._errors import NotProved
 
 
@@ -164,6 +165,14 @@ class Layout:
         if not used.any():
             return math.nan
         return float(np.average(self.triangle_energy[used], weights=self.triangle_area[used]))
+
+    def check(self, **options: Any) -> dict[str, Any]:
+        """Checks the layout like :func:`freebound.check`, which takes the same options.
+
+        The findings name all faces at fault of a layout that is not one-to-one, such as that of a :class:`NotProved`.
+        Faces and vertices are rows of :attr:`faces` and :attr:`vertices`.
+        """
+        return check(self.vertices, self.vertex_faces, self.corner_uv, **options)
 
     def save(self, path: str | os.PathLike[str], *, precision: str | None = None) -> list[str]:
         """Writes the mesh with its coordinates (.obj, .ply, .glb), a drawing (.svg, .png) or the report (.json).

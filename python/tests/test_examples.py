@@ -35,6 +35,19 @@ def test_materials_are_kept_with_trimesh(tmp_path):
     assert freebound.check(tmp_path / "out.glb")["planar"]
 
 
+def test_surfaces_of_pyvista_are_unwrapped(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    vertices, faces = ball()
+    pyvista.PolyData.from_regular_faces(vertices, faces).save(tmp_path / "in.ply")
+    assert "planar: proved" in run("surfaces_with_pyvista.py", tmp_path / "in.ply", tmp_path / "out.vtp")
+    again = pyvista.read(tmp_path / "out.vtp")
+    uv = np.asarray(again.active_texture_coordinates, dtype=np.float64)
+    assert again.n_cells == len(faces) and again.cell_data["energy"].min() >= 4 - 1e-9
+    corner_uv = uv[again.regular_faces].reshape(-1, 2)
+    found = freebound.check(np.asarray(again.points, dtype=np.float64), again.regular_faces, corner_uv)
+    assert found["planar"] and found["charts"] == again.cell_data["chart"].max() + 1
+
+
 def test_landmarks_are_met_and_their_distortion_is_that_of_the_report():
     assert "worst face" in run("landmarks.py")
 

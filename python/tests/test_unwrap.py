@@ -200,6 +200,8 @@ def test_all_charts_of_a_given_layout_may_be_locked_although_they_overlap():
     layout = failure.value.layout
     first, second = np.array_split(layout.corner_uv, 2)
     assert np.allclose(first, second, atol=1e-9) and not layout.verdict.planar
+    findings = layout.check(listed=10)["findings"]
+    assert {finding["code"] for finding in findings} & {"overlap-of-charts", "stacked"}
     assert np.allclose(first.mean(axis=0), uv.mean(axis=0), atol=0.02)
     assert freebound.check(twice[0], twice[1], np.vstack([first, second + 3.0]))["planar"]
     # Without locks they are packed.
