@@ -47,6 +47,11 @@ class Done:
     seams: np.ndarray | None = None
     """Edges between charts, by vertices of the selection."""
 
+    def warn(self, text):
+        """Adds a sentence to the warning."""
+        if text not in self.warning:
+            self.warning = f"{self.warning}. {text}" if self.warning else text
+
 
 def unwrap(task, selection, sheet, options, marks_seams):
     """Unwraps the selected faces. Charts with pins stay at their pins, and the others are packed around them."""
@@ -68,7 +73,7 @@ def unwrap(task, selection, sheet, options, marks_seams):
     done = Done(layout.corner_uv, counted(int(layout.chart.max()) + 1), warning, seams)
     is_single = layout.chart.max() == 0 and not selection.pinned.any()
     if not is_single and _around(selection) is None:
-        done.text += f", {_PROVED}"
+        done.text += f", {_proved(selection)}"
     else:
         is_free = ~selection.of_faces(selection.pinned)
         packed = _pack(task, selection, done, sheet, is_free)
@@ -121,7 +126,7 @@ def relax(task, selection, sheet, rounds):
     _tell_overlaps(task, selection, done, planar)
     done.text += f"; energy {layout.energy:.3f}"
     if spoiled.any():
-        done.warning = f"{counted(len(np.unique(chart_of[spoiled])))} left as before, because of pins or small faces"
+        done.warn(f"{counted(len(np.unique(chart_of[spoiled])))} left as before, because of pins or small faces")
     return done
 
 
@@ -140,8 +145,11 @@ def pack(task, selection, sheet, keeps_sizes):
     return done
 
 
-#: Verdict on a layout of which every pair of faces was compared exactly.
-_PROVED = "no overlaps: proved"
+def _proved(selection):
+    """Verdict on a layout of which every pair of faces was compared exactly."""
+    ignores_others = selection.others is not None and not selection.is_around
+    return "no overlaps of the selected: proved" if ignores_others else "no overlaps: proved"
+
 
 #: Largest number of overlapping pairs of faces that are looked at.
 LISTED = 1_000_000
@@ -156,8 +164,8 @@ class Overlaps:
     """Selected faces that spoil a chart by themselves."""
     pairs: np.ndarray
     """Pairs of overlapping faces of different charts, shape (p, 2)."""
-    touches_selection: bool
-    """True if a selected face is at fault."""
+    is_at_fault: np.ndarray
+    """True for each face that is at fault, or may be if there are too many to list."""
 
 
 def _overlaps(selection, corner_uv, check=freebound.check):
@@ -166,20 +174,37 @@ def _overlaps(selection, corner_uv, check=freebound.check):
     others = np.arange(len(faces[1]) - 1 - len(used)) + selection.face_count
     number_of = np.concatenate([used, others])
     found = check(vertices, faces, uv, listed=LISTED)
-    pairs, alone, touched = [], set(), False
+    pairs, alone, is_at_fault = [], set(), np.zeros(selection.face_count + len(others), dtype=bool)
     for finding in found["findings"]:
         if finding["severity"] != "error":
             continue
         own_pairs = number_of[np.array(finding.get("pairs", []), dtype=np.int64).reshape(-1, 2)]
         at_fault = np.concatenate([number_of[np.array(finding.get("faces", []), dtype=np.int64)], own_pairs.ravel()])
-        own = at_fault[at_fault < selection.face_count]
-        touched |= len(own) > 0
+        is_at_fault[at_fault] = True
+        is_at_fault |= bool(finding.get("more"))
         if finding["code"] in ("overlap-of-charts", "overlap-mirrored"):
             pairs.append(own_pairs)
-        elif finding["code"] != "stacked":
-            alone.update(own.tolist())
+        elif finding["code"] == "stacked":
+            # Only the upper ones of stacked faces are listed.
+            boxes = np.full((len(is_at_fault), 4), np.nan)
+            boxes[number_of] = _boxes_of_faces(uv, faces[1])
+            is_at_fault |= np.isin(_as_values(boxes), _as_values(boxes[at_fault]))
+        else:
+            alone.update(at_fault[at_fault < selection.face_count].tolist())
     pairs = np.concatenate([np.zeros((0, 2), dtype=np.int64), *pairs])
-    return Overlaps(found["planar"] and found["f32"], alone, pairs, touched)
+    return Overlaps(found["planar"] and found["f32"], alone, pairs, is_at_fault)
+
+
+def _boxes_of_faces(uv, starts):
+    """Least and largest coordinates of each face."""
+    low, high = np.minimum.reduceat(uv, starts[:-1]), np.maximum.reduceat(uv, starts[:-1])
+    # Adding 0 turns −0 into 0.
+    return np.column_stack([low, high]) + 0.0
+
+
+def _as_values(rows):
+    """Each row as one value."""
+    return np.ascontiguousarray(rows).view([("", rows.dtype)] * rows.shape[1]).ravel()
 
 
 def _tell_overlaps(task, selection, done, planar):
@@ -187,12 +212,12 @@ def _tell_overlaps(task, selection, done, planar):
     check = partial(task.call, "Checking", freebound.check)
     found = None if planar else _overlaps(selection, done.corner_uv, check)
     if found is None or found.planar:
-        done.text += f", {_PROVED}"
-    elif found.touches_selection:
-        done.warning = done.warning or "Selected faces overlap others: Check selects them"
+        done.text += f", {_proved(selection)}"
+    elif found.is_at_fault[: selection.face_count].any():
+        done.warn("Selected faces overlap others: Check selects them")
     else:
         done.text += ", selected faces overlap nothing: proved"
-        done.warning = done.warning or "Faces that are not selected overlap: Check selects them"
+        done.warn("Faces that are not selected overlap: Check selects them")
     if selection.new_count and selection.is_around:
         done.text += f"; {selection.new_count} faces are not unwrapped yet"
 
@@ -201,10 +226,8 @@ def told_of_chart(selection, corner_uv, corners):
     """Verdict in words on the chart of some corners, and a warning or an empty text."""
     found = _overlaps(selection, corner_uv)
     if found.planar:
-        return _PROVED, ""
-    is_own = np.zeros(selection.face_count + 1 + found.pairs.max(initial=0), dtype=bool)
-    is_own[selection.face_of[corners]] = True
-    if is_own[found.pairs].any():
+        return _proved(selection), ""
+    if found.is_at_fault[selection.face_of[corners]].any():
         return "one-to-one: proved", "The chart lies over others: Pack moves them apart"
     return "the chart overlaps nothing: proved", "Other faces overlap: Check selects them"
 
@@ -260,7 +283,7 @@ def _colliding(selection, chart_of, before, after):
     def pairs(found):
         """Pairs of charts. Each face that is not selected is a chart of its own, with a number above the charts."""
         own = np.concatenate([chart_of, np.arange(found.pairs.max(initial=-1) + 1 - count) + chart_of.max() + 1])
-        return {tuple(sorted(pair)) for pair in own[found.pairs].tolist()}
+        return set(map(tuple, np.unique(np.sort(own[found.pairs], axis=1), axis=0).tolist()))
 
     stays = set(chart_of[selection.of_faces(selection.pinned | selection.is_attached)].tolist())
     boxes = _boxes(selection, chart_of)
@@ -340,5 +363,5 @@ def _pack(task, selection, done, sheet, is_free, keeps_sizes=False):
     is_moved = (settled != done.corner_uv).any(axis=1) & of_corner
     done.corner_uv = settled
     if settled[is_moved].max(initial=0) > 1:
-        done.warning = done.warning or "The others leave no room: the charts lie beside the picture"
+        done.warn("The others leave no room: the charts lie beside the picture")
     return packed

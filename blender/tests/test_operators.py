@@ -783,6 +783,29 @@ def test_overlaps_with_faces_that_are_not_selected_are_told(operator):
     assert chosen[:half].any() and chosen[half:].any() and not chosen.all()
 
 
+def test_a_selected_chart_below_an_equal_one_overlaps_it():
+    item, half = sheets(2)
+    lay_sheets(item, half, (0.1, 0.1, 0.3, 0.3), (0.1, 0.1, 0.3, 0.3))
+    uv = uv_of(item)
+    uv[4 * half :] = uv[: 4 * half]
+    item.data.uv_layers.active.uv.foreach_set("vector", uv.ravel())
+    vertices = len(item.data.vertices) // 2
+    pin(item, {0: (0.1, 0.1), 14: (0.4, 0.1), vertices: (0.1, 0.1), vertices + 14: (0.4, 0.1)})
+    for is_first in (True, False):
+        select_faces(item, (np.arange(2 * half) < half) == is_first)
+        assert bpy.ops.uv.freebound_pack() == {"FINISHED"}
+        text, is_fine = verdict()
+        assert not is_fine and "nothing" not in text and "Selected faces overlap" in text
+
+
+def test_a_verdict_that_leaves_others_out_says_so():
+    item, half = sheets(2)
+    lay_sheets(item, half, (0, 0, 0.9, 0.9), (0.1, 0.1, 0.3, 0.3))
+    select_faces(item, np.arange(2 * half) < half)
+    assert bpy.ops.uv.freebound_relax(is_around=False) == {"FINISHED"}
+    assert "no overlaps of the selected: proved" in verdict()[0]
+
+
 def test_overlaps_of_other_faces_alone_leave_the_proof_of_the_selected():
     item, half = sheets(3)
     lay_sheets(item, half, (0, 0, 0.3, 0.3), (0.5, 0.5, 0.3, 0.3), (0.6, 0.6, 0.3, 0.3))
