@@ -49,7 +49,10 @@ def plot(layout: Layout, axes: Any = None, *, colour: str | None = "energy", edg
         energy = (squares + 1 / squares).sum(axis=1)
         worst = np.full(len(layout.chart), 4.0)
         np.fmax.at(worst, layout.triangle_face, energy)
-        polygons.set_array(np.clip(worst[drawn], 4, 10))
+        shown = np.clip(worst[drawn], 4, 10)
+        polygons.set_array(shown)
+        # Faces without distortion have the lowest colour.
+        polygons.set_clim(4, max(4.2, shown.max(initial=4)))
         polygons.set_cmap("cividis")
         axes.figure.colorbar(polygons, ax=axes, label="symmetric Dirichlet energy (4 is isometric)", shrink=0.8)
     axes.add_collection(polygons)
