@@ -165,6 +165,25 @@ def test_every_mesh_is_unwrapped_without_flips_and_overlaps(name):
     assert "proved" in bpy.context.window_manager.freebound_verdict
 
 
+@pytest.mark.parametrize("name", MESHES)
+def test_every_operator_keeps_every_mesh_free_of_flips_and_overlaps(name):
+    item = MESHES[name]()
+    edit(item)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    near = uv_of(item)[0]
+    calls = {
+        "relax": {},
+        "pack": {"margin": 8},
+        "drag_pin": {"start": near, "target": near + 0.01},
+        "check": {},
+    }
+    for operator, options in calls.items():
+        edit(item)
+        assert getattr(bpy.ops.uv, f"freebound_{operator}")(**options) == {"FINISHED"}, operator
+        assert "proved" in bpy.context.window_manager.freebound_verdict, operator
+        assert (flips(item), overlaps(item)) == (0, 0), operator
+
+
 def pin(item, places):
     """Pins all corners of some vertices."""
     in_object_mode()
