@@ -8,7 +8,7 @@ import numpy as np
 from bpy.props import BoolProperty, FloatVectorProperty
 
 from . import meshes, operators
-from .solving import is_mirrored, refuse_bare, sentence, told_of_chart
+from .solving import is_mirrored, sentence, told_of_chart
 
 #: Largest distance of the mouse from the corner that it grabs, pixels.
 _REACH = 24
@@ -25,7 +25,6 @@ class Grab:
     share."""
 
     def __init__(self, selection, corner, aspect=1.0):
-        refuse_bare(selection)
         # Nothing is packed: all charts are locked.
         chart_of = freebound.pack(
             selection.vertices, selection.faces(), selection.uv, lock=np.ones(selection.face_count, dtype=bool)

@@ -62,6 +62,11 @@ class Faces:
         """Face of each corner."""
         return np.repeat(np.arange(self.face_count), np.diff(self.starts))
 
+    @property
+    def places(self):
+        """Vertex and coordinates of each corner, as a row of numbers."""
+        return np.column_stack([self.corners, self.uv])
+
     def of_faces(self, is_wanted):
         """True for each face if ``is_wanted`` is true for one of its corners."""
         return np.logical_or.reduceat(is_wanted, self.starts[:-1])
@@ -84,32 +89,34 @@ class Selection(Faces):
     """Marked seams by their vertices, shape (e, 2)."""
     weights: np.ndarray
     """Weight of each corner's vertex in the group of soft pins, or NaN."""
+    is_attached: np.ndarray
+    """True for each corner that shares its vertex and its coordinates with a face that is not in the selection."""
     others: Faces | None = None
-    """Other faces that have coordinates."""
+    """Other faces that have a place in the map."""
     is_around: bool = False
     """True if the others are kept clear."""
     new_count: int = 0
-    """Number of other faces with the coordinates of a new UV map. They are not in ``others``."""
+    """Number of faces without a place, or with the coordinates of a new map. They are neither selected nor others."""
 
     def faces(self):
         """Faces for the package."""
         return self.corners, self.starts
 
-    @property
-    def is_attached(self):
-        """True for each corner that shares its vertex and its coordinates with a face that is not selected."""
-        is_attached = np.zeros(len(self.corners), dtype=bool)
-        if self.others is not None:
-            own, others = np.isin(self.corners, self.others.corners), np.isin(self.others.corners, self.corners)
-            is_attached[own] = np.isin(_places(self, own), _places(self.others, others))
-        return is_attached
 
-
-def _places(faces, chosen):
-    """Vertex and coordinates of each chosen corner, as one value."""
+def as_values(rows):
+    """Each row of numbers as one value."""
     # Adding 0 turns −0 into 0.
-    rows = np.column_stack([faces.corners[chosen].astype(np.float64), faces.uv[chosen] + 0.0])
-    return np.ascontiguousarray(rows).view([("", np.float64)] * 3).ravel()
+    rows = np.ascontiguousarray(rows, dtype=np.float64) + 0.0
+    return rows.view([("", np.float64)] * rows.shape[1]).ravel()
+
+
+def _is_attached(faces, others):
+    """True for each corner that shares its vertex and its coordinates with other faces."""
+    is_attached = np.zeros(len(faces.corners), dtype=bool)
+    if others is not None:
+        own, theirs = np.isin(faces.corners, others.corners), np.isin(others.corners, faces.corners)
+        is_attached[own] = np.isin(as_values(faces.places[own]), as_values(others.places[theirs]))
+    return is_attached
 
 
 @contextmanager
@@ -126,12 +133,17 @@ def object_mode(context):
     finally:
         # The selected objects enter edit mode together, and no others.
         was_selected = {item: item.select_get() for item in context.view_layer.objects}
+        locked = [item for item in edited if item.hide_select]
+        for item in locked:
+            item.hide_select = False
         for item in was_selected:
             item.select_set(item in edited)
         context.view_layer.objects.active = active
         bpy.ops.object.mode_set(mode="EDIT")
         for item, selected in was_selected.items():
             item.select_set(selected)
+        for item in locked:
+            item.hide_select = True
 
 
 def objects_of(context):
@@ -165,7 +177,7 @@ def gather(context, group="", needs_uv=False, is_around=False):
         return chosen & _uv_selected(mesh) if uses_uv_selection else chosen
 
     missing = "select faces in the UV editor first" if uses_uv_selection else "select faces of a mesh first"
-    return _gathered(context, objects, chosen, (group, needs_uv, is_around), missing)
+    return _gathered(context, objects, chosen, (group, needs_uv, needs_uv, is_around), missing)
 
 
 def gather_shown(context):
@@ -176,7 +188,7 @@ def gather_shown(context):
         visible = ~_numbers(mesh.polygons, "hide", bool)
         return visible if shows_all else visible & _numbers(mesh.polygons, "select", bool)
 
-    return _gathered(context, objects_of(context), chosen, ("", True, True), "the UV editor shows no faces")
+    return _gathered(context, objects_of(context), chosen, ("", True, True, True), "the UV editor shows no faces")
 
 
 def gather_all(context):
@@ -185,13 +197,13 @@ def gather_all(context):
         context,
         objects_of(context),
         lambda mesh: np.ones(len(mesh.polygons), dtype=bool),
-        ("", True, False),
+        ("", True, False, False),
         "edit a mesh first",
     )
 
 
 def _gathered(context, objects, chosen, options, missing):
-    group, needs_uv, is_around = options
+    group, needs_uv, needs_place, is_around = options
     with object_mode(context):
         positions, firsts, count = [], {}, 0
         for item in objects:
@@ -201,30 +213,65 @@ def _gathered(context, objects, chosen, options, missing):
             firsts[item] = count
             count += len(co)
         chosen_of = {item: chosen(item.data) for item in objects}
-        own = _joined(firsts, chosen_of, needs_uv)
+        placed_of = {item: mask & _has_place(item.data) if needs_place else mask for item, mask in chosen_of.items()}
+        own = _joined(firsts, placed_of, needs_uv)
         if own is None:
             has_faces = any(mask.any() for mask in chosen_of.values())
-            raise Nothing("select faces that have a UV map" if has_faces else missing)
+            raise Nothing("the selected faces have no place in a UV map: unwrap them first" if has_faces else missing)
+        vertices = np.concatenate(positions)
         for part in own.parts:
-            if np.linalg.matrix_rank(np.array(part.object.matrix_world, dtype=np.float64)[:3, :3]) < 3:
-                raise Nothing(f"{part.object.name} is scaled to nothing: change its scale")
-        others = _joined(firsts, {item: ~mask for item, mask in chosen_of.items()}, True)
+            _refuse_collapsed(part, vertices)
+        others = _joined(firsts, {item: ~mask for item, mask in placed_of.items()}, True)
+        unmapped = sum(int((~placed_of[item]).sum()) for item in objects if item.data.uv_layers.active is None)
         seams = [_seams(part) for part in own.parts]
         weights = [_weights(part, group)[part.loop_vertices] for part in own.parts]
     selection = Selection(
         **vars(own),
-        vertices=np.concatenate(positions),
+        vertices=vertices,
         seams=np.concatenate(seams),
         weights=np.concatenate(weights),
+        is_attached=_is_attached(own, others),
         is_around=is_around,
+        new_count=unmapped,
     )
     if others is not None:
-        is_new = _is_new(others)
-        selection.new_count = int(is_new.sum())
-        selection.others = others.without(is_new | _has_no_place(others))
+        has_no_place = _is_new(others) | _has_no_place(others)
+        selection.new_count += int(has_no_place.sum())
+        selection.others = others.without(has_no_place)
         if not selection.others.face_count:
             selection.others = None
     return selection
+
+
+def _refuse_collapsed(part, vertices):
+    """Rejects an object whose scale takes the area of faces away."""
+    matrix = np.array(part.object.matrix_world, dtype=np.float64)[:3, :3]
+    if np.linalg.matrix_rank(matrix) == 3:
+        return
+    mesh = part.object.data
+    sizes = _numbers(mesh.polygons, "loop_total", np.int32)[part.faces]
+    starts = np.concatenate([[0], np.cumsum(sizes)])
+    local = _numbers(mesh.vertices, "co", np.float32, 3).astype(np.float64)
+
+    def areas(positions):
+        corners = positions[part.loop_vertices]
+        after = np.arange(len(corners)) + 1
+        after[starts[1:] - 1] = starts[:-1]
+        return np.linalg.norm(np.add.reduceat(np.cross(corners, corners[after]), starts[:-1]), axis=1)
+
+    in_world = vertices[part.first_vertex : part.first_vertex + len(local)]
+    if ((areas(local) > 0) & (areas(in_world - in_world.mean(axis=0)) <= 1e-12 * areas(local))).any():
+        raise Nothing(f"{part.object.name} is scaled to nothing: change its scale")
+
+
+def _has_place(mesh):
+    """True for each face that has a place in the active UV map."""
+    layer = mesh.uv_layers.active
+    if layer is None or not len(mesh.polygons):
+        return np.zeros(len(mesh.polygons), dtype=bool)
+    starts = np.append(_numbers(mesh.polygons, "loop_start", np.int32), len(mesh.loops))
+    uv = _numbers(layer.uv, "vector", np.float32, 2)
+    return ~_lies_nowhere(uv, starts)
 
 
 def _joined(firsts, chosen_of, needs_uv):
@@ -275,14 +322,18 @@ def _seams(part):
 
 
 def _has_no_place(faces):
-    """True for each face whose corners lie at one point, or have coordinates that are no numbers."""
-    low = np.minimum.reduceat(faces.uv, faces.starts[:-1])
-    high = np.maximum.reduceat(faces.uv, faces.starts[:-1])
+    return _lies_nowhere(faces.uv, faces.starts)
+
+
+def _lies_nowhere(uv, starts):
+    """True for each face whose corners lie at one point, or have coordinates that are not finite."""
+    low, high = np.minimum.reduceat(uv, starts[:-1]), np.maximum.reduceat(uv, starts[:-1])
     return ~(np.isfinite(low) & np.isfinite(high)).all(axis=1) | (low == high).all(axis=1)
 
 
 def _is_new(faces):
-    """True for each face with the coordinates that Blender gives the faces of a new map, if there are several."""
+    """True for each face with the coordinates that Blender gives the faces of a new map. A mesh of a single face may
+    have them for good."""
     sizes = np.diff(faces.starts)
     size = np.repeat(sizes, sizes)
     at = np.arange(len(size)) - np.repeat(faces.starts[:-1], sizes)
@@ -291,7 +342,8 @@ def _is_new(faces):
     on_square = np.column_stack([(at == 1) | (at == 2), at >= 2]).astype(np.float64)
     expected = np.where((size <= 4)[:, None], on_square, on_circle)
     is_new = ~faces.of_faces((abs(faces.uv - expected) > 1e-6).any(axis=1))
-    return is_new if is_new.sum() > 1 else np.zeros_like(is_new)
+    is_one_of_many = [np.full(len(part.faces), len(part.object.data.polygons) > 1) for part in faces.parts]
+    return is_new & np.concatenate(is_one_of_many)
 
 
 def _digest(mesh, layer):

@@ -39,7 +39,9 @@ class _Run:
     #: Task that runs for a person. There is one at a time.
     running = None
 
-    margin: IntProperty(name="Margin", description="Least distance of charts, pixels", default=4, min=0, max=1024)
+    margin: IntProperty(
+        name="Margin", description="Least distance of charts, pixels", default=4, min=0, soft_max=64, max=256
+    )
     is_around: BoolProperty(
         name="Around Others",
         description="Keep faces that are not selected in place, and lay no chart over them",
@@ -183,7 +185,7 @@ class FREEBOUND_OT_unwrap(_Run, bpy.types.Operator):
 
 
 class FREEBOUND_OT_relax(_Run, bpy.types.Operator):
-    """Lower the distortion of the selected charts. Pinned coordinates stay. A chart moves only if it grew over another"""
+    """Lower the distortion of the selected charts. Pinned coordinates stay. Charts move only if they come to overlap"""
 
     bl_idname = "uv.freebound_relax"
     bl_label = "Freebound Relax"
@@ -243,7 +245,10 @@ class FREEBOUND_OT_check(bpy.types.Operator):
         is_wrong, codes = np.zeros(selection.face_count, dtype=bool), set()
         for finding in found["findings"]:
             if finding["severity"] != "note" or finding["code"] == "mirrored":
-                own = np.array([*finding.get("faces", []), *sum(finding.get("pairs", []), [])], dtype=np.int64)
+                pairs = np.array(finding.get("pairs", []), dtype=np.int64).ravel()
+                own = np.concatenate([np.array(finding.get("faces", []), dtype=np.int64), pairs])
+                if finding["code"] == "stacked":
+                    own = solving.with_stacked(selection.uv, selection.starts, own)
                 if finding["code"] in _OF_CHARTS:
                     own = _with_charts(selection, own)
                 is_wrong[own] = True

@@ -8,6 +8,8 @@ from functools import partial
 import freebound
 import numpy as np
 
+from .meshes import as_values
+
 #: Longer side of the picture for which charts are packed if the editor shows none, pixels.
 _SIDE = 1024
 
@@ -22,9 +24,14 @@ class Sheet:
     """Least distance of charts, pixels."""
 
     @property
+    def pack_size(self):
+        """Width and height of the picture that a given layout is packed into."""
+        return self.size or (_SIDE, _SIDE)
+
+    @property
     def pack(self):
         """Packing of a given layout."""
-        return freebound.Pack(size=self.size or _SIDE, gap=self.margin)
+        return freebound.Pack(size=self.pack_size, gap=self.margin)
 
     @property
     def options(self):
@@ -73,27 +80,29 @@ def unwrap(task, selection, sheet, options, marks_seams):
     done = Done(layout.corner_uv, counted(int(layout.chart.max()) + 1), warning, seams)
     is_single = layout.chart.max() == 0 and not selection.pinned.any()
     if not is_single and _around(selection) is None:
-        done.text += f", {_proved(selection)}"
+        done.text += f", {_proved(selection)}{_not_yet(selection)}"
     else:
         is_free = ~selection.of_faces(selection.pinned)
         packed = _pack(task, selection, done, sheet, is_free)
         done.text += ", packed around the others" if _around(selection) is not None and is_free.any() else ""
         _tell_overlaps(task, selection, done, packed.planar)
-    done.text += f"; energy {layout.energy:.3f}"
+    done.text += _energy(layout)
     return done
 
 
 def relax(task, selection, sheet, rounds):
     """Lowers the distortion of the charts. Each stays where it is, unless it would come to lie over another."""
-    refuse_bare(selection)
     aspect = {"aspect": sheet.options["aspect"]} if "aspect" in sheet.options else {}
-    chart_of = _charts(task, selection)
-    held = selection.pinned | selection.is_attached
+    charts = Charts(task, selection)
+    held = selection.pinned | selection.is_attached | charts.is_shared
     # A mirrored chart is relaxed in the mirror.
-    side = np.where(is_mirrored(selection, chart_of), -1.0, 1.0)[:, None] * (1, 0) + (0, 1)
+    side = np.where(is_mirrored(selection, charts.of_face), -1.0, 1.0)[:, None] * (1, 0) + (0, 1)
+    # Charts share no vertices, so that each is a mesh of its own.
+    keys = np.column_stack([charts.of_face[selection.face_of], selection.places])
+    _, first, vertex_of = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     job = freebound.start(
-        selection.vertices,
-        selection.faces(),
+        selection.vertices[selection.corners[first]],
+        (vertex_of.ravel(), selection.starts),
         layout=selection.uv * side,
         charts="uv",
         corner_pins=_pins(selection, held, selection.uv * side),
@@ -106,33 +115,48 @@ def relax(task, selection, sheet, rounds):
     layout, _ = _solved(task, "Relaxing", job)
     done = Done(np.array(layout.corner_uv) * side, "")
     done.corner_uv[held] = selection.uv[held]
-    _keep_stacks(selection, chart_of, done.corner_uv)
+    stays = charts.follow(done.corner_uv, selection.of_faces(held))
     check = partial(task.call, "Checking", freebound.check)
     before = _overlaps(selection, selection.uv, check)
     after = _overlaps(selection, done.corner_uv, check)
-    spoiled = np.isin(chart_of, chart_of[sorted(after.faces_at_fault - before.faces_at_fault)])
+    spoiled = np.isin(charts.of_face, charts.of_face[sorted(after.faces_at_fault - before.faces_at_fault)])
     if spoiled.any():
         of_corner = spoiled[selection.face_of]
         done.corner_uv[of_corner] = selection.uv[of_corner]
         after = _overlaps(selection, done.corner_uv, check)
-    relaxed = len(np.unique(chart_of[~spoiled]))
-    done.text = f"{counted(relaxed)} relaxed"
-    moved = _colliding(selection, chart_of, before, after)
+    done.text = f"{counted(len(np.setdiff1d(charts.of_face[~spoiled], stays)))} relaxed"
+    moved = charts.colliding(before, after, done.corner_uv, selection.of_faces(held) | np.isin(charts.of_face, stays))
     planar = after.planar
     if moved:
-        is_free = np.isin(chart_of, sorted(moved)) & ~selection.of_faces(held)
-        planar = _pack(task, selection, done, sheet, is_free, keeps_sizes=True).planar
+        _move(task, selection, done, sheet, charts, moved)
+        planar = False
         done.text += f", {len(moved)} moved"
     _tell_overlaps(task, selection, done, planar)
-    done.text += f"; energy {layout.energy:.3f}"
+    done.text += _energy(layout)
     if spoiled.any():
-        done.warn(f"{counted(len(np.unique(chart_of[spoiled])))} left as before, because of pins or small faces")
+        done.warn(f"{counted(len(np.unique(charts.of_face[spoiled])))} left as before, because of pins or small faces")
     return done
+
+
+def _move(task, selection, done, sheet, charts, moved):
+    """Moves charts to free places. Those that lie on them follow."""
+    before = np.array(done.corner_uv)
+    is_free = np.isin(charts.of_face, sorted(moved))
+    _pack(task, selection, done, sheet, is_free, keeps_sizes=True)
+    of_corner = is_free[selection.face_of]
+    sides = [_side_lengths(selection, uv, is_free) for uv in (before, done.corner_uv)]
+    if sides[1] < 0.999 * sides[0]:
+        # There is no room at their size.
+        done.corner_uv[of_corner] = before[of_corner]
+        others = _around(selection)
+        stay = [before[~of_corner]] + ([others.uv] if others is not None else [])
+        _lay_beside(selection, done, charts, sorted(moved), np.concatenate(stay))
+        done.warn("There is no room: charts lie beside the picture")
+    charts.carry_along(before, done.corner_uv, moved)
 
 
 def pack(task, selection, sheet, keeps_sizes):
     """Packs the charts of the selected faces. Charts with pins stay, and charts that are partly selected."""
-    refuse_bare(selection)
     done = Done(selection.uv, "")
     is_held = selection.of_faces(selection.pinned | selection.is_attached)
     packed = _pack(task, selection, done, sheet, ~is_held, keeps_sizes)
@@ -185,26 +209,19 @@ def _overlaps(selection, corner_uv, check=freebound.check):
         if finding["code"] in ("overlap-of-charts", "overlap-mirrored"):
             pairs.append(own_pairs)
         elif finding["code"] == "stacked":
-            # Only the upper ones of stacked faces are listed.
-            boxes = np.full((len(is_at_fault), 4), np.nan)
-            boxes[number_of] = _boxes_of_faces(uv, faces[1])
-            is_at_fault |= np.isin(_as_values(boxes), _as_values(boxes[at_fault]))
+            upper = np.array(finding["faces"], dtype=np.int64)
+            is_at_fault[number_of[with_stacked(uv, faces[1], upper)]] = True
         else:
             alone.update(at_fault[at_fault < selection.face_count].tolist())
     pairs = np.concatenate([np.zeros((0, 2), dtype=np.int64), *pairs])
     return Overlaps(found["planar"] and found["f32"], alone, pairs, is_at_fault)
 
 
-def _boxes_of_faces(uv, starts):
-    """Least and largest coordinates of each face."""
+def with_stacked(uv, starts, faces):
+    """Some faces, and all that have the same box. Of stacked faces a check lists the upper ones alone."""
     low, high = np.minimum.reduceat(uv, starts[:-1]), np.maximum.reduceat(uv, starts[:-1])
-    # Adding 0 turns −0 into 0.
-    return np.column_stack([low, high]) + 0.0
-
-
-def _as_values(rows):
-    """Each row as one value."""
-    return np.ascontiguousarray(rows).view([("", rows.dtype)] * rows.shape[1]).ravel()
+    boxes = as_values(np.column_stack([low, high]))
+    return np.flatnonzero(np.isin(boxes, boxes[faces]))
 
 
 def _tell_overlaps(task, selection, done, planar):
@@ -218,27 +235,33 @@ def _tell_overlaps(task, selection, done, planar):
     else:
         done.text += ", selected faces overlap nothing: proved"
         done.warn("Faces that are not selected overlap: Check selects them")
-    if selection.new_count and selection.is_around:
-        done.text += f"; {selection.new_count} faces are not unwrapped yet"
+    done.text += _not_yet(selection)
+
+
+def _energy(layout):
+    """Words about the mean energy of a layout. None if the surface has no area."""
+    return f"; energy {layout.energy:.3f}" if np.isfinite(layout.energy) else ""
+
+
+def _not_yet(selection):
+    """Words about faces that have no place yet."""
+    if not (selection.new_count and selection.is_around):
+        return ""
+    faces = "1 face is" if selection.new_count == 1 else f"{selection.new_count} faces are"
+    return f"; {faces} not unwrapped yet"
 
 
 def told_of_chart(selection, corner_uv, corners):
     """Verdict in words on the chart of some corners, and a warning or an empty text."""
     found = _overlaps(selection, corner_uv)
     if found.planar:
-        return _proved(selection), ""
-    if found.is_at_fault[selection.face_of[corners]].any():
+        return _proved(selection) + _not_yet(selection), ""
+    own = selection.face_of[corners]
+    if found.faces_at_fault.intersection(own.tolist()):
+        return "and now over parts of the chart that are not shown", "Undo, or show all faces and unwrap them"
+    if found.is_at_fault[own].any():
         return "one-to-one: proved", "The chart lies over others: Pack moves them apart"
     return "the chart overlaps nothing: proved", "Other faces overlap: Check selects them"
-
-
-def _charts(task, selection):
-    """Chart of each selected face, by its coordinates."""
-    everything = np.ones(selection.face_count, dtype=bool)
-    packed = task.call(
-        "Finding charts", freebound.pack, selection.vertices, selection.faces(), selection.uv, lock=everything
-    )
-    return packed.chart
 
 
 def is_mirrored(selection, chart_of):
@@ -252,48 +275,137 @@ def is_mirrored(selection, chart_of):
     return (of_chart[chart_of + 1] < 0)[selection.face_of]
 
 
-def _boxes(selection, chart_of):
-    """Box of each chart: largest coordinates, and largest negated ones. The first row is of faces without a chart."""
-    boxes = np.full((chart_of.max() + 2, 4), -np.inf)
-    np.maximum.at(boxes, chart_of[selection.face_of] + 1, np.column_stack([selection.uv, -selection.uv]))
-    return boxes
+def _side_lengths(selection, uv, chosen):
+    """Sum of the lengths of all sides of some faces."""
+    after = np.arange(len(uv)) + 1
+    after[selection.starts[1:] - 1] = selection.starts[:-1]
+    return np.linalg.norm(uv[after] - uv, axis=1)[chosen[selection.face_of]].sum()
 
 
-def _keep_stacks(selection, chart_of, corner_uv):
-    """Lays charts without pins that shared all places with another onto it again. Changes ``corner_uv``."""
-    held = set(chart_of[selection.of_faces(selection.pinned | selection.is_attached)].tolist())
-    chart_of_corner = chart_of[selection.face_of]
-    _, first, like = np.unique(_boxes(selection, chart_of), axis=0, return_index=True, return_inverse=True)
-    for upper, lower in enumerate(first[like.ravel()] - 1, start=-1):
-        if upper in held or lower in (-1, upper):
-            continue
-        above, below = chart_of_corner == upper, chart_of_corner == lower
-        places, at = np.unique(selection.uv[below], axis=0, return_index=True)
-        both = np.concatenate([places, selection.uv[above]])
-        _, number = np.unique(both, axis=0, return_inverse=True)
-        number = number.ravel()
-        if number.max() < len(places):
-            corner_uv[above] = corner_uv[below][at][number[len(places) :]]
+def _lay_beside(selection, done, charts, moved, stay):
+    """Lays charts in a row to the right of all coordinates that stay."""
+    right, gap = max(1.0, np.ceil(stay[:, 0].max(initial=1.0))), 1 / 256
+    for chart in moved:
+        own = charts.of_corner == chart
+        low, high = done.corner_uv[own].min(axis=0), done.corner_uv[own].max(axis=0)
+        done.corner_uv[own] += (right + gap, gap) - low
+        right += high[0] - low[0] + gap
 
 
-def _colliding(selection, chart_of, before, after):
-    """Charts that may move, and that overlap others only now. Of two such charts the later one is enough."""
-    count = selection.face_count
+class Charts:
+    """Charts of the selected faces and of the others, and the stacks that they form."""
 
-    def pairs(found):
-        """Pairs of charts. Each face that is not selected is a chart of its own, with a number above the charts."""
-        own = np.concatenate([chart_of, np.arange(found.pairs.max(initial=-1) + 1 - count) + chart_of.max() + 1])
-        return set(map(tuple, np.unique(np.sort(own[found.pairs], axis=1), axis=0).tolist()))
+    def __init__(self, task, selection):
+        others = selection.others
+        count = selection.face_count
+        corners, starts, uv = selection.corners, selection.starts, selection.uv
+        if others is not None:
+            corners, uv = np.concatenate([corners, others.corners]), np.concatenate([uv, others.uv])
+            starts = np.concatenate([starts, starts[-1] + others.starts[1:]])
+        everything = np.ones(len(starts) - 1, dtype=bool)
+        pack = partial(task.call, "Finding charts", freebound.pack)
+        self.of_any = pack(selection.vertices, (corners, starts), uv, lock=everything).chart
+        """Chart of each selected face and each other; −1 for faces without a triangle."""
+        self.of_face = self.of_any[:count]
+        """Chart of each selected face."""
+        self.of_corner = self.of_face[selection.face_of]
+        """Chart of each corner of a selected face."""
+        places = selection.places
+        # A vertex and its coordinates, once for each chart.
+        once = np.unique(np.column_stack([self.of_corner, places]), axis=0)[:, 1:]
+        values, counts = np.unique(as_values(once), return_counts=True)
+        self.is_shared = np.isin(as_values(places), values[counts > 1])
+        """True for each corner whose vertex has the same place in another chart of the selection."""
+        self._uv = selection.uv
+        face_of = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+        self.leader_of = self._leaders(self.of_any[face_of], uv)
+        """First chart with the same places, for each chart."""
+        self._own_count = count
 
-    stays = set(chart_of[selection.of_faces(selection.pinned | selection.is_attached)].tolist())
-    boxes = _boxes(selection, chart_of)
-    moved = set()
-    for low, high in sorted(pairs(after) - pairs(before)):
-        is_stacked = high <= chart_of.max() and (boxes[low + 1] == boxes[high + 1]).all()
-        movable = [chart for chart in (high, low) if chart <= chart_of.max() and chart not in stays]
-        if movable and not is_stacked and not moved.intersection((low, high)):
-            moved.add(movable[0])
-    return moved
+    @staticmethod
+    def _leaders(chart_of_corner, uv):
+        count = chart_of_corner.max() + 1
+        leader_of = np.arange(count)
+        known = chart_of_corner >= 0
+        boxes = np.full((count, 4), -np.inf)
+        np.maximum.at(boxes, chart_of_corner[known], np.column_stack([uv, -uv])[known])
+        _, like = np.unique(boxes, axis=0, return_inverse=True)
+        like = like.ravel()
+        is_twin = np.bincount(like)[like] > 1
+        corners = np.flatnonzero(known & is_twin[chart_of_corner])
+        order = corners[np.argsort(chart_of_corner[corners], kind="stable")]
+        first_of = {}
+        for own in np.split(order, np.flatnonzero(np.diff(chart_of_corner[order])) + 1) if len(order) else []:
+            chart = chart_of_corner[own[0]]
+            key = np.unique(uv[own] + 0.0, axis=0).tobytes()
+            leader_of[chart] = first_of.setdefault(key, chart)
+        return leader_of
+
+    def _stacks(self):
+        """Charts of each stack of several."""
+        order = np.argsort(self.leader_of, kind="stable")
+        groups = np.split(order, np.flatnonzero(np.diff(self.leader_of[order])) + 1)
+        return [group for group in groups if len(group) > 1]
+
+    def follow(self, corner_uv, is_held):
+        """Lays charts that shared all places before onto one of them. Changes ``corner_uv``, and returns the charts that
+        have to stay, because others lie there that are not selected."""
+        held = set(self.of_face[is_held].tolist())
+        own = set(self.of_face.tolist())
+        stays = set()
+        for stack in self._stacks():
+            members = [chart for chart in stack.tolist() if chart in own]
+            if len(members) < len(stack) or set(self.of_any[self._own_count :].tolist()) & set(stack.tolist()):
+                free = [chart for chart in members if chart not in held]
+                stays.update(free)
+                for chart in free:
+                    corner_uv[self.of_corner == chart] = self._uv[self.of_corner == chart]
+                continue
+            leader = next((chart for chart in members if chart in held), members[0])
+            for chart in members:
+                if chart != leader and chart not in held:
+                    self._copy(self._uv, corner_uv, leader, chart)
+        return sorted(stays)
+
+    def carry_along(self, before, corner_uv, moved):
+        """Lays charts that lie on moved ones onto their new places. Changes ``corner_uv``."""
+        for stack in self._stacks():
+            leaders = [chart for chart in stack.tolist() if chart in moved]
+            for chart in stack.tolist() if leaders else []:
+                if chart != leaders[0]:
+                    self._copy(before, corner_uv, leaders[0], chart)
+
+    def _copy(self, before, corner_uv, leader, chart):
+        """Gives a chart the new coordinates of another, where both had the same places."""
+        own, of_leader = self.of_corner == chart, self.of_corner == leader
+        places, at = np.unique(as_values(before[of_leader]), return_index=True)
+        number = np.searchsorted(places, as_values(before[own])).clip(max=len(places) - 1)
+        if (places[number] == as_values(before[own])).all():
+            corner_uv[own] = corner_uv[of_leader][at][number]
+
+    def colliding(self, before, after, corner_uv, is_held):
+        """Leaders of stacks that overlap others only now and may move. Of two the one that changed more moves."""
+
+        def pairs(found):
+            charts = self.leader_of[self.of_any[found.pairs]]
+            return set(map(tuple, np.unique(np.sort(charts, axis=1), axis=0).tolist()))
+
+        stay = set(self.leader_of[self.of_face[is_held]].tolist()) | set(
+            self.leader_of[self.of_any[self._own_count :]].tolist()
+        )
+        change = np.zeros(len(self.leader_of))
+        known = self.of_corner >= 0
+        np.maximum.at(
+            change,
+            self.leader_of[self.of_corner[known]],
+            np.linalg.norm(corner_uv - self._uv, axis=1)[known],
+        )
+        moved = set()
+        for pair in sorted(pairs(after) - pairs(before)):
+            movable = sorted((chart for chart in pair if chart not in stay), key=lambda chart: -change[chart])
+            if movable and not moved.intersection(pair):
+                moved.add(movable[0])
+        return moved
 
 
 def counted(charts):
@@ -306,12 +418,6 @@ def _pins(selection, is_pinned, uv=None):
     uv = selection.uv if uv is None else uv
     at = np.flatnonzero(is_pinned)
     return (at, uv[at], selection.weights[at]) if len(at) else None
-
-
-def refuse_bare(selection):
-    """Rejects corners without coordinates."""
-    if np.isnan(selection.uv).any():
-        raise freebound.InputError("corners have coordinates that are no numbers: unwrap the faces first")
 
 
 def _solved(task, words, job):
@@ -364,4 +470,7 @@ def _pack(task, selection, done, sheet, is_free, keeps_sizes=False):
     done.corner_uv = settled
     if settled[is_moved].max(initial=0) > 1:
         done.warn("The others leave no room: the charts lie beside the picture")
+    width, height = packed.report["packing"]["picture"]
+    if is_moved.any() and max(width, height) > max(sheet.pack_size):
+        done.warn(f"The margin needs a picture of {width} × {height}: it is smaller here")
     return packed
