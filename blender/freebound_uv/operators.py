@@ -285,12 +285,28 @@ def _with_charts(selection, faces):
     return np.flatnonzero(np.isin(charts, charts[faces]) & (charts >= 0))
 
 
+@bpy.app.handlers.persistent
+def forget_verdict(*_):
+    """Empties the panel: the meshes are those of another time or file."""
+    for manager in bpy.data.window_managers:
+        manager.freebound_verdict, manager.freebound_is_fine = "", False
+
+
+def _handlers():
+    handlers = bpy.app.handlers
+    return handlers.undo_post, handlers.redo_post, handlers.load_post
+
+
 def add_properties():
     bpy.types.WindowManager.freebound_verdict = StringProperty(name="Verdict", default="")
     bpy.types.WindowManager.freebound_is_fine = BoolProperty(name="Proved", default=False)
+    for handlers in _handlers():
+        handlers.append(forget_verdict)
 
 
 def remove_properties():
+    for handlers in _handlers():
+        handlers.remove(forget_verdict)
     del bpy.types.WindowManager.freebound_verdict
     del bpy.types.WindowManager.freebound_is_fine
 

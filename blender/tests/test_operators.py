@@ -1283,6 +1283,17 @@ def test_an_error_during_a_drag_leaves_nothing_behind():
     assert removed == ["timer"] and context.workspace.said[-1] is None
 
 
+def test_a_verdict_is_forgotten_if_its_run_is_undone():
+    item = flat_sheet()
+    edit(item)
+    bpy.context.preferences.edit.use_global_undo = True
+    bpy.ops.ed.undo_push(message="before")
+    assert bpy.ops.uv.freebound_relax() == {"FINISHED"} and verdict()[1]
+    bpy.ops.ed.undo_push(message="after")
+    bpy.ops.ed.undo()
+    assert verdict() == ("", False)
+
+
 def test_undo_is_left_to_blender_between_drags():
     item = flat_sheet()
     edit(item)
