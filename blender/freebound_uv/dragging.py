@@ -25,10 +25,7 @@ class Grab:
     share."""
 
     def __init__(self, selection, corner, aspect=1.0):
-        # Nothing is packed: all charts are locked.
-        chart_of = freebound.pack(
-            selection.vertices, selection.faces(), selection.uv, lock=np.ones(selection.face_count, dtype=bool)
-        ).chart
+        chart_of = freebound.charts(selection.vertices, selection.faces(), selection.uv)
         face_of = selection.face_of
         is_own = chart_of == chart_of[face_of[corner]]
         # A mirrored chart is dragged in the mirror.

@@ -279,9 +279,7 @@ def _with_charts(selection, faces):
     number_of = np.flatnonzero(usable)
     some = selection.without(~usable)
     charts = np.full(selection.face_count, -1)
-    charts[number_of] = freebound.pack(
-        selection.vertices, (some.corners, some.starts), some.uv, lock=np.ones(some.face_count, dtype=bool)
-    ).chart
+    charts[number_of] = freebound.charts(selection.vertices, (some.corners, some.starts), some.uv)
     return np.flatnonzero(np.isin(charts, charts[faces]) & (charts >= 0))
 
 

@@ -93,7 +93,7 @@ def unwrap(task, selection, sheet, options, marks_seams):
 def relax(task, selection, sheet, rounds):
     """Lowers the distortion of the charts. Each stays where it is, unless it would come to lie over another."""
     aspect = {"aspect": sheet.options["aspect"]} if "aspect" in sheet.options else {}
-    charts = Charts(task, selection)
+    charts = Charts(selection)
     held = selection.pinned | selection.is_attached | charts.is_shared
     # A mirrored chart is relaxed in the mirror.
     side = np.where(is_mirrored(selection, charts.of_face), -1.0, 1.0)[:, None] * (1, 0) + (0, 1)
@@ -295,16 +295,14 @@ def _lay_beside(selection, done, charts, moved, stay):
 class Charts:
     """Charts of the selected faces and of the others, and the stacks that they form."""
 
-    def __init__(self, task, selection):
+    def __init__(self, selection):
         others = selection.others
         count = selection.face_count
         corners, starts, uv = selection.corners, selection.starts, selection.uv
         if others is not None:
             corners, uv = np.concatenate([corners, others.corners]), np.concatenate([uv, others.uv])
             starts = np.concatenate([starts, starts[-1] + others.starts[1:]])
-        everything = np.ones(len(starts) - 1, dtype=bool)
-        pack = partial(task.call, "Finding charts", freebound.pack)
-        self.of_any = pack(selection.vertices, (corners, starts), uv, lock=everything).chart
+        self.of_any = freebound.charts(selection.vertices, (corners, starts), uv)
         """Chart of each selected face and each other; −1 for faces without a triangle."""
         self.of_face = self.of_any[:count]
         """Chart of each selected face."""

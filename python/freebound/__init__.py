@@ -8,7 +8,7 @@ True
 ['unwrapped.obj']
 """
 
-from ._check import check
+from ._check import charts, check
 from ._errors import Cancelled, Error, InputError, NotProved, OptionError
 from ._freebound import VERSION as __version__
 from ._freebound import Step
@@ -36,6 +36,7 @@ __all__ = [
     "Step",
     "Verdict",
     "__version__",
+    "charts",
     "check",
     "equations",
     "flatten",

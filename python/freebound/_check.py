@@ -6,7 +6,26 @@ import json
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from . import _arrays, _freebound
+
+
+def charts(vertices: Any, faces: Any = None, corner_uv: Any = None) -> np.ndarray:
+    """Chart of each face of given texture coordinates, shape (m,); −1 for faces without a triangle.
+
+    A chart is a set of faces that share edges with both of their coordinates. Charts are numbered in the order of their
+    first faces.
+
+    Args:
+        vertices: positions, shape (n, 3); or a :class:`Mesh`; or the path of a mesh file with texture coordinates.
+        faces: shape (m, 3) or (m, 4), or (indices, offsets).
+        corner_uv: texture coordinates of the corners, shape (c, 2), v up.
+
+    Raises:
+        InputError: the mesh has no complete texture coordinates.
+    """
+    return _freebound.charts(_arrays.mesh_with_uv(vertices, faces, corner_uv))
 
 
 def check(

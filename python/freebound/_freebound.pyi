@@ -160,6 +160,7 @@ class _Drag:
         self, vertex: int, target: Sequence[float], frames: int | None = None
     ) -> tuple[NDArray[np.float64], dict[str, Any]]: ...
 
+def charts(mesh: Mesh) -> NDArray[np.int64]: ...
 def check(
     mesh: Mesh,
     options: str,

@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 
 use super::job::{in_pool, interruptible};
 use super::mesh::Mesh;
-use super::options::{Lists, Options};
+use super::options::{Lists, Options, of_json};
 use super::{arrays, errors};
 
 /// Method that is run step by step on a disk.
@@ -28,7 +28,7 @@ pub(crate) struct Flattener {
 impl Flattener {
     #[new]
     fn new(py: Python<'_>, mesh: &Mesh, options: &str, lists: Lists<'_>) -> PyResult<Self> {
-        let options = Options::of_json(py, options)?;
+        let options: Options = of_json(py, options)?;
         let request = options.request(py, &lists)?;
         let threads = options.threads.map_or(0, usize::from);
         let model = mesh.model();

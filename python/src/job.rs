@@ -16,7 +16,7 @@ use pyo3::types::PyDict;
 use super::errors;
 use super::layout::Layout;
 use super::mesh::Mesh;
-use super::options::{Lists, Options};
+use super::options::{Lists, Options, of_json};
 
 /// Interval of checks for signals while the caller waits.
 const TICK: Duration = Duration::from_millis(50);
@@ -153,7 +153,7 @@ impl Job {
     /// Starts a run. `options` is a JSON object, `lists` a dictionary of arrays.
     #[new]
     fn new(py: Python<'_>, mesh: &Mesh, options: &str, lists: Lists<'_>) -> PyResult<Self> {
-        let options = Options::of_json(py, options)?;
+        let options: Options = of_json(py, options)?;
         let request = options.request(py, &lists)?;
         let (model, threads) = (mesh.model(), options.threads.map_or(0, usize::from));
         let shared = Arc::new(Shared::default());

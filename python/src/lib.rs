@@ -42,7 +42,7 @@ mod _freebound {
     #[pymodule_export]
     use super::options::check_options;
     #[pymodule_export]
-    use super::packed::{Packed, pack};
+    use super::packed::{Packed, charts, pack};
 
     /// Version of the package.
     #[pymodule_export]

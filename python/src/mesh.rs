@@ -19,6 +19,7 @@ use pyo3::prelude::*;
 use serde::Deserialize;
 
 use super::job::{in_pool, interruptible};
+use super::options::of_json;
 use super::{arrays, errors};
 
 /// Mesh with the other contents of its file, if it came from one.
@@ -242,7 +243,7 @@ pub(crate) fn check<'py>(
     options: &str,
     stop: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let options: CheckOptions = serde_json::from_str(options).map_err(|error| errors::option_error(py, error))?;
+    let options: CheckOptions = of_json(py, options)?;
     let judge = |control: Control<'_>| mesh.file.judged_layout(options.of_layout(), false, control);
     match interruptible(py, 0, stop, judge)? {
         Ok(judged) => errors::to_python(py, &judged.verdict),

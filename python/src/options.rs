@@ -18,6 +18,7 @@ use glam::DVec2;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 use super::errors;
 
@@ -135,15 +136,6 @@ fn parsed<T: FromStr<Err: Display>>(option: &str, text: Option<&String>) -> Resu
 }
 
 impl Options {
-    /// Options of a JSON object.
-    pub(crate) fn of_json(py: Python<'_>, text: &str) -> PyResult<Self> {
-        let mut json = serde_json::Deserializer::from_str(text);
-        serde_path_to_error::deserialize(&mut json).map_err(|error| {
-            let (path, why) = (error.path().to_string(), words(error.inner()));
-            errors::option_error(py, if path == "." { why } else { format!("{path}: {why}") })
-        })
-    }
-
     /// Request of these options.
     pub(crate) fn request(&self, py: Python<'_>, lists: &Lists<'_>) -> PyResult<RunRequest> {
         self.made(lists).map_err(|Wrong(why)| errors::option_error(py, why))
@@ -357,7 +349,16 @@ impl Options {
 /// Rejects wrong options before a mesh is read.
 #[pyfunction]
 pub(crate) fn check_options(py: Python<'_>, options: &str, lists: Lists<'_>) -> PyResult<()> {
-    Options::of_json(py, options)?.request(py, &lists).map(drop)
+    of_json::<Options>(py, options)?.request(py, &lists).map(drop)
+}
+
+/// Options of a JSON object.
+pub(crate) fn of_json<T: DeserializeOwned>(py: Python<'_>, text: &str) -> PyResult<T> {
+    let mut json = serde_json::Deserializer::from_str(text);
+    serde_path_to_error::deserialize(&mut json).map_err(|error| {
+        let (path, why) = (error.path().to_string(), words(error.inner()));
+        errors::option_error(py, if path == "." { why } else { format!("{path}: {why}") })
+    })
 }
 
 /// Message of a wrong JSON object without its position, which the caller did not write.

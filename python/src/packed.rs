@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 use super::job::{in_pool, interruptible};
 use super::layout::{kind_of, precision_of};
 use super::mesh::{self, Mesh};
-use super::options::Options;
+use super::options::{Options, of_json};
 use super::{arrays, errors};
 
 /// Layout with new places for its charts.
@@ -49,11 +49,11 @@ impl Packed {
     /// Chart of each face, −1 for faces without a triangle.
     #[getter]
     fn chart<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        let mut chart_of = vec![u32::MAX; self.model.source.polygons.face_count()];
+        let mut chart_of = vec![None; self.model.source.polygons.face_count()];
         for (face, chart) in self.repacked.chart_of_triangles() {
-            chart_of[face as usize] = u32::try_from(chart).unwrap_or(u32::MAX);
+            chart_of[face as usize] = Some(chart);
         }
-        arrays::list(py, chart_of.into_iter().map(arrays::number).collect())
+        of_charts(py, chart_of)
     }
 
     #[getter]
@@ -83,6 +83,34 @@ impl Packed {
     }
 }
 
+/// Chart of each face of a given layout, −1 for faces without a triangle.
+#[pyfunction]
+pub(crate) fn charts<'py>(py: Python<'py>, mesh: &Mesh) -> PyResult<Bound<'py, PyArray1<i64>>> {
+    let model = mesh.model();
+    let found = py.detach(|| model.source.layout_charts());
+    found.map(|charts| of_charts(py, charts)).map_err(|error| of_layout(py, &error))
+}
+
+/// Numbers of charts, −1 for none.
+fn of_charts(py: Python<'_>, charts: Vec<Option<usize>>) -> Bound<'_, PyArray1<i64>> {
+    let number = |chart: Option<usize>| chart.and_then(|chart| i64::try_from(chart).ok()).unwrap_or(-1);
+    arrays::list(py, charts.into_iter().map(number).collect())
+}
+
+/// Error of a layout that cannot be packed.
+fn of_layout(py: Python<'_>, error: &LayoutToPackError) -> PyErr {
+    match error {
+        LayoutToPackError::Texture(error) => errors::input_error(py, error, &FaultReport::of_texture(error)),
+        LayoutToPackError::Repack(RepackError::Cancelled) => errors::cancelled(py),
+        LayoutToPackError::Repack(RepackError::NoSuchFace { face, .. }) => no_face(py, face.number().into()),
+        _ => errors::input_error(py, error, &[]),
+    }
+}
+
+fn no_face(py: Python<'_>, face: i64) -> PyErr {
+    errors::option_error(py, format!("lock: there is no face {face}"))
+}
+
 /// Rules for the charts of a given layout.
 #[derive(FromPyObject)]
 pub(crate) struct ChartRules<'py> {
@@ -106,7 +134,7 @@ pub(crate) fn pack(
     rules: ChartRules<'_>,
     stop: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Packed> {
-    let options = Options::of_json(py, options)?;
+    let options: Options = of_json(py, options)?;
     let (packing, precision) = options.packing_and_precision(py)?;
     let threads = options.threads.map_or(0, usize::from);
     let [width, height] = packing.picture.map(f64::from);
@@ -114,12 +142,11 @@ pub(crate) fn pack(
     if aspect.is_some_and(|aspect| !(aspect.is_normal() && aspect > 0.0)) {
         return Err(errors::option_error(py, "aspect: pass width over height, above 0"));
     }
-    let no_face = |face: i64| errors::option_error(py, format!("lock: there is no face {face}"));
     let locked = match &locked {
         Some(faces) => faces.as_slice()?,
         None => &[],
     };
-    let faces = locked.iter().map(|&face| u32::try_from(face).map(FaceId::new).map_err(|_| no_face(face)));
+    let faces = locked.iter().map(|&face| u32::try_from(face).map(FaceId::new).map_err(|_| no_face(py, face)));
     let faces = faces.collect::<PyResult<BTreeSet<FaceId>>>()?;
     let sizes = if keeps_sizes { ChartSizes::AsGiven } else { ChartSizes::EqualDensity };
     let options = RepackOptions { packing, sizes, locked: LockedCharts::WithFaces(faces) };
@@ -134,11 +161,6 @@ pub(crate) fn pack(
     };
     match interruptible(py, threads, stop, work)? {
         Ok((repacked, report)) => Ok(Packed { model, repacked, report }),
-        Err(LayoutToPackError::Texture(error)) => {
-            Err(errors::input_error(py, &error, &FaultReport::of_texture(&error)))
-        }
-        Err(LayoutToPackError::Repack(RepackError::Cancelled)) => Err(errors::cancelled(py)),
-        Err(LayoutToPackError::Repack(RepackError::NoSuchFace { face, .. })) => Err(no_face(face.number().into())),
-        Err(error) => Err(errors::input_error(py, error, &[])),
+        Err(error) => Err(of_layout(py, &error)),
     }
 }

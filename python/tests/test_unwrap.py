@@ -161,6 +161,7 @@ def test_charts_of_a_given_layout_are_packed_and_keep_their_shapes(tmp_path):
     vertices, faces, uv = scattered()
     assert not freebound.check(vertices, faces, uv)["planar"]
     packed = freebound.pack(vertices, faces, uv, pack=freebound.Pack(size=256, gap=4))
+    assert freebound.charts(vertices, faces, uv).tolist() == list(range(6))
     assert packed.planar and packed.chart.tolist() == list(range(6)) and packed.report["packing"]["gap"] == 4
     # The check of a layout is another algorithm than its proof.
     assert freebound.check(vertices, faces, packed.corner_uv, gap=3.9, size=256)["passes"]
@@ -241,6 +242,11 @@ def test_a_check_lists_as_many_faces_as_are_asked_for():
         found = freebound.check(vertices, faces, uv, listed=listed)["findings"]
         degenerate = next(finding for finding in found if finding["code"] == "degenerate")
         assert (degenerate["count"], len(degenerate["faces"])) == (len(faces), count)
+    assert (freebound.charts(vertices, faces, vertices[faces].reshape(-1, 3)[:, :2]) == 0).all()
+    with pytest.raises(freebound.OptionError, match="corner_uv"):
+        freebound.charts(vertices, faces)
+    with pytest.raises(freebound.OptionError, match="^listed: .*-1"):
+        freebound.check(vertices, faces, uv, listed=-1)
 
 
 def test_wrong_options_of_packing_are_refused():

@@ -16,7 +16,9 @@ use super::{
 };
 use freebound_core::geom::{Orientation, orientation};
 use freebound_core::mesh::{EdgeTable, FaceId};
-use freebound_core::pipeline::{GivenLayout, NO_COORDINATE, RepackError, RepackOptions, Repacked, repack_with};
+use freebound_core::pipeline::{
+    GivenLayout, NO_COORDINATE, RepackError, RepackOptions, Repacked, charts_of_layout, repack_with,
+};
 use freebound_core::problem::Control;
 
 /// Layout of a file with new places for its charts.
@@ -55,6 +57,24 @@ pub struct LayoutPacking {
     pub aspect: f64,
 }
 
+impl MeshFile {
+    /// Chart of each face in the layout of the file, in the order of their first faces. `None` for faces without a
+    /// triangle.
+    ///
+    /// # Errors
+    ///
+    /// [`LayoutToPackError`] if faces have no usable texture coordinates.
+    pub fn layout_charts(&self) -> Result<Vec<Option<usize>>, LayoutToPackError> {
+        Ok(charts_of_layout(self.given_layout(1.0)?)?)
+    }
+
+    /// Layout of the file for a picture of this aspect.
+    fn given_layout(&self, aspect: f64) -> Result<GivenLayout<'_>, TextureError> {
+        let texture = self.complete_texture()?;
+        Ok(GivenLayout { mesh: &self.polygons, coordinates: &texture.coordinates, corners: &texture.corners, aspect })
+    }
+}
+
 impl<'a> RepackedFile<'a> {
     /// Packs the charts of a file. `name` is the name of the mesh in the report.
     ///
@@ -69,10 +89,7 @@ impl<'a> RepackedFile<'a> {
         control: Control<'_>,
     ) -> Result<Self, LayoutToPackError> {
         let start = Instant::now();
-        let texture = source.complete_texture()?;
-        let (mesh, coordinates, corners) = (&source.polygons, &texture.coordinates[..], &texture.corners[..]);
-        let layout = GivenLayout { mesh, coordinates, corners, aspect: packing.aspect };
-        let repacked = repack_with(layout, &packing.options, control)?;
+        let repacked = repack_with(source.given_layout(packing.aspect)?, &packing.options, control)?;
         let edges = EdgeTable::new(repacked.mesh.vertex_count(), &repacked.mesh.triangles);
         let boundary_vertices = edges.edges().filter(|sides| sides.len() == 1).count();
         let (vertices, faces) = (source.polygons.positions.len(), repacked.mesh.face_count());

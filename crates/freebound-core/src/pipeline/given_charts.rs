@@ -43,27 +43,43 @@ struct TextureVertices {
     count: usize,
 }
 
+/// Triangles of a layout.
+struct TextureTriangles {
+    vertices: TextureVertices,
+    /// Places of the corners in the list of all corners.
+    places: Vec<[u32; 3]>,
+    /// Polygon of each triangle, if there are others than triangles.
+    polygon_of: Option<Vec<u32>>,
+}
+
+/// Chart of each face of a layout, in the order of their first faces. `None` for faces without a triangle.
+///
+/// # Errors
+///
+/// [`RepackError`] if the mesh has no triangle, or faces have no usable texture coordinates.
+///
+/// # Panics
+///
+/// If `corners` has another length than the corners of the mesh, or an index is out of range.
+pub fn charts_of_layout(layout: GivenLayout<'_>) -> Result<Vec<Option<usize>>, RepackError> {
+    Ok(TextureTriangles::of(layout)?.charts(layout.mesh.face_count()))
+}
+
 impl GivenCharts {
     pub(super) fn of(layout: GivenLayout<'_>) -> Result<Self, RepackError> {
         let mesh = layout.mesh;
-        refuse_unusable(layout)?;
-        let vertices = TextureVertices::of(layout);
-        let (places, polygon_of) = mesh.triangle_places();
-        if places.is_empty() {
-            return Err(RepackError::NoFaces);
-        }
-        let polygon = |face: usize| polygon_of.as_ref().map_or(face, |of| of[face] as usize);
-        let chart_of = charts_of_polygons(&vertices, &places, polygon, mesh.face_count());
+        let triangles = TextureTriangles::of(layout)?;
+        let chart_of = triangles.charts(mesh.face_count());
         let count = chart_of.iter().flatten().max().map_or(0, |last| last + 1);
         let mut drafts: Vec<Draft> = (0..count).map(|_| Draft::default()).collect();
         let mut own = vec![NO_COORDINATE; mesh.corners.len()];
         for (face, chart) in chart_of.iter().enumerate().filter_map(|(face, chart)| Some((face, (*chart)?))) {
             for place in mesh.corner_range(face) {
-                own[place] = drafts[chart].vertex(layout, vertices.of_corner[place], place);
+                own[place] = drafts[chart].vertex(layout, triangles.vertices.of_corner[place], place);
             }
         }
-        for (face, triangle) in places.iter().enumerate() {
-            let number = polygon(face);
+        for (face, triangle) in triangles.places.iter().enumerate() {
+            let number = triangles.polygon(face);
             let corners = triangle.map(|place| VertexId::new(own[place as usize]));
             drafts[chart_of[number].expect("a face with a triangle has a chart")].push(number, corners);
         }
@@ -146,28 +162,39 @@ impl TextureVertices {
     }
 }
 
-/// Chart of each polygon, in the order of first faces. `None` for polygons without a triangle.
-fn charts_of_polygons(
-    vertices: &TextureVertices,
-    places: &[[u32; 3]],
-    polygon: impl Fn(usize) -> usize,
-    polygon_count: usize,
-) -> Vec<Option<usize>> {
-    let triangles: Vec<[VertexId; 3]> =
-        places.iter().map(|triangle| triangle.map(|place| vertices.of_corner[place as usize])).collect();
-    let number = |face: usize| u32::try_from(polygon(face)).expect("no more faces than corners");
-    let mut sets = DisjointSets::new(polygon_count);
-    for sides in EdgeTable::new(vertices.count, &triangles).edges() {
-        sides.windows(2).for_each(|pair| {
-            sets.join(number(pair[0] as usize / 3), number(pair[1] as usize / 3));
-        });
+impl TextureTriangles {
+    fn of(layout: GivenLayout<'_>) -> Result<Self, RepackError> {
+        refuse_unusable(layout)?;
+        let (places, polygon_of) = layout.mesh.triangle_places();
+        if places.is_empty() {
+            return Err(RepackError::NoFaces);
+        }
+        Ok(Self { vertices: TextureVertices::of(layout), places, polygon_of })
     }
-    let (mut chart_of, mut chart_of_root) = (vec![None; polygon_count], HashMap::new());
-    for face in 0..triangles.len() {
-        let next = chart_of_root.len();
-        chart_of[polygon(face)] = Some(*chart_of_root.entry(sets.find(number(face))).or_insert(next));
+
+    /// Polygon of a triangle.
+    fn polygon(&self, face: usize) -> usize {
+        self.polygon_of.as_ref().map_or(face, |of| of[face] as usize)
     }
-    chart_of
+
+    /// Chart of each polygon, in the order of first faces. `None` for polygons without a triangle.
+    fn charts(&self, polygon_count: usize) -> Vec<Option<usize>> {
+        let vertex = |place: u32| self.vertices.of_corner[place as usize];
+        let triangles: Vec<[VertexId; 3]> = self.places.iter().map(|triangle| triangle.map(vertex)).collect();
+        let number = |face: usize| u32::try_from(self.polygon(face)).expect("no more faces than corners");
+        let mut sets = DisjointSets::new(polygon_count);
+        for sides in EdgeTable::new(self.vertices.count, &triangles).edges() {
+            sides.windows(2).for_each(|pair| {
+                sets.join(number(pair[0] as usize / 3), number(pair[1] as usize / 3));
+            });
+        }
+        let (mut chart_of, mut chart_of_root) = (vec![None; polygon_count], HashMap::new());
+        for face in 0..triangles.len() {
+            let next = chart_of_root.len();
+            chart_of[self.polygon(face)] = Some(*chart_of_root.entry(sets.find(number(face))).or_insert(next));
+        }
+        chart_of
+    }
 }
 
 impl GivenChart {

@@ -40,6 +40,7 @@ mod unwrap;
 
 pub use atlas::{Arrangement, Atlas, ChartSummary, SolvedChart, atlas};
 pub use automatic_seams::{AutomaticSeams, MeshToCut, SeamProgress, SeamReport};
+pub use given_charts::charts_of_layout;
 pub use laid_chart::{JoinedCharts, LaidChart, joined, prove_atlas, restack};
 pub use options::PipelineOptions;
 pub use outcome::{Outcome, pins_summary, upright};
