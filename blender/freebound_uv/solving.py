@@ -124,7 +124,7 @@ def relax(task, selection, sheet, rounds):
         of_corner = spoiled[selection.face_of]
         done.corner_uv[of_corner] = selection.uv[of_corner]
         after = _overlaps(selection, done.corner_uv, check)
-    done.text = f"{counted(len(np.setdiff1d(charts.of_face[~spoiled], stays)))} relaxed"
+    done.text = f"{counted(len(np.setdiff1d(charts.of_face[~spoiled], [-1, *stays])))} relaxed"
     moved = charts.colliding(before, after, done.corner_uv, selection.of_faces(held) | np.isin(charts.of_face, stays))
     planar = after.planar
     if moved:
@@ -162,7 +162,7 @@ def pack(task, selection, sheet, keeps_sizes):
     packed = _pack(task, selection, done, sheet, ~is_held, keeps_sizes)
     charts = packed.chart[: selection.face_count]
     held = np.unique(charts[is_held])
-    done.text = f"{counted(len(np.setdiff1d(charts, held)))} packed"
+    done.text = f"{counted(len(np.setdiff1d(charts, [-1, *held])))} packed"
     if len(held):
         done.text += f", {len(held)} stayed"
     _tell_overlaps(task, selection, done, packed.planar)
@@ -348,12 +348,12 @@ class Charts:
     def follow(self, corner_uv, is_held):
         """Lays charts that shared all places before onto one of them. Changes ``corner_uv``, and returns the charts that
         have to stay, because others lie there that are not selected."""
-        held = set(self.of_face[is_held].tolist())
-        own = set(self.of_face.tolist())
+        held, own = set(self.of_face[is_held].tolist()), set(self.of_face.tolist())
+        others = set(self.of_any[self._own_count :].tolist())
         stays = set()
         for stack in self._stacks():
             members = [chart for chart in stack.tolist() if chart in own]
-            if len(members) < len(stack) or set(self.of_any[self._own_count :].tolist()) & set(stack.tolist()):
+            if others.intersection(stack.tolist()):
                 free = [chart for chart in members if chart not in held]
                 stays.update(free)
                 for chart in free:
@@ -388,9 +388,8 @@ class Charts:
             charts = self.leader_of[self.of_any[found.pairs]]
             return set(map(tuple, np.unique(np.sort(charts, axis=1), axis=0).tolist()))
 
-        stay = set(self.leader_of[self.of_face[is_held]].tolist()) | set(
-            self.leader_of[self.of_any[self._own_count :]].tolist()
-        )
+        staying = np.concatenate([self.of_face[is_held], self.of_any[self._own_count :]])
+        stay = set(self.leader_of[staying[staying >= 0]].tolist())
         change = np.zeros(len(self.leader_of))
         known = self.of_corner >= 0
         np.maximum.at(
@@ -467,7 +466,7 @@ def _pack(task, selection, done, sheet, is_free, keeps_sizes=False):
     is_moved = (settled != done.corner_uv).any(axis=1) & of_corner
     done.corner_uv = settled
     if settled[is_moved].max(initial=0) > 1:
-        done.warn("The others leave no room: the charts lie beside the picture")
+        done.warn("There is no room: charts lie beside the picture")
     width, height = packed.report["packing"]["picture"]
     if is_moved.any() and max(width, height) > max(sheet.pack_size):
         done.warn(f"The margin needs a picture of {width} × {height}: it is smaller here")
