@@ -67,6 +67,15 @@ def test_an_error_of_the_progress_function_stops_the_run():
         freebound.unwrap(*large(), distortion=4.01, progress=fail)
 
 
+@pytest.fixture
+def ctrl_c():
+    """Makes SIGINT an exception. A shell ignores it in processes that it starts in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("ctrl_c")
 def test_ctrl_c_stops_a_run():
     timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
@@ -75,6 +84,7 @@ def test_ctrl_c_stops_a_run():
     timer.join()
 
 
+@pytest.mark.usefixtures("ctrl_c")
 def test_ctrl_c_stops_a_step():
     timer = threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT))
     vertices, faces, _ = grid(500, 400)
