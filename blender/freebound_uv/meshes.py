@@ -24,8 +24,6 @@ class Part:
     object: object
     map_name: str
     """UV map, or an empty text if there is none yet."""
-    digest: bytes
-    """Digest of the mesh and its UV map."""
     faces: np.ndarray
     """Numbers of the faces in the mesh of the object."""
     loops: np.ndarray
@@ -36,6 +34,8 @@ class Part:
     """Vertices of all edges of the mesh."""
     first_vertex: int
     """Number of the first vertex in the joined mesh."""
+    digest: bytes = b""
+    """Digest of the mesh and its UV map, for faces that are written."""
 
 
 @dataclass
@@ -101,6 +101,18 @@ class Selection(Faces):
     def faces(self):
         """Faces for the package."""
         return self.corners, self.starts
+
+
+def corner_after(starts):
+    """Next corner around its face, for each corner."""
+    after = np.arange(starts[-1]) + 1
+    after[starts[1:] - 1] = starts[:-1]
+    return after
+
+
+def boxes_of(uv, starts):
+    """Least and largest coordinates of each face."""
+    return np.minimum.reduceat(uv, starts[:-1]), np.maximum.reduceat(uv, starts[:-1])
 
 
 def as_values(rows):
@@ -177,7 +189,8 @@ def gather(context, group="", needs_uv=False, is_around=False):
         return chosen & _uv_selected(mesh) if uses_uv_selection else chosen
 
     missing = "select faces in the UV editor first" if uses_uv_selection else "select faces of a mesh first"
-    return _gathered(context, objects, chosen, (group, needs_uv, needs_uv, is_around), missing)
+    options = {"group": group, "needs_uv": needs_uv, "needs_place": needs_uv, "is_around": is_around}
+    return _gathered(context, chosen, missing, **options)
 
 
 def gather_shown(context):
@@ -188,22 +201,17 @@ def gather_shown(context):
         visible = ~_numbers(mesh.polygons, "hide", bool)
         return visible if shows_all else visible & _numbers(mesh.polygons, "select", bool)
 
-    return _gathered(context, objects_of(context), chosen, ("", True, True, True), "the UV editor shows no faces")
+    return _gathered(context, chosen, "the UV editor shows no faces", needs_place=True, is_around=True)
 
 
 def gather_all(context):
     """All faces that have a UV map."""
-    return _gathered(
-        context,
-        objects_of(context),
-        lambda mesh: np.ones(len(mesh.polygons), dtype=bool),
-        ("", True, False, False),
-        "edit a mesh first",
-    )
+    return _gathered(context, lambda mesh: np.ones(len(mesh.polygons), dtype=bool), "edit a mesh first")
 
 
-def _gathered(context, objects, chosen, options, missing):
-    group, needs_uv, needs_place, is_around = options
+def _gathered(context, chosen, missing, *, group="", needs_uv=True, needs_place=False, is_around=False):
+    """Faces of each mesh that ``chosen`` finds, and all others. ``missing`` tells what to do if it finds none."""
+    objects = objects_of(context)
     with object_mode(context):
         positions, firsts, count = [], {}, 0
         for item in objects:
@@ -220,6 +228,7 @@ def _gathered(context, objects, chosen, options, missing):
             raise Nothing("the selected faces have no place in a UV map: unwrap them first" if has_faces else missing)
         vertices = np.concatenate(positions)
         for part in own.parts:
+            part.digest = _digest(part.object.data, part.object.data.uv_layers.active)
             _refuse_collapsed(part, vertices)
         others = _joined(firsts, {item: ~mask for item, mask in placed_of.items()}, True)
         unmapped = sum(int((~placed_of[item]).sum()) for item in objects if item.data.uv_layers.active is None)
@@ -235,7 +244,7 @@ def _gathered(context, objects, chosen, options, missing):
         new_count=unmapped,
     )
     if others is not None:
-        has_no_place = _is_new(others) | _has_no_place(others)
+        has_no_place = _is_new(others) | _lies_nowhere(others.uv, others.starts)
         selection.new_count += int(has_no_place.sum())
         selection.others = others.without(has_no_place)
         if not selection.others.face_count:
@@ -255,9 +264,8 @@ def _refuse_collapsed(part, vertices):
 
     def areas(positions):
         corners = positions[part.loop_vertices]
-        after = np.arange(len(corners)) + 1
-        after[starts[1:] - 1] = starts[:-1]
-        return np.linalg.norm(np.add.reduceat(np.cross(corners, corners[after]), starts[:-1]), axis=1)
+        crossed = np.cross(corners, corners[corner_after(starts)])
+        return np.linalg.norm(np.add.reduceat(crossed, starts[:-1]), axis=1)
 
     in_world = vertices[part.first_vertex : part.first_vertex + len(local)]
     if ((areas(local) > 0) & (areas(in_world - in_world.mean(axis=0)) <= 1e-12 * areas(local))).any():
@@ -288,7 +296,7 @@ def _joined(firsts, chosen_of, needs_uv):
         vertices = _numbers(mesh.loops, "vertex_index", np.int32)[loops].astype(np.int64)
         edges = _numbers(mesh.edges, "vertices", np.int32, 2).astype(np.int64)
         name = layer.name if layer else ""
-        parts.append(Part(item, name, _digest(mesh, layer), faces, loops, vertices, edges, first))
+        parts.append(Part(item, name, faces, loops, vertices, edges, first))
         corners.append(vertices + first)
         sizes.append(totals)
         if layer is None:
@@ -321,13 +329,9 @@ def _seams(part):
     return part.edges[marked] + part.first_vertex
 
 
-def _has_no_place(faces):
-    return _lies_nowhere(faces.uv, faces.starts)
-
-
 def _lies_nowhere(uv, starts):
     """True for each face whose corners lie at one point, or have coordinates that are not finite."""
-    low, high = np.minimum.reduceat(uv, starts[:-1]), np.maximum.reduceat(uv, starts[:-1])
+    low, high = boxes_of(uv, starts)
     return ~(np.isfinite(low) & np.isfinite(high)).all(axis=1) | (low == high).all(axis=1)
 
 

@@ -8,7 +8,7 @@ from functools import partial
 import freebound
 import numpy as np
 
-from .meshes import as_values
+from .meshes import as_values, boxes_of, corner_after
 
 #: Longer side of the picture for which charts are packed if the editor shows none, pixels.
 _SIDE = 1024
@@ -219,8 +219,7 @@ def _overlaps(selection, corner_uv, check=freebound.check):
 
 def with_stacked(uv, starts, faces):
     """Some faces, and all that have the same box. Of stacked faces a check lists the upper ones alone."""
-    low, high = np.minimum.reduceat(uv, starts[:-1]), np.maximum.reduceat(uv, starts[:-1])
-    boxes = as_values(np.column_stack([low, high]))
+    boxes = as_values(np.column_stack(boxes_of(uv, starts)))
     return np.flatnonzero(np.isin(boxes, boxes[faces]))
 
 
@@ -266,20 +265,17 @@ def told_of_chart(selection, corner_uv, corners):
 
 def is_mirrored(selection, chart_of):
     """True for each corner of a chart that is turned over."""
-    area = np.zeros(selection.face_count)
-    before = np.arange(len(selection.uv)) - 1
-    before[selection.starts[:-1]] = selection.starts[1:] - 1
-    cross = selection.uv[before, 0] * selection.uv[:, 1] - selection.uv[before, 1] * selection.uv[:, 0]
-    np.add.at(area, selection.face_of, cross)
+    uv, after = selection.uv, corner_after(selection.starts)
+    cross = uv[:, 0] * uv[after, 1] - uv[:, 1] * uv[after, 0]
+    area = np.add.reduceat(cross, selection.starts[:-1])
     of_chart = np.bincount(chart_of + 1, weights=area)
     return (of_chart[chart_of + 1] < 0)[selection.face_of]
 
 
 def _side_lengths(selection, uv, chosen):
     """Sum of the lengths of all sides of some faces."""
-    after = np.arange(len(uv)) + 1
-    after[selection.starts[1:] - 1] = selection.starts[:-1]
-    return np.linalg.norm(uv[after] - uv, axis=1)[chosen[selection.face_of]].sum()
+    sides = uv[corner_after(selection.starts)] - uv
+    return np.linalg.norm(sides, axis=1)[chosen[selection.face_of]].sum()
 
 
 def _lay_beside(selection, done, charts, moved, stay):

@@ -237,7 +237,7 @@ impl<'a, 'b> PackingPlan<'a, 'b> {
 
     /// Density of the charts that stay on a picture: pixels per unit of length on the surface. `None` if no chart stays.
     fn density_of_fixed(&self, laid: &[Option<Embedding>], on_picture: DVec2) -> Option<f64> {
-        density_of(self.staying(laid, on_picture).iter().map(|chart| [chart.pixels, chart.area]))
+        density_of(&self.staying(laid, on_picture))
     }
 
     /// Texture coordinates of packed chart `k`.

@@ -84,7 +84,7 @@ impl PackedPieces {
         if !packing.places.is_empty() {
             return summary;
         }
-        let density = density_of(staying.iter().map(|chart| [chart.pixels, chart.area])).unwrap_or(0.0);
+        let density = density_of(staying).unwrap_or(0.0);
         PackingSummary { density, wanted_density: None, ..summary }
     }
 }
@@ -152,10 +152,9 @@ pub(super) fn udim_tile(coordinates: &Embedding) -> Option<u32> {
     is_numbered.then(|| FIRST_UDIM_TILE + column as u32 + 10 * row as u32)
 }
 
-/// Density of charts: pixels per unit of length on the surface. `areas` has the area of each chart in pixels and on the
-/// surface. `None` if there is no chart with area.
-pub(super) fn density_of(areas: impl Iterator<Item = [f64; 2]>) -> Option<f64> {
-    let [pixels, area] = areas.fold([0.0; 2], |sum, [pixels, area]| [sum[0] + pixels, sum[1] + area]);
+/// Density of charts: pixels per unit of length on the surface. `None` if there is no chart with area.
+pub(super) fn density_of(charts: &[StayingChart<'_>]) -> Option<f64> {
+    let [pixels, area] = charts.iter().fold([0.0; 2], |sum, chart| [sum[0] + chart.pixels, sum[1] + chart.area]);
     Some((pixels / area).sqrt()).filter(|density| density.is_finite() && *density > 0.0)
 }
 

@@ -270,7 +270,7 @@ impl RepackPlan<'_> {
 
     /// Density of the charts that stay, at which the others match them. With given sizes all charts then keep their sizes.
     fn density_of_locked(&self, picture: DVec2, sizes: ChartSizes) -> Option<f64> {
-        density_of(self.staying(picture, sizes).iter().map(|chart| [chart.pixels, chart.area]))
+        density_of(&self.staying(picture, sizes))
     }
 
     /// Charts that stay on a picture.
