@@ -394,6 +394,8 @@ pub struct SolvedModel<'a> {
     pub tile: Option<u32>,
     /// Texture coordinates where the chart stays, v up. Default: the chart is packed.
     pub locked: Option<&'a Embedding>,
+    /// Number of the chart whose place this chart shares. Default: a place of its own.
+    pub stacked_on: Option<usize>,
     /// True if all files that are written keep the materials of the source. Charts of different materials may then
     /// overlap, because each material has a picture of its own.
     pub keeps_materials: bool,
@@ -408,12 +410,13 @@ pub fn finished_atlas<'a>(charts: &[SolvedModel<'a>], options: PackingOptions, a
     // Charts that are packed do not overlap, whatever their materials.
     let may_overlap = arrangement == Arrangement::AsGiven && charts.iter().all(|chart| chart.keeps_materials);
     let materials = may_overlap.then(|| charts[0].model.source.material_labels().ok()).flatten();
-    let solved = |&SolvedModel { model, outcome, size, tile, locked, .. }: &SolvedModel<'a>| SolvedChart {
+    let solved = |&SolvedModel { model, outcome, size, tile, locked, stacked_on, .. }: &SolvedModel<'a>| SolvedChart {
         chart: &model.prepared,
         outcome,
         size,
         tile,
         locked,
+        stacked_on,
         group: materials.as_deref().and_then(|materials| common_label(model.mesh(), materials)),
     };
     let solved: Vec<SolvedChart<'a>> = charts.iter().map(solved).collect();

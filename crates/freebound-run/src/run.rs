@@ -194,6 +194,7 @@ impl ChartRun {
             size: of.map_or(1.0, |of| run.options.size_of(&of.charts, of.number)),
             tile: of.and_then(|of| run.options.tile_of(&of.charts, of.number)),
             locked: self.locked.as_ref(),
+            stacked_on: None,
             keeps_materials: run.keeps_materials,
         }
     }

@@ -60,6 +60,10 @@ pub struct SolvedChart<'a> {
     /// Texture coordinates of each vertex of the chart's mesh, v up. The chart stays there, up to the nearest
     /// similarity, and the others are packed around it. Pins have precedence. Default: the chart is packed.
     pub locked: Option<&'a Embedding>,
+    /// Number of the chart whose place this chart shares, whatever [`PackingOptions::stack`] is. Both surfaces have to
+    /// be congruent or mirror images, their maps planar and without new vertices. Pins have precedence. Default: a
+    /// place of its own.
+    pub stacked_on: Option<usize>,
     /// Group of the chart, such as its material, which has a picture of its own. Charts that stay at the layout of
     /// their file may overlap charts of other groups there. Default: none.
     pub group: Option<u32>,
@@ -122,7 +126,8 @@ pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions, arrangemen
     let is_placed = |chart: &SolvedChart<'_>| {
         chart.is_held() || chart.is_locked() || (chart.outcome.step.lies_as_given && chart.has_usual_size())
     };
-    let is_as_given = arrangement == Arrangement::AsGiven && options.stack == Stacking::None;
+    let is_stacked = options.stack != Stacking::None || charts.iter().any(|chart| chart.stacked_on.is_some());
+    let is_as_given = arrangement == Arrangement::AsGiven && !is_stacked;
     if is_as_given && charts.iter().all(is_placed) {
         let laid = charts.par_iter().map(|chart| chart.kept(options).unwrap_or_else(|| chart.in_place())).collect();
         let in_place = output(charts, laid, vec![None; charts.len()], None, options);
@@ -136,6 +141,9 @@ pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions, arrangemen
 fn packed<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Atlas<'a> {
     let mut laid = kept(charts, options);
     let stacked = stacked_charts(charts, options.stack);
+    for (laid, _) in laid.iter_mut().zip(&stacked).filter(|(_, stacked)| stacked.is_some()) {
+        *laid = None;
+    }
     let plan = PackingPlan::new(charts, &laid, &stacked, options);
     let packing = plan.pack(&laid, options);
     let summary = plan.summary(&packing, &laid, options);
@@ -178,10 +186,17 @@ fn kept(charts: &[SolvedChart<'_>], options: PackingOptions) -> Vec<Option<Embed
 }
 
 fn stacked_charts(charts: &[SolvedChart<'_>], stacking: Stacking) -> Vec<Option<StackedChart>> {
+    let by_choice: Vec<Option<StackedChart>> = charts.par_iter().map(|chart| chart.stacked_by_choice(charts)).collect();
     if stacking == Stacking::None {
-        return vec![None; charts.len()];
+        return by_choice;
     }
-    stacks(&charts.par_iter().map(SolvedChart::stackable).collect::<Vec<_>>(), stacking)
+    let chosen: BTreeSet<usize> = by_choice.iter().flatten().map(|stacked| stacked.on.chart).collect();
+    let stackable = |(number, chart): (usize, &SolvedChart<'_>)| {
+        let is_free = by_choice[number].is_none() && !chosen.contains(&number);
+        chart.stackable().filter(|_| is_free)
+    };
+    let by_shape = stacks(&charts.par_iter().enumerate().map(stackable).collect::<Vec<_>>(), stacking);
+    by_choice.into_iter().zip(by_shape).map(|(by_choice, by_shape)| by_choice.or(by_shape)).collect()
 }
 
 /// Charts that are packed, and those that stay where they are.
@@ -337,7 +352,7 @@ pub(super) fn triangles_of(triangles: &[[VertexId; 3]], at: impl Fn(&VertexId) -
 impl<'a> SolvedChart<'a> {
     /// Chart of default size that is packed into any tile.
     pub fn new(chart: &'a PreparedMesh, outcome: &'a Outcome) -> Self {
-        Self { chart, outcome, size: 1.0, tile: None, locked: None, group: None }
+        Self { chart, outcome, size: 1.0, tile: None, locked: None, stacked_on: None, group: None }
     }
 
     /// Chart with final coordinates and their verdict.
@@ -353,16 +368,32 @@ impl<'a> SolvedChart<'a> {
     /// Surface of the chart, if the chart may share its place: it is not locked, and has no pins, a planar map and no
     /// new vertices.
     fn stackable(&self) -> Option<Stackable> {
+        if self.is_held() || self.is_locked() {
+            return None;
+        }
+        Some(Stackable { surface: self.measured_surface()?, size: self.size(), tile: self.tile })
+    }
+
+    /// Place on the chart that the user chose, if there is one and it fits. A chart that is stacked itself carries no
+    /// other.
+    fn stacked_by_choice(&self, charts: &[Self]) -> Option<StackedChart> {
+        let chart = self.stacked_on.filter(|_| !self.is_held())?;
+        let on = charts.get(chart).filter(|on| on.stacked_on.is_none())?;
+        let found = self.measured_surface()?.congruence(&on.measured_surface()?, true)?;
+        Some(StackedChart { on: StackedOn { chart, mirrored: found.mirrored }, vertex_of: found.vertex_of })
+    }
+
+    /// Surface of the chart, if its map is planar and without new vertices.
+    fn measured_surface(&self) -> Option<MeasuredSurface> {
         let step = &self.outcome.step;
-        if self.is_held() || self.is_locked() || !step.verdict.planar || step.candidate.refinement.is_some() {
+        if !step.verdict.planar || step.candidate.refinement.is_some() {
             return None;
         }
         let disk = self.disk();
         let positions: Vec<_> = disk.mesh().positions.iter().map(|position| *position * disk.unit()).collect();
         let (triangles, outer) = (disk.mesh().real_triangles(), disk.boundary_loop());
         let faces = SurfaceFaces { triangles, outer, area: self.disk().area() };
-        let surface = MeasuredSurface::new(&positions, faces, disk.polygons(), None)?;
-        Some(Stackable { surface, size: self.size(), tile: self.tile })
+        MeasuredSurface::new(&positions, faces, disk.polygons(), None)
     }
 
     /// Solution of the step to lay out.
@@ -413,15 +444,18 @@ impl<'a> SolvedChart<'a> {
         if self.is_held() { Some(self.in_place()) } else { self.locked.map(|given| self.laid_over(given, options)) }
     }
 
-    /// Coordinates by the similarity of a plane that is nearest to given ones. Given numbers are taken as they are if
-    /// they agree with it. The given numbers are for the frame of the problem or for the picture that charts are packed
-    /// into: the one in which they agree better.
+    /// Coordinates by the similarity of a plane that is nearest to given ones, mirrored if that is nearer. Given numbers
+    /// are taken as they are if they agree with it. The given numbers are for the frame of the problem or for the picture
+    /// that charts are packed into: the one in which they agree better.
     fn laid_over(&self, given: &Embedding, options: PackingOptions) -> Embedding {
         let [width, height] = options.picture.map(f64::from);
         let aspects = [self.outcome.problem.frame.aspect, width / height];
-        let fits = aspects.map(|aspect| self.fitted_in(DVec2::new(aspect, 1.0), given));
-        let [of_frame, of_picture] = fits;
-        if of_picture.1 < of_frame.1 { of_picture.0 } else { of_frame.0 }
+        let fits = aspects.into_iter().flat_map(|aspect| {
+            let signed = [DVec2::new(aspect, 1.0), DVec2::new(-aspect, 1.0)];
+            signed.map(|plane| self.fitted_in(plane, given))
+        });
+        let nearer = |best: (Embedding, f64), next: (Embedding, f64)| if next.1 < best.1 { next } else { best };
+        fits.reduce(nearer).expect("a fit").0
     }
 
     /// Coordinates by the similarity that is nearest to given ones if they are multiplied by `plane`, and its largest
@@ -445,6 +479,13 @@ impl<'a> SolvedChart<'a> {
             if agrees && is_given(&vertex) { given[vertex] } else { similarity.apply(embedding[vertex]) / plane }
         };
         (mesh.vertices().map(laid).collect(), distance)
+    }
+
+    /// True if the chart is locked at its mirror image.
+    fn is_mirrored(&self, coordinates: &Embedding) -> bool {
+        let mesh = self.outcome.step.candidate.mesh(self.disk()).mesh();
+        let doubled = |corners: &[VertexId; 3]| double_area(corners.map(|vertex| coordinates[vertex]));
+        self.is_locked() && mesh.real_triangles().iter().map(doubled).sum::<f64>() < 0.0
     }
 
     /// Shape of the chart at coordinates that stay.
@@ -539,7 +580,8 @@ fn output<'a>(
     let summary = |((chart, laid), stacked): ((&SolvedChart<'_>, &Embedding), &Option<StackedChart>)| {
         let stacked = stacked.as_ref().map(|stacked| stacked.on);
         // The distortion of a mirror image is measured in the mirror.
-        let upright = stacked.filter(|on| on.mirrored).map(|_| laid.iter().map(|z| DVec2::new(-z.x, z.y)).collect());
+        let is_mirrored = stacked.map_or_else(|| chart.is_mirrored(laid), |on| on.mirrored);
+        let upright = is_mirrored.then(|| laid.iter().map(|z| DVec2::new(-z.x, z.y)).collect());
         let summary = chart.summary(upright.as_ref().unwrap_or(laid), picture, placement(chart));
         ChartSummary { stacked, tile: udim_tile(laid), ..summary }
     };

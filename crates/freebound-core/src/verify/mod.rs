@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `verdict`, `atlas_verdict` | planar or not, of one disk and of several charts |
 //! | `layout`, `findings` | planar or not, of any triangles of the plane, with remarks |
+//! | `moved` | planar or not, of charts that move among others |
 //! | `uv_frame` | the frame in which coordinates are written and proved |
 //! | `rounding` | coordinates rounded to 32 bits without a fold |
 //! | `conflicts` | pins that contradict each other |
@@ -16,6 +17,7 @@ mod distortion;
 mod findings;
 pub(crate) mod hull_condition;
 mod layout;
+mod moved;
 mod one_form;
 mod rounding;
 mod uv_frame;
@@ -31,6 +33,7 @@ pub use hull_condition::{CornerKind, HullStanding, holes_turn_once, hull_standin
 pub use layout::{
     LayoutOptions, LayoutVerdict, MOST_WITHOUT_PLACE, PixelGap, PlaneLayout, layout_verdict, layout_verdict_with,
 };
+pub use moved::{ChartInPlane, MoveVerdict, move_verdict};
 pub use one_form::{OneFormIndices, index_range};
 pub use rounding::{Rounded, RoundingGrid, rounded};
 pub use uv_frame::UvFrame;

@@ -1,8 +1,12 @@
 //! Stacks: charts with congruent surfaces share one place.
 
-use freebound_core::geom::{PackingOptions, Random, Stacking};
-use freebound_core::mesh::{PolygonMesh, VertexId};
-use freebound_core::pipeline::{StackedOn, Target, Unwrapped};
+use freebound_core::geom::{PackingOptions, PictureFrame, Random, Stacking};
+use freebound_core::mesh::{PolygonMesh, Preparation, VertexId};
+use freebound_core::pipeline::{
+    Arrangement, Outcome, PreparedMesh, Problem, SolvedChart, StackedOn, Target, Targets, Unwrapped, atlas,
+};
+use freebound_core::problem::{Control, Settings};
+use freebound_core::verify::AtlasVerdict;
 use freebound_core::{PipelineOptions, unwrap};
 use freebound_testkit::cubes::cube;
 
@@ -234,4 +238,49 @@ proptest! {
             prop_assert!(unwrapped.verdict.planar);
         }
     }
+}
+
+/// Verdict and places of charts that are laid out with chart 1 on chart 0 by choice, without stacking by shape.
+fn laid_out_by_choice(parts: &[PolygonMesh]) -> (AtlasVerdict, Vec<Option<StackedOn>>) {
+    let prepared = PreparedMesh::new(&joined(parts), None, Preparation { cut: true, ..Preparation::default() });
+    let charts: Vec<PreparedMesh> = (0..parts.len()).map(|chart| prepared.of_chart(chart)).collect();
+    let solved = |chart: &PreparedMesh| {
+        let problem = Problem::new(&Settings::default(), PictureFrame::default(), false, Targets::new());
+        problem.solve_on(chart.disk().expect("a disk"), None, Control::unattended()).expect("solved").outcome
+    };
+    let outcomes: Vec<Outcome> = charts.iter().map(solved).collect();
+    let of = |(chart, outcome)| SolvedChart::new(chart, outcome);
+    let mut solved: Vec<SolvedChart<'_>> = charts.iter().zip(&outcomes).map(of).collect();
+    solved[1].stacked_on = Some(0);
+    let laid = atlas(&solved, PackingOptions::default(), Arrangement::AsGiven);
+    for (chart, on) in laid.summaries.iter().enumerate().filter_map(|(chart, laid)| Some((chart, laid.stacked?))) {
+        let places = [chart, on.chart].map(|chart| {
+            let mut places: Vec<_> =
+                laid.charts[chart].coordinates.iter().map(|uv| uv.to_array().map(f64::to_bits)).collect();
+            places.sort_unstable();
+            places
+        });
+        assert_eq!(places[0], places[1], "bit for bit");
+    }
+    (laid.verdict, laid.summaries.iter().map(|chart| chart.stacked).collect())
+}
+
+#[test]
+fn a_chart_shares_the_place_of_a_chosen_chart_with_a_congruent_or_a_mirrored_surface() {
+    let random = &mut Random(5);
+    let sheet = chiral_sheet();
+    let parts = [sheet.clone(), elsewhere(&mirror_image(&sheet), 1.0, random), elsewhere(&sheet, 1.0, random)];
+    let (verdict, places) = laid_out_by_choice(&parts);
+    assert!(verdict.planar, "{}", verdict.summary());
+    assert_eq!(places, [None, on(0, true), None], "the third is congruent, but was not chosen");
+    let (verdict, places) = laid_out_by_choice(&[parts[0].clone(), parts[2].clone()]);
+    assert!(verdict.planar, "{}", verdict.summary());
+    assert_eq!(places, [None, on(0, false)]);
+}
+
+#[test]
+fn a_chart_with_another_surface_keeps_a_place_of_its_own_even_if_a_place_was_chosen() {
+    let (verdict, places) = laid_out_by_choice(&[chiral_sheet(), quad_sheet(3, 2, 0.0, &mut Random(1))]);
+    assert!(verdict.planar, "{}", verdict.summary());
+    assert_eq!(places, [None, None]);
 }

@@ -1,0 +1,79 @@
+//! Verdict on charts that move among others that stay.
+//!
+//! A layout of planar charts whose triangles do not overlap is planar. If some charts move, the charts that stay need no
+//! new proof among themselves. So the verdict of a move covers the moved charts, and their triangles against all others.
+
+use std::collections::BTreeSet;
+
+use glam::DVec2;
+
+use super::verdict;
+use crate::geom::{Bounds, Orientation, orientation, overlaps};
+use crate::mesh::DiskMesh;
+use crate::parallel::prelude::*;
+use crate::problem::Embedding;
+
+/// Chart in the plane.
+#[derive(Clone, Copy, Debug)]
+pub struct ChartInPlane<'a> {
+    /// Mesh of the chart.
+    pub mesh: &'a DiskMesh,
+    /// Position of each vertex of the mesh.
+    pub coordinates: &'a Embedding,
+}
+
+/// Verdict on charts that moved. Charts have their places in the list that was judged.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MoveVerdict {
+    /// Moved charts that are not planar by themselves, ascending.
+    pub folded: Vec<usize>,
+    /// Charts that overlap, in pairs, ascending. At least one of each pair has moved.
+    pub overlapping: BTreeSet<[usize; 2]>,
+}
+
+impl MoveVerdict {
+    /// True if the moved charts are planar and overlap no other chart.
+    pub fn is_planar(&self) -> bool {
+        self.folded.is_empty() && self.overlapping.is_empty()
+    }
+}
+
+/// Overlapping triangles that are looked at. More would add few pairs of charts.
+const MOST_OVERLAPS: usize = 1 << 12;
+
+/// Judges charts that moved, by exact arithmetic: each by itself, and against all other charts. The list holds charts
+/// with a place of their own; a chart that is stacked on another moves with it. `moved` are the places of the moved
+/// charts in the list.
+pub fn move_verdict(charts: &[ChartInPlane<'_>], moved: &BTreeSet<usize>) -> MoveVerdict {
+    let is_folded = |&&chart: &&usize| {
+        let ChartInPlane { mesh, coordinates } = charts[chart];
+        !verdict::verdict(mesh, coordinates).planar
+    };
+    let folded = moved.par_iter().filter(is_folded).copied().collect();
+    let bounds: Vec<Bounds> = charts.par_iter().map(|chart| Bounds::of(chart.coordinates.iter().copied())).collect();
+    let reach = moved.iter().fold(Bounds::EMPTY, |reach, &chart| reach.union(bounds[chart]));
+    let (mut triangles, mut chart_of) = (Vec::new(), Vec::new());
+    for (number, chart) in charts.iter().enumerate().filter(|(number, _)| bounds[*number].meets(reach)) {
+        let is_near = |corners: &[DVec2; 3]| moved.contains(&number) || Bounds::of(*corners).meets(reach);
+        let at = |vertex| chart.coordinates[vertex];
+        let own = chart.mesh.mesh().real_triangles().iter().map(|corners| corners.map(at)).filter(is_near);
+        triangles.extend(own.filter_map(counter_clockwise));
+        chart_of.resize(triangles.len(), number);
+    }
+    let counts = |a: usize, b: usize| {
+        let [a, b] = [chart_of[a], chart_of[b]];
+        a != b && (moved.contains(&a) || moved.contains(&b))
+    };
+    let pairs = overlaps(&triangles, counts, MOST_OVERLAPS);
+    let of_charts = |[a, b]: [usize; 2]| [chart_of[a].min(chart_of[b]), chart_of[a].max(chart_of[b])];
+    MoveVerdict { folded, overlapping: pairs.into_iter().map(of_charts).collect() }
+}
+
+/// Corners in counter-clockwise order; `None` if the triangle has no area or a corner is not finite.
+fn counter_clockwise([a, b, c]: [DVec2; 3]) -> Option<[DVec2; 3]> {
+    match orientation(a, b, c)? {
+        Orientation::CounterClockwise => Some([a, b, c]),
+        Orientation::Clockwise => Some([a, c, b]),
+        Orientation::Collinear => None,
+    }
+}
