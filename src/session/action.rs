@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use glam::DVec2;
 
 use super::StopConditions;
+use super::page::ChartMove;
 use crate::examples::Example;
 use freebound_core::geom::{PackingOptions, VAxis};
 use freebound_core::mesh::{HoleTreatment, Repair, Seams, VertexId, WeldDistance};
@@ -107,13 +108,30 @@ pub enum Action {
         /// Relative size, within [`PackingOptions::SIZES`].
         size: f64,
     },
-    /// Locks a chart where it lies in the layout of all charts, or unlocks it.
-    LockChart {
-        /// The chart.
-        chart: usize,
-        /// True to lock the chart.
+    /// Locks charts where they lie on the page, or unlocks them.
+    LockCharts {
+        /// The charts.
+        charts: BTreeSet<usize>,
+        /// True to lock the charts.
         lock: bool,
     },
+    /// Moves charts in the page's plane, as a frame of a gesture. Each movement starts from the place before the gesture.
+    MoveCharts {
+        /// Charts and their movements.
+        moves: Vec<ChartMove>,
+        /// True if charts may come to overlap.
+        insists: bool,
+    },
+    /// Ends a move of charts.
+    EndMove,
+    /// Drops a move of charts.
+    GiveUpMove,
+    /// Packs charts around all others: these charts, or all that are not locked.
+    PackCharts(Option<BTreeSet<usize>>),
+    /// Lays charts with congruent surfaces, or mirror images, on the first of them.
+    StackCharts(BTreeSet<usize>),
+    /// Gives stacked charts places of their own.
+    UnstackCharts(BTreeSet<usize>),
     /// Places a constraint: pins a vertex, or replaces its pin.
     Place {
         /// The vertex.

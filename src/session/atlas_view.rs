@@ -12,6 +12,9 @@ use freebound_core::problem::Embedding;
 use freebound_core::verify::AtlasVerdict;
 use freebound_io::{Output, StepReport};
 
+/// Number of layouts that are kept, so that undo returns to them at once.
+const LAYOUTS_KEPT: usize = 4;
+
 /// All charts of a mesh, each with the step that is written.
 #[derive(Clone, Debug)]
 pub(super) struct SolvedAtlas {
@@ -27,7 +30,10 @@ pub(super) struct ChartResult {
     pub(super) outcome: Arc<Outcome>,
     pub(super) steps: Vec<StepReport>,
     pub(super) size: f64,
-    pub(super) locked: Option<Arc<Embedding>>,
+    /// Place where the chart stays.
+    pub(super) place: Option<Arc<Embedding>>,
+    /// Chart whose place the chart shares.
+    pub(super) stacked_on: Option<usize>,
 }
 
 /// Layout in the form in which it would be written.
@@ -45,14 +51,17 @@ pub struct AtlasView {
     pub tiles: Vec<Option<u32>>,
     /// Place of each chart on another. `None` for a chart with a place of its own.
     pub stacked: Vec<Option<StackedOn>>,
-    /// Texture coordinates of the vertices of each chart, v up.
-    pub coordinates: Vec<Embedding>,
+    /// Texture coordinates of the vertices of each chart, v up. New vertices follow behind those of the chart.
+    pub coordinates: Vec<Arc<Embedding>>,
+    /// Width over height of the page.
+    pub aspect: f64,
 }
 
 /// Layout of all charts, computed in the background and kept with its key.
 pub(super) struct AtlasViews {
     job: Background<AtlasKey, AtlasView>,
-    made: Option<(AtlasKey, AtlasView)>,
+    /// Newest layouts, the last one first.
+    made: Vec<(AtlasKey, Arc<AtlasView>)>,
     /// Key of the last layout that failed. A failed layout is not tried again.
     failed: Option<AtlasKey>,
 }
@@ -62,31 +71,37 @@ pub(super) struct AtlasViews {
 pub(super) struct AtlasKey {
     pub(super) outcomes: Vec<Arc<Outcome>>,
     pub(super) sizes: Vec<f64>,
-    pub(super) locks: Vec<Option<Arc<Embedding>>>,
+    /// Place where each chart stays.
+    pub(super) places: Vec<Option<Arc<Embedding>>>,
+    /// Charts that are locked there.
+    pub(super) locks: Vec<bool>,
+    /// Chart whose place each chart shares.
+    pub(super) stacked_on: Vec<Option<usize>>,
     pub(super) options: PackingOptions,
 }
 
 impl AtlasKey {
     pub(super) fn is(&self, other: &Self) -> bool {
         let mut outcomes = self.outcomes.iter().zip(&other.outcomes);
-        let mut locks = self.locks.iter().zip(&other.locks);
-        let is_same_lock = |(own, other): (&Option<Arc<Embedding>>, &Option<Arc<Embedding>>)| match (own, other) {
+        let mut places = self.places.iter().zip(&other.places);
+        let is_same_place = |(own, other): (&Option<Arc<Embedding>>, &Option<Arc<Embedding>>)| match (own, other) {
             (Some(own), Some(other)) => Arc::ptr_eq(own, other),
             (own, other) => own.is_none() && other.is_none(),
         };
         self.options == other.options
             && self.sizes == other.sizes
             && self.outcomes.len() == other.outcomes.len()
-            && locks.all(is_same_lock)
+            && (&self.locks, &self.stacked_on) == (&other.locks, &other.stacked_on)
+            && places.all(is_same_place)
             && outcomes.all(|(own, other)| Arc::ptr_eq(own, other))
     }
 }
 
 impl ChartResult {
     fn chart(&self) -> SolvedModel<'_> {
-        let Self { model, outcome, steps, size, locked } = self;
-        let locked = locked.as_deref();
-        SolvedModel { model, outcome, steps, size: *size, tile: None, locked, keeps_materials: false }
+        let Self { model, outcome, steps, size, place, stacked_on } = self;
+        let (locked, stacked_on) = (place.as_deref(), *stacked_on);
+        SolvedModel { model, outcome, steps, size: *size, tile: None, locked, stacked_on, keeps_materials: false }
     }
 }
 
@@ -107,13 +122,9 @@ impl SolvedAtlas {
         let outline = |chart: &LaidChart<'_>| {
             chart.mesh.boundary_loop().iter().map(|&vertex| chart.coordinates[vertex]).collect()
         };
-        // New vertices follow behind those of the chart.
-        let of_chart = |(of, laid): (&ChartResult, &LaidChart<'_>)| {
-            let count = of.model.prepared.chart.as_ref().map_or(0, |of| of.chart.vertex_of.len());
-            laid.coordinates.iter().take(count).copied().collect()
-        };
         AtlasView {
-            coordinates: self.charts.iter().zip(&output.charts).map(of_chart).collect(),
+            coordinates: output.charts.iter().map(|laid| Arc::new(laid.coordinates.clone())).collect(),
+            aspect: output.aspect,
             tiles: output.report.charts.iter().map(|chart| chart.tile).collect(),
             stacked: output.report.charts.iter().map(|chart| chart.stacked).collect(),
             outlines: output.charts.iter().map(outline).collect(),
@@ -126,21 +137,24 @@ impl SolvedAtlas {
 
 impl AtlasViews {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { job: Background::new("atlas", wake), made: None, failed: None }
+        Self { job: Background::new("atlas", wake), made: Vec::new(), failed: None }
     }
 
     /// Stores the layout that was computed, or its failure.
     pub(super) fn poll(&mut self) {
         match self.job.poll() {
-            Some((key, Ok(view))) => self.made = Some((key, view)),
+            Some((key, Ok(view))) => {
+                self.made.insert(0, (key, Arc::new(view)));
+                self.made.truncate(LAYOUTS_KEPT);
+            }
             Some((key, Err(_))) => self.failed = Some(key),
             None => {}
         }
     }
 
-    /// Drops the stored layout.
+    /// Drops the stored layouts.
     pub(super) fn forget(&mut self) {
-        self.made = None;
+        self.made.clear();
     }
 
     /// True while a layout is being computed.
@@ -150,7 +164,7 @@ impl AtlasViews {
 
     /// True if the layout with this key was computed or failed.
     pub(super) fn knows(&self, key: &AtlasKey) -> bool {
-        self.made.iter().map(|(key, _)| key).chain(&self.failed).any(|known| known.is(key))
+        self.find(key).is_some() || self.failed.as_ref().is_some_and(|failed| failed.is(key))
     }
 
     /// Computes a layout in the background.
@@ -158,8 +172,13 @@ impl AtlasViews {
         self.job.start(key, move |_| solved.view());
     }
 
-    /// Stored layout with its key.
-    pub(super) fn made(&self) -> Option<(&AtlasKey, &AtlasView)> {
-        self.made.as_ref().map(|(key, view)| (key, view))
+    /// Stored layout with this key.
+    pub(super) fn find(&self, key: &AtlasKey) -> Option<&Arc<AtlasView>> {
+        self.made.iter().find(|(own, _)| own.is(key)).map(|(_, view)| view)
+    }
+
+    /// Layout that was computed last.
+    pub(super) fn newest(&self) -> Option<&Arc<AtlasView>> {
+        self.made.first().map(|(_, view)| view)
     }
 }

@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
+use glam::{DAffine2, DVec2};
+
 use super::atlas_view::{AtlasKey, ChartResult, SolvedAtlas};
+use super::chart_layout::ChartLayout;
 use super::{AtlasView, ChartState, Command, LockState, Model, Session, Timeline};
 use freebound_core::geom::PackingOptions;
 use freebound_core::mesh::Charts;
 use freebound_core::pipeline::Outcome;
-use freebound_core::problem::Embedding;
 
 impl Session {
     /// Charts of the open mesh, if it has several.
@@ -65,31 +67,33 @@ impl Session {
     }
 
     /// Sets the packing options, as an edit. No chart is solved again.
-    pub(super) fn set_packing(&mut self, options: PackingOptions) {
-        self.apply(Command::SetPacking(options));
+    pub(super) fn set_packing(&mut self, packing: PackingOptions) {
+        let layout = ChartLayout { packing, ..self.document.layout.clone() };
+        self.apply(Command::SetLayout(Box::new(layout)));
     }
 
-    /// Sets the relative size of a chart, as an edit. No chart is solved again.
+    /// Sets the relative size of a chart, as an edit. A chart that is placed grows or shrinks where it lies.
     pub(super) fn set_chart_size(&mut self, chart: usize, size: f64) {
-        let first_face = self.charts().filter(|charts| chart < charts.count()).map(|charts| charts.first_face(chart));
-        if let Some(first_face) = first_face.filter(|_| PackingOptions::SIZES.contains(&size)) {
-            #[expect(clippy::float_cmp, reason = "the size without an entry")]
-            let size = (size != 1.0).then_some(size);
-            self.apply(Command::SetSize { first_face, size });
+        let Some(charts) = self.charts().filter(|charts| chart < charts.count()).map(Arc::clone) else { return };
+        if !PackingOptions::SIZES.contains(&size) {
+            return;
         }
+        if self.has_placed_charts() && self.can_move_charts() {
+            let (before, middle) = (self.document.layout.size_of(&charts, chart), self.middle_on_page(chart));
+            let about = DAffine2::from_translation(middle)
+                * DAffine2::from_scale(DVec2::splat(size / before))
+                * DAffine2::from_translation(-middle);
+            self.move_charts(&[(chart, about)], false);
+            return self.end_move();
+        }
+        let mut layout = self.document.layout.clone();
+        layout.set_size(charts.first_face(chart), size);
+        self.apply(Command::SetLayout(Box::new(layout)));
     }
 
-    /// Locks a chart where it lies in the layout, or unlocks it, as an edit. No chart is solved again. A chart that
-    /// cannot be locked, see [`lock_state`](Self::lock_state), stays unlocked.
-    pub(super) fn lock_chart(&mut self, chart: usize, lock: bool) {
-        let Some(charts) = self.charts().filter(|charts| chart < charts.count()) else { return };
-        let first_face = charts.first_face(chart);
-        let place = match (self.lock_state(chart), lock) {
-            (LockState::Open, true) => self.atlas().map(|atlas| Arc::new(atlas.coordinates[chart].clone())),
-            (LockState::Locked, false) => None,
-            _ => return,
-        };
-        self.apply(Command::SetLock { first_face, place });
+    /// Centre of a chart's box in the page's plane.
+    fn middle_on_page(&self, chart: usize) -> DVec2 {
+        self.page().map_or(DVec2::ZERO, |page| page.bounds_of(chart).middle())
     }
 
     /// Lock of a chart, or the reason why it cannot be locked.
@@ -104,7 +108,7 @@ impl Session {
             return LockState::NoPlace;
         }
         let has_pins = !self.document().edits_of(chart, of).targets.is_empty();
-        let is_locked = self.document().lock_of(&of.charts, chart).is_some();
+        let is_locked = self.document().layout.lock_of(&of.charts, chart).is_some();
         match atlas {
             _ if is_locked => LockState::Locked,
             _ if has_pins => LockState::Pinned,
@@ -114,18 +118,11 @@ impl Session {
         }
     }
 
-    /// Coordinates where each chart is locked.
-    fn locks(&self) -> Vec<Option<Arc<Embedding>>> {
-        let of = |charts: &Arc<Charts>| {
-            (0..charts.count()).map(|number| self.document.lock_of(charts, number).cloned()).collect()
-        };
-        self.charts().map(of).unwrap_or_default()
-    }
-
     /// Relative size of each chart in the packing.
     pub fn sizes(&self) -> Vec<f64> {
-        let of =
-            |charts: &Arc<Charts>| (0..charts.count()).map(|number| self.document.size_of(charts, number)).collect();
+        let of = |charts: &Arc<Charts>| {
+            (0..charts.count()).map(|number| self.document.layout.size_of(charts, number)).collect()
+        };
         self.charts().map(of).unwrap_or_default()
     }
 
@@ -162,7 +159,7 @@ impl Session {
     pub fn packing(&self) -> PackingOptions {
         let pixels = self.document().picture.as_ref().map(|picture| &picture.pixels);
         let picture = pixels.map(|pixels| [pixels.width, pixels.height]);
-        let options = self.document().packing;
+        let options = self.document().layout.packing;
         PackingOptions { picture: picture.unwrap_or(options.picture), ..options }
     }
 
@@ -172,11 +169,18 @@ impl Session {
     ///
     /// Number of charts without a step for the current document.
     pub(super) fn solved_atlas(&self) -> Result<SolvedAtlas, usize> {
+        let layout = &self.document().layout;
         let solved = |(model, outcome, timeline): (&Arc<Model>, Arc<Outcome>, &Timeline)| {
             let steps = timeline.records()[..=outcome.step.index].to_vec();
-            let size = model.prepared.chart.as_ref().map_or(1.0, |of| self.document().size_of(&of.charts, of.number));
-            let locked = model.prepared.chart.as_ref().and_then(|of| self.document().lock_of(&of.charts, of.number));
-            ChartResult { model: Arc::clone(model), outcome, steps, size, locked: locked.cloned() }
+            let of = model.prepared.chart.as_ref();
+            ChartResult {
+                model: Arc::clone(model),
+                outcome,
+                steps,
+                size: of.map_or(1.0, |of| layout.size_of(&of.charts, of.number)),
+                place: of.and_then(|of| layout.place_of(&of.charts, of.number)).map(Arc::clone),
+                stacked_on: of.and_then(|of| layout.stacked_on(&of.charts, of.number)),
+            }
         };
         let charts: Vec<ChartResult> = self.solved_charts().map(solved).collect();
         match self.charts().map_or(0, |charts| charts.count()) - charts.len() {
@@ -201,11 +205,24 @@ impl Session {
         Some((model, newest, timeline))
     }
 
+    /// Models of all charts, once each is solved.
+    pub(super) fn solved_models(&self) -> Vec<Arc<Model>> {
+        self.solved_charts().map(|(model, ..)| Arc::clone(model)).collect()
+    }
+
     /// Key of the layout of all charts, once each is solved.
-    fn to_be_made(&self) -> Option<AtlasKey> {
+    pub(super) fn atlas_key(&self) -> Option<AtlasKey> {
         let outcomes: Vec<Arc<Outcome>> = self.solved_charts().map(|(_, outcome, _)| outcome).collect();
-        let is_whole = self.charts().is_some_and(|charts| charts.count() == outcomes.len());
-        is_whole.then(|| AtlasKey { outcomes, sizes: self.sizes(), locks: self.locks(), options: self.packing() })
+        let charts = self.charts().filter(|charts| charts.count() == outcomes.len())?;
+        let layout = &self.document.layout;
+        Some(AtlasKey {
+            outcomes,
+            sizes: self.sizes(),
+            places: (0..charts.count()).map(|chart| layout.place_of(charts, chart).cloned()).collect(),
+            locks: (0..charts.count()).map(|chart| layout.lock_of(charts, chart).is_some()).collect(),
+            stacked_on: (0..charts.count()).map(|chart| layout.stacked_on(charts, chart)).collect(),
+            options: self.packing(),
+        })
     }
 
     /// Computes the layout of all charts in the background, once each of them is solved.
@@ -216,7 +233,7 @@ impl Session {
             return;
         }
         // Only one layout at a time: steps may arrive faster than layouts are computed.
-        let Some(key) = self.to_be_made().filter(|_| !self.atlas_views.is_busy()) else { return };
+        let Some(key) = self.atlas_key().filter(|_| !self.atlas_views.is_busy()) else { return };
         if self.atlas_views.knows(&key) {
             return;
         }
@@ -227,7 +244,11 @@ impl Session {
 
     /// Layout of all charts, if each is solved and the layout is computed.
     pub fn atlas(&self) -> Option<&AtlasView> {
-        let (key, view) = self.atlas_views.made()?;
-        self.to_be_made().is_some_and(|now| key.is(&now)).then_some(view)
+        self.atlas_views.find(&self.atlas_key()?).map(AsRef::as_ref)
+    }
+
+    /// Layout of all charts that was computed last. It may belong to the document before an edit.
+    pub fn newest_atlas(&self) -> Option<&AtlasView> {
+        self.atlas_views.newest().map(AsRef::as_ref)
     }
 }

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::chart_layout::ChartLayout;
 use crate::examples::Example;
-use freebound_core::geom::{PackingOptions, PictureFrame, VAxis};
-use freebound_core::mesh::{Charts, FaceId, Preparation, VertexId};
+use freebound_core::geom::{PictureFrame, VAxis};
+use freebound_core::mesh::{Preparation, VertexId};
 use freebound_core::pipeline::{ChartOf, Problem, Target, Targets, hard_targets, pins_in_plane};
-use freebound_core::problem::{Embedding, Pins, Settings};
+use freebound_core::problem::{Pins, Settings};
 use freebound_io::PictureFile;
 
 /// Document that the user edits. It is small, because mesh and pictures are immutable and stored elsewhere.
@@ -27,13 +28,8 @@ pub struct Document {
     pub form: Preparation,
     /// Number of the shown chart, if the mesh has several. Default: the largest chart.
     pub chart: Option<usize>,
-    /// Packing options for several charts. If there is a picture, its size replaces the size in the options.
-    pub packing: PackingOptions,
-    /// Sizes of charts relative to the others, by their first faces in the file. Default: 1. Sizes outside
-    /// [`PackingOptions::SIZES`] are clamped.
-    pub sizes: BTreeMap<FaceId, f64>,
-    /// Texture coordinates of the vertices of locked charts, v up, by the charts' first faces in the file.
-    pub locked: BTreeMap<FaceId, Arc<Embedding>>,
+    /// Layout of several charts on the page.
+    pub layout: ChartLayout,
     /// Edits of charts that are not shown.
     pub elsewhere: BTreeMap<usize, ChartEdits>,
     /// Number of relaxation rounds that the user requested. They follow the end of each run, also after edits of pins,
@@ -111,17 +107,6 @@ impl Document {
         Problem::new(&self.settings, self.frame(), has_picture, targets)
     }
 
-    /// Size of a chart relative to the others.
-    pub fn size_of(&self, charts: &Charts, number: usize) -> f64 {
-        self.sizes.get(&charts.first_face(number)).copied().unwrap_or(1.0)
-    }
-
-    /// Coordinates where a chart is locked. Coordinates of a chart with another number of vertices do not count.
-    pub(super) fn lock_of(&self, charts: &Charts, number: usize) -> Option<&Arc<Embedding>> {
-        let place = self.locked.get(&charts.first_face(number))?;
-        (place.len() == charts.chart(number).vertex_of.len()).then_some(place)
-    }
-
     /// Stores the edits of a chart that is not shown. Default edits get no entry.
     pub(super) fn put_elsewhere(&mut self, chart: usize, edits: ChartEdits) {
         if edits != ChartEdits::default() {
@@ -166,22 +151,8 @@ pub enum Command {
         /// New value of [`Document::chart`]. `None` means the largest chart.
         chart: Option<usize>,
     },
-    /// Sets the packing options.
-    SetPacking(PackingOptions),
-    /// Sets the relative size of a chart.
-    SetSize {
-        /// First face of the chart, numbered in the file.
-        first_face: FaceId,
-        /// Size relative to the others. `None` means the default size.
-        size: Option<f64>,
-    },
-    /// Locks a chart, or unlocks it.
-    SetLock {
-        /// First face of the chart, numbered in the file.
-        first_face: FaceId,
-        /// Texture coordinates where the chart stays. `None` unlocks the chart.
-        place: Option<Arc<Embedding>>,
-    },
+    /// Sets the layout of the charts.
+    SetLayout(Box<ChartLayout>),
     /// Sets the edits of a chart that is not shown.
     SetElsewhere {
         /// The chart.
@@ -221,20 +192,9 @@ impl Command {
                 document.put_elsewhere(from, going);
                 Self::ShowChart { to: from, from: to, chart: std::mem::replace(&mut document.chart, chart) }
             }
-            Self::SetPacking(options) => Self::SetPacking(std::mem::replace(&mut document.packing, options)),
-            Self::SetSize { first_face, size } => {
-                let before = match size {
-                    Some(size) => document.sizes.insert(first_face, size),
-                    None => document.sizes.remove(&first_face),
-                };
-                Self::SetSize { first_face, size: before }
-            }
-            Self::SetLock { first_face, place } => {
-                let before = match place {
-                    Some(place) => document.locked.insert(first_face, place),
-                    None => document.locked.remove(&first_face),
-                };
-                Self::SetLock { first_face, place: before }
+            Self::SetLayout(mut layout) => {
+                std::mem::swap(&mut *layout, &mut document.layout);
+                Self::SetLayout(layout)
             }
             Self::SetElsewhere { chart, edits } => {
                 let before = document.elsewhere.remove(&chart).unwrap_or_default();

@@ -7,7 +7,7 @@ use super::background_jobs::{BackgroundJob, FORMING, RESHAPING};
 use super::open_mesh::Near;
 use super::reshaping::Reshaped;
 use super::{Command, Document, MessagePlace, Session};
-use freebound_core::mesh::{FaceId, HoleTreatment, Preparation, WeldDistance, near_vertices};
+use freebound_core::mesh::{HoleTreatment, Preparation, WeldDistance, near_vertices};
 use freebound_core::problem::{Control, Method, Settings, Start};
 
 /// Name of the job that counts vertices near each other.
@@ -20,10 +20,9 @@ impl Session {
             let form = self.document.form.clone();
             self.mesh.turn_wanted();
             // Turned charts are mirror images, so they cannot lie where they were locked.
-            let unlock = |&first_face: &FaceId| Command::SetLock { first_face, place: None };
-            let mut commands: Vec<Command> = self.document.locked.keys().map(unlock).collect();
-            commands.push(Command::SetForm(Preparation { faces_turned: !form.faces_turned, ..form }));
-            self.edit(commands);
+            let layout = Command::SetLayout(Box::new(self.document.layout.without_places()));
+            let turned = Command::SetForm(Preparation { faces_turned: !form.faces_turned, ..form });
+            self.edit(vec![layout, turned]);
         }
     }
 

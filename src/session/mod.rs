@@ -10,6 +10,7 @@
 //! | `status`             | state of the work on the screen                                        |
 //! | `queries`            | queries that the parts answer                                          |
 //! | `edits`              | edits of the document                                                  |
+//! | `page_actions`       | moves, packing, stacks and locks of charts on the page                 |
 //! | `chart_actions`      | shown chart, charts in the background, and their layout                |
 //! | `comparison_actions` | compared methods, and the morph between two of them                    |
 //! | `dragging`           | frames of a drag of pins                                               |
@@ -35,6 +36,8 @@
 //! | `morphing`           | part: morph between two compared methods                               |
 //! | `morphs`             | planar morphs through the results of methods                           |
 //! | `atlas_view`         | part: layout of all charts, for files and for the screen               |
+//! | `page`               | part: charts as they lie on the page, and moves of charts              |
+//! | `chart_layout`       | of the document: sizes, places, locks and stacks of charts             |
 //! | `chart_targets`      | pins of a mesh with several charts, in files and in the document       |
 //! | `charts`             | part: charts that are not shown, solved in the background              |
 //! | `drag`               | part: preview of a drag                                                |
@@ -61,6 +64,7 @@ mod atlas_view;
 mod background;
 mod background_jobs;
 mod chart_actions;
+mod chart_layout;
 mod chart_targets;
 mod charts;
 mod comparing;
@@ -87,6 +91,8 @@ mod morphs;
 mod open_mesh;
 mod open_project;
 mod opened;
+mod page;
+mod page_actions;
 mod past;
 mod preferences;
 mod queries;
@@ -108,6 +114,7 @@ mod v_axis;
 pub use action::{Action, SaveRequest, UndoGroup};
 pub use atlas_view::AtlasView;
 pub use background::{Background, JobFailure, Wake};
+pub use chart_layout::{ChartLayout, ChartPlace};
 pub use charts::{ChartState, LockState};
 pub use comparing::{Contender, ContenderState};
 pub use comparison::{Compared, comparison_report};
@@ -122,6 +129,7 @@ use messages::{Messages, Written};
 
 pub use morphing::MorphState;
 pub use morphs::{MORPH_FRAMES, MissingLeg, MorphLeg, MorphShortage, MorphStop, MorphStops, MorphTour, morph_end};
+pub use page::{ChartMove, JudgedMove, MoveState, Page, PageChart};
 pub use preferences::Preferences;
 pub use recent::RecentFiles;
 pub use recovery::{Recoverable, recovery_folder};

@@ -1,16 +1,18 @@
 //! Result of opening a file: mesh, picture, pins and view, with remarks.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::chart_layout::{ChartLayout, ChartPlace};
 use super::messages::named;
 use super::{Document, Message, MessagePlace, Model};
 use crate::examples::Example;
 use freebound_core::mesh::{FaceId, Preparation, VertexId};
 use freebound_core::pipeline::{Target, Targets};
-use freebound_core::problem::{Control, Embedding};
+use freebound_core::problem::Control;
 use freebound_io::{
     FileStamp, MemoryShortage, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectSource, ProjectView,
     ReadError, RecoveryNote, check_memory, material_picture,
@@ -124,15 +126,20 @@ impl Opened {
         let (settings, pin_count) = (project.settings(), project.targets.len());
         let targets = targets_there_are(project.targets, &model, &mut remarks);
         let is_partial = targets.len() < pin_count || form != asked;
+        let layout = ChartLayout {
+            packing: project.packing,
+            sizes: project.sizes.into_iter().map(|(face, size)| (FaceId::new(face), size)).collect(),
+            locked: places(project.locked),
+            placed: places(project.placed),
+            stacked: project.stacked.into_iter().map(|(face, on)| (FaceId::new(face), FaceId::new(on))).collect(),
+        };
         let mut document = Document {
             settings,
             picture,
             v_axis: project.v_axis,
             form,
             chart: project.chart,
-            packing: project.packing,
-            sizes: project.sizes.into_iter().map(|(face, size)| (FaceId::new(face), size)).collect(),
-            locked: project.locked.into_iter().map(|(face, place)| (FaceId::new(face), locked_place(place))).collect(),
+            layout,
             relaxed: project.relaxed,
             ..Document::default()
         };
@@ -145,9 +152,10 @@ impl Opened {
     }
 }
 
-/// Coordinates of a locked chart of a project.
-fn locked_place(place: Vec<[f64; 2]>) -> Arc<Embedding> {
-    Arc::new(place.into_iter().map(DVec2::from).collect())
+/// Places of charts of a project.
+fn places(places: BTreeMap<u32, Vec<[f64; 2]>>) -> BTreeMap<FaceId, ChartPlace> {
+    let place = |place: Vec<[f64; 2]>| ChartPlace(Arc::new(place.into_iter().map(DVec2::from).collect()));
+    places.into_iter().map(|(face, coordinates)| (FaceId::new(face), place(coordinates))).collect()
 }
 
 /// Reads a mesh that takes at most half of `memory`, bytes.

@@ -1,13 +1,13 @@
 //! Projects being written, one after the other.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;
 
 use glam::DVec2;
 
+use super::chart_layout::ChartPlace;
 use super::{Background, Document, MessagePlace, Messages, Model, Wake};
-use freebound_core::mesh::Preparation;
-use freebound_core::problem::Embedding;
+use freebound_core::mesh::{FaceId, Preparation};
 use freebound_io::{PathStyle, PictureFile, ProjectFile, ProjectSource, WriteError};
 
 /// Request to save a project.
@@ -94,11 +94,18 @@ pub(super) fn project_of(model: &Model, document: &Document) -> Option<ProjectFi
     project.v_axis = document.v_axis;
     project.targets = document.all_targets(model);
     project.chart = document.chart;
-    project.packing = document.packing;
-    project.sizes = document.sizes.iter().map(|(face, &size)| (face.number(), size)).collect();
-    let place = |place: &Embedding| place.iter().map(|uv: &DVec2| uv.to_array()).collect();
-    project.locked = document.locked.iter().map(|(face, locked)| (face.number(), place(locked))).collect();
+    let layout = &document.layout;
+    project.packing = layout.packing;
+    project.sizes = layout.sizes.iter().map(|(face, &size)| (face.number(), size)).collect();
+    (project.locked, project.placed) = (places(&layout.locked), places(&layout.placed));
+    project.stacked = layout.stacked.iter().map(|(face, on)| (face.number(), on.number())).collect();
     let relaxed = document.elsewhere.iter().filter(|(_, edits)| edits.relaxed > 0);
     project.relaxed_elsewhere = relaxed.map(|(&chart, edits)| (chart, edits.relaxed)).collect();
     Some(project)
+}
+
+/// Places of charts, as a project stores them.
+fn places(places: &BTreeMap<FaceId, ChartPlace>) -> BTreeMap<u32, Vec<[f64; 2]>> {
+    let numbers = |ChartPlace(place): &ChartPlace| place.iter().map(DVec2::to_array).collect();
+    places.iter().map(|(face, place)| (face.number(), numbers(place))).collect()
 }

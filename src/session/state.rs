@@ -11,6 +11,7 @@ use super::files::Files;
 use super::layout_check::LayoutCheck;
 use super::morphing::Morphing;
 use super::open_mesh::OpenMesh;
+use super::page::PagePart;
 use super::solving::Solving;
 use super::target_checks::TargetChecks;
 use super::unwrapping::Unwrapping;
@@ -26,6 +27,7 @@ pub struct Session {
     pub(super) solving: Solving,
     pub(super) charts: OtherCharts,
     pub(super) atlas_views: AtlasViews,
+    pub(super) page: PagePart,
     pub(super) comparing: Comparing,
     pub(super) morphing: Morphing,
     pub(super) drag: Drag,
@@ -53,6 +55,7 @@ impl Session {
             history: History::default(),
             charts: OtherCharts::new(&wake),
             atlas_views: AtlasViews::new(&wake),
+            page: PagePart::new(&wake),
             comparing: Comparing::new(&wake),
             morphing: Morphing::new(&wake),
             drag: Drag::new(&wake),
@@ -132,7 +135,13 @@ impl Session {
             Action::ShowChart(number) => self.show_chart(number),
             Action::SetPacking(options) => self.set_packing(options),
             Action::SetChartSize { chart, size } => self.set_chart_size(chart, size),
-            Action::LockChart { chart, lock } => self.lock_chart(chart, lock),
+            Action::LockCharts { charts, lock } => self.lock_charts(&charts, lock),
+            Action::MoveCharts { moves, insists } => self.move_charts(&moves, insists),
+            Action::EndMove => self.end_move(),
+            Action::GiveUpMove => self.give_up_move(),
+            Action::PackCharts(charts) => self.pack_charts(charts.as_ref()),
+            Action::StackCharts(charts) => self.stack_charts(&charts),
+            Action::UnstackCharts(charts) => self.unstack_charts(&charts),
             Action::MirrorTargets => self.mirror_targets(),
             Action::FitTargets => self.fit_targets(),
             Action::ImportConstraints(path) => self.import_constraints(path),
@@ -164,6 +173,7 @@ impl Session {
         self.poll_solving();
         self.poll_charts();
         self.poll_atlas();
+        self.poll_page();
         self.poll_comparing();
         self.poll_morph();
         self.poll_drag();

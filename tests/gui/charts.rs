@@ -147,7 +147,7 @@ fn the_lock_of_a_row_and_its_key_keep_a_chart_where_it_is() {
     until_laid_out(&mut window);
     window.click("Unlock chart 0");
     until_laid_out(&mut window);
-    assert!(window.editor().session.document().locked.is_empty());
+    assert!(window.editor().session.document().layout.locked.is_empty());
 }
 
 #[test]

@@ -173,7 +173,7 @@ impl Editor {
     fn toggle_lock(&mut self) {
         if let Some(chart) = self.session.chart_on_screen() {
             let lock = self.session.lock_state(chart) != LockState::Locked;
-            self.act(Action::LockChart { chart, lock });
+            self.act(Action::LockCharts { charts: [chart].into(), lock });
         }
     }
 

@@ -279,7 +279,7 @@ fn packing(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
         ui.data_mut(|data| data.remove::<PackingOptions>(kept));
         if options != before {
             // The size of the open picture is no setting of the user.
-            let picture = if has_picture { session.document().packing.picture } else { options.picture };
+            let picture = if has_picture { session.document().layout.packing.picture } else { options.picture };
             requests.push(Action::SetPacking(PackingOptions { picture, ..options }).into());
         }
     } else if options == before {
@@ -489,6 +489,6 @@ fn lock_button(ui: &egui::Ui, row: &Row, rect: Rect, requests: &mut Vec<Request>
         _ => theme.weak_text.gamma_multiply(0.4),
     };
     icons::lock(ui.painter(), Rect::from_center_size(rect.center(), Vec2::splat(14.0)), is_locked, colour);
-    let lock = Action::LockChart { chart: row.chart, lock: !is_locked };
+    let lock = Action::LockCharts { charts: [row.chart].into(), lock: !is_locked };
     response.on_hover_text(row.lock_tip()).asks(lock, requests);
 }

@@ -261,11 +261,17 @@ fn a_locked_chart_stays_while_others_are_packed_around_it() {
         pack(&mut session, PackingOptions { picture, ..PackingOptions::default() });
         let before = session.atlas().unwrap().coordinates[2].clone();
         assert_eq!(session.lock_state(2), LockState::Open);
-        settled(&mut session, Action::LockChart { chart: 2, lock: true });
+        settled(&mut session, Action::LockCharts { charts: [2].into(), lock: true });
         assert_eq!(session.lock_state(2), LockState::Locked);
+        until_laid_out(&mut session);
+        let lain = session.atlas().unwrap().coordinates.clone();
         pack(&mut session, PackingOptions { picture, gap: 20, ..PackingOptions::default() });
+        assert_eq!(session.atlas().unwrap().coordinates, lain, "nothing moves until it is packed");
+        settled(&mut session, Action::PackCharts(None));
+        until_laid_out(&mut session);
         let atlas = session.atlas().unwrap();
         assert_eq!(atlas.coordinates[2], before, "bit for bit");
+        assert_ne!(atlas.coordinates, lain);
         assert!(atlas.verdict.planar, "{}", atlas.verdict.summary());
         let path = file(&folder, "locked.freebound");
         settled(&mut session, Action::SaveProject(path.clone()));
@@ -274,17 +280,18 @@ fn a_locked_chart_stays_while_others_are_packed_around_it() {
         assert_eq!(again.document(), session.document());
         until_laid_out(&mut again);
         assert_eq!(again.atlas().unwrap().coordinates, session.atlas().unwrap().coordinates);
-        settled(&mut session, Action::Undo);
-        settled(&mut session, Action::Undo);
+        for _ in 0..3 {
+            settled(&mut session, Action::Undo);
+        }
         until_laid_out(&mut session);
         assert_eq!(session.lock_state(2), LockState::Open);
         settled(&mut session, Action::Redo);
         assert_eq!(session.lock_state(2), LockState::Locked);
-        settled(&mut session, Action::LockChart { chart: 2, lock: false });
+        settled(&mut session, Action::LockCharts { charts: [2].into(), lock: false });
         until_laid_out(&mut session);
         assert_eq!(session.lock_state(2), LockState::Open);
-        settled(&mut session, Action::LockChart { chart: 5, lock: true });
-        assert!(session.document().locked.is_empty());
+        settled(&mut session, Action::LockCharts { charts: [5].into(), lock: true });
+        assert!(session.document().layout.locked.is_empty());
     }
 }
 
@@ -293,14 +300,14 @@ fn a_chart_with_pins_cannot_be_locked_and_turned_faces_unlock_charts() {
     let (_folder, mut session) = with_disks();
     let shown = session.chart_on_screen().expect("one of five");
     let other = (shown + 1) % 5;
-    settled(&mut session, Action::LockChart { chart: other, lock: true });
+    settled(&mut session, Action::LockCharts { charts: [other].into(), lock: true });
     pin(&mut session, DVec2::splat(0.1));
     until_laid_out(&mut session);
     assert_eq!(session.lock_state(shown), LockState::Pinned);
-    settled(&mut session, Action::LockChart { chart: shown, lock: true });
-    assert_eq!(session.document().locked.len(), 1);
+    settled(&mut session, Action::LockCharts { charts: [shown].into(), lock: true });
+    assert_eq!(session.document().layout.locked.len(), 1);
     settled(&mut session, Action::TurnFaces);
-    assert!(session.document().locked.is_empty());
+    assert!(session.document().layout.locked.is_empty());
     settled(&mut session, Action::Undo);
     assert_eq!(session.lock_state(other), LockState::Locked);
     until_laid_out(&mut session);

@@ -15,6 +15,7 @@ pub(crate) mod history;
 pub(crate) mod live;
 pub(crate) mod many_charts;
 pub(crate) mod mend;
+pub(crate) mod page;
 pub(crate) mod placing;
 pub(crate) mod projects;
 pub(crate) mod recovery;

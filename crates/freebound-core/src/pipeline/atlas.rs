@@ -355,6 +355,13 @@ impl<'a> SolvedChart<'a> {
         Self { chart, outcome, size: 1.0, tile: None, locked: None, stacked_on: None, group: None }
     }
 
+    /// True if the surfaces of both charts are congruent or mirror images, and both maps are planar and without new
+    /// vertices. Then one chart can share the place of the other.
+    pub fn is_congruent_to(&self, other: &Self) -> bool {
+        let surfaces = self.measured_surface().zip(other.measured_surface());
+        surfaces.is_some_and(|(own, other)| own.congruence(&other, true).is_some())
+    }
+
     /// Chart with final coordinates and their verdict.
     fn laid(&self, coordinates: Embedding) -> LaidChart<'a> {
         let step = &self.outcome.step;

@@ -114,6 +114,12 @@ pub struct ProjectFile {
     /// Texture coordinates of the vertices of locked charts, v up, by the number of their first face in the file.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub locked: BTreeMap<u32, Vec<[f64; 2]>>,
+    /// Texture coordinates, like `locked`, of charts that the user placed. They stay until they are packed.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub placed: BTreeMap<u32, Vec<[f64; 2]>>,
+    /// Stacked charts, each with the chart whose place it shares, by the numbers of their first faces in the file.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub stacked: BTreeMap<u32, u32>,
     /// Targets of the user's pins.
     #[serde(default, rename = "pins", with = "pin_list")]
     pub targets: Targets,
@@ -236,6 +242,8 @@ impl ProjectFile {
             packing: PackingOptions::default(),
             sizes: BTreeMap::new(),
             locked: BTreeMap::new(),
+            placed: BTreeMap::new(),
+            stacked: BTreeMap::new(),
             new_vertices: settings.new_vertices,
             start: settings.start,
             targets: Targets::new(),

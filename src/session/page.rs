@@ -1,0 +1,295 @@
+//! Part: the page, with all charts as they lie on it, and moves of charts. Each frame of a move is judged exactly.
+//!
+//! ```text
+//! move_charts ──▶ job: the charts at their new places, with a verdict ──▶ accepted, or kept back by other charts
+//!                 a newer request replaces one that waits
+//! end_move    ──▶ edit of the document, once the newest request is judged
+//! ```
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use glam::{DAffine2, DVec2};
+
+use super::atlas_view::{AtlasKey, AtlasView};
+use super::{Background, Model, Wake};
+use freebound_core::geom::Bounds;
+use freebound_core::mesh::DiskMesh;
+use freebound_core::pipeline::{Outcome, SolvedChart, StackedOn};
+use freebound_core::problem::Embedding;
+use freebound_core::verify::{ChartInPlane, MoveVerdict, move_verdict};
+
+/// All charts as they lie on the page. The page's plane has its height as unit: x is u times the aspect, y is v.
+#[derive(Clone, Debug)]
+pub struct Page {
+    /// Charts by their numbers.
+    pub charts: Vec<PageChart>,
+    /// Width over height of the page.
+    pub aspect: f64,
+    /// Number of changes of the page.
+    pub revision: u64,
+    /// True if the layout is proved planar, false if it is not planar. `None` while it is being checked.
+    pub is_planar: Option<bool>,
+}
+
+/// Chart on the page.
+#[derive(Clone, Debug)]
+pub struct PageChart {
+    /// Model of the chart.
+    pub model: Arc<Model>,
+    /// Step that is laid out.
+    pub outcome: Arc<Outcome>,
+    /// Texture coordinates of the vertices of the step's mesh, v up.
+    pub coordinates: Arc<Embedding>,
+    /// Place on another chart. `None` for a chart with a place of its own.
+    pub stacked: Option<StackedOn>,
+}
+
+/// Chart and its movement in the page's plane.
+pub type ChartMove = (usize, DAffine2);
+
+impl PageChart {
+    /// Mesh of the step.
+    pub fn mesh(&self) -> &DiskMesh {
+        let disk = self.model.disk().expect("only a disk has an outcome");
+        self.outcome.step.candidate.mesh(disk)
+    }
+
+    /// Chart with its step, for a layout.
+    pub(super) fn solved(&self) -> SolvedChart<'_> {
+        SolvedChart::new(&self.model.prepared, &self.outcome)
+    }
+
+    /// Number of vertices of the chart without new vertices.
+    pub(super) fn given_count(&self) -> usize {
+        self.model.prepared.chart.as_ref().map_or(0, |of| of.chart.vertex_of.len())
+    }
+
+    /// Coordinates after a movement in the plane of a page.
+    fn moved(&self, by: DAffine2, aspect: f64) -> Embedding {
+        let plane = DVec2::new(aspect, 1.0);
+        self.coordinates.iter().map(|uv| by.transform_point2(*uv * plane) / plane).collect()
+    }
+}
+
+impl Page {
+    /// Chart that lends its place: the chart itself, or the chart that it is stacked on.
+    pub fn place_of(&self, chart: usize) -> usize {
+        self.charts.get(chart).and_then(|chart| chart.stacked).map_or(chart, |on| on.chart)
+    }
+
+    /// All charts at the places of these charts: the charts themselves, and those stacked with them.
+    pub fn with_stacks(&self, charts: &BTreeSet<usize>) -> BTreeSet<usize> {
+        let places: BTreeSet<usize> = charts.iter().map(|&chart| self.place_of(chart)).collect();
+        (0..self.charts.len()).filter(|&chart| places.contains(&self.place_of(chart))).collect()
+    }
+
+    /// Bounds of a chart in the page's plane.
+    pub fn bounds_of(&self, chart: usize) -> Bounds {
+        let plane = DVec2::new(self.aspect, 1.0);
+        let finite = |uv: &&DVec2| uv.is_finite();
+        let points = self.charts.get(chart).into_iter().flat_map(|chart| chart.coordinates.iter());
+        Bounds::of(points.filter(finite).map(|uv| *uv * plane))
+    }
+
+    /// Page with charts at other coordinates.
+    fn with(&self, moved: &[(usize, Arc<Embedding>)]) -> Self {
+        let mut page = self.clone();
+        for (chart, coordinates) in moved {
+            page.charts[*chart].coordinates = Arc::clone(coordinates);
+        }
+        page
+    }
+}
+
+/// Movement of charts that was judged.
+#[derive(Clone, Debug)]
+pub struct JudgedMove {
+    /// Movement of each chart, stacked charts included.
+    pub moves: Vec<ChartMove>,
+    /// Coordinates of each moved chart.
+    pub coordinates: Vec<(usize, Arc<Embedding>)>,
+    /// Verdict on the moved charts.
+    pub verdict: MoveVerdict,
+}
+
+impl JudgedMove {
+    /// Moves charts of a page and judges them.
+    fn new(page: &Page, moves: Vec<ChartMove>) -> Self {
+        let coordinates: Vec<(usize, Arc<Embedding>)> =
+            moves.iter().map(|&(chart, by)| (chart, Arc::new(page.charts[chart].moved(by, page.aspect)))).collect();
+        let of_moved: BTreeMap<usize, &Arc<Embedding>> = coordinates.iter().map(|(chart, at)| (*chart, at)).collect();
+        // A chart that is stacked on another has the coordinates of the other.
+        let own: Vec<usize> = (0..page.charts.len()).filter(|&chart| page.charts[chart].stacked.is_none()).collect();
+        let in_plane = |&number: &usize| {
+            let chart = &page.charts[number];
+            ChartInPlane {
+                mesh: chart.mesh(),
+                coordinates: of_moved.get(&number).copied().unwrap_or(&chart.coordinates),
+            }
+        };
+        let charts: Vec<ChartInPlane<'_>> = own.iter().map(in_plane).collect();
+        let moved = own.iter().enumerate().filter(|(_, chart)| of_moved.contains_key(chart));
+        let verdict = move_verdict(&charts, &moved.map(|(place, _)| place).collect());
+        let MoveVerdict { folded, overlapping } = verdict;
+        let verdict = MoveVerdict {
+            folded: folded.into_iter().map(|place| own[place]).collect(),
+            overlapping: overlapping.into_iter().map(|pair| pair.map(|place| own[place])).collect(),
+        };
+        Self { moves, coordinates, verdict }
+    }
+}
+
+/// Request to move charts.
+#[derive(Clone, Debug, PartialEq)]
+struct MoveRequest {
+    moves: Vec<ChartMove>,
+    /// True if charts may come to overlap.
+    insists: bool,
+}
+
+/// Move of charts in progress.
+#[derive(Clone, Debug, Default)]
+pub struct MoveState {
+    /// Newest movement that was accepted.
+    pub accepted: Option<JudgedMove>,
+    /// Movement that the user asked for, if other charts keep it back.
+    pub kept_back: Option<JudgedMove>,
+}
+
+/// The page, and the move of charts in progress.
+pub(super) struct PagePart {
+    page: Option<Page>,
+    key: Option<AtlasKey>,
+    job: Background<MoveRequest, JudgedMove>,
+    /// Newest request, while an older one is being judged.
+    waiting: Option<MoveRequest>,
+    state: Option<MoveState>,
+    /// True if the move ends once its newest request is judged.
+    is_ending: bool,
+}
+
+impl PagePart {
+    pub(super) fn new(wake: &Wake) -> Self {
+        let job = Background::new("move charts", wake);
+        Self { page: None, key: None, job, waiting: None, state: None, is_ending: false }
+    }
+
+    pub(super) fn page(&self) -> Option<&Page> {
+        self.page.as_ref()
+    }
+
+    pub(super) fn state(&self) -> Option<&MoveState> {
+        self.state.as_ref()
+    }
+
+    /// True while a move is being judged.
+    pub(super) fn is_busy(&self) -> bool {
+        self.job.is_busy()
+    }
+
+    /// True if the page shows the layout with this key.
+    pub(super) fn shows(&self, key: &AtlasKey) -> bool {
+        self.key.as_ref().is_some_and(|own| own.is(key))
+    }
+
+    /// Drops the page.
+    pub(super) fn forget(&mut self) {
+        (self.page, self.key) = (None, None);
+        self.give_up();
+    }
+
+    /// Puts charts of a layout on the page.
+    pub(super) fn put(&mut self, key: AtlasKey, models: Vec<Arc<Model>>, view: &AtlasView) {
+        let charts = models.into_iter().zip(&key.outcomes).zip(view.coordinates.iter().zip(&view.stacked));
+        let chart =
+            |((model, outcome), (coordinates, stacked)): ((Arc<Model>, &Arc<Outcome>), (&Arc<Embedding>, &_))| {
+                PageChart {
+                    model,
+                    outcome: Arc::clone(outcome),
+                    coordinates: Arc::clone(coordinates),
+                    stacked: *stacked,
+                }
+            };
+        let page = Page {
+            charts: charts.map(chart).collect(),
+            aspect: view.aspect,
+            revision: 0,
+            is_planar: Some(view.verdict.planar),
+        };
+        self.set(key, page);
+    }
+
+    /// Replaces the page. A page with the same numbers keeps its revision, so that nothing is drawn anew.
+    fn set(&mut self, key: AtlasKey, page: Page) {
+        let before = self.page.as_ref();
+        let is_same = before.is_some_and(|before| {
+            let charts = before.charts.iter().zip(&page.charts);
+            let is_same = |(a, b): (&PageChart, &PageChart)| {
+                let is_there = Arc::ptr_eq(&a.coordinates, &b.coordinates) || a.coordinates == b.coordinates;
+                Arc::ptr_eq(&a.outcome, &b.outcome) && is_there && a.stacked == b.stacked
+            };
+            before.charts.len() == page.charts.len()
+                && before.aspect.to_bits() == page.aspect.to_bits()
+                && charts.into_iter().all(is_same)
+        });
+        let revision = before.map_or(0, |before| before.revision) + u64::from(!is_same);
+        self.page = Some(Page { revision, ..page });
+        self.key = Some(key);
+    }
+
+    /// Shows the end of a move on the page at once. `key` is the key of the layout after the move.
+    pub(super) fn put_moved(&mut self, key: AtlasKey, judged: &JudgedMove) {
+        let Some(page) = &self.page else { return };
+        let is_planar = page.is_planar.filter(|planar| *planar && judged.verdict.is_planar());
+        let page = Page { is_planar, ..page.with(&judged.coordinates) };
+        self.set(key, page);
+    }
+
+    /// Moves charts, at the next frame that is judged. Charts that would overlap others stay at their last place, unless
+    /// the user insists.
+    pub(super) fn follow(&mut self, moves: Vec<ChartMove>, insists: bool) {
+        self.state.get_or_insert_default();
+        self.is_ending = false;
+        self.waiting = Some(MoveRequest { moves, insists });
+        self.start_next();
+    }
+
+    /// Ends the move once its newest request is judged.
+    pub(super) fn end(&mut self) {
+        self.is_ending = self.state.is_some();
+    }
+
+    /// Drops the move. Returns true if there was one.
+    pub(super) fn give_up(&mut self) -> bool {
+        self.job.cancel();
+        (self.waiting, self.is_ending) = (None, false);
+        self.state.take().is_some()
+    }
+
+    fn start_next(&mut self) {
+        if self.job.is_busy() {
+            return;
+        }
+        let (Some(request), Some(page)) = (self.waiting.take(), self.page.clone()) else { return };
+        self.job.start(request.clone(), move |_| JudgedMove::new(&page, request.moves));
+    }
+
+    /// Takes the move that was judged, and judges the next. Returns the state at the end of the move.
+    pub(super) fn poll(&mut self) -> Option<MoveState> {
+        if let Some((request, judged)) = self.job.poll()
+            && let (Some(state), Ok(judged)) = (&mut self.state, judged)
+        {
+            if request.insists || judged.verdict.is_planar() {
+                *state = MoveState { accepted: Some(judged), kept_back: None };
+            } else {
+                state.kept_back = Some(judged);
+            }
+        }
+        self.start_next();
+        let has_ended = self.is_ending && !self.job.is_busy();
+        let state = self.state.take_if(|_| has_ended)?;
+        self.is_ending = false;
+        Some(state)
+    }
+}
