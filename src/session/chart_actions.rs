@@ -42,6 +42,17 @@ impl Session {
         }
     }
 
+    /// Number of charts that are solved, and number of all charts.
+    pub fn solved_count(&self) -> [usize; 2] {
+        [self.solved_charts().count(), self.charts().map_or(0, |charts| charts.count())]
+    }
+
+    /// True if the solve of a chart failed.
+    pub fn has_failed_charts(&self) -> bool {
+        let count = self.charts().map_or(0, |charts| charts.count());
+        (0..count).any(|chart| matches!(self.chart_state(chart), ChartState::Failed))
+    }
+
     /// Shows another chart, as an edit. A chart that is not extracted from the mesh yet is shown once it is extracted.
     pub(super) fn show_chart(&mut self, number: usize) {
         let model = self.model().filter(|_| self.has_numbers_as_wanted());

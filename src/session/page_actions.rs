@@ -60,6 +60,15 @@ impl Session {
             && self.document.edits_of(chart, of).targets.is_empty()
     }
 
+    /// Charts of the newest layout that overlap others or are not planar.
+    pub fn overlapping_charts(&self) -> Vec<usize> {
+        let (Some(charts), Some(atlas)) = (self.charts(), self.newest_atlas()) else { return Vec::new() };
+        let faces = atlas.verdict.overlapping_faces.iter().flatten();
+        let flat = atlas.verdict.charts.iter().enumerate().filter(|(_, chart)| !chart.planar).map(|(chart, _)| chart);
+        let all: BTreeSet<usize> = faces.filter_map(|&face| charts.chart_of_file_face(face)).chain(flat).collect();
+        all.into_iter().collect()
+    }
+
     /// Moves charts in the page's plane, as a frame of a gesture. Stacked charts move together. Charts that cannot be
     /// moved stay.
     pub(super) fn move_charts(&mut self, moves: &[ChartMove], insists: bool) {

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::editor::Editor;
 use super::keys::{BINDINGS, Binding};
-use super::state::Request;
+use super::state::{Axis, GestureKind, PageRequest, Request};
 use crate::session::Action;
 use freebound_core::mesh::VertexId;
 
@@ -34,6 +34,7 @@ pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request>
         let is_left = context.input_mut(|input| input.consume_key(NONE, Key::Escape));
         return if is_left { vec![Request::Escape] } else { Vec::new() };
     }
+    let of_page = page_keys(context, editor);
     // Before the other keys: if pins are selected, the arrows do not move along the timeline.
     let nudges = nudges(context, editor);
     let keyboard = Keyboard::of(context);
@@ -52,8 +53,64 @@ pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request>
         // Tab toggles the pane here; egui would also move the focus to the next control.
         context.memory_mut(|memory| memory.move_focus(egui::FocusDirection::None));
     }
+    requests.extend(of_page);
     requests.extend(nudges);
     requests
+}
+
+/// Requests of the keys that belong to selected charts or to a gesture on them. These keys are removed from the input.
+fn page_keys(context: &egui::Context, editor: &Editor) -> Vec<Request> {
+    let has_charts = editor.shows_page() && !editor.page.selected().is_empty();
+    if !has_charts || context.text_edit_focused() || egui::Popup::is_any_open(context) {
+        return Vec::new();
+    }
+    let is_in_gesture = editor.page.gesture().is_some();
+    let mut requests = Vec::new();
+    context.input_mut(|input| {
+        input.events.retain(|event| {
+            let &egui::Event::Key { key, pressed: true, modifiers, repeat, .. } = event else { return true };
+            let request = if modifiers.any() {
+                None
+            } else if is_in_gesture {
+                gesture_key(key)
+            } else {
+                begin_key(key).filter(|_| !repeat)
+            };
+            let is_left = request.is_none();
+            requests.extend(request.map(Request::Page));
+            is_left
+        });
+    });
+    requests
+}
+
+/// Request of a key that starts a gesture on the selected charts, or shows one alone.
+const fn begin_key(key: Key) -> Option<PageRequest> {
+    Some(match key {
+        Key::G => PageRequest::Begin(GestureKind::Move),
+        Key::R => PageRequest::Begin(GestureKind::Turn),
+        Key::S => PageRequest::Begin(GestureKind::Scale),
+        Key::Enter => PageRequest::Open(None),
+        _ => return None,
+    })
+}
+
+/// Request of a key during a gesture on charts.
+fn gesture_key(key: Key) -> Option<PageRequest> {
+    Some(match key {
+        Key::X => PageRequest::Lock(Axis::X),
+        Key::Y => PageRequest::Lock(Axis::Y),
+        Key::Enter => PageRequest::End,
+        Key::Backspace => PageRequest::Type(None),
+        Key::Minus => PageRequest::Type(Some('-')),
+        Key::Period | Key::Comma => PageRequest::Type(Some('.')),
+        Key::G | Key::R | Key::S => return begin_key(key),
+        // The name of a digit's key is the digit.
+        digit => {
+            let letter = digit.name().chars().next().filter(|_| digit.name().len() == 1)?;
+            PageRequest::Type(Some(letter.is_ascii_digit().then_some(letter)?))
+        }
+    })
 }
 
 /// Owner of the keyboard.
@@ -104,7 +161,7 @@ impl Keyboard {
             Key::ArrowLeft | Key::ArrowRight | Key::Home | Key::End => self.menu_open || self.focus != Focus::Nothing,
             _ => false,
         };
-        let is_edit = matches!(binding.shortcut.logical_key, Key::Z | Key::Y);
+        let is_edit = matches!(binding.shortcut.logical_key, Key::Z | Key::Y | Key::A);
         !is_of_another && (!self.is_typing || (binding.shortcut.modifiers.command && !is_edit))
     }
 }
@@ -128,7 +185,9 @@ fn nudges(context: &egui::Context, editor: &Editor) -> Vec<Request> {
         || egui::Popup::is_any_open(context)
         || context.memory(egui::Memory::focused).is_some();
     let mut requests = Vec::new();
-    if !is_elsewhere && editor.tools.dragged().is_none() && editor.pins_selected().next().is_some() {
+    let has_pins = editor.pins_selected().next().is_some() && !editor.shows_page();
+    let has_charts = editor.shows_page() && !editor.page.selected().is_empty() && editor.page.gesture().is_none();
+    if !is_elsewhere && editor.tools.dragged().is_none() && (has_pins || has_charts) {
         let push = context.input_mut(take_push);
         if push != DVec2::ZERO {
             requests.push(Request::Nudge(push));
@@ -159,6 +218,9 @@ fn take_push(input: &mut egui::InputState) -> DVec2 {
 impl Editor {
     /// Moves the selected pins by pixels of the picture; y points up.
     pub(super) fn nudge(&mut self, pixels: DVec2) {
+        if self.shows_page() {
+            return self.nudge_charts(pixels);
+        }
         let document = self.session.document();
         let frame = document.frame();
         let step = match &document.picture {

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 
-use super::state::{FileDialogKind, Request, ShadingMode, StepTarget, Tool};
+use super::state::{FileDialogKind, PageRequest, Request, ShadingMode, StepTarget, Tool};
 use crate::session::Action;
 
 /// Keyboard shortcut and its request.
@@ -47,7 +47,11 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::D, "Next defect", || Request::StepDefect(1)),
     bind(NONE, Key::PageUp, "Previous chart", || Request::StepChart(-1)),
     bind(NONE, Key::PageDown, "Next chart", || Request::StepChart(1)),
-    bind(NONE, Key::L, "Lock the chart where it lies, or unlock it", || Request::ToggleLock),
+    bind(NONE, Key::L, "Lock the selected charts where they lie, or unlock them", || Request::ToggleLock),
+    bind(NONE, Key::Y, "Show all charts on the page, or one chart alone", || Request::Page(PageRequest::Toggle)),
+    bind(CTRL, Key::A, "Select all charts of the page", || Request::Page(PageRequest::SelectAll)),
+    bind(CTRL, Key::I, "Select the charts that are not selected", || Request::Page(PageRequest::Invert)),
+    bind(SHIFT, Key::P, "Pack the selected charts around the others, or all", || Request::Page(PageRequest::Pack)),
     bind(SHIFT, Key::Space, "Run or pause", || Request::RunOrPause),
     bind(NONE, Key::Space, "Take one step", || Request::Do(Action::Step)),
     bind(NONE, Key::ArrowLeft, "Previous step", || Request::GoToStep(StepTarget::Previous)),
@@ -107,6 +111,10 @@ pub(super) const MOUSE: &[(&str, &str)] = &[
     ("Ctrl + left drag", "Select the vertices and pins in a box"),
     ("Arrows, with pins selected", "Move them by a pixel of the picture; with Shift, by ten"),
     ("Alt, while choosing a position", "Do not snap to pixels of the picture"),
+    ("Left drag on a chart of the page", "Move the selected charts; Ctrl snaps, Alt lets them overlap"),
+    ("G, R, S, with charts selected", "Move, turn or scale them; X or Y locks an axis, digits type a number"),
+    ("Arrows, with charts selected", "Move them by a pixel of the picture; with Shift, by ten"),
+    ("Double click on a chart of the page", "Show the chart alone"),
     ("Middle, right or Shift + left drag", "Pan"),
     ("Wheel or pinch", "Zoom to the pointer"),
     ("Double click on the mesh", "Set the point to orbit about"),

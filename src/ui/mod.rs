@@ -44,8 +44,8 @@ pub use keys::{BINDINGS, Binding};
 pub use panes::PinMark;
 use state::FileDialogKind;
 pub use state::{
-    ComparisonExport, Half, HullStage, Intent, MorphRequest, Pane, Request, SeamClick, SeamRule, ShadingMode,
-    StepTarget, Tab, Tool, Tour, TourCard,
+    Alignment, Axis, ComparisonExport, GestureKind, Half, HullStage, Intent, MorphRequest, PageRequest, Pane, Request,
+    SeamClick, SeamRule, ShadingMode, Snap, StepTarget, Tab, Tool, Tour, TourCard,
 };
 use theme::{Theme, theme_of};
 use typed::Typed;

@@ -35,6 +35,8 @@ pub struct Theme {
     pub constraint: Color32,
     /// Element that is selected or under the pointer.
     pub selection: Color32,
+    /// Outline of charts that are selected or under the pointer.
+    pub selection_line: Srgb,
     /// Planar embedding, proved.
     pub planar: Color32,
     /// A constraint that a planar embedding does not meet.
@@ -137,6 +139,7 @@ const fn theme(tone: Column) -> Theme {
         pin: tone.colour(0x002F_5BD8, 0x007B_9BFF),
         constraint: tone.colour(0x0000_8FA3, 0x002B_D4E6),
         selection: on_screen(selection),
+        selection_line: selection,
         planar: tone.colour(0x001F_8A4C, 0x004A_CB80),
         unmet: tone.colour(0x006B_4FBB, 0x00B3_9DFF),
         stale: tone.colour(0x00B8_7A00, 0x00F0_B43C),

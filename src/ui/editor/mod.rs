@@ -7,6 +7,7 @@
 //! | `files.rs`, `unsaved.rs` | file dialogs; the question about unsaved work |
 //! | `comparison/` | methods side by side in the embedding pane |
 //! | `mesh_view.rs` | the mesh pane: place, camera, scene |
+//! | `page/` | all charts on the page: place, camera, drawn data, selection |
 //! | `plane/` | the embedding pane: place, camera, drawn data |
 //! | `scene.rs` | data for drawing and picking in both panes |
 //! | `paint.rs` | faces coloured by a shading |
@@ -46,6 +47,7 @@ mod in_file;
 pub(super) mod layout;
 mod mesh_view;
 mod opened;
+mod page;
 pub(super) mod paint;
 pub(super) mod picture_box;
 mod plane;
@@ -68,6 +70,7 @@ mod views;
 pub use comparison::MorphView;
 pub use defect::Defect;
 pub(super) use element::Element;
+pub(super) use page::PageScene;
 pub(super) use plane::HullScene;
 
 use std::sync::Arc;
@@ -83,6 +86,7 @@ use gpu::Gpu;
 use layout::Layout;
 use mesh_view::MeshView;
 use opened::Opened;
+use page::PageView;
 use plane::{PlaneView, SECONDS, Surroundings};
 use scene::MeshScene;
 use selection::{Pointer, Selection, ToolState};
@@ -98,6 +102,8 @@ pub struct Editor {
     pub mesh: MeshView,
     /// Embedding pane.
     pub plane: PlaneView,
+    /// All charts on the page.
+    pub page: PageView,
     /// Selected vertices and defect.
     pub selection: Selection,
     /// Element under the pointer.
@@ -132,6 +138,7 @@ impl Editor {
         Self {
             mesh: MeshView::new(&wake),
             plane: PlaneView::new(&wake),
+            page: PageView::new(&wake),
             session: Session::new(Arc::clone(&wake), recent),
             selection: Selection::default(),
             pointer: Pointer::default(),
@@ -209,6 +216,7 @@ impl Editor {
                 self.frame();
             }
         }
+        self.page.refresh(&self.session, self.mesh.scene());
         self.tell_failures();
         self.pane_shading.refresh_picture(self.session.document());
         self.poll_shot();
@@ -219,6 +227,8 @@ impl Editor {
         self.gpu.note_work(self.session.busy().is_some(), Instant::now());
         let scenes_pending = self.mesh.is_making_scene()
             || self.plane.is_making_scene()
+            || self.page.is_making()
+            || self.session.is_judging_move()
             || self.pane_shading.is_making_picture()
             || self.tools.seam.is_busy();
         if self.session.busy().is_some() || scenes_pending || self.files.dialogs.is_open() {
@@ -237,6 +247,7 @@ impl Editor {
     fn tell_failures(&mut self) {
         let [mesh, plane, picture] =
             [self.mesh.take_failure(), self.plane.take_failure(), self.pane_shading.take_failure()];
+        let plane = plane.or_else(|| self.page.take_failure());
         let seam = self.tools.seam.take_failure();
         let failures = [
             (MessagePlace::Mesh, "drawing", mesh),
@@ -279,6 +290,7 @@ impl Editor {
         }
         if self.opened.put_on_screen(&self.session) {
             self.selection.select([]);
+            self.page.forget();
             self.put_on_view();
         }
         let scene = self.mesh.scene();

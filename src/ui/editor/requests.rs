@@ -1,11 +1,12 @@
 //! Handling of requests by the editor.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::Editor;
 use crate::session::{Action, LockState, SaveRequest, UndoGroup};
 use crate::ui::dialogs::DialogChoice;
-use crate::ui::state::{FileDialogKind, Half, Pane, PendingClose, Request, StepTarget, Tool};
+use crate::ui::state::{FileDialogKind, Half, PageRequest, Pane, PendingClose, Request, StepTarget, Tool};
 use freebound_core::mesh::VertexId;
 use freebound_core::problem::PinKind;
 use freebound_io::PROJECT_EXTENSION;
@@ -68,6 +69,7 @@ impl Editor {
             Request::ToggleSharp => self.pane_shading.toggle_sharp(),
             Request::UnpinSelected => self.act(Action::Unpin(self.selection.vertices().iter().copied().collect())),
             Request::Escape => self.escape(),
+            Request::Page(request) => self.handle_page(request),
             Request::ToggleFull(pane) => self.layout.toggle_full(pane),
             Request::TogglePane => {
                 let pane = self.pointer.pane().unwrap_or(Pane::Plane);
@@ -161,19 +163,32 @@ impl Editor {
         actions.into_iter().map(Request::Do).collect()
     }
 
-    /// Shows the chart `by` places after the current one, cyclically.
+    /// Shows the chart `by` places after the current one, cyclically; on the page, selects it.
     fn step_chart(&mut self, by: isize) {
         let count = self.session.charts().map(|charts| charts.count());
-        if let Some((count, now)) = count.zip(self.session.chart_on_screen()) {
-            let count = count.cast_signed();
-            self.act(Action::ShowChart((now.cast_signed() + by).rem_euclid(count).cast_unsigned()));
+        let selected = self.page.selected().first().copied().filter(|_| self.shows_page());
+        let Some((count, now)) = count.zip(selected.or(self.session.chart_on_screen())) else { return };
+        let next = (now.cast_signed() + by).rem_euclid(count.cast_signed()).cast_unsigned();
+        if self.shows_page() {
+            self.handle_page(PageRequest::Pick { chart: Some(next), adds: false });
+        } else {
+            self.act(Action::ShowChart(next));
         }
     }
 
+    /// Locks the selected charts of the page, or the chart on the screen; or unlocks them if all are locked.
     fn toggle_lock(&mut self) {
-        if let Some(chart) = self.session.chart_on_screen() {
-            let lock = self.session.lock_state(chart) != LockState::Locked;
-            self.act(Action::LockCharts { charts: [chart].into(), lock });
+        let charts = self.charts_to_work_on();
+        let lock = charts.iter().any(|&chart| self.session.lock_state(chart) == LockState::Open);
+        self.act(Action::LockCharts { charts, lock });
+    }
+
+    /// Selected charts of the page, or the chart on the screen if the page is not shown.
+    pub(in crate::ui) fn charts_to_work_on(&self) -> BTreeSet<usize> {
+        if self.shows_page() {
+            self.page.selected().clone()
+        } else {
+            self.session.chart_on_screen().into_iter().collect()
         }
     }
 
@@ -220,6 +235,7 @@ impl Editor {
 
     fn escape(&mut self) {
         if self.close_question() || self.leave_large() || self.files.dialogs.close() || self.layout.close_window() {
+        } else if self.drop_gesture() {
         } else if self.tools.end_drag() {
             self.act(Action::GiveUpGesture);
         } else if self.pointer.end_box() {
@@ -228,6 +244,10 @@ impl Editor {
         } else if self.tools.seam.end() || self.leave_morph() || self.leave_comparison() {
         } else if self.tools.tool() != Tool::Select {
             self.tools.take_up(Tool::Select);
+        } else if self.shows_page() {
+            self.page.select([]);
+        } else if self.selection.vertices().is_empty() && self.session.charts().is_some() {
+            self.handle_page(PageRequest::Show(true));
         } else {
             self.selection.select([]);
         }

@@ -105,6 +105,11 @@ impl MeshScene {
         self.refinement.as_ref().map_or(self.model.mesh(), |refinement| refinement.disk().mesh())
     }
 
+    /// Length of the file's unit in the scene's positions: positions are divided by it.
+    pub(super) fn unit(&self) -> f64 {
+        self.model.disk().map_or(1.0, |disk| disk.unit())
+    }
+
     /// Rim of the hole with this lowest vertex; empty if there is none.
     pub(in crate::ui) fn hole_rim(&self, lowest: VertexId) -> Vec<VertexId> {
         let hole = self.mesh().holes().into_iter().find(|hole| hole.rim[0] == lowest);

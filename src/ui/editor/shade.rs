@@ -2,6 +2,7 @@
 
 use super::Editor;
 use super::appearance::{Appearance, PaintSources};
+use super::paint::Legend;
 use crate::ui::state::{Pane, ShadingMode, Tool};
 
 impl Editor {
@@ -22,6 +23,11 @@ impl Editor {
     /// Shading of a pane.
     pub fn shading(&self, pane: Pane) -> ShadingMode {
         self.appearance().shading(pane)
+    }
+
+    /// Legend of the shading of a pane.
+    pub(in crate::ui) fn legend(&self, pane: Pane) -> Option<&Legend> {
+        if self.shows_page() { self.page.legend(pane) } else { self.pane_shading.legend(pane) }
     }
 
     /// Shades the pane under the pointer, or both panes if it is over neither.
@@ -46,6 +52,12 @@ impl Editor {
 
     /// Recolours the faces if needed. Call once per frame.
     pub(super) fn refresh_paints(&mut self) {
+        if self.shows_page() {
+            for (pane, shading) in Pane::BOTH.map(|pane| (pane, self.shading(pane))) {
+                self.page.refresh_paint(pane, shading);
+            }
+            return;
+        }
         let Some(given) = self.mesh.scene() else { return };
         let base = self.plane.moved_from(&self.session).map(AsRef::as_ref);
         let sources = PaintSources { given, plane: self.plane.scene().map(AsRef::as_ref), base };

@@ -8,7 +8,7 @@ use super::Editor;
 use super::defect::Defect;
 use super::picture_box::picture_box;
 use crate::session::Action;
-use crate::view::part_around;
+use crate::view::{Sphere, part_around};
 use freebound_core::geom::Bounds;
 use freebound_core::mesh::{FaceId, VertexId};
 use freebound_core::pipeline::Outcome;
@@ -16,6 +16,9 @@ use freebound_core::pipeline::Outcome;
 impl Editor {
     pub(super) fn frame(&mut self) {
         self.plane.comparison.frame();
+        if self.shows_page() {
+            return self.frame_charts();
+        }
         let Some(scene) = self.mesh_scene() else { return };
         let selected: Vec<VertexId> = self.selection.vertices().iter().copied().collect();
         let positions = &scene.mesh().positions;
@@ -31,6 +34,16 @@ impl Editor {
         }
     }
 
+    /// Frames the selected charts in both panes, or everything.
+    fn frame_charts(&mut self) {
+        let selected = self.page.selected().clone();
+        self.page.frame(&selected);
+        let (Some(page), Some(scene)) = (self.page.scene(), self.mesh.scene()) else { return };
+        let points = page.points_of(selected.iter().copied());
+        let ball = if points.is_empty() { scene.sphere } else { Sphere::around(&points) };
+        self.mesh.frame(ball);
+    }
+
     /// True if the document has a picture.
     pub fn has_picture(&self) -> bool {
         self.session.document().picture.is_some()
@@ -43,6 +56,7 @@ impl Editor {
 
     pub(super) fn go_to_vertices(&mut self, vertices: Vec<VertexId>) {
         if !vertices.is_empty() {
+            self.leave_page();
             self.selection.select(vertices);
             self.frame();
         }
@@ -54,6 +68,7 @@ impl Editor {
         let vertices: Vec<VertexId> = faces.iter().flat_map(|face| source.face(face.index())).copied().collect();
         let chart = self.session.charts().and_then(|charts| charts.chart_of_file_face(first));
         if let Some(chart) = chart.filter(|&chart| self.session.chart_on_screen() != Some(chart)) {
+            self.leave_page();
             self.selection.await_mesh(vertices);
             self.act(Action::ShowChart(chart));
             return;

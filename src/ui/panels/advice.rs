@@ -25,6 +25,10 @@ enum Advice {
 impl Advice {
     fn of(editor: &Editor) -> Option<Self> {
         let session = &editor.session;
+        if editor.shows_page() {
+            // The advice is on a single chart.
+            return None;
+        }
         let is_at_rest = matches!(session.status(), Status::Held | Status::Current) && !editor.plane.is_moving(session);
         let step = editor.step_on_screen().filter(|_| is_at_rest && editor.tools.dragged().is_none())?;
         if step.step.verdict.planar {

@@ -9,7 +9,10 @@ use super::menu::grouped;
 use super::seams_section::seams_section;
 use super::surface::charts_row;
 use crate::session::{Action, AtlasView, ChartState, LockState, Session};
-use crate::ui::{Control, Editor, Request, counted, five_digits, icons, keys_of, pairs, remark, sentence, theme_of};
+use crate::ui::{
+    Alignment, Axis, Control, Editor, GestureKind, Offer, PageRequest, Request, Snap, counted, five_digits, icons,
+    keys_of, list, pairs, remark, sentence, theme_of, tip_with_keys,
+};
 use freebound_core::geom::{Bounds, FIRST_UDIM_TILE, PackingOptions, corner_of_tile};
 use freebound_core::mesh::Charts;
 use freebound_core::pipeline::{PackingSummary, StackedOn};
@@ -120,16 +123,19 @@ pub(super) fn charts_panel(ui: &mut egui::Ui, editor: &Editor, panel: egui::Rect
     pairs(ui, "charts", [12.0, 4.0], |ui| charts_row(ui, session, requests));
     let Some(charts) = session.charts() else { return };
     ui.separator();
-    let atlas = session.atlas();
+    let atlas = session.atlas().or(session.newest_atlas().filter(|atlas| atlas.densities.len() == charts.count()));
     let mut rows: Vec<Row> = (0..charts.count()).map(|chart| Row::new(session, charts, chart, atlas)).collect();
     rows.sort_by(|a, b| b.weight().total_cmp(&a.weight()).then(a.chart.cmp(&b.chart)));
-    let side = ui.available_width().min(panel.height() * 0.19).max(80.0);
-    layout(ui, session, side, requests);
+    if !editor.shows_page() {
+        let side = ui.available_width().min(panel.height() * 0.19).max(80.0);
+        layout(ui, session, side, requests);
+    }
     verdict(ui, session, &rows);
     packing(ui, session, requests);
-    size(ui, session, requests);
+    arrange(ui, editor, requests);
+    size(ui, editor, requests);
     ui.separator();
-    list(ui, session, &rows, panel.bottom(), requests);
+    rows_of(ui, editor, &rows, panel.bottom(), requests);
 }
 
 /// Draws all charts at their places in the picture. A click on a chart shows it.
@@ -247,7 +253,11 @@ fn verdict(ui: &mut egui::Ui, session: &Session, rows: &[Row]) {
     }
     if let Some(packing) = session.atlas().and_then(|atlas| atlas.packing) {
         let words = remark(ui, packing_words(&packing, session.packing().picture));
-        words.on_hover_text("The packing is up to date: charts are packed again after every change");
+        words.on_hover_text(if session.has_placed_charts() {
+            "Charts stay where they lie until they are packed"
+        } else {
+            "The packing is up to date: charts are packed again after every change, until one is moved"
+        });
     }
 }
 
@@ -345,7 +355,7 @@ fn stack_and_tiles(ui: &mut egui::Ui, options: &mut PackingOptions) -> bool {
 /// Drop-down list of an option. True if another entry was clicked.
 fn choice<T: NamedOption + PartialEq + Copy + 'static>(ui: &mut egui::Ui, name: &str, tip: &str, now: &mut T) -> bool {
     let before = *now;
-    let list = crate::ui::list(ui, name, 72.0, before.labels().title, |ui| {
+    let list = list(ui, name, 72.0, before.labels().title, |ui| {
         for &option in T::ALL {
             let label = ui.selectable_label(before == option, option.labels().title);
             if label.on_hover_text(option.labels().tip()).clicked() {
@@ -381,10 +391,103 @@ fn density_field(ui: &mut egui::Ui, density: &mut Option<f64>, found: Option<f64
     has_ended
 }
 
+/// Selected charts: menus that move, line up and stack them, and buttons that pack.
+fn arrange(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    if !editor.shows_page() {
+        return;
+    }
+    let selected = editor.page.selected().len();
+    let can_move = !editor.movable_charts().is_empty();
+    ui.horizontal_wrapped(|ui| {
+        ui.add_enabled_ui(can_move, |ui| {
+            ui.menu_button("Move", |ui| {
+                for kind in GestureKind::ALL {
+                    entry(ui, kind.title(), kind.about(), PageRequest::Begin(kind), requests);
+                }
+                ui.separator();
+                for (axis, words) in Axis::BOTH.into_iter().zip(["Mirror left to right", "Mirror top to bottom"]) {
+                    entry(ui, words, "Mirror each selected chart in place", PageRequest::Mirror(axis), requests);
+                }
+            });
+            ui.menu_button("Align", |ui| {
+                for alignment in Alignment::ALL {
+                    let tip = "Line up the selected charts";
+                    entry(ui, alignment.title(), tip, PageRequest::Align(alignment), requests);
+                }
+                ui.separator();
+                for (axis, words) in Axis::BOTH.into_iter().zip(["Distribute across", "Distribute up"]) {
+                    let tip = "Make the gaps between three or more selected charts equal";
+                    entry(ui, words, tip, PageRequest::Distribute(axis), requests);
+                }
+            });
+        });
+        ui.add_enabled_ui(selected > 0, |ui| {
+            ui.menu_button("Stack", |ui| {
+                let tip =
+                    "Lay the selected charts on the first of them: congruent surfaces or mirror images share a place";
+                entry(ui, "Stack", tip, PageRequest::Stack, requests);
+                let tip = "Give the selected charts places of their own again, packed around the others";
+                entry(ui, "Unstack", tip, PageRequest::Unstack, requests);
+            });
+        });
+        snap_menu(ui, editor, requests);
+    });
+    ui.horizontal_wrapped(|ui| {
+        let tip = "Pack the selected charts around all others, which stay";
+        let pack = Offer::new("Pack selected", tip, PageRequest::Pack);
+        pack.when(selected > 0).show(ui, requests);
+        let tip = "Pack all charts that are not locked";
+        Offer::new("Pack all", tip, PageRequest::PackAll).when(editor.session.has_placed_charts()).show(ui, requests);
+        density_of_selection(ui, editor, requests);
+    });
+}
+
+/// Entry of a menu on the selected charts.
+fn entry(ui: &mut egui::Ui, words: &str, about: &str, request: PageRequest, requests: &mut Vec<Request>) {
+    let tip = tip_with_keys(ui, about, &Request::Page(request.clone()));
+    if ui.button(words).on_hover_text(tip).asks(request, requests) {
+        ui.close();
+    }
+}
+
+/// Menu of the places that moved charts snap to.
+fn snap_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let now = editor.page.snap();
+    let menu = list(ui, "Snapping of moved charts", 110.0, now.title(), |ui| {
+        for snap in Snap::ALL {
+            ui.selectable_label(now == snap, snap.title()).asks(PageRequest::SetSnap(snap), requests);
+        }
+    });
+    menu.on_hover_text("Places that moved charts snap to. Ctrl turns snapping on or off during a move");
+}
+
+/// Field that scales each selected chart in place to a density. It applies when the typing ends.
+fn density_of_selection(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let Some(&first) = editor.page.selected().first().filter(|_| !editor.movable_charts().is_empty()) else { return };
+    let found = editor.session.newest_atlas().and_then(|atlas| atlas.densities.get(first).copied());
+    let Some(before) = found else { return };
+    let kept = ui.scope_id().with(("density of the selection", first));
+    let mut density: f64 = ui.data(|data| data.get_temp(kept)).unwrap_or(before);
+    let value = DragValue::new(&mut density).range(DENSITIES).speed(before * 0.005).max_decimals(2).suffix(" px/unit");
+    let field = ui.add(value).named(Role::SpinButton, "Density of the selected charts, pixels per unit of length");
+    let field = field.on_hover_text("Scale each selected chart in place to this number of pixels per unit of length");
+    if field.has_ended() {
+        ui.data_mut(|data| data.remove::<f64>(kept));
+        if density.to_bits() != before.to_bits() {
+            requests.push(PageRequest::SetDensity(density).into());
+        }
+    } else if density.to_bits() == before.to_bits() {
+        ui.data_mut(|data| data.remove::<f64>(kept));
+    } else {
+        ui.data_mut(|data| data.insert_temp(kept, density));
+    }
+}
+
 /// Field for the relative size of the chart on the screen, and its pixel density. An edit applies when the drag or
 /// the typing ends.
-fn size(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
-    let Some(chart) = session.chart_on_screen() else { return };
+fn size(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let session = &editor.session;
+    let Some(chart) = editor.charts_to_work_on().first().copied().or(session.chart_on_screen()) else { return };
     let kept = ui.scope_id().with(("size", chart));
     let before = session.sizes().get(chart).copied().unwrap_or(1.0);
     let mut size: f64 = ui.data(|data| data.get_temp(kept)).unwrap_or(before);
@@ -402,7 +505,7 @@ fn size(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
         let value = DragValue::new(&mut size).range(PackingOptions::SIZES).speed(0.01).max_decimals(2).suffix("×");
         let field = ui.add_enabled(!is_held, value).named(Role::SpinButton, "Size of the chart on the screen");
         let field = field.on_hover_text(tip).on_disabled_hover_text(tip);
-        if let Some(density) = session.atlas().and_then(|atlas| atlas.densities.get(chart)) {
+        if let Some(density) = session.newest_atlas().and_then(|atlas| atlas.densities.get(chart)) {
             remark(ui, format!("{density:.4} pixels per unit of length"));
         }
         if field.has_ended() {
@@ -419,22 +522,26 @@ fn size(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
 }
 
 /// List of the charts, the worst first.
-fn list(ui: &mut egui::Ui, session: &Session, rows: &[Row], bottom: f32, requests: &mut Vec<Request>) {
+fn rows_of(ui: &mut egui::Ui, editor: &Editor, rows: &[Row], bottom: f32, requests: &mut Vec<Request>) {
     let keys = [-1, 1].map(|by| keys_of(ui.ctx(), &Request::StepChart(by)));
     let lock = keys_of(ui.ctx(), &Request::ToggleLock);
-    remark(ui, format!("Click a chart to work on it ({} and {}), lock it with {lock}", keys[0], keys[1]));
-    let shown = session.chart_on_screen();
+    let shows_page = editor.shows_page();
+    let words =
+        if shows_page { "Click selects, double click shows a chart alone" } else { "Click a chart to work on it" };
+    remark(ui, format!("{words} ({} and {}), {lock} locks", keys[0], keys[1]));
+    let marked = editor.charts_to_work_on();
     let height = (bottom - ui.cursor().top()).max(LEAST_ROWS * ROW);
     let area = egui::ScrollArea::vertical().id_salt("list of charts").auto_shrink(false);
     let area = area.min_scrolled_height(height).max_height(height);
     area.show_rows(ui, ROW, rows.len(), |ui, range| {
         for row in &rows[range] {
-            row_of(ui, row, shown == Some(row.chart), requests);
+            row_of(ui, row, (marked.contains(&row.chart), shows_page), requests);
         }
     });
 }
 
-fn row_of(ui: &mut egui::Ui, row: &Row, is_shown: bool, requests: &mut Vec<Request>) {
+/// Row of a chart. A row is marked if its chart is selected, or on the screen if the page is not shown.
+fn row_of(ui: &mut egui::Ui, row: &Row, (is_shown, shows_page): (bool, bool), requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::click());
     let words = row.words();
@@ -468,7 +575,15 @@ fn row_of(ui: &mut egui::Ui, row: &Row, is_shown: bool, requests: &mut Vec<Reque
     painter.galley(Pos2::new(inner.left(), inner.bottom() - below.size().y - 3.0), below, theme.weak_text);
     let to_lock = Rect::from_min_size(rect.min, Vec2::new(LOCK, ROW));
     lock_button(ui, row, to_lock, requests);
-    response.on_hover_text(name).asks(Action::ShowChart(row.chart), requests);
+    let response = response.on_hover_text(name);
+    if !shows_page {
+        response.asks(Action::ShowChart(row.chart), requests);
+    } else if response.double_clicked() {
+        requests.push(PageRequest::Open(Some(row.chart)).into());
+    } else {
+        let adds = ui.input(|input| input.modifiers.shift || input.modifiers.command);
+        response.asks(PageRequest::Pick { chart: Some(row.chart), adds }, requests);
+    }
 }
 
 /// Padlock at the left of a row.

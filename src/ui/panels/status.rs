@@ -6,6 +6,7 @@ use eframe::egui::{self, RichText};
 
 use super::vertex_panel::new_vertex_words;
 use crate::session::Status;
+use crate::ui::panes::page_pane::{numbers as page_numbers, texture_coordinates};
 use crate::ui::timeline::PRESS_SPACE;
 use crate::ui::{Editor, Tool, short, theme_of};
 
@@ -36,6 +37,15 @@ fn hint(editor: &Editor, has_shift: bool) -> Cow<'static, str> {
         _ if editor.shows_comparison_alone() => {
             "Click a method to use it for the document. Drag pans all of them, the wheel zooms. Esc goes back."
         }
+        Tool::Select if editor.page.gesture().is_some() => {
+            "X or Y locks an axis. Type a number. Ctrl snaps, Alt lets charts overlap. Click or Enter ends, Esc cancels."
+        }
+        Tool::Select if editor.shows_page() && editor.page.selected().is_empty() => {
+            "Click a chart to select it; Ctrl + drag selects a box. Drag a chart to move it. Double click shows it alone."
+        }
+        Tool::Select if editor.shows_page() => {
+            "Drag to move the selected charts; G moves, R turns, S scales them. L locks, F frames. Shift + click adds."
+        }
         Tool::Constrain if !is_over_new => return editor.constrain_words().into(),
         Tool::Seam => return editor.seam_words(has_shift).into(),
         _ if is_held && !editor.timeline.curves_shown() => PRESS_SPACE,
@@ -54,6 +64,11 @@ fn hint(editor: &Editor, has_shift: bool) -> Cow<'static, str> {
 }
 
 fn numbers(editor: &Editor) -> String {
+    if let Some(page) = editor.session.page().filter(|_| editor.shows_page()) {
+        let at = editor.pointer.in_embedding().map(|at| texture_coordinates(page, at));
+        let at = at.map(|at| format!("u {} v {}", short(at.x), short(at.y)));
+        return at.into_iter().chain(page_numbers(editor)).collect::<Vec<_>>().join("  ·  ");
+    }
     let mut parts = Vec::new();
     if let Some(place) = editor.pointer.in_embedding() {
         let at = editor.session.document().frame().uv_from_plane(place);

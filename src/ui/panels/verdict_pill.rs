@@ -5,7 +5,7 @@ use eframe::egui::{self, RichText, Role};
 use super::seams_section::progress_words;
 use crate::session::{Action, Busy, LivePreview, Preview, Status};
 use crate::ui::icons::{self, Sign};
-use crate::ui::{Control, Editor, Offer, Request, Tab, counted, theme_of};
+use crate::ui::{Control, Editor, Offer, PageRequest, Request, Tab, counted, sentence, theme_of};
 use freebound_core::bijective::Blocker;
 use freebound_core::flatten::Step;
 use freebound_core::pipeline::Surface;
@@ -33,6 +33,15 @@ pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: 
     if let Some(pill) = &pill
         && show_pill(ui, pill).clicked()
     {
+        if editor.shows_page() {
+            let charts = editor.session.overlapping_charts();
+            requests.push(Request::ShowTab(Tab::Charts));
+            if !charts.is_empty() {
+                requests.push(PageRequest::Pick { chart: None, adds: false }.into());
+                requests.push(PageRequest::Add(charts).into());
+            }
+            return;
+        }
         let unmet = editor.step_on_screen().map(|outcome| outcome.step.unmet()).unwrap_or_default();
         requests.push(match editor.defect_count() {
             _ if editor.plane.is_moving(&editor.session) => Request::ShowTab(Tab::Defects),
@@ -78,6 +87,9 @@ fn pill(editor: &Editor) -> Option<Pill> {
         let words = counted(diagnosis.faults.len(), "fault", "faults");
         return Some(Pill::new(Sign::Bad, words, "The bars above the mesh and the Defects tab list the faults"));
     }
+    if editor.shows_page() {
+        return of_page(editor);
+    }
     Some(match session.status() {
         Status::Preview(Some(Preview { live: Some(live), .. })) => of_live(*live),
         Status::Preview(preview) => {
@@ -92,6 +104,35 @@ fn pill(editor: &Editor) -> Option<Pill> {
         }
         Status::Held | Status::Current if editor.plane.is_moving(session) => moving(editor)?,
         Status::Held | Status::Current => of_step(&editor.step_on_screen()?.step),
+    })
+}
+
+/// Verdict on all charts of the page, also while charts move.
+fn of_page(editor: &Editor) -> Option<Pill> {
+    let session = &editor.session;
+    let page = session.page()?;
+    let state = session.move_state();
+    let moved = state.and_then(|state| state.accepted.as_ref());
+    let count = counted(page.charts.len(), "chart", "charts");
+    if let Some([a, b]) = moved.and_then(|moved| moved.verdict.overlapping.first()) {
+        return Some(Pill::new(Sign::Bad, format!("Charts {a} and {b} overlap"), "Move them apart, or press Esc"));
+    }
+    let tip = "Exact arithmetic shows that no two faces of any charts overlap";
+    Some(match (page.is_planar, state.and_then(|state| state.kept_back.as_ref())) {
+        (None, _) => Pill::new(Sign::Working, "checking…", "The layout of all charts is being proved"),
+        (Some(true), Some(kept_back)) => {
+            let words = kept_back.verdict.overlapping.first().map_or_else(String::new, |[a, b]| {
+                let other = if kept_back.moves.iter().any(|(chart, _)| chart == a) { b } else { a };
+                format!(" · chart {other} is in the way")
+            });
+            Pill::new(Sign::Good, format!("Planar: proved{words}"), "Hold Alt to let charts overlap")
+        }
+        (Some(true), None) => Pill::new(Sign::Good, format!("Planar: proved · {count}"), tip),
+        (Some(false), _) => {
+            let words = session.newest_atlas().map(|atlas| atlas.verdict.summary());
+            let tip = "Click to select the charts that overlap";
+            Pill::new(Sign::Bad, words.map_or_else(|| "Not planar".to_owned(), |words| sentence(&words)), tip)
+        }
     })
 }
 

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Role};
 
-use crate::ui::{Control, Editor, Pane, Request, ShadingMode, list, tip_with_keys};
+use crate::ui::{Control, Editor, PageRequest, Pane, Request, ShadingMode, list, tip_with_keys};
 
 /// Least width of a pane with a title in its header, points.
 const ROOM_FOR_TITLE: f32 = 270.0;
@@ -15,13 +15,16 @@ const LEAST_MENU: f32 = 60.0;
 
 /// Title, shading menu, switches and full-size button, if there is room.
 pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
-    let title = pane.title();
+    let title = if pane == Pane::Plane && editor.shows_page() { "Layout" } else { pane.title() };
     let room = ui.available_width();
     ui.horizontal(|ui| {
         ui.set_min_height(26.0);
         if room >= ROOM_FOR_TITLE {
             ui.add_space(8.0);
             ui.strong(title);
+        }
+        if pane == Pane::Plane && editor.session.charts().is_some() {
+            page_switch(ui, editor, requests);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.add_space(4.0);
@@ -42,9 +45,22 @@ pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &
     });
 }
 
+/// Switch between all charts on the page and one chart alone.
+fn page_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let shows_page = editor.shows_page() || editor.awaits_page();
+    let chart = editor.session.chart_on_screen().unwrap_or_default();
+    let (words, about) = if shows_page {
+        (format!("Chart {chart}"), "Show this chart alone, to work on its vertices and steps")
+    } else {
+        ("All charts".to_owned(), "Show all charts as they lie on the page")
+    };
+    let tip = tip_with_keys(ui, about, &PageRequest::Toggle.into());
+    ui.add(egui::Button::new(words).small()).on_hover_text(tip).asks(PageRequest::Show(!shows_page), requests);
+}
+
 /// Switches of a pane.
 fn switches(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
-    if pane == Pane::Plane {
+    if pane == Pane::Plane && !editor.shows_page() {
         let tip = tip_with_keys(ui, "Hull and pockets of the virtual boundary", &Request::ToggleHull);
         let switch = ui.selectable_label(editor.plane.hull_shown(), "Hull").on_hover_text(tip);
         switch.asks(Request::ToggleHull, requests);

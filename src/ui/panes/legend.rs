@@ -14,7 +14,7 @@ pub(super) fn plane_has_own(editor: &Editor) -> bool {
 
 /// Legend of a shading by numbers: bar, histogram and labels.
 pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane) {
-    let Some(legend) = editor.pane_shading.legend(pane) else { return };
+    let Some(legend) = editor.legend(pane) else { return };
     let title = match (editor.shading(pane), editor.plane.moved_from(&editor.session)) {
         (ShadingMode::Move, Some(base)) => format!("Move from step {}, plane units", base.step.index),
         (shading, _) => shading.title().to_owned(),

@@ -3,18 +3,18 @@
 use std::sync::Arc;
 
 use eframe::egui::{self, Pos2, Response};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::pane;
 use super::pins::{self, Emphasis, PinMark};
-use super::{bars, header, legend, magnifier, outside_hull, seam, vertex_menu};
+use super::{bars, header, legend, magnifier, outside_hull, page_pane, seam, vertex_menu};
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PictureLayer, Style};
 use crate::session::Action;
 use crate::ui::editor::picture_box::picture_box;
 use crate::ui::editor::scene::MeshScene;
 use crate::ui::state::{Viewport, in_pane, size_of};
 use crate::ui::{Control, Editor, Pane, Request, ShadingMode, Theme, Tool, theme_of};
-use crate::view::{EdgeList, OrbitCamera, Visibility};
+use crate::view::{EdgeList, OrbitCamera, Ray, Visibility};
 use freebound_core::mesh::{Seams, VertexId};
 
 /// Opacity of the mark of a selected vertex that the mesh hides.
@@ -33,6 +33,9 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     editor.mesh.pane.set_rect(rect);
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
+    if editor.shows_page() {
+        return page_pane::mesh_ui(ui, (rect, &response), editor, requests);
+    }
     let (Some(scene), Some(mut camera)) = (editor.mesh_scene().map(Arc::clone), editor.mesh.pane.camera()) else {
         let lines: &[&str] = if editor.session.busy().is_some() {
             &["Opening…"]
@@ -45,7 +48,10 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     let sets_pivot = editor.tools.tool() != Tool::Seam;
     match paint(ui, &response, editor, &scene, camera) {
         Some(painted) => requests.extend(painted),
-        None => navigate(ui, &response, &scene, &mut camera, sets_pivot),
+        None => {
+            let hit = |ray| scene.picker.hit(ray).map(|hit| hit.point);
+            navigate(ui, &response, &hit, &mut camera, sets_pivot);
+        }
     }
     if editor.mesh.pane.camera() != Some(camera) {
         editor.mesh.pane.set_camera(camera);
@@ -124,7 +130,13 @@ fn other_chart(ui: &egui::Ui, response: &Response, chart: usize, requests: &mut 
 }
 
 /// Camera moves: turntable, pan, zoom to the pointer, pivot.
-fn navigate(ui: &egui::Ui, response: &Response, scene: &MeshScene, camera: &mut OrbitCamera, sets_pivot: bool) {
+pub(super) fn navigate(
+    ui: &egui::Ui,
+    response: &Response,
+    hit: &dyn Fn(Ray) -> Option<DVec3>,
+    camera: &mut OrbitCamera,
+    sets_pivot: bool,
+) {
     let size = size_of(response.rect);
     let drag = DVec2::new(response.drag_delta().x.into(), response.drag_delta().y.into());
     let (shift, boxing) = ui.input(|input| (input.modifiers.shift, input.modifiers.command));
@@ -134,7 +146,7 @@ fn navigate(ui: &egui::Ui, response: &Response, scene: &MeshScene, camera: &mut 
         camera.pan(drag, size);
     }
     let Some(pointer) = response.hover_pos().map(|at| in_pane(response.rect, at)) else { return };
-    let hit = |camera: &OrbitCamera| scene.picker.hit(camera.ray(pointer, size)).map(|hit| hit.point);
+    let hit = |camera: &OrbitCamera| hit(camera.ray(pointer, size));
     let wheel = pane::wheel(ui);
     if (wheel.zoom - 1.0).abs() > f64::EPSILON {
         let anchor = hit(camera).unwrap_or_else(|| camera.point_at_pivot_depth(pointer, size));

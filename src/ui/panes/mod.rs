@@ -7,6 +7,7 @@
 //! | `outside_hull.rs` | marks of vertices outside the hull of their neighbours |
 //! | `mesh_pane.rs` | the mesh in space |
 //! | `plane_pane.rs` | the embedding |
+//! | `page_pane.rs` | all charts on the page, in both panes |
 //! | `comparison/` | methods side by side, in place of the embedding |
 //! | `bars.rs` | bars over a pane: messages and questions |
 //! | `legend.rs` | the legend of a shading, notes about compared steps |
@@ -27,6 +28,7 @@ mod legend;
 mod magnifier;
 pub(super) mod mesh_pane;
 mod outside_hull;
+pub(super) mod page_pane;
 pub(super) mod pane;
 pub(super) mod pin_drag;
 pub(super) mod pins;

@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, picture_layer, seam_line, style};
 use super::pane;
-use super::{bars, constrain, header, inset, legend, magnifier, pin_drag, pins, seam, vertex_menu};
+use super::{bars, constrain, header, inset, legend, magnifier, page_pane, pin_drag, pins, seam, vertex_menu};
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::ui::editor::picture_box::picture_box;
 use crate::ui::editor::scene::PlaneScene;
@@ -26,9 +26,16 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     header::header(ui, editor, Pane::Plane, requests);
     let (rect, response) = pane::surface(ui, "Embedding in the plane");
     bars::over(ui, rect, editor, Pane::Plane, requests);
-    editor.lay_out_plane(rect);
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
+    if editor.shows_page() {
+        return page_pane::plane_ui(ui, (rect, &response), editor, requests);
+    }
+    if editor.awaits_page() {
+        let words = page_pane::waiting_words(editor);
+        return pane::empty_state(ui, rect, &words.iter().map(String::as_str).collect::<Vec<_>>());
+    }
+    editor.lay_out_plane(rect);
     let (Some(plane), Some(mut camera)) = (editor.plane.drawn().map(Arc::clone), editor.plane.pane.camera()) else {
         return pane::empty_state(ui, rect, &waiting_words(editor));
     };
@@ -110,6 +117,11 @@ pub(super) fn navigate(ui: &egui::Ui, response: &Response, camera: &mut PlaneCam
     if response.dragged() && !(boxing && response.dragged_by(egui::PointerButton::Primary)) {
         camera.pan(drag);
     }
+    zoom(ui, response, camera);
+}
+
+/// Zoom to the pointer, and pan by two fingers.
+pub(super) fn zoom(ui: &egui::Ui, response: &Response, camera: &mut PlaneCamera) {
     let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|_| response.contains_pointer());
     if let Some(pointer) = pointer.filter(|_| !inset::has_wheel(ui)) {
         let wheel = pane::wheel(ui);

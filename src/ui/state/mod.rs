@@ -5,6 +5,7 @@
 //! | `request.rs` | requests that panels and panes collect and the editor carries out |
 //! | `tool.rs` | tools of the left mouse button, halves of a pair |
 //! | `pane.rs`, `pane_view.rs` | the two panes and the tabs; place and camera of a pane |
+//! | `page.rs` | requests to the page of all charts, gestures on it |
 //! | `shading_mode.rs` | colours of faces |
 //! | `file_dialog_kind.rs` | kinds of file dialogs |
 //! | `comparison.rs` | requests to the comparison of methods and its morph |
@@ -21,6 +22,7 @@ mod comparison;
 mod file_dialog_kind;
 mod hull_stage;
 mod inset_view;
+mod page;
 mod pane;
 mod pane_view;
 mod pin_drag;
@@ -37,6 +39,8 @@ pub use comparison::{ComparisonExport, MorphRequest};
 pub(in crate::ui) use file_dialog_kind::{DialogForm, FileDialogKind};
 pub use hull_stage::HullStage;
 pub(in crate::ui) use inset_view::{InsetKind, InsetPan, InsetSubject, InsetView};
+pub use page::{Alignment, Axis, GestureKind, PageRequest, Snap};
+pub(in crate::ui) use page::{PageGesture, SnapPlaces};
 pub use pane::{Pane, Tab};
 pub(in crate::ui) use pane_view::{PaneView, Viewport, in_pane, size_of};
 pub(in crate::ui) use pin_drag::PinDrag;

@@ -7,6 +7,7 @@ use super::comparison::MorphRequest;
 use super::file_dialog_kind::FileDialogKind;
 use super::hull_stage::HullStage;
 use super::inset_view::InsetPan;
+use super::page::PageRequest;
 use super::pane::{Pane, Tab};
 use super::seam::{SeamClick, SeamRule};
 use super::shading_mode::ShadingMode;
@@ -123,6 +124,8 @@ pub enum Request {
     ToggleSharp,
     /// Closes the topmost dialog, else cancels the gesture, else the tool, else the selection.
     Escape,
+    /// Request to the page of all charts.
+    Page(PageRequest),
     /// Shows one pane in full size, or both again.
     ToggleFull(Pane),
     /// Shows the pane under the pointer in full size, or both panes again. Default: the embedding pane.
@@ -167,6 +170,12 @@ pub enum Request {
     SetFit(Fit),
     /// Ends the program.
     Quit,
+}
+
+impl From<PageRequest> for Request {
+    fn from(request: PageRequest) -> Self {
+        Self::Page(request)
+    }
 }
 
 impl From<Action> for Request {

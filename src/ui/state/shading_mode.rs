@@ -1,6 +1,7 @@
 //! Colours of faces, chosen by the user.
 
 use super::pane::Pane;
+use crate::view::Quantity;
 
 /// Colours of faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -50,6 +51,16 @@ impl ShadingMode {
     /// True if each face is coloured by a number.
     pub(in crate::ui) const fn is_by_number(self) -> bool {
         matches!(self, Self::Angle | Self::Area | Self::Stretch | Self::Move)
+    }
+
+    /// Quantity that colours the faces, if the shading shows a distortion.
+    pub(in crate::ui) const fn quantity(self) -> Option<Quantity> {
+        match self {
+            Self::Angle => Some(Quantity::Angle),
+            Self::Area => Some(Quantity::Area),
+            Self::Stretch => Some(Quantity::Stretch),
+            Self::Plain | Self::Checker | Self::Picture | Self::Move | Self::SeeThrough => None,
+        }
     }
 
     /// Name in menus.

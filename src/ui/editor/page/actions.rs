@@ -1,0 +1,176 @@
+//! Handling of requests to the page.
+
+use std::collections::BTreeSet;
+
+use glam::{DAffine2, DVec2};
+
+use crate::session::{Action, ChartMove};
+use crate::ui::Editor;
+use crate::ui::state::{Alignment, Axis, PageGesture, PageRequest, Tool};
+use freebound_core::geom::Bounds;
+
+impl Editor {
+    /// True if the panes show all charts on the page.
+    pub fn shows_page(&self) -> bool {
+        let has_page = self.page.scene.is_some() && self.session.page().is_some();
+        has_page && self.page.is_wanted && self.tools.tool() == Tool::Select && !self.plane.comparison.is_shown()
+    }
+
+    /// True if the page is to be shown, once all charts are solved.
+    pub(in crate::ui) fn awaits_page(&self) -> bool {
+        let is_wanted = self.page.is_wanted && self.tools.tool() == Tool::Select;
+        is_wanted && self.page.scene.is_none() && self.session.charts().is_some() && !self.session.has_failed_charts()
+    }
+
+    pub(in crate::ui::editor) fn handle_page(&mut self, request: PageRequest) {
+        match request {
+            PageRequest::Show(is_wanted) => self.show_page(is_wanted),
+            PageRequest::Toggle => self.show_page(!self.shows_page()),
+            PageRequest::Pick { chart, adds } => self.pick_chart(chart, adds),
+            PageRequest::Add(charts) => {
+                let charts: Vec<usize> = self.page.selected().iter().copied().chain(charts).collect();
+                self.page.select(charts);
+            }
+            PageRequest::SelectAll => self.page.select(0..self.chart_count()),
+            PageRequest::Invert => {
+                let others = (0..self.chart_count()).filter(|chart| !self.page.selected().contains(chart));
+                let others: Vec<usize> = others.collect();
+                self.page.select(others);
+            }
+            PageRequest::Open(chart) => self.open_chart(chart),
+            PageRequest::Begin(kind) => {
+                let from = self.pointer.in_embedding();
+                let middle =
+                    self.page.scene.as_ref().map(|scene| scene.bounds_of(self.page.selected().iter().copied()));
+                if let Some(from) = from.or(middle.map(Bounds::middle)) {
+                    self.begin_gesture(kind, from, false);
+                }
+            }
+            PageRequest::Lock(axis) => self.change_gesture(|gesture| gesture.lock(axis)),
+            PageRequest::Type(letter) => self.change_gesture(|gesture| gesture.type_letter(letter)),
+            PageRequest::End => drop(self.end_gesture()),
+            PageRequest::Align(alignment) => self.align(alignment),
+            PageRequest::Distribute(axis) => self.distribute(axis),
+            PageRequest::Mirror(axis) => self.mirror(axis),
+            PageRequest::SetDensity(density) => self.set_density(density),
+            PageRequest::Pack if self.page.selected().is_empty() => self.act(Action::PackCharts(None)),
+            PageRequest::Pack => self.act(Action::PackCharts(Some(self.page.selected().clone()))),
+            PageRequest::PackAll => self.act(Action::PackCharts(None)),
+            PageRequest::Stack => self.act(Action::StackCharts(self.page.selected().clone())),
+            PageRequest::Unstack => self.act(Action::UnstackCharts(self.page.selected().clone())),
+            PageRequest::SetSnap(snap) => self.page.snap = snap,
+        }
+    }
+
+    fn chart_count(&self) -> usize {
+        self.session.charts().map_or(0, |charts| charts.count())
+    }
+
+    /// Shows the chart on the screen alone, because its elements are to be seen.
+    pub(in crate::ui::editor) fn leave_page(&mut self) {
+        if self.session.charts().is_some() {
+            self.drop_gesture();
+            self.page.is_wanted = false;
+        }
+    }
+
+    fn show_page(&mut self, is_wanted: bool) {
+        self.drop_gesture();
+        self.page.is_wanted = is_wanted;
+        if is_wanted {
+            self.tools.take_up(Tool::Select);
+        }
+    }
+
+    /// Selects a chart with all charts stacked with it, or adds it to the selection or takes it away.
+    fn pick_chart(&mut self, chart: Option<usize>, adds: bool) {
+        let Some(chart) = chart else {
+            if !adds {
+                self.page.select([]);
+            }
+            return;
+        };
+        let stack = self.session.page().map(|page| page.with_stacks(&BTreeSet::from([chart]))).unwrap_or_default();
+        let before = self.page.selected().clone();
+        match (adds, before.contains(&chart)) {
+            (false, _) => self.page.select(stack),
+            (true, false) => self.page.select(before.union(&stack).copied().collect::<Vec<_>>()),
+            (true, true) => self.page.select(before.difference(&stack).copied().collect::<Vec<_>>()),
+        }
+    }
+
+    /// Shows a chart alone, to work on its vertices.
+    fn open_chart(&mut self, chart: Option<usize>) {
+        let Some(chart) = chart.or(self.page.selected().first().copied()) else { return };
+        self.drop_gesture();
+        self.page.is_wanted = false;
+        if self.session.chart_on_screen() != Some(chart) {
+            self.act(Action::ShowChart(chart));
+        }
+    }
+
+    fn change_gesture(&mut self, change: impl FnOnce(&mut PageGesture)) {
+        if let Some(gesture) = &mut self.page.gesture {
+            change(gesture);
+        }
+    }
+
+    /// Selected charts that can be moved, each with its bounds. Of a stack, the chart whose place it is.
+    fn boxes(&self) -> Vec<(usize, Bounds)> {
+        let (Some(scene), Some(page)) = (&self.page.scene, self.session.page()) else { return Vec::new() };
+        let own: BTreeSet<usize> = self.movable_charts().into_iter().map(|chart| page.place_of(chart)).collect();
+        own.into_iter().map(|chart| (chart, scene.bounds_of([chart]))).collect()
+    }
+
+    fn align(&mut self, alignment: Alignment) {
+        let boxes = self.boxes();
+        let all = boxes.iter().fold(Bounds::EMPTY, |all, (_, own)| all.union(*own));
+        let by = |(chart, own): &(usize, Bounds)| (*chart, DAffine2::from_translation(alignment.shift(*own, all)));
+        let moves: Vec<ChartMove> = boxes.iter().map(by).collect();
+        self.move_at_once(moves);
+    }
+
+    /// Moves the charts between the first and the last one, so that all gaps along an axis are equal.
+    fn distribute(&mut self, axis: Axis) {
+        let mut boxes = self.boxes();
+        if boxes.len() < 3 {
+            return;
+        }
+        let along = |at: DVec2| at.dot(axis.unit());
+        boxes.sort_by(|a, b| along(a.1.middle()).total_cmp(&along(b.1.middle())).then(a.0.cmp(&b.0)));
+        let taken: f64 = boxes.iter().map(|(_, own)| along(own.size())).sum();
+        let (first, last) = (boxes[0].1, boxes[boxes.len() - 1].1);
+        let gap = (along(last.high) - along(first.low) - taken) / (boxes.len() - 1) as f64;
+        let mut next = along(first.low);
+        let by = |(chart, own): &(usize, Bounds)| {
+            let shift = next - along(own.low);
+            next += along(own.size()) + gap;
+            (*chart, DAffine2::from_translation(axis.unit() * shift))
+        };
+        let moves: Vec<ChartMove> = boxes.iter().map(by).collect();
+        self.move_at_once(moves);
+    }
+
+    fn mirror(&mut self, axis: Axis) {
+        let flip = DAffine2::from_scale(DVec2::ONE - 2.0 * axis.unit());
+        let moves = self.boxes().into_iter().map(|(chart, own)| (chart, about(own.middle(), flip))).collect();
+        self.move_at_once(moves);
+    }
+
+    /// Scales charts in place to a density.
+    fn set_density(&mut self, density: f64) {
+        let densities = self.session.newest_atlas().map(|atlas| atlas.densities.clone()).unwrap_or_default();
+        let scaled = |(chart, own): (usize, Bounds)| {
+            let factor = density / densities.get(chart)?;
+            let by = about(own.middle(), DAffine2::from_scale(DVec2::splat(factor)));
+            (factor.is_finite() && factor > 0.0).then_some((chart, by))
+        };
+        let moves: Vec<ChartMove> = self.boxes().into_iter().filter_map(scaled).collect();
+        self.move_at_once(moves);
+    }
+}
+
+/// Movement with a fixed point.
+fn about(fixed: DVec2, by: DAffine2) -> DAffine2 {
+    DAffine2::from_translation(fixed) * by * DAffine2::from_translation(-fixed)
+}

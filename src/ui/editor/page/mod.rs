@@ -1,0 +1,320 @@
+//! State of the page: all charts as they lie on it, in both panes, and the selected charts.
+//!
+//! | file | what |
+//! |---|---|
+//! | `mod.rs` | camera, scene, colours, selection |
+//! | `scene.rs` | data for drawing and picking all charts |
+//! | `actions.rs` | handling of requests to the page |
+//! | `gestures.rs` | gestures that move charts |
+
+mod actions;
+mod gestures;
+mod scene;
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use eframe::egui;
+
+pub(in crate::ui) use self::scene::PageScene;
+
+use self::scene::PageKey;
+use super::async_scene::AsyncScene;
+use super::paint::Legend;
+use super::scene::MeshScene;
+use crate::session::{ChartMove, JobFailure, MoveState, Session, Wake};
+use crate::ui::state::{PageGesture, Pane, PaneView, ShadingMode, Snap};
+use crate::view::{EdgeList, FacePaint, PlaneArrays, PlaneCamera};
+use freebound_core::geom::Bounds;
+
+/// Number of checks along the height of the page.
+const CHECKS: f64 = 64.0;
+
+/// Page in the window.
+#[derive(Debug)]
+pub struct PageView {
+    /// Place and camera of the page in the embedding pane.
+    pub pane: PaneView<PlaneCamera>,
+    /// Last camera that the window chose, not the user.
+    framed: Option<PlaneCamera>,
+    /// True unless the user has chosen to see the chart on the screen alone.
+    is_wanted: bool,
+    scene: Option<Arc<PageScene>>,
+    job: AsyncScene<PageKey, PageScene>,
+    selected: Outlined,
+    /// Chart under the pointer, in either pane.
+    hovered: Outlined,
+    gesture: Option<PageGesture>,
+    /// Movements of the last frame of a gesture, and true if charts may overlap there.
+    asked: Option<(Vec<ChartMove>, bool)>,
+    moved: Option<MovedPlane>,
+    snap: Snap,
+    paints: [Option<PagePaint>; 2],
+}
+
+/// Set of charts, with their outlines on a scene.
+#[derive(Debug, Default)]
+struct Outlined {
+    charts: BTreeSet<usize>,
+    outlines: Option<(PageKey, Arc<EdgeList>)>,
+}
+
+impl Outlined {
+    fn of(charts: impl IntoIterator<Item = usize>, count: usize) -> Self {
+        Self { charts: charts.into_iter().filter(|&chart| chart < count).collect(), outlines: None }
+    }
+
+    /// Finds the outlines on a scene.
+    fn refresh(&mut self, scene: Option<&PageScene>) {
+        let Some(scene) = scene.filter(|_| !self.charts.is_empty()) else {
+            self.outlines = None;
+            return;
+        };
+        if self.outlines.as_ref().is_none_or(|(key, _)| *key != scene.key) {
+            self.outlines = Some((scene.key, Arc::new(EdgeList::new(scene.edges_of(&self.charts)))));
+        }
+    }
+}
+
+/// Arrays of the plane while charts move, with the movements that they show.
+#[derive(Debug)]
+struct MovedPlane {
+    key: PageKey,
+    moves: Vec<ChartMove>,
+    plane: Arc<PlaneArrays>,
+}
+
+/// Colours of all faces.
+#[derive(Debug)]
+struct PagePaint {
+    key: PageKey,
+    shading: ShadingMode,
+    faces: Arc<FacePaint>,
+    legend: Option<Legend>,
+}
+
+/// Queries of the page.
+impl PageView {
+    pub(super) fn new(wake: &Wake) -> Self {
+        Self {
+            pane: PaneView::default(),
+            framed: None,
+            is_wanted: true,
+            scene: None,
+            job: AsyncScene::new("page scene", wake),
+            selected: Outlined::default(),
+            hovered: Outlined::default(),
+            gesture: None,
+            asked: None,
+            moved: None,
+            snap: Snap::default(),
+            paints: [None, None],
+        }
+    }
+
+    /// Scene of all charts.
+    pub(in crate::ui) fn scene(&self) -> Option<&Arc<PageScene>> {
+        self.scene.as_ref()
+    }
+
+    /// True unless the user has chosen to see the chart on the screen alone.
+    pub fn is_wanted(&self) -> bool {
+        self.is_wanted
+    }
+
+    /// Selected charts.
+    pub fn selected(&self) -> &BTreeSet<usize> {
+        &self.selected.charts
+    }
+
+    /// Chart under the pointer.
+    pub fn hovered(&self) -> Option<usize> {
+        self.hovered.charts.first().copied()
+    }
+
+    pub(in crate::ui) fn set_hovered(&mut self, chart: Option<usize>) {
+        if self.hovered() != chart {
+            self.hovered = Outlined::of(chart, self.count());
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.scene.as_ref().map_or(0, |scene| scene.spans.len())
+    }
+
+    /// Places that moved charts snap to.
+    pub fn snap(&self) -> Snap {
+        self.snap
+    }
+
+    /// Gesture in progress.
+    pub(in crate::ui) fn gesture(&self) -> Option<&PageGesture> {
+        self.gesture.as_ref()
+    }
+
+    /// Arrays of the plane, with charts where they are moved.
+    pub(in crate::ui) fn plane(&self) -> Option<&Arc<PlaneArrays>> {
+        let scene = self.scene.as_ref()?;
+        let moved = self.moved.as_ref().filter(|moved| moved.key == scene.key);
+        Some(moved.map_or(&scene.plane, |moved| &moved.plane))
+    }
+
+    /// Colours of the faces in a pane.
+    pub(in crate::ui) fn paint(&self, pane: Pane) -> Option<&Arc<FacePaint>> {
+        self.paints[pane as usize].as_ref().map(|paint| &paint.faces)
+    }
+
+    /// Legend of the shading of a pane.
+    pub(in crate::ui) fn legend(&self, pane: Pane) -> Option<&Legend> {
+        self.paints[pane as usize].as_ref()?.legend.as_ref()
+    }
+
+    /// Outlines of the selected charts.
+    pub(in crate::ui) fn selected_outlines(&self) -> Option<&Arc<EdgeList>> {
+        self.selected.outlines.as_ref().map(|(_, outlines)| outlines)
+    }
+
+    /// Outlines of the chart under the pointer.
+    pub(in crate::ui) fn hovered_outlines(&self) -> Option<&Arc<EdgeList>> {
+        self.hovered.outlines.as_ref().map(|(_, outlines)| outlines)
+    }
+
+    /// Side length of a check: a power of two of the page's height.
+    pub(in crate::ui) fn check_size(&self) -> f64 {
+        let extent = self.scene.as_ref().map_or(1.0, |scene| scene.plane.bounds.extent());
+        extent.log2().round().exp2() / CHECKS
+    }
+
+    /// True if the drawn page is the page of the session.
+    pub fn is_drawn(&self, session: &Session) -> bool {
+        let key = key_of(session);
+        key.is_none()
+            || self.scene.as_ref().map(|scene| scene.key) == key
+            || key.is_some_and(|key| self.job.has_failed(&key))
+    }
+}
+
+fn key_of(session: &Session) -> Option<PageKey> {
+    Some(PageKey { page: session.page()?.revision, model: session.model_revision() })
+}
+
+/// Updates of the page.
+impl PageView {
+    pub(super) fn is_making(&self) -> bool {
+        self.job.is_busy()
+    }
+
+    pub(super) fn take_failure(&mut self) -> Option<JobFailure> {
+        self.job.take_failure()
+    }
+
+    /// Drops the page of a document that is no longer open.
+    pub(super) fn forget(&mut self) {
+        (self.scene, self.moved, self.gesture, self.framed) = (None, None, None, None);
+        (self.selected, self.hovered) = (Outlined::default(), Outlined::default());
+        self.pane.forget_camera();
+        self.job.cancel();
+        self.is_wanted = true;
+    }
+
+    /// Adopts finished scenes, and starts a job if the session has another page. `given` is the mesh on the screen.
+    /// Call once per frame.
+    pub(super) fn refresh(&mut self, session: &Session, given: Option<&Arc<MeshScene>>) {
+        if session.page().is_none() {
+            (self.scene, self.moved) = (None, None);
+        }
+        if let Some((_, scene)) = self.job.poll() {
+            self.take(scene);
+        }
+        let wanted = key_of(session).zip(session.page());
+        let given = given.filter(|given| given.model_revision == session.model_revision());
+        if let Some(((key, page), given)) = wanted.zip(given)
+            && self.scene.as_ref().is_none_or(|scene| scene.key != key)
+        {
+            let (page, before) = (page.clone(), self.scene.clone());
+            let space = (given.unit(), given.sphere);
+            self.job.make(key, move |_| PageScene::new(key, &page, space, before.as_deref()));
+        }
+        self.refresh_moved(session.move_state());
+        for outlined in [&mut self.selected, &mut self.hovered] {
+            outlined.refresh(self.scene.as_deref());
+        }
+    }
+
+    fn take(&mut self, scene: PageScene) {
+        let count = scene.spans.len();
+        for outlined in [&mut self.selected, &mut self.hovered] {
+            outlined.charts.retain(|&chart| chart < count);
+        }
+        let bounds = scene.page_box().union(scene.plane.bounds);
+        self.scene = Some(Arc::new(scene));
+        self.moved = None;
+        if self.pane.camera().is_none() {
+            self.set_framed(PlaneCamera::framing(bounds, self.pane.size()));
+        }
+    }
+
+    /// Draws charts where an accepted frame of a move has them. They stay there until the next scene.
+    fn refresh_moved(&mut self, state: Option<&MoveState>) {
+        let Some(scene) = &self.scene else { return };
+        let Some(state) = state else {
+            if self.asked.take().is_none() && !self.job.is_busy() {
+                // The move was dropped, or kept back.
+                self.moved = None;
+            }
+            return;
+        };
+        let Some(judged) = &state.accepted else { return };
+        let is_shown = |moved: &MovedPlane| moved.key == scene.key && moved.moves == judged.moves;
+        if !self.moved.as_ref().is_some_and(is_shown) {
+            let plane = Arc::new(scene.moved(judged));
+            self.moved = Some(MovedPlane { key: scene.key, moves: judged.moves.clone(), plane });
+        }
+    }
+
+    /// Recolours the faces of a pane if the scene or the shading has changed.
+    pub(super) fn refresh_paint(&mut self, pane: Pane, shading: ShadingMode) {
+        let Some(scene) = &self.scene else { return };
+        let shading = if shading.quantity().is_some() { shading } else { ShadingMode::Plain };
+        let fits = |paint: &&PagePaint| paint.key == scene.key && paint.shading == shading;
+        if self.paints[pane as usize].as_ref().filter(fits).is_none() {
+            let (faces, legend) = scene.paint(shading);
+            self.paints[pane as usize] = Some(PagePaint { key: scene.key, shading, faces: Arc::new(faces), legend });
+        }
+    }
+
+    /// Selects exactly these charts.
+    pub(super) fn select(&mut self, charts: impl IntoIterator<Item = usize>) {
+        self.selected = Outlined::of(charts, self.count());
+    }
+
+    /// Sets a camera that the window chose.
+    fn set_framed(&mut self, camera: PlaneCamera) {
+        self.pane.set_camera(camera);
+        self.framed = Some(camera);
+    }
+
+    /// Frames charts, or the whole page for an empty list.
+    pub(super) fn frame(&mut self, charts: &BTreeSet<usize>) {
+        let (Some(scene), size) = (&self.scene, self.pane.size()) else { return };
+        let all = scene.page_box().union(scene.plane.bounds);
+        let bounds = if charts.is_empty() { all } else { widened(scene.bounds_of(charts.iter().copied())) };
+        let Some(mut camera) = self.pane.camera() else { return };
+        camera.frame(bounds, size);
+        if charts.is_empty() { self.set_framed(camera) } else { self.pane.set_camera(camera) }
+    }
+
+    /// Sets the place of the page. Keeps the whole page in view, unless the user has moved the camera.
+    pub(in crate::ui) fn set_rect(&mut self, rect: egui::Rect) {
+        let was_framed = self.framed.is_some() && self.pane.camera() == self.framed;
+        if self.pane.set_rect(rect) && was_framed {
+            self.frame(&BTreeSet::new());
+        }
+    }
+}
+
+/// Box with some room around charts.
+fn widened(bounds: Bounds) -> Bounds {
+    let by = 0.15 * bounds.size();
+    Bounds { low: bounds.low - by, high: bounds.high + by }
+}

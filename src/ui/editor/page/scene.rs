@@ -1,0 +1,266 @@
+//! Data for drawing and picking all charts on the page, made off the UI thread.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use crate::session::{JudgedMove, Page, PageChart};
+use crate::ui::editor::paint::Legend;
+use crate::ui::state::ShadingMode;
+use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, Quantity, Ray, Sphere, SurfacePicker};
+use freebound_core::geom::{Bounds, winding_number};
+use freebound_core::mesh::{FaceId, VertexId};
+
+/// Margin of hiding, relative to the distance.
+const HIDING_MARGIN: f64 = 1e-4;
+
+/// Inputs of a scene: revisions of the page and of the mesh on the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct PageKey {
+    pub(super) page: u64,
+    pub(super) model: u64,
+}
+
+/// All charts on the page. Vertices and faces of each chart follow those of the chart before.
+#[derive(Clone, Debug)]
+pub(in crate::ui) struct PageScene {
+    pub(super) key: PageKey,
+    pub(in crate::ui) mesh: Arc<MeshArrays>,
+    pub(in crate::ui) plane: Arc<PlaneArrays>,
+    pub(in crate::ui) spans: Arc<Vec<ChartSpan>>,
+    /// Outlines and rims of holes of all charts.
+    pub(in crate::ui) outlines: Arc<EdgeList>,
+    /// Position of each vertex in the page's plane.
+    pub(super) places: Arc<Vec<DVec2>>,
+    pub(super) picker: Arc<SurfacePicker>,
+    /// Charts and their steps, for colours.
+    pub(super) charts: Vec<PageChart>,
+    /// Width over height of the page.
+    pub(in crate::ui) aspect: f64,
+}
+
+/// Vertices and faces of a chart in a scene.
+#[derive(Clone, Debug)]
+pub(in crate::ui) struct ChartSpan {
+    pub(super) vertices: Range<usize>,
+    pub(super) faces: Range<usize>,
+    /// Outer loop, and the rims of holes.
+    loops: Vec<Vec<VertexId>>,
+}
+
+impl ChartSpan {
+    fn moved_by(&self, count: usize, faces: usize) -> Self {
+        let by = |range: &Range<usize>, by: usize| range.start + by..range.end + by;
+        let moved = |rim: &Vec<VertexId>| rim.iter().map(|v| VertexId::from_index(v.index() + count)).collect();
+        let loops = self.loops.iter().map(moved).collect();
+        Self { vertices: by(&self.vertices, count), faces: by(&self.faces, faces), loops }
+    }
+
+    fn of(chart: &PageChart) -> Self {
+        let mesh = chart.mesh();
+        let rims = mesh.mesh().holes().into_iter().map(|hole| hole.rim);
+        let loops = std::iter::once(mesh.boundary_loop().to_vec()).chain(rims).collect();
+        Self { vertices: 0..mesh.vertex_count(), faces: 0..mesh.mesh().real_face_count(), loops }
+    }
+
+    /// Edges of the outlines.
+    fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
+        let ends = |rim: &'_ [VertexId]| -> Vec<[VertexId; 2]> {
+            rim.iter().zip(rim.iter().cycle().skip(1)).map(|(&a, &b)| [a, b]).collect()
+        };
+        self.loops.iter().flat_map(move |rim| ends(rim))
+    }
+}
+
+impl PageScene {
+    /// Scene of a page in the space of a mesh scene: positions are divided by `unit`. Reuses the mesh of a scene with
+    /// the same steps.
+    pub(super) fn new(key: PageKey, page: &Page, (unit, sphere): (f64, Sphere), before: Option<&Self>) -> Self {
+        let is_same = |(a, b): (&PageChart, &PageChart)| Arc::ptr_eq(&a.outcome, &b.outcome);
+        let before = before.filter(|before| {
+            before.key.model == key.model
+                && before.charts.len() == page.charts.len()
+                && before.charts.iter().zip(&page.charts).all(is_same)
+        });
+        let plane = DVec2::new(page.aspect, 1.0);
+        let uv = page.charts.iter().flat_map(|chart| chart.coordinates.iter());
+        let places: Vec<DVec2> = uv.map(|uv| *uv * plane).collect();
+        let (mesh, picker, spans, outlines) = match before {
+            Some(Self { mesh, picker, spans, outlines, .. }) => {
+                (Arc::clone(mesh), Arc::clone(picker), Arc::clone(spans), Arc::clone(outlines))
+            }
+            None => meshes(&page.charts, unit, sphere),
+        };
+        Self {
+            key,
+            plane: Arc::new(PlaneArrays::new(&places, &mesh.triangles)),
+            mesh,
+            spans,
+            outlines,
+            places: Arc::new(places),
+            picker,
+            charts: page.charts.clone(),
+            aspect: page.aspect,
+        }
+    }
+
+    /// Bounds of the page: width and height of the first tile.
+    pub(in crate::ui) fn page_box(&self) -> Bounds {
+        Bounds { low: DVec2::ZERO, high: DVec2::new(self.aspect, 1.0) }
+    }
+
+    /// Bounds of charts in the plane.
+    pub(in crate::ui) fn bounds_of(&self, charts: impl IntoIterator<Item = usize>) -> Bounds {
+        let there = charts.into_iter().filter(|&chart| chart < self.spans.len());
+        there.fold(Bounds::EMPTY, |all, chart| all.union(self.bounds_of_outline(chart)))
+    }
+
+    /// Points of charts in space.
+    pub(in crate::ui) fn points_of(&self, charts: impl IntoIterator<Item = usize>) -> Vec<DVec3> {
+        let spans = charts.into_iter().filter_map(|chart| self.spans.get(chart));
+        let points = spans.flat_map(|span| &self.mesh.points[span.vertices.clone()]);
+        let Sphere { center, radius } = self.mesh.frame;
+        points.map(|&[x, y, z]| center + radius * DVec3::new(x.into(), y.into(), z.into())).collect()
+    }
+
+    /// Positions of a loop's vertices in the plane.
+    fn rim<'a>(&'a self, rim: &'a [VertexId]) -> impl Iterator<Item = DVec2> + 'a {
+        rim.iter().map(|vertex| self.places[vertex.index()])
+    }
+
+    /// Outlines of a chart in the plane.
+    pub(in crate::ui) fn outlines_of(&self, chart: usize) -> impl Iterator<Item = Vec<DVec2>> + '_ {
+        let span = self.spans.get(chart).into_iter();
+        span.flat_map(|span| &span.loops).map(|rim| self.rim(rim).collect())
+    }
+
+    /// Edges of the outlines of charts.
+    pub(super) fn edges_of<'a>(&'a self, charts: impl IntoIterator<Item = &'a usize>) -> Vec<[VertexId; 2]> {
+        charts.into_iter().filter_map(|&chart| self.spans.get(chart)).flat_map(ChartSpan::edges).collect()
+    }
+
+    /// Chart that covers a point of the plane. Of charts that overlap, the smallest.
+    pub(in crate::ui) fn chart_at(&self, point: DVec2) -> Option<usize> {
+        let covers = |rim: &[VertexId]| {
+            let outline: Vec<DVec2> = self.rim(rim).collect();
+            winding_number(&outline, point).is_none_or(|winds| winds != 0)
+        };
+        let is_under = |&chart: &usize| {
+            let bounds = self.bounds_of_outline(chart);
+            point.cmpge(bounds.low).all() && point.cmple(bounds.high).all() && {
+                let loops = &self.spans[chart].loops;
+                loops.first().is_some_and(|outer| covers(outer)) && !loops[1..].iter().any(|rim| covers(rim))
+            }
+        };
+        let size = |chart: &usize| self.bounds_of_outline(*chart).diameter();
+        let is_own = |chart: &usize| self.charts[*chart].stacked.is_none();
+        let under = (0..self.spans.len()).filter(is_own).filter(is_under);
+        under.min_by(|a, b| size(a).total_cmp(&size(b)))
+    }
+
+    fn bounds_of_outline(&self, chart: usize) -> Bounds {
+        let outer = self.spans[chart].loops.first();
+        Bounds::of(outer.into_iter().flat_map(|rim| self.rim(rim)).filter(|at| at.is_finite()))
+    }
+
+    /// Charts whose bounds lie in a box of the plane.
+    pub(in crate::ui) fn charts_within(&self, [low, high]: [DVec2; 2]) -> Vec<usize> {
+        let is_within = |&chart: &usize| {
+            let bounds = self.bounds_of_outline(chart);
+            let meets = bounds.meets(Bounds { low, high });
+            meets && self.outlines_of(chart).flatten().any(|z| z.cmpge(low).all() && z.cmple(high).all())
+        };
+        (0..self.spans.len()).filter(is_within).collect()
+    }
+
+    /// Point of the surface that a ray meets first.
+    pub(in crate::ui) fn picker_hit(&self, ray: Ray) -> Option<DVec3> {
+        self.picker.hit(ray).map(|hit| hit.point)
+    }
+
+    /// True if no face lies between the eye and a point of the surface.
+    pub(in crate::ui) fn is_seen(&self, point: DVec3, eye: DVec3) -> bool {
+        let Some(direction) = (point - eye).try_normalize() else { return true };
+        let hit = self.picker.hit(Ray { origin: eye, direction });
+        hit.is_none_or(|hit| hit.distance >= (1.0 - HIDING_MARGIN) * point.distance(eye))
+    }
+
+    /// Chart that a ray meets first.
+    pub(in crate::ui) fn chart_hit(&self, ray: Ray) -> Option<usize> {
+        let face = self.picker.hit(ray)?.face.index();
+        self.spans.iter().position(|span| span.faces.contains(&face))
+    }
+
+    /// Arrays of the plane with charts at the places of a move.
+    pub(super) fn moved(&self, judged: &JudgedMove) -> PlaneArrays {
+        let plane = DVec2::new(self.aspect, 1.0);
+        let mut places = self.places.to_vec();
+        for (chart, coordinates) in &judged.coordinates {
+            if let Some(span) = self.spans.get(*chart) {
+                places[span.vertices.clone()].iter_mut().zip(coordinates.iter()).for_each(|(at, uv)| *at = *uv * plane);
+            }
+        }
+        PlaneArrays::in_frame(&places, &self.mesh.triangles, self.plane.frame)
+    }
+
+    /// Colours of all faces, with a legend if the shading shows numbers. Areas and stretches are relative to the mean
+    /// scale of the page, so that charts of different density differ in colour.
+    pub(super) fn paint(&self, shading: ShadingMode) -> (FacePaint, Option<Legend>) {
+        let flipped: Vec<FaceId> = self.charts.iter().zip(self.spans.iter()).flat_map(flipped_faces).collect();
+        let Some(quantity) = shading.quantity() else {
+            return (FacePaint::plain(self.mesh.triangles.len(), &flipped), None);
+        };
+        let areas: Vec<[f64; 2]> = self.charts.iter().map(|chart| areas_of(chart, self.aspect)).collect();
+        let [in_plane, on_surface] = areas.iter().fold([0.0; 2], |sum, [a, b]| [sum[0] + a, sum[1] + b]);
+        let values = self.charts.iter().zip(&areas).flat_map(|(chart, [own_plane, own_surface])| {
+            let factor = (own_plane / own_surface) / (in_plane / on_surface);
+            let factor = if factor.is_finite() && factor > 0.0 { factor } else { 1.0 };
+            quantity.values(&chart.outcome.distortion).into_iter().map(move |value| match quantity {
+                Quantity::Angle => value,
+                Quantity::Area => value + factor.log2(),
+                Quantity::Stretch => value * factor.sqrt(),
+            })
+        });
+        let values: Vec<f64> = values.collect();
+        let range = quantity.scale().robust_range(&values);
+        let paint = FacePaint::by_value(&values, quantity.scale(), range, &flipped);
+        (paint, Some(Legend::new(quantity.scale(), range, &values)))
+    }
+}
+
+fn flipped_faces<'a>((chart, span): (&'a PageChart, &'a ChartSpan)) -> impl Iterator<Item = FaceId> + 'a {
+    let flipped = chart.outcome.step.verdict.flipped_faces.iter();
+    flipped.map(|face| FaceId::from_index(span.faces.start + face.index()))
+}
+
+/// Area of a chart on the page, and on the surface.
+fn areas_of(chart: &PageChart, aspect: f64) -> [f64; 2] {
+    let mesh = chart.mesh();
+    let plane = DVec2::new(aspect, 1.0);
+    let corners = mesh.mesh().real_triangles().iter().map(|corners| corners.map(|v| chart.coordinates[v] * plane));
+    let doubled: f64 = corners.map(|[a, b, c]| (b - a).perp_dot(c - a)).sum();
+    [doubled.abs() / 2.0, chart.model.disk().map_or(0.0, |disk| disk.area())]
+}
+
+/// Meshes of all charts in one, their picker, their spans and their outlines.
+fn meshes(
+    charts: &[PageChart],
+    unit: f64,
+    sphere: Sphere,
+) -> (Arc<MeshArrays>, Arc<SurfacePicker>, Arc<Vec<ChartSpan>>, Arc<EdgeList>) {
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    let mut spans = Vec::new();
+    for chart in charts {
+        let (mesh, first) = (chart.mesh(), positions.len());
+        let scale = chart.model.disk().map_or(1.0, |disk| disk.unit()) / unit;
+        spans.push(ChartSpan::of(chart).moved_by(first, triangles.len()));
+        positions.extend(mesh.mesh().positions.iter().map(|&at| at * scale));
+        let moved = |vertex: VertexId| VertexId::from_index(first + vertex.index());
+        triangles.extend(mesh.mesh().real_triangles().iter().map(|corners| corners.map(moved)));
+    }
+    let outlines = EdgeList::new(spans.iter().flat_map(ChartSpan::edges).collect());
+    let picker = SurfacePicker::new(&positions, &triangles);
+    let mesh = MeshArrays::in_frame(&positions, &triangles, sphere);
+    (Arc::new(mesh), Arc::new(picker), Arc::new(spans), Arc::new(outlines))
+}

@@ -1,0 +1,315 @@
+//! All charts on the page: in the embedding pane as they lie, in the mesh pane on the surface.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use eframe::egui::{self, Align2, Color32, CursorIcon, FontId, PointerButton, Pos2, Rect, Response, Stroke, Vec2};
+use glam::DVec2;
+
+use super::{legend, mesh_pane, pane, plane_pane};
+use crate::render::{self, LineLayer, MeshFrame, PaneId, PlaneFrame, Style};
+use crate::session::Page;
+use crate::ui::editor::PageScene;
+use crate::ui::state::{GestureKind, PageRequest, Viewport, in_pane, size_of};
+use crate::ui::{Editor, Pane, Request, ShadingMode, Theme, five_digits, theme_of};
+use crate::view::{EdgeList, OrbitCamera, PlaneCamera};
+use freebound_core::geom::{Bounds, FIRST_UDIM_TILE, corner_of_tile};
+
+/// Opacity of faces over a picture.
+const THIN_FILL: f32 = 0.3;
+
+/// Greatest number of edges of outlines that a kept-back move draws.
+const EDGES_SHOWN: usize = 20_000;
+
+/// Embedding pane with all charts.
+pub(super) fn plane_ui(
+    ui: &mut egui::Ui,
+    (rect, response): (Rect, &Response),
+    editor: &mut Editor,
+    requests: &mut Vec<Request>,
+) {
+    editor.page.set_rect(rect);
+    let (Some(scene), Some(mut camera)) = (editor.page.scene().map(Arc::clone), editor.page.pane.camera()) else {
+        return;
+    };
+    let grip = Grip::at(ui, response, editor, Viewport { rect, camera }, &scene);
+    if !grip.holds_charts {
+        plane_pane::navigate(ui, response, &mut camera);
+    } else {
+        plane_pane::zoom(ui, response, &mut camera);
+    }
+    if editor.page.pane.camera() != Some(camera) {
+        editor.page.pane.set_camera(camera);
+        ui.ctx().request_repaint();
+    }
+    let view = Viewport { rect, camera };
+    let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|at| rect.contains(*at));
+    let place = pointer.filter(|_| response.hovered() || response.contains_pointer()).map(|at| view.point_at(at));
+    if response.hovered() || response.contains_pointer() {
+        editor.pointer.over_plane(place, None);
+        let chart = place.and_then(|at| scene.chart_at(at));
+        editor.page.set_hovered(chart);
+    }
+    follow(ui, response, editor, place.or(pointer.map(|at| view.point_at(at))));
+    if editor.gpu.has_gpu() {
+        let frame = plane_frame(editor, &scene, camera, theme_of(ui));
+        ui.painter().add(render::plane_pane(PaneId("page"), rect, frame));
+    }
+    if let Some(chosen) = pane::drag_box(ui, response, editor, Pane::Plane) {
+        let corners = [chosen.left_bottom(), chosen.right_top()].map(|corner| view.point_at(corner));
+        requests.push(PageRequest::Add(scene.charts_within(corners)).into());
+    }
+    click(ui, response, editor, requests);
+    tiles(ui, view, editor, &scene);
+    kept_back(ui, view, editor, &scene);
+    gesture_note(ui, rect, editor);
+    if legend::plane_has_own(editor) {
+        legend::legend(ui, rect, editor, Pane::Plane);
+    }
+}
+
+/// Press of the left button on a chart, which moves the selected charts and not the camera.
+struct Grip {
+    holds_charts: bool,
+}
+
+impl Grip {
+    /// Starts a drag of charts if the press is on one of them. A chart that is not selected is selected first.
+    fn at(
+        ui: &egui::Ui,
+        response: &Response,
+        editor: &mut Editor,
+        view: Viewport<PlaneCamera>,
+        scene: &PageScene,
+    ) -> Self {
+        let is_boxing = ui.input(|input| input.modifiers.command);
+        if editor.page.gesture().is_none() && response.drag_started_by(PointerButton::Primary) && !is_boxing {
+            let origin = ui.input(|input| input.pointer.press_origin()).or(response.interact_pointer_pos());
+            let from = origin.map(|at| view.point_at(at));
+            if let Some((from, chart)) = from.and_then(|from| Some((from, scene.chart_at(from)?))) {
+                if !editor.page.selected().contains(&chart) {
+                    let adds = ui.input(|input| input.modifiers.shift);
+                    editor.handle(PageRequest::Pick { chart: Some(chart), adds }.into());
+                }
+                editor.begin_gesture(GestureKind::Move, from, true);
+            }
+        }
+        Self { holds_charts: editor.page.gesture().is_some() }
+    }
+}
+
+/// Lets a gesture follow the pointer, and ends a drag with its button.
+fn follow(ui: &egui::Ui, response: &Response, editor: &mut Editor, place: Option<DVec2>) {
+    let Some(is_drag) = editor.page.gesture().map(|gesture| gesture.is_drag) else { return };
+    let modifiers = ui.input(|input| input.modifiers);
+    editor.follow_gesture(place, modifiers.command, modifiers.alt);
+    ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
+    if is_drag && (response.drag_stopped() || !ui.input(|input| input.pointer.primary_down())) {
+        editor.end_gesture();
+    }
+}
+
+/// Clicks: a click ends a gesture of the keyboard, or selects; a double click shows the chart alone.
+fn click(ui: &egui::Ui, response: &Response, editor: &mut Editor, requests: &mut Vec<Request>) {
+    if editor.page.gesture().is_some() {
+        if response.clicked() {
+            requests.push(PageRequest::End.into());
+        } else if response.secondary_clicked() {
+            editor.drop_gesture();
+        }
+        return;
+    }
+    let chart = editor.page.hovered();
+    if response.double_clicked() && chart.is_some() {
+        requests.push(PageRequest::Open(chart).into());
+    } else if response.clicked() {
+        let adds = ui.input(|input| input.modifiers.shift);
+        requests.push(PageRequest::Pick { chart, adds }.into());
+    }
+    if response.hovered() && chart.is_some() {
+        ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
+    }
+}
+
+/// Mesh pane with the maps of all charts.
+pub(super) fn mesh_ui(
+    ui: &mut egui::Ui,
+    (rect, response): (Rect, &Response),
+    editor: &mut Editor,
+    requests: &mut Vec<Request>,
+) {
+    let (Some(scene), Some(mut camera)) = (editor.page.scene().map(Arc::clone), editor.mesh.pane.camera()) else {
+        return;
+    };
+    let hit = |ray| scene.picker_hit(ray);
+    mesh_pane::navigate(ui, response, &hit, &mut camera, true);
+    if editor.mesh.pane.camera() != Some(camera) {
+        editor.mesh.pane.set_camera(camera);
+        ui.ctx().request_repaint();
+    }
+    if let Some(pointer) = response.hover_pos().map(|at| in_pane(rect, at)) {
+        editor.pointer.over_mesh(None);
+        editor.page.set_hovered(scene.chart_hit(camera.ray(pointer, size_of(rect))));
+        if editor.page.hovered().is_some() {
+            ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
+        }
+    }
+    if let Some(chosen) = pane::drag_box(ui, response, editor, Pane::Mesh) {
+        let view = Viewport { rect, camera };
+        let is_inside = |chart: &usize| {
+            scene.points_of([*chart]).into_iter().any(|point| {
+                view.spot(point).is_some_and(|at| chosen.contains(at)) && scene.is_seen(point, camera.eye())
+            })
+        };
+        requests.push(PageRequest::Add((0..scene.spans.len()).filter(is_inside).collect()).into());
+    }
+    if response.clicked() {
+        let adds = ui.input(|input| input.modifiers.shift);
+        requests.push(PageRequest::Pick { chart: editor.page.hovered(), adds }.into());
+    }
+    if editor.gpu.has_gpu() {
+        ui.painter().add(render::mesh_pane(PaneId("mesh"), rect, mesh_frame(editor, &scene, camera, theme_of(ui))));
+    }
+    legend::legend(ui, rect, editor, Pane::Mesh);
+}
+
+/// Lines of the outlines: all, those under the pointer, and those that are selected.
+fn lines(editor: &Editor, scene: &PageScene, theme: &Theme, colour: crate::view::Srgb) -> Vec<LineLayer> {
+    let line = |edges: &Arc<EdgeList>, colour, width_in_points| LineLayer {
+        edges: Arc::clone(edges),
+        colour,
+        width_in_points,
+    };
+    let mut lines = vec![line(&scene.outlines, colour, 1.5)];
+    lines.extend(editor.page.hovered_outlines().map(|edges| line(edges, theme.selection_line, 2.0)));
+    lines.extend(editor.page.selected_outlines().map(|edges| line(edges, theme.selection_line, 3.0)));
+    lines
+}
+
+/// Style of the faces in a pane.
+fn style(editor: &Editor, pane: Pane) -> Style {
+    let chosen = editor.shading(pane);
+    let shading = match chosen {
+        ShadingMode::Plain | ShadingMode::SeeThrough | ShadingMode::Move => render::FaceShading::Plain,
+        ShadingMode::Picture if editor.has_picture() => render::FaceShading::Picture,
+        ShadingMode::Checker | ShadingMode::Picture => render::FaceShading::Checker,
+        ShadingMode::Angle | ShadingMode::Area | ShadingMode::Stretch => render::FaceShading::Paint,
+    };
+    Style {
+        shading,
+        wire_in_points: if editor.pane_shading.wireframe { 1.0 } else { 0.0 },
+        check_size: editor.page.check_size(),
+        face_opacity: if chosen == ShadingMode::SeeThrough { THIN_FILL } else { 1.0 },
+        ..Style::default()
+    }
+}
+
+/// Frame of the embedding pane.
+pub(super) fn plane_frame(editor: &Editor, scene: &PageScene, camera: PlaneCamera, theme: &Theme) -> PlaneFrame {
+    PlaneFrame {
+        mesh: Arc::clone(&scene.mesh),
+        plane: editor.page.plane().map(Arc::clone),
+        paint: editor.page.paint(Pane::Plane).map(Arc::clone),
+        fills: Vec::new(),
+        lines: lines(editor, scene, theme, theme.boundary),
+        ghost: None,
+        picture: editor.pane_shading.picture_layer(scene.page_box(), editor.appearance().opacity),
+        outlined: scene.page_box(),
+        style: style(editor, Pane::Plane),
+        palette: theme.palette,
+        camera,
+    }
+}
+
+/// Frame of the mesh pane.
+pub(super) fn mesh_frame(editor: &Editor, scene: &PageScene, camera: OrbitCamera, theme: &Theme) -> MeshFrame {
+    MeshFrame {
+        around: None,
+        mesh: Arc::clone(&scene.mesh),
+        plane: editor.page.plane().map(Arc::clone),
+        paint: editor.page.paint(Pane::Mesh).map(Arc::clone),
+        lines: lines(editor, scene, theme, theme.seam),
+        around_lines: Vec::new(),
+        picture: editor.pane_shading.picture_layer(scene.page_box(), editor.appearance().opacity),
+        camera,
+        style: style(editor, Pane::Mesh),
+        palette: theme.palette,
+    }
+}
+
+/// Frames of tiles with charts beyond the first, and the numbers of all tiles.
+fn tiles(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, scene: &PageScene) {
+    let Some(atlas) = editor.session.newest_atlas() else { return };
+    let theme = theme_of(ui);
+    let painter = ui.painter_at(view.rect);
+    let numbers: BTreeSet<u32> = atlas.tiles.iter().flatten().copied().chain([FIRST_UDIM_TILE]).collect();
+    let size = scene.page_box().high;
+    for &tile in numbers.iter().filter(|_| numbers.len() > 1) {
+        let low = corner_of_tile((tile - FIRST_UDIM_TILE) as usize) * size;
+        let box_of_tile = Bounds::at(low, size);
+        let rect = Rect::from_two_pos(view.spot(box_of_tile.low), view.spot(box_of_tile.high));
+        painter.rect_stroke(rect, 0.0, Stroke::new(1.0, theme.weak_text), egui::StrokeKind::Inside);
+        let at = rect.left_bottom() + Vec2::new(4.0, -3.0);
+        painter.text(at, Align2::LEFT_BOTTOM, tile.to_string(), FontId::proportional(11.0), theme.weak_text);
+    }
+}
+
+/// Outlines where charts are kept back from, because they would overlap others there.
+fn kept_back(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, scene: &PageScene) {
+    let kept_back = editor.session.move_state().and_then(|state| state.kept_back.as_ref());
+    let Some(judged) = kept_back else { return };
+    let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
+    let mut left = EDGES_SHOWN;
+    for &(chart, by) in &judged.moves {
+        for outline in scene.outlines_of(chart) {
+            let spots: Vec<Pos2> = outline.iter().map(|&at| view.spot(by.transform_point2(at))).collect();
+            for (&from, &to) in spots.iter().zip(spots.iter().cycle().skip(1)).take(left) {
+                painter.line_segment([from, to], Stroke::new(1.5, theme.flipped));
+            }
+            left = left.saturating_sub(spots.len());
+        }
+    }
+}
+
+/// Note over the pane on the gesture in progress.
+fn gesture_note(ui: &egui::Ui, rect: Rect, editor: &Editor) {
+    let Some(gesture) = editor.page.gesture() else { return };
+    let theme = theme_of(ui);
+    let words = gesture.words(&editor.snap_places(ui.input(|input| input.modifiers.command)));
+    let font = FontId::proportional(13.0);
+    let galley = ui.painter().layout_no_wrap(words, font, theme.text);
+    let frame = Rect::from_center_size(rect.center_top() + Vec2::new(0.0, 20.0), galley.size() + Vec2::new(20.0, 8.0));
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(frame, 4.0, theme.panel.gamma_multiply(0.95));
+    painter.galley(frame.min + Vec2::new(10.0, 4.0), galley, Color32::PLACEHOLDER);
+}
+
+/// State of the charts that are being solved, in the middle of the pane.
+pub(super) fn waiting_words(editor: &Editor) -> Vec<String> {
+    let [solved, all] = editor.session.solved_count();
+    if solved < all {
+        vec!["Solving…".to_owned(), format!("{solved} of {all} charts are solved")]
+    } else {
+        vec!["Packing…".to_owned(), "All charts appear here as they lie on the page".to_owned()]
+    }
+}
+
+/// Data of the chart under the pointer, or of the selection, for the status bar.
+pub(in crate::ui) fn numbers(editor: &Editor) -> Vec<String> {
+    let mut parts = Vec::new();
+    let atlas = editor.session.newest_atlas();
+    if let Some(chart) = editor.page.hovered() {
+        parts.push(format!("Chart {chart}"));
+        if let Some(density) = atlas.and_then(|atlas| atlas.densities.get(chart)) {
+            parts.push(format!("{} px per unit", five_digits(*density)));
+        }
+        let tile = atlas.and_then(|atlas| atlas.tiles.get(chart).copied().flatten());
+        parts.extend(tile.map(|tile| format!("tile {tile}")));
+    }
+    parts
+}
+
+/// Point of the page's plane as texture coordinates.
+pub(in crate::ui) fn texture_coordinates(page: &Page, at: DVec2) -> DVec2 {
+    at / DVec2::new(page.aspect, 1.0)
+}
