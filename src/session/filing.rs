@@ -7,9 +7,8 @@ use super::action::UndoGroup;
 use super::in_use::Role;
 use super::opened::{Opened, Origin};
 use super::stop::Goal;
-use super::{History, Message, MessagePlace, SaveRequest, Session, Written};
+use super::{History, Message, MessagePlace, SaveRequest, Session, StopConditions, Written};
 use freebound_core::pipeline::Surface;
-use freebound_core::problem::{Settings, Start};
 use freebound_io::{EXTENSIONS, write_atomically, write_constraints, write_durably};
 
 /// Maximum number of faults that are reported separately if all of them can be repaired.
@@ -17,12 +16,8 @@ const FAULTS_TOLD: usize = 2;
 
 impl Session {
     /// Replaces the open document, including its history.
-    pub(super) fn take_opened(&mut self, mut opened: Opened) {
+    pub(super) fn take_opened(&mut self, opened: Opened) {
         let is_mesh = matches!(opened.origin, Origin::Mesh);
-        if is_mesh {
-            // A layout to start from would belong to the mesh before.
-            opened.document.settings = Settings { start: Start::FromScratch, ..self.document.settings.clone() };
-        }
         self.files.put_on_table(&opened);
         let Opened { model, document, remarks, .. } = opened;
         // An example only takes its first step, so that the user can watch the others.
@@ -31,6 +26,7 @@ impl Session {
         let touching = model.prepared.touching_vertices;
         self.document = document;
         self.history = History::default();
+        self.solving.set_stop(StopConditions::default());
         self.jobs.forget();
         self.mesh.open(model);
         self.charts.forget();

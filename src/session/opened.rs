@@ -36,7 +36,7 @@ pub(super) struct Opened {
 /// Origin of the opened document.
 #[derive(Debug)]
 pub(super) enum Origin {
-    /// A mesh file or an example. Method and weights are kept.
+    /// A mesh file or an example.
     Mesh,
     /// A project.
     Project(PathBuf),

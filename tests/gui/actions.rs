@@ -317,6 +317,17 @@ impl Window {
         self.settle();
     }
 
+    /// Clicks a point of the window twice.
+    pub(crate) fn double_click_at(&mut self, at: Pos2) {
+        self.harness.hover_at(at);
+        self.step();
+        for pressed in [true, false, true, false] {
+            let (button, modifiers) = (egui::PointerButton::Primary, Modifiers::NONE);
+            self.frame_after(0.02, [egui::Event::PointerButton { pos: at, button, pressed, modifiers }]);
+        }
+        self.settle();
+    }
+
     /// Presses at `from` and moves to `to` in steps, without releasing.
     pub(crate) fn begin_drag(&mut self, from: Pos2, to: Pos2, modifiers: Modifiers) {
         self.harness.hover_at(from);

@@ -33,6 +33,14 @@ pub(crate) fn with_sheets() -> Window {
     window
 }
 
+/// Window with one of three sheets alone, as it is for work on its vertices.
+pub(crate) fn with_sheet_alone() -> Window {
+    let mut window = with_sheets();
+    window.press(Modifiers::NONE, Key::Y);
+    assert!(!window.editor().shows_page());
+    window
+}
+
 #[track_caller]
 pub(crate) fn until_laid_out(window: &mut Window) {
     let start = Instant::now();
@@ -73,7 +81,7 @@ fn a_mesh_of_several_parts_opens_with_the_list_of_its_charts() {
 
 #[test]
 fn a_click_in_the_list_and_the_page_keys_lead_from_chart_to_chart() {
-    let mut window = with_sheets();
+    let mut window = with_sheet_alone();
     let name = row(&window, 0);
     window.click(&name);
     assert_eq!(chart(&window), Some(0));
@@ -115,6 +123,8 @@ fn a_size_that_is_dragged_back_to_what_it_was_stays() {
     }
     window.end_drag(from);
     assert_eq!(window.editor().session.sizes(), sizes);
+    window.harness.get_by_label("Packing options").click();
+    window.settle();
     let from = window.rect(Role::SpinButton, "Gap between charts in pixels").center();
     let before = window.editor().session.packing();
     window.begin_drag(from, from + egui::vec2(64.0, 0.0), Modifiers::NONE);
@@ -128,13 +138,15 @@ fn a_size_that_is_dragged_back_to_what_it_was_stays() {
 
 #[test]
 fn the_lock_of_a_row_and_its_key_keep_a_chart_where_it_is() {
-    let mut window = with_sheets();
+    let mut window = with_sheet_alone();
     let place = |window: &Window| window.editor().session.atlas().expect("laid out").coordinates[0].clone();
     let before = place(&window);
     window.click("Lock chart 0");
     until_laid_out(&mut window);
     assert_eq!(window.editor().session.lock_state(0), LockState::Locked);
     assert!(row(&window, 0).ends_with(", locked") && window.has_button("Unlock chart 0"));
+    window.harness.get_by_label("Packing options").click();
+    window.settle();
     window.fill_in(Role::SpinButton, "Gap between charts in pixels", "30");
     window.press(Modifiers::NONE, Key::Enter);
     until_laid_out(&mut window);
@@ -153,6 +165,8 @@ fn the_lock_of_a_row_and_its_key_keep_a_chart_where_it_is() {
 #[test]
 fn a_fixed_density_starts_at_the_density_that_was_found() {
     let mut window = with_sheets();
+    window.harness.get_by_label("Packing options").click();
+    window.settle();
     let toggle = |window: &mut Window| {
         window.harness.get_by_role_and_label(Role::CheckBox, "Fixed density").click();
         window.settle();
@@ -174,7 +188,7 @@ fn a_fixed_density_starts_at_the_density_that_was_found() {
 
 #[test]
 fn the_selection_does_not_go_over_to_another_chart() {
-    let mut window = with_sheets();
+    let mut window = with_sheet_alone();
     window.editor_mut().selection.select([VertexId::new(3)]);
     window.press(Modifiers::NONE, Key::PageDown);
     assert!(window.editor().selection.vertices().is_empty());

@@ -28,6 +28,7 @@ mod magnifier;
 mod mend;
 mod messages;
 mod morph;
+mod page;
 mod pane_shading;
 mod panels;
 mod picture_filter;

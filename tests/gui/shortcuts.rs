@@ -106,7 +106,9 @@ fn shortcuts_do_what_the_table_says() {
             // There is no defect to jump to.
             Request::StepDefect(_) => editor.selection.defect().is_none(),
             // The mesh is a single chart.
-            Request::StepChart(_) | Request::ToggleLock => editor.session.chart_on_screen().is_none(),
+            Request::StepChart(_) | Request::ToggleLock | Request::Page(_) => {
+                editor.session.chart_on_screen().is_none()
+            }
             Request::SetTool(tool) => editor.tools.tool() == tool,
             Request::EndSeam => editor.tools.seam.last().is_none() && editor.tools.tool() == Tool::Seam,
             Request::UnpinSelected => document(&window).targets.len() == pins - 1,

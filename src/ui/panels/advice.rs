@@ -135,7 +135,7 @@ fn accented(words: String, theme: &Theme) -> Button<'static> {
 }
 
 /// Formats a large ratio with two digits and grouped thousands.
-fn ratio_words(ratio: f64) -> String {
+pub(super) fn ratio_words(ratio: f64) -> String {
     if ratio.is_nan() || ratio >= 1e9 {
         return format!("{ratio:.0e}");
     }

@@ -131,7 +131,8 @@ pub(super) fn charts_panel(ui: &mut egui::Ui, editor: &Editor, panel: egui::Rect
         layout(ui, session, side, requests);
     }
     verdict(ui, session, &rows);
-    packing(ui, session, requests);
+    let options = egui::CollapsingHeader::new("Packing options").default_open(false);
+    options.show(ui, |ui| packing(ui, session, requests));
     arrange(ui, editor, requests);
     size(ui, editor, requests);
     ui.separator();
@@ -425,7 +426,7 @@ fn arrange(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
             ui.menu_button("Stack", |ui| {
                 let tip =
                     "Lay the selected charts on the first of them: congruent surfaces or mirror images share a place";
-                entry(ui, "Stack", tip, PageRequest::Stack, requests);
+                entry(ui, "Stack on the first", tip, PageRequest::Stack, requests);
                 let tip = "Give the selected charts places of their own again, packed around the others";
                 entry(ui, "Unstack", tip, PageRequest::Unstack, requests);
             });

@@ -4,12 +4,13 @@ use eframe::egui::{self, Button, RichText, Role, ThemePreference, WidgetInfo};
 
 use super::advice::advice;
 use super::floating::EXPORTS;
+use super::quality::quality;
 use super::verdict_pill::verdict_pill;
 use crate::examples::Example;
 use crate::session::{Action, LockState};
 use crate::ui::{
-    Control, Editor, FileDialogKind, Pane, Request, SeamRule, ShadingMode, StepTarget, Tab, Tool, icons, keys_of,
-    theme_of,
+    Axis, Control, Editor, FileDialogKind, GestureKind, PageRequest, Pane, Request, SeamRule, ShadingMode, StepTarget,
+    Tab, Tool, icons, keys_of, theme_of,
 };
 use freebound_core::pipeline::Fit;
 use freebound_io::OutputKind;
@@ -48,6 +49,7 @@ pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &mut Editor, requests: &
             panels.on_hover_text("Show or hide the panels at the right").asks(Request::TogglePanels, requests);
             export_button(ui, editor, requests);
             verdict_pill(ui, editor, requests);
+            quality(ui, editor, requests);
             advice(ui, editor, requests);
             ui.min_rect().left()
         });
@@ -259,10 +261,13 @@ fn view_menu(menu: &mut Menu<'_>) {
     if editor.session.charts().is_some() {
         menu.item(true, "Next chart", Request::StepChart(1));
         menu.item(true, "Previous chart", Request::StepChart(-1));
-        let state = editor.session.chart_on_screen().map(|chart| editor.session.lock_state(chart));
-        let words = if state == Some(LockState::Locked) { "Unlock the chart" } else { "Lock the chart" };
-        let can_change = matches!(state, Some(LockState::Open | LockState::Locked));
-        menu.item(can_change, words, Request::ToggleLock);
+        let states: Vec<LockState> =
+            editor.charts_to_work_on().into_iter().map(|chart| editor.session.lock_state(chart)).collect();
+        let can_lock = states.contains(&LockState::Open);
+        let words = if can_lock || states.is_empty() { "Lock the charts" } else { "Unlock the charts" };
+        menu.item(can_lock || states.contains(&LockState::Locked), words, Request::ToggleLock);
+        menu.switch(editor.shows_page(), "All charts on the page", PageRequest::Toggle.into());
+        page_menu(menu);
     }
     menu.ui.separator();
     menu.part("Theme", |menu| {
@@ -271,6 +276,28 @@ fn view_menu(menu: &mut Menu<'_>) {
         for (theme, words) in [(System, "System"), (Light, "Light"), (Dark, "Dark")] {
             menu.choice(now == theme, words, Request::SetTheme(theme));
         }
+    });
+}
+
+/// Entries on the charts of the page.
+fn page_menu(menu: &mut Menu<'_>) {
+    let editor = menu.editor;
+    let can_move = editor.shows_page() && !editor.movable_charts().is_empty();
+    let has_selected = editor.shows_page() && !editor.page.selected().is_empty();
+    menu.part("Charts", |menu| {
+        menu.item(editor.shows_page(), "Select all", PageRequest::SelectAll);
+        menu.item(editor.shows_page(), "Invert the selection", PageRequest::Invert);
+        menu.item(has_selected, "Show one alone", PageRequest::Open(None));
+        menu.ui.separator();
+        for kind in GestureKind::ALL {
+            menu.item(can_move, kind.title(), PageRequest::Begin(kind));
+        }
+        menu.item(can_move, "Mirror left to right", PageRequest::Mirror(Axis::X));
+        menu.item(can_move, "Mirror top to bottom", PageRequest::Mirror(Axis::Y));
+        menu.ui.separator();
+        menu.item(has_selected, "Stack", PageRequest::Stack);
+        menu.item(has_selected, "Unstack", PageRequest::Unstack);
+        menu.item(editor.shows_page(), "Pack the selected charts, or all", PageRequest::Pack);
     });
 }
 
@@ -303,9 +330,15 @@ fn solve_menu(menu: &mut Menu<'_>) {
 /// Name of the document, and numbers of vertices and faces.
 fn title(editor: &Editor) -> String {
     let Some(model) = editor.session.model() else { return "Freebound".to_owned() };
+    let name = editor.marked_name();
+    if let Some(charts) = editor.session.charts().filter(|_| editor.shows_page()) {
+        let polygons = &model.source.polygons;
+        let counts = [charts.count(), polygons.positions.len(), polygons.face_count()].map(grouped);
+        return format!("{name} · {} charts · {} v · {} f", counts[0], counts[1], counts[2]);
+    }
     let counts = [model.vertex_count(), model.mesh().real_face_count()].map(grouped);
     let chart = editor.session.chart_on_screen().map(|chart| format!(" · chart {chart}")).unwrap_or_default();
-    format!("{}{chart} · {} v · {} f", editor.marked_name(), counts[0], counts[1])
+    format!("{name}{chart} · {} v · {} f", counts[0], counts[1])
 }
 
 /// Formats a count with its thousands separated by spaces.

@@ -17,6 +17,7 @@
 //! | `picture_panel.rs` | picture section of the pins tab |
 //! | `equation_table.rs` | terms of a vertex's equation, as a table and in the embedding pane |
 //! | `menu.rs`, `verdict_pill.rs` | the menu bar and the verdict in it |
+//! | `quality.rs` | grade of the map, beside the verdict |
 //! | `advice.rs` | next action, beside the verdict |
 //! | `status.rs` | the status bar |
 //! | `floating.rs` | list of keys, "Go to", file dialog inside the window, exports, pictures of panes |
@@ -41,6 +42,7 @@ pub(super) mod method_panel;
 mod parts;
 mod picture_panel;
 mod pins_panel;
+mod quality;
 mod seams_section;
 pub(super) mod status;
 mod surface;

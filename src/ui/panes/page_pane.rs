@@ -50,7 +50,9 @@ pub(super) fn plane_ui(
         let chart = place.and_then(|at| scene.chart_at(at));
         editor.page.set_hovered(chart);
     }
-    follow(ui, response, editor, place.or(pointer.map(|at| view.point_at(at))));
+    // A gesture goes on where the pointer leaves the pane.
+    let anywhere = ui.input(|input| input.pointer.latest_pos()).map(|at| view.point_at(at));
+    follow(ui, response, editor, anywhere);
     if editor.gpu.has_gpu() {
         let frame = plane_frame(editor, &scene, camera, theme_of(ui));
         ui.painter().add(render::plane_pane(PaneId("page"), rect, frame));

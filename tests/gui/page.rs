@@ -1,0 +1,358 @@
+//! All charts on the page: selecting, moving, turning, scaling, aligning, stacking, locking and packing them.
+
+use std::collections::BTreeSet;
+use std::time::{Duration, Instant};
+
+use eframe::egui;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, Pos2};
+use freebound::session::{LockState, Page};
+use freebound::ui::{Editor, PageRequest, Snap};
+use freebound_core::geom::Bounds;
+use freebound_core::mesh::{TriMesh, VertexId};
+use freebound_testkit::{assert_message, shaped};
+use glam::{DVec2, DVec3, Vec2Swizzles as _};
+
+use crate::charts::{until_laid_out, with_sheets};
+use crate::harness::{Pill, Window};
+
+fn page(window: &Window) -> &Page {
+    window.editor().session.page().expect("the page is shown")
+}
+
+fn selected(window: &Window) -> Vec<usize> {
+    window.editor().page.selected().iter().copied().collect()
+}
+
+fn bounds(window: &Window, chart: usize) -> Bounds {
+    page(window).bounds_of(chart)
+}
+
+/// Point of the window at a point of the page's plane.
+fn spot(window: &Window, at: DVec2) -> Pos2 {
+    let pane = window.editor().page.pane;
+    let [x, y] = pane.camera().expect("shown").pane_from_embedding(at, pane.size()).as_vec2().to_array();
+    window.plane_view().min + egui::vec2(x, y)
+}
+
+fn middle(window: &Window, chart: usize) -> Pos2 {
+    spot(window, bounds(window, chart).middle())
+}
+
+/// Waits until moves have ended and the layout is proved.
+#[track_caller]
+fn until_proved(window: &mut Window) {
+    let start = Instant::now();
+    let is_open = |editor: &Editor| {
+        editor.session.is_moving_charts() || editor.session.page().is_none_or(|page| page.is_planar.is_none())
+    };
+    window.settle();
+    until_laid_out(window);
+    while is_open(window.editor()) {
+        assert!(start.elapsed() < Duration::from_mins(1), "{:?}", window.words());
+        std::thread::sleep(Duration::from_millis(1));
+        window.step();
+    }
+    window.settle();
+}
+
+/// Drags from one point to another in some frames.
+fn drag(window: &mut Window, from: Pos2, to: Pos2, modifiers: Modifiers) {
+    window.begin_drag(from, from + (to - from) / 2.0, modifiers);
+    window.harness.hover_at(to);
+    window.step();
+    window.end_drag(to);
+    until_proved(window);
+}
+
+/// Pixels of the page's picture from one place of a chart to another.
+fn pixels(window: &Window, from: DVec2, to: DVec2) -> DVec2 {
+    let [width, height] = window.editor().session.packing().picture.map(f64::from);
+    (to - from) * DVec2::new(width / page(window).aspect, height)
+}
+
+#[test]
+fn a_mesh_of_several_charts_opens_with_all_of_them_on_the_page() {
+    let window = with_sheets();
+    assert!(window.editor().shows_page() && window.shows("Layout"));
+    assert_eq!(page(&window).charts.len(), 3);
+    assert_eq!(window.pill(), Pill::Proved);
+    assert_message("page-window-verdict", &window.verdict());
+}
+
+#[test]
+fn charts_are_selected_on_the_page_in_the_list_and_all_at_once() {
+    let mut window = with_sheets();
+    let at = middle(&window, 0);
+    window.click_at(at, Modifiers::NONE);
+    assert_eq!(selected(&window), [0]);
+    let at = middle(&window, 2);
+    window.click_at(at, Modifiers::SHIFT);
+    assert_eq!(selected(&window), [0, 2]);
+    window.click_at(at, Modifiers::SHIFT);
+    assert_eq!(selected(&window), [0]);
+    window.press(Modifiers::COMMAND, Key::I);
+    assert_eq!(selected(&window), [1, 2]);
+    window.press(Modifiers::COMMAND, Key::A);
+    assert_eq!(selected(&window), [0, 1, 2]);
+    window.key(Key::Escape);
+    assert!(selected(&window).is_empty());
+    let row = window.name_of(Role::Button, "Chart 1, ");
+    window.click(&row);
+    assert_eq!(selected(&window), [1]);
+    window.key(Key::PageDown);
+    assert_eq!(selected(&window), [2]);
+    assert_eq!(window.editor().session.history().depth(), 0, "a selection is no edit");
+}
+
+#[test]
+fn a_box_adds_the_charts_that_it_meets() {
+    let mut window = with_sheets();
+    let Bounds { low, high } = bounds(&window, 1);
+    let out = 0.02 * DVec2::ONE;
+    let (from, to) = (spot(&window, low - out), spot(&window, high + out));
+    drag(&mut window, from, to, Modifiers::COMMAND);
+    assert!(selected(&window).contains(&1));
+    assert_eq!(window.editor().session.history().depth(), 0);
+}
+
+#[test]
+fn a_dragged_chart_follows_the_pointer_in_one_edit_and_all_frames_are_proved() {
+    let mut window = with_sheets();
+    let before: Vec<Bounds> = (0..3).map(|chart| bounds(&window, chart)).collect();
+    let from = middle(&window, 0);
+    let to = spot(&window, before[0].middle() + DVec2::new(-1.0, 0.0));
+    window.begin_drag(from, from + egui::vec2(-8.0, 0.0), Modifiers::NONE);
+    for step in 1..12_u8 {
+        window.harness.hover_at(from + (to - from) * f32::from(step) / 11.0);
+        window.step();
+        assert_eq!(window.pill(), Pill::Proved);
+    }
+    window.end_drag(to);
+    until_proved(&mut window);
+    assert_eq!(selected(&window), [0]);
+    let by = bounds(&window, 0).low - before[0].low;
+    assert!((by - DVec2::new(-1.0, 0.0)).length() < 0.02, "{by}");
+    assert_eq!([bounds(&window, 1), bounds(&window, 2)], [before[1], before[2]]);
+    window.press(Modifiers::COMMAND, Key::Z);
+    until_proved(&mut window);
+    assert_eq!(bounds(&window, 0), before[0]);
+}
+
+#[test]
+fn a_chart_that_is_dragged_over_another_stays_apart_unless_alt_is_held() {
+    let mut window = with_sheets();
+    let (from, to) = (middle(&window, 0), middle(&window, 2));
+    let before = bounds(&window, 0);
+    drag(&mut window, from, to, Modifiers::NONE);
+    assert_eq!((window.pill(), page(&window).is_planar), (Pill::Proved, Some(true)));
+    let from = middle(&window, 0);
+    drag(&mut window, from, to, Modifiers::ALT);
+    assert_eq!((window.pill(), page(&window).is_planar), (Pill::Bad, Some(false)));
+    assert_ne!(bounds(&window, 0), before);
+    // The verdict selects the charts that overlap.
+    window.key(Key::Escape);
+    window.click(&format!("Verdict: {}", window.verdict()));
+    assert_eq!(selected(&window), [0, 2]);
+    window.click("Pack all");
+    until_proved(&mut window);
+    assert_eq!(page(&window).is_planar, Some(true));
+}
+
+#[test]
+fn letters_start_gestures_that_take_typed_numbers_and_axes() {
+    let mut window = with_sheets();
+    let at = middle(&window, 1);
+    window.click_at(at, Modifiers::NONE);
+    let before = bounds(&window, 1);
+    for key in [Key::G, Key::Y, Key::Num4, Key::Num0, Key::Num9, Key::Num6, Key::Enter] {
+        window.key_now(key);
+    }
+    until_proved(&mut window);
+    let by = pixels(&window, before.low, bounds(&window, 1).low);
+    assert!((by - DVec2::new(0.0, 4096.0)).length() < 1e-6, "{by}");
+    let before = bounds(&window, 1);
+    for key in [Key::S, Key::Num0, Key::Period, Key::Num5, Key::Enter] {
+        window.key_now(key);
+    }
+    until_proved(&mut window);
+    let after = bounds(&window, 1);
+    assert!((after.size() - 0.5 * before.size()).length() < 1e-9);
+    assert!((after.middle() - before.middle()).length() < 1e-9);
+    for key in [Key::R, Key::Num9, Key::Num0, Key::Enter] {
+        window.key_now(key);
+    }
+    until_proved(&mut window);
+    assert!((bounds(&window, 1).size() - after.size().yx()).length() < 1e-9);
+    assert_eq!(window.editor().session.history().depth(), 3);
+    for key in [Key::G, Key::Num5, Key::Escape] {
+        window.key_now(key);
+    }
+    until_proved(&mut window);
+    assert_eq!((window.editor().session.history().depth(), selected(&window)), (3, vec![1]));
+}
+
+#[test]
+fn arrows_move_the_selected_charts_by_pixels() {
+    let mut window = with_sheets();
+    window.press(Modifiers::COMMAND, Key::A);
+    let before = bounds(&window, 0).low;
+    window.key(Key::ArrowRight);
+    until_proved(&mut window);
+    window.press(Modifiers::SHIFT, Key::ArrowUp);
+    until_proved(&mut window);
+    let by = pixels(&window, before, bounds(&window, 0).low);
+    assert!((by - DVec2::new(1.0, 10.0)).length() < 1e-6, "{by}");
+}
+
+#[test]
+fn a_double_click_shows_a_chart_alone_and_escape_returns_to_the_page() {
+    let mut window = with_sheets();
+    let at = middle(&window, 1);
+    window.double_click_at(at);
+    assert!(!window.editor().shows_page());
+    assert_eq!(window.editor().session.chart_on_screen(), Some(1));
+    window.key(Key::Escape);
+    assert!(window.editor().shows_page());
+    window.key(Key::P);
+    assert!(!window.editor().shows_page(), "pins belong to a chart alone");
+    window.key(Key::V);
+    assert!(window.editor().shows_page());
+    window.click("Chart 1");
+    assert!(!window.editor().shows_page());
+    window.click("All charts");
+    assert!(window.editor().shows_page());
+}
+
+#[test]
+fn f_frames_the_selected_charts_in_both_panes() {
+    let mut window = with_sheets();
+    let cameras = |window: &Window| (window.editor().page.pane.camera(), window.editor().mesh.pane.camera());
+    let before = cameras(&window);
+    let at = middle(&window, 0);
+    window.click_at(at, Modifiers::NONE);
+    window.key(Key::F);
+    let near = cameras(&window);
+    assert!(near.0 != before.0 && near.1 != before.1);
+    window.key(Key::Escape);
+    window.key(Key::F);
+    assert_eq!(cameras(&window).0, before.0);
+}
+
+#[test]
+fn menus_align_distribute_and_mirror_the_selected_charts() {
+    let mut window = with_sheets();
+    // Far apart, so that nothing keeps them back.
+    for (chart, by) in [(0, DVec2::new(-5.0, 0.0)), (1, DVec2::new(4.0, 6.0)), (2, DVec2::new(11.0, -7.0))] {
+        let moves = vec![(chart, glam::DAffine2::from_translation(by))];
+        window.editor_mut().session.handle(freebound::session::Action::MoveCharts { moves, insists: false });
+        window.editor_mut().session.handle(freebound::session::Action::EndMove);
+        until_proved(&mut window);
+    }
+    window.press(Modifiers::COMMAND, Key::A);
+    window.menu(&["Align", "Distribute across"]);
+    until_proved(&mut window);
+    let across = |window: &Window| [0, 1, 2].map(|chart| bounds(window, chart));
+    let [a, b, c] = across(&window);
+    assert!(((b.low.x - a.high.x) - (c.low.x - b.high.x)).abs() < 1e-9);
+    window.menu(&["Align", "Top"]);
+    until_proved(&mut window);
+    let [a, b, c] = across(&window).map(|bounds| bounds.high.y);
+    assert!((a - b).abs() < 1e-9 && (b - c).abs() < 1e-9);
+    let before = across(&window);
+    window.menu(&["Move", "Mirror left to right"]);
+    until_proved(&mut window);
+    assert_eq!(page(&window).is_planar, Some(true));
+    for (before, after) in before.into_iter().zip(across(&window)) {
+        assert!((before.middle() - after.middle()).length() < 1e-9);
+    }
+}
+
+#[test]
+fn charts_snap_to_pixels_if_the_user_wants_it() {
+    let mut window = with_sheets();
+    window.choose("Snapping of moved charts", "Snap to pixels");
+    assert_eq!(window.editor().page.snap(), Snap::Pixels);
+    let from = middle(&window, 0);
+    let to = spot(&window, bounds(&window, 0).middle() + DVec2::new(-0.7, 0.123));
+    drag(&mut window, from, to, Modifiers::NONE);
+    let low = pixels(&window, DVec2::ZERO, bounds(&window, 0).low);
+    assert!((low - low.round()).length() < 1e-6, "{low}");
+}
+
+/// Two sheets that are mirror images of each other, and three others.
+fn with_parts() -> Window {
+    let chiral = shaped(4, 3, |x, y| DVec3::new(x + 0.1 * y * y, y, 0.05 * x * x * y));
+    let mut mirrored = chiral.clone();
+    mirrored.positions.iter_mut().for_each(|position| position.x = 20.0 - position.x);
+    mirrored.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+    let others = [3, 4, 5].map(|rows| shaped(rows, rows, |x, y| DVec3::new(x, y, 0.1 * x * y)));
+    let mut whole = TriMesh::default();
+    for part in [chiral, mirrored].into_iter().chain(others) {
+        let offset = whole.positions.len();
+        whole.positions.extend(part.positions.iter().map(|&at| at + 7.0 * offset as f64 * DVec3::Y));
+        let moved = |vertex: VertexId| VertexId::from_index(offset + vertex.index());
+        whole.triangles.extend(part.triangles.iter().map(|corners| corners.map(moved)));
+    }
+    let mut window = Window::with_mesh("parts.obj", &whole);
+    until_proved(&mut window);
+    window
+}
+
+/// The artist's run of at most 15 actions: two mirrored charts are stacked, three are moved, one is locked, the rest is
+/// packed, at a density of 512 pixels per unit everywhere.
+#[test]
+fn an_artist_stacks_moves_locks_and_packs_at_one_density_in_at_most_15_actions() {
+    let mut window = with_parts();
+    let mut actions = 0;
+    let mut act = |window: &mut Window, action: &dyn Fn(&mut Window)| {
+        action(window);
+        until_proved(window);
+        actions += 1;
+    };
+    // One density everywhere.
+    act(&mut window, &|window| window.press(Modifiers::COMMAND, Key::A));
+    let density = "Density of the selected charts, pixels per unit of length";
+    act(&mut window, &|window| {
+        window.fill_in(Role::SpinButton, density, "12");
+        window.key(Key::Enter);
+    });
+    // The two mirrored charts share a place.
+    act(&mut window, &|window| window.click_at(middle(window, 0), Modifiers::NONE));
+    act(&mut window, &|window| window.click_at(middle(window, 1), Modifiers::SHIFT));
+    act(&mut window, &|window| window.menu(&["Stack", "Stack on the first"]));
+    // Three charts are moved.
+    for (chart, x) in [(2, 1.5), (3, 2.5), (4, 3.5)] {
+        act(&mut window, &|window| {
+            let from = middle(window, chart);
+            let to = spot(window, DVec2::new(x, 1.5));
+            drag(window, from, to, Modifiers::NONE);
+        });
+    }
+    // One is locked, the rest is packed.
+    act(&mut window, &|window| window.key(Key::L));
+    act(&mut window, &|window| window.click("Pack all"));
+    assert!(actions <= 15, "{actions}");
+    let session = &window.editor().session;
+    assert_eq!(session.lock_state(4), LockState::Locked);
+    let atlas = session.atlas().expect("laid out");
+    assert!(atlas.verdict.planar && atlas.verdict.stacks == 1, "{}", atlas.verdict.summary());
+    let densities = &atlas.densities;
+    assert!(densities.iter().all(|density| (density / densities[0] - 1.0).abs() < 1e-6), "{densities:?}");
+    let stack = page(&window).with_stacks(&BTreeSet::from([0]));
+    assert_eq!(stack, BTreeSet::from([0, 1]));
+}
+
+#[test]
+fn requests_to_the_page_do_nothing_without_a_page() {
+    let mut window = Window::with_mesh("one.obj", &crate::harness::sheet(5, 0.3));
+    let before = window.editor().session.document().clone();
+    for request in
+        [PageRequest::SelectAll, PageRequest::Invert, PageRequest::Pack, PageRequest::Stack, PageRequest::Open(None)]
+    {
+        window.editor_mut().handle(request.into());
+        window.settle();
+    }
+    assert_eq!(*window.editor().session.document(), before);
+    assert!(!window.editor().shows_page() && window.is_proved());
+}
