@@ -21,7 +21,7 @@ use freebound_core::verify::{ChartInPlane, MoveVerdict, move_verdict};
 
 /// All charts as they lie on the page. The page's plane has its height as unit: x is u times the aspect, y is v.
 #[derive(Clone, Debug)]
-pub struct Page {
+pub struct ChartPage {
     /// Charts by their numbers.
     pub charts: Vec<PageChart>,
     /// Width over height of the page.
@@ -72,7 +72,7 @@ impl PageChart {
     }
 }
 
-impl Page {
+impl ChartPage {
     /// Chart that lends its place: the chart itself, or the chart that it is stacked on.
     pub fn place_of(&self, chart: usize) -> usize {
         self.charts.get(chart).and_then(|chart| chart.stacked).map_or(chart, |on| on.chart)
@@ -115,7 +115,7 @@ pub struct JudgedMove {
 
 impl JudgedMove {
     /// Moves charts of a page and judges them.
-    fn new(page: &Page, moves: Vec<ChartMove>) -> Self {
+    fn new(page: &ChartPage, moves: Vec<ChartMove>) -> Self {
         let coordinates: Vec<(usize, Arc<Embedding>)> =
             moves.iter().map(|&(chart, by)| (chart, Arc::new(page.charts[chart].moved(by, page.aspect)))).collect();
         let of_moved: BTreeMap<usize, &Arc<Embedding>> = coordinates.iter().map(|(chart, at)| (*chart, at)).collect();
@@ -159,7 +159,7 @@ pub struct MoveState {
 
 /// The page, and the move of charts in progress.
 pub(super) struct PagePart {
-    page: Option<Page>,
+    page: Option<ChartPage>,
     key: Option<AtlasKey>,
     job: Background<MoveRequest, JudgedMove>,
     /// Newest request, while an older one is being judged.
@@ -175,7 +175,7 @@ impl PagePart {
         Self { page: None, key: None, job, waiting: None, state: None, is_ending: false }
     }
 
-    pub(super) fn page(&self) -> Option<&Page> {
+    pub(super) fn page(&self) -> Option<&ChartPage> {
         self.page.as_ref()
     }
 
@@ -211,7 +211,7 @@ impl PagePart {
                     stacked: *stacked,
                 }
             };
-        let page = Page {
+        let page = ChartPage {
             charts: charts.map(chart).collect(),
             aspect: view.aspect,
             revision: 0,
@@ -221,7 +221,7 @@ impl PagePart {
     }
 
     /// Replaces the page. A page with the same numbers keeps its revision, so that nothing is drawn anew.
-    fn set(&mut self, key: AtlasKey, page: Page) {
+    fn set(&mut self, key: AtlasKey, page: ChartPage) {
         let before = self.page.as_ref();
         let is_same = before.is_some_and(|before| {
             let charts = before.charts.iter().zip(&page.charts);
@@ -234,7 +234,7 @@ impl PagePart {
                 && charts.into_iter().all(is_same)
         });
         let revision = before.map_or(0, |before| before.revision) + u64::from(!is_same);
-        self.page = Some(Page { revision, ..page });
+        self.page = Some(ChartPage { revision, ..page });
         self.key = Some(key);
     }
 
@@ -242,7 +242,7 @@ impl PagePart {
     pub(super) fn put_moved(&mut self, key: AtlasKey, judged: &JudgedMove) {
         let Some(page) = &self.page else { return };
         let is_planar = page.is_planar.filter(|planar| *planar && judged.verdict.is_planar());
-        let page = Page { is_planar, ..page.with(&judged.coordinates) };
+        let page = ChartPage { is_planar, ..page.with(&judged.coordinates) };
         self.set(key, page);
     }
 

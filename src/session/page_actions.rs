@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DAffine2;
 
 use super::chart_layout::{ChartLayout, ChartPlace};
-use super::page::{ChartMove, JudgedMove, MoveState, Page, PageChart};
+use super::page::{ChartMove, ChartPage, JudgedMove, MoveState, PageChart};
 use super::{Command, LockState, Message, MessagePlace, Session};
 use freebound_core::geom::{PackingOptions, Stacking};
 use freebound_core::mesh::{Charts, FaceId};
@@ -18,7 +18,7 @@ const SAME_SIZE: f64 = 1e-9;
 impl Session {
     /// All charts as they lie on the page, once each is solved and laid out. The last page stays while a layout is
     /// being computed.
-    pub fn page(&self) -> Option<&Page> {
+    pub fn page(&self) -> Option<&ChartPage> {
         self.page.page().filter(|_| self.charts().is_some())
     }
 

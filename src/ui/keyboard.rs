@@ -60,11 +60,11 @@ pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request>
 
 /// Requests of the keys that belong to selected charts or to a gesture on them. These keys are removed from the input.
 fn page_keys(context: &egui::Context, editor: &Editor) -> Vec<Request> {
-    let has_charts = editor.shows_page() && !editor.page.selected().is_empty();
+    let has_charts = editor.shows_page() && !editor.plane.page.selected().is_empty();
     if !has_charts || context.text_edit_focused() || egui::Popup::is_any_open(context) {
         return Vec::new();
     }
-    let is_in_gesture = editor.page.gesture().is_some();
+    let is_in_gesture = editor.plane.page.gesture().is_some();
     let mut requests = Vec::new();
     context.input_mut(|input| {
         input.events.retain(|event| {
@@ -186,7 +186,8 @@ fn nudges(context: &egui::Context, editor: &Editor) -> Vec<Request> {
         || context.memory(egui::Memory::focused).is_some();
     let mut requests = Vec::new();
     let has_pins = editor.pins_selected().next().is_some() && !editor.shows_page();
-    let has_charts = editor.shows_page() && !editor.page.selected().is_empty() && editor.page.gesture().is_none();
+    let has_charts =
+        editor.shows_page() && !editor.plane.page.selected().is_empty() && editor.plane.page.gesture().is_none();
     if !is_elsewhere && editor.tools.dragged().is_none() && (has_pins || has_charts) {
         let push = context.input_mut(take_push);
         if push != DVec2::ZERO {

@@ -52,13 +52,13 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     editor.tools.set_intent(Intent::Nothing);
     editor.mesh.pane.hide();
     editor.plane.pane.hide();
-    editor.page.pane.hide();
+    editor.plane.page.pane.hide();
     egui::CentralPanel::default().frame(Frame::new().fill(fill)).show(ui, |ui| panes(ui, editor, &mut requests));
     if editor.pointer.pane().is_none() && editor.tools.dragged().is_none() {
         // Only now: the pane drawn first shows the vertex found in the other pane.
         editor.pointer.set_vertex(None);
         editor.tools.seam.set_under(None);
-        editor.page.set_hovered(None);
+        editor.plane.page.set_hovered(None);
     }
     constrain::line_across(ui, editor);
     floating::floating_windows(ui.ctx(), editor, &mut requests);

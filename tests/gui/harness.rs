@@ -163,7 +163,7 @@ impl Window {
             && plane_drawn == plane_wanted
             && editor.plane.hull_is_drawn()
             && !editor.plane.is_easing()
-            && editor.page.is_drawn(session)
+            && editor.plane.page.is_drawn(session)
             && !session.is_judging_move()
             && !editor.pane_shading.is_making_picture()
             && !editor.tools.seam.is_busy()

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2};
-use freebound::session::{LockState, Page};
+use freebound::session::{ChartPage, LockState};
 use freebound::ui::{Editor, PageRequest, Snap};
 use freebound_core::geom::Bounds;
 use freebound_core::mesh::{TriMesh, VertexId};
@@ -16,12 +16,12 @@ use glam::{DVec2, DVec3, Vec2Swizzles as _};
 use crate::charts::{until_laid_out, with_sheets};
 use crate::harness::{Pill, Window};
 
-fn page(window: &Window) -> &Page {
+fn page(window: &Window) -> &ChartPage {
     window.editor().session.page().expect("the page is shown")
 }
 
 fn selected(window: &Window) -> Vec<usize> {
-    window.editor().page.selected().iter().copied().collect()
+    window.editor().plane.page.selected().iter().copied().collect()
 }
 
 fn bounds(window: &Window, chart: usize) -> Bounds {
@@ -30,7 +30,7 @@ fn bounds(window: &Window, chart: usize) -> Bounds {
 
 /// Point of the window at a point of the page's plane.
 fn spot(window: &Window, at: DVec2) -> Pos2 {
-    let pane = window.editor().page.pane;
+    let pane = window.editor().plane.page.pane;
     let [x, y] = pane.camera().expect("shown").pane_from_embedding(at, pane.size()).as_vec2().to_array();
     window.plane_view().min + egui::vec2(x, y)
 }
@@ -227,7 +227,7 @@ fn a_double_click_shows_a_chart_alone_and_escape_returns_to_the_page() {
 #[test]
 fn f_frames_the_selected_charts_in_both_panes() {
     let mut window = with_sheets();
-    let cameras = |window: &Window| (window.editor().page.pane.camera(), window.editor().mesh.pane.camera());
+    let cameras = |window: &Window| (window.editor().plane.page.pane.camera(), window.editor().mesh.pane.camera());
     let before = cameras(&window);
     let at = middle(&window, 0);
     window.click_at(at, Modifiers::NONE);
@@ -272,7 +272,7 @@ fn menus_align_distribute_and_mirror_the_selected_charts() {
 fn charts_snap_to_pixels_if_the_user_wants_it() {
     let mut window = with_sheets();
     window.choose("Snapping of moved charts", "Snap to pixels");
-    assert_eq!(window.editor().page.snap(), Snap::Pixels);
+    assert_eq!(window.editor().plane.page.snap(), Snap::Pixels);
     let from = middle(&window, 0);
     let to = spot(&window, bounds(&window, 0).middle() + DVec2::new(-0.7, 0.123));
     drag(&mut window, from, to, Modifiers::NONE);

@@ -86,7 +86,6 @@ use gpu::Gpu;
 use layout::Layout;
 use mesh_view::MeshView;
 use opened::Opened;
-use page::PageView;
 use plane::{PlaneView, SECONDS, Surroundings};
 use scene::MeshScene;
 use selection::{Pointer, Selection, ToolState};
@@ -102,8 +101,6 @@ pub struct Editor {
     pub mesh: MeshView,
     /// Embedding pane.
     pub plane: PlaneView,
-    /// All charts on the page.
-    pub page: PageView,
     /// Selected vertices and defect.
     pub selection: Selection,
     /// Element under the pointer.
@@ -138,7 +135,6 @@ impl Editor {
         Self {
             mesh: MeshView::new(&wake),
             plane: PlaneView::new(&wake),
-            page: PageView::new(&wake),
             session: Session::new(Arc::clone(&wake), recent),
             selection: Selection::default(),
             pointer: Pointer::default(),
@@ -216,7 +212,7 @@ impl Editor {
                 self.frame();
             }
         }
-        self.page.refresh(&self.session, self.mesh.scene());
+        self.plane.page.refresh(&self.session, self.mesh.scene());
         self.tell_failures();
         self.pane_shading.refresh_picture(self.session.document());
         self.poll_shot();
@@ -227,7 +223,7 @@ impl Editor {
         self.gpu.note_work(self.session.busy().is_some(), Instant::now());
         let scenes_pending = self.mesh.is_making_scene()
             || self.plane.is_making_scene()
-            || self.page.is_making()
+            || self.plane.page.is_making()
             || self.session.is_judging_move()
             || self.pane_shading.is_making_picture()
             || self.tools.seam.is_busy();
@@ -247,7 +243,7 @@ impl Editor {
     fn tell_failures(&mut self) {
         let [mesh, plane, picture] =
             [self.mesh.take_failure(), self.plane.take_failure(), self.pane_shading.take_failure()];
-        let plane = plane.or_else(|| self.page.take_failure());
+        let plane = plane.or_else(|| self.plane.page.take_failure());
         let seam = self.tools.seam.take_failure();
         let failures = [
             (MessagePlace::Mesh, "drawing", mesh),
@@ -290,7 +286,7 @@ impl Editor {
         }
         if self.opened.put_on_screen(&self.session) {
             self.selection.select([]);
-            self.page.forget();
+            self.plane.page.forget();
             self.put_on_view();
         }
         let scene = self.mesh.scene();

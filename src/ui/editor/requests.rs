@@ -166,7 +166,7 @@ impl Editor {
     /// Shows the chart `by` places after the current one, cyclically; on the page, selects it.
     fn step_chart(&mut self, by: isize) {
         let count = self.session.charts().map(|charts| charts.count());
-        let selected = self.page.selected().first().copied().filter(|_| self.shows_page());
+        let selected = self.plane.page.selected().first().copied().filter(|_| self.shows_page());
         let Some((count, now)) = count.zip(selected.or(self.session.chart_on_screen())) else { return };
         let next = (now.cast_signed() + by).rem_euclid(count.cast_signed()).cast_unsigned();
         if self.shows_page() {
@@ -186,7 +186,7 @@ impl Editor {
     /// Selected charts of the page, or the chart on the screen if the page is not shown.
     pub(in crate::ui) fn charts_to_work_on(&self) -> BTreeSet<usize> {
         if self.shows_page() {
-            self.page.selected().clone()
+            self.plane.page.selected().clone()
         } else {
             self.session.chart_on_screen().into_iter().collect()
         }
@@ -245,7 +245,7 @@ impl Editor {
         } else if self.tools.tool() != Tool::Select {
             self.tools.take_up(Tool::Select);
         } else if self.shows_page() {
-            self.page.select([]);
+            self.plane.page.select([]);
         } else if self.selection.vertices().is_empty() && self.session.charts().is_some() {
             self.handle_page(PageRequest::Show(true));
         } else {

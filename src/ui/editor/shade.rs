@@ -27,7 +27,7 @@ impl Editor {
 
     /// Legend of the shading of a pane.
     pub(in crate::ui) fn legend(&self, pane: Pane) -> Option<&Legend> {
-        if self.shows_page() { self.page.legend(pane) } else { self.pane_shading.legend(pane) }
+        if self.shows_page() { self.plane.page.legend(pane) } else { self.pane_shading.legend(pane) }
     }
 
     /// Shades the pane under the pointer, or both panes if it is over neither.
@@ -54,7 +54,7 @@ impl Editor {
     pub(super) fn refresh_paints(&mut self) {
         if self.shows_page() {
             for (pane, shading) in Pane::BOTH.map(|pane| (pane, self.shading(pane))) {
-                self.page.refresh_paint(pane, shading);
+                self.plane.page.refresh_paint(pane, shading);
             }
             return;
         }

@@ -36,9 +36,9 @@ impl Editor {
 
     /// Frames the selected charts in both panes, or everything.
     fn frame_charts(&mut self) {
-        let selected = self.page.selected().clone();
-        self.page.frame(&selected);
-        let (Some(page), Some(scene)) = (self.page.scene(), self.mesh.scene()) else { return };
+        let selected = self.plane.page.selected().clone();
+        self.plane.page.frame(&selected);
+        let (Some(page), Some(scene)) = (self.plane.page.scene(), self.mesh.scene()) else { return };
         let points = page.points_of(selected.iter().copied());
         let ball = if points.is_empty() { scene.sphere } else { Sphere::around(&points) };
         self.mesh.frame(ball);

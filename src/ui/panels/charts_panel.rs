@@ -397,7 +397,7 @@ fn arrange(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     if !editor.shows_page() {
         return;
     }
-    let selected = editor.page.selected().len();
+    let selected = editor.plane.page.selected().len();
     let can_move = !editor.movable_charts().is_empty();
     ui.horizontal_wrapped(|ui| {
         ui.add_enabled_ui(can_move, |ui| {
@@ -453,7 +453,7 @@ fn entry(ui: &mut egui::Ui, words: &str, about: &str, request: PageRequest, requ
 
 /// Menu of the places that moved charts snap to.
 fn snap_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let now = editor.page.snap();
+    let now = editor.plane.page.snap();
     let menu = list(ui, "Snapping of moved charts", 110.0, now.title(), |ui| {
         for snap in Snap::ALL {
             ui.selectable_label(now == snap, snap.title()).asks(PageRequest::SetSnap(snap), requests);
@@ -464,7 +464,9 @@ fn snap_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 
 /// Field that scales each selected chart in place to a density. It applies when the typing ends.
 fn density_of_selection(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let Some(&first) = editor.page.selected().first().filter(|_| !editor.movable_charts().is_empty()) else { return };
+    let Some(&first) = editor.plane.page.selected().first().filter(|_| !editor.movable_charts().is_empty()) else {
+        return;
+    };
     let found = editor.session.newest_atlas().and_then(|atlas| atlas.densities.get(first).copied());
     let Some(before) = found else { return };
     let kept = ui.scope_id().with(("density of the selection", first));

@@ -283,7 +283,7 @@ fn view_menu(menu: &mut Menu<'_>) {
 fn page_menu(menu: &mut Menu<'_>) {
     let editor = menu.editor;
     let can_move = editor.shows_page() && !editor.movable_charts().is_empty();
-    let has_selected = editor.shows_page() && !editor.page.selected().is_empty();
+    let has_selected = editor.shows_page() && !editor.plane.page.selected().is_empty();
     menu.part("Charts", |menu| {
         menu.item(editor.shows_page(), "Select all", PageRequest::SelectAll);
         menu.item(editor.shows_page(), "Invert the selection", PageRequest::Invert);

@@ -37,10 +37,10 @@ fn hint(editor: &Editor, has_shift: bool) -> Cow<'static, str> {
         _ if editor.shows_comparison_alone() => {
             "Click a method to use it for the document. Drag pans all of them, the wheel zooms. Esc goes back."
         }
-        Tool::Select if editor.page.gesture().is_some() => {
+        Tool::Select if editor.plane.page.gesture().is_some() => {
             "X or Y locks an axis. Type a number. Ctrl snaps, Alt lets charts overlap. Click or Enter ends, Esc cancels."
         }
-        Tool::Select if editor.shows_page() && editor.page.selected().is_empty() => {
+        Tool::Select if editor.shows_page() && editor.plane.page.selected().is_empty() => {
             "Click a chart to select it; Ctrl + drag selects a box. Drag a chart to move it. Double click shows it alone."
         }
         Tool::Select if editor.shows_page() => {

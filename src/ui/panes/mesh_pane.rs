@@ -34,7 +34,7 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
     if editor.shows_page() {
-        return page_pane::mesh_ui(ui, (rect, &response), editor, requests);
+        return page_pane::mesh_ui(ui, &response, editor, requests);
     }
     let (Some(scene), Some(mut camera)) = (editor.mesh_scene().map(Arc::clone), editor.mesh.pane.camera()) else {
         let lines: &[&str] = if editor.session.busy().is_some() {

@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::{legend, mesh_pane, pane, plane_pane};
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PlaneFrame, Style};
-use crate::session::Page;
+use crate::session::ChartPage;
 use crate::ui::editor::PageScene;
 use crate::ui::state::{GestureKind, PageRequest, Viewport, in_pane, size_of};
 use crate::ui::{Editor, Pane, Request, ShadingMode, Theme, five_digits, theme_of};
@@ -22,14 +22,11 @@ const THIN_FILL: f32 = 0.3;
 const EDGES_SHOWN: usize = 20_000;
 
 /// Embedding pane with all charts.
-pub(super) fn plane_ui(
-    ui: &mut egui::Ui,
-    (rect, response): (Rect, &Response),
-    editor: &mut Editor,
-    requests: &mut Vec<Request>,
-) {
-    editor.page.set_rect(rect);
-    let (Some(scene), Some(mut camera)) = (editor.page.scene().map(Arc::clone), editor.page.pane.camera()) else {
+pub(super) fn plane_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Editor, requests: &mut Vec<Request>) {
+    let rect = response.rect;
+    editor.plane.page.set_rect(rect);
+    let (Some(scene), Some(mut camera)) = (editor.plane.page.scene().map(Arc::clone), editor.plane.page.pane.camera())
+    else {
         return;
     };
     let grip = Grip::at(ui, response, editor, Viewport { rect, camera }, &scene);
@@ -38,8 +35,8 @@ pub(super) fn plane_ui(
     } else {
         plane_pane::zoom(ui, response, &mut camera);
     }
-    if editor.page.pane.camera() != Some(camera) {
-        editor.page.pane.set_camera(camera);
+    if editor.plane.page.pane.camera() != Some(camera) {
+        editor.plane.page.pane.set_camera(camera);
         ui.ctx().request_repaint();
     }
     let view = Viewport { rect, camera };
@@ -48,7 +45,7 @@ pub(super) fn plane_ui(
     if response.hovered() || response.contains_pointer() {
         editor.pointer.over_plane(place, None);
         let chart = place.and_then(|at| scene.chart_at(at));
-        editor.page.set_hovered(chart);
+        editor.plane.page.set_hovered(chart);
     }
     // A gesture goes on where the pointer leaves the pane.
     let anywhere = ui.input(|input| input.pointer.latest_pos()).map(|at| view.point_at(at));
@@ -85,24 +82,24 @@ impl Grip {
         scene: &PageScene,
     ) -> Self {
         let is_boxing = ui.input(|input| input.modifiers.command);
-        if editor.page.gesture().is_none() && response.drag_started_by(PointerButton::Primary) && !is_boxing {
+        if editor.plane.page.gesture().is_none() && response.drag_started_by(PointerButton::Primary) && !is_boxing {
             let origin = ui.input(|input| input.pointer.press_origin()).or(response.interact_pointer_pos());
             let from = origin.map(|at| view.point_at(at));
             if let Some((from, chart)) = from.and_then(|from| Some((from, scene.chart_at(from)?))) {
-                if !editor.page.selected().contains(&chart) {
+                if !editor.plane.page.selected().contains(&chart) {
                     let adds = ui.input(|input| input.modifiers.shift);
                     editor.handle(PageRequest::Pick { chart: Some(chart), adds }.into());
                 }
                 editor.begin_gesture(GestureKind::Move, from, true);
             }
         }
-        Self { holds_charts: editor.page.gesture().is_some() }
+        Self { holds_charts: editor.plane.page.gesture().is_some() }
     }
 }
 
 /// Lets a gesture follow the pointer, and ends a drag with its button.
 fn follow(ui: &egui::Ui, response: &Response, editor: &mut Editor, place: Option<DVec2>) {
-    let Some(is_drag) = editor.page.gesture().map(|gesture| gesture.is_drag) else { return };
+    let Some(is_drag) = editor.plane.page.gesture().map(|gesture| gesture.is_drag) else { return };
     let modifiers = ui.input(|input| input.modifiers);
     editor.follow_gesture(place, modifiers.command, modifiers.alt);
     ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
@@ -113,7 +110,7 @@ fn follow(ui: &egui::Ui, response: &Response, editor: &mut Editor, place: Option
 
 /// Clicks: a click ends a gesture of the keyboard, or selects; a double click shows the chart alone.
 fn click(ui: &egui::Ui, response: &Response, editor: &mut Editor, requests: &mut Vec<Request>) {
-    if editor.page.gesture().is_some() {
+    if editor.plane.page.gesture().is_some() {
         if response.clicked() {
             requests.push(PageRequest::End.into());
         } else if response.secondary_clicked() {
@@ -121,7 +118,7 @@ fn click(ui: &egui::Ui, response: &Response, editor: &mut Editor, requests: &mut
         }
         return;
     }
-    let chart = editor.page.hovered();
+    let chart = editor.plane.page.hovered();
     if response.double_clicked() && chart.is_some() {
         requests.push(PageRequest::Open(chart).into());
     } else if response.clicked() {
@@ -134,15 +131,11 @@ fn click(ui: &egui::Ui, response: &Response, editor: &mut Editor, requests: &mut
 }
 
 /// Mesh pane with the maps of all charts.
-pub(super) fn mesh_ui(
-    ui: &mut egui::Ui,
-    (rect, response): (Rect, &Response),
-    editor: &mut Editor,
-    requests: &mut Vec<Request>,
-) {
-    let (Some(scene), Some(mut camera)) = (editor.page.scene().map(Arc::clone), editor.mesh.pane.camera()) else {
+pub(super) fn mesh_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Editor, requests: &mut Vec<Request>) {
+    let (Some(scene), Some(mut camera)) = (editor.plane.page.scene().map(Arc::clone), editor.mesh.pane.camera()) else {
         return;
     };
+    let rect = response.rect;
     let hit = |ray| scene.picker_hit(ray);
     mesh_pane::navigate(ui, response, &hit, &mut camera, true);
     if editor.mesh.pane.camera() != Some(camera) {
@@ -151,8 +144,8 @@ pub(super) fn mesh_ui(
     }
     if let Some(pointer) = response.hover_pos().map(|at| in_pane(rect, at)) {
         editor.pointer.over_mesh(None);
-        editor.page.set_hovered(scene.chart_hit(camera.ray(pointer, size_of(rect))));
-        if editor.page.hovered().is_some() {
+        editor.plane.page.set_hovered(scene.chart_hit(camera.ray(pointer, size_of(rect))));
+        if editor.plane.page.hovered().is_some() {
             ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
         }
     }
@@ -167,7 +160,7 @@ pub(super) fn mesh_ui(
     }
     if response.clicked() {
         let adds = ui.input(|input| input.modifiers.shift);
-        requests.push(PageRequest::Pick { chart: editor.page.hovered(), adds }.into());
+        requests.push(PageRequest::Pick { chart: editor.plane.page.hovered(), adds }.into());
     }
     if editor.gpu.has_gpu() {
         ui.painter().add(render::mesh_pane(PaneId("mesh"), rect, mesh_frame(editor, &scene, camera, theme_of(ui))));
@@ -183,8 +176,8 @@ fn lines(editor: &Editor, scene: &PageScene, theme: &Theme, colour: crate::view:
         width_in_points,
     };
     let mut lines = vec![line(&scene.outlines, colour, 1.5)];
-    lines.extend(editor.page.hovered_outlines().map(|edges| line(edges, theme.selection_line, 2.0)));
-    lines.extend(editor.page.selected_outlines().map(|edges| line(edges, theme.selection_line, 3.0)));
+    lines.extend(editor.plane.page.hovered_outlines().map(|edges| line(edges, theme.selection_line, 2.0)));
+    lines.extend(editor.plane.page.selected_outlines().map(|edges| line(edges, theme.selection_line, 3.0)));
     lines
 }
 
@@ -200,7 +193,7 @@ fn style(editor: &Editor, pane: Pane) -> Style {
     Style {
         shading,
         wire_in_points: if editor.pane_shading.wireframe { 1.0 } else { 0.0 },
-        check_size: editor.page.check_size(),
+        check_size: editor.plane.page.check_size(),
         face_opacity: if chosen == ShadingMode::SeeThrough { THIN_FILL } else { 1.0 },
         ..Style::default()
     }
@@ -210,8 +203,8 @@ fn style(editor: &Editor, pane: Pane) -> Style {
 pub(super) fn plane_frame(editor: &Editor, scene: &PageScene, camera: PlaneCamera, theme: &Theme) -> PlaneFrame {
     PlaneFrame {
         mesh: Arc::clone(&scene.mesh),
-        plane: editor.page.plane().map(Arc::clone),
-        paint: editor.page.paint(Pane::Plane).map(Arc::clone),
+        plane: editor.plane.page.plane().map(Arc::clone),
+        paint: editor.plane.page.paint(Pane::Plane).map(Arc::clone),
         fills: Vec::new(),
         lines: lines(editor, scene, theme, theme.boundary),
         ghost: None,
@@ -228,8 +221,8 @@ pub(super) fn mesh_frame(editor: &Editor, scene: &PageScene, camera: OrbitCamera
     MeshFrame {
         around: None,
         mesh: Arc::clone(&scene.mesh),
-        plane: editor.page.plane().map(Arc::clone),
-        paint: editor.page.paint(Pane::Mesh).map(Arc::clone),
+        plane: editor.plane.page.plane().map(Arc::clone),
+        paint: editor.plane.page.paint(Pane::Mesh).map(Arc::clone),
         lines: lines(editor, scene, theme, theme.seam),
         around_lines: Vec::new(),
         picture: editor.pane_shading.picture_layer(scene.page_box(), editor.appearance().opacity),
@@ -275,7 +268,7 @@ fn kept_back(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, scene:
 
 /// Note over the pane on the gesture in progress.
 fn gesture_note(ui: &egui::Ui, rect: Rect, editor: &Editor) {
-    let Some(gesture) = editor.page.gesture() else { return };
+    let Some(gesture) = editor.plane.page.gesture() else { return };
     let theme = theme_of(ui);
     let words = gesture.words(&editor.snap_places(ui.input(|input| input.modifiers.command)));
     let font = FontId::proportional(13.0);
@@ -300,7 +293,7 @@ pub(super) fn waiting_words(editor: &Editor) -> Vec<String> {
 pub(in crate::ui) fn numbers(editor: &Editor) -> Vec<String> {
     let mut parts = Vec::new();
     let atlas = editor.session.newest_atlas();
-    if let Some(chart) = editor.page.hovered() {
+    if let Some(chart) = editor.plane.page.hovered() {
         parts.push(format!("Chart {chart}"));
         if let Some(density) = atlas.and_then(|atlas| atlas.densities.get(chart)) {
             parts.push(format!("{} px per unit", five_digits(*density)));
@@ -312,6 +305,6 @@ pub(in crate::ui) fn numbers(editor: &Editor) -> Vec<String> {
 }
 
 /// Point of the page's plane as texture coordinates.
-pub(in crate::ui) fn texture_coordinates(page: &Page, at: DVec2) -> DVec2 {
+pub(in crate::ui) fn texture_coordinates(page: &ChartPage, at: DVec2) -> DVec2 {
     at / DVec2::new(page.aspect, 1.0)
 }

@@ -29,7 +29,7 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
     if editor.shows_page() {
-        return page_pane::plane_ui(ui, (rect, &response), editor, requests);
+        return page_pane::plane_ui(ui, &response, editor, requests);
     }
     if editor.awaits_page() {
         let words = page_pane::waiting_words(editor);

@@ -85,13 +85,15 @@ fn one_fixed_vertex_leaves_the_embedding_where_it_is() {
 }
 
 #[test]
-fn settings_stay_when_another_mesh_opens_and_pins_go() {
+fn another_mesh_starts_from_defaults() {
     let mut session = opened(Example::Dome);
     let settings = Settings::new(Method::Natural, Family::MeanValue);
-    settled(&mut session, Action::SetSettings(settings.clone()));
+    settled(&mut session, Action::SetSettings(settings));
+    settled(&mut session, Action::SetStop(StopConditions { planar: false, ..StopConditions::default() }));
     settled(&mut session, Action::Fix(vec![id(1), id(2)]));
     settled(&mut session, Action::OpenExample(Example::Ell));
-    assert_eq!(*session.document(), Document { settings, ..Document::default() });
+    assert_eq!(*session.document(), Document::default());
+    assert_eq!(session.stop_conditions(), StopConditions::default());
     assert!(!session.history().can_undo());
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use freebound::session::{Action, LockState, Page, Session};
+use freebound::session::{Action, ChartPage, LockState, Session};
 use freebound_core::geom::Bounds;
 use freebound_core::mesh::{TriMesh, VertexId};
 use freebound_core::pipeline::StackedOn;
@@ -57,7 +57,7 @@ fn until_proved(session: &mut Session) {
     }
 }
 
-fn page(session: &Session) -> &Page {
+fn page(session: &Session) -> &ChartPage {
     session.page().expect("all charts are solved")
 }
 

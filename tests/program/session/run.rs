@@ -136,11 +136,9 @@ fn a_pause_takes_effect_within_a_step_of_a_large_mesh() {
     }
     write_obj(&path, &hill);
     let mut session = session();
+    settled(&mut session, Action::Open(path));
     settled(&mut session, Action::SetStop(ON_AND_ON));
-    session.handle(Action::Open(path));
-    while step_count(&session) == 0 {
-        session.poll();
-    }
+    session.handle(Action::Run);
     until_step(&mut session, 2);
     let mut longest = Duration::ZERO;
     for moment in 0..8 {

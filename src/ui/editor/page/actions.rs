@@ -12,14 +12,17 @@ use freebound_core::geom::Bounds;
 impl Editor {
     /// True if the panes show all charts on the page.
     pub fn shows_page(&self) -> bool {
-        let has_page = self.page.scene.is_some() && self.session.page().is_some();
-        has_page && self.page.is_wanted && self.tools.tool() == Tool::Select && !self.plane.comparison.is_shown()
+        let has_page = self.plane.page.scene.is_some() && self.session.page().is_some();
+        has_page && self.plane.page.is_wanted && self.tools.tool() == Tool::Select && !self.plane.comparison.is_shown()
     }
 
     /// True if the page is to be shown, once all charts are solved.
     pub(in crate::ui) fn awaits_page(&self) -> bool {
-        let is_wanted = self.page.is_wanted && self.tools.tool() == Tool::Select;
-        is_wanted && self.page.scene.is_none() && self.session.charts().is_some() && !self.session.has_failed_charts()
+        let is_wanted = self.plane.page.is_wanted && self.tools.tool() == Tool::Select;
+        is_wanted
+            && self.plane.page.scene.is_none()
+            && self.session.charts().is_some()
+            && !self.session.has_failed_charts()
     }
 
     pub(in crate::ui::editor) fn handle_page(&mut self, request: PageRequest) {
@@ -28,20 +31,24 @@ impl Editor {
             PageRequest::Toggle => self.show_page(!self.shows_page()),
             PageRequest::Pick { chart, adds } => self.pick_chart(chart, adds),
             PageRequest::Add(charts) => {
-                let charts: Vec<usize> = self.page.selected().iter().copied().chain(charts).collect();
-                self.page.select(charts);
+                let charts: Vec<usize> = self.plane.page.selected().iter().copied().chain(charts).collect();
+                self.plane.page.select(charts);
             }
-            PageRequest::SelectAll => self.page.select(0..self.chart_count()),
+            PageRequest::SelectAll => self.plane.page.select(0..self.chart_count()),
             PageRequest::Invert => {
-                let others = (0..self.chart_count()).filter(|chart| !self.page.selected().contains(chart));
+                let others = (0..self.chart_count()).filter(|chart| !self.plane.page.selected().contains(chart));
                 let others: Vec<usize> = others.collect();
-                self.page.select(others);
+                self.plane.page.select(others);
             }
             PageRequest::Open(chart) => self.open_chart(chart),
             PageRequest::Begin(kind) => {
                 let from = self.pointer.in_embedding();
-                let middle =
-                    self.page.scene.as_ref().map(|scene| scene.bounds_of(self.page.selected().iter().copied()));
+                let middle = self
+                    .plane
+                    .page
+                    .scene
+                    .as_ref()
+                    .map(|scene| scene.bounds_of(self.plane.page.selected().iter().copied()));
                 if let Some(from) = from.or(middle.map(Bounds::middle)) {
                     self.begin_gesture(kind, from, false);
                 }
@@ -53,12 +60,12 @@ impl Editor {
             PageRequest::Distribute(axis) => self.distribute(axis),
             PageRequest::Mirror(axis) => self.mirror(axis),
             PageRequest::SetDensity(density) => self.set_density(density),
-            PageRequest::Pack if self.page.selected().is_empty() => self.act(Action::PackCharts(None)),
-            PageRequest::Pack => self.act(Action::PackCharts(Some(self.page.selected().clone()))),
+            PageRequest::Pack if self.plane.page.selected().is_empty() => self.act(Action::PackCharts(None)),
+            PageRequest::Pack => self.act(Action::PackCharts(Some(self.plane.page.selected().clone()))),
             PageRequest::PackAll => self.act(Action::PackCharts(None)),
-            PageRequest::Stack => self.act(Action::StackCharts(self.page.selected().clone())),
-            PageRequest::Unstack => self.act(Action::UnstackCharts(self.page.selected().clone())),
-            PageRequest::SetSnap(snap) => self.page.snap = snap,
+            PageRequest::Stack => self.act(Action::StackCharts(self.plane.page.selected().clone())),
+            PageRequest::Unstack => self.act(Action::UnstackCharts(self.plane.page.selected().clone())),
+            PageRequest::SetSnap(snap) => self.plane.page.snap = snap,
         }
     }
 
@@ -70,13 +77,13 @@ impl Editor {
     pub(in crate::ui::editor) fn leave_page(&mut self) {
         if self.session.charts().is_some() {
             self.drop_gesture();
-            self.page.is_wanted = false;
+            self.plane.page.is_wanted = false;
         }
     }
 
     fn show_page(&mut self, is_wanted: bool) {
         self.drop_gesture();
-        self.page.is_wanted = is_wanted;
+        self.plane.page.is_wanted = is_wanted;
         if is_wanted {
             self.tools.take_up(Tool::Select);
         }
@@ -86,38 +93,38 @@ impl Editor {
     fn pick_chart(&mut self, chart: Option<usize>, adds: bool) {
         let Some(chart) = chart else {
             if !adds {
-                self.page.select([]);
+                self.plane.page.select([]);
             }
             return;
         };
         let stack = self.session.page().map(|page| page.with_stacks(&BTreeSet::from([chart]))).unwrap_or_default();
-        let before = self.page.selected().clone();
+        let before = self.plane.page.selected().clone();
         match (adds, before.contains(&chart)) {
-            (false, _) => self.page.select(stack),
-            (true, false) => self.page.select(before.union(&stack).copied().collect::<Vec<_>>()),
-            (true, true) => self.page.select(before.difference(&stack).copied().collect::<Vec<_>>()),
+            (false, _) => self.plane.page.select(stack),
+            (true, false) => self.plane.page.select(before.union(&stack).copied().collect::<Vec<_>>()),
+            (true, true) => self.plane.page.select(before.difference(&stack).copied().collect::<Vec<_>>()),
         }
     }
 
     /// Shows a chart alone, to work on its vertices.
     fn open_chart(&mut self, chart: Option<usize>) {
-        let Some(chart) = chart.or(self.page.selected().first().copied()) else { return };
+        let Some(chart) = chart.or(self.plane.page.selected().first().copied()) else { return };
         self.drop_gesture();
-        self.page.is_wanted = false;
+        self.plane.page.is_wanted = false;
         if self.session.chart_on_screen() != Some(chart) {
             self.act(Action::ShowChart(chart));
         }
     }
 
     fn change_gesture(&mut self, change: impl FnOnce(&mut PageGesture)) {
-        if let Some(gesture) = &mut self.page.gesture {
+        if let Some(gesture) = &mut self.plane.page.gesture {
             change(gesture);
         }
     }
 
     /// Selected charts that can be moved, each with its bounds. Of a stack, the chart whose place it is.
     fn boxes(&self) -> Vec<(usize, Bounds)> {
-        let (Some(scene), Some(page)) = (&self.page.scene, self.session.page()) else { return Vec::new() };
+        let (Some(scene), Some(page)) = (&self.plane.page.scene, self.session.page()) else { return Vec::new() };
         let own: BTreeSet<usize> = self.movable_charts().into_iter().map(|chart| page.place_of(chart)).collect();
         own.into_iter().map(|chart| (chart, scene.bounds_of([chart]))).collect()
     }

@@ -16,26 +16,28 @@ impl Editor {
     /// Starts a gesture on the selected charts at a point of the page's plane. Returns true if there is something to
     /// move.
     pub(in crate::ui) fn begin_gesture(&mut self, kind: GestureKind, from: DVec2, is_drag: bool) -> bool {
-        let Some(scene) = self.page.scene.as_ref().filter(|_| self.session.can_move_charts()) else { return false };
+        let Some(scene) = self.plane.page.scene.as_ref().filter(|_| self.session.can_move_charts()) else {
+            return false;
+        };
         let charts = self.movable_charts();
         if charts.is_empty() {
             return false;
         }
         let bounds = scene.bounds_of(charts.iter().copied());
-        self.page.gesture = Some(PageGesture::new(kind, charts, bounds, from).with_drag(is_drag));
+        self.plane.page.gesture = Some(PageGesture::new(kind, charts, bounds, from).with_drag(is_drag));
         true
     }
 
     /// Selected charts that neither a lock nor pins hold.
     pub fn movable_charts(&self) -> BTreeSet<usize> {
-        self.page.selected().iter().copied().filter(|&chart| self.session.is_movable(chart)).collect()
+        self.plane.page.selected().iter().copied().filter(|&chart| self.session.is_movable(chart)).collect()
     }
 
     /// Lets a gesture follow the pointer, in the page's plane. `has_ctrl` turns snapping on or off; `insists` lets charts
     /// overlap.
     pub(in crate::ui) fn follow_gesture(&mut self, pointer: Option<DVec2>, has_ctrl: bool, insists: bool) {
         let places = self.snap_places(has_ctrl);
-        let Some(gesture) = &mut self.page.gesture else { return };
+        let Some(gesture) = &mut self.plane.page.gesture else { return };
         if let Some(pointer) = pointer {
             gesture.follow(pointer);
         }
@@ -47,23 +49,23 @@ impl Editor {
     /// Asks for movements, unless the last frame asked for the same.
     fn ask_to_move(&mut self, moves: Vec<ChartMove>, insists: bool) {
         let wanted = Some((moves.clone(), insists));
-        let is_idle = self.page.asked.is_none() && moves.iter().all(|(_, by)| *by == DAffine2::IDENTITY);
-        if self.page.asked != wanted && !is_idle {
-            self.page.asked = wanted;
+        let is_idle = self.plane.page.asked.is_none() && moves.iter().all(|(_, by)| *by == DAffine2::IDENTITY);
+        if self.plane.page.asked != wanted && !is_idle {
+            self.plane.page.asked = wanted;
             self.session.handle(Action::MoveCharts { moves, insists });
         }
     }
 
     /// Moves charts in one edit.
     pub(super) fn move_at_once(&mut self, moves: Vec<ChartMove>) {
-        self.page.asked = Some((moves.clone(), false));
+        self.plane.page.asked = Some((moves.clone(), false));
         self.session.handle(Action::MoveCharts { moves, insists: false });
         self.session.handle(Action::EndMove);
     }
 
     /// Ends the gesture; it becomes an edit. Returns true if there was one.
     pub(in crate::ui) fn end_gesture(&mut self) -> bool {
-        let had_one = self.page.gesture.take().is_some();
+        let had_one = self.plane.page.gesture.take().is_some();
         if had_one {
             self.session.handle(Action::EndMove);
         }
@@ -72,9 +74,9 @@ impl Editor {
 
     /// Drops the gesture. Returns true if there was one.
     pub(in crate::ui) fn drop_gesture(&mut self) -> bool {
-        let had_one = self.page.gesture.take().is_some();
+        let had_one = self.plane.page.gesture.take().is_some();
         if had_one {
-            self.page.asked = None;
+            self.plane.page.asked = None;
             self.session.handle(Action::GiveUpMove);
         }
         had_one
@@ -82,17 +84,18 @@ impl Editor {
 
     /// Places that the gesture snaps to. With Ctrl, snapping is off if it is on, and to pixels if it is off.
     pub(in crate::ui) fn snap_places(&self, has_ctrl: bool) -> SnapPlaces {
-        let snap = match (self.page.snap, has_ctrl) {
+        let snap = match (self.plane.page.snap, has_ctrl) {
             (snap, false) => snap,
             (Snap::Off, true) => Snap::Pixels,
             (_, true) => Snap::Off,
         };
-        let (Some(scene), Some(camera)) = (&self.page.scene, self.page.pane.camera()) else {
+        let (Some(scene), Some(camera)) = (&self.plane.page.scene, self.plane.page.pane.camera()) else {
             return SnapPlaces { snap, pixel: DVec2::ONE, grid: 1.0, ..SnapPlaces::default() };
         };
         let [width, height] = self.session.packing().picture.map(f64::from);
         let others = || {
-            let is_moved = |chart: &usize| self.page.gesture.as_ref().is_some_and(|own| own.charts.contains(chart));
+            let is_moved =
+                |chart: &usize| self.plane.page.gesture.as_ref().is_some_and(|own| own.charts.contains(chart));
             let stay = (0..scene.spans.len()).filter(|chart| !is_moved(chart));
             let bounds: Vec<Bounds> = stay.map(|chart| scene.bounds_of([chart])).collect();
             std::iter::once(scene.page_box()).chain(bounds).collect()

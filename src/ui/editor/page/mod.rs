@@ -18,7 +18,7 @@ use eframe::egui;
 
 pub(in crate::ui) use self::scene::PageScene;
 
-use self::scene::PageKey;
+use self::scene::{PageKey, PageSpace};
 use super::async_scene::AsyncScene;
 use super::paint::Legend;
 use super::scene::MeshScene;
@@ -232,7 +232,7 @@ impl PageView {
             && self.scene.as_ref().is_none_or(|scene| scene.key != key)
         {
             let (page, before) = (page.clone(), self.scene.clone());
-            let space = (given.unit(), given.sphere);
+            let space = PageSpace { unit: given.unit(), sphere: given.sphere };
             self.job.make(key, move |_| PageScene::new(key, &page, space, before.as_deref()));
         }
         self.refresh_moved(session.move_state());

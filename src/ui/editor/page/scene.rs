@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use crate::session::{JudgedMove, Page, PageChart};
+use crate::session::{ChartPage, JudgedMove, PageChart};
 use crate::ui::editor::paint::Legend;
 use crate::ui::state::ShadingMode;
 use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, Quantity, Ray, Sphere, SurfacePicker};
@@ -20,6 +20,14 @@ const HIDING_MARGIN: f64 = 1e-4;
 pub(super) struct PageKey {
     pub(super) page: u64,
     pub(super) model: u64,
+}
+
+/// Space of a mesh scene.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PageSpace {
+    /// Length of the file's unit: positions are divided by it.
+    pub(super) unit: f64,
+    pub(super) sphere: Sphere,
 }
 
 /// All charts on the page. Vertices and faces of each chart follow those of the chart before.
@@ -74,9 +82,8 @@ impl ChartSpan {
 }
 
 impl PageScene {
-    /// Scene of a page in the space of a mesh scene: positions are divided by `unit`. Reuses the mesh of a scene with
-    /// the same steps.
-    pub(super) fn new(key: PageKey, page: &Page, (unit, sphere): (f64, Sphere), before: Option<&Self>) -> Self {
+    /// Scene of a page in the space of a mesh scene. Reuses the mesh of a scene with the same steps.
+    pub(super) fn new(key: PageKey, page: &ChartPage, space: PageSpace, before: Option<&Self>) -> Self {
         let is_same = |(a, b): (&PageChart, &PageChart)| Arc::ptr_eq(&a.outcome, &b.outcome);
         let before = before.filter(|before| {
             before.key.model == key.model
@@ -90,7 +97,7 @@ impl PageScene {
             Some(Self { mesh, picker, spans, outlines, .. }) => {
                 (Arc::clone(mesh), Arc::clone(picker), Arc::clone(spans), Arc::clone(outlines))
             }
-            None => meshes(&page.charts, unit, sphere),
+            None => meshes(&page.charts, space),
         };
         Self {
             key,
@@ -207,7 +214,8 @@ impl PageScene {
     /// Colours of all faces, with a legend if the shading shows numbers. Areas and stretches are relative to the mean
     /// scale of the page, so that charts of different density differ in colour.
     pub(super) fn paint(&self, shading: ShadingMode) -> (FacePaint, Option<Legend>) {
-        let flipped: Vec<FaceId> = self.charts.iter().zip(self.spans.iter()).flat_map(flipped_faces).collect();
+        let flipped: Vec<FaceId> =
+            self.charts.iter().zip(self.spans.iter()).flat_map(|(chart, span)| flipped_faces(chart, span)).collect();
         let Some(quantity) = shading.quantity() else {
             return (FacePaint::plain(self.mesh.triangles.len(), &flipped), None);
         };
@@ -229,7 +237,7 @@ impl PageScene {
     }
 }
 
-fn flipped_faces<'a>((chart, span): (&'a PageChart, &'a ChartSpan)) -> impl Iterator<Item = FaceId> + 'a {
+fn flipped_faces<'a>(chart: &'a PageChart, span: &'a ChartSpan) -> impl Iterator<Item = FaceId> + 'a {
     let flipped = chart.outcome.step.verdict.flipped_faces.iter();
     flipped.map(|face| FaceId::from_index(span.faces.start + face.index()))
 }
@@ -246,8 +254,7 @@ fn areas_of(chart: &PageChart, aspect: f64) -> [f64; 2] {
 /// Meshes of all charts in one, their picker, their spans and their outlines.
 fn meshes(
     charts: &[PageChart],
-    unit: f64,
-    sphere: Sphere,
+    PageSpace { unit, sphere }: PageSpace,
 ) -> (Arc<MeshArrays>, Arc<SurfacePicker>, Arc<Vec<ChartSpan>>, Arc<EdgeList>) {
     let (mut positions, mut triangles) = (Vec::new(), Vec::new());
     let mut spans = Vec::new();

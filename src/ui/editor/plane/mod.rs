@@ -22,6 +22,7 @@ use glam::DVec2;
 use super::async_scene::AsyncScene;
 use super::comparison::ComparisonView;
 use super::gpu::Gpu;
+use super::page::PageView;
 use super::picture_box::picture_box;
 use super::scene::{MeshScene, PlaneScene};
 use crate::session::{JobFailure, Session, Wake};
@@ -48,6 +49,8 @@ pub struct PlaneView {
     preview: Option<PreviewScene>,
     hull: HullView,
     ghost: Option<Ghost>,
+    /// All charts on the page, in place of the chart on the screen.
+    pub page: PageView,
     /// Method comparison, which replaces all other contents of the pane.
     pub comparison: ComparisonView,
 }
@@ -99,6 +102,7 @@ impl PlaneView {
             preview: None,
             hull: HullView::new(wake),
             ghost: None,
+            page: PageView::new(wake),
             comparison: ComparisonView::new(wake),
         }
     }
