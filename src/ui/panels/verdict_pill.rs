@@ -117,6 +117,9 @@ fn of_page(editor: &Editor) -> Option<Pill> {
     if let Some([a, b]) = moved.and_then(|moved| moved.verdict.overlapping.first()) {
         return Some(Pill::new(Sign::Bad, format!("Charts {a} and {b} overlap"), "Move them apart, or press Esc"));
     }
+    if state.is_none() && !session.can_move_charts() {
+        return Some(Pill::new(Sign::Working, "laying out…", "The charts are being solved or packed"));
+    }
     let tip = "Exact arithmetic shows that no two faces of any charts overlap";
     Some(match (page.is_planar, state.and_then(|state| state.kept_back.as_ref())) {
         (None, _) => Pill::new(Sign::Working, "checking…", "The layout of all charts is being proved"),
