@@ -103,6 +103,14 @@ impl OtherCharts {
         self.others.insert(of.number, other);
     }
 
+    /// Stores a chart with a map that was saved.
+    pub(super) fn restore(&mut self, of: &ChartOf, outcome: Arc<Outcome>, task: Task, relaxed: usize) {
+        let mut solving = Solving::new(Arc::clone(&self.wake), share(of));
+        let (model, mut messages) = (Arc::clone(&task.model), Messages::default());
+        solving.show_map(outcome, task, relaxed, &mut messages);
+        self.others.insert(of.number, Other { model, solving, messages });
+    }
+
     /// Model and steps of a chart that is extracted.
     pub(super) fn other(&self, number: usize) -> Option<(&Arc<Model>, &Timeline)> {
         self.others.get(&number).map(|other| (&other.model, other.solving.timeline()))

@@ -19,7 +19,7 @@ impl Session {
     pub(super) fn take_opened(&mut self, opened: Opened) {
         let is_mesh = matches!(opened.origin, Origin::Mesh);
         self.files.put_on_table(&opened);
-        let Opened { model, document, remarks, .. } = opened;
+        let Opened { model, document, remarks, restored, .. } = opened;
         // An example only takes its first step, so that the user can watch the others.
         let waits = model.built_in.is_some() && is_mesh;
         let warnings: Vec<String> = model.source.warnings.iter().map(ToString::to_string).collect();
@@ -48,9 +48,10 @@ impl Session {
             self.messages.say(remark);
         }
         let together = self.files.take_together();
+        self.take_restored(restored);
         if waits {
             self.begin(Goal::Steps(1));
-        } else {
+        } else if !self.is_current() {
             self.solve();
         }
         if let Some(together) = together {
@@ -143,7 +144,10 @@ impl Session {
             return;
         }
         match self.model().and_then(|model| self.files.project_file(model, &self.document)) {
-            Some(project) => self.files.save_project(path, project, &self.document),
+            Some(mut project) => {
+                project.maps = self.maps_to_save();
+                self.files.save_project(path, project, &self.document);
+            }
             None => self.complain("there is nothing to save yet: open a mesh first", None),
         }
     }

@@ -50,6 +50,8 @@
 //! | `open_project`       | of files: the open project, and the document in its saved state        |
 //! | `opened`             | result of opening a file                                               |
 //! | `large`              | requests to open files; files that need much memory                    |
+//! | `restored_charts`    | of opening: charts of a project with their saved maps                  |
+//! | `saved_maps`         | maps of a project, which return without a solve                        |
 //! | `saving`             | projects being written                                                 |
 //! | `recovery`           | recovery copies                                                        |
 //! | `folder`             | display of a file's folder                                             |
@@ -99,7 +101,9 @@ mod queries;
 mod recent;
 mod recovery;
 mod reshaping;
+mod restored_charts;
 mod runs;
+mod saved_maps;
 mod saving;
 mod seams;
 mod solving;

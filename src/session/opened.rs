@@ -8,6 +8,7 @@ use glam::DVec2;
 
 use super::chart_layout::{ChartLayout, ChartPlace};
 use super::messages::named;
+use super::restored_charts::{RestoredChart, restored};
 use super::{Document, Message, MessagePlace, Model};
 use crate::examples::Example;
 use freebound_core::mesh::{FaceId, Preparation, VertexId};
@@ -15,7 +16,7 @@ use freebound_core::pipeline::{Target, Targets};
 use freebound_core::problem::Control;
 use freebound_io::{
     FileStamp, MemoryShortage, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectSource, ProjectView,
-    ReadError, RecoveryNote, check_memory, material_picture,
+    ReadError, RecoveryNote, SavedMap, check_memory, material_picture,
 };
 
 /// Result of opening a file.
@@ -25,6 +26,8 @@ pub(super) struct Opened {
     pub(super) document: Document,
     pub(super) view: ProjectView,
     pub(super) origin: Origin,
+    /// Charts whose maps the project has.
+    pub(super) restored: Vec<RestoredChart>,
     /// Remarks on missing or changed files and elements.
     pub(super) remarks: Vec<Message>,
     /// Picture of the project, if it could not be read.
@@ -108,6 +111,7 @@ impl Opened {
             document,
             view: ProjectView::default(),
             origin: Origin::Mesh,
+            restored: Vec::new(),
             remarks: Vec::new(),
             missing_picture: None,
             is_partial: false,
@@ -144,11 +148,15 @@ impl Opened {
             ..Document::default()
         };
         document.take_charts(&model, targets, &project.relaxed_elsewhere);
+        let restored = restored(&model, &document, &project.maps);
+        if project.maps.values().any(|SavedMap(map)| map.is_empty()) {
+            remarks.push(Message::note(MessagePlace::Embedding, "a map of the project is damaged: it is solved again"));
+        }
         // Saving must keep a picture that was only unavailable this time.
         let missing_picture = project.picture.filter(|_| document.picture.is_none());
         let mut view = project.view;
         view.selection.retain(|&vertex| (vertex as usize) < model.vertex_count());
-        Ok(Self { model, document, view, origin, remarks, missing_picture, is_partial })
+        Ok(Self { model, document, view, origin, restored, remarks, missing_picture, is_partial })
     }
 }
 

@@ -101,6 +101,7 @@ pub use ply::write_ply;
 pub use precision::Precision;
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
+    SavedMap,
 };
 pub use repacked::{LayoutPacking, LayoutToPackError, RepackedFile};
 pub use report::{

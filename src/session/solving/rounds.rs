@@ -19,6 +19,11 @@ struct Latest {
 }
 
 impl Rounds {
+    /// Rounds that were taken in an earlier run.
+    pub(super) fn taken(asked: usize) -> Self {
+        Self { asked, ..Self::default() }
+    }
+
     pub(super) fn asked(&self) -> usize {
         self.asked
     }

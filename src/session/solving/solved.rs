@@ -57,6 +57,21 @@ impl Solving {
         is_at_rest.then(solved)
     }
 
+    /// Shows a map that was saved, as the first step of a run. `relaxed` rounds of relaxing count as taken. Further steps
+    /// continue from it.
+    pub(in crate::session) fn show_map(
+        &mut self,
+        outcome: Arc<Outcome>,
+        task: Task,
+        relaxed: usize,
+        messages: &mut Messages,
+    ) {
+        let mut timeline = Timeline::with_budget(TIMELINE_BUDGET);
+        timeline.push(outcome);
+        self.show_again(Solved { timeline, ending: None, rounds: Rounds::taken(relaxed) }, task, messages);
+        self.ending = self.resting.as_ref().and_then(|resting| resting.run.ending());
+    }
+
     /// Restores a solution. Further steps continue from it.
     pub(in crate::session) fn show_again(&mut self, solved: Solved, task: Task, messages: &mut Messages) {
         self.give_up_all();

@@ -22,7 +22,7 @@ use freebound_testkit::many_parts::{disks, interleaved};
 const PATIENCE: Duration = Duration::from_secs(90);
 
 /// Five disks in one file, in a temporary folder.
-fn with_disks() -> (TempDir, Session) {
+pub(crate) fn with_disks() -> (TempDir, Session) {
     let folder = tempfile::tempdir().unwrap();
     let mut random = Random(9);
     let parts = disks(&mut random);
@@ -37,7 +37,7 @@ fn with_disks() -> (TempDir, Session) {
 
 /// Polls until every chart is solved and all are laid out.
 #[track_caller]
-fn until_laid_out(session: &mut Session) {
+pub(crate) fn until_laid_out(session: &mut Session) {
     let start = Instant::now();
     settle(session);
     while session.atlas().is_none() {

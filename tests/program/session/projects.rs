@@ -4,11 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use freebound::examples::Example;
-use freebound::session::{Action, Session, Severity};
+use freebound::session::{Action, ChartState, Session, Severity};
 use freebound_core::geom::{ConvexPolygon, VAxis};
+use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
 use freebound_core::problem::{
-    BoundaryShape, Family, GaugeSize, Growth, Method, NamedOption as _, Settings, Spacing, Treatment,
+    BoundaryShape, Embedding, Family, GaugeSize, Growth, Method, NamedOption as _, Settings, Spacing, Stage, Treatment,
 };
 use freebound_io::{FileStamp, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView};
 use glam::DVec2;
@@ -343,4 +344,108 @@ fn the_stamp_of_abc_is_that_of_the_standard() {
     // FIPS 180-4, the one-block example.
     let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
     assert_eq!((stamp.bytes, stamp.sha256.as_str()), (3, expected));
+}
+
+/// Session with a face whose map went on from edits, so that solving it from scratch would give another map.
+fn with_continued_map() -> (TempDir, Session, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = opened(Example::Dome);
+    let pins = [0, 40, 90, 130].map(VertexId::new).to_vec();
+    settled(&mut session, Action::Fix(pins.clone()));
+    let from = session.document().targets[&pins[1]].uv;
+    settled(&mut session, Action::Place { vertex: pins[1], target: Target::hard(from + DVec2::new(0.02, 0.01)) });
+    settled(&mut session, Action::Relax);
+    assert!(session.is_continued() && session.document().relaxed > 0);
+    let path = project_in(&folder);
+    settled(&mut session, Action::SaveProject(path.clone()));
+    (folder, session, path)
+}
+
+fn map_of(session: &Session) -> Embedding {
+    session.outcome().expect("a map").step.candidate.solution.embedding.clone()
+}
+
+#[test]
+fn a_saved_map_returns_bit_for_bit_without_a_solve() {
+    let (_folder, mut before, path) = with_continued_map();
+    let mut after = reopened(&path);
+    assert_eq!(map_of(&after), map_of(&before));
+    let outcome = after.outcome().unwrap();
+    assert_eq!((&outcome.step.candidate.stage, after.timeline().records().len()), (&Stage::Saved, 1));
+    assert!(outcome.step.verdict.planar && outcome.step.unmet().is_empty());
+    assert_eq!(outcome.distortion.summary, before.outcome().unwrap().distortion.summary);
+    assert!(after.is_current() && !after.has_unsaved_work() && errors(&after).is_empty());
+    // Solving from scratch gives another map, so the test would see a solve.
+    settled(&mut before, Action::Solve);
+    assert_ne!(map_of(&after), map_of(&before));
+    // Edits start from the saved map, and undo returns to it.
+    let saved = map_of(&after);
+    let vertex = VertexId::new(0);
+    let target = after.document().targets[&vertex].uv + DVec2::new(0.0, 0.01);
+    settled(&mut after, Action::Place { vertex, target: Target::hard(target) });
+    assert!(after.is_continued() && map_of(&after)[vertex] == target);
+    settled(&mut after, Action::Undo);
+    assert_eq!(map_of(&after), saved);
+    settled(&mut after, Action::Relax);
+    assert!(after.timeline().records().len() > 1, "the run goes on from the saved map");
+}
+
+#[test]
+fn saved_maps_of_several_charts_return_with_their_layout() {
+    let (folder, mut before) = super::charts::with_disks();
+    super::charts::until_laid_out(&mut before);
+    settled(&mut before, Action::Relax);
+    super::charts::until_laid_out(&mut before);
+    let path = project_in(&folder);
+    settled(&mut before, Action::SaveProject(path.clone()));
+    let mut after = reopened(&path);
+    super::charts::until_laid_out(&mut after);
+    for number in 0..5 {
+        let map = |session: &Session| match session.chart_state(number) {
+            ChartState::Solved(outcome) => outcome.step.candidate.solution.embedding.clone(),
+            other => panic!("chart {number}: {other:?}"),
+        };
+        assert_eq!(map(&after), map(&before), "chart {number}");
+        let ChartState::Solved(outcome) = after.chart_state(number) else { unreachable!() };
+        assert_eq!(outcome.step.candidate.stage, Stage::Saved);
+    }
+    assert_eq!(after.atlas().unwrap().coordinates, before.atlas().unwrap().coordinates);
+}
+
+#[test]
+fn a_map_of_another_mesh_is_left_out_and_solved_again() {
+    let (folder, session, path) = with_continued_map();
+    drop(session);
+    let text = std::fs::read_to_string(&path).unwrap();
+    let other = text.replace("\"dome\"", "\"bumpy-cap\"");
+    assert_ne!(text, other);
+    let path = folder.path().join("other.freebound");
+    std::fs::write(&path, other).unwrap();
+    let after = reopened(&path);
+    assert_ne!(after.outcome().expect("solved").step.candidate.stage, Stage::Saved);
+}
+
+#[test]
+fn a_damaged_map_is_said_and_solved_again() {
+    let (folder, session, path) = with_continued_map();
+    drop(session);
+    let text = std::fs::read_to_string(&path).unwrap();
+    let start = text.find("\"positions\"").expect("a map") + 40;
+    let other = if &text[start..=start] == "A" { "B" } else { "A" };
+    let path = folder.path().join("damaged.freebound");
+    std::fs::write(&path, format!("{}{other}{}", &text[..start], &text[start + 1..])).unwrap();
+    let after = reopened(&path);
+    assert_ne!(after.outcome().expect("solved").step.candidate.stage, Stage::Saved);
+    assert!(errors(&after).is_empty());
+    assert_message("projects-damaged-map", &words_of(&after.messages()[0]));
+}
+
+#[test]
+fn a_map_that_is_not_planar_is_not_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let session = opened(Example::Face);
+    assert!(!session.outcome().unwrap().step.verdict.planar);
+    let mut session = session;
+    settled(&mut session, Action::SaveProject(project_in(&folder)));
+    assert!(ProjectFile::read(&project_in(&folder)).unwrap().maps.is_empty());
 }

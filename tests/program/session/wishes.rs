@@ -80,8 +80,9 @@ fn a_relaxing_is_kept_in_the_project() {
     settled(&mut saved, Action::SaveProject(project.clone()));
     let mut opened = session();
     settled(&mut opened, Action::Open(project));
-    let [before, after] = [&saved, &opened].map(|session| relaxed_energy(session).expect("relaxed"));
-    assert!((before - after).abs() < 1e-6 * before, "{before} {after}");
+    assert!(relaxed_energy(&saved).is_some() && opened.document().relaxed == saved.document().relaxed);
+    let map = |session: &Session| session.outcome().expect("solved").step.candidate.solution.embedding.clone();
+    assert_eq!(map(&opened), map(&saved), "the rounds are not taken again");
 }
 
 /// Number of the newest steps that are rounds of relaxation.

@@ -6,7 +6,7 @@ use super::{Fit, PinsSummary, Placement, Problem, SoftPinSummary, Target};
 use crate::flatten::{Candidate, Step, to_unit_box, to_unit_square, to_unit_square_by_power_of_two, true_area_factor};
 use crate::geom::VAxis;
 use crate::mesh::{DiskMesh, VertexId};
-use crate::problem::{Embedding, GaugeSize, PinKind, Treatment};
+use crate::problem::{Embedding, GaugeSize, PinKind, Pins, Treatment};
 use crate::verify::{Distortion, Verdict, distortion, verdict};
 
 /// A step of a run with all data that the screen and files show.
@@ -25,6 +25,28 @@ impl Outcome {
     pub fn new(mesh: &DiskMesh, problem: Problem, step: Step) -> Self {
         let distortion = distortion(step.candidate.mesh(mesh), &step.candidate.solution.embedding);
         Self { problem, step, distortion }
+    }
+
+    /// Map that was made for a problem before, proved again and otherwise unchanged: one position per vertex, in the
+    /// plane. `None` unless the map is planar, upright, and meets all hard pins. Only such a map can be continued as if
+    /// its flattener still ran.
+    pub fn of_saved_map(mesh: &DiskMesh, problem: Problem, embedding: Embedding) -> Option<Self> {
+        if embedding.len() != mesh.vertex_count() || !embedding.iter().all(|z| z.is_finite()) {
+            return None;
+        }
+        let pins =
+            if problem.settings.method.uses_pins() { problem.settings.held(&problem.pins()) } else { Pins::new() };
+        let step = Step::of_saved_map(mesh, embedding, &pins, &problem.output_frame());
+        let outcome = Self::new(mesh, problem, step);
+        outcome.can_be_saved().then_some(outcome)
+    }
+
+    /// True if a project can keep the map of this outcome: it is planar, upright, meets all hard pins, and has no new
+    /// vertices.
+    pub fn can_be_saved(&self) -> bool {
+        let Step { candidate, verdict, .. } = &self.step;
+        let is_whole = candidate.refinement.is_none() && !self.step.is_of_planar_start();
+        is_whole && verdict.planar && !verdict.mirrored && self.step.unmet().is_empty()
     }
 
     /// Memory of the outcome in bytes. Excludes the factors of a linear solve, which are kept once for the next

@@ -46,6 +46,8 @@ pub enum Stage {
     Given,
     /// The map with which automatic seams were found.
     Seams,
+    /// The map that was saved with a project, unchanged.
+    Saved,
 }
 
 impl Stage {
@@ -94,6 +96,7 @@ impl Stage {
             Self::Cut => "cut",
             Self::Given => "given",
             Self::Seams => "seams",
+            Self::Saved => "saved",
         }
     }
 
@@ -117,6 +120,7 @@ impl Stage {
             Self::Cut => "cut polygons",
             Self::Given => "file's layout",
             Self::Seams => "automatic seams",
+            Self::Saved => "saved map",
             other => other.name(),
         }
     }
@@ -162,6 +166,7 @@ impl Stage {
                 Err(NoEquation::OfEnergy)
             }
             Self::Given => Err(NoEquation::OfFile),
+            Self::Saved => Err(NoEquation::OfProject),
         }
     }
 }

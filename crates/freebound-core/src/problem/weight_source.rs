@@ -36,6 +36,8 @@ pub enum NoEquation {
     OfAngles,
     /// The step is the layout of the file.
     OfFile,
+    /// The map was saved with a project.
+    OfProject,
 }
 
 impl NoEquation {
@@ -47,6 +49,7 @@ impl NoEquation {
             Self::StepBeforeMissing => "The weights come from the previous step, of which only the numbers were kept.",
             Self::OtherWeights => "The weights are a fallback against rounding, not those of an embedding.",
             Self::OfAngles => "This step solves for the angles of its faces, so vertices have no equations.",
+            Self::OfProject => "This step was saved with the project, without its equations. Solve to see them.",
             Self::OfFile => "This step is the layout of the file, so it has no equations.",
             Self::OnGrid => "This step is a drawing on a grid: its coordinates count vertices.",
             Self::Peeled => "This vertex has neighbours among the virtual triangles, which were removed.",

@@ -5,6 +5,7 @@
 //! | `mod`    | a project, read and written; paths in it         |
 //! | `error`  | errors of reading a project file                 |
 //! | `fields` | form of sources, seams and pins in the file      |
+//! | `saved_map` | maps of charts, bit for bit, with a checksum  |
 //!
 //! A project refers to its mesh and picture and contains everything else. Fields that this version does not know are
 //! ignored, so that a later version can add fields. A version that changes the meaning of a field increments
@@ -12,6 +13,7 @@
 
 mod error;
 mod fields;
+mod saved_map;
 
 use std::collections::BTreeMap;
 use std::io::{self, Write as _};
@@ -22,6 +24,7 @@ use serde::{Deserialize, Serialize};
 
 pub use self::error::ProjectError;
 use self::fields::{SourceFields, pin_list, seam_list};
+pub use self::saved_map::SavedMap;
 use super::finite::check_finite;
 use super::paths::{named_in_files, relative, whole_folder_of};
 use super::{FileStamp, WriteError, write_durably};
@@ -120,6 +123,9 @@ pub struct ProjectFile {
     /// Stacked charts, each with the chart whose place it shares, by the numbers of their first faces in the file.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub stacked: BTreeMap<u32, u32>,
+    /// Maps of the charts, by the number of their first face in the file. The only chart of a mesh has 0.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub maps: BTreeMap<u32, SavedMap>,
     /// Targets of the user's pins.
     #[serde(default, rename = "pins", with = "pin_list")]
     pub targets: Targets,
@@ -244,6 +250,7 @@ impl ProjectFile {
             locked: BTreeMap::new(),
             placed: BTreeMap::new(),
             stacked: BTreeMap::new(),
+            maps: BTreeMap::new(),
             new_vertices: settings.new_vertices,
             start: settings.start,
             targets: Targets::new(),

@@ -287,7 +287,7 @@ impl Flattener {
         // A mirror image is one-to-one, but not a goal of the flattener.
         let is_upright = !step.verdict.mirrored || phase.task.settings.method != Method::Auto;
         let is_met = phase.aim == PhaseGoal::PlanarStart || step.unmet().is_empty();
-        let is_given = matches!(step.candidate.stage, Stage::Given | Stage::Seams);
+        let is_given = matches!(step.candidate.stage, Stage::Given | Stage::Seams | Stage::Saved);
         // The filling of holes of a given layout may fold without harm.
         let is_proved = (step.verdict.is_one_to_one() || (is_given && step.verdict.planar)) && is_upright;
         // Polygons may be concave on the way from a planar start to the constraints: relaxing makes them convex

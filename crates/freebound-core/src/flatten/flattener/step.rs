@@ -12,7 +12,7 @@ use crate::mesh::{DiskMesh, Refinement, VertexId};
 use crate::nonlinear::Scaffold;
 use crate::problem::units::Units;
 use crate::problem::{Embedding, Family, Pin, Pins, Progress, Solution, Stage};
-use crate::verify::Verdict;
+use crate::verify::{UvFrame, Verdict, verdict};
 
 /// Embedding with its origin.
 #[derive(Clone, Debug, Default)]
@@ -121,6 +121,25 @@ pub struct Step {
 }
 
 impl Step {
+    /// First step of a flattener that made this map before: the map, unchanged, with its verdict. The embedding has one
+    /// position per vertex, in the plane. `pins` are the pins of its solve.
+    pub(crate) fn of_saved_map(mesh: &DiskMesh, embedding: Embedding, pins: &Pins, written: &UvFrame) -> Self {
+        let start = Instant::now();
+        let verdict = verdict(mesh, &written.written(&embedding));
+        Self {
+            candidate: Candidate::one_to_one(Stage::Saved, embedding, pins),
+            index: 0,
+            verdict,
+            outside_hull: Vec::new(),
+            max_move: None,
+            verify_seconds: start.elapsed().as_secs_f64(),
+            hull_seconds: 0.0,
+            set_aside: Pins::new(),
+            lies_as_given: false,
+            is_continued: false,
+        }
+    }
+
     /// True if the step is the spectral map: no vertex is pinned, and the equations of the boundary are those of an
     /// eigenvector.
     pub fn is_spectral(&self) -> bool {
