@@ -51,7 +51,7 @@ impl Session {
 
     fn take_job(&mut self, job: BackgroundJob) {
         match job {
-            BackgroundJob::Picture(Ok(picture)) => self.edit(vec![Command::SetPicture(Some(Arc::new(picture)))]),
+            BackgroundJob::Picture(Ok(picture)) => self.set_picture(Some(Arc::new(picture))),
             BackgroundJob::Picture(Err(error)) => self.complain(error.to_string(), Some("choose a PNG or JPEG file")),
             BackgroundJob::Constraints { path, read: Ok(constraints) } => {
                 self.files.remember_constraints(path);

@@ -7,7 +7,7 @@ use glam::{DAffine2, DVec2};
 use super::atlas_view::{AtlasKey, ChartResult, SolvedAtlas};
 use super::chart_layout::ChartLayout;
 use super::{AtlasView, ChartState, Command, LockState, Model, Session, Timeline};
-use freebound_core::geom::PackingOptions;
+use freebound_core::geom::{PackingOptions, Stacking};
 use freebound_core::mesh::Charts;
 use freebound_core::pipeline::Outcome;
 
@@ -47,10 +47,10 @@ impl Session {
         [self.solved_charts().count(), self.charts().map_or(0, |charts| charts.count())]
     }
 
-    /// True if the solve of a chart failed.
-    pub fn has_failed_charts(&self) -> bool {
+    /// First chart whose solve failed.
+    pub fn failed_chart(&self) -> Option<usize> {
         let count = self.charts().map_or(0, |charts| charts.count());
-        (0..count).any(|chart| matches!(self.chart_state(chart), ChartState::Failed))
+        (0..count).find(|&chart| matches!(self.chart_state(chart), ChartState::Failed))
     }
 
     /// Shows another chart, as an edit. A chart that is not extracted from the mesh yet is shown once it is extracted.
@@ -79,7 +79,17 @@ impl Session {
 
     /// Sets the packing options, as an edit. No chart is solved again.
     pub(super) fn set_packing(&mut self, packing: PackingOptions) {
-        let layout = ChartLayout { packing, ..self.document.layout.clone() };
+        let before = &self.document.layout;
+        let mut layout = ChartLayout { packing, ..before.clone() };
+        if packing.stack == Stacking::None && before.packing.stack != Stacking::None {
+            layout.stacked.clear();
+        }
+        let sides = |options: &PackingOptions| options.picture.map(u64::from);
+        let ([w, h], [w_before, h_before]) = (sides(&packing), sides(&before.packing));
+        if w * h_before != w_before * h {
+            // Places belong to a page of the shape before.
+            layout.placed.clear();
+        }
         self.apply(Command::SetLayout(Box::new(layout)));
     }
 

@@ -23,6 +23,9 @@ pub struct ChartLayout {
     pub stacked: BTreeMap<FaceId, FaceId>,
 }
 
+/// Distance from 1 up to which a size is the default size. A size that is scaled there and back differs by rounding.
+const SAME_SIZE: f64 = 1e-9;
+
 /// Texture coordinates of the vertices of a chart, v up.
 #[derive(Clone, Debug)]
 pub struct ChartPlace(pub Arc<Embedding>);
@@ -43,8 +46,7 @@ impl ChartLayout {
     /// Sets the size of a chart relative to the others, clamped to [`PackingOptions::SIZES`].
     pub(super) fn set_size(&mut self, chart: FaceId, size: f64) {
         let size = size.clamp(*PackingOptions::SIZES.start(), *PackingOptions::SIZES.end());
-        #[expect(clippy::float_cmp, reason = "the size without an entry")]
-        if size == 1.0 {
+        if (size - 1.0).abs() <= SAME_SIZE {
             self.sizes.remove(&chart);
         } else {
             self.sizes.insert(chart, size);
@@ -67,7 +69,7 @@ impl ChartLayout {
         (0..charts.count()).find(|&other| charts.first_face(other) == *on)
     }
 
-    /// Drops all places and stacks, which belong to another orientation of the faces.
+    /// Layout without places, which belong to another orientation of the faces.
     pub(super) fn without_places(&self) -> Self {
         Self { locked: BTreeMap::new(), placed: BTreeMap::new(), ..self.clone() }
     }

@@ -320,23 +320,33 @@ impl Files {
         }
     }
 
-    /// Writes a recovery copy of the document if one is due. Without a model nothing is open.
-    pub(super) fn poll_copies(
+    /// Follows the writing of recovery copies.
+    pub(super) fn poll_copies(&mut self, messages: &mut Messages) {
+        self.autosave.poll(messages);
+    }
+
+    /// Deletes the recovery copy, because there is no unsaved work.
+    pub(super) fn leave_copy(&mut self) {
+        self.autosave.leave_slot();
+    }
+
+    /// True if a recovery copy of the document is due.
+    pub(super) fn is_copy_due(&self, now: Instant, document: &Document) -> bool {
+        self.autosave.is_due(now, document)
+    }
+
+    /// Writes a recovery copy in the background.
+    pub(super) fn begin_copy(
         &mut self,
         now: Instant,
-        model: Option<&Model>,
+        mut project: ProjectFile,
+        model: &Model,
         document: &Document,
         messages: &mut Messages,
     ) {
-        self.autosave.poll(messages);
-        let Some(model) = model.filter(|_| !self.has_saved(document)) else { return self.autosave.leave_slot() };
-        if self.autosave.is_due(now, document)
-            && let Some(mut project) = self.project_file(model, document)
-        {
-            let name = self.name(Some(model)).unwrap_or_default();
-            let at = self.table.project.as_ref().map(|path| std::path::absolute(path).unwrap_or_else(|_| path.clone()));
-            project.recovery = Some(RecoveryNote { name, project: at });
-            self.autosave.begin_copy(now, project, document, messages);
-        }
+        let name = self.name(Some(model)).unwrap_or_default();
+        let at = self.table.project.as_ref().map(|path| std::path::absolute(path).unwrap_or_else(|_| path.clone()));
+        project.recovery = Some(RecoveryNote { name, project: at });
+        self.autosave.begin_copy(now, project, document, messages);
     }
 }

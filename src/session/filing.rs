@@ -30,6 +30,8 @@ impl Session {
         self.jobs.forget();
         self.mesh.open(model);
         self.charts.forget();
+        self.page.forget();
+        self.atlas_views.forget();
         self.forget_steps();
         self.messages.clear();
         self.unwrapping.cancel();
@@ -143,11 +145,8 @@ impl Session {
         if self.refuses_formless() {
             return;
         }
-        match self.model().and_then(|model| self.files.project_file(model, &self.document)) {
-            Some(mut project) => {
-                project.maps = self.maps_to_save();
-                self.files.save_project(path, project, &self.document);
-            }
+        match self.model().and_then(|model| self.project(model)) {
+            Some(project) => self.files.save_project(path, project, &self.document),
             None => self.complain("there is nothing to save yet: open a mesh first", None),
         }
     }

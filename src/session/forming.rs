@@ -108,6 +108,7 @@ impl Session {
                 self.drag.end();
             } else {
                 self.charts.forget();
+                self.page.forget();
                 self.forget_steps();
             }
             self.messages.forget_mesh();

@@ -14,7 +14,7 @@ use glam::{DAffine2, DVec2};
 use super::atlas_view::{AtlasKey, AtlasView};
 use super::{Background, Model, Wake};
 use freebound_core::geom::Bounds;
-use freebound_core::mesh::DiskMesh;
+use freebound_core::mesh::{Charts, DiskMesh};
 use freebound_core::pipeline::{Outcome, SolvedChart, StackedOn};
 use freebound_core::problem::Embedding;
 use freebound_core::verify::{ChartInPlane, MoveVerdict, move_verdict};
@@ -26,6 +26,8 @@ pub struct ChartPage {
     pub charts: Vec<PageChart>,
     /// Width over height of the page.
     pub aspect: f64,
+    /// Numbers of the charts in the mesh.
+    pub(super) of: Arc<Charts>,
     /// Number of changes of the page.
     pub revision: u64,
     /// True if the layout is proved planar, false if it is not planar. `None` while it is being checked.
@@ -132,9 +134,14 @@ impl JudgedMove {
         let moved = own.iter().enumerate().filter(|(_, chart)| of_moved.contains_key(chart));
         let verdict = move_verdict(&charts, &moved.map(|(place, _)| place).collect());
         let MoveVerdict { folded, overlapping } = verdict;
+        // A chart that was folded before the move may be moved, and so may charts that overlapped and move together.
+        let is_new_fold = |chart: &usize| page.charts[*chart].outcome.step.verdict.planar;
+        let movement = |chart: usize| moves.iter().find(|(other, _)| *other == chart).map(|(_, by)| *by);
+        let is_new_overlap = |[a, b]: &[usize; 2]| page.is_planar == Some(true) || movement(*a) != movement(*b);
+        let overlapping = overlapping.into_iter().map(|pair| pair.map(|place| own[place]));
         let verdict = MoveVerdict {
-            folded: folded.into_iter().map(|place| own[place]).collect(),
-            overlapping: overlapping.into_iter().map(|pair| pair.map(|place| own[place])).collect(),
+            folded: folded.into_iter().map(|place| own[place]).filter(is_new_fold).collect(),
+            overlapping: overlapping.filter(is_new_overlap).collect(),
         };
         Self { moves, coordinates, verdict }
     }
@@ -155,12 +162,34 @@ pub struct MoveState {
     pub accepted: Option<JudgedMove>,
     /// Movement that the user asked for, if other charts keep it back.
     pub kept_back: Option<JudgedMove>,
+    /// Newest accepted movement without overlaps.
+    last_planar: Option<JudgedMove>,
+}
+
+impl MoveState {
+    /// Accepts a movement.
+    fn accept(&mut self, judged: JudgedMove) {
+        if judged.verdict.is_planar() {
+            self.last_planar = Some(judged.clone());
+        }
+        (self.accepted, self.kept_back) = (Some(judged), None);
+    }
+
+    /// Keeps a movement back. Overlaps that were accepted before end, because the user no longer insists.
+    fn keep_back(&mut self, judged: JudgedMove) {
+        if self.accepted.as_ref().is_some_and(|accepted| !accepted.verdict.is_planar()) {
+            self.accepted = self.last_planar.clone();
+        }
+        self.kept_back = Some(judged);
+    }
 }
 
 /// The page, and the move of charts in progress.
 pub(super) struct PagePart {
     page: Option<ChartPage>,
     key: Option<AtlasKey>,
+    /// True if the page shows the end of a move, and its layout in the written form is not there yet.
+    is_provisional: bool,
     job: Background<MoveRequest, JudgedMove>,
     /// Newest request, while an older one is being judged.
     waiting: Option<MoveRequest>,
@@ -172,7 +201,7 @@ pub(super) struct PagePart {
 impl PagePart {
     pub(super) fn new(wake: &Wake) -> Self {
         let job = Background::new("move charts", wake);
-        Self { page: None, key: None, job, waiting: None, state: None, is_ending: false }
+        Self { page: None, key: None, is_provisional: false, job, waiting: None, state: None, is_ending: false }
     }
 
     pub(super) fn page(&self) -> Option<&ChartPage> {
@@ -188,6 +217,16 @@ impl PagePart {
         self.job.is_busy()
     }
 
+    /// True if a move has ended, and its newest request is not judged yet.
+    pub(super) fn is_ending(&self) -> bool {
+        self.is_ending
+    }
+
+    /// True if the page needs the layout with this key in its written form.
+    pub(super) fn needs(&self, key: &AtlasKey) -> bool {
+        self.is_provisional || !self.shows(key)
+    }
+
     /// True if the page shows the layout with this key.
     pub(super) fn shows(&self, key: &AtlasKey) -> bool {
         self.key.as_ref().is_some_and(|own| own.is(key))
@@ -195,12 +234,13 @@ impl PagePart {
 
     /// Drops the page.
     pub(super) fn forget(&mut self) {
-        (self.page, self.key) = (None, None);
+        (self.page, self.key, self.is_provisional) = (None, None, false);
         self.give_up();
     }
 
     /// Puts charts of a layout on the page.
-    pub(super) fn put(&mut self, key: AtlasKey, models: Vec<Arc<Model>>, view: &AtlasView) {
+    pub(super) fn put(&mut self, key: AtlasKey, of: Arc<Charts>, models: Vec<Arc<Model>>, view: &AtlasView) {
+        self.is_provisional = false;
         let charts = models.into_iter().zip(&key.outcomes).zip(view.coordinates.iter().zip(&view.stacked));
         let chart =
             |((model, outcome), (coordinates, stacked)): ((Arc<Model>, &Arc<Outcome>), (&Arc<Embedding>, &_))| {
@@ -214,6 +254,7 @@ impl PagePart {
         let page = ChartPage {
             charts: charts.map(chart).collect(),
             aspect: view.aspect,
+            of,
             revision: 0,
             is_planar: Some(view.verdict.planar),
         };
@@ -229,10 +270,16 @@ impl PagePart {
                 let is_there = Arc::ptr_eq(&a.coordinates, &b.coordinates) || a.coordinates == b.coordinates;
                 Arc::ptr_eq(&a.outcome, &b.outcome) && is_there && a.stacked == b.stacked
             };
-            before.charts.len() == page.charts.len()
+            Arc::ptr_eq(&before.of, &page.of)
+                && before.charts.len() == page.charts.len()
                 && before.aspect.to_bits() == page.aspect.to_bits()
                 && charts.into_iter().all(is_same)
         });
+        if !is_same {
+            // A move in progress began at other places.
+            self.give_up();
+        }
+        let before = self.page.as_ref();
         let revision = before.map_or(0, |before| before.revision) + u64::from(!is_same);
         self.page = Some(ChartPage { revision, ..page });
         self.key = Some(key);
@@ -244,6 +291,7 @@ impl PagePart {
         let is_planar = page.is_planar.filter(|planar| *planar && judged.verdict.is_planar());
         let page = ChartPage { is_planar, ..page.with(&judged.coordinates) };
         self.set(key, page);
+        self.is_provisional = true;
     }
 
     /// Moves charts, at the next frame that is judged. Charts that would overlap others stay at their last place, unless
@@ -281,9 +329,9 @@ impl PagePart {
             && let (Some(state), Ok(judged)) = (&mut self.state, judged)
         {
             if request.insists || judged.verdict.is_planar() {
-                *state = MoveState { accepted: Some(judged), kept_back: None };
+                state.accept(judged);
             } else {
-                state.kept_back = Some(judged);
+                state.keep_back(judged);
             }
         }
         self.start_next();

@@ -1,6 +1,6 @@
 //! Actions on the page: charts are moved, packed, stacked and locked.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use glam::DAffine2;
@@ -11,6 +11,7 @@ use super::{Command, LockState, Message, MessagePlace, Session};
 use freebound_core::geom::{PackingOptions, Stacking};
 use freebound_core::mesh::{Charts, FaceId};
 use freebound_core::problem::Embedding;
+use freebound_io::PictureFile;
 
 /// Change of scale up to which a movement counts as one without a change of size.
 const SAME_SIZE: f64 = 1e-9;
@@ -19,7 +20,8 @@ impl Session {
     /// All charts as they lie on the page, once each is solved and laid out. The last page stays while a layout is
     /// being computed.
     pub fn page(&self) -> Option<&ChartPage> {
-        self.page.page().filter(|_| self.charts().is_some())
+        let charts = self.charts()?;
+        self.page.page().filter(|page| Arc::ptr_eq(&page.of, charts))
     }
 
     /// Move of charts in progress.
@@ -30,6 +32,11 @@ impl Session {
     /// True while the background judges a frame of a move.
     pub fn is_judging_move(&self) -> bool {
         self.page.is_busy()
+    }
+
+    /// True if a move of charts has ended, and its newest frame is not judged yet.
+    pub fn is_ending_move(&self) -> bool {
+        self.page.is_ending()
     }
 
     /// True from the first frame of a move of charts to its end.
@@ -72,7 +79,7 @@ impl Session {
     /// Moves charts in the page's plane, as a frame of a gesture. Stacked charts move together. Charts that cannot be
     /// moved stay.
     pub(super) fn move_charts(&mut self, moves: &[ChartMove], insists: bool) {
-        if !self.can_move_charts() {
+        if !self.can_move_charts() || self.page.is_ending() {
             return;
         }
         let moves = self.moves_of_stacks(moves);
@@ -114,7 +121,11 @@ impl Session {
         if self.charts().is_none() {
             return self.page.forget();
         }
-        if let Some(MoveState { accepted, kept_back }) = self.page.poll() {
+        if self.is_moving_charts() && !self.can_move_charts() {
+            // The document has changed, so the frames of the move are of other charts or places.
+            self.page.give_up();
+        }
+        if let Some(MoveState { accepted, kept_back, .. }) = self.page.poll() {
             if let Some(judged) = accepted {
                 self.take_move(&judged);
             }
@@ -124,11 +135,25 @@ impl Session {
         }
         let Some(key) = self.atlas_key().filter(|_| !self.page.is_busy()) else { return };
         let Some(view) = self.atlas_views.find(&key).map(Arc::clone) else { return };
-        let is_proof_due = self.page.page().is_none_or(|page| page.is_planar.is_none());
-        if !self.page.shows(&key) || is_proof_due {
-            let models = self.solved_models();
-            self.page.put(key, models, &view);
+        if let Some(charts) = self.charts().filter(|_| self.page.needs(&key)) {
+            let (charts, models) = (Arc::clone(charts), self.solved_models());
+            self.page.put(key, charts, models, &view);
         }
+    }
+
+    /// Sets or removes the picture, as an edit. Charts that are placed are packed again if the page gets another shape.
+    pub(super) fn set_picture(&mut self, picture: Option<Arc<PictureFile>>) {
+        let sides = |picture: &Option<Arc<PictureFile>>| {
+            let sides = picture.as_ref().map(|picture| [picture.pixels.width, picture.pixels.height]);
+            sides.unwrap_or(self.document.layout.packing.picture).map(u64::from)
+        };
+        let ([w, h], [w_before, h_before]) = (sides(&picture), sides(&self.document.picture));
+        let mut edits = vec![Command::SetPicture(picture)];
+        if w * h_before != w_before * h && !self.document.layout.placed.is_empty() {
+            let layout = ChartLayout { placed: BTreeMap::new(), ..self.document.layout.clone() };
+            edits.push(Command::SetLayout(Box::new(layout)));
+        }
+        self.edit(edits);
     }
 
     /// Applies a move of charts as one edit. All other charts are placed where they lie.
@@ -136,6 +161,9 @@ impl Session {
         let Some(mut layout) = self.layout_as_it_lies() else { return };
         let (Some(charts), Some(page)) = (self.charts().map(Arc::clone), self.page()) else { return };
         for ((chart, coordinates), (_, by)) in judged.coordinates.iter().zip(&judged.moves) {
+            if page.charts[*chart].stacked.is_some() {
+                continue;
+            }
             let first_face = charts.first_face(*chart);
             let given = page.charts[*chart].given_count();
             let place = if given == coordinates.len() {
@@ -157,14 +185,15 @@ impl Session {
 
     /// Layout of the document with all charts placed where they lie on the page.
     fn layout_as_it_lies(&self) -> Option<ChartLayout> {
-        let (charts, page) = (self.charts()?, self.page()?);
+        let (charts, page) = (self.charts()?, self.page().filter(|_| self.can_move_charts())?);
         let mut layout = self.document.layout.clone();
         for (number, chart) in page.charts.iter().enumerate() {
             let first_face = charts.first_face(number);
             if let Some(on) = chart.stacked {
                 layout.stacked.insert(first_face, charts.first_face(on.chart));
             }
-            if self.is_movable(number) && layout.place_of(charts, number).is_none() {
+            let has_own_place = chart.stacked.is_none() && self.is_movable(number);
+            if has_own_place && layout.place_of(charts, number).is_none() {
                 layout.placed.insert(first_face, ChartPlace(given_place(chart)));
             }
         }
@@ -185,11 +214,12 @@ impl Session {
     /// Packs charts that are placed, as an edit: these charts, or all of them. Locked charts stay.
     pub(super) fn pack_charts(&mut self, charts: Option<&BTreeSet<usize>>) {
         let Some(all) = self.charts().map(Arc::clone) else { return };
-        let mut layout = match charts {
+        let layout = match charts {
             // The others stay where they lie.
-            Some(_) => self.layout_as_it_lies().unwrap_or_else(|| self.document.layout.clone()),
-            None => self.document.layout.clone(),
+            Some(_) => self.layout_as_it_lies(),
+            None => Some(self.document.layout.clone()),
         };
+        let Some(mut layout) = layout else { return };
         let chosen = charts.map(|charts| self.page().map_or_else(|| charts.clone(), |page| page.with_stacks(charts)));
         let is_packed = |chart: usize| chosen.as_ref().is_none_or(|chosen| chosen.contains(&chart));
         for chart in (0..all.count()).filter(|&chart| is_packed(chart)) {
@@ -205,21 +235,25 @@ impl Session {
         let (Some(all), Some(page)) = (self.charts().map(Arc::clone), self.page()) else { return };
         let Some(&first) = charts.first() else { return };
         let on = page.place_of(first);
-        let mut others: Vec<usize> = Vec::new();
+        let (mut others, mut is_changed): (Vec<usize>, bool) = (Vec::new(), false);
         for &chart in charts.iter().filter(|&&chart| page.place_of(chart) != on) {
             let is_congruent = || page.charts[chart].solved().is_congruent_to(&page.charts[on].solved());
-            let fits = self.is_movable(chart) && is_congruent();
+            let members = page.with_stacks(&BTreeSet::from([chart]));
+            let fits = members.iter().all(|&member| self.is_movable(member)) && is_congruent();
             if !fits {
                 others.push(chart);
                 continue;
             }
+            is_changed = true;
             // Charts that lie on this one move with it.
-            for member in page.with_stacks(&BTreeSet::from([chart])) {
+            for member in members {
                 layout.stacked.insert(all.first_face(member), all.first_face(on));
                 layout.placed.remove(&all.first_face(member));
             }
         }
-        self.apply(Command::SetLayout(Box::new(layout)));
+        if is_changed {
+            self.apply(Command::SetLayout(Box::new(layout)));
+        }
         if !others.is_empty() {
             let numbers: Vec<String> = others.iter().map(ToString::to_string).collect();
             let text = format!("not stacked on chart {on}: {}", numbers.join(", "));
@@ -236,6 +270,9 @@ impl Session {
         let (Some(all), Some(page)) = (self.charts().map(Arc::clone), self.page()) else { return };
         let stacked = page.with_stacks(charts).into_iter().filter(|&chart| page.charts[chart].stacked.is_some());
         let first_faces: Vec<FaceId> = stacked.map(|chart| all.first_face(chart)).collect();
+        if first_faces.is_empty() {
+            return;
+        }
         for first_face in &first_faces {
             layout.stacked.remove(first_face);
             layout.placed.remove(first_face);
@@ -249,7 +286,12 @@ impl Session {
     /// [`lock_state`](Self::lock_state), stay unlocked. All other charts stay where they lie until they are packed.
     pub(super) fn lock_charts(&mut self, charts: &BTreeSet<usize>, lock: bool) {
         let Some(all) = self.charts().map(Arc::clone) else { return };
-        let Some(mut layout) = self.layout_as_it_lies() else { return };
+        let is_changed = |&chart: &usize| match self.lock_state(chart) {
+            LockState::Open => lock,
+            LockState::Locked => !lock,
+            LockState::Pinned | LockState::Stacked | LockState::NoPlace => false,
+        };
+        let Some(mut layout) = self.layout_as_it_lies().filter(|_| charts.iter().any(is_changed)) else { return };
         for &chart in charts.iter().filter(|&&chart| chart < all.count()) {
             let first_face = all.first_face(chart);
             match (self.lock_state(chart), lock) {

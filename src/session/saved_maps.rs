@@ -5,14 +5,21 @@ use std::sync::Arc;
 
 use super::restored_charts::{ONLY, RestoredChart};
 use super::solving::Task;
-use super::{ChartState, Session};
+use super::{ChartState, Model, Session};
 use freebound_core::pipeline::Outcome;
-use freebound_io::SavedMap;
+use freebound_io::{ProjectFile, SavedMap};
 
 impl Session {
+    /// Project file of the document, with its maps.
+    pub(super) fn project(&self, model: &Model) -> Option<ProjectFile> {
+        let mut project = self.files.project_file(model, &self.document)?;
+        project.maps = self.maps_to_save();
+        Some(project)
+    }
+
     /// Maps of the document that a project keeps. A chart without a planar map that meets its constraints, or with new
     /// vertices, has none and is solved again when the project opens.
-    pub(super) fn maps_to_save(&self) -> BTreeMap<u32, SavedMap> {
+    fn maps_to_save(&self) -> BTreeMap<u32, SavedMap> {
         let map = |outcome: &Outcome| SavedMap(Arc::new(outcome.step.candidate.solution.embedding.clone()));
         let Some(charts) = self.charts() else {
             let outcome = self.outcome().filter(|outcome| self.is_current() && outcome.can_be_saved());

@@ -16,7 +16,7 @@ use super::solving::Solving;
 use super::target_checks::TargetChecks;
 use super::unwrapping::Unwrapping;
 use super::v_axis::TurnedV;
-use super::{Action, Command, Document, History, Messages, RecentFiles, TIMELINE_BUDGET, Wake};
+use super::{Action, Document, History, Messages, RecentFiles, TIMELINE_BUDGET, Wake};
 
 /// Open document and the work on it.
 pub struct Session {
@@ -116,7 +116,7 @@ impl Session {
             Action::Redo => self.redo(),
             Action::Fix(vertices) => self.fix(&vertices),
             Action::OpenPicture(path) => self.open_picture(path),
-            Action::RemovePicture => self.edit(vec![Command::SetPicture(None)]),
+            Action::RemovePicture => self.set_picture(None),
             Action::SetVAxis(v_axis) => self.set_v_axis(v_axis),
             Action::TurnFaces => self.turn_faces(),
             Action::Unwrap(bound) => self.unwrap(bound),
@@ -180,14 +180,28 @@ impl Session {
         self.refresh_target_checks();
         self.files.poll_saving(&mut self.messages);
         if self.has_numbers_as_wanted() {
-            let model = self.model().cloned();
-            self.files.poll_copies(now, model.as_deref(), &self.document, &mut self.messages);
+            self.poll_copies(now);
+        }
+    }
+
+    /// Follows recovery copies, and writes one if it is due.
+    fn poll_copies(&mut self, now: Instant) {
+        self.files.poll_copies(&mut self.messages);
+        let Some(model) = self.model().filter(|_| self.has_unsaved_work()).cloned() else {
+            return self.files.leave_copy();
+        };
+        if self.files.is_copy_due(now, &self.document)
+            && let Some(project) = self.project(&model)
+        {
+            self.files.begin_copy(now, project, &model, &self.document, &mut self.messages);
         }
     }
 
     /// Undoes the last edit. A preparation or a search for seams in progress is dropped instead.
     fn undo(&mut self) {
-        if self.mesh.wanted().is_some() {
+        if self.page.give_up() {
+            // A move that has not ended is no edit yet.
+        } else if self.mesh.wanted().is_some() {
             self.mesh.want(None);
         } else if self.unwrapping.is_busy() {
             self.stop_unwrapping();

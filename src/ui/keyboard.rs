@@ -65,6 +65,7 @@ fn page_keys(context: &egui::Context, editor: &Editor) -> Vec<Request> {
         return Vec::new();
     }
     let is_in_gesture = editor.plane.page.gesture().is_some();
+    let has_focus = context.memory(egui::Memory::focused).is_some();
     let mut requests = Vec::new();
     context.input_mut(|input| {
         input.events.retain(|event| {
@@ -72,9 +73,10 @@ fn page_keys(context: &egui::Context, editor: &Editor) -> Vec<Request> {
             let request = if modifiers.any() {
                 None
             } else if is_in_gesture {
-                gesture_key(key)
+                gesture_key(key).filter(|request| !repeat || !matches!(request, PageRequest::Begin(_)))
             } else {
-                begin_key(key).filter(|_| !repeat)
+                // A button that has the focus takes Enter.
+                begin_key(key).filter(|_| !repeat && !(key == Key::Enter && has_focus))
             };
             let is_left = request.is_none();
             requests.extend(request.map(Request::Page));

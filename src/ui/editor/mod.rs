@@ -188,6 +188,7 @@ impl Editor {
             self.keep_view();
         }
         self.session.poll();
+        self.check_gesture();
         self.let_go_of_vertices();
         self.go_on_after_saving();
         self.go_on_playing();

@@ -207,6 +207,10 @@ impl Editor {
         if matches!(action, Action::Open(_) | Action::OpenTogether(_) | Action::OpenExample(_) | Action::Recover(_)) {
             return self.close_or_ask(PendingClose::Do(action));
         }
+        if self.drop_gesture() && matches!(action, Action::Undo | Action::Redo) {
+            // A gesture that has not ended is no edit yet.
+            return;
+        }
         let before = self.session.document().frame();
         self.session.handle(action);
         self.let_go_of_vertices();

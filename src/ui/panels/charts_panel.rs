@@ -84,7 +84,7 @@ impl Row {
             (LockState::Open, _) => "Lock this chart: the others are packed around it".to_owned(),
             (LockState::Pinned, _) => "This chart has pins, which hold it already".to_owned(),
             (LockState::Stacked, Some(on)) => {
-                format!("This chart is stacked on chart {}: to lock it, set Stack to None", on.chart)
+                format!("This chart is stacked on chart {}: unstack it to lock it alone", on.chart)
             }
             (LockState::Stacked | LockState::NoPlace, _) => {
                 "A chart can be locked once all charts are packed".to_owned()

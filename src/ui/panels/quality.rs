@@ -76,7 +76,7 @@ impl Quality {
             let step = editor.step_on_screen().filter(|_| is_at_rest && !editor.plane.is_moving(session))?;
             return Some(Self::of_outcome(step));
         }
-        let page = session.page().filter(|page| page.is_planar.is_some())?;
+        let page = session.page().filter(|page| page.is_planar.is_some() && session.can_move_charts())?;
         let of_chart = |chart: &crate::session::PageChart| {
             (chart.model.disk().map_or(0.0, |disk| disk.area()), Self::of_outcome(&chart.outcome))
         };

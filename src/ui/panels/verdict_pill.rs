@@ -117,8 +117,15 @@ fn of_page(editor: &Editor) -> Option<Pill> {
     if let Some([a, b]) = moved.and_then(|moved| moved.verdict.overlapping.first()) {
         return Some(Pill::new(Sign::Bad, format!("Charts {a} and {b} overlap"), "Move them apart, or press Esc"));
     }
+    if let Some(chart) = session.failed_chart().filter(|_| !session.can_move_charts()) {
+        let tip = "Click to open the list of charts";
+        return Some(Pill::new(Sign::Bad, format!("Chart {chart}: no embedding found"), tip));
+    }
     if state.is_none() && !session.can_move_charts() {
         return Some(Pill::new(Sign::Working, "laying out…", "The charts are being solved or packed"));
+    }
+    if moved.is_some_and(|moved| !moved.verdict.is_planar()) {
+        return Some(Pill::new(Sign::Bad, "A chart folds", "Scale it less, or press Esc"));
     }
     let tip = "Exact arithmetic shows that no two faces of any charts overlap";
     Some(match (page.is_planar, state.and_then(|state| state.kept_back.as_ref())) {

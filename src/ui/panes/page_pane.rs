@@ -81,14 +81,13 @@ impl Grip {
         view: Viewport<PlaneCamera>,
         scene: &PageScene,
     ) -> Self {
-        let is_boxing = ui.input(|input| input.modifiers.command);
+        let is_boxing = ui.input(|input| input.modifiers.command || input.modifiers.shift);
         if editor.plane.page.gesture().is_none() && response.drag_started_by(PointerButton::Primary) && !is_boxing {
             let origin = ui.input(|input| input.pointer.press_origin()).or(response.interact_pointer_pos());
             let from = origin.map(|at| view.point_at(at));
             if let Some((from, chart)) = from.and_then(|from| Some((from, scene.chart_at(from)?))) {
                 if !editor.plane.page.selected().contains(&chart) {
-                    let adds = ui.input(|input| input.modifiers.shift);
-                    editor.handle(PageRequest::Pick { chart: Some(chart), adds }.into());
+                    editor.handle(PageRequest::Pick { chart: Some(chart), adds: false }.into());
                 }
                 editor.begin_gesture(GestureKind::Move, from, true);
             }
@@ -158,7 +157,7 @@ pub(super) fn mesh_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edito
         };
         requests.push(PageRequest::Add((0..scene.spans.len()).filter(is_inside).collect()).into());
     }
-    if response.clicked() {
+    if response.clicked() && editor.plane.page.gesture().is_none() {
         let adds = ui.input(|input| input.modifiers.shift);
         requests.push(PageRequest::Pick { chart: editor.plane.page.hovered(), adds }.into());
     }

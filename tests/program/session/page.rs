@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use freebound::session::{Action, ChartPage, LockState, Session};
-use freebound_core::geom::Bounds;
+use freebound_core::geom::{Bounds, PackingOptions};
 use freebound_core::mesh::{TriMesh, VertexId};
 use freebound_core::pipeline::StackedOn;
 use freebound_core::problem::Embedding;
@@ -266,4 +266,104 @@ fn a_typed_size_scales_a_placed_chart_about_its_centre() {
     assert!(((high - low) - 2.0 * before.size()).length() < 1e-9);
     assert!((low.midpoint(high) - before.middle()).length() < 1e-9);
     assert!((session.sizes()[0] - 2.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_move_that_the_document_has_overtaken_is_dropped() {
+    let (_folder, mut session) = with_sheets();
+    moved(&mut session, &[(1, shift(5.0, 0.0))], false);
+    let (before, depth) = (coordinates(&session), session.history().depth());
+    session.handle(Action::MoveCharts { moves: vec![(0, shift(3.0, 3.0))], insists: false });
+    session.handle(Action::EndMove);
+    session.handle(Action::Undo);
+    until_proved(&mut session);
+    // The move that had not ended was dropped, and the edit before it stays.
+    assert_eq!((coordinates(&session), session.history().depth()), (before.clone(), depth));
+    session.handle(Action::MoveCharts { moves: vec![(0, shift(3.0, 3.0))], insists: false });
+    while session.is_judging_move() {
+        session.poll();
+    }
+    session.handle(Action::PackCharts(None));
+    session.poll();
+    session.handle(Action::EndMove);
+    until_proved(&mut session);
+    assert!(!session.has_placed_charts(), "charts were packed, and the move began at other places");
+}
+
+#[test]
+fn an_overlap_that_alt_allowed_ends_if_alt_is_released() {
+    let (_folder, mut session) = with_sheets();
+    let (before, over) = (coordinates(&session), onto(&session, 0, 1));
+    for insists in [true, false] {
+        session.handle(Action::MoveCharts { moves: vec![(0, over)], insists });
+        while session.is_judging_move() {
+            session.poll();
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+    session.handle(Action::EndMove);
+    until_proved(&mut session);
+    assert_eq!((coordinates(&session), page(&session).is_planar), (before, Some(true)));
+}
+
+#[test]
+fn a_page_keeps_its_shape_after_its_charts_are_placed() {
+    let (folder, mut session) = with_sheets();
+    let wide = PackingOptions { picture: [2048, 1024], ..PackingOptions::default() };
+    settled(&mut session, Action::SetPacking(wide));
+    until_proved(&mut session);
+    assert!((page(&session).aspect - 2.0).abs() < 1e-12);
+    let turned = shift(5.0, 0.0) * DAffine2::from_angle(1.0);
+    moved(&mut session, &[(0, turned)], false);
+    let after = coordinates(&session);
+    assert!((page(&session).aspect - 2.0).abs() < 1e-12);
+    let path = folder.path().join("wide.freebound");
+    settled(&mut session, Action::SaveProject(path.clone()));
+    let mut again = super::basics::session();
+    settled(&mut again, Action::Open(path));
+    until_proved(&mut again);
+    assert_eq!((coordinates(&again), page(&again).aspect), (after, 2.0));
+    // A page of another shape is packed anew.
+    settled(&mut session, Action::SetPacking(PackingOptions::default()));
+    until_proved(&mut session);
+    assert!(!session.has_placed_charts() && page(&session).is_planar == Some(true));
+}
+
+#[test]
+fn requests_that_change_no_chart_are_no_edits_and_place_nothing() {
+    let (_folder, mut session) = with_sheets();
+    let depth = session.history().depth();
+    for action in [
+        Action::LockCharts { charts: BTreeSet::new(), lock: true },
+        Action::LockCharts { charts: BTreeSet::from([0, 1]), lock: false },
+        Action::StackCharts(BTreeSet::from([0])),
+        Action::UnstackCharts(BTreeSet::from([0, 1, 2])),
+        Action::PackCharts(None),
+        Action::LockCharts { charts: BTreeSet::from([99]), lock: true },
+    ] {
+        settled(&mut session, action);
+    }
+    assert!(!session.has_placed_charts() && session.history().depth() == depth);
+}
+
+#[test]
+fn requests_while_charts_are_being_cut_again_harm_nothing() {
+    let (_folder, mut session) = with_sheets();
+    moved(&mut session, &[(2, shift(5.0, 0.0))], false);
+    // Without the first part the mesh has fewer charts, and the page of the former ones is still there.
+    session.handle(Action::MoveCharts { moves: vec![(2, shift(9.0, 0.0))], insists: false });
+    session.handle(Action::LeaveOut(BTreeSet::from([0])));
+    for action in [
+        Action::LockCharts { charts: BTreeSet::from([0, 1, 2]), lock: true },
+        Action::PackCharts(Some(BTreeSet::from([2]))),
+        Action::StackCharts(BTreeSet::from([1, 2])),
+        Action::UnstackCharts(BTreeSet::from([1, 2])),
+        Action::EndMove,
+    ] {
+        session.handle(action);
+        session.poll();
+    }
+    until_proved(&mut session);
+    assert_eq!(page(&session).charts.len(), 2);
+    assert_eq!(page(&session).is_planar, Some(true));
 }

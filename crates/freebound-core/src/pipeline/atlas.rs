@@ -573,7 +573,9 @@ fn output<'a>(
     packing: Option<PackingSummary>,
     options: PackingOptions,
 ) -> Atlas<'a> {
-    let of_frame = charts[0].outcome.problem.frame.aspect;
+    let [width, height] = options.picture.map(f64::from);
+    let lies_on_page = charts.iter().any(SolvedChart::is_locked) && !charts.iter().any(SolvedChart::is_held);
+    let of_frame = if lies_on_page { width / height } else { charts[0].outcome.problem.frame.aspect };
     let aspect = packing
         .map_or(of_frame, |PackingSummary { picture: [width, height], .. }| f64::from(width) / f64::from(height));
     let [_, height] = packing.map_or(options.picture, |packing| packing.picture).map(f64::from);

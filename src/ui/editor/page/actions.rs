@@ -22,13 +22,14 @@ impl Editor {
         is_wanted
             && self.plane.page.scene.is_none()
             && self.session.charts().is_some()
-            && !self.session.has_failed_charts()
+            && self.session.failed_chart().is_none()
     }
 
     pub(in crate::ui::editor) fn handle_page(&mut self, request: PageRequest) {
         match request {
             PageRequest::Show(is_wanted) => self.show_page(is_wanted),
-            PageRequest::Toggle => self.show_page(!self.shows_page()),
+            PageRequest::Toggle if self.session.charts().is_none() => {}
+            PageRequest::Toggle => self.show_page(!(self.shows_page() || self.awaits_page())),
             PageRequest::Pick { chart, adds } => self.pick_chart(chart, adds),
             PageRequest::Add(charts) => {
                 let charts: Vec<usize> = self.plane.page.selected().iter().copied().chain(charts).collect();
@@ -166,7 +167,8 @@ impl Editor {
 
     /// Scales charts in place to a density.
     fn set_density(&mut self, density: f64) {
-        let densities = self.session.newest_atlas().map(|atlas| atlas.densities.clone()).unwrap_or_default();
+        // After a move, the densities are known once the layout is judged.
+        let densities = self.session.atlas().map(|atlas| atlas.densities.clone()).unwrap_or_default();
         let scaled = |(chart, own): (usize, Bounds)| {
             let factor = density / densities.get(chart)?;
             let by = about(own.middle(), DAffine2::from_scale(DVec2::splat(factor)));

@@ -50,14 +50,29 @@ impl Editor {
     fn ask_to_move(&mut self, moves: Vec<ChartMove>, insists: bool) {
         let wanted = Some((moves.clone(), insists));
         let is_idle = self.plane.page.asked.is_none() && moves.iter().all(|(_, by)| *by == DAffine2::IDENTITY);
-        if self.plane.page.asked != wanted && !is_idle {
+        if self.plane.page.asked != wanted && !is_idle && !self.session.is_ending_move() {
             self.plane.page.asked = wanted;
             self.session.handle(Action::MoveCharts { moves, insists });
         }
     }
 
+    /// Drops a gesture whose charts or page have gone, and a gesture whose move the session has dropped. Call once per
+    /// frame.
+    pub(in crate::ui::editor) fn check_gesture(&mut self) {
+        if self.plane.page.gesture.is_none() {
+            return;
+        }
+        let is_dropped = self.plane.page.asked.is_some() && !self.session.is_moving_charts();
+        if is_dropped || !self.shows_page() || self.plane.page.pane.rect().is_none() {
+            self.drop_gesture();
+        }
+    }
+
     /// Moves charts in one edit.
     pub(super) fn move_at_once(&mut self, moves: Vec<ChartMove>) {
+        if moves.is_empty() || self.session.is_moving_charts() {
+            return;
+        }
         self.plane.page.asked = Some((moves.clone(), false));
         self.session.handle(Action::MoveCharts { moves, insists: false });
         self.session.handle(Action::EndMove);
