@@ -12,7 +12,7 @@ use super::recovery::Autosave;
 use super::saving::{ProjectSaves, Request, project_of};
 use super::{Background, Document, MessagePlace, Messages, Model, RecentFiles, Wake, Written};
 use crate::examples::Example;
-use freebound_io::{ProjectFile, ProjectView, RecoveryNote, WriteError};
+use freebound_io::{ProjectFile, ProjectView, WriteError};
 
 /// Maximum time that the end of a session waits for files that the user writes, which may be large.
 const PATIENCE: Duration = Duration::from_mins(1);
@@ -335,18 +335,18 @@ impl Files {
         self.autosave.is_due(now, document)
     }
 
-    /// Writes a recovery copy in the background.
+    /// Writes a recovery copy in the background. Its note has the name of the document.
     pub(super) fn begin_copy(
         &mut self,
         now: Instant,
         mut project: ProjectFile,
-        model: &Model,
         document: &Document,
         messages: &mut Messages,
     ) {
-        let name = self.name(Some(model)).unwrap_or_default();
         let at = self.table.project.as_ref().map(|path| std::path::absolute(path).unwrap_or_else(|_| path.clone()));
-        project.recovery = Some(RecoveryNote { name, project: at });
+        if let Some(note) = &mut project.recovery {
+            note.project = at;
+        }
         self.autosave.begin_copy(now, project, document, messages);
     }
 }

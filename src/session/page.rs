@@ -52,6 +52,10 @@ pub type ChartMove = (usize, DAffine2);
 
 impl PageChart {
     /// Mesh of the step.
+    ///
+    /// # Panics
+    ///
+    /// Never: only a disk has an outcome.
     pub fn mesh(&self) -> &DiskMesh {
         let disk = self.model.disk().expect("only a disk has an outcome");
         self.outcome.step.candidate.mesh(disk)
@@ -131,8 +135,8 @@ impl JudgedMove {
             }
         };
         let charts: Vec<ChartInPlane<'_>> = own.iter().map(in_plane).collect();
-        let moved = own.iter().enumerate().filter(|(_, chart)| of_moved.contains_key(chart));
-        let verdict = move_verdict(&charts, &moved.map(|(place, _)| place).collect());
+        let places = own.iter().enumerate().filter(|(_, chart)| of_moved.contains_key(chart));
+        let verdict = move_verdict(&charts, &places.map(|(place, _)| place).collect());
         let MoveVerdict { folded, overlapping } = verdict;
         // A chart that was folded before the move may be moved, and so may charts that overlapped and move together.
         let is_new_fold = |chart: &usize| page.charts[*chart].outcome.step.verdict.planar;
@@ -241,18 +245,14 @@ impl PagePart {
     /// Puts charts of a layout on the page.
     pub(super) fn put(&mut self, key: AtlasKey, of: Arc<Charts>, models: Vec<Arc<Model>>, view: &AtlasView) {
         self.is_provisional = false;
-        let charts = models.into_iter().zip(&key.outcomes).zip(view.coordinates.iter().zip(&view.stacked));
-        let chart =
-            |((model, outcome), (coordinates, stacked)): ((Arc<Model>, &Arc<Outcome>), (&Arc<Embedding>, &_))| {
-                PageChart {
-                    model,
-                    outcome: Arc::clone(outcome),
-                    coordinates: Arc::clone(coordinates),
-                    stacked: *stacked,
-                }
-            };
+        let chart = |(number, model): (usize, Arc<Model>)| PageChart {
+            model,
+            outcome: Arc::clone(&key.outcomes[number]),
+            coordinates: Arc::clone(&view.coordinates[number]),
+            stacked: view.stacked[number],
+        };
         let page = ChartPage {
-            charts: charts.map(chart).collect(),
+            charts: models.into_iter().enumerate().map(chart).collect(),
             aspect: view.aspect,
             of,
             revision: 0,

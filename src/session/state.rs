@@ -17,6 +17,7 @@ use super::target_checks::TargetChecks;
 use super::unwrapping::Unwrapping;
 use super::v_axis::TurnedV;
 use super::{Action, Document, History, Messages, RecentFiles, TIMELINE_BUDGET, Wake};
+use freebound_io::RecoveryNote;
 
 /// Open document and the work on it.
 pub struct Session {
@@ -191,9 +192,11 @@ impl Session {
             return self.files.leave_copy();
         };
         if self.files.is_copy_due(now, &self.document)
-            && let Some(project) = self.project(&model)
+            && let Some(mut project) = self.project(&model)
         {
-            self.files.begin_copy(now, project, &model, &self.document, &mut self.messages);
+            let name = self.files.name(Some(&model)).unwrap_or_default();
+            project.recovery = Some(RecoveryNote { name, project: None });
+            self.files.begin_copy(now, project, &self.document, &mut self.messages);
         }
     }
 

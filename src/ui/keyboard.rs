@@ -76,7 +76,7 @@ fn page_keys(context: &egui::Context, editor: &Editor) -> Vec<Request> {
                 gesture_key(key).filter(|request| !repeat || !matches!(request, PageRequest::Begin(_)))
             } else {
                 // A button that has the focus takes Enter.
-                begin_key(key).filter(|_| !repeat && !(key == Key::Enter && has_focus))
+                begin_key(key).filter(|_| !(repeat || key == Key::Enter && has_focus))
             };
             let is_left = request.is_none();
             requests.extend(request.map(Request::Page));

@@ -6,15 +6,16 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2};
+use egui_kittest::kittest::Queryable as _;
 use freebound::session::{ChartPage, LockState};
 use freebound::ui::{Editor, PageRequest, Snap};
 use freebound_core::geom::Bounds;
 use freebound_core::mesh::{TriMesh, VertexId};
-use freebound_testkit::{assert_message, shaped};
+use freebound_testkit::{Random, assert_message, shaped};
 use glam::{DVec2, DVec3, Vec2Swizzles as _};
 
 use crate::charts::{until_laid_out, with_sheets};
-use crate::harness::{Pill, Window};
+use crate::harness::{MESH_VIEW, PLANE_VIEW, Pill, Window};
 
 fn page(window: &Window) -> &ChartPage {
     window.editor().session.page().expect("the page is shown")
@@ -355,4 +356,126 @@ fn requests_to_the_page_do_nothing_without_a_page() {
     }
     assert_eq!(*window.editor().session.document(), before);
     assert!(!window.editor().shows_page() && window.is_proved());
+}
+
+/// Number of actions of a walk in a regular test run.
+const WALK: u64 = 200;
+
+/// Keys of a walk, by their modifiers.
+const WALK_KEYS: [(Modifiers, &[Key]); 6] = [
+    (Modifiers::NONE, &[Key::G, Key::R, Key::S, Key::X, Key::Y, Key::Enter, Key::Escape, Key::L, Key::F]),
+    (Modifiers::NONE, &[Key::Num1, Key::Num9, Key::Minus, Key::Period, Key::Backspace, Key::V, Key::P, Key::Tab]),
+    (Modifiers::NONE, &[Key::ArrowLeft, Key::ArrowUp, Key::PageDown, Key::G, Key::G, Key::Enter]),
+    (Modifiers::COMMAND, &[Key::A, Key::I, Key::Z, Key::Z]),
+    (Modifiers::COMMAND.plus(Modifiers::SHIFT), &[Key::Z]),
+    (Modifiers::SHIFT, &[Key::P, Key::C]),
+];
+
+/// Random walk over the page.
+struct Walk {
+    window: Window,
+    random: Random,
+    /// Latest actions, for the failure message.
+    done: Vec<String>,
+    overlaps: usize,
+}
+
+impl Walk {
+    fn one_of<T: Copy>(&mut self, list: &[T]) -> T {
+        list[self.random.index(list.len())]
+    }
+
+    fn view(&self, name: &str) -> Option<egui::Rect> {
+        self.window.harness.query_by_role_and_label(Role::Image, name).map(|node| node.rect())
+    }
+
+    fn place_in(&mut self, rect: egui::Rect) -> Pos2 {
+        #[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
+        let [x, y] = [self.random.unit(), self.random.unit()].map(|share| share as f32);
+        rect.min + egui::vec2(x, y) * rect.size()
+    }
+
+    fn say(&mut self, words: String) {
+        self.done.push(words);
+        self.done.drain(..self.done.len().saturating_sub(12));
+    }
+
+    fn act(&mut self) {
+        let names = if self.random.below(4) == 0 { [MESH_VIEW, PLANE_VIEW] } else { [PLANE_VIEW, MESH_VIEW] };
+        // A pane in full size and the comparison hide a pane.
+        let Some(rect) = names.into_iter().find_map(|name| self.view(name)) else {
+            return self.window.key(Key::Escape);
+        };
+        let (from, to) = (self.place_in(rect), self.place_in(rect));
+        match self.random.below(5) {
+            0 | 1 => {
+                let (modifiers, keys) = self.one_of(&WALK_KEYS);
+                let key = self.one_of(keys);
+                self.say(format!("{key:?} with {modifiers:?}"));
+                self.window.harness.key_press_modifiers(modifiers, key);
+                self.window.step();
+            }
+            2 => {
+                let modifiers = self.one_of(&[Modifiers::NONE, Modifiers::NONE, Modifiers::SHIFT]);
+                self.say(format!("click at {from} with {modifiers:?}"));
+                self.window.click_at(from, modifiers);
+            }
+            3 => self.drag(from, to),
+            _ => {
+                self.window.harness.hover_at(to);
+                self.window.step();
+            }
+        }
+    }
+
+    /// Drags a chart if there is one on the screen, and sometimes gives up.
+    fn drag(&mut self, from: Pos2, to: Pos2) {
+        let shows_page = self.window.editor().shows_page() && self.view(PLANE_VIEW).is_some();
+        let count = self.window.editor().session.page().filter(|_| shows_page).map_or(0, |page| page.charts.len());
+        let from = if count > 0 { middle(&self.window, self.random.index(count)) } else { from };
+        let modifiers = self.one_of(&[Modifiers::NONE, Modifiers::NONE, Modifiers::ALT, Modifiers::COMMAND]);
+        self.say(format!("drag from {from} to {to} with {modifiers:?}"));
+        self.window.begin_drag(from, from + (to - from) / 2.0, modifiers);
+        self.window.harness.hover_at(to);
+        self.window.step();
+        if self.random.below(4) == 0 {
+            self.window.harness.key_press(Key::Escape);
+            self.window.step();
+        }
+        self.window.end_drag(to);
+    }
+
+    /// Ends gestures, waits, and compares the words, the page and the layout in the written form.
+    fn rest(&mut self) {
+        self.window.harness.key_press(Key::Escape);
+        until_proved(&mut self.window);
+        let editor = self.window.editor();
+        let layout = editor.session.atlas().expect("laid out");
+        let charts = &page(&self.window).charts;
+        assert_eq!(page(&self.window).is_planar, Some(layout.verdict.planar), "{:?}", self.done);
+        let is_written = charts.iter().zip(&layout.coordinates).all(|(chart, at)| chart.coordinates == *at);
+        assert!(is_written, "{:?}", self.done);
+        if editor.shows_page() && editor.session.busy().is_none() {
+            let expected = if layout.verdict.planar { Pill::Proved } else { Pill::Bad };
+            assert_eq!(self.window.pill(), expected, "{}: {:?}", self.window.verdict(), self.done);
+        }
+        self.overlaps += usize::from(!layout.verdict.planar);
+    }
+}
+
+/// Keys, clicks and drags at random. `FREEBOUND_WALK_SEED` sets the seed, and `FREEBOUND_WALK` the number of actions.
+#[test]
+fn the_page_agrees_with_the_layout_whatever_is_pressed() {
+    let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
+    let (seed, actions) = (number("FREEBOUND_WALK_SEED").unwrap_or(3), number("FREEBOUND_WALK").unwrap_or(WALK));
+    let mut walk = Walk { window: with_parts(), random: Random(seed), done: Vec::new(), overlaps: 0 };
+    for action in 1..=actions {
+        walk.act();
+        let count = walk.window.editor().session.charts().map_or(0, |charts| charts.count());
+        assert!(selected(&walk.window).iter().all(|&chart| chart < count), "{:?}", walk.done);
+        if action % 5 == 0 {
+            walk.rest();
+        }
+    }
+    println!("{actions} actions, {} rests with overlaps", walk.overlaps);
 }

@@ -238,8 +238,8 @@ impl Editor {
     }
 
     fn escape(&mut self) {
-        if self.close_question() || self.leave_large() || self.files.dialogs.close() || self.layout.close_window() {
-        } else if self.drop_gesture() {
+        let closes = self.close_question() || self.leave_large() || self.files.dialogs.close();
+        if closes || self.layout.close_window() || self.drop_gesture() {
         } else if self.tools.end_drag() {
             self.act(Action::GiveUpGesture);
         } else if self.pointer.end_box() {

@@ -177,8 +177,10 @@ fn exports_window(context: &egui::Context, editor: &mut Editor, requests: &mut V
 impl Editor {
     /// Requests a screenshot of the window, from which a pane is cropped.
     pub(in crate::ui) fn shoot_pane(&mut self, pane: Pane, path: PathBuf) {
-        let plane = self.plane.pane.rect().or(self.plane.page.pane.rect());
-        let part = if pane == Pane::Plane { plane } else { self.mesh.pane.rect() };
+        let part = match pane {
+            Pane::Plane => self.plane.pane.rect().or(self.plane.page.pane.rect()),
+            Pane::Mesh => self.mesh.pane.rect(),
+        };
         let Some(part) = part else { return };
         let (sender, picture) = sync_channel(1);
         let wake = self.gpu.wake();

@@ -37,21 +37,15 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         return page_pane::mesh_ui(ui, &response, editor, requests);
     }
     let (Some(scene), Some(mut camera)) = (editor.mesh_scene().map(Arc::clone), editor.mesh.pane.camera()) else {
-        let lines: &[&str] = if editor.session.busy().is_some() {
-            &["Opening…"]
-        } else {
-            &["No mesh open", "Drop a mesh file or a project here, or open an example from the File menu"]
-        };
-        return pane::empty_state(ui, rect, lines);
+        return pane::empty_state(ui, rect, empty_words(editor));
     };
     // A double click ends a seam, and must not move the pivot.
     let sets_pivot = editor.tools.tool() != Tool::Seam;
-    match paint(ui, &response, editor, &scene, camera) {
-        Some(painted) => requests.extend(painted),
-        None => {
-            let hit = |ray| scene.picker.hit(ray).map(|hit| hit.point);
-            navigate(ui, &response, &hit, &mut camera, sets_pivot);
-        }
+    if let Some(painted) = paint(ui, &response, editor, &scene, camera) {
+        requests.extend(painted);
+    } else {
+        let hit = |ray| scene.picker.hit(ray).map(|hit| hit.point);
+        navigate(ui, &response, &hit, &mut camera, sets_pivot);
     }
     if editor.mesh.pane.camera() != Some(camera) {
         editor.mesh.pane.set_camera(camera);
@@ -90,6 +84,15 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     legend::legend(ui, rect, editor, Pane::Mesh);
     legend::no_move_note(ui, rect, editor, Pane::Mesh);
     magnifier::over_mesh(ui, view, editor, &scene, requests);
+}
+
+/// Words of a pane without a mesh.
+fn empty_words(editor: &Editor) -> &'static [&'static str] {
+    if editor.session.busy().is_some() {
+        &["Opening…"]
+    } else {
+        &["No mesh open", "Drop a mesh file or a project here, or open an example from the File menu"]
+    }
 }
 
 /// Drag that paints where no automatic seam may run, or takes paint away. `None` if there is no such drag.

@@ -30,10 +30,10 @@ pub(super) fn plane_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edit
         return;
     };
     let grip = Grip::at(ui, response, editor, Viewport { rect, camera }, &scene);
-    if !grip.holds_charts {
-        plane_pane::navigate(ui, response, &mut camera);
-    } else {
+    if grip.holds_charts {
         plane_pane::zoom(ui, response, &mut camera);
+    } else {
+        plane_pane::navigate(ui, response, &mut camera);
     }
     if editor.plane.page.pane.camera() != Some(camera) {
         editor.plane.page.pane.set_camera(camera);

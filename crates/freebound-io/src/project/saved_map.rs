@@ -31,7 +31,7 @@ struct Fields {
 
 impl Serialize for SavedMap {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let bytes: Vec<u8> = self.0.iter().flat_map(|z| z.to_array()).flat_map(f64::to_le_bytes).collect();
+        let bytes: Vec<u8> = self.0.iter().flat_map(DVec2::to_array).flat_map(f64::to_le_bytes).collect();
         Fields { positions: STANDARD.encode(&bytes), sha256: digest(&bytes) }.serialize(serializer)
     }
 }

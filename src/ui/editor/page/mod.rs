@@ -276,8 +276,8 @@ impl PageView {
     pub(super) fn refresh_paint(&mut self, pane: Pane, shading: ShadingMode) {
         let Some(scene) = &self.scene else { return };
         let shading = if shading.quantity().is_some() { shading } else { ShadingMode::Plain };
-        let fits = |paint: &&PagePaint| paint.key == scene.key && paint.shading == shading;
-        if self.paints[pane as usize].as_ref().filter(fits).is_none() {
+        let fits = |paint: &PagePaint| paint.key == scene.key && paint.shading == shading;
+        if !self.paints[pane as usize].as_ref().is_some_and(fits) {
             let (faces, legend) = scene.paint(shading);
             self.paints[pane as usize] = Some(PagePaint { key: scene.key, shading, faces: Arc::new(faces), legend });
         }

@@ -51,9 +51,9 @@ fn overlaps_of_moved_charts_are_those_of_exact_clipping() {
         let of_first: BTreeSet<[usize; 2]> = expected.iter().copied().filter(|pair| pair.contains(&0)).collect();
         assert_eq!(judged(&charts, &[0]).overlapping, of_first, "pairs that stay are not judged");
         if expected.is_empty() {
-            apart += 1
+            apart += 1;
         } else {
-            over += 1
+            over += 1;
         }
         assert_eq!(verdict.is_planar(), expected.is_empty());
     }
