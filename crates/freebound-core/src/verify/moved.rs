@@ -45,11 +45,13 @@ const MOST_OVERLAPS: usize = 1 << 12;
 /// with a place of their own; a chart that is stacked on another moves with it. `moved` are the places of the moved
 /// charts in the list.
 pub fn move_verdict(charts: &[ChartInPlane<'_>], moved: &BTreeSet<usize>) -> MoveVerdict {
-    let is_folded = |&&chart: &&usize| {
+    let numbers: Vec<usize> = moved.iter().copied().collect();
+    let planar = |&chart: &usize| {
         let ChartInPlane { mesh, coordinates } = charts[chart];
-        !verdict::verdict(mesh, coordinates).planar
+        verdict::verdict(mesh, coordinates).planar
     };
-    let folded = moved.par_iter().filter(is_folded).copied().collect();
+    let are_planar: Vec<bool> = numbers.par_iter().map(planar).collect();
+    let folded = numbers.into_iter().zip(are_planar).filter(|(_, planar)| !planar).map(|(chart, _)| chart).collect();
     let bounds: Vec<Bounds> = charts.par_iter().map(|chart| Bounds::of(chart.coordinates.iter().copied())).collect();
     let reach = moved.iter().fold(Bounds::EMPTY, |reach, &chart| reach.union(bounds[chart]));
     let (mut triangles, mut chart_of) = (Vec::new(), Vec::new());
