@@ -19,7 +19,7 @@ pub const PANEL_WIDTHS: egui::Rangef = egui::Rangef { min: 220.0, max: 420.0 };
 /// Colours of a theme.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Theme {
-    /// A flipped face.
+    /// Words and marks of flipped faces and of failures.
     pub flipped: Color32,
     /// A boundary crossing.
     pub crossing: Color32,
@@ -131,7 +131,8 @@ const fn theme(tone: Column) -> Theme {
         flipped: tone.srgb(0x00D9_2D3A, 0x00FF_5A64),
     };
     Theme {
-        flipped: on_screen(palette.flipped),
+        // Darker or lighter than the faces, so that words are legible.
+        flipped: tone.colour(0x00B8_222E, 0x00FF_7A82),
         crossing: tone.colour(0x00E8_700A, 0x00FF_9A3D),
         concave: tone.colour(0x006E_7B00, 0x00D4_E157),
         overwound: tone.colour(0x00C0_26A8, 0x00F0_6BD8),
@@ -140,14 +141,14 @@ const fn theme(tone: Column) -> Theme {
         constraint: tone.colour(0x0000_8FA3, 0x002B_D4E6),
         selection: on_screen(selection),
         selection_line: selection,
-        planar: tone.colour(0x001F_8A4C, 0x004A_CB80),
+        planar: tone.colour(0x001A_6B3B, 0x004A_CB80),
         unmet: tone.colour(0x006B_4FBB, 0x00B3_9DFF),
-        stale: tone.colour(0x00B8_7A00, 0x00F0_B43C),
+        stale: tone.colour(0x0080_5500, 0x00F0_B43C),
         accent: tone.colour(0x002F_5BD8, 0x007B_9BFF),
         background: on_screen(palette.background),
         panel: tone.colour(0x00FB_FBFA, 0x0026_272B),
         text: tone.colour(0x0022_2426, 0x00E4_E4E2),
-        weak_text: tone.colour(0x006A_6D70, 0x009B_9EA3),
+        weak_text: tone.colour(0x005A_5D60, 0x00A9_ACB1),
         separator: tone.colour(0x00DD_DDD9, 0x0038_3A3F),
         boundary: tone.srgb(0x003A_3A38, 0x00EC_ECE8),
         seam: tone.srgb(0x00B0_006D, 0x00FF_6FB5),
@@ -160,6 +161,14 @@ const fn theme(tone: Column) -> Theme {
         palette,
     }
 }
+
+/// Share of its colour in the background of a chip, and under the pointer.
+pub(super) const CHIP: f32 = 0.10;
+pub(super) const CHIP_HOVERED: f32 = 0.16;
+
+/// Share of the accent in the background of a row or a tool under the pointer, and of a selected one.
+pub(super) const HOVERED: f32 = 0.10;
+pub(super) const SELECTED: f32 = 0.15;
 
 /// Active theme.
 pub fn theme_of(ui: &egui::Ui) -> &'static Theme {
@@ -209,4 +218,58 @@ fn visuals(theme: &Theme, base: Visuals) -> Visuals {
         widget.corner_radius = CornerRadius::same(4);
     }
     visuals
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Least contrast of words, WCAG 2.2 level AA.
+    const LEAST: f64 = 4.5;
+
+    /// Relative luminance of a colour, WCAG 2.2.
+    fn luminance(colour: Color32) -> f64 {
+        let [r, g, b, _] = Srgb(colour.to_array()).to_linear().map(f64::from);
+        0.2126 * r + 0.7152 * g + 0.0722 * b
+    }
+
+    fn contrast(a: Color32, b: Color32) -> f64 {
+        let [a, b] = [luminance(a), luminance(b)];
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    /// Background under a translucent tint.
+    fn tinted(below: Color32, tint: Color32, share: f64) -> Color32 {
+        let mix = |below: u8, tint: u8| {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two bytes")]
+            let mixed = (f64::from(below) * (1.0 - share) + f64::from(tint) * share).round() as u8;
+            mixed
+        };
+        let ([r, g, b, _], [r2, g2, b2, _]) = (below.to_array(), tint.to_array());
+        Color32::from_rgb(mix(r, r2), mix(g, g2), mix(b, b2))
+    }
+
+    #[test]
+    fn words_stand_out_from_panels_panes_chips_and_marked_rows_in_both_themes() {
+        for theme in [&LIGHT, &DARK] {
+            let signs = [theme.planar, theme.flipped, theme.unmet, theme.stale];
+            let plain = [theme.panel, theme.background];
+            let rows = [HOVERED, SELECTED].map(|share| tinted(theme.panel, theme.accent, share.into()));
+            for words in signs.into_iter().chain([theme.text, theme.weak_text]) {
+                for below in plain.into_iter().chain(rows) {
+                    let found = contrast(words, below);
+                    assert!(found >= LEAST, "{words:?} on {below:?}: {found:.2}");
+                }
+            }
+            for (words, share) in signs.into_iter().flat_map(|sign| [(sign, CHIP), (sign, CHIP_HOVERED)]) {
+                let found = contrast(words, tinted(theme.panel, words, share.into()));
+                assert!(found >= LEAST, "{words:?} in its chip: {found:.2}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_contrast_of_black_on_white_is_that_of_the_standard() {
+        assert!((contrast(Color32::BLACK, Color32::WHITE) - 21.0).abs() < 1e-6);
+    }
 }

@@ -114,7 +114,7 @@ fn a_message_is_copied_gone_to_and_dismissed() {
     window.open(&file);
     window.give_faults_back();
     let messages = window.editor().session.messages();
-    let message = messages.iter().find(|message| message.severity == Severity::Error).expect("a fault").clone();
+    let message = messages.iter().rev().find(|message| message.severity == Severity::Error).expect("a fault").clone();
     let Some(Surface::Faulty(..)) = window.editor().session.model().map(|model| &model.prepared.surface) else {
         panic!("a face is turned over")
     };

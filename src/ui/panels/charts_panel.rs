@@ -9,6 +9,7 @@ use super::menu::grouped;
 use super::seams_section::seams_section;
 use super::surface::charts_row;
 use crate::session::{Action, AtlasView, ChartState, LockState, Session};
+use crate::ui::theme::{HOVERED, SELECTED};
 use crate::ui::{
     Alignment, Axis, Control, Editor, GestureKind, Offer, PageRequest, Request, Snap, counted, five_digits, icons,
     keys_of, list, pairs, remark, sentence, theme_of, tip_with_keys,
@@ -552,7 +553,7 @@ fn row_of(ui: &mut egui::Ui, row: &Row, (is_shown, shows_page): (bool, bool), re
     let name = row.name(&words, &place);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_shown, &name));
     if is_shown || response.hovered() || response.has_focus() {
-        let share = if is_shown { 0.22 } else { 0.10 };
+        let share = if is_shown { SELECTED } else { HOVERED };
         ui.painter().rect_filled(rect, 3.0, theme.accent.gamma_multiply(share));
     }
     let colour: Color32 = match &row.state {

@@ -55,6 +55,7 @@ mod welding;
 
 use eframe::egui::{self, Role, Sense, Vec2, WidgetInfo};
 
+use super::theme::{HOVERED, SELECTED};
 use super::{Control, Editor, Request, Tab, Tool, icons, theme_of, tip_with_keys};
 
 /// Side of a tool button, points.
@@ -69,7 +70,7 @@ pub(super) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Re
             response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, about));
             let theme = theme_of(ui);
             if on || response.hovered() {
-                let share = if on { 0.22 } else { 0.10 };
+                let share = if on { SELECTED } else { HOVERED };
                 ui.painter().rect_filled(rect, 5.0, theme.accent.gamma_multiply(share));
             }
             if response.has_focus() {

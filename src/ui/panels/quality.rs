@@ -7,6 +7,7 @@ use eframe::egui::{self, RichText, Role};
 use super::advice::ratio_words;
 use crate::session::Status;
 use crate::ui::icons::{self, Sign};
+use crate::ui::theme::CHIP_HOVERED;
 use crate::ui::{Control, Editor, Request, ShadingMode, short, theme_of};
 use freebound_core::pipeline::Outcome;
 use freebound_core::verify::DistortionSummary;
@@ -131,7 +132,7 @@ pub(super) fn quality(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Req
     let size = galley.size() + egui::vec2(16.0 + SIGN + 6.0, 6.0);
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
     if response.hovered() || response.has_focus() {
-        ui.painter().rect_filled(rect, rect.height() / 2.0, colour.gamma_multiply(0.16));
+        ui.painter().rect_filled(rect, rect.height() / 2.0, colour.gamma_multiply(CHIP_HOVERED));
     }
     let at = rect.left_center() + egui::vec2(8.0 + SIGN / 2.0, 0.0);
     icons::sign(ui.painter(), egui::Rect::from_center_size(at, egui::Vec2::splat(SIGN)), grade.sign(), theme);

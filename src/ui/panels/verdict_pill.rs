@@ -5,6 +5,7 @@ use eframe::egui::{self, RichText, Role};
 use super::seams_section::progress_words;
 use crate::session::{Action, Busy, LivePreview, Preview, Status};
 use crate::ui::icons::{self, Sign};
+use crate::ui::theme::{CHIP, CHIP_HOVERED};
 use crate::ui::{Control, Editor, Offer, PageRequest, Request, Tab, counted, sentence, theme_of};
 use freebound_core::bijective::Blocker;
 use freebound_core::flatten::Step;
@@ -233,7 +234,7 @@ fn show_pill(ui: &mut egui::Ui, pill: &Pill) -> egui::Response {
     let galley = text.into_galley(ui, None, f32::INFINITY, egui::TextStyle::Body);
     let size = galley.size() + egui::vec2(20.0 + SIGN + 6.0, 6.0);
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
-    let strength = if response.hovered() { 0.24 } else { 0.13 };
+    let strength = if response.hovered() { CHIP_HOVERED } else { CHIP };
     ui.painter().rect_filled(rect, rect.height() / 2.0, colour.gamma_multiply(strength));
     if response.has_focus() {
         let stroke = egui::Stroke::new(1.0, colour);

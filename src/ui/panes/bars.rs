@@ -100,9 +100,19 @@ fn warning(ui: &mut egui::Ui, words: &str, offers: impl IntoIterator<Item = Offe
 /// Error messages of a pane: the problem, its place, the remedy. A message stays until dismissed or resolved.
 fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: MessagePlace, requests: &mut Vec<Request>) {
     let is_here = |message: &&Message| message.place == place && message.severity == Severity::Error;
-    let messages: Vec<&Message> = editor.session.messages().iter().filter(is_here).collect();
+    // Newest first.
+    let messages: Vec<&Message> = editor.session.messages().iter().filter(is_here).rev().collect();
     if messages.is_empty() {
         return;
+    }
+    if messages.len() > 1 {
+        ui.horizontal(|ui| {
+            ui.add_space(8.0);
+            let words = format!("Dismiss all {}", messages.len());
+            if ui.small_button(words).on_hover_text("Dismiss all messages of this pane").clicked() {
+                requests.extend(messages.iter().map(|message| Action::Dismiss(message.id).into()));
+            }
+        });
     }
     let limit = ui.available_height() / 2.0;
     egui::ScrollArea::vertical().id_salt(("messages", place == MessagePlace::Mesh)).max_height(limit).show(ui, |ui| {

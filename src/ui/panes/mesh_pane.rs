@@ -312,7 +312,7 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
     for (at, is_seen) in editor.selection.vertices().iter().take(MARKS_SHOWN).filter_map(|&vertex| place(vertex)) {
         // Show hidden vertices dimmed through the mesh, because "Go to" may select them.
         let colour = if is_seen { theme.selection } else { theme.selection.gamma_multiply(HIDDEN) };
-        pane::halo(&painter, at, colour, 6.0);
+        pane::dot(&painter, at, colour);
     }
     if let Some((vertex, at)) = editor.pointer.vertex().and_then(|vertex| Some((vertex, seen(vertex)?))) {
         pane::halo(&painter, at, theme.selection, if editor.tools.tool() == Tool::Fix { 7.0 } else { 5.0 });

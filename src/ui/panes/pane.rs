@@ -55,6 +55,11 @@ pub(super) fn halo(painter: &egui::Painter, at: Pos2, colour: Color32, radius: f
     painter.circle_stroke(at, radius, Stroke::new(2.0, colour));
 }
 
+/// Small dot on a selected vertex. It hides little of what lies below.
+pub(super) fn dot(painter: &egui::Painter, at: Pos2, colour: Color32) {
+    painter.circle(at, 3.0, colour, Stroke::new(1.0, Color32::from_black_alpha(150)));
+}
+
 /// Follows a selection box, drawn by Ctrl and a drag. Returns the box, in window points, at the end of the drag.
 pub(super) fn drag_box(ui: &egui::Ui, response: &Response, editor: &mut Editor, pane: Pane) -> Option<Rect> {
     if response.drag_started_by(egui::PointerButton::Primary) && ui.input(|input| input.modifiers.command) {

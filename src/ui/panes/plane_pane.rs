@@ -189,7 +189,7 @@ fn marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &Pl
         seam::over_plane(ui, view, editor, plane);
     }
     for &vertex in editor.selection.vertices().iter().take(MARKS_SHOWN) {
-        pane::halo(&over, spot(vertex), theme.selection, 6.0);
+        pane::dot(&over, spot(vertex), theme.selection);
     }
     if editor.is_of_session(&plane.mesh) {
         for side in editor.tools.seam_hover.sides() {
