@@ -6,6 +6,7 @@ use glam::{DAffine2, DVec2};
 
 use super::atlas_view::{AtlasKey, ChartResult, SolvedAtlas};
 use super::chart_layout::ChartLayout;
+use super::page::movement_about;
 use super::{AtlasView, ChartState, Command, LockState, Model, Session, Timeline};
 use freebound_core::geom::{PackingOptions, Stacking};
 use freebound_core::mesh::Charts;
@@ -101,10 +102,8 @@ impl Session {
         }
         if self.has_placed_charts() && self.can_move_charts() {
             let (before, middle) = (self.document.layout.size_of(&charts, chart), self.middle_on_page(chart));
-            let about = DAffine2::from_translation(middle)
-                * DAffine2::from_scale(DVec2::splat(size / before))
-                * DAffine2::from_translation(-middle);
-            self.move_charts(&[(chart, about)], false);
+            let by = movement_about(middle, DAffine2::from_scale(DVec2::splat(size / before)));
+            self.move_charts(&[(chart, by)], false);
             return self.end_move();
         }
         let mut layout = self.document.layout.clone();

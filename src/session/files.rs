@@ -12,7 +12,7 @@ use super::recovery::Autosave;
 use super::saving::{ProjectSaves, Request, project_of};
 use super::{Background, Document, MessagePlace, Messages, Model, RecentFiles, Wake, Written};
 use crate::examples::Example;
-use freebound_io::{ProjectFile, ProjectView, WriteError};
+use freebound_io::{ProjectFile, ProjectView, RecoveryNote, WriteError};
 
 /// Maximum time that the end of a session waits for files that the user writes, which may be large.
 const PATIENCE: Duration = Duration::from_mins(1);
@@ -335,18 +335,21 @@ impl Files {
         self.autosave.is_due(now, document)
     }
 
-    /// Writes a recovery copy in the background. Its note has the name of the document.
+    /// Note of a recovery copy: name of the document, and its project.
+    pub(super) fn recovery_note(&self, model: &Model) -> RecoveryNote {
+        let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
+        let name = self.name(Some(model)).unwrap_or_default();
+        RecoveryNote { name, project: self.table.project.as_ref().map(absolute) }
+    }
+
+    /// Writes a recovery copy in the background.
     pub(super) fn begin_copy(
         &mut self,
         now: Instant,
-        mut project: ProjectFile,
+        project: ProjectFile,
         document: &Document,
         messages: &mut Messages,
     ) {
-        let at = self.table.project.as_ref().map(|path| std::path::absolute(path).unwrap_or_else(|_| path.clone()));
-        if let Some(note) = &mut project.recovery {
-            note.project = at;
-        }
         self.autosave.begin_copy(now, project, document, messages);
     }
 }

@@ -165,12 +165,7 @@ impl Session {
                 continue;
             }
             let first_face = charts.first_face(*chart);
-            let given = page.charts[*chart].given_count();
-            let place = if given == coordinates.len() {
-                Arc::clone(coordinates)
-            } else {
-                Arc::new(coordinates.iter().take(given).copied().collect())
-            };
+            let place = given_place(&page.charts[*chart], coordinates);
             layout.placed.insert(first_face, ChartPlace(place));
             let scale = scale_of(*by);
             if (scale - 1.0).abs() > SAME_SIZE {
@@ -194,7 +189,7 @@ impl Session {
             }
             let has_own_place = chart.stacked.is_none() && self.is_movable(number);
             if has_own_place && layout.place_of(charts, number).is_none() {
-                layout.placed.insert(first_face, ChartPlace(given_place(chart)));
+                layout.placed.insert(first_face, ChartPlace(given_place(chart, &chart.coordinates)));
             }
         }
         Some(layout)
@@ -296,7 +291,8 @@ impl Session {
             let first_face = all.first_face(chart);
             match (self.lock_state(chart), lock) {
                 (LockState::Open, true) => {
-                    let Some(place) = self.page().map(|page| given_place(&page.charts[chart])) else { continue };
+                    let Some(on_page) = self.page().map(|page| &page.charts[chart]) else { continue };
+                    let place = given_place(on_page, &on_page.coordinates);
                     layout.placed.remove(&first_face);
                     layout.locked.insert(first_face, ChartPlace(place));
                 }
@@ -312,13 +308,12 @@ impl Session {
     }
 }
 
-/// Coordinates of a chart on the page without those of new vertices.
-fn given_place(chart: &PageChart) -> Arc<Embedding> {
-    let count = chart.given_count();
-    if count == chart.coordinates.len() {
-        return Arc::clone(&chart.coordinates);
+/// Coordinates of a chart without those of new vertices.
+fn given_place(chart: &PageChart, coordinates: &Arc<Embedding>) -> Arc<Embedding> {
+    match chart.given_count() {
+        count if count == coordinates.len() => Arc::clone(coordinates),
+        count => Arc::new(coordinates.iter().take(count).copied().collect()),
     }
-    Arc::new(chart.coordinates.iter().take(count).copied().collect())
 }
 
 /// Factor by which a movement changes lengths.

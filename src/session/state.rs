@@ -17,7 +17,6 @@ use super::target_checks::TargetChecks;
 use super::unwrapping::Unwrapping;
 use super::v_axis::TurnedV;
 use super::{Action, Document, History, Messages, RecentFiles, TIMELINE_BUDGET, Wake};
-use freebound_io::RecoveryNote;
 
 /// Open document and the work on it.
 pub struct Session {
@@ -194,8 +193,7 @@ impl Session {
         if self.files.is_copy_due(now, &self.document)
             && let Some(mut project) = self.project(&model)
         {
-            let name = self.files.name(Some(&model)).unwrap_or_default();
-            project.recovery = Some(RecoveryNote { name, project: None });
+            project.recovery = Some(self.files.recovery_note(&model));
             self.files.begin_copy(now, project, &self.document, &mut self.messages);
         }
     }

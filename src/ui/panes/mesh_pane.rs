@@ -215,20 +215,27 @@ pub(super) fn picture_layer(editor: &Editor) -> Option<PictureLayer> {
 
 /// Style of the faces in a pane.
 pub(super) fn style(editor: &Editor, pane: Pane) -> Style {
-    let chosen = editor.shading(pane);
+    let chosen = match editor.shading(pane) {
+        // Distortion was measured on another embedding than the drag preview.
+        shading if shading.is_by_number() && editor.plane.shows_preview() => ShadingMode::Plain,
+        ShadingMode::Move if editor.plane.moved_from(&editor.session).is_none() => ShadingMode::Plain,
+        shading => shading,
+    };
+    style_of(editor, chosen, editor.pane_shading.check_size())
+}
+
+/// Style of faces with a shading and a size of checks.
+pub(super) fn style_of(editor: &Editor, chosen: ShadingMode, check_size: f64) -> Style {
     let shading = match chosen {
         ShadingMode::Plain | ShadingMode::SeeThrough => render::FaceShading::Plain,
         ShadingMode::Picture if editor.has_picture() => render::FaceShading::Picture,
         ShadingMode::Checker | ShadingMode::Picture => render::FaceShading::Checker,
-        // Distortion was measured on another embedding than the drag preview.
-        _ if editor.plane.shows_preview() => render::FaceShading::Plain,
-        ShadingMode::Move if editor.plane.moved_from(&editor.session).is_none() => render::FaceShading::Plain,
         ShadingMode::Angle | ShadingMode::Area | ShadingMode::Stretch | ShadingMode::Move => render::FaceShading::Paint,
     };
     Style {
         shading,
         wire_in_points: if editor.pane_shading.wireframe { 1.0 } else { 0.0 },
-        check_size: editor.pane_shading.check_size(),
+        check_size,
         face_opacity: if chosen == ShadingMode::SeeThrough { THIN_FILL } else { 1.0 },
         ..Style::default()
     }

@@ -15,9 +15,6 @@ use crate::ui::{Editor, Pane, Request, ShadingMode, Theme, five_digits, theme_of
 use crate::view::{EdgeList, OrbitCamera, PlaneCamera};
 use freebound_core::geom::{Bounds, FIRST_UDIM_TILE, corner_of_tile};
 
-/// Opacity of faces over a picture.
-const THIN_FILL: f32 = 0.3;
-
 /// Greatest number of edges of outlines that a kept-back move draws.
 const EDGES_SHOWN: usize = 20_000;
 
@@ -150,11 +147,8 @@ pub(super) fn mesh_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edito
     }
     if let Some(chosen) = pane::drag_box(ui, response, editor, Pane::Mesh) {
         let view = Viewport { rect, camera };
-        let is_inside = |chart: &usize| {
-            scene.points_of([*chart]).into_iter().any(|point| {
-                view.spot(point).is_some_and(|at| chosen.contains(at)) && scene.is_seen(point, camera.eye())
-            })
-        };
+        let is_in_box = |at| view.spot(at).is_some_and(|at| chosen.contains(at));
+        let is_inside = |chart: &usize| scene.has_seen_vertex(*chart, camera.eye(), is_in_box);
         requests.push(PageRequest::Add((0..scene.spans.len()).filter(is_inside).collect()).into());
     }
     if response.clicked() && editor.plane.page.gesture().is_none() {
@@ -182,20 +176,10 @@ fn lines(editor: &Editor, scene: &PageScene, theme: &Theme, colour: crate::view:
 
 /// Style of the faces in a pane.
 fn style(editor: &Editor, pane: Pane) -> Style {
-    let chosen = editor.shading(pane);
-    let shading = match chosen {
-        ShadingMode::Plain | ShadingMode::SeeThrough | ShadingMode::Move => render::FaceShading::Plain,
-        ShadingMode::Picture if editor.has_picture() => render::FaceShading::Picture,
-        ShadingMode::Checker | ShadingMode::Picture => render::FaceShading::Checker,
-        ShadingMode::Angle | ShadingMode::Area | ShadingMode::Stretch => render::FaceShading::Paint,
-    };
-    Style {
-        shading,
-        wire_in_points: if editor.pane_shading.wireframe { 1.0 } else { 0.0 },
-        check_size: editor.plane.page.check_size(),
-        face_opacity: if chosen == ShadingMode::SeeThrough { THIN_FILL } else { 1.0 },
-        ..Style::default()
-    }
+    // A movement of faces is a movement of one chart between its steps.
+    let chosen =
+        Some(editor.shading(pane)).filter(|shading| *shading != ShadingMode::Move).unwrap_or(ShadingMode::Plain);
+    mesh_pane::style_of(editor, chosen, editor.plane.page.check_size())
 }
 
 /// Frame of the embedding pane.

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::{DAffine2, DVec2};
 
+use crate::session::movement_about;
 use freebound_core::geom::Bounds;
 
 /// Request to the page, on which all charts lie.
@@ -249,7 +250,7 @@ impl PageGesture {
     /// Movement of the charts. Typed numbers count in pixels, degrees, or as a factor.
     pub(in crate::ui) fn movement(&self, places: &SnapPlaces) -> DAffine2 {
         let pivot = self.bounds.middle();
-        let about = |by: DAffine2| DAffine2::from_translation(pivot) * by * DAffine2::from_translation(-pivot);
+        let about = |by: DAffine2| movement_about(pivot, by);
         match self.kind {
             GestureKind::Move => DAffine2::from_translation(self.shift(places)),
             GestureKind::Turn => about(DAffine2::from_angle(self.degrees(places.snap).to_radians())),

@@ -387,7 +387,7 @@ fn a_saved_map_returns_bit_for_bit_without_a_solve() {
     settled(&mut after, Action::Undo);
     assert_eq!(map_of(&after), saved);
     settled(&mut after, Action::Relax);
-    assert!(after.timeline().records().len() > 1, "the run goes on from the saved map");
+    assert!(after.timeline().records().len() > 1, "the run continues from the saved map");
 }
 
 #[test]

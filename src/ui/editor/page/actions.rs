@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::{DAffine2, DVec2};
 
-use crate::session::{Action, ChartMove};
+use crate::session::{Action, ChartMove, movement_about};
 use crate::ui::Editor;
 use crate::ui::state::{Alignment, Axis, PageGesture, PageRequest, Tool};
 use freebound_core::geom::Bounds;
@@ -161,7 +161,7 @@ impl Editor {
 
     fn mirror(&mut self, axis: Axis) {
         let flip = DAffine2::from_scale(DVec2::ONE - 2.0 * axis.unit());
-        let moves = self.boxes().into_iter().map(|(chart, own)| (chart, about(own.middle(), flip))).collect();
+        let moves = self.boxes().into_iter().map(|(chart, own)| (chart, movement_about(own.middle(), flip))).collect();
         self.move_at_once(moves);
     }
 
@@ -171,15 +171,10 @@ impl Editor {
         let densities = self.session.atlas().map(|atlas| atlas.densities.clone()).unwrap_or_default();
         let scaled = |(chart, own): (usize, Bounds)| {
             let factor = density / densities.get(chart)?;
-            let by = about(own.middle(), DAffine2::from_scale(DVec2::splat(factor)));
+            let by = movement_about(own.middle(), DAffine2::from_scale(DVec2::splat(factor)));
             (factor.is_finite() && factor > 0.0).then_some((chart, by))
         };
         let moves: Vec<ChartMove> = self.boxes().into_iter().filter_map(scaled).collect();
         self.move_at_once(moves);
     }
-}
-
-/// Movement with a fixed point.
-fn about(fixed: DVec2, by: DAffine2) -> DAffine2 {
-    DAffine2::from_translation(fixed) * by * DAffine2::from_translation(-fixed)
 }

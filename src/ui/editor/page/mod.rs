@@ -71,7 +71,7 @@ impl Outlined {
             return;
         };
         if self.outlines.as_ref().is_none_or(|(key, _)| *key != scene.key) {
-            self.outlines = Some((scene.key, Arc::new(EdgeList::new(scene.edges_of(&self.charts)))));
+            self.outlines = Some((scene.key, Arc::new(scene.edges_of(&self.charts))));
         }
     }
 }
@@ -115,11 +115,6 @@ impl PageView {
     /// Scene of all charts.
     pub(in crate::ui) fn scene(&self) -> Option<&Arc<PageScene>> {
         self.scene.as_ref()
-    }
-
-    /// True unless the user has chosen to see the chart on the screen alone.
-    pub fn is_wanted(&self) -> bool {
-        self.is_wanted
     }
 
     /// Selected charts.

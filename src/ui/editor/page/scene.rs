@@ -12,9 +12,6 @@ use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, Quantity, Ray, S
 use freebound_core::geom::{Bounds, winding_number};
 use freebound_core::mesh::{FaceId, VertexId};
 
-/// Margin of hiding, relative to the distance.
-const HIDING_MARGIN: f64 = 1e-4;
-
 /// Inputs of a scene: revisions of the page and of the mesh on the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct PageKey {
@@ -39,6 +36,8 @@ pub(in crate::ui) struct PageScene {
     pub(in crate::ui) spans: Arc<Vec<ChartSpan>>,
     /// Outlines and rims of holes of all charts.
     pub(in crate::ui) outlines: Arc<EdgeList>,
+    /// Bounds of the outer loop of each chart in the page's plane.
+    bounds: Vec<Bounds>,
     /// Position of each vertex in the page's plane.
     pub(super) places: Arc<Vec<DVec2>>,
     pub(super) picker: Arc<SurfacePicker>,
@@ -71,14 +70,6 @@ impl ChartSpan {
         let loops = std::iter::once(mesh.boundary_loop().to_vec()).chain(rims).collect();
         Self { vertices: 0..mesh.vertex_count(), faces: 0..mesh.mesh().real_face_count(), loops }
     }
-
-    /// Edges of the outlines.
-    fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
-        let ends = |rim: &'_ [VertexId]| -> Vec<[VertexId; 2]> {
-            rim.iter().zip(rim.iter().cycle().skip(1)).map(|(&a, &b)| [a, b]).collect()
-        };
-        self.loops.iter().flat_map(move |rim| ends(rim))
-    }
 }
 
 impl PageScene {
@@ -99,8 +90,11 @@ impl PageScene {
             }
             None => meshes(&page.charts, space),
         };
+        let at = |vertex: &VertexId| places[vertex.index()];
+        let outer = |span: &ChartSpan| Bounds::of(span.loops[0].iter().map(at).filter(|at| at.is_finite()));
         Self {
             key,
+            bounds: spans.iter().map(outer).collect(),
             plane: Arc::new(PlaneArrays::new(&places, &mesh.triangles)),
             mesh,
             spans,
@@ -119,8 +113,8 @@ impl PageScene {
 
     /// Bounds of charts in the plane.
     pub(in crate::ui) fn bounds_of(&self, charts: impl IntoIterator<Item = usize>) -> Bounds {
-        let there = charts.into_iter().filter(|&chart| chart < self.spans.len());
-        there.fold(Bounds::EMPTY, |all, chart| all.union(self.bounds_of_outline(chart)))
+        let there = charts.into_iter().filter_map(|chart| self.bounds.get(chart));
+        there.fold(Bounds::EMPTY, |all, own| all.union(*own))
     }
 
     /// Points of charts in space.
@@ -142,9 +136,10 @@ impl PageScene {
         span.flat_map(|span| &span.loops).map(|rim| self.rim(rim).collect())
     }
 
-    /// Edges of the outlines of charts.
-    pub(super) fn edges_of<'a>(&'a self, charts: impl IntoIterator<Item = &'a usize>) -> Vec<[VertexId; 2]> {
-        charts.into_iter().filter_map(|&chart| self.spans.get(chart)).flat_map(ChartSpan::edges).collect()
+    /// Outlines of charts, as edges.
+    pub(super) fn edges_of<'a>(&'a self, charts: impl IntoIterator<Item = &'a usize>) -> EdgeList {
+        let spans = charts.into_iter().filter_map(|&chart| self.spans.get(chart));
+        EdgeList::closed_loops(spans.flat_map(|span| &span.loops).map(Vec::as_slice))
     }
 
     /// Chart that covers a point of the plane. Of charts that overlap, the smallest.
@@ -154,27 +149,22 @@ impl PageScene {
             winding_number(&outline, point).is_none_or(|winds| winds != 0)
         };
         let is_under = |&chart: &usize| {
-            let bounds = self.bounds_of_outline(chart);
+            let bounds = self.bounds[chart];
             point.cmpge(bounds.low).all() && point.cmple(bounds.high).all() && {
                 let loops = &self.spans[chart].loops;
                 loops.first().is_some_and(|outer| covers(outer)) && !loops[1..].iter().any(|rim| covers(rim))
             }
         };
-        let size = |chart: &usize| self.bounds_of_outline(*chart).diameter();
+        let size = |chart: &usize| self.bounds[*chart].diameter();
         let is_own = |chart: &usize| self.charts[*chart].stacked.is_none();
         let under = (0..self.spans.len()).filter(is_own).filter(is_under);
         under.min_by(|a, b| size(a).total_cmp(&size(b)))
     }
 
-    fn bounds_of_outline(&self, chart: usize) -> Bounds {
-        let outer = self.spans[chart].loops.first();
-        Bounds::of(outer.into_iter().flat_map(|rim| self.rim(rim)).filter(|at| at.is_finite()))
-    }
-
     /// Charts whose bounds lie in a box of the plane.
     pub(in crate::ui) fn charts_within(&self, [low, high]: [DVec2; 2]) -> Vec<usize> {
         let is_within = |&chart: &usize| {
-            let bounds = self.bounds_of_outline(chart);
+            let bounds = self.bounds[chart];
             let meets = bounds.meets(Bounds { low, high });
             meets && self.outlines_of(chart).flatten().any(|z| z.cmpge(low).all() && z.cmple(high).all())
         };
@@ -186,11 +176,11 @@ impl PageScene {
         self.picker.hit(ray).map(|hit| hit.point)
     }
 
-    /// True if no face lies between the eye and a point of the surface.
-    pub(in crate::ui) fn is_seen(&self, point: DVec3, eye: DVec3) -> bool {
-        let Some(direction) = (point - eye).try_normalize() else { return true };
-        let hit = self.picker.hit(Ray { origin: eye, direction });
-        hit.is_none_or(|hit| hit.distance >= (1.0 - HIDING_MARGIN) * point.distance(eye))
+    /// True if a vertex of a chart is seen from the eye at a place that counts. `is_inside` decides about places.
+    pub(in crate::ui) fn has_seen_vertex(&self, chart: usize, eye: DVec3, is_inside: impl Fn(DVec3) -> bool) -> bool {
+        let vertices = self.spans.get(chart).into_iter().flat_map(|span| span.vertices.clone());
+        let mut vertices = vertices.map(VertexId::from_index).zip(self.points_of([chart]));
+        vertices.any(|(vertex, at)| is_inside(at) && self.picker.is_visible(vertex, eye))
     }
 
     /// Chart that a ray meets first.
@@ -266,7 +256,7 @@ fn meshes(
         let moved = |vertex: VertexId| VertexId::from_index(first + vertex.index());
         triangles.extend(mesh.mesh().real_triangles().iter().map(|corners| corners.map(moved)));
     }
-    let outlines = EdgeList::new(spans.iter().flat_map(ChartSpan::edges).collect());
+    let outlines = EdgeList::closed_loops(spans.iter().flat_map(|span: &ChartSpan| &span.loops).map(Vec::as_slice));
     let picker = SurfacePicker::new(&positions, &triangles);
     let mesh = MeshArrays::in_frame(&positions, &triangles, sphere);
     (Arc::new(mesh), Arc::new(picker), Arc::new(spans), Arc::new(outlines))
