@@ -160,7 +160,8 @@ impl Session {
     /// Processes the results of the charts in the background and starts their next runs.
     pub(super) fn poll_charts(&mut self) {
         // With another preparation the document has other charts.
-        let Some(model) = self.model().filter(|_| self.has_numbers_as_wanted()).cloned() else { return };
+        let is_ready = self.has_numbers_as_wanted() && self.first_map_work().is_none();
+        let Some(model) = self.model().filter(|_| is_ready).cloned() else { return };
         let Some(of) = model.prepared.chart.clone() else { return };
         let revision = self.model_revision();
         self.charts.poll_forming(&of, revision);

@@ -35,7 +35,9 @@ impl Session {
         self.forget_steps();
         self.messages.clear();
         self.unwrapping.cancel();
-        if !(is_mesh && self.unwrap_opened()) {
+        self.layout_check.end_wait();
+        let follows = is_mesh && !waits && self.begin_first_map();
+        if !follows {
             self.tell_faults();
         }
         for warning in warnings {
@@ -53,7 +55,7 @@ impl Session {
         self.take_restored(restored);
         if waits {
             self.begin(Goal::Steps(1));
-        } else if !self.is_current() {
+        } else if !self.is_current() && !follows {
             self.solve();
         }
         if let Some(together) = together {

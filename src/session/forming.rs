@@ -8,7 +8,7 @@ use super::open_mesh::Near;
 use super::reshaping::Reshaped;
 use super::{Command, Document, MessagePlace, Session};
 use freebound_core::mesh::{HoleTreatment, Preparation, WeldDistance, near_vertices};
-use freebound_core::problem::{Control, Method, Settings, Start};
+use freebound_core::problem::{Control, Settings, Start};
 
 /// Name of the job that counts vertices near each other.
 const COUNTING: &str = "counting near vertices";
@@ -48,17 +48,16 @@ impl Session {
             Ok(is_torn) => is_torn,
             Err(error) => return self.messages.fail(MessagePlace::Mesh, error.to_string(), None),
         };
-        let (form, before) = (self.form_to_be().clone(), self.document.settings.clone());
-        let mut seams = form.seams.clone();
-        seams.of_texture |= is_torn;
-        let method = if before.method.continues_from_layout() { before.method } else { Method::Auto };
-        let family = before.family.filter(|family| family.power().is_some());
-        let settings = Settings { method, family, start: Start::File, ..before };
-        if !self.is_bare() {
-            self.choose(settings);
-            return self.set_seams(seams);
+        let form = self.form_to_be().clone();
+        let form = Preparation { seams: form.seams.without_automatic(), ..form };
+        if self.is_bare() {
+            let commands = self.commands_to_take_layout(form, is_torn);
+            return self.edit(commands);
         }
-        self.edit(vec![Command::SetForm(Preparation { seams, ..form }), Command::SetSettings(settings)]);
+        self.choose(self.settings_from_layout());
+        let mut seams = form.seams;
+        seams.of_texture |= is_torn;
+        self.set_seams(seams);
     }
 
     /// Welds vertices within a distance, or stops welding.
@@ -142,11 +141,22 @@ impl Session {
             return;
         }
         if self.is_bare() {
-            self.edit(vec![Command::SetForm(form)]);
+            let settings = self.settings_for(&form);
+            self.edit([Some(Command::SetForm(form)), settings].into_iter().flatten().collect());
         } else {
             self.mesh.want(Some(form).filter(|form| *form != self.document.form));
             self.follow_form();
         }
+    }
+
+    /// Settings that start from scratch, if the map starts from the layout of the file and a preparation cuts the mesh in
+    /// another way.
+    fn settings_for(&self, form: &Preparation) -> Option<Command> {
+        let settings = &self.document.settings;
+        let cuts_otherwise = form.seams.bound().is_some() || (self.document.form.seams.of_texture && !form.seams.of_texture);
+        let is_from_file = settings.start == Start::File;
+        (is_from_file && cuts_otherwise)
+            .then(|| Command::SetSettings(Settings { start: Start::FromScratch, ..settings.clone() }))
     }
 
     /// True if nothing refers to vertices or charts, so that the mesh can change its preparation at once.
@@ -175,9 +185,10 @@ impl Session {
         if !(is_of_screen && is_wanted && self.has_form_as_wanted()) {
             return;
         }
+        let settings = self.settings_for(reshaped.form());
         self.mesh.want(None);
         let shape = reshaped.shape(&self.document);
         self.mesh.take_other(Arc::new(reshaped.into_model()));
-        self.edit(vec![Command::Reshape(Box::new(shape))]);
+        self.edit([Some(Command::Reshape(Box::new(shape))), settings].into_iter().flatten().collect());
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Background, Session, Wake};
+use super::{Background, Document, Session, Wake};
 use freebound_core::problem::Control;
 use freebound_core::verify::{LayoutOptions, LayoutVerdict};
 use freebound_io::JudgeError;
@@ -11,6 +11,8 @@ use freebound_io::JudgeError;
 pub(super) struct LayoutCheck {
     job: Background<u64, Result<LayoutVerdict, JudgeError>>,
     found: Option<(u64, Result<Arc<LayoutVerdict>, String>)>,
+    /// Document of an opened mesh whose first map waits for the check.
+    decides: Option<Box<Document>>,
 }
 
 /// State of the check of the open file's layout.
@@ -28,7 +30,22 @@ pub enum LayoutCheckState {
 
 impl LayoutCheck {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { job: Background::new("check", wake), found: None }
+        Self { job: Background::new("check", wake), found: None, decides: None }
+    }
+
+    /// Lets the first map of a document wait for the check.
+    pub(super) fn decide(&mut self, document: Document) {
+        self.decides = Some(Box::new(document));
+    }
+
+    /// Document whose first map waits for the check.
+    pub(super) fn decides_for(&self) -> Option<&Document> {
+        self.decides.as_deref()
+    }
+
+    /// Ends the wait of a first map. Returns true if one was waiting.
+    pub(super) fn end_wait(&mut self) -> bool {
+        self.decides.take().is_some()
     }
 }
 

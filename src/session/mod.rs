@@ -19,6 +19,7 @@
 //! | `reshaping`          | mesh in another preparation, with its pins                             |
 //! | `seams`              | seams that the user draws, and their files                             |
 //! | `unwrapping`         | part: automatic seams, found in the background                         |
+//! | `first_map`          | first map of an opened mesh: layout of its file, automatic seams, or none |
 //! | `layout_check`       | part: verdict on the texture coordinates of the file                   |
 //! | `v_axis`             | part: last reversal of v                                               |
 //! | `runs`               | runs that solve the document                                           |
@@ -79,6 +80,7 @@ mod drag_request;
 mod dragging;
 mod edits;
 mod files;
+mod first_map;
 mod filing;
 mod folder;
 mod forming;
@@ -125,6 +127,7 @@ pub use comparison::{Compared, comparison_report};
 pub use document::{ChartEdits, Command, Document, Shape};
 pub use drag::{LivePreview, MovedVertices, Preview};
 pub use freebound_run::{Model, SolvedModel, finished_atlas};
+pub use first_map::{FirstMapWork, MapOrigin};
 pub use history::History;
 pub use large::LargeFile;
 pub use layout_check::LayoutCheckState;

@@ -169,6 +169,7 @@ impl Session {
         }
         self.poll_jobs();
         self.poll_layout_check();
+        self.choose_first_map();
         self.poll_unwrapping();
         self.poll_solving();
         self.poll_charts();
@@ -244,9 +245,11 @@ impl Session {
         self.files.cancel_loading();
         self.drag.stop_following();
         self.jobs.stop();
-        self.stop_unwrapping();
         self.mesh.want(None);
         self.charts.forget_asked();
         self.solving.pause();
+        // Last, because a mesh whose first map is stopped is solved as it is.
+        self.stop_first_map();
+        self.stop_unwrapping();
     }
 }

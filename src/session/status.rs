@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::first_map::CHECKING;
 use super::unwrapping::SEARCHING;
 use super::{Preview, Session};
 use freebound_core::pipeline::Outcome;
@@ -70,6 +71,8 @@ impl Session {
     pub fn busy(&self) -> Option<Busy> {
         if self.files.is_loading() {
             Some(Busy::Loading)
+        } else if self.layout_check.decides_for().is_some() {
+            Some(Busy::Job(CHECKING))
         } else if self.unwrapping.is_busy() {
             Some(Busy::Job(SEARCHING))
         } else if let Some(what) = self.jobs.words() {

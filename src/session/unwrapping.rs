@@ -4,11 +4,12 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::first_map::cuts_or_fills;
 use super::{Background, Message, MessagePlace, Model, Session, Wake};
 use freebound_core::cutting::SeamOptions;
-use freebound_core::mesh::{Preparation, Repair, Seams, VertexId};
+use freebound_core::mesh::{Preparation, Seams, VertexId};
 use freebound_core::pipeline::{AutomaticSeams, SeamProgress};
-use freebound_core::problem::{Control, SolveError};
+use freebound_core::problem::{Control, SolveError, Start};
 
 /// Name of the search in messages and on the screen.
 pub(super) const SEARCHING: &str = "finding short seams";
@@ -103,6 +104,11 @@ impl Unwrapping {
         was_busy
     }
 
+    /// True during a search for the first map of an opened mesh.
+    pub(super) fn is_for_opening(&self) -> bool {
+        self.is_busy() && self.purpose == Purpose::Opening
+    }
+
     /// True during a search.
     pub(super) fn is_busy(&self) -> bool {
         self.search.is_busy()
@@ -164,15 +170,21 @@ impl Session {
         }
     }
 
-    /// Unwraps a mesh that was opened, if it has to be repaired or cut. Returns true if a search or an edit follows.
+    /// Unwraps a mesh that was opened, if it has to be repaired or has parts that are no disks. Returns true if a search
+    /// or an edit follows.
     pub(super) fn unwrap_opened(&mut self) -> bool {
-        let Some(remedy) = self.model().and_then(|model| model.prepared.remedy.clone()) else { return false };
-        if remedy.done().iter().any(|done| matches!(done.repair, Repair::Cut | Repair::FillHoles)) {
+        let Some(model) = self.model() else { return false };
+        let Some(repaired) = model.prepared.remedy.clone().or_else(|| model.prepared.repaired.clone()) else {
+            return false;
+        };
+        if cuts_or_fills(&repaired) {
             self.find_seams(SeamOptions::DISTORTION, Purpose::Opening);
-        } else {
+        } else if model.prepared.remedy.is_some() {
             self.cut_opened(self.form_to_be().with_all_repairs());
-            let done: Vec<String> = remedy.done().iter().map(ToString::to_string).collect();
+            let done: Vec<String> = repaired.done().iter().map(ToString::to_string).collect();
             self.note(format!("repaired: {}; undo restores the mesh as it was", done.join(", ")));
+        } else {
+            return false;
         }
         true
     }
@@ -186,7 +198,7 @@ impl Session {
         if purpose != Purpose::Preview {
             self.unwrapping.previewed = None;
         }
-        let form = Preparation { seams: self.with_paint().without_automatic(), ..self.without_automatic_seams(&model) };
+        let form = Preparation { seams: self.without_layout(self.with_paint().without_automatic()), ..self.without_automatic_seams(&model) };
         let wanted = Wanted { form, bound: bound.max(SeamOptions::LEAST) };
         match model.known_seams(&wanted.form, wanted.bound) {
             Some(known) => {
@@ -200,11 +212,18 @@ impl Session {
         }
     }
 
-    /// Requested preparation without automatic seams, in which the mesh may be cut.
+    /// Requested preparation without automatic seams, in which the mesh may be cut. If the map is the layout of the
+    /// file, its seams are left out, too.
     fn without_automatic_seams(&self, model: &Model) -> Preparation {
         let wanted = self.form_to_be();
         let repaired = if model.is_faulty() { wanted.with_all_repairs() } else { wanted.clone() };
-        Preparation { seams: wanted.seams.without_automatic(), cut: true, ..repaired }
+        Preparation { seams: self.without_layout(wanted.seams.without_automatic()), cut: true, ..repaired }
+    }
+
+    /// Seams without those of the file's layout, if the map is that layout.
+    fn without_layout(&self, mut seams: Seams) -> Seams {
+        seams.of_texture &= self.document.settings.start != Start::File;
+        seams
     }
 
     /// Cuts the mesh along seams that were found, if it still is the mesh of the search. Call once per frame.
@@ -222,10 +241,10 @@ impl Session {
         let Some((_, found)) = self.unwrapping.search.poll() else { return };
         match found {
             Ok(Ok(seams)) => self.take_automatic_seams(seams),
-            Ok(Err(_)) => self.tell_faults(),
+            Ok(Err(_)) => self.go_on_without_seams(),
             Err(failure) => {
                 self.messages.fail_background(MessagePlace::Mesh, SEARCHING, &failure);
-                self.tell_faults();
+                self.go_on_without_seams();
             }
         }
     }
@@ -235,14 +254,14 @@ impl Session {
         let (form, words) = (seams.form.clone(), words_of(&seams));
         self.mesh.learn(Arc::new(model.knowing(Arc::new(seams))));
         match self.unwrapping.purpose {
-            Purpose::Preview => return,
+            Purpose::Preview => {}
             Purpose::Opening => self.cut_opened(form),
             Purpose::Edit => {
                 self.unwrapping.painted = None;
                 self.want_form(form);
+                self.note(words);
             }
         }
-        self.note(words);
     }
 
     fn note(&mut self, words: String) {
@@ -252,19 +271,21 @@ impl Session {
 
     /// Sets the preparation of a mesh that was just opened. It is no unsaved work.
     fn cut_opened(&mut self, form: Preparation) {
-        // A project that was saved meanwhile has no seams.
-        let has_project = self.files.project().is_some() || self.files.is_saving_project();
-        let was_saved = !self.has_unsaved_work() && !has_project;
-        self.want_form(form);
-        if was_saved {
-            self.files.note_unchanged(&self.document);
+        self.keeping_saved(|session| session.want_form(form));
+    }
+
+    /// Cancels the search for seams. Reports the faults that it was to repair, or solves the mesh as it is.
+    pub(super) fn stop_unwrapping(&mut self) {
+        if self.unwrapping.cancel() {
+            self.go_on_without_seams();
         }
     }
 
-    /// Cancels the search for seams, and reports the faults that it was to repair.
-    pub(super) fn stop_unwrapping(&mut self) {
-        if self.unwrapping.cancel() {
-            self.tell_faults();
+    /// Reports the faults of the mesh. A mesh that was opened without faults is solved as it is.
+    fn go_on_without_seams(&mut self) {
+        self.tell_faults();
+        if self.unwrapping.purpose == Purpose::Opening && !self.is_current() {
+            self.solve();
         }
     }
 
@@ -293,7 +314,7 @@ impl Session {
             return Some(edges);
         }
         let (model, bound) = (self.model()?, self.unwrapping.previewed?);
-        let form = Preparation { seams: self.with_paint().without_automatic(), ..self.without_automatic_seams(model) };
+        let form = Preparation { seams: self.without_layout(self.with_paint().without_automatic()), ..self.without_automatic_seams(model) };
         let known = model.known_seams(&form, bound.max(SeamOptions::LEAST))?;
         Some(known.edges().iter().copied().collect())
     }

@@ -31,8 +31,8 @@ fn findings_about_the_layout_of_a_file_lead_to_their_faces_on_any_chart() {
     std::fs::write(&path, STRIPS).expect("written");
     let mut window = Window::with_file(&path);
     window.settle();
+    // A file that is opened is checked by itself.
     window.click("Defects");
-    window.click("Check the layout of the file");
     until_checked(&mut window);
     let Some(LayoutCheckState::Done(found)) = window.editor().session.layout_check() else { panic!("checked") };
     assert!(!found.planar, "{found:?}");

@@ -6,7 +6,7 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
-use freebound::session::Action;
+use freebound::session::{Action, MapOrigin};
 use freebound_core::mesh::{HoleTreatment, Repair, TriMesh};
 use freebound_core::problem::{Embedding, Stage, Start};
 use glam::DVec2;
@@ -57,12 +57,17 @@ fn list_is_disabled(window: &Window, name: &str) -> bool {
 }
 
 #[test]
-fn one_choice_shows_the_layout_of_the_file_as_it_is_and_relax_goes_on_from_it() {
+fn a_planar_layout_of_a_file_opens_as_it_is_and_relax_goes_on_from_it() {
     let (mut window, layout) = opened(f64::INFINITY);
-    assert_eq!(window.outcome().step.candidate.stage, Stage::Natural);
-    window.choose("Start", "File's layout");
     assert_eq!((start(&window), window.outcome().step.candidate.stage.clone()), (Start::File, Stage::Given));
     assert_eq!(window.embedding(), layout);
+    assert!(!window.editor().session.has_unsaved_work() && !window.editor().session.history().can_redo());
+    assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::FileLayout));
+    // An edit as any other: undo and redo lead to the mesh without the layout and back.
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!((start(&window), window.outcome().step.candidate.stage.clone()), (Start::FromScratch, Stage::Natural));
+    window.choose("Start", "File's layout");
+    assert_eq!((start(&window), window.embedding()), (Start::File, layout.clone()));
     assert!(window.is_proved(), "{}", window.verdict());
     let before = window.outcome().distortion.summary.symmetric_dirichlet.mean;
     window.click("Relax");
@@ -80,9 +85,11 @@ fn one_choice_shows_the_layout_of_the_file_as_it_is_and_relax_goes_on_from_it() 
 #[test]
 fn a_layout_with_seams_cuts_the_mesh_along_them_in_the_same_edit() {
     let (mut window, _) = opened(0.5);
-    assert!(window.editor().session.charts().is_none());
-    window.choose("Start", "File's layout");
     let charts = |window: &Window| window.editor().session.charts().map(|charts| charts.count());
+    assert_eq!(charts(&window), Some(2), "as in the file");
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(charts(&window), None);
+    window.choose("Start", "File's layout");
     assert_eq!(charts(&window), Some(2));
     assert!(window.outcome().step.candidate.stage == Stage::Given && window.is_proved());
     window.press(Modifiers::COMMAND, Key::Z);
@@ -94,9 +101,50 @@ fn a_layout_with_seams_cuts_the_mesh_along_them_in_the_same_edit() {
 }
 
 #[test]
+fn one_click_unwraps_a_mesh_again_and_another_returns_to_the_layout_of_its_file() {
+    let (mut window, layout) = opened(0.5);
+    let embedding = window.embedding();
+    window.click("Change the map");
+    window.click("Unwrap again");
+    window.settle();
+    let session = &window.editor().session;
+    assert_eq!(session.map_origin(), Some(MapOrigin::AutomaticSeams(0)), "a flat sheet needs no seam");
+    assert!(session.charts().is_none() && session.document().settings.start == Start::FromScratch);
+    assert!(window.outcome().distortion.summary.symmetric_dirichlet.mean < 4.1, "the layout is sheared");
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!((start(&window), window.embedding()), (Start::File, embedding.clone()), "one undo returns");
+    window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    window.click("Change the map");
+    window.click("Layout of the file");
+    window.settle();
+    assert_eq!((start(&window), window.embedding()), (Start::File, embedding));
+    assert_eq!(layout.len(), 49);
+}
+
+#[test]
+fn a_layout_that_is_not_one_to_one_stays_in_its_file_and_the_mesh_is_solved() {
+    let mut window = Window::with_mesh("plain.obj", &sheet(5, 0.3));
+    let path = window.path("folded.obj");
+    let folded = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0.9 0.1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+    std::fs::write(&path, folded).expect("the folder is there");
+    window.open(&path);
+    assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::Plain));
+    assert!(window.is_proved() && !window.editor().session.has_unsaved_work());
+    window.click("Change the map");
+    window.click("Layout of the file");
+    window.settle();
+    let first = &window.editor().session.timeline().records()[0];
+    assert!(start(&window) == Start::File && !first.planar, "as a person asked");
+    // The line can be closed, until another file is opened.
+    window.click("Close the line on the map");
+    assert!(!window.has_button("Change the map"));
+    window.open(&path);
+    assert!(window.has_button("Change the map"));
+}
+
+#[test]
 fn a_project_keeps_that_a_map_starts_from_its_file() {
     let (mut window, layout) = opened(f64::INFINITY);
-    window.choose("Start", "File's layout");
     let project = window.path("laid.freebound");
     window.editor_mut().session.handle(Action::SaveProject(project.clone()));
     window.settle();
@@ -136,6 +184,11 @@ fn holes_are_filled_or_cut_as_a_person_chooses() {
             .map(|done| done.repair)
             .collect::<Vec<Repair>>()
     };
+    assert!(done(&window) == [Repair::Cut] && window.is_proved(), "a large hole opens with a seam to the outside");
+    window.click("Change the map");
+    window.click("As few seams as possible");
+    window.settle();
+    assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::Plain));
     assert!(done(&window) == [Repair::FillHoles] && window.is_proved());
     window.choose("Treatment of holes", "Cut to the outside");
     assert_eq!(window.editor().session.document().form.holes, HoleTreatment::Cut);

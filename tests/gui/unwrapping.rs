@@ -3,7 +3,8 @@
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use freebound::session::Action;
+use freebound::examples::Example;
+use freebound::session::{Action, FirstMapWork, MapOrigin};
 use freebound::ui::{Request, Tab, Tool};
 use freebound_core::mesh::{TriMesh, VertexId};
 use freebound_testkit::{assert_message, bumpy_ball};
@@ -38,6 +39,48 @@ fn a_closed_mesh_opens_unwrapped_with_little_distortion_and_nothing_to_save() {
     assert!(window.is_faulty() && seams(&window).is_empty(), "{}", window.verdict());
     window.key(Key::U);
     assert!(window.is_proved() && !seams(&window).is_empty(), "{}", window.verdict());
+}
+
+/// Bumpy ball with two holes: the fans of two vertices are missing.
+fn scan() -> TriMesh {
+    let mut mesh = ball();
+    let holes = [3, mesh.positions.len() / 2];
+    mesh.triangles.retain(|corners| !corners.iter().any(|v| holes.contains(&v.index())));
+    TriMesh { polygon_of: None, ..mesh }
+}
+
+#[test]
+fn a_mesh_with_holes_opens_unwrapped_and_undo_shows_it_with_filled_holes() {
+    let mut window = Window::with_mesh("scan.obj", &scan());
+    assert!(window.is_proved() && energy(&window) <= 4.1, "{}", window.verdict());
+    assert!(!window.editor().session.has_unsaved_work());
+    let edges = window.editor().session.automatic_seams().expect("unwrapped").edges().len();
+    assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::AutomaticSeams(edges)));
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::Plain));
+    assert!(window.is_proved() && energy(&window) > 4.1, "{}", energy(&window));
+}
+
+#[test]
+fn a_disk_opens_as_it_is_whatever_its_distortion() {
+    let window = Window::with_mesh("cap.obj", &Example::BumpyCap.mesh());
+    assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::Plain));
+    assert!(window.is_proved() && energy(&window) > 4.1);
+}
+
+#[test]
+fn stopping_the_search_of_a_mesh_with_holes_solves_it_as_it_is() {
+    let mut window = Window::with_mesh("scan.obj", &scan());
+    let path = window.path("scan.obj");
+    window.editor_mut().session.handle(Action::Open(path));
+    let is_searching = |window: &Window| window.editor().session.first_map_work() == Some(FirstMapWork::Seams);
+    while !is_searching(&window) {
+        window.step();
+    }
+    window.editor_mut().session.handle(Action::Cancel);
+    window.settle();
+    assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::Plain));
+    assert!(window.is_proved() && energy(&window) > 4.1, "{}", window.verdict());
 }
 
 #[test]

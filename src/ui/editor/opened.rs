@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::session::Session;
+use crate::session::{MapOrigin, Session};
 
 /// Greatest age of the view in a recovery copy. A selection can be large, so the view is not stored every frame.
 const VIEW_INTERVAL: Duration = Duration::from_secs(1);
@@ -22,6 +22,8 @@ pub struct Opened {
     faces_left: Option<u64>,
     /// Opening whose mirrored targets the user accepted, by the session's count.
     targets_left: Option<u64>,
+    /// Opening whose line on the origin of the map is closed.
+    map_origin_closed: Option<u64>,
 }
 
 impl Opened {
@@ -61,6 +63,15 @@ impl Opened {
 
     pub(super) fn leave_targets(&mut self, session: &Session) {
         self.targets_left = Some(session.opening_revision());
+    }
+
+    pub(super) fn close_map_origin(&mut self, session: &Session) {
+        self.map_origin_closed = Some(session.opening_revision());
+    }
+
+    /// Origin of the map on the screen, unless its line is closed.
+    pub(in crate::ui) fn map_origin(&self, session: &Session) -> Option<MapOrigin> {
+        session.map_origin().filter(|_| self.map_origin_closed != Some(session.opening_revision()))
     }
 
     /// True if the faces point inward and the user has not accepted that.

@@ -88,6 +88,7 @@ impl Editor {
             Request::Answer(answer) => self.answer(answer),
             Request::LeaveFaces => self.opened.leave_faces(&self.session),
             Request::LeaveTargets => self.opened.leave_targets(&self.session),
+            Request::CloseMapOrigin => self.opened.close_map_origin(&self.session),
             Request::AskGoTo => self.layout.ask_go_to(),
             Request::OpenMenu(place) => self.layout.menu_asked = Some(place),
             Request::ToggleKeys => self.layout.keys_shown = !self.layout.keys_shown,

@@ -3,7 +3,7 @@
 use eframe::egui::{self, RichText, Role};
 
 use super::seams_section::progress_words;
-use crate::session::{Action, Busy, LivePreview, Preview, Status};
+use crate::session::{Action, Busy, FirstMapWork, LivePreview, Preview, Status};
 use crate::ui::icons::{self, Sign};
 use crate::ui::theme::{CHIP, CHIP_HOVERED};
 use crate::ui::{Control, Editor, Offer, PageRequest, Request, Tab, counted, sentence, theme_of};
@@ -81,8 +81,17 @@ fn busy_words(busy: Busy) -> String {
 fn pill(editor: &Editor) -> Option<Pill> {
     let session = &editor.session;
     let model = session.model()?;
-    if model.is_faulty() && session.seam_search().is_some() {
-        return Some(Pill::new(Sign::Working, "unwrapping…", "Short seams are being found"));
+    match session.first_map_work() {
+        Some(FirstMapWork::Check) => {
+            return Some(Pill::new(Sign::Working, "checking…", "The layout of the file is being checked"));
+        }
+        Some(FirstMapWork::Seams) => {
+            return Some(Pill::new(Sign::Working, "unwrapping…", "Short seams are being found"));
+        }
+        None if model.is_faulty() && session.seam_search().is_some() => {
+            return Some(Pill::new(Sign::Working, "unwrapping…", "Short seams are being found"));
+        }
+        None => {}
     }
     if let Surface::Faulty(_, diagnosis) = &model.prepared.surface {
         let words = counted(diagnosis.faults.len(), "fault", "faults");

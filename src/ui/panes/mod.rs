@@ -10,6 +10,7 @@
 //! | `page_pane.rs` | all charts on the page, in both panes |
 //! | `comparison/` | methods side by side, in place of the embedding |
 //! | `bars.rs` | bars over a pane: messages and questions |
+//! | `map_origin.rs` | line over the embedding: origin of the map, and other maps to choose |
 //! | `legend.rs` | the legend of a shading, notes about compared steps |
 //! | `constrain.rs` | the constrain tool: vertex and place on the picture |
 //! | `seam.rs` | the seam tool: preview of paths, and its options |
@@ -26,6 +27,7 @@ mod header;
 pub(super) mod inset;
 mod legend;
 mod magnifier;
+mod map_origin;
 pub(super) mod mesh_pane;
 mod outside_hull;
 pub(super) mod page_pane;

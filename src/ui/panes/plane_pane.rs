@@ -8,7 +8,10 @@ use glam::DVec2;
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, picture_layer, seam_line, style};
 use super::pane;
-use super::{bars, constrain, header, inset, legend, magnifier, page_pane, pin_drag, pins, seam, vertex_menu};
+use super::{
+    bars, constrain, header, inset, legend, magnifier, map_origin, page_pane, pin_drag, pins, seam, vertex_menu,
+};
+use crate::session::FirstMapWork;
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::ui::editor::picture_box::picture_box;
 use crate::ui::editor::scene::PlaneScene;
@@ -28,6 +31,10 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     bars::over(ui, rect, editor, Pane::Plane, requests);
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
+    if let Some(work) = editor.session.first_map_work().filter(|_| editor.session.outcome().is_none()) {
+        return pane::empty_state(ui, rect, first_map_words(work));
+    }
+    map_origin::chip(ui, rect, editor, requests);
     if editor.shows_page() {
         return page_pane::plane_ui(ui, &response, editor, requests);
     }
@@ -90,6 +97,13 @@ fn pick(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut Editor, plane: 
     editor.aim(ui, Pane::Plane, grip);
     if editor.tools.tool() == Tool::Seam {
         editor.pick_seam_vertex_in_plane(&plane.mesh);
+    }
+}
+
+const fn first_map_words(work: FirstMapWork) -> &'static [&'static str] {
+    match work {
+        FirstMapWork::Check => &["Checking the layout of the file…", "It appears here if it is one-to-one"],
+        FirstMapWork::Seams => &["Unwrapping…", "The map appears here once short seams are found"],
     }
 }
 

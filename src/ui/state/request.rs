@@ -156,6 +156,8 @@ pub enum Request {
     LeaveFaces,
     /// Accepts targets that look mirrored.
     LeaveTargets,
+    /// Closes the line on the origin of the map, until another file is opened.
+    CloseMapOrigin,
     /// Opens the window "Go to".
     AskGoTo,
     /// Opens a menu of the bar by its place, for use without a mouse.
