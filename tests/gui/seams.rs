@@ -40,6 +40,8 @@ pub(crate) fn front(window: &Window) -> u32 {
 
 pub(crate) fn window() -> Window {
     let mut window = Window::with_mesh("barrel.obj", &barrel());
+    // Without the automatic seams that the mesh opens with.
+    window.press(Modifiers::COMMAND, Key::Z);
     window.key(Key::X);
     assert_eq!(window.editor().tools.tool(), Tool::Seam);
     window

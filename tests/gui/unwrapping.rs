@@ -62,10 +62,15 @@ fn a_mesh_with_holes_opens_unwrapped_and_undo_shows_it_with_filled_holes() {
 }
 
 #[test]
-fn a_disk_opens_as_it_is_whatever_its_distortion() {
-    let window = Window::with_mesh("cap.obj", &Example::BumpyCap.mesh());
+fn a_distorted_disk_opens_as_it_is_and_a_button_unwraps_it() {
+    let mut window = Window::with_mesh("cap.obj", &Example::BumpyCap.mesh());
     assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::Plain));
     assert!(window.is_proved() && energy(&window) > 4.1);
+    while window.has_button("Relax (R)") || !window.has_button("Unwrap (U)") {
+        window.key(Key::R);
+    }
+    window.click("Unwrap (U)");
+    assert!(window.is_proved() && energy(&window) <= 4.1, "{}", energy(&window));
 }
 
 #[test]

@@ -1,11 +1,13 @@
 //! Next action, offered beside the verdict. Repair a faulty embedding. Change the settings if the flattener has ended
-//! with a fault or with unmet constraints. Relax a planar but distorted embedding.
+//! with a fault or with unmet constraints. Relax a planar but distorted embedding. Unwrap a mesh without seams whose
+//! map is distorted.
 
 use eframe::egui::{self, Button, RichText};
 
 use super::menu::grouped;
-use crate::session::{Action, RunStop, Session, Status};
-use crate::ui::{Control, Editor, Request, Tab, Theme, theme_of, tip_with_keys};
+use super::quality::GOOD;
+use crate::session::{Action, MapOrigin, RunStop, Session, Status};
+use crate::ui::{Control, Editor, Request, Tab, Theme, short, theme_of, tip_with_keys};
 use freebound_core::problem::{Method, Settings};
 
 /// Width of the window below which the advice is short, points.
@@ -20,6 +22,8 @@ enum Advice {
     /// Relaxation, with the greatest ratio between the areas of a face in the plane and on the mesh, in either
     /// direction.
     Relax(f64),
+    /// Automatic seams for a mesh without them, with its mean energy.
+    Unwrap(f64),
 }
 
 impl Advice {
@@ -34,7 +38,10 @@ impl Advice {
         if step.step.verdict.planar {
             let change = Change::of(session).filter(|_| !step.step.unmet().is_empty());
             let ratio = step.distortion.summary.bad_ratio_of_areas().filter(|_| session.can_relax());
-            change.map(Self::Change).or(ratio.map(Self::Relax))
+            let energy = step.distortion.summary.symmetric_dirichlet.mean;
+            let is_uncut = session.map_origin() == Some(MapOrigin::Plain) && session.can_unwrap();
+            let unwrap = (is_uncut && energy > GOOD).then_some(Self::Unwrap(energy));
+            change.map(Self::Change).or(ratio.map(Self::Relax)).or(unwrap)
         } else if session.can_repair() {
             Some(Self::Repair)
         } else {
@@ -48,6 +55,7 @@ impl Advice {
             Self::Change(change) => change.words()[0].to_owned(),
             Self::Relax(ratio) if is_roomy => format!("Areas differ {} : 1, Relax (R)", ratio_words(ratio)),
             Self::Relax(_) => "Relax (R)".to_owned(),
+            Self::Unwrap(_) => "Unwrap (U)".to_owned(),
         }
     }
 }
@@ -123,6 +131,14 @@ pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Requ
                 ratio_words(ratio)
             );
             (Button::new(words), tip, Request::Do(Action::Relax))
+        }
+        Advice::Unwrap(energy) => {
+            let tip = format!(
+                "Energy {}. Seams lower it to at most {GOOD}, which is hardly visible. Undo returns to the mesh without \
+                 seams",
+                short(energy)
+            );
+            (Button::new(words), tip, Request::Do(Action::Unwrap(None)))
         }
     };
     let tip = tip_with_keys(ui, &tip, &request);

@@ -13,7 +13,7 @@ use freebound_core::pipeline::Outcome;
 use freebound_core::verify::DistortionSummary;
 
 /// Mean energy up to which a map is good.
-const GOOD: f64 = 4.1;
+pub(super) const GOOD: f64 = 4.1;
 
 /// Mean energy of a chart up to which the map of all charts is good.
 const GOOD_CHART: f64 = 4.5;

@@ -3,7 +3,7 @@
 use eframe::egui::{self, Button, Rect, Role, Vec2};
 
 use crate::session::{Action, LayoutCheckState, MapOrigin, Session};
-use crate::ui::{Control, Editor, Request, Tab, close_button, counted, theme_of, tip_with_keys};
+use crate::ui::{Control, Editor, Request, Tab, Tool, close_button, counted, theme_of, tip_with_keys};
 
 /// Gap between the line and the edges of the pane, points.
 const GAP: f32 = 8.0;
@@ -17,9 +17,9 @@ const CLOSE: f32 = 16.0;
 /// Shows the line at the upper left corner of the pane.
 pub(super) fn chip(ui: &egui::Ui, rect: Rect, editor: &Editor, requests: &mut Vec<Request>) {
     let origin = editor.opened.map_origin(&editor.session).filter(|_| rect.width() >= LEAST_WIDTH);
-    let Some(origin) = origin.filter(|_| editor.plane.hull_scene().is_none() && editor.session.busy().is_none()) else {
-        return;
-    };
+    // Clicks of other tools need the whole pane.
+    let is_free = editor.tools.tool() == Tool::Select && editor.plane.hull_scene().is_none();
+    let Some(origin) = origin.filter(|_| is_free && editor.session.busy().is_none()) else { return };
     let area = egui::Area::new(egui::Id::unique("map origin")).movable(false).order(egui::Order::Middle);
     let area = area.fixed_pos(rect.min + Vec2::splat(GAP)).constrain_to(rect);
     let theme = theme_of(ui);

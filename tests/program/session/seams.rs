@@ -211,6 +211,9 @@ fn seams_of_texture_coordinates_are_an_edit_too() {
     std::fs::write(&path, text).expect("written");
     let mut session = session();
     settled(&mut session, Action::Open(path));
+    // The planar layout of the file opens by itself.
+    assert_eq!(chart_count(&session), 2);
+    settled(&mut session, Action::Undo);
     assert_eq!(chart_count(&session), 1);
     let mut seams = Seams::default();
     seams.of_texture = true;

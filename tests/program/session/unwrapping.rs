@@ -1,6 +1,6 @@
 //! Automatic seams in a session: found once, undone, saved, and opened again with their map.
 
-use freebound::session::{Action, Message, MessagePlace, Session};
+use freebound::session::{Action, MapOrigin, Message, MessagePlace, Session};
 use freebound_core::mesh::{Seams, VertexId};
 use freebound_core::problem::Embedding;
 use freebound_testkit::{bumpy_ball, write_obj};
@@ -134,8 +134,7 @@ fn what_was_left_out_of_a_file_is_noted_until_another_mesh_is_opened() {
     let text = std::fs::read_to_string(&whole).expect("written") + "f 1 2\nf 3 4\n";
     std::fs::write(&part, text).expect("written");
     settled(&mut session, Action::Open(part));
-    // The search for seams has ended with a note of its own.
-    assert!(session.messages().iter().any(|message| message.place == MessagePlace::Embedding));
+    assert!(matches!(session.map_origin(), Some(MapOrigin::AutomaticSeams(_))), "the search for seams has ended");
     let warning = session.model().expect("opened").source.warnings[0].clone();
     assert_eq!(of_mesh(&session).iter().map(|message| &message.text[..]).collect::<Vec<_>>(), [warning.to_string()]);
     settled(&mut session, Action::Open(whole));
