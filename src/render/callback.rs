@@ -1,11 +1,14 @@
 //! Paint callbacks for egui.
 
+use std::sync::Arc;
+
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
 use eframe::{egui, wgpu};
 use egui::epaint::ViewportInPixels;
 
 use super::frame::{MeshFrame, PaneId, PictureLayer, PlaneFrame};
 use super::gpu::{BufferSlot, GpuResources, Io, Stats};
+use super::overdraw::{MostCovered, affordable};
 use super::plan::{Plan, Planner};
 use super::uniforms::PaneSize;
 
@@ -13,7 +16,8 @@ use super::uniforms::PaneSize;
 ///
 /// egui's own render pass must have its defaults: no multisampling and no depth buffer.
 pub fn install(state: &RenderState) {
-    let gpu = GpuResources::new(&state.device, &state.queue, state.target_format);
+    let most_covered = MostCovered::of(state.adapter.get_info().device_type);
+    let gpu = GpuResources::new(&state.device, &state.queue, state.target_format, most_covered);
     state.renderer.write().callback_resources.insert(gpu);
 }
 
@@ -26,20 +30,25 @@ pub fn stats(state: &RenderState) -> Option<Stats> {
 pub fn mesh_pane(pane: PaneId, rect: egui::Rect, frame: MeshFrame) -> egui::PaintCallback {
     let picture = frame.picture.clone();
     let plan = Box::new(move |planner: &mut Planner<'_>| planner.mesh(&frame));
-    Callback::new_paint_callback(rect, PaneCallback { pane, rect, picture, plan })
+    Callback::new_paint_callback(rect, PaneCallback { pane, rect, picture, resolution: Box::new(|size, _| size), plan })
 }
 
 /// Paint callback of the embedding's pane. The rectangle must lie within the window.
 pub fn plane_pane(pane: PaneId, rect: egui::Rect, frame: PlaneFrame) -> egui::PaintCallback {
     let picture = frame.picture.clone();
+    let frame = Arc::new(frame);
+    let measured = Arc::clone(&frame);
+    let resolution = Box::new(move |size, most| affordable(&measured, size, most));
     let plan = Box::new(move |planner: &mut Planner<'_>| planner.plane(&frame));
-    Callback::new_paint_callback(rect, PaneCallback { pane, rect, picture, plan })
+    Callback::new_paint_callback(rect, PaneCallback { pane, rect, picture, resolution, plan })
 }
 
 struct PaneCallback {
     pane: PaneId,
     rect: egui::Rect,
     picture: Option<PictureLayer>,
+    /// Size of the picture of the pane, which may have fewer pixels than the pane.
+    resolution: Box<dyn Fn(PaneSize, MostCovered) -> PaneSize + Send + Sync>,
     plan: Box<dyn Fn(&mut Planner<'_>) -> Plan + Send + Sync>,
 }
 
@@ -54,7 +63,8 @@ impl CallbackTrait for PaneCallback {
     ) -> Vec<wgpu::CommandBuffer> {
         if let Some(gpu) = resources.get_mut::<GpuResources>() {
             let mut io = Io { device, queue, encoder };
-            let place = BufferSlot { pane: self.pane, size: pane_size(self.rect, screen) };
+            let size = (self.resolution)(pane_size(self.rect, screen), gpu.most_covered());
+            let place = BufferSlot { pane: self.pane, size };
             gpu.prepare(&mut io, place, self.picture.as_ref(), &self.plan);
         }
         Vec::new()

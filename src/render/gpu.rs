@@ -8,6 +8,7 @@ use eframe::wgpu;
 use super::cache::{Cache, Key};
 use super::frame::{PaneId, PictureLayer, Sampling};
 use super::pipelines::{Pipelines, Target};
+use super::overdraw::MostCovered;
 use super::plan::{Draw, Faces, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape};
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
 use crate::view::Revision;
@@ -31,6 +32,8 @@ pub struct Stats {
     pub drawn_panes: u64,
     /// Draw calls in these pictures.
     pub draw_calls: u64,
+    /// Pixels of these pictures.
+    pub pixels: u64,
 }
 
 /// Device state, stored among egui's callback resources.
@@ -41,6 +44,7 @@ pub(super) struct GpuResources {
     smooth: wgpu::Sampler,
     sharp: wgpu::Sampler,
     panes: BTreeMap<PaneId, PaneState>,
+    most_covered: MostCovered,
     tick: u64,
 }
 
@@ -57,7 +61,12 @@ struct PaneState {
 }
 
 impl GpuResources {
-    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, window_format: wgpu::TextureFormat) -> Self {
+    pub(super) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        window_format: wgpu::TextureFormat,
+        most_covered: MostCovered,
+    ) -> Self {
         let sampler = |magnified| {
             device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("picture"),
@@ -78,8 +87,14 @@ impl GpuResources {
             smooth: sampler(wgpu::FilterMode::Linear),
             sharp: sampler(wgpu::FilterMode::Nearest),
             panes: BTreeMap::new(),
+            most_covered,
             tick: 0,
         }
+    }
+
+    /// Most pixels that the faces of a pane may cover at full resolution.
+    pub(super) fn most_covered(&self) -> MostCovered {
+        self.most_covered
     }
 
     pub(super) fn stats(&self) -> Stats {
@@ -130,6 +145,7 @@ impl GpuResources {
             let draw_calls = scene.draw(io.encoder, state, &plan);
             self.cache.stats.drawn_panes += 1;
             self.cache.stats.draw_calls += draw_calls;
+            self.cache.stats.pixels += u64::from(width) * u64::from(height);
             state.shown = Some(plan);
         }
         self.forget(tick);

@@ -17,6 +17,7 @@
 //! | `frame.rs` | content of a pane |
 //! | `callback.rs` | paint callbacks for egui |
 //! | `plan.rs`, `uniforms.rs` | from a frame to draw calls and uniforms |
+//! | `overdraw.rs` | resolution of a pane whose faces lie over each other |
 //! | `gpu.rs`, `pipelines.rs`, `cache.rs` | state on the device |
 //!
 //! Call [`install`] once; without it, or if egui runs without a graphics card, a pane stays empty.
@@ -25,6 +26,7 @@ mod cache;
 mod callback;
 mod frame;
 mod gpu;
+mod overdraw;
 mod pipelines;
 mod plan;
 mod uniforms;

@@ -101,6 +101,8 @@ pub struct PlaneArrays {
     pub points: Vec<[f32; 4]>,
     /// Points of all faces, corner by corner.
     pub corners: Vec<[f32; 4]>,
+    /// Sum of the areas of all faces in unit space, each positive.
+    pub area: f64,
 }
 
 impl PlaneArrays {
@@ -122,7 +124,11 @@ impl PlaneArrays {
         let bounds = bounds_of(embedding);
         let points: Vec<[f32; 4]> = embedding.iter().map(|&p| split_point(frame.unit_from_embedding(p))).collect();
         let corners = triangles.iter().flatten().map(|v| points[v.index()]).collect();
-        Self { revision: Revision::fresh(), frame, bounds, points, corners }
+        let area = triangles.iter().map(|&[a, b, c]| {
+            let [a, b, c] = [a, b, c].map(|v| frame.unit_from_embedding(embedding[v.index()]));
+            0.5 * (b - a).perp_dot(c - a).abs()
+        });
+        Self { revision: Revision::fresh(), frame, bounds, points, corners, area: area.sum() }
     }
 }
 

@@ -90,6 +90,11 @@ impl UnitPlane {
     pub fn unit_from_embedding(self, point: DVec2) -> DVec2 {
         (point - self.center) / self.embedding_per_unit
     }
+
+    /// Point of the plane at a point of unit space.
+    pub fn embedding_from_unit(self, point: DVec2) -> DVec2 {
+        self.center + point * self.embedding_per_unit
+    }
 }
 
 /// Splits a point into the sum of two f32 points, together about 48 bits: high parts first, then low parts.

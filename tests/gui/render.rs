@@ -144,7 +144,7 @@ fn plane_pixel(picture: &RgbaImage, frame: &PlaneFrame, point: DVec2) -> [u8; 3]
 
 /// Pixel at a point of the pane, from its upper left corner.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in a small picture")]
-fn pixel(picture: &RgbaImage, x: f64, y: f64) -> [u8; 3] {
+pub(crate) fn pixel(picture: &RgbaImage, x: f64, y: f64) -> [u8; 3] {
     let in_window = [x + f64::from(RECT.min.x), y + f64::from(RECT.min.y)].map(|place| place as u32);
     let [rgb @ .., _] = picture.get_pixel(in_window[0], in_window[1]).0;
     rgb

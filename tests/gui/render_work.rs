@@ -9,10 +9,11 @@ use egui_kittest::Harness;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use freebound::render::{FaceShading, MeshFrame, PaneId, Style, install, mesh_pane, plane_pane, stats};
 use freebound_core::geom::Bounds;
-use freebound_core::mesh::FaceId;
+use freebound::view::{FacePaint, MeshArrays, PlaneArrays};
+use freebound_core::mesh::{FaceId, VertexId};
 use glam::DVec2;
 
-use crate::render::{PANE, RECT, WINDOW, Window, camera_in_front, mesh_frame, plane_frame};
+use crate::render::{PANE, RECT, WINDOW, Window, camera_in_front, mesh_frame, pixel, plane_frame};
 
 #[test]
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
@@ -89,4 +90,31 @@ fn a_pane_without_a_graphics_card_stays_empty() {
     });
     harness.step();
     egui_kittest::kittest::Queryable::get_by_label(&harness, "still here");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn thousands_of_faces_over_each_other_are_drawn_with_fewer_pixels() {
+    // Faces over the whole pane, every second one flipped, as those of a folded embedding seen from near.
+    let triangles = |count: usize| vec![[0, 1, 2].map(VertexId::new); count];
+    let embedding = [DVec2::splat(-9.0), DVec2::new(20.0, -9.0), DVec2::new(-9.0, 20.0)];
+    let drawn = |count: usize| {
+        let mut frame = plane_frame(DVec2::ONE, &[]);
+        let positions = embedding.map(|point| point.extend(0.0));
+        let corners = triangles(count);
+        let flipped: Vec<FaceId> = (0..count).step_by(2).map(FaceId::from_index).collect();
+        frame.mesh = Arc::new(MeshArrays::new(&positions, &corners));
+        frame.plane = Some(Arc::new(PlaneArrays::new(&embedding, &corners)));
+        frame.paint = Some(Arc::new(FacePaint::plain(count, &flipped)));
+        let mut window = Window::new(move || plane_pane(PANE, RECT, frame.clone()));
+        let picture = window.picture();
+        (picture, stats(&window.state).expect("installed").pixels)
+    };
+    let (few, pixels) = drawn(4);
+    let (many, fewer) = drawn(20_000);
+    // A graphics card can draw more of them at full resolution.
+    assert!(pixels >= 4 * fewer, "{fewer} of {pixels} pixels");
+    let [few, many] = [few, many].map(|picture| pixel(&picture, 40.0, 60.0));
+    let is_red = |[red, green, blue]: [u8; 3]| red > green.max(blue).saturating_add(60);
+    assert!(is_red(few) && is_red(many), "{few:?} and {many:?}: still a flipped face");
 }

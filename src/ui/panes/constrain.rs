@@ -4,7 +4,7 @@
 use eframe::egui::{self, Stroke};
 use glam::DVec2;
 
-use super::pins;
+use super::{pane, pins};
 use crate::session::Action;
 use crate::ui::editor::scene::PlaneScene;
 use crate::ui::state::{Half, Intent, Viewport};
@@ -172,5 +172,5 @@ pub(in crate::ui) fn line_across(ui: &egui::Ui, editor: &Editor) {
     let (mesh, plane) = (mesh.rect, plane.rect);
     let Some((from, to)) = ends.filter(|(from, to)| mesh.contains(*from) && plane.contains(*to)) else { return };
     let stroke = Stroke::new(1.0, theme.constraint.gamma_multiply(0.6));
-    ui.painter().with_clip_rect(mesh.union(plane)).add(egui::Shape::dashed_line(&[from, to], stroke, 6.0, 4.0));
+    pane::dashed(&ui.painter().with_clip_rect(mesh.union(plane)), [from, to], stroke, [6.0, 4.0]);
 }

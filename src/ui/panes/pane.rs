@@ -60,6 +60,36 @@ pub(super) fn dot(painter: &egui::Painter, at: Pos2, colour: Color32) {
     painter.circle(at, 3.0, colour, Stroke::new(1.0, Color32::from_black_alpha(150)));
 }
 
+/// Draws a dashed line. Only its part inside the painter's clip rectangle gets dashes, because a line of a magnified view
+/// can be millions of points long.
+pub(super) fn dashed(painter: &egui::Painter, ends: [Pos2; 2], stroke: Stroke, [dash, gap]: [f32; 2]) {
+    let seen = painter.clip_rect().expand(stroke.width);
+    painter.extend(within(seen, ends).into_iter().flat_map(|part| egui::Shape::dashed_line(&part, stroke, dash, gap)));
+}
+
+/// Part of a line inside a rectangle (Liang and Barsky 1984).
+fn within(rect: Rect, [from, to]: [Pos2; 2]) -> Option<[Pos2; 2]> {
+    let way = to - from;
+    let (mut first, mut last) = (0.0_f32, 1.0_f32);
+    let sides = [
+        (way.x, rect.left() - from.x, rect.right() - from.x),
+        (way.y, rect.top() - from.y, rect.bottom() - from.y),
+    ];
+    for (along, low, high) in sides {
+        let [enters, leaves] = if along > 0.0 {
+            [low / along, high / along]
+        } else if along < 0.0 {
+            [high / along, low / along]
+        } else if low <= 0.0 && high >= 0.0 {
+            continue;
+        } else {
+            return None;
+        };
+        (first, last) = (first.max(enters), last.min(leaves));
+    }
+    (first <= last).then(|| [from + way * first, from + way * last])
+}
+
 /// Follows a selection box, drawn by Ctrl and a drag. Returns the box, in window points, at the end of the drag.
 pub(super) fn drag_box(ui: &egui::Ui, response: &Response, editor: &mut Editor, pane: Pane) -> Option<Rect> {
     if response.drag_started_by(egui::PointerButton::Primary) && ui.input(|input| input.modifiers.command) {
@@ -220,4 +250,29 @@ pub(super) fn overwound(editor: &Editor) -> Vec<VertexId> {
 pub(super) fn overwound_mark(painter: &egui::Painter, at: Pos2, theme: &Theme) {
     painter.circle_stroke(at, 7.0, Stroke::new(2.0, theme.overwound));
     painter.circle_filled(at, 2.5, theme.overwound);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_dashed_in_its_visible_part_alone() {
+        let rect = Rect::from_min_max(Pos2::ZERO, Pos2::new(10.0, 20.0));
+        let part = |a: [f32; 2], b: [f32; 2]| within(rect, [a.into(), b.into()]);
+        let inside = [Pos2::new(2.0, 3.0), Pos2::new(4.0, 5.0)];
+        assert_eq!(within(rect, inside), Some(inside));
+        assert_eq!(part([-1e6, 5.0], [1e6, 5.0]), Some([Pos2::new(0.0, 5.0), Pos2::new(10.0, 5.0)]));
+        assert_eq!(part([3.0, 40.0], [3.0, -20.0]), Some([Pos2::new(3.0, 20.0), Pos2::new(3.0, 0.0)]));
+        assert_eq!(part([-5.0, 25.0], [-4.0, 26.0]), None);
+        assert_eq!(part([11.0, 0.0], [11.0, 20.0]), None);
+        assert_eq!(part([f32::NAN, 0.0], [3.0, 3.0]), None);
+        let context = egui::Context::default();
+        let painter = egui::Painter::new(context, egui::LayerId::background(), rect);
+        let far = [Pos2::new(-1e7, 5.0), Pos2::new(1e7, 5.0)];
+        dashed(&painter, far, Stroke::new(1.0, Color32::WHITE), [4.0, 3.0]);
+        let mut drawn = 0;
+        painter.for_each_shape(|_| drawn += 1);
+        assert!((1..=4).contains(&drawn), "{drawn}");
+    }
 }

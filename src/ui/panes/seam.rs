@@ -1,6 +1,6 @@
 //! Seam tool in the panes: the vertex under the pointer, the preview of a cut, and the strip of options.
 
-use eframe::egui::{self, Pos2, Shape, Stroke, WidgetInfo};
+use eframe::egui::{self, Pos2, Stroke, WidgetInfo};
 
 use super::pane;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
@@ -107,7 +107,7 @@ fn line(painter: &egui::Painter, ends: [Pos2; 2], theme: &Theme, style: PathStyl
     let strong = if style.closes { theme.text } else { seam };
     let colour = if style.is_seen { strong } else { strong.gamma_multiply(HIDDEN) };
     if style.closes {
-        painter.add(Shape::dashed_line(&ends, Stroke::new(CLOSE_WIDTH, colour), 4.0, 3.0));
+        pane::dashed(painter, ends, Stroke::new(CLOSE_WIDTH, colour), [4.0, 3.0]);
     } else {
         painter.line_segment(ends, Stroke::new(CUT_WIDTH, colour));
     }
