@@ -58,8 +58,10 @@ pub fn landmarks() -> Vec<PlacedLandmark> {
     PLACES
         .iter()
         .map(|&(name, x, y)| {
-            let p = DVec2::new(x, y);
-            PlacedLandmark { name, vertex: nearest(lift(p)), target: picture_from_sculpture(p).to_array() }
+            let vertex = nearest(lift(DVec2::new(x, y)));
+            // The place of the vertex itself: half an edge beside it would twist the mouth, which is a few edges high.
+            let target = picture_from_sculpture(mesh.positions[vertex.index()].truncate());
+            PlacedLandmark { name, vertex, target: target.to_array() }
         })
         .collect()
 }

@@ -21,15 +21,14 @@ pub(super) const MIDDLE: f64 = 0.01;
 
 /// Heights in the picture and in the sculpture: crown, hairline, brow, eye, nose, mouth, chin and neck.
 ///
-/// The nose is long and ends close above the mouth: no conformal map of the mesh can follow this, and the first solve
-/// folds there.
+/// The nose ends closer above the mouth than on the mesh, so that the first solve folds there.
 const HEIGHTS: [[f64; 2]; 9] = [
     [1.60, 1.50],
     [1.20, 1.13],
     [0.40, 0.34],
     [0.18, 0.125],
-    [-0.44, -0.26],
-    [-0.56, -0.56],
+    [-0.30, -0.26],
+    [-0.58, -0.56],
     [-0.87, -0.92],
     [-1.30, -1.30],
     [-1.60, -1.60],
