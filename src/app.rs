@@ -67,8 +67,8 @@ impl App {
         if let Some(bytes) = start.memory {
             editor.session.heed_memory(bytes);
         }
-        if start.preferences.is_some() && start.file.is_none() && !editor.layout.has_seen_tour() {
-            editor.layout.start_tour();
+        if start.preferences.is_some() && start.file.is_none() {
+            editor.layout.welcome.greet();
         }
         editor.session.handle(start.file.map_or(Action::OpenExample(Example::Face), Action::Open));
         Self { editor, preferences: start.preferences }

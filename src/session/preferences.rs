@@ -23,8 +23,8 @@ pub struct Preferences {
     pub panel_width: Option<f32>,
     /// Width and height of the window, points.
     pub window_size: Option<[f32; 2]>,
-    /// True once the guided tour was started.
-    pub tour_seen: bool,
+    /// True if the program starts without the welcome.
+    pub no_welcome: bool,
 }
 
 impl Preferences {

@@ -45,7 +45,7 @@ pub use panes::PinMark;
 use state::FileDialogKind;
 pub use state::{
     Alignment, Axis, ComparisonExport, GestureKind, Half, HullStage, Intent, MorphRequest, PageRequest, Pane, Request,
-    SeamClick, SeamRule, ShadingMode, Snap, StepTarget, Tab, Tool, Tour, TourCard,
+    SeamClick, SeamRule, ShadingMode, Snap, StepTarget, Tab, Tool, Tour, TourCard, Welcome,
 };
 use theme::{Theme, theme_of};
 use typed::Typed;

@@ -4,7 +4,7 @@ use eframe::egui::{self, Frame, Margin, Panel, Rect, Sense, Vec2};
 
 use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTHS, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
 use super::{Editor, Intent, Pane, Request, keyboard};
-use crate::ui::panels::{self, floating, menu, status, unsaved};
+use crate::ui::panels::{self, floating, menu, status, unsaved, welcome};
 use crate::ui::panes::comparison::comparison_ui;
 use crate::ui::panes::constrain;
 use crate::ui::panes::mesh_pane::mesh_pane_ui;
@@ -62,6 +62,7 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     }
     constrain::line_across(ui, editor);
     floating::floating_windows(ui.ctx(), editor, &mut requests);
+    welcome::welcome(ui.ctx(), editor, &mut requests);
     for request in requests {
         editor.handle(request);
     }

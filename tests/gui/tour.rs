@@ -1,10 +1,14 @@
-//! The guided tour: it comes at the first start, notices each action, and can be skipped.
+//! The welcome and the guided tour: the tour notices each action, and can be skipped.
 
 use std::path::Path;
 
 use eframe::App as _;
+use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
+use egui_kittest::kittest::Queryable as _;
 use freebound::app::LaunchFile;
+use freebound::examples::Example;
+use freebound::session::RecentFiles;
 use freebound::ui::{Tour, TourCard};
 
 use crate::harness::{SIZE, Window, sheet};
@@ -18,34 +22,72 @@ fn card(window: &Window) -> Option<TourCard> {
     window.editor().layout.tour().map(Tour::card)
 }
 
+fn greets(window: &Window) -> bool {
+    window.editor().layout.welcome.is_shown()
+}
+
 fn is_done(window: &Window) -> bool {
     window.editor().layout.tour().is_some_and(Tour::is_done)
 }
 
 #[test]
-fn the_first_start_without_a_file_begins_the_tour_and_later_starts_do_not() {
+fn a_start_without_a_file_greets_and_the_photo_on_a_face_begins_the_tour() {
     let folder = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     let path = folder.path("window.json");
     let mut first = bare_start(&path);
+    assert!(greets(&first) && card(&first).is_none());
+    first.click("A photo on a face");
+    first.settle();
+    assert!(!greets(&first));
     assert_eq!(card(&first), Some(TourCard::Look));
     first.click("Skip tour");
     assert_eq!(card(&first), None);
+    first.menu(&["Help", "Guided tour"]);
+    assert_eq!(card(&first), Some(TourCard::Look), "Help has it again");
+    // The welcome comes at every start, until the user turns it off.
+    first.menu(&["Help", "Welcome"]);
+    first.harness.get_by_role_and_label(Role::CheckBox, "Show at start").click();
+    first.settle();
+    first.key(Key::Escape);
+    assert!(!greets(&first));
     first.harness.state_mut().on_exit();
-    let mut second = bare_start(&path);
-    assert_eq!(card(&second), None, "seen before");
-    second.menu(&["Help", "Guided tour"]);
-    assert_eq!(card(&second), Some(TourCard::Look), "Help has it again");
+    assert!(!greets(&bare_start(&path)));
 }
 
 #[test]
-fn a_start_with_a_file_or_without_stored_preferences_begins_no_tour() {
+fn the_welcome_opens_the_cube_and_recent_files_and_closes_with_another_mesh() {
+    let folder = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    let (path, recent) = (folder.path("window.json"), folder.path("recent.json"));
+    RecentFiles::load(recent.clone()).remember(&folder.path("sheet.obj"));
+    let start = || LaunchFile {
+        preferences: Some(path.clone()),
+        recent_store: Some(recent.clone()),
+        ..LaunchFile::default()
+    };
+    let name = |window: &Window| window.editor().session.model().map(|model| model.name.clone());
+    let mut window = Window::start(SIZE, start());
+    window.click("The paper's cube");
+    window.settle();
+    assert_eq!((greets(&window), name(&window).as_deref()), (false, Some(Example::Cube.title())));
+    let mut window = Window::start(SIZE, start());
+    window.click("Open sheet.obj");
+    window.settle();
+    assert_eq!((greets(&window), name(&window).as_deref()), (false, Some("sheet.obj")));
+    let mut window = Window::start(SIZE, start());
+    assert!(greets(&window));
+    window.open(&folder.path("sheet.obj"));
+    assert!(!greets(&window), "dropped, for instance");
+}
+
+#[test]
+fn a_start_with_a_file_or_without_stored_preferences_does_not_greet() {
     let mesh = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
-    assert_eq!(card(&mesh), None);
+    assert!(!greets(&mesh));
     let (file, preferences) = (Some(mesh.path("sheet.obj")), Some(mesh.path("window.json")));
     let mut window = Window::start(SIZE, LaunchFile { file, preferences, ..LaunchFile::default() });
-    assert_eq!(card(&window), None);
+    assert!(!greets(&window) && card(&window).is_none());
     window.harness.state_mut().on_exit();
-    assert_eq!(card(&bare_start(&mesh.path("window.json"))), Some(TourCard::Look), "not seen yet");
+    assert!(greets(&bare_start(&mesh.path("window.json"))));
 }
 
 #[test]

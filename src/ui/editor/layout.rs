@@ -1,6 +1,6 @@
 //! Layout of the window: tab and panels, widths of the panes, floating windows.
 
-use crate::ui::state::{InsetView, Pane, Tab, Toast, Tour, TourState};
+use crate::ui::state::{InsetView, Pane, Tab, Toast, Tour, Welcome};
 use crate::ui::theme::{PANEL_WIDTH, PANEL_WIDTHS};
 
 /// Least width of a window that shows the panels by default, points.
@@ -35,8 +35,10 @@ pub struct Layout {
     pub go_to: Option<GoTo>,
     /// Success message that shows.
     pub(in crate::ui) toast: Option<Toast>,
-    /// Guided tour.
-    pub(in crate::ui) tour: TourState,
+    /// Welcome at a start without a file.
+    pub welcome: Welcome,
+    /// Guided tour, if under way.
+    pub(in crate::ui) tour: Option<Tour>,
     /// Zoom and pan of the insets over the panes.
     pub(in crate::ui) insets: InsetView,
     /// Menu to open, by its place in the bar.
@@ -46,20 +48,12 @@ pub struct Layout {
 impl Layout {
     /// Starts the guided tour from its first card.
     pub(crate) fn start_tour(&mut self) {
-        self.tour = TourState::UnderWay(Tour::default());
+        self.tour = Some(Tour::default());
     }
 
     /// Guided tour, if under way.
     pub fn tour(&self) -> Option<&Tour> {
-        match &self.tour {
-            TourState::UnderWay(tour) => Some(tour),
-            TourState::New | TourState::Over => None,
-        }
-    }
-
-    /// True if the tour was started in this run or before.
-    pub(crate) fn has_seen_tour(&self) -> bool {
-        self.tour != TourState::New
+        self.tour.as_ref()
     }
 
     pub fn tab(&self) -> Tab {
@@ -146,6 +140,6 @@ impl Layout {
 
     /// Closes one of the floating windows. Returns true if one was open.
     pub(super) fn close_window(&mut self) -> bool {
-        std::mem::take(&mut self.exports_shown) || std::mem::take(&mut self.keys_shown) || self.go_to.take().is_some()
+        self.welcome.close() || std::mem::take(&mut self.exports_shown) || std::mem::take(&mut self.keys_shown) || self.go_to.take().is_some()
     }
 }

@@ -4,7 +4,7 @@ use eframe::egui::{Theme, ThemePreference};
 
 use super::Editor;
 use crate::session::Preferences;
-use crate::ui::state::{Pane, TourState};
+use crate::ui::state::Pane;
 
 impl Editor {
     /// Current settings of the window, to be kept.
@@ -24,7 +24,7 @@ impl Editor {
             plane_shading: shading(Pane::Plane),
             panel_width: Some(self.layout.panel_width()),
             window_size: Some([size.x, size.y]),
-            tour_seen: self.layout.has_seen_tour(),
+            no_welcome: !self.layout.welcome.at_start,
         }
     }
 
@@ -33,9 +33,7 @@ impl Editor {
         if let Some(dark) = left.dark {
             self.gpu.context().set_theme(if dark { Theme::Dark } else { Theme::Light });
         }
-        if left.tour_seen {
-            self.layout.tour = TourState::Over;
-        }
+        self.layout.welcome.at_start = !left.no_welcome;
         self.pane_shading.wireframe = left.wireframe;
         for (pane, name) in Pane::BOTH.into_iter().zip([&left.mesh_shading, &left.plane_shading]) {
             self.pane_shading.keep_own_shading(pane, name.as_deref());

@@ -92,6 +92,8 @@ impl Editor {
             Request::AskGoTo => self.layout.ask_go_to(),
             Request::OpenMenu(place) => self.layout.menu_asked = Some(place),
             Request::ToggleKeys => self.layout.keys_shown = !self.layout.keys_shown,
+            Request::ToggleWelcome => self.layout.welcome.toggle(),
+            Request::ToggleWelcomeAtStart => self.layout.welcome.at_start = !self.layout.welcome.at_start,
             Request::StartTour => self.layout.start_tour(),
             Request::SetTheme(theme) => self.gpu.context().set_theme(theme),
             Request::SetFit(fit) => self.files.fit = fit,

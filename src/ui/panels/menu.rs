@@ -28,6 +28,7 @@ pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &mut Editor, requests: &
             let help_menu = |menu: &mut Menu<'_>| {
                 menu.item(true, "All keys", Request::ToggleKeys);
                 menu.item(true, "Guided tour", Request::StartTour);
+                menu.item(true, "Welcome", Request::ToggleWelcome);
             };
             let responses = [
                 menu.part("File", file_menu),

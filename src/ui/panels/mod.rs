@@ -23,6 +23,7 @@
 //! | `floating.rs` | list of keys, "Go to", file dialog inside the window, exports, pictures of panes |
 //! | `toast.rs` | success message, for a few seconds |
 //! | `tour.rs` | card of the guided tour |
+//! | `welcome.rs` | welcome at a start without a file |
 //! | `large.rs` | the question before a large file is opened |
 //! | `unsaved.rs` | the question about unsaved work, the window's title |
 
@@ -51,6 +52,7 @@ mod tour;
 pub(super) mod unsaved;
 mod verdict_pill;
 mod vertex_panel;
+pub(super) mod welcome;
 mod welding;
 
 use eframe::egui::{self, Role, Sense, Vec2, WidgetInfo};

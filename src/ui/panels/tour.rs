@@ -3,7 +3,7 @@
 
 use eframe::egui::{self, Align2, RichText};
 
-use crate::ui::state::{Tour, TourCard, TourStart, TourState};
+use crate::ui::state::{Tour, TourCard, TourStart};
 use crate::ui::theme::BOTTOM_HEIGHT;
 use crate::ui::{Editor, theme_of};
 
@@ -23,10 +23,7 @@ enum Answer {
 }
 
 pub(in crate::ui) fn tour(context: &egui::Context, editor: &mut Editor) {
-    if editor.layout.tour().is_none() {
-        return;
-    }
-    let TourState::UnderWay(mut tour) = std::mem::replace(&mut editor.layout.tour, TourState::Over) else { return };
+    let Some(mut tour) = editor.layout.tour.take() else { return };
     let mesh = editor.session.model_revision();
     if tour.start.as_ref().is_some_and(|start| start.mesh != mesh) {
         tour.start = None;
@@ -40,12 +37,11 @@ pub(in crate::ui) fn tour(context: &egui::Context, editor: &mut Editor) {
     let strip = if editor.has_disk() { editor.timeline.height() } else { 0.0 };
     let area = egui::Area::new(egui::Id::unique("tour")).order(egui::Order::Foreground).movable(false);
     let area = area.anchor(Align2::LEFT_BOTTOM, [TOOL_BAR + GAP, -(BOTTOM_HEIGHT + strip + GAP)]);
-    let tour = match area.show(context, |ui| card(ui, &tour)).inner {
+    editor.layout.tour = match area.show(context, |ui| card(ui, &tour)).inner {
         Some(Answer::Next) => tour.next(),
         Some(Answer::End) => None,
         None => Some(tour),
     };
-    editor.layout.tour = tour.map_or(TourState::Over, TourState::UnderWay);
 }
 
 fn state(editor: &Editor, mesh: u64) -> TourStart {

@@ -17,6 +17,7 @@
 //! | `timeline_view.rs` | state of the timeline in the window |
 //! | `toast.rs` | the success message that shows |
 //! | `tour.rs` | the guided tour |
+//! | `welcome.rs` | the welcome at a start without a file |
 
 mod comparison;
 mod file_dialog_kind;
@@ -34,6 +35,7 @@ mod toast;
 mod tool;
 mod tour;
 mod unsaved;
+mod welcome;
 
 pub use comparison::{ComparisonExport, MorphRequest};
 pub(in crate::ui) use file_dialog_kind::{DialogForm, FileDialogKind};
@@ -52,5 +54,6 @@ pub(in crate::ui) use timeline_view::{CURVE_COUNT, ROW_HEIGHT, TimelineView};
 pub(in crate::ui) use toast::Toast;
 pub use tool::{Half, Intent, Tool};
 pub use tour::{Tour, TourCard};
-pub(in crate::ui) use tour::{TourStart, TourState};
+pub(in crate::ui) use tour::TourStart;
 pub(in crate::ui) use unsaved::{PendingClose, UnsavedAnswer};
+pub use welcome::Welcome;

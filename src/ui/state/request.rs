@@ -164,6 +164,10 @@ pub enum Request {
     OpenMenu(usize),
     /// Shows or hides the list of keys.
     ToggleKeys,
+    /// Shows or hides the welcome.
+    ToggleWelcome,
+    /// Sets whether the welcome shows at a start without a file.
+    ToggleWelcomeAtStart,
     /// Starts the guided tour.
     StartTour,
     /// Follows the system's theme, or sets a fixed one.

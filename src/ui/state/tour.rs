@@ -70,18 +70,6 @@ pub struct Tour {
     pub(in crate::ui) is_done: bool,
 }
 
-/// State of the tour in this run.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(in crate::ui) enum TourState {
-    /// Never started, in this run or before.
-    #[default]
-    New,
-    /// Under way.
-    UnderWay(Tour),
-    /// Started before, and over.
-    Over,
-}
-
 impl Tour {
     /// Current card.
     pub fn card(&self) -> TourCard {

@@ -315,7 +315,7 @@ fn the_face_folds_in_the_first_solve_and_a_few_iterations_repair_it() {
     let (_, pins, steps) = face_steps();
     assert!((8..=12).contains(&pins.len()));
     let flips: Vec<usize> = steps.iter().map(|step| step.verdict.flipped_faces.len()).collect();
-    assert!(flips[0] >= 5, "the folds can be seen: {flips:?}");
+    assert!(flips[0] >= 4, "the folds can be seen: {flips:?}");
     assert!(steps[0].has_simple_boundary(), "nothing but flipped faces is wrong");
     assert!((2..=6).contains(&(steps.len() - 1)), "{flips:?}");
     assert!(steps.last().unwrap().verdict.planar, "{flips:?}");

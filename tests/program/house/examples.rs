@@ -239,7 +239,8 @@ fn landmarks_are_distinct_inside_and_on_their_own_side() {
         } else if a.name.starts_with("right") {
             assert!(x < -0.1 && right_of_middle < -0.02, "{a:?} at x = {x}");
         } else {
-            assert!(x.abs() < 0.03 && right_of_middle.abs() < 1e-9, "{a:?} at x = {x}");
+            // Its own place in the portrait: half an edge beside the middle at most.
+            assert!(x.abs() < 0.03 && right_of_middle.abs() < 0.01, "{a:?} at x = {x}");
         }
     }
     let height = |name: &str| {
