@@ -7,7 +7,7 @@ use eframe::egui;
 use crate::examples::Example;
 use crate::render;
 use crate::session::{Action, Preferences, RecentFiles, recovery_folder};
-use crate::ui::{Dialogs, Editor, theme, window_ui};
+use crate::ui::{Dialogs, Editor, is_picture, theme, window_ui};
 use freebound_io::machine_memory_bytes;
 
 /// Initial size of the window, points.
@@ -30,7 +30,7 @@ pub struct App {
 /// File to open at the start, and stores for the editor's files.
 #[derive(Clone, Debug, Default)]
 pub struct LaunchFile {
-    /// Mesh file. Default: the built-in face.
+    /// Mesh, project or picture. A picture is shown on the built-in face. Default: the built-in face.
     pub file: Option<PathBuf>,
     /// Store of the list of recent files; `None` in tests.
     pub recent_store: Option<PathBuf>,
@@ -55,11 +55,11 @@ impl App {
             render::install(state);
             editor.gpu.use_gpu();
         }
-        if let Some(path) = &start.preferences {
-            editor.put_on(&Preferences::load(path));
-        }
         if start.dialogs_inside {
             editor.files.dialogs = Dialogs::inside_the_window();
+        }
+        if let Some(path) = &start.preferences {
+            editor.put_on(&Preferences::load(path));
         }
         if let Some(folder) = start.recovery_folder {
             editor.session.keep_copies_in(folder);
@@ -70,7 +70,16 @@ impl App {
         if start.preferences.is_some() && start.file.is_none() {
             editor.layout.welcome.greet();
         }
-        editor.session.handle(start.file.map_or(Action::OpenExample(Example::Face), Action::Open));
+        match start.file {
+            Some(path) if !is_picture(&path) => editor.session.handle(Action::Open(path)),
+            picture => {
+                // A picture needs a mesh.
+                editor.session.handle(Action::OpenExample(Example::Face));
+                if let Some(path) = picture {
+                    editor.session.handle(Action::OpenPicture(path));
+                }
+            }
+        }
         Self { editor, preferences: start.preferences }
     }
 

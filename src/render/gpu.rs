@@ -7,8 +7,8 @@ use eframe::wgpu;
 
 use super::cache::{Cache, Key};
 use super::frame::{PaneId, PictureLayer, Sampling};
-use super::pipelines::{Pipelines, Target};
 use super::overdraw::MostCovered;
+use super::pipelines::{Pipelines, Target};
 use super::plan::{Draw, Faces, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape};
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
 use crate::view::Revision;

@@ -46,9 +46,8 @@ pub(super) fn affordable(frame: &PlaneFrame, size: PaneSize, MostCovered(most): 
 /// Pixels of the pane that the faces cover, each pixel as often as faces lie over it. 0 if they are fewer than `most`
 /// wherever the faces lie. `scale` is in pixels per point.
 fn covered_pixels(plane: &PlaneArrays, frame: &PlaneFrame, size: DVec2, [scale, most]: [f64; 2]) -> f64 {
-    let on_screen = |unit: DVec2| {
-        frame.camera.pane_from_embedding(plane.frame.embedding_from_unit(unit), size / scale) * scale
-    };
+    let on_screen =
+        |unit: DVec2| frame.camera.pane_from_embedding(plane.frame.embedding_from_unit(unit), size / scale) * scale;
     let origin = on_screen(DVec2::ZERO);
     let axes = [DVec2::X, DVec2::Y].map(|axis| on_screen(axis) - origin);
     if plane.area * axes[0].perp_dot(axes[1]).abs() <= most {
@@ -81,12 +80,16 @@ fn area_inside(corners: [DVec2; 3], size: DVec2) -> f64 {
     for (normal, least) in sides {
         let height = |point: DVec2| normal.dot(point) - least;
         let next = polygon.iter().cycle().skip(1);
-        let clipped: Vec<DVec2> = polygon.iter().zip(next).flat_map(|(&from, &to)| {
-            let heights = [height(from), height(to)];
-            let crossing = (heights[0] < 0.0) != (heights[1] < 0.0);
-            let crossing = crossing.then(|| from.lerp(to, heights[0] / (heights[0] - heights[1])));
-            [(heights[0] >= 0.0).then_some(from), crossing].into_iter().flatten()
-        }).collect();
+        let clipped: Vec<DVec2> = polygon
+            .iter()
+            .zip(next)
+            .flat_map(|(&from, &to)| {
+                let heights = [height(from), height(to)];
+                let crossing = (heights[0] < 0.0) != (heights[1] < 0.0);
+                let crossing = crossing.then(|| from.lerp(to, heights[0] / (heights[0] - heights[1])));
+                [(heights[0] >= 0.0).then_some(from), crossing].into_iter().flatten()
+            })
+            .collect();
         polygon = clipped;
     }
     let Some(&first) = polygon.first() else { return 0.0 };

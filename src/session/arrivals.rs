@@ -1,22 +1,30 @@
 //! Results of background jobs for the document: pictures, constraints, seams, and the mesh in another preparation.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::background_jobs::{BackgroundJob, FORMING, RESHAPING};
 use super::edits::pin;
 use super::open_mesh::Near;
 use super::{Command, Message, MessagePlace, Session};
+use crate::examples::Example;
 use freebound_core::pipeline::Targets;
 use freebound_io::{Constraints, ConstraintsError, PictureFile};
 
 impl Session {
-    /// Reads a picture in the background.
+    /// Reads a picture in the background. It belongs to the mesh that is being opened, else to the open one. Default:
+    /// the built-in face.
     pub(super) fn open_picture(&mut self, path: PathBuf) {
-        if self.model().is_none() {
-            return self.complain("a picture needs a mesh: open one first", None);
+        if self.model().is_none() && !self.files.is_loading() {
+            self.files.open_example(Example::Face);
         }
-        self.jobs.send("reading the picture", move |_| BackgroundJob::Picture(PictureFile::read(&path)));
+        if self.files.is_loading() {
+            return self.files.open_picture_after(path);
+        }
+        self.jobs.send("reading the picture", move |_| {
+            let read = PictureFile::read(&path);
+            BackgroundJob::Picture { path, read }
+        });
     }
 
     /// Reads constraints in the background.
@@ -51,13 +59,16 @@ impl Session {
 
     fn take_job(&mut self, job: BackgroundJob) {
         match job {
-            BackgroundJob::Picture(Ok(picture)) => self.set_picture(Some(Arc::new(picture))),
-            BackgroundJob::Picture(Err(error)) => self.complain(error.to_string(), Some("choose a PNG or JPEG file")),
+            BackgroundJob::Picture { read: Ok(picture), .. } => self.set_picture(Some(Arc::new(picture))),
+            BackgroundJob::Picture { path, read: Err(error) } => {
+                let message = Message::error(MessagePlace::Embedding, error.to_string()).of_file(Some(&path));
+                self.messages.say(message.with_remedy("choose a PNG or JPEG file"));
+            }
             BackgroundJob::Constraints { path, read: Ok(constraints) } => {
                 self.files.remember_constraints(path);
                 self.take_constraints(constraints.targets);
             }
-            BackgroundJob::Constraints { read: Err(error), .. } => self.tell_constraints(&error),
+            BackgroundJob::Constraints { path, read: Err(error) } => self.tell_constraints(&path, &error),
             BackgroundJob::Near { distance, count } => self.mesh.take_near(Near { distance, count: Some(count) }),
             BackgroundJob::Flat(flat) => self.take_flat(&flat),
             BackgroundJob::Seams(read) => self.take_seams(read),
@@ -74,11 +85,12 @@ impl Session {
     }
 
     /// Reports the reason why a constraint file is rejected, and shows the vertices concerned.
-    fn tell_constraints(&mut self, error: &ConstraintsError) {
+    fn tell_constraints(&mut self, path: &Path, error: &ConstraintsError) {
         let model = self.model();
         let of_chart = |vertex| model.and_then(|model| model.vertex_of_file(vertex));
         let vertices = error.vertices().into_iter().filter_map(of_chart).collect();
-        let message = Message::error(MessagePlace::Embedding, error.to_string()).with_vertices(vertices);
+        let message =
+            Message::error(MessagePlace::Embedding, error.to_string()).with_vertices(vertices).of_file(Some(path));
         self.messages.say(message.with_remedy("nothing was imported: repair the file and import it again"));
     }
 

@@ -30,21 +30,16 @@ pub(super) struct Flat {
 
 /// Result of a job.
 pub(super) enum BackgroundJob {
-    Picture(Result<PictureFile, PictureError>),
+    /// Picture for the open mesh, read from a file.
+    Picture { path: PathBuf, read: Result<PictureFile, PictureError> },
     /// Constraints for the open mesh, read from a file.
-    Constraints {
-        path: PathBuf,
-        read: Result<Constraints, ConstraintsError>,
-    },
+    Constraints { path: PathBuf, read: Result<Constraints, ConstraintsError> },
     /// Seams for the open mesh, read from a file.
     Seams(Result<Vec<[VertexId; 2]>, EdgesError>),
     /// Open mesh in another preparation, for an edit.
     Reshaped(Box<Reshaped>),
     /// Number of vertices of the open mesh within a distance of another vertex.
-    Near {
-        distance: WeldDistance,
-        count: usize,
-    },
+    Near { distance: WeldDistance, count: usize },
     /// Open mesh in the preparation of the document.
     Formed(Box<Model>),
     /// Open mesh, flattened to fit the targets to it.

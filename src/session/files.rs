@@ -10,7 +10,7 @@ use super::open_project::OpenProject;
 use super::opened::{OpenError, Opened, Origin};
 use super::recovery::Autosave;
 use super::saving::{ProjectSaves, Request, project_of};
-use super::{Background, Document, MessagePlace, Messages, Model, RecentFiles, Wake, Written};
+use super::{Background, Document, Message, MessagePlace, Messages, Model, RecentFiles, Wake, Written};
 use crate::examples::Example;
 use freebound_io::{ProjectFile, ProjectView, RecoveryNote, WriteError};
 
@@ -231,6 +231,12 @@ impl Files {
         }
     }
 
+    /// Opens a picture after the mesh that is being opened.
+    pub(super) fn open_picture_after(&mut self, path: PathBuf) {
+        let group = UndoGroup { mesh: PathBuf::new(), picture: None, constraints: Vec::new(), left: Vec::new() };
+        self.together.get_or_insert(group).picture = Some(path);
+    }
+
     /// Cancels the opening of files.
     pub(super) fn cancel_loading(&mut self) {
         self.loading.cancel();
@@ -252,7 +258,14 @@ impl Files {
                 self.large = Some(LargeFile { wanted, path, shortage: source });
                 return None;
             }
-            Ok(Err(error)) => messages.fail(MessagePlace::Mesh, error.to_string(), Some(error.remedy())),
+            Ok(Err(error)) => {
+                let file = match &wanted {
+                    OpenRequest::File(path) | OpenRequest::Recovery(path) => Some(&**path),
+                    OpenRequest::Example(_) => None,
+                };
+                let message = Message::error(MessagePlace::Mesh, error.to_string()).with_remedy(error.remedy());
+                messages.say(message.of_file(file));
+            }
             Err(failure) => messages.fail_background(MessagePlace::Mesh, "loading", &failure),
         }
         self.end_opening();

@@ -48,8 +48,9 @@ impl Session {
             let note = Message::note(MessagePlace::Mesh, format!("{words} other parts without being joined"));
             self.messages.say(note.with_remedy("weld within 0 if the parts are one surface"));
         }
+        let file = self.files.project().cloned().or_else(|| self.model()?.path.clone());
         for remark in remarks {
-            self.messages.say(remark);
+            self.messages.say(remark.of_file(file.as_deref()));
         }
         let together = self.files.take_together();
         self.take_restored(restored);
@@ -88,7 +89,8 @@ impl Session {
         }
         for fault in &diagnosis.faults {
             let message = Message::error(MessagePlace::Mesh, fault.message()).with_remedy(fault.remedy());
-            self.messages.say(message.with_vertices(fault.vertices_of(0, model.mesh())));
+            let message = message.with_vertices(fault.vertices_of(0, model.mesh()));
+            self.messages.say(message.of_file(Some(model.path.as_deref().unwrap_or(Path::new(&model.name)))));
         }
     }
 

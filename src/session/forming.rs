@@ -153,7 +153,8 @@ impl Session {
     /// another way.
     fn settings_for(&self, form: &Preparation) -> Option<Command> {
         let settings = &self.document.settings;
-        let cuts_otherwise = form.seams.bound().is_some() || (self.document.form.seams.of_texture && !form.seams.of_texture);
+        let cuts_otherwise =
+            form.seams.bound().is_some() || (self.document.form.seams.of_texture && !form.seams.of_texture);
         let is_from_file = settings.start == Start::File;
         (is_from_file && cuts_otherwise)
             .then(|| Command::SetSettings(Settings { start: Start::FromScratch, ..settings.clone() }))

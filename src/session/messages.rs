@@ -1,6 +1,8 @@
 //! Messages to the user: the event, its place and a remedy.
 
-use std::path::PathBuf;
+use std::collections::{VecDeque, vec_deque};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use super::JobFailure;
 use freebound_core::mesh::VertexId;
@@ -52,6 +54,8 @@ pub struct Message {
     pub vertices: Vec<VertexId>,
     /// Files that were written, the requested file first.
     pub files: Vec<PathBuf>,
+    /// File that is at fault. Messages about one file form a group.
+    pub about: Option<PathBuf>,
 }
 
 /// Result of writing files.
@@ -81,7 +85,7 @@ impl Message {
     /// Creates a failure. [`Messages::say`] sets its number.
     pub(super) fn error(place: MessagePlace, text: impl Into<String>) -> Self {
         let (text, vertices, files) = (text.into(), Vec::new(), Vec::new());
-        Self { id: 0, severity: Severity::Error, place, text, remedy: None, vertices, files }
+        Self { id: 0, severity: Severity::Error, place, text, remedy: None, vertices, files, about: None }
     }
 
     pub(super) fn note(place: MessagePlace, text: impl Into<String>) -> Self {
@@ -98,24 +102,47 @@ impl Message {
         Self { remedy: Some(remedy.into()), ..self }
     }
 
+    /// Adds the file at fault, unless the message names one already.
+    pub(super) fn of_file(self, path: Option<&Path>) -> Self {
+        Self { about: self.about.or_else(|| path.map(Path::to_owned)), ..self }
+    }
+
     /// Adds the vertices concerned.
     pub(super) fn with_vertices(self, vertices: Vec<VertexId>) -> Self {
         Self { vertices, ..self }
     }
 }
 
-/// Messages that were not dismissed.
+/// Greatest number of messages in the log.
+const LOG: usize = 500;
+
+/// Message in the log of a run.
+#[derive(Clone, Debug)]
+pub struct LoggedMessage {
+    /// Time of the message.
+    pub time: SystemTime,
+    /// The message.
+    pub message: Message,
+}
+
+/// Messages that were not dismissed, and the log of all messages.
 #[derive(Debug, Default)]
 pub(super) struct Messages {
     list: Vec<Message>,
     last_id: u64,
+    log: VecDeque<LoggedMessage>,
 }
 
 impl Messages {
     /// Adds a message and returns its number.
     pub(super) fn say(&mut self, message: Message) -> u64 {
         self.last_id += 1;
-        self.list.push(Message { id: self.last_id, ..message });
+        let message = Message { id: self.last_id, ..message };
+        if self.log.len() == LOG {
+            self.log.pop_front();
+        }
+        self.log.push_back(LoggedMessage { time: SystemTime::now(), message: message.clone() });
+        self.list.push(message);
         self.last_id
     }
 
@@ -167,6 +194,11 @@ impl Messages {
 
     pub(super) fn clear(&mut self) {
         self.list.clear();
+    }
+
+    /// Newest messages of the run, dismissed or not, oldest first.
+    pub(super) fn log(&self) -> vec_deque::Iter<'_, LoggedMessage> {
+        self.log.iter()
     }
 
     /// Messages that were not dismissed, oldest first.

@@ -87,7 +87,9 @@ impl Opened {
         let mut remarks = Vec::new();
         let picture = material_picture(&model.source, path).and_then(|picture| {
             let found = PictureFile::read(&picture);
-            found.map_err(|error| remarks.push(picture_remark(error.to_string(), "open another picture"))).ok()
+            found
+                .map_err(|error| remarks.push(picture_remark(&picture, error.to_string(), "open another picture")))
+                .ok()
         });
         let document = Document { picture: picture.map(Arc::new), ..Document::default() };
         Ok(Self { remarks, ..Self::mesh(model, document) })
@@ -197,7 +199,7 @@ fn change_remark(path: &Path, stamp: Option<&FileStamp>, mesh: &Model) -> Option
     has_changed(stamp, mesh.stamp.as_ref()).then(|| {
         let text = format!("{}: the mesh has changed since the project was saved", path.display());
         let remedy = "check that the pins are on the right vertices, then save the project";
-        Message::error(MessagePlace::Mesh, text).with_remedy(remedy)
+        Message::error(MessagePlace::Mesh, text).with_remedy(remedy).of_file(Some(path))
     })
 }
 
@@ -211,10 +213,11 @@ fn project_picture(source: &ProjectSource, remarks: &mut Vec<Message>) -> Option
             } else {
                 Err(format!("{}: the picture of the project does not exist", path.display()))
             };
-            let picture = picture.map_err(|text| remarks.push(picture_remark(text, remedy))).ok()?;
+            let picture = picture.map_err(|text| remarks.push(picture_remark(path, text, remedy))).ok()?;
             if has_changed(stamp.as_ref(), picture.stamp.as_ref()) {
                 let text = format!("{}: the picture has changed since the project was saved", path.display());
                 remarks.push(picture_remark(
+                    path,
                     text,
                     "check that the targets are in the right places, then save the project",
                 ));
@@ -224,8 +227,8 @@ fn project_picture(source: &ProjectSource, remarks: &mut Vec<Message>) -> Option
     }
 }
 
-fn picture_remark(text: String, remedy: &str) -> Message {
-    Message::error(MessagePlace::Embedding, text).with_remedy(remedy)
+fn picture_remark(path: &Path, text: String, remedy: &str) -> Message {
+    Message::error(MessagePlace::Embedding, text).with_remedy(remedy).of_file(Some(path))
 }
 
 /// True if the state of a file has changed. False if one of the states is unknown.

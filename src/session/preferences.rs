@@ -1,5 +1,6 @@
 //! State of the window, kept between runs beside the recovery copies.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -25,6 +26,43 @@ pub struct Preferences {
     pub window_size: Option<[f32; 2]>,
     /// True if the program starts without the welcome.
     pub no_welcome: bool,
+    /// Folders that the file dialog offers.
+    pub folders: KeptFolders,
+    /// Changed keys, by the keys that they replace.
+    pub keys: BTreeMap<String, String>,
+    /// Names of the commands chosen last in the command palette, newest first.
+    pub recent_commands: Vec<String>,
+}
+
+/// Greatest number of recent folders.
+const MOST_FOLDERS: usize = 8;
+
+/// Folders that the file dialog offers.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct KeptFolders {
+    /// Folders of the files chosen last, newest first.
+    pub recent: Vec<PathBuf>,
+    /// Folders that the user pinned, oldest first.
+    pub pinned: Vec<PathBuf>,
+}
+
+impl KeptFolders {
+    /// Puts a folder first among the recent ones.
+    pub fn remember(&mut self, folder: &Path) {
+        self.recent.retain(|other| other != folder);
+        self.recent.insert(0, folder.to_owned());
+        self.recent.truncate(MOST_FOLDERS);
+    }
+
+    /// Pins a folder, or unpins it.
+    pub fn toggle_pin(&mut self, folder: &Path) {
+        if self.pinned.iter().any(|other| other == folder) {
+            self.pinned.retain(|other| other != folder);
+        } else {
+            self.pinned.push(folder.to_owned());
+        }
+    }
 }
 
 impl Preferences {

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::{
-    JobFailure, LargeFile, Message, MessagePlace, Model, RecentFiles, Recoverable, RunStop, Session, StopConditions,
-    Timeline,
+    JobFailure, LargeFile, LoggedMessage, Message, MessagePlace, Model, RecentFiles, Recoverable, RunStop, Session,
+    StopConditions, Timeline,
 };
 use freebound_core::mesh::{DiskMesh, FaceId, VertexId};
 use freebound_core::pipeline::Outcome;
@@ -135,6 +135,11 @@ impl Session {
     /// Messages that were not dismissed, oldest first.
     pub fn messages(&self) -> &[Message] {
         self.messages.list()
+    }
+
+    /// Newest messages of the run, dismissed or not, oldest first.
+    pub fn message_log(&self) -> impl DoubleEndedIterator<Item = &LoggedMessage> + ExactSizeIterator + Clone {
+        self.messages.log()
     }
 
     /// Reports a background job without an outcome. `work` is a noun, such as "drawing".

@@ -198,7 +198,10 @@ impl Session {
         if purpose != Purpose::Preview {
             self.unwrapping.previewed = None;
         }
-        let form = Preparation { seams: self.without_layout(self.with_paint().without_automatic()), ..self.without_automatic_seams(&model) };
+        let form = Preparation {
+            seams: self.without_layout(self.with_paint().without_automatic()),
+            ..self.without_automatic_seams(&model)
+        };
         let wanted = Wanted { form, bound: bound.max(SeamOptions::LEAST) };
         match model.known_seams(&wanted.form, wanted.bound) {
             Some(known) => {
@@ -314,7 +317,10 @@ impl Session {
             return Some(edges);
         }
         let (model, bound) = (self.model()?, self.unwrapping.previewed?);
-        let form = Preparation { seams: self.without_layout(self.with_paint().without_automatic()), ..self.without_automatic_seams(model) };
+        let form = Preparation {
+            seams: self.without_layout(self.with_paint().without_automatic()),
+            ..self.without_automatic_seams(model)
+        };
         let known = model.known_seams(&form, bound.max(SeamOptions::LEAST))?;
         Some(known.edges().iter().copied().collect())
     }

@@ -4,7 +4,7 @@ use eframe::egui::{self, ComboBox, Grid, Response, RichText, Role, Ui, WidgetInf
 
 use super::keys::keys_of;
 use super::state::Request;
-use super::theme::theme_of;
+use super::theme::{Theme, theme_of};
 
 /// Helpers for the response of a control.
 pub(in crate::ui) trait Control {
@@ -65,8 +65,13 @@ impl Offer {
 
     pub(in crate::ui) fn show(self, ui: &mut Ui, requests: &mut Vec<Request>) {
         let button = ui.add_enabled(self.enabled, egui::Button::new(self.words).small());
-        button.on_hover_text(self.tip).asks(self.request, requests);
+        button.on_hover_text(tip_with_keys(ui, self.tip, &self.request)).asks(self.request, requests);
     }
+}
+
+/// Button in the accent colour, for the action that most likely comes next. A window has at most one.
+pub(in crate::ui) fn accented(words: impl Into<String>, theme: &Theme) -> egui::Button<'static> {
+    egui::Button::new(RichText::new(words.into()).color(theme.panel).strong()).fill(theme.accent)
 }
 
 /// Greatest height of an open list, points.

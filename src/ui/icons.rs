@@ -101,6 +101,56 @@ pub(super) fn check(painter: &egui::Painter, rect: Rect, colour: Color32) {
     painter.add(Shape::line(points, Stroke::new(1.8, colour)));
 }
 
+/// Sign of an entry of a folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FileSign {
+    Folder,
+    /// A tetrahedron.
+    Mesh,
+    /// A mountain under the sun, in a frame.
+    Picture,
+    /// A sheet with the program's triangle.
+    Project,
+    /// A sheet with a folded corner.
+    Other,
+}
+
+/// Draws the sign of an entry of a folder.
+pub(super) fn file(painter: &egui::Painter, rect: Rect, sign: FileSign, colour: Color32) {
+    let stroke = Stroke::new(1.3, colour);
+    let closed = |points: &[(f32, f32)]| painter.add(Shape::closed_line(on_grid(rect, points), stroke));
+    let line = |points: &[(f32, f32)]| painter.add(Shape::line(on_grid(rect, points), stroke));
+    match sign {
+        FileSign::Folder => {
+            let outline = [(2.0, 5.0), (9.0, 5.0), (11.5, 8.0), (22.0, 8.0), (22.0, 20.0), (2.0, 20.0)];
+            let fill = colour.gamma_multiply(0.35);
+            painter.add(Shape::convex_polygon(
+                on_grid(rect, &[(2.0, 8.0), (22.0, 8.0), (22.0, 20.0), (2.0, 20.0)]),
+                fill,
+                Stroke::NONE,
+            ));
+            closed(&outline);
+        }
+        FileSign::Mesh => {
+            closed(&[(12.0, 2.0), (22.0, 17.0), (12.0, 22.0), (2.0, 17.0)]);
+            line(&[(12.0, 2.0), (12.0, 22.0)]);
+        }
+        FileSign::Picture => {
+            closed(&[(2.0, 4.0), (22.0, 4.0), (22.0, 20.0), (2.0, 20.0)]);
+            line(&[(2.0, 18.0), (9.0, 10.0), (14.0, 16.0), (17.0, 13.0), (22.0, 18.0)]);
+            painter.circle_filled(on_grid(rect, &[(16.5, 8.5)])[0], 1.4 * rect.width() / 16.0, colour);
+        }
+        FileSign::Project => {
+            closed(&[(4.0, 2.0), (20.0, 2.0), (20.0, 22.0), (4.0, 22.0)]);
+            closed(&[(12.0, 7.0), (17.0, 17.0), (7.0, 17.0)]);
+        }
+        FileSign::Other => {
+            closed(&[(4.0, 2.0), (14.0, 2.0), (20.0, 8.0), (20.0, 22.0), (4.0, 22.0)]);
+            line(&[(14.0, 2.0), (14.0, 8.0), (20.0, 8.0)]);
+        }
+    }
+}
+
 pub(super) fn sign(painter: &egui::Painter, rect: Rect, sign: Sign, theme: &Theme) {
     let colour = sign.colour(theme);
     let stroke = Stroke::new(1.8, colour);

@@ -5,7 +5,8 @@ use eframe::egui::{self, Key, Modifiers};
 use glam::DVec2;
 
 use super::editor::Editor;
-use super::keys::{BINDINGS, Binding};
+use super::key_map::KeyMap;
+use super::keys::Binding;
 use super::state::{Axis, GestureKind, PageRequest, Request};
 use crate::session::Action;
 use freebound_core::mesh::VertexId;
@@ -26,11 +27,19 @@ const ARROWS: [(Key, DVec2); 4] = [
 ];
 
 /// Requests of the keys pressed in this pass, one for each press. While a text field has the focus, the window uses
-/// only Esc and combinations with Ctrl, except Ctrl+Z and Ctrl+Y. While a menu or a list is open, Esc, Space and the
+/// only Esc, F1, F3, F10 and combinations with Ctrl, except Ctrl+A, Ctrl+Z and Ctrl+Y. While a menu or a list is open, Esc, Space and the
 /// arrows belong to the menu. Otherwise the focused control keeps those of these keys that it needs. Shift+Tab always
 /// moves the focus.
 pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request> {
-    if editor.is_asking() {
+    if editor.layout.help.keys.listens_for.is_some() {
+        // The list of keys takes the next press.
+        return Vec::new();
+    }
+    let map = KeyMap::of(context);
+    if editor.layout.help.has_palette() && takes_palette_key(context, &map) {
+        return vec![Request::TogglePalette];
+    }
+    if editor.is_asking() || editor.files.dialogs.is_inside() || editor.layout.help.has_palette() {
         let is_left = context.input_mut(|input| input.consume_key(NONE, Key::Escape));
         return if is_left { vec![Request::Escape] } else { Vec::new() };
     }
@@ -41,7 +50,7 @@ pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request>
     let mut requests = Vec::new();
     context.input_mut(|input| {
         input.events.retain(|event| {
-            let Some((binding, is_repeat)) = keyboard.press_of(event) else { return true };
+            let Some((binding, is_repeat)) = keyboard.press_of(event, &map) else { return true };
             let request = (binding.request)();
             // Ignore repeats during a run, whose steps would continue after the key is released.
             let is_wanted = request.repeats() && !(editor.session.is_running() && request == Request::Do(Action::Step));
@@ -115,6 +124,26 @@ fn gesture_key(key: Key) -> Option<PageRequest> {
     })
 }
 
+/// True if a text field has no use for a press.
+fn types_nothing(key: Key, modifiers: Modifiers) -> bool {
+    let is_edit = matches!(key, Key::Z | Key::Y | Key::A);
+    matches!(key, Key::F1 | Key::F3 | Key::F10) || (modifiers.command && !is_edit)
+}
+
+/// Takes a press of the keys that close the open command palette. Letters belong to its field.
+fn takes_palette_key(context: &egui::Context, map: &KeyMap) -> bool {
+    let closes = |event: &egui::Event| {
+        let &egui::Event::Key { key, pressed: true, modifiers, .. } = event else { return false };
+        let binding = map.pressed(key, modifiers).filter(|_| types_nothing(key, modifiers));
+        binding.is_some_and(|binding| (binding.request)() == Request::TogglePalette)
+    };
+    context.input_mut(|input| {
+        let before = input.events.len();
+        input.events.retain(|event| !closes(event));
+        input.events.len() < before
+    })
+}
+
 /// Owner of the keyboard.
 struct Keyboard {
     is_typing: bool,
@@ -145,26 +174,23 @@ impl Keyboard {
     }
 
     /// Binding that an event presses, if its keys belong to the window, and true if the key repeats.
-    fn press_of(&self, event: &egui::Event) -> Option<(&'static Binding, bool)> {
+    fn press_of(&self, event: &egui::Event, map: &KeyMap) -> Option<(&'static Binding, bool)> {
         let &egui::Event::Key { key, pressed: true, repeat, modifiers, .. } = event else { return None };
-        let binding = BINDINGS.iter().find(|binding| binding.is_pressed(key, modifiers))?;
-        self.leaves(binding).then_some((binding, repeat))
+        let binding = map.pressed(key, modifiers)?;
+        self.leaves(key, modifiers).then_some((binding, repeat))
     }
 
     /// True if the keys of a binding belong to the window.
-    fn leaves(&self, binding: &Binding) -> bool {
-        let is_of_another = match binding.shortcut.logical_key {
+    fn leaves(&self, key: Key, modifiers: Modifiers) -> bool {
+        let is_of_another = match key {
             Key::Escape => self.menu_open,
             // Once a control has the focus, Tab moves it to the next control.
             Key::Tab => self.focus != Focus::Nothing,
-            Key::Space | Key::Enter if !binding.shortcut.modifiers.command => {
-                self.menu_open || self.focus == Focus::Clickable
-            }
+            Key::Space | Key::Enter if !modifiers.command => self.menu_open || self.focus == Focus::Clickable,
             Key::ArrowLeft | Key::ArrowRight | Key::Home | Key::End => self.menu_open || self.focus != Focus::Nothing,
             _ => false,
         };
-        let is_edit = matches!(binding.shortcut.logical_key, Key::Z | Key::Y | Key::A);
-        !is_of_another && (!self.is_typing || (binding.shortcut.modifiers.command && !is_edit))
+        !is_of_another && (!self.is_typing || types_nothing(key, modifiers))
     }
 }
 

@@ -2,12 +2,13 @@
 
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 
+use super::key_map::KeyMap;
 use super::state::{FileDialogKind, PageRequest, Request, ShadingMode, StepTarget, Tool};
 use crate::session::Action;
 
 /// Keyboard shortcut and its request.
 pub struct Binding {
-    /// Keys of the shortcut.
+    /// Keys of the shortcut, unless the user changes them.
     pub shortcut: KeyboardShortcut,
     /// Description for the user.
     pub about: &'static str,
@@ -35,7 +36,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(CTRL_SHIFT, Key::Z, "Redo", || Request::Do(Action::Redo)),
     bind(CTRL, Key::Y, "Redo", || Request::Do(Action::Redo)),
     bind(CTRL, Key::Z, "Undo", || Request::Do(Action::Undo)),
-    bind(CTRL, Key::O, "Open a mesh or a project", || Request::Ask(FileDialogKind::Open)),
+    bind(CTRL, Key::O, "Open a mesh, a project or a picture", || Request::Ask(FileDialogKind::Open)),
     bind(CTRL_SHIFT, Key::S, "Save the project under another name", || Request::Ask(FileDialogKind::SaveProject)),
     bind(CTRL, Key::S, "Save the project", || Request::SaveProject),
     bind(CTRL, Key::E, "Export: mesh, layout, pictures, report", || Request::ToggleExports),
@@ -66,7 +67,10 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::Delete, "Free the selected pins", || Request::UnpinSelected),
     bind(NONE, Key::Backspace, "Free the selected pins", || Request::UnpinSelected),
     bind(SHIFT, Key::C, "Show or hide the comparison of methods", || Request::ToggleComparison),
+    bind(CTRL, Key::P, "Find a command by words of its name", || Request::TogglePalette),
+    bind(CTRL, Key::B, "Show or hide the panels at the right", || Request::TogglePanels),
     bind(NONE, Key::F, "Frame the selection, or all", || Request::Frame),
+    bind(NONE, Key::Period, "Frame the selection, or all", || Request::Frame),
     bind(NONE, Key::G, "Go to a vertex, edge or face by number", || Request::AskGoTo),
     bind(NONE, Key::Num1, "Plain shading", || Request::SetShading(ShadingMode::Plain)),
     bind(NONE, Key::Num2, ShadingMode::Checker.title(), || Request::SetShading(ShadingMode::Checker)),
@@ -87,21 +91,21 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::Questionmark, "Show or hide this list", || Request::ToggleKeys),
 ];
 
-impl Binding {
-    /// True if a press matches the shortcut exactly, with no other modifiers. The question mark may need Shift.
-    pub(super) fn is_pressed(&self, key: Key, modifiers: Modifiers) -> bool {
-        let modifiers = if key == Key::Questionmark { Modifiers { shift: false, ..modifiers } } else { modifiers };
-        key == self.shortcut.logical_key && modifiers.matches_exact(self.shortcut.modifiers)
-    }
-}
-
 /// Keys of a request, such as "Ctrl+Z", for tooltips and menus. Empty if it has none.
 pub(super) fn keys_of(context: &egui::Context, request: &Request) -> String {
-    BINDINGS
-        .iter()
-        .find(|binding| (binding.request)() == *request)
-        .map(|binding| context.format_shortcut(&binding.shortcut))
-        .unwrap_or_default()
+    let shortcut = KeyMap::of(context).shortcut_of(request);
+    shortcut.map(|shortcut| context.format_shortcut(&shortcut)).unwrap_or_default()
+}
+
+/// Words that name usual keys between two other words, with the keys that the user has set.
+pub(super) fn with_keys_set(
+    context: &egui::Context,
+    words: &str,
+    [before, usual, after]: [&str; 3],
+    request: &Request,
+) -> String {
+    let now = keys_of(context, request);
+    words.replace(&format!("{before}{usual}{after}"), &format!("{before}{now}{after}"))
 }
 
 /// Mouse gestures, for the list of keys.

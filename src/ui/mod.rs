@@ -3,6 +3,8 @@
 //! | file | what |
 //! |---|---|
 //! | `window.rs` | one frame: all panels and panes in their places |
+//! | `commands/` | commands: one table for the menus and the command palette |
+//! | `key_map.rs` | keys as the user has set them |
 //! | `controls.rs` | building blocks of panels |
 //! | `typed.rs` | number fields that mark invalid input |
 //! | `state/` | plain data that editor, panels and panes share: requests, tools, views |
@@ -12,14 +14,16 @@
 //! | `timeline/` | the strip under the panes |
 //! | `presses.rs` | delivery of every key and button press in its own pass |
 //! | `keys.rs`, `keyboard.rs` | table of shortcuts; requests of key presses, pins moved by arrow keys |
-//! | `dialogs.rs` | file dialogs |
+//! | `dialogs/` | file dialogs |
 //! | `icons.rs` | signs of tools and verdicts |
 //! | `theme.rs` | colours and sizes |
 
+mod commands;
 mod controls;
 mod dialogs;
 mod editor;
 mod icons;
+mod key_map;
 mod keyboard;
 mod keys;
 mod panels;
@@ -33,19 +37,21 @@ mod window;
 
 pub use controls::sentence;
 use controls::{
-    Control, Offer, close_button, counted, figures, five_digits, heads, list, number, pairs, remark, short,
+    Control, Offer, accented, close_button, counted, figures, five_digits, heads, list, number, pairs, remark, short,
     tip_with_keys,
 };
 pub(crate) use dialogs::Dialogs;
 pub use editor::{Defect, Editor, MorphView};
 use editor::{Element, HullScene};
-use keys::keys_of;
+pub use key_map::{KeyMap, KeyPreset};
 pub use keys::{BINDINGS, Binding};
+use keys::{keys_of, with_keys_set};
 pub use panes::PinMark;
 use state::FileDialogKind;
+pub(crate) use state::is_picture;
 pub use state::{
-    Alignment, Axis, ComparisonExport, GestureKind, Half, HullStage, Intent, MorphRequest, PageRequest, Pane, Request,
-    SeamClick, SeamRule, ShadingMode, Snap, StepTarget, Tab, Tool, Tour, TourCard, Welcome,
+    Alignment, Axis, ComparisonExport, GestureKind, Half, Help, HullStage, Intent, MorphRequest, PageRequest, Pane,
+    Request, SeamClick, SeamRule, ShadingMode, Snap, StepTarget, Tab, Tool, Tour, TourCard, Welcome,
 };
 use theme::{Theme, theme_of};
 use typed::Typed;

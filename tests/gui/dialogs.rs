@@ -9,7 +9,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use freebound::app::LaunchFile;
 use freebound::examples::Example;
-use freebound::session::Severity;
+use freebound::session::{Action, Severity};
 use freebound_core::geom::Picture;
 use freebound_core::mesh::VertexId;
 use freebound_io::read_mesh;
@@ -61,13 +61,250 @@ fn the_dialog_walks_through_folders() {
     write_obj(&window.path("deep/third.obj"), &sheet(4, 0.0));
     window.press(Modifiers::COMMAND, Key::O);
     window.click("deep/");
+    assert!(window.has_button("sheet.obj") && !window.has_button("third.obj"), "one click only selects");
+    window.click("Open");
     assert!(window.has_button("third.obj"));
     window.click("Up");
     assert!(window.has_button("sheet.obj"));
-    window.click("deep/");
-    window.click("third.obj");
-    window.click("Open");
+    double_click(&mut window, "deep/");
+    assert!(window.has_button("third.obj"));
+    window.click(&format!("Go to {}", folder_of(&window)));
+    assert!(window.has_button("sheet.obj"));
+    double_click(&mut window, "deep/");
+    double_click(&mut window, "third.obj");
     assert_eq!(name(&window), "third.obj");
+}
+
+/// Folder of the window's files, as the dialog names it.
+fn folder_of(window: &Window) -> String {
+    window.path("").canonicalize().expect("a folder").display().to_string()
+}
+
+fn row(window: &Window, name: &str) -> egui::Rect {
+    window.rect(Role::Button, name)
+}
+
+fn double_click(window: &mut Window, name: &str) {
+    // Long after the click before.
+    window.frame_after(0.5, []);
+    let at = row(window, name).center();
+    window.double_click_at(at);
+}
+
+/// Names of the files and folders that the dialog lists, from top to bottom.
+fn listed(window: &Window) -> Vec<String> {
+    let is_row = |name: &str| name.ends_with('/') || name.contains('.');
+    let mut rows: Vec<(Role, String, egui::Rect)> = window.controls();
+    rows.retain(|(role, name, rect)| {
+        *role == Role::Button && is_row(name) && !name.contains(' ') && rect.width() > 300.0
+    });
+    rows.sort_by(|a, b| a.2.top().total_cmp(&b.2.top()));
+    rows.into_iter().map(|(_, name, _)| name).collect()
+}
+
+#[test]
+fn a_click_that_enters_a_folder_never_chooses_a_file_in_it() {
+    let mut window = window();
+    std::fs::create_dir(window.path("deep")).unwrap();
+    write_obj(&window.path("deep/third.obj"), &sheet(4, 0.0));
+    window.press(Modifiers::COMMAND, Key::O);
+    let at = row(&window, "deep/").center();
+    window.harness.hover_at(at);
+    window.step();
+    // Four clicks in quick succession: the second enters the folder, where a file appears under the pointer.
+    for pressed in [true, false, true, false, true, false, true, false] {
+        let (button, modifiers) = (egui::PointerButton::Primary, Modifiers::NONE);
+        window.frame_after(0.02, [egui::Event::PointerButton { pos: at, button, pressed, modifiers }]);
+        while window.editor().files.dialogs.is_listing() {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+            window.frame_after(0.0, []);
+        }
+    }
+    window.settle();
+    assert_eq!(listed(&window), ["third.obj"]);
+    assert!(row(&window, "third.obj").contains(at), "the file lies where the folder was");
+    assert!(window.editor().files.dialogs.is_open() && !window.is_enabled("Open"), "nothing is selected");
+    assert_eq!(name(&window), "sheet.obj");
+}
+
+#[test]
+fn two_clicks_on_two_files_only_select() {
+    let mut window = window();
+    write_obj(&window.path("second.obj"), &sheet(4, 0.0));
+    window.press(Modifiers::COMMAND, Key::O);
+    for name in ["second.obj", "sheet.obj"] {
+        let pos = row(&window, name).center();
+        window.harness.hover_at(pos);
+        for pressed in [true, false] {
+            let (button, modifiers) = (egui::PointerButton::Primary, Modifiers::NONE);
+            window.frame_after(0.02, [egui::Event::PointerButton { pos, button, pressed, modifiers }]);
+        }
+    }
+    window.settle();
+    assert!(window.editor().files.dialogs.is_open());
+    window.click("Open");
+    assert_eq!(name(&window), "sheet.obj");
+}
+
+#[test]
+fn keys_walk_through_the_dialog() {
+    let mut window = window();
+    for (folder, file) in [("alpha", "one.obj"), ("beta", "two.obj")] {
+        std::fs::create_dir(window.path(folder)).unwrap();
+        write_obj(&window.path(&format!("{folder}/{file}")), &sheet(4, 0.0));
+    }
+    window.press(Modifiers::COMMAND, Key::O);
+    assert_eq!(listed(&window), ["alpha/", "beta/", "sheet.obj"]);
+    window.key(Key::ArrowDown);
+    window.key(Key::ArrowDown);
+    window.key(Key::Enter);
+    assert_eq!(listed(&window), ["two.obj"]);
+    window.key(Key::Backspace);
+    assert_eq!(listed(&window), ["alpha/", "beta/", "sheet.obj"]);
+    // The folder that was left is selected.
+    window.key(Key::ArrowUp);
+    window.key(Key::Enter);
+    assert_eq!(listed(&window), ["one.obj"]);
+    window.press(Modifiers::ALT, Key::ArrowUp);
+    window.type_text("two");
+    window.settle();
+    assert_eq!(listed(&window), Vec::<String>::new());
+    window.key(Key::Backspace);
+    window.key(Key::Backspace);
+    window.key(Key::Backspace);
+    window.type_text("sh ee");
+    window.settle();
+    assert_eq!(listed(&window), ["sheet.obj"], "every word narrows the list");
+    let before = window.editor().session.opening_revision();
+    window.key(Key::ArrowDown);
+    window.key(Key::Enter);
+    assert_eq!(window.editor().session.opening_revision(), before + 1);
+    assert!(!window.editor().files.dialogs.is_open());
+}
+
+#[test]
+fn keys_of_the_window_rest_while_the_dialog_is_open() {
+    let mut window = window();
+    window.editor_mut().session.handle(Action::Fix([0, 24, 48].map(VertexId::new).to_vec()));
+    window.settle();
+    window.editor_mut().selection.add([VertexId::new(24)]);
+    ask_where_to_save(&mut window);
+    let at = row(&window, "sheet.obj").center();
+    window.click_at(at, Modifiers::NONE);
+    for key in [Key::Delete, Key::Backspace, Key::ArrowLeft, Key::W] {
+        window.key(key);
+    }
+    assert_eq!(window.editor().session.document().targets.len(), 3);
+    assert!(!window.editor().pane_shading.wireframe);
+}
+
+#[test]
+fn the_list_is_sorted_by_a_click_on_a_head_and_shows_other_files_if_asked() {
+    let mut window = window();
+    std::fs::create_dir(window.path("deep")).unwrap();
+    std::fs::write(window.path("a.obj"), "x".repeat(90_000)).unwrap();
+    std::fs::write(window.path("b.ply"), "x").unwrap();
+    std::fs::write(window.path("c.pdf"), "x".repeat(5_000_000)).unwrap();
+    window.press(Modifiers::COMMAND, Key::O);
+    assert_eq!(listed(&window), ["deep/", "a.obj", "b.ply", "sheet.obj"]);
+    window.click("Sort by name");
+    assert_eq!(listed(&window), ["deep/", "sheet.obj", "b.ply", "a.obj"]);
+    window.click("Sort by size");
+    assert_eq!(listed(&window), ["deep/", "b.ply", "sheet.obj", "a.obj"]);
+    assert!(window.shows("90 kB") && window.shows("PLY mesh"), "{:?}", window.words());
+    window.harness.get_by_role_and_label(Role::CheckBox, "All files").click();
+    window.settle();
+    assert_eq!(listed(&window), ["deep/", "b.ply", "sheet.obj", "a.obj", "c.pdf"]);
+    assert!(window.shows("5.0 MB"));
+    window.key(Key::Escape);
+    window.press(Modifiers::COMMAND, Key::O);
+    assert_eq!(listed(&window), ["deep/", "b.ply", "sheet.obj", "a.obj"], "the order stays, the switch does not");
+}
+
+#[test]
+fn a_folder_without_matching_files_says_how_to_see_the_others() {
+    let mut window = window();
+    std::fs::create_dir(window.path("deep")).unwrap();
+    std::fs::write(window.path("deep/notes.txt"), "x").unwrap();
+    window.press(Modifiers::COMMAND, Key::O);
+    double_click(&mut window, "deep/");
+    assert!(window.shows("obj, ply") && listed(&window).is_empty(), "{:?}", window.words());
+    window.click("Show all 1");
+    assert_eq!(listed(&window), ["notes.txt"]);
+    window.fill_in(Role::SearchInput, "Filter", "zebra");
+    window.settle();
+    window.click("Clear the filter");
+    assert_eq!(listed(&window), ["notes.txt"]);
+}
+
+#[test]
+fn folders_are_pinned_and_recent_ones_come_back_in_the_next_run() {
+    let files = window();
+    std::fs::create_dir(files.path("deep")).unwrap();
+    write_obj(&files.path("deep/third.obj"), &sheet(4, 0.0));
+    let start = || LaunchFile {
+        file: Some(files.path("sheet.obj")),
+        preferences: Some(files.path("window.json")),
+        dialogs_inside: true,
+        ..LaunchFile::default()
+    };
+    let mut first = Window::start(SIZE, start());
+    first.press(Modifiers::COMMAND, Key::O);
+    first.click("Pin this folder");
+    double_click(&mut first, "deep/");
+    double_click(&mut first, "third.obj");
+    eframe::App::on_exit(first.harness.state_mut());
+    let (pinned, recent) =
+        (format!("Pinned folder {}", folder_of(&files)), format!("Recent folder {}/deep", folder_of(&files)));
+    let mut second = Window::start(SIZE, start());
+    second.press(Modifiers::COMMAND, Key::O);
+    assert!(second.has_button(&pinned) && second.has_button("Unpin this folder"));
+    second.click(&recent);
+    assert_eq!(listed(&second), ["third.obj"]);
+    second.click(&pinned);
+    second.click("Unpin this folder");
+    assert!(!second.has_button(&pinned) && second.has_button("sheet.obj"));
+}
+
+#[test]
+fn a_folder_of_twenty_thousand_files_is_listed_and_drawn_fast() {
+    let mut window = window();
+    std::fs::create_dir(window.path("many")).unwrap();
+    for i in 0..20_000 {
+        std::fs::File::create(window.path(&format!("many/file{i:05}.obj"))).unwrap();
+    }
+    window.press(Modifiers::COMMAND, Key::O);
+    double_click(&mut window, "many/");
+    let rows = listed(&window);
+    assert!(rows[0] == "file00000.obj" && rows.len() < 60, "{} rows are drawn", rows.len());
+    window.fill_in(Role::SearchInput, "Filter", "19999");
+    let slowest = (0..5).map(|_| {
+        let start = std::time::Instant::now();
+        window.step();
+        start.elapsed()
+    });
+    assert!(slowest.max().expect("five frames") < std::time::Duration::from_millis(500));
+    assert_eq!(listed(&window), ["file19999.obj"]);
+}
+
+#[test]
+fn the_dialog_fits_into_the_smallest_window() {
+    let files = window();
+    let start = LaunchFile { file: Some(files.path("sheet.obj")), dialogs_inside: true, ..LaunchFile::default() };
+    let small = egui::vec2(640.0, 420.0);
+    let mut window = Window::start(small, start);
+    for save in [false, true] {
+        if save {
+            window.press(Modifiers::COMMAND, Key::S);
+        } else {
+            window.press(Modifiers::COMMAND, Key::O);
+        }
+        let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, small);
+        for button in ["Up", "Cancel", "Sort by name", if save { "Save" } else { "Open" }] {
+            assert!(screen.contains_rect(window.rect(Role::Button, button)), "{button}");
+        }
+        window.key(Key::Escape);
+    }
 }
 
 #[test]
@@ -108,11 +345,16 @@ fn a_file_that_is_there_is_replaced_only_by_that_word() {
     let mut window = window();
     std::fs::write(window.path("sheet-flat.obj"), "precious").unwrap();
     ask_where_to_save(&mut window);
+    for _ in 0..3 {
+        window.key(Key::Enter);
+        let content = std::fs::read_to_string(window.path("sheet-flat.obj")).unwrap();
+        assert_eq!(content, "precious", "Enter is not enough");
+    }
     assert!(window.has_button("Replace") && !window.has_button("Save"));
-    window.harness.get_by_role_and_label(Role::TextInput, "Name").click();
-    window.step();
-    window.key(Key::Enter);
-    assert_eq!(std::fs::read_to_string(window.path("sheet-flat.obj")).unwrap(), "precious", "Enter is not enough");
+    window.key(Key::Escape);
+    assert!(window.has_button("Save") && !window.has_button("Replace"), "Esc leaves the question alone");
+    window.click("Save");
+    assert_eq!(std::fs::read_to_string(window.path("sheet-flat.obj")).unwrap(), "precious");
     window.click("Replace");
     assert!(read_mesh(&window.path("sheet-flat.obj")).is_ok());
 }

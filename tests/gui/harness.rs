@@ -170,6 +170,7 @@ impl Window {
             && !session.is_comparing()
             && !session.is_morphing()
             && editor.plane.comparison.is_drawn(session)
+            && !editor.files.dialogs.is_listing()
             && !editor.gpu.has_presses_waiting();
         session.busy().is_none() && !session.is_following() && scenes_drawn
     }

@@ -21,6 +21,7 @@ mod glide;
 mod glyphs;
 mod harness;
 mod head;
+mod help;
 mod hull;
 mod large;
 mod layout;

@@ -67,7 +67,8 @@ corpus_test! {
             for message in &messages {
                 assert!(message.remedy.as_ref().is_some_and(|remedy| !remedy.is_empty()), "{file_name}: {message:?}");
             }
-            assert!(window.shows(&sentence(&messages[0].text)), "{file_name}: {:?}", window.words());
+            let newest = messages.last().expect("a message");
+            assert!(window.shows(&sentence(&newest.text)), "{file_name}: {:?}", window.words());
             assert!(window.has_button("Dismiss") && window.has_button("Copy"), "{file_name}");
             if read_mesh(&file).is_err() {
                 assert_eq!(name(&window), "sheet.obj", "what cannot be read replaces nothing");
@@ -280,4 +281,27 @@ fn pins_of_a_project_that_the_mesh_has_no_vertices_for_are_named() {
     let texts: Vec<String> = window.editor().session.messages().iter().map(|m| m.text.clone()).collect();
     let of_pins = texts.iter().find(|text| ["v40", "v41", "v48"].iter().all(|vertex| text.contains(vertex)));
     assert_message("messages-window-pins-left-out", of_pins.unwrap_or_else(|| panic!("{texts:?}")));
+}
+
+#[test]
+fn faults_of_one_file_form_one_group_that_unfolds() {
+    let mut window = window();
+    let name = |window: &Window, file: &str| window.path(file);
+    for (file, text) in [("first.txt", "3 0 0\n17 inf 0\n"), ("second.txt", "3 0 0 -1\n")] {
+        std::fs::write(name(&window, file), text).expect("written");
+    }
+    for file in ["first.txt", "second.txt", "first.txt", "first.txt"] {
+        let path = name(&window, file);
+        window.editor_mut().session.handle(Action::ImportConstraints(path));
+        window.settle();
+    }
+    let bars = |window: &Window| window.harness.query_all_by_label("Dismiss").count();
+    assert_eq!((window.editor().session.messages().len(), bars(&window)), (4, 2), "one bar a file");
+    window.click("Show 2 more problems of first.txt");
+    assert_eq!(bars(&window), 4);
+    window.click("Hide 2 more problems of first.txt");
+    assert_eq!(bars(&window), 2);
+    window.click("Dismiss these 3");
+    let left: Vec<_> = window.editor().session.messages().iter().map(|message| message.about.clone()).collect();
+    assert_eq!(left, [Some(name(&window, "second.txt"))]);
 }

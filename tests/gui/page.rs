@@ -479,3 +479,18 @@ fn the_page_agrees_with_the_layout_whatever_is_pressed() {
     }
     println!("{actions} actions, {} rests with overlaps", walk.overlaps);
 }
+
+#[test]
+fn a_moved_chart_is_unsaved_work_until_the_move_is_undone() {
+    let mut window = with_sheets();
+    until_proved(&mut window);
+    assert!(!window.editor().session.has_unsaved_work(), "looking changes nothing");
+    let at = middle(&window, 0);
+    window.click_at(at, Modifiers::NONE);
+    assert!(!window.editor().session.has_unsaved_work());
+    drag(&mut window, at, at + egui::vec2(30.0, 10.0), Modifiers::ALT);
+    assert!(window.editor().session.has_unsaved_work(), "a moved chart is a change");
+    window.press(Modifiers::COMMAND, Key::Z);
+    until_proved(&mut window);
+    assert!(!window.editor().session.has_unsaved_work());
+}

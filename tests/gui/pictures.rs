@@ -245,3 +245,60 @@ fn the_picture_stands_upright_behind_the_embedding_and_on_it_whichever_way_v_run
         window.settle();
     }
 }
+
+#[test]
+fn a_picture_opened_like_a_mesh_is_the_picture_of_the_document() {
+    let mut window = window();
+    let path = write_picture(&window);
+    window.shade(ShadingMode::Angle);
+    let mesh = window.editor().session.model().expect("a mesh").name.clone();
+    window.press(Modifiers::COMMAND, Key::O);
+    window.click("quarters.png");
+    window.click("Open");
+    assert!(window.editor().has_picture() && window.editor().session.messages().is_empty());
+    assert_eq!(window.shadings(), [ShadingMode::Picture; 2]);
+    assert_eq!(window.editor().session.model().expect("a mesh").name, mesh);
+    // A dropped one replaces it.
+    window.shade(ShadingMode::Stretch);
+    let other = window.path("other.png");
+    std::fs::copy(&path, &other).expect("copied");
+    window.harness.input_mut().dropped_files.push(crate::dialogs::dropped(other));
+    window.settle();
+    assert_eq!(window.shadings(), [ShadingMode::Picture; 2]);
+}
+
+#[test]
+fn a_picture_of_the_command_line_is_shown_on_the_built_in_face() {
+    let files = window();
+    let start = freebound::app::LaunchFile { file: Some(write_picture(&files)), ..Default::default() };
+    let window = Window::start(crate::harness::SIZE, start);
+    let editor = window.editor();
+    assert_eq!(editor.session.model().expect("a mesh").name, freebound::examples::Example::Face.title());
+    let picture = editor.session.document().picture.as_ref().expect("a picture");
+    assert_eq!((picture.pixels.width, picture.pixels.height), (40, 20));
+    assert_eq!(window.shadings(), [ShadingMode::Picture; 2]);
+    assert!(editor.session.messages().is_empty());
+}
+
+#[test]
+fn a_picture_that_no_mesh_waits_for_is_shown_on_the_built_in_face() {
+    let files = window();
+    let start = freebound::app::LaunchFile { file: Some(files.path("gone.obj")), ..Default::default() };
+    let mut window = Window::start(crate::harness::SIZE, start);
+    assert!(window.editor().session.model().is_none());
+    window.harness.input_mut().dropped_files.push(crate::dialogs::dropped(write_picture(&files)));
+    window.settle();
+    assert!(window.editor().has_picture() && window.editor().session.model().is_some());
+}
+
+#[test]
+fn a_picture_of_an_unknown_kind_is_refused_as_a_picture() {
+    let mut window = window();
+    let path = window.path("scan.tif");
+    std::fs::write(&path, "II*").expect("written");
+    window.harness.input_mut().dropped_files.push(crate::dialogs::dropped(path.clone()));
+    window.settle();
+    let message = &window.editor().session.messages()[0];
+    assert_eq!(message.about.as_deref(), Some(&*path));
+    assert!(message.remedy.as_ref().expect("a remedy").contains("PNG"), "{message:?}");
+}

@@ -8,8 +8,8 @@ use eframe::egui_wgpu::RendererOptions;
 use egui_kittest::Harness;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use freebound::render::{FaceShading, MeshFrame, PaneId, Style, install, mesh_pane, plane_pane, stats};
-use freebound_core::geom::Bounds;
 use freebound::view::{FacePaint, MeshArrays, PlaneArrays};
+use freebound_core::geom::Bounds;
 use freebound_core::mesh::{FaceId, VertexId};
 use glam::DVec2;
 

@@ -125,6 +125,8 @@ fn shortcuts_do_what_the_table_says() {
                 window.has_button(first)
             }
             Request::ToggleKeys => editor.layout.keys_shown,
+            Request::TogglePalette => editor.layout.help.has_palette(),
+            Request::TogglePanels => !editor.layout.panels_shown(),
             other => panic!("{other:?} has a key that no test knows"),
         };
         assert!(done, "{}: {:?}", binding.about, binding.shortcut);
@@ -298,17 +300,20 @@ fn the_list_of_keys_is_in_groups() {
     let mut window = window();
     window.key(Key::F1);
     let place = |words: &str| window.harness.get_by_role_and_label(Role::Label, words).rect().top();
-    let heads = ["Look", "Pin", "Step", "File", "Mouse"].map(place);
+    let heads = ["View", "Select", "Pins", "Seams", "Charts", "Steps", "Files", "Menus and help", "Mouse"];
+    let heads = heads.map(place);
     assert!(heads.is_sorted(), "{heads:?}");
-    let [look, pin, step, file, mouse] = heads;
+    let [view, select, pins, seams, charts, steps, files, help, _] = heads;
     for (request, from, to) in [
-        (Request::ToggleWireframe, look, pin),
-        (Request::Do(Action::Redo), pin, step),
-        (Request::Do(Action::Step), step, file),
-        (Request::SaveProject, file, mouse),
+        (Request::ToggleWireframe, view, select),
+        (Request::SetTool(Tool::Fix), pins, seams),
+        (Request::SetTool(Tool::Seam), seams, charts),
+        (Request::Do(Action::Step), steps, files),
+        (Request::SaveProject, files, help),
     ] {
         let words = BINDINGS.iter().find(|binding| (binding.request)() == request).expect("a key").about;
-        let at = window.harness.query_all_by_label(words).next().expect("listed").rect().top();
+        let mut found = window.harness.query_all_by_role_and_label(Role::Label, words);
+        let at = found.next().expect("listed").rect().top();
         assert!((from..to).contains(&at), "{words} at {at} of {heads:?}");
     }
 }

@@ -125,7 +125,8 @@ fn one_click_unwraps_a_mesh_again_and_another_returns_to_the_layout_of_its_file(
 fn a_layout_that_is_not_one_to_one_stays_in_its_file_and_the_mesh_is_solved() {
     let mut window = Window::with_mesh("plain.obj", &sheet(5, 0.3));
     let path = window.path("folded.obj");
-    let folded = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0.9 0.1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+    let folded =
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0.9 0.1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
     std::fs::write(&path, folded).expect("the folder is there");
     window.open(&path);
     assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::Plain));

@@ -59,11 +59,8 @@ fn the_welcome_opens_the_cube_and_recent_files_and_closes_with_another_mesh() {
     let folder = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     let (path, recent) = (folder.path("window.json"), folder.path("recent.json"));
     RecentFiles::load(recent.clone()).remember(&folder.path("sheet.obj"));
-    let start = || LaunchFile {
-        preferences: Some(path.clone()),
-        recent_store: Some(recent.clone()),
-        ..LaunchFile::default()
-    };
+    let start =
+        || LaunchFile { preferences: Some(path.clone()), recent_store: Some(recent.clone()), ..LaunchFile::default() };
     let name = |window: &Window| window.editor().session.model().map(|model| model.name.clone());
     let mut window = Window::start(SIZE, start());
     window.click("The paper's cube");

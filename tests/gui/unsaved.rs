@@ -5,6 +5,7 @@ use egui::{Key, Modifiers};
 use freebound::app::LaunchFile;
 use freebound::examples::Example;
 use freebound::session::Action;
+use freebound::ui::ShadingMode;
 use freebound_core::mesh::{TriMesh, VertexId};
 use glam::DVec2;
 
@@ -197,4 +198,37 @@ fn faces_that_point_inward_are_said_and_turned_by_a_click() {
     assert!(asks(&window));
     window.click("Leave them");
     assert!(!asks(&window));
+}
+
+#[test]
+fn only_what_a_person_changed_asks_to_be_saved() {
+    let asks = |window: &mut Window| {
+        window.press(Modifiers::COMMAND, Key::Q);
+        let asks = window.editor().files.unsaved.is_asked();
+        assert_ne!(asks, window.editor().gpu.is_quitting());
+        window.key(Key::Escape);
+        asks
+    };
+    let look = |window: &mut Window| {
+        window.key(Key::Space);
+        window.key(Key::ArrowLeft);
+        window.shade(ShadingMode::Angle);
+        window.click("Vertex");
+        let at = window.plane_view().center();
+        window.click_at(at, Modifiers::NONE);
+        window.key(Key::F);
+    };
+    // One disk, and a closed surface, which is unwrapped on opening.
+    for mesh in [sheet(6, 0.3), freebound_testkit::bumpy_ball().triangulate()] {
+        let mut window = Window::with_mesh("mesh.obj", &mesh);
+        look(&mut window);
+        assert!(!asks(&mut window));
+        let mut window = Window::with_mesh("mesh.obj", &mesh);
+        look(&mut window);
+        window.editor_mut().session.handle(Action::Fix(vec![VertexId::new(1)]));
+        window.settle();
+        assert!(asks(&mut window), "a pin is a change");
+        window.press(Modifiers::COMMAND, Key::Z);
+        assert!(!asks(&mut window), "undo takes the change back");
+    }
 }

@@ -19,6 +19,18 @@ const OPACITY: f32 = 0.55;
 /// Number of checks across the embedding.
 const CHECKER_FIELDS: f64 = 40.0;
 
+/// Effect of a new picture on the shadings.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum OnPicture {
+    /// Plain and checkered faces show it.
+    #[default]
+    FillsIn,
+    /// The shadings stay, because they were restored from the last run.
+    Leaves,
+    /// All faces show it, because the user opens it.
+    Shows,
+}
+
 /// Shading of the faces in the two panes, and opacity of the picture behind the embedding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Appearance {
@@ -26,8 +38,8 @@ pub struct Appearance {
     plane: ShadingMode,
     /// Opacity of the picture, 0 to 1.
     pub opacity: f32,
-    /// True if the shadings were restored from the last run. The first picture then leaves them unchanged.
-    pub(super) is_kept: bool,
+    /// Effect of the next picture.
+    pub(super) on_picture: OnPicture,
     /// Shadings that the user chose for the two panes, now or in an earlier run. Shadings of a project do not count.
     pub(super) own: [Option<ShadingMode>; 2],
 }
@@ -35,8 +47,13 @@ pub struct Appearance {
 impl Appearance {
     /// Appearance while targets are placed on a picture: clay on the mesh, so that vertices are easy to find, and an
     /// opaque picture.
-    const OVER_PICTURE: Self =
-        Self { mesh: ShadingMode::Plain, plane: ShadingMode::SeeThrough, opacity: 1.0, is_kept: false, own: [None; 2] };
+    const OVER_PICTURE: Self = Self {
+        mesh: ShadingMode::Plain,
+        plane: ShadingMode::SeeThrough,
+        opacity: 1.0,
+        on_picture: OnPicture::FillsIn,
+        own: [None; 2],
+    };
 
     /// Shading of a pane.
     pub fn shading(self, pane: Pane) -> ShadingMode {
@@ -88,7 +105,7 @@ impl PaneShading {
                 mesh: ShadingMode::default(),
                 plane: ShadingMode::default(),
                 opacity: OPACITY,
-                is_kept: false,
+                on_picture: OnPicture::FillsIn,
                 own: [None; 2],
             },
             over_picture: Appearance::OVER_PICTURE,
@@ -124,7 +141,7 @@ impl PaneShading {
         let Some(shading) = ShadingMode::called(name).filter(|shading| shading.is_for(pane)) else { return };
         self.usual.own[pane as usize] = Some(shading);
         self.usual.shade(pane, shading);
-        self.usual.is_kept = true;
+        self.usual.on_picture = OnPicture::Leaves;
     }
 
     /// True if pixels are drawn as squares.
@@ -169,7 +186,8 @@ impl PaneShading {
     }
 
     /// Follows a change of the document's picture. Prepares a new picture for drawing in the background (mip levels).
-    /// Plain and checkered faces switch to a new picture, unless their shading was restored from an earlier run.
+    /// Plain and checkered faces switch to a new picture, unless their shading was restored from an earlier run. All
+    /// faces switch to a picture that the user opens.
     /// Without a picture, shadings by the picture fall back to the checker. Call once per frame.
     pub(super) fn refresh_picture(&mut self, document: &Document) {
         if let Some((_, made)) = self.job.poll() {
@@ -185,11 +203,14 @@ impl PaneShading {
             self.picture_count += 1;
             self.job.make(self.picture_count, move |_| view::PictureQuad::new(pixels));
         }
-        let is_kept = wanted.is_some() && std::mem::take(&mut self.usual.is_kept);
+        let on_picture = wanted.map(|_| std::mem::take(&mut self.usual.on_picture));
         for shading in [&mut self.usual.mesh, &mut self.usual.plane] {
             *shading = match *shading {
-                ShadingMode::Picture | ShadingMode::SeeThrough if wanted.is_none() => ShadingMode::Checker,
-                ShadingMode::Plain | ShadingMode::Checker if wanted.is_some() && !is_kept => ShadingMode::Picture,
+                ShadingMode::Picture | ShadingMode::SeeThrough if on_picture.is_none() => ShadingMode::Checker,
+                _ if on_picture == Some(OnPicture::Shows) => ShadingMode::Picture,
+                ShadingMode::Plain | ShadingMode::Checker if on_picture == Some(OnPicture::FillsIn) => {
+                    ShadingMode::Picture
+                }
                 other => other,
             };
         }

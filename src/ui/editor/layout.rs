@@ -1,6 +1,6 @@
 //! Layout of the window: tab and panels, widths of the panes, floating windows.
 
-use crate::ui::state::{InsetView, Pane, Tab, Toast, Tour, Welcome};
+use crate::ui::state::{Help, InsetView, Pane, Tab, Toast, Tour, Welcome};
 use crate::ui::theme::{PANEL_WIDTH, PANEL_WIDTHS};
 
 /// Least width of a window that shows the panels by default, points.
@@ -41,6 +41,8 @@ pub struct Layout {
     pub(in crate::ui) tour: Option<Tour>,
     /// Zoom and pan of the insets over the panes.
     pub(in crate::ui) insets: InsetView,
+    /// Windows that help.
+    pub help: Help,
     /// Menu to open, by its place in the bar.
     pub(in crate::ui) menu_asked: Option<usize>,
 }
@@ -140,6 +142,10 @@ impl Layout {
 
     /// Closes one of the floating windows. Returns true if one was open.
     pub(super) fn close_window(&mut self) -> bool {
-        self.welcome.close() || std::mem::take(&mut self.exports_shown) || std::mem::take(&mut self.keys_shown) || self.go_to.take().is_some()
+        self.help.close()
+            || self.welcome.close()
+            || std::mem::take(&mut self.exports_shown)
+            || std::mem::take(&mut self.keys_shown)
+            || self.go_to.take().is_some()
     }
 }

@@ -4,6 +4,7 @@ use eframe::egui::{Theme, ThemePreference};
 
 use super::Editor;
 use crate::session::Preferences;
+use crate::ui::key_map::KeyMap;
 use crate::ui::state::Pane;
 
 impl Editor {
@@ -25,6 +26,9 @@ impl Editor {
             panel_width: Some(self.layout.panel_width()),
             window_size: Some([size.x, size.y]),
             no_welcome: !self.layout.welcome.at_start,
+            folders: self.files.dialogs.folders.clone(),
+            keys: KeyMap::of(context).written(),
+            recent_commands: self.layout.help.recent.clone(),
         }
     }
 
@@ -34,6 +38,9 @@ impl Editor {
             self.gpu.context().set_theme(if dark { Theme::Dark } else { Theme::Light });
         }
         self.layout.welcome.at_start = !left.no_welcome;
+        self.files.dialogs.folders.clone_from(&left.folders);
+        self.layout.help.recent.clone_from(&left.recent_commands);
+        KeyMap::read(&left.keys).put_on(self.gpu.context());
         self.pane_shading.wireframe = left.wireframe;
         for (pane, name) in Pane::BOTH.into_iter().zip([&left.mesh_shading, &left.plane_shading]) {
             self.pane_shading.keep_own_shading(pane, name.as_deref());

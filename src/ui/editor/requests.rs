@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::Editor;
+use super::appearance::OnPicture;
 use crate::session::{Action, LockState, SaveRequest, UndoGroup};
 use crate::ui::dialogs::DialogChoice;
-use crate::ui::state::{FileDialogKind, Half, PageRequest, Pane, PendingClose, Request, StepTarget, Tool};
+use crate::ui::state::{FileDialogKind, Half, PageRequest, Pane, PendingClose, Request, StepTarget, Tool, is_picture};
 use freebound_core::mesh::VertexId;
 use freebound_core::problem::PinKind;
 use freebound_io::PROJECT_EXTENSION;
@@ -94,6 +95,9 @@ impl Editor {
             Request::ToggleKeys => self.layout.keys_shown = !self.layout.keys_shown,
             Request::ToggleWelcome => self.layout.welcome.toggle(),
             Request::ToggleWelcomeAtStart => self.layout.welcome.at_start = !self.layout.welcome.at_start,
+            Request::TogglePalette => self.layout.help.toggle_palette(),
+            Request::ToggleLog => self.layout.help.log_shown ^= true,
+            Request::ToggleAbout => self.layout.help.about_shown ^= true,
             Request::StartTour => self.layout.start_tour(),
             Request::SetTheme(theme) => self.gpu.context().set_theme(theme),
             Request::SetFit(fit) => self.files.fit = fit,
@@ -138,8 +142,7 @@ impl Editor {
     /// constraints belong to it, or to the open document if no mesh is dropped. Edges belong to the open document.
     pub(in crate::ui) fn dropped(paths: Vec<PathBuf>) -> Vec<Request> {
         let is_for = |kind: FileDialogKind| move |path: &PathBuf| kind.form().fits(path);
-        let (pictures, others): (Vec<PathBuf>, Vec<PathBuf>) =
-            paths.into_iter().partition(is_for(FileDialogKind::OpenPicture));
+        let (pictures, others): (Vec<PathBuf>, Vec<PathBuf>) = paths.into_iter().partition(|path| is_picture(path));
         let (constraints, others): (Vec<_>, Vec<_>) =
             others.into_iter().partition(is_for(FileDialogKind::ImportConstraints));
         let (edges, mut meshes): (Vec<_>, Vec<_>) = others.into_iter().partition(is_for(FileDialogKind::ImportSeams));
@@ -206,6 +209,13 @@ impl Editor {
     pub(super) fn act(&mut self, action: Action) {
         if matches!(action, Action::Step | Action::Run | Action::Relax | Action::Repair | Action::ShowStep(_)) {
             self.timeline.playing_since = None;
+        }
+        let action = match action {
+            Action::Open(path) if is_picture(&path) => Action::OpenPicture(path),
+            other => other,
+        };
+        if matches!(action, Action::OpenPicture(_)) {
+            self.pane_shading.usual.on_picture = OnPicture::Shows;
         }
         if matches!(action, Action::Open(_) | Action::OpenTogether(_) | Action::OpenExample(_) | Action::Recover(_)) {
             return self.close_or_ask(PendingClose::Do(action));

@@ -2,12 +2,12 @@
 //! with a fault or with unmet constraints. Relax a planar but distorted embedding. Unwrap a mesh without seams whose
 //! map is distorted.
 
-use eframe::egui::{self, Button, RichText};
+use eframe::egui::{self, Button};
 
 use super::menu::grouped;
 use super::quality::GOOD;
 use crate::session::{Action, MapOrigin, RunStop, Session, Status};
-use crate::ui::{Control, Editor, Request, Tab, Theme, short, theme_of, tip_with_keys};
+use crate::ui::{Control, Editor, Request, Tab, accented, short, theme_of, tip_with_keys, with_keys_set};
 use freebound_core::problem::{Method, Settings};
 
 /// Width of the window below which the advice is short, points.
@@ -113,6 +113,7 @@ impl Change {
 pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(advice) = Advice::of(editor) else { return };
     let words = advice.words(ui.ctx().content_rect().width() >= ROOMY);
+    let words = with_keys_set(ui.ctx(), &words, ["(", "R", ")"], &Request::Do(Action::Relax));
     let theme = theme_of(ui);
     let (button, tip, request) = match advice {
         Advice::Repair => {
@@ -143,11 +144,6 @@ pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Requ
     };
     let tip = tip_with_keys(ui, &tip, &request);
     ui.add(button).on_hover_text(tip).asks(request, requests);
-}
-
-/// Button in the accent colour. At most one button is accented.
-fn accented(words: String, theme: &Theme) -> Button<'static> {
-    Button::new(RichText::new(words).color(theme.panel).strong()).fill(theme.accent)
 }
 
 /// Formats a large ratio with two digits and grouped thousands.

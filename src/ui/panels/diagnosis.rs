@@ -8,7 +8,7 @@ use super::parts::parts;
 use super::surface::surface_rows;
 use super::welding::welding;
 use crate::session::{Action, Model, Session};
-use crate::ui::{Control, Request, counted, sentence, theme_of};
+use crate::ui::{Control, Request, counted, sentence, theme_of, tip_with_keys};
 use freebound_core::mesh::{Fault, Preparation, Repair, TriMesh};
 use freebound_core::pipeline::Surface;
 
@@ -21,8 +21,9 @@ pub(super) fn faults(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Re
     egui::ScrollArea::vertical().show(ui, |ui| {
         if let Some(remedy) = &model.prepared.remedy {
             let done: Vec<String> = remedy.done().iter().map(ToString::to_string).collect();
-            let tip = "Repair the mesh and cut it along short seams (U). The file is not changed; undo reverts this";
-            ui.button("Unwrap").on_hover_text(tip).asks(Action::Unwrap(None), requests);
+            let tip = "Repair the mesh and cut it along short seams. The file is not changed; undo reverts this";
+            let unwrap = Action::Unwrap(None).into();
+            ui.button("Unwrap").on_hover_text(tip_with_keys(ui, tip, &unwrap)).asks(unwrap, requests);
             ui.weak(sentence(&done.join(", ")));
         }
         for fault in &diagnosis.faults {

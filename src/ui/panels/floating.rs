@@ -1,4 +1,4 @@
-//! Windows over the panes: list of keys, "Go to", file dialog, exports, messages and questions. Also pictures of the
+//! Windows over the panes: "Go to", file dialog, exports, messages and questions. Also pictures of the
 //! panes, cropped from a screenshot.
 
 use std::path::PathBuf;
@@ -6,24 +6,21 @@ use std::sync::mpsc::sync_channel;
 
 use eframe::egui::{self, Align2, Key, Pos2, Rect};
 
-use crate::session::Action;
 use crate::ui::editor::layout::GoTo;
-use crate::ui::keys::{BINDINGS, Binding, MOUSE};
-use crate::ui::{Control, Editor, Element, FileDialogKind, Pane, Request, pairs};
+use crate::ui::state::EXPORTS;
+use crate::ui::{Control, Editor, Element, Pane, Request};
 use freebound_core::geom::Picture;
-use freebound_core::pipeline::Fit;
-use freebound_io::OutputKind;
 
 pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
-    if editor.layout.keys_shown {
-        keys_window(context, editor);
-    }
+    super::keys_window::keys_window(context, editor);
+    super::about::help_windows(context, editor);
     if let Some(go_to) = editor.layout.go_to.take() {
         editor.layout.go_to = go_to_window(context, editor, go_to, requests);
     }
     if editor.layout.exports_shown {
         exports_window(context, editor, requests);
     }
+    super::palette::palette(context, editor, requests);
     super::tour::tour(context, editor);
     super::toast::toast(context, editor, requests);
     super::unsaved::question(context, editor, requests);
@@ -31,78 +28,6 @@ pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Edit
     if let Some(choice) = editor.files.dialogs.show(context) {
         editor.take_choice(choice);
     }
-}
-
-/// Groups of the list of keys.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Group {
-    Look,
-    Pin,
-    Step,
-    File,
-    Mouse,
-}
-
-impl Group {
-    const ALL: [Self; 5] = [Self::Look, Self::Pin, Self::Step, Self::File, Self::Mouse];
-
-    const fn title(self) -> &'static str {
-        ["Look", "Pin", "Step", "File", "Mouse"][self as usize]
-    }
-
-    const fn of(request: &Request) -> Self {
-        match request {
-            Request::SetTool(_)
-            | Request::UnpinSelected
-            | Request::Escape
-            | Request::Do(Action::Undo | Action::Redo) => Self::Pin,
-            Request::Do(_)
-            | Request::RunOrPause
-            | Request::GoToStep(_)
-            | Request::StepDefect(_)
-            | Request::StepChart(_)
-            | Request::ToggleLock => Self::Step,
-            Request::Ask(_)
-            | Request::SaveProject
-            | Request::ToggleExports
-            | Request::Quit
-            | Request::OpenMenu(_)
-            | Request::ToggleKeys => Self::File,
-            _ => Self::Look,
-        }
-    }
-}
-
-fn keys_window(context: &egui::Context, editor: &mut Editor) {
-    // Keys without modifiers first; the table itself has the opposite order.
-    let mut bindings: Vec<&Binding> = BINDINGS.iter().collect();
-    bindings.sort_by_key(|binding| (binding.shortcut.modifiers.any(), binding.about));
-    let height = (context.content_rect().height() - 120.0).max(160.0);
-    egui::Window::new("Keys and mouse")
-        .open(&mut editor.layout.keys_shown)
-        .collapsible(false)
-        .default_size([520.0, height.min(620.0)])
-        .pivot(Align2::CENTER_CENTER)
-        .default_pos(context.content_rect().center())
-        .show(context, |ui| {
-            egui::ScrollArea::vertical().auto_shrink(false).max_height(height).show(ui, |ui| {
-                for group in Group::ALL {
-                    let of_group = bindings.iter().filter(|binding| Group::of(&(binding.request)()) == group);
-                    let keys = of_group.map(|key| (context.format_shortcut(&key.shortcut), key.about));
-                    let gestures = MOUSE.iter().filter(|_| group == Group::Mouse);
-                    let gestures = gestures.map(|&(gesture, about)| (gesture.to_owned(), about));
-                    ui.strong(group.title());
-                    pairs(ui, group.title(), [24.0, 4.0], |ui| {
-                        for (input, about) in keys.chain(gestures) {
-                            ui.monospace(input);
-                            ui.label(about);
-                            ui.end_row();
-                        }
-                    });
-                    ui.add_space(8.0);
-                }
-            });
-        });
 }
 
 /// Shows the window "Go to". Returns its state, or `None` once it closes.
@@ -137,28 +62,6 @@ fn go_to_window(
     });
     (open && !gone).then_some(go_to)
 }
-
-/// All exports: dialog, menu entry and description.
-pub(super) const EXPORTS: [(FileDialogKind, &str, &str); 9] = {
-    use FileDialogKind::{Export, PanePicture};
-    use OutputKind::{Glb, Json, Obj, Ply, Png, Svg};
-    let (unit, true_scale) = (Some(Fit::Unit), Some(Fit::True));
-    [
-        (
-            Export(Obj, None),
-            "Mesh with texture coordinates…",
-            "OBJ, with its material, and with the picture if there is one",
-        ),
-        (Export(Ply, None), "Mesh as PLY…", "PLY in 32 bits, with all data of an opened PLY file"),
-        (Export(Glb, None), "Mesh as GLB…", "Binary glTF in 32 bits, with all data of an opened glTF file"),
-        (Export(Svg, unit), "Layout in the unit square…", "SVG, positioned like texture coordinates"),
-        (Export(Svg, true_scale), "Layout at true scale…", "SVG in the units of the mesh, for cutting out"),
-        (PanePicture(Pane::Mesh), "Picture of the mesh's pane…", "PNG, as shown in the pane"),
-        (PanePicture(Pane::Plane), "Picture of the embedding's pane…", "PNG, as shown in the pane"),
-        (Export(Png, None), "Mesh and layout side by side…", "PNG, redrawn for the file"),
-        (Export(Json, None), "Report…", "JSON: method, steps, verdict, distortion"),
-    ]
-};
 
 fn exports_window(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
     let solved = editor.session.outcome().is_some();

@@ -9,6 +9,7 @@ use crate::session::Action;
 use crate::ui::timeline::chips::residual_words;
 use crate::ui::{
     Control, Editor, Request, Typed, figures, heads, list, number, pairs, remark, sentence, short, tip_with_keys,
+    with_keys_set,
 };
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::{Family, Growth, Method, NamedOption, Settings, Treatment};
@@ -91,6 +92,7 @@ fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
         let solve = ui.add_enabled(disk && !busy, egui::Button::new("Solve"));
         let tip = "Solve from scratch (Ctrl+Enter), ignoring the current map. Changes of method, weights or pins are \
                    solved automatically.";
+        let tip = with_keys_set(ui.ctx(), tip, ["(", "Ctrl+Enter", ")"], &Action::Solve.into());
         solve.on_hover_text(tip).asks(Action::Solve, requests);
         let relax = Action::Relax.into();
         let tip = "Lower the distortion of a planar embedding. It stays planar, and hard pins stay on their targets";

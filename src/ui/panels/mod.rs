@@ -20,13 +20,17 @@
 //! | `quality.rs` | grade of the map, beside the verdict |
 //! | `advice.rs` | next action, beside the verdict |
 //! | `status.rs` | the status bar |
-//! | `floating.rs` | list of keys, "Go to", file dialog inside the window, exports, pictures of panes |
+//! | `floating.rs` | "Go to", file dialog inside the window, exports, pictures of panes |
+//! | `keys_window.rs` | list of keys and gestures; changes of keys |
+//! | `palette.rs` | command palette |
+//! | `about.rs` | About, and the messages of this run |
 //! | `toast.rs` | success message, for a few seconds |
 //! | `tour.rs` | card of the guided tour |
 //! | `welcome.rs` | welcome at a start without a file |
 //! | `large.rs` | the question before a large file is opened |
 //! | `unsaved.rs` | the question about unsaved work, the window's title |
 
+mod about;
 mod advice;
 mod boundary_rows;
 mod charts_panel;
@@ -37,9 +41,11 @@ pub(super) mod equation_table;
 mod file_layout;
 pub(super) mod floating;
 mod hull_section;
+mod keys_window;
 mod large;
 pub(super) mod menu;
 pub(super) mod method_panel;
+mod palette;
 mod parts;
 mod picture_panel;
 mod pins_panel;

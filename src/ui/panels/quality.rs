@@ -5,10 +5,10 @@
 use eframe::egui::{self, RichText, Role};
 
 use super::advice::ratio_words;
-use crate::session::Status;
+use crate::session::{Action, Status};
 use crate::ui::icons::{self, Sign};
 use crate::ui::theme::CHIP_HOVERED;
-use crate::ui::{Control, Editor, Request, ShadingMode, short, theme_of};
+use crate::ui::{Control, Editor, Request, ShadingMode, short, theme_of, with_keys_set};
 use freebound_core::pipeline::Outcome;
 use freebound_core::verify::DistortionSummary;
 
@@ -140,7 +140,9 @@ pub(super) fn quality(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Req
     ui.painter().galley(at, galley, colour);
     let response =
         response.named(Role::Button, &format!("Quality: {}, energy {}", grade.title(), short(quality.energy)));
-    response.on_hover_text(quality.tip()).asks(Request::SetShading(ShadingMode::Area), requests);
+    let tip = with_keys_set(ui.ctx(), &quality.tip(), ["(", "R", ")"], &Action::Relax.into());
+    let tip = with_keys_set(ui.ctx(), &tip, ["(", "U", ")"], &Action::Unwrap(None).into());
+    response.on_hover_text(tip).asks(Request::SetShading(ShadingMode::Area), requests);
 }
 
 #[cfg(test)]

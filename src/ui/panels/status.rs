@@ -5,10 +5,10 @@ use std::borrow::Cow;
 use eframe::egui::{self, RichText};
 
 use super::vertex_panel::new_vertex_words;
-use crate::session::Status;
+use crate::session::{Action, Status};
 use crate::ui::panes::page_pane::{numbers as page_numbers, texture_coordinates};
 use crate::ui::timeline::PRESS_SPACE;
-use crate::ui::{Editor, Tool, short, theme_of};
+use crate::ui::{Editor, FileDialogKind, Request, Tool, short, theme_of, with_keys_set};
 
 pub(in crate::ui) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
     let has_shift = ui.input(|input| input.modifiers.shift);
@@ -19,10 +19,22 @@ pub(in crate::ui) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                 let hint = hint(editor, has_shift);
                 let ink = if hint == PRESS_SPACE { theme_of(ui).text } else { weak };
-                ui.add(egui::Label::new(RichText::new(hint.as_ref()).color(ink)).truncate());
+                let hint = with_keys(ui.ctx(), &hint);
+                ui.add(egui::Label::new(RichText::new(hint).color(ink)).truncate());
             });
         });
     });
+}
+
+/// Hint with the keys that the user has set.
+fn with_keys(context: &egui::Context, hint: &str) -> String {
+    let usual = [
+        (["Press ", "Space", " "], Request::Do(Action::Step)),
+        (["press ", "Ctrl+O", "."], Request::Ask(FileDialogKind::Open)),
+        (["", "L", " locks"], Request::ToggleLock),
+        (["", "F", " frames"], Request::Frame),
+    ];
+    usual.iter().fold(hint.to_owned(), |hint, (keys, request)| with_keys_set(context, &hint, *keys, request))
 }
 
 fn hint(editor: &Editor, has_shift: bool) -> Cow<'static, str> {

@@ -3,9 +3,10 @@
 
 use eframe::egui::{self, Align2, RichText};
 
+use crate::session::Action;
 use crate::ui::state::{Tour, TourCard, TourStart};
 use crate::ui::theme::BOTTOM_HEIGHT;
-use crate::ui::{Editor, theme_of};
+use crate::ui::{Editor, Request, Tool, theme_of, with_keys_set};
 
 /// Width of a card, points.
 const WIDTH: f32 = 300.0;
@@ -71,6 +72,18 @@ fn notices(card: TourCard, start: &mut TourStart, editor: &Editor) -> bool {
     }
 }
 
+/// Instruction of a card with the keys that the user has set.
+fn with_keys(context: &egui::Context, card: TourCard, text: &str) -> String {
+    let (usual, request) = match card {
+        TourCard::Pin => ("P", Request::SetTool(Tool::Fix)),
+        TourCard::Step => ("Space", Request::Do(Action::Step)),
+        TourCard::Landmark => ("C", Request::SetTool(Tool::Constrain)),
+        TourCard::Export => ("Ctrl+E", Request::ToggleExports),
+        TourCard::Look | TourCard::Drag => return text.to_owned(),
+    };
+    with_keys_set(context, text, ["Press ", usual, ""], &request)
+}
+
 fn card(ui: &mut egui::Ui, tour: &Tour) -> Option<Answer> {
     let theme = theme_of(ui);
     let [title, text] = tour.card().words();
@@ -79,7 +92,7 @@ fn card(ui: &mut egui::Ui, tour: &Tour) -> Option<Answer> {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - TOOL_BAR - 3.0 * GAP));
         ui.label(RichText::new(format!("Tour {} of {}", tour.place + 1, TourCard::ALL.len())).color(theme.weak_text));
         ui.strong(title);
-        ui.label(text);
+        ui.label(with_keys(ui.ctx(), tour.card(), text));
         ui.add_space(6.0);
         ui.horizontal(|ui| {
             let is_last = tour.next().is_none();

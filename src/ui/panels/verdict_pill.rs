@@ -6,7 +6,7 @@ use super::seams_section::progress_words;
 use crate::session::{Action, Busy, FirstMapWork, LivePreview, Preview, Status};
 use crate::ui::icons::{self, Sign};
 use crate::ui::theme::{CHIP, CHIP_HOVERED};
-use crate::ui::{Control, Editor, Offer, PageRequest, Request, Tab, counted, sentence, theme_of};
+use crate::ui::{Control, Editor, Offer, PageRequest, Request, Tab, counted, sentence, theme_of, with_keys_set};
 use freebound_core::bijective::Blocker;
 use freebound_core::flatten::Step;
 use freebound_core::pipeline::Surface;
@@ -254,7 +254,8 @@ fn show_pill(ui: &mut egui::Ui, pill: &Pill) -> egui::Response {
     icons::sign(ui.painter(), square, pill.sign, theme);
     let at = egui::pos2(square.right() + 6.0, rect.center().y - galley.size().y / 2.0);
     ui.painter().galley(at, galley, colour);
-    response.named(Role::Button, &format!("Verdict: {}", pill.words)).on_hover_text(&pill.tip)
+    let tip = with_keys_set(ui.ctx(), &pill.tip, ["(", "D", ")"], &Request::StepDefect(1));
+    response.named(Role::Button, &format!("Verdict: {}", pill.words)).on_hover_text(tip)
 }
 
 #[cfg(test)]

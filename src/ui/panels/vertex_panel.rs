@@ -7,14 +7,18 @@ use eframe::egui;
 use super::equation_table;
 use super::hull_section::hull_rows;
 use crate::session::Action;
-use crate::ui::{Control, Editor, Request, number, pairs, short};
+use crate::ui::{Control, Editor, Request, number, pairs, short, with_keys_set};
 use freebound_core::mesh::{DiskMesh, HalfedgeId, NewVertex, VertexId};
 use freebound_core::problem::Embedding;
 
+fn no_vertex(ui: &mut egui::Ui) {
+    let words = "Select a vertex: click one in either pane, or press G and type its number.";
+    ui.label(with_keys_set(ui.ctx(), words, ["press ", "G", " and"], &Request::AskGoTo));
+}
+
 pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(&vertex) = editor.selection.vertices().first() else {
-        ui.label("Select a vertex: click one in either pane, or press G and type its number.");
-        return;
+        return no_vertex(ui);
     };
     if editor.selection.vertices().len() > 1 {
         ui.weak(format!("{} selected; this is the first", editor.selection.vertices().len()));

@@ -104,7 +104,11 @@ fn ways(ui: &mut egui::Ui, requests: &mut Vec<Request>) {
             }
         }
     };
-    if columns > 1.0 { ui.horizontal(|ui| cards(ui)) } else { ui.vertical(|ui| cards(ui)) };
+    if columns > 1.0 {
+        ui.horizontal(|ui| cards(ui))
+    } else {
+        ui.vertical(|ui| cards(ui))
+    };
 }
 
 fn card(ui: &mut egui::Ui, size: Vec2, beginning: &Beginning, is_primary: bool) -> Response {

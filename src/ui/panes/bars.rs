@@ -56,7 +56,7 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
             [] => "All faults of the mesh are harmless: it can be flattened without repair".to_owned(),
             _ => format!("The mesh can be repaired: {}", done.join(", ")),
         };
-        let tip = "Repair the mesh and cut it along short seams (U). The file is not changed; undo reverts this";
+        let tip = "Repair the mesh and cut it along short seams. The file is not changed; undo reverts this";
         let offers = [
             Offer::new("Unwrap", tip, Action::Unwrap(None)),
             Offer::new("Show faults", "List every fault, with links to its elements", Request::ShowTab(Tab::Defects)),
@@ -116,10 +116,47 @@ fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: MessagePlace, request
     }
     let limit = ui.available_height() / 2.0;
     egui::ScrollArea::vertical().id_salt(("messages", place == MessagePlace::Mesh)).max_height(limit).show(ui, |ui| {
-        for message in messages {
-            message_bar(ui, message, requests);
+        for group in grouped(&messages) {
+            group_bars(ui, &group, requests);
         }
     });
+}
+
+/// Messages in groups, by the file at fault. The group with the newest message comes first.
+fn grouped<'a>(messages: &[&'a Message]) -> Vec<Vec<&'a Message>> {
+    let mut groups: Vec<Vec<&Message>> = Vec::new();
+    for message in messages {
+        let same = |group: &&mut Vec<&Message>| message.about.is_some() && group[0].about == message.about;
+        match groups.iter_mut().find(same) {
+            Some(group) => group.push(message),
+            None => groups.push(vec![message]),
+        }
+    }
+    groups
+}
+
+/// Newest message of a group. A button under it unfolds the others.
+fn group_bars(ui: &mut egui::Ui, group: &[&Message], requests: &mut Vec<Request>) {
+    let Some((newest, others)) = group.split_first() else { return };
+    message_bar(ui, newest, requests);
+    let Some(file) = newest.about.as_ref().filter(|_| !others.is_empty()) else { return };
+    let id = ui.scope_id().with(("unfolded", file));
+    let is_open = ui.data(|data| data.get_temp(id).unwrap_or(false));
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    ui.horizontal(|ui| {
+        ui.add_space(28.0);
+        let words = counted(others.len(), "more problem", "more problems");
+        let words = format!("{} {words} of {name}", if is_open { "Hide" } else { "Show" });
+        if ui.small_button(words).on_hover_text("All problems of this file").clicked() {
+            ui.data_mut(|data| data.insert_temp(id, !is_open));
+        }
+        if ui.small_button(format!("Dismiss these {}", group.len())).clicked() {
+            requests.extend(group.iter().map(|message| Action::Dismiss(message.id).into()));
+        }
+    });
+    for message in others.iter().filter(|_| is_open) {
+        message_bar(ui, message, requests);
+    }
 }
 
 fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {

@@ -87,13 +87,7 @@ fn menu(ui: &mut egui::Ui, origin: MapOrigin, session: &Session, requests: &mut 
     response.on_hover_text("Choose another map for the mesh; undo returns to this one");
 }
 
-fn entry(
-    ui: &mut egui::Ui,
-    enabled: bool,
-    [words, tip]: [&str; 2],
-    request: Request,
-    requests: &mut Vec<Request>,
-) {
+fn entry(ui: &mut egui::Ui, enabled: bool, [words, tip]: [&str; 2], request: Request, requests: &mut Vec<Request>) {
     let tip = tip_with_keys(ui, tip, &request);
     if ui.add_enabled(enabled, Button::new(words)).on_hover_text(tip).asks(request, requests) {
         ui.close();

@@ -71,10 +71,8 @@ pub(super) fn dashed(painter: &egui::Painter, ends: [Pos2; 2], stroke: Stroke, [
 fn within(rect: Rect, [from, to]: [Pos2; 2]) -> Option<[Pos2; 2]> {
     let way = to - from;
     let (mut first, mut last) = (0.0_f32, 1.0_f32);
-    let sides = [
-        (way.x, rect.left() - from.x, rect.right() - from.x),
-        (way.y, rect.top() - from.y, rect.bottom() - from.y),
-    ];
+    let sides =
+        [(way.x, rect.left() - from.x, rect.right() - from.x), (way.y, rect.top() - from.y, rect.bottom() - from.y)];
     for (along, low, high) in sides {
         let [enters, leaves] = if along > 0.0 {
             [low / along, high / along]

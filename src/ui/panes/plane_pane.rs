@@ -11,8 +11,8 @@ use super::pane;
 use super::{
     bars, constrain, header, inset, legend, magnifier, map_origin, page_pane, pin_drag, pins, seam, vertex_menu,
 };
-use crate::session::FirstMapWork;
 use crate::render::{self, PaneId, PlaneFrame};
+use crate::session::FirstMapWork;
 use crate::ui::editor::picture_box::picture_box;
 use crate::ui::editor::scene::PlaneScene;
 use crate::ui::panels::equation_table;

@@ -11,7 +11,7 @@ use freebound_io::OutputKind;
 /// Kinds of file dialogs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileDialogKind {
-    /// Mesh or project to open.
+    /// Mesh or project to open, or picture for the open mesh.
     Open,
     OpenPicture,
     ImportConstraints,
@@ -47,14 +47,29 @@ impl DialogForm {
     }
 }
 
-/// Extensions of meshes and projects.
-const OPENED: &[&str] = &["obj", "ply", "stl", "off", "glb", "gltf", "freebound"];
+/// Extensions of meshes.
+pub(in crate::ui) const MESHES: &[&str] = &["obj", "ply", "stl", "off", "glb", "gltf"];
+
+/// Extensions of pictures that can be read.
+const PICTURES: &[&str] = &["png", "jpg", "jpeg"];
+
+/// Extensions of other pictures, which are told apart from meshes to be refused as pictures.
+const OTHER_PICTURES: &[&str] = &["bmp", "gif", "webp", "tif", "tiff", "tga", "exr", "hdr", "psd", "heic", "avif"];
+
+/// True if a file is a picture, by the extension of its name.
+pub(crate) fn is_picture(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    PICTURES.iter().chain(OTHER_PICTURES).any(|other| extension.eq_ignore_ascii_case(other))
+}
+
+/// Extensions of meshes, projects and pictures.
+const OPENED: &[&str] = &["obj", "ply", "stl", "off", "glb", "gltf", "freebound", "png", "jpg", "jpeg"];
 
 impl FileDialogKind {
     pub(in crate::ui) fn form(self) -> DialogForm {
         let (title, files, extensions, ending): (_, _, &[&str], _) = match self {
-            Self::Open => ("Open a mesh or a project", "Meshes and projects", OPENED, ""),
-            Self::OpenPicture => ("Open a picture", "Pictures", &["png", "jpg", "jpeg"], ""),
+            Self::Open => ("Open a mesh, a project or a picture", "Meshes, projects and pictures", OPENED, ""),
+            Self::OpenPicture => ("Open a picture", "Pictures", PICTURES, ""),
             Self::ImportConstraints => ("Import constraints", "Constraints", &["txt"], ""),
             Self::ExportConstraints => ("Export the constraints", "Constraints", &["txt"], "-constraints.txt"),
             Self::ImportSeams => ("Import seams", "Edges", &["edges", "txt"], ""),
@@ -97,3 +112,25 @@ impl FileDialogKind {
         is_free || self.form().fits(path)
     }
 }
+
+/// All exports: dialog, menu entry and description.
+pub(in crate::ui) const EXPORTS: [(FileDialogKind, &str, &str); 9] = {
+    use FileDialogKind::{Export, PanePicture};
+    use OutputKind::{Glb, Json, Obj, Ply, Png, Svg};
+    let (unit, true_scale) = (Some(Fit::Unit), Some(Fit::True));
+    [
+        (
+            Export(Obj, None),
+            "Mesh with texture coordinates…",
+            "OBJ, with its material, and with the picture if there is one",
+        ),
+        (Export(Ply, None), "Mesh as PLY…", "PLY in 32 bits, with all data of an opened PLY file"),
+        (Export(Glb, None), "Mesh as GLB…", "Binary glTF in 32 bits, with all data of an opened glTF file"),
+        (Export(Svg, unit), "Layout in the unit square…", "SVG, positioned like texture coordinates"),
+        (Export(Svg, true_scale), "Layout at true scale…", "SVG in the units of the mesh, for cutting out"),
+        (PanePicture(Pane::Mesh), "Picture of the mesh's pane…", "PNG, as shown in the pane"),
+        (PanePicture(Pane::Plane), "Picture of the embedding's pane…", "PNG, as shown in the pane"),
+        (Export(Png, None), "Mesh and layout side by side…", "PNG, redrawn for the file"),
+        (Export(Json, None), "Report…", "JSON: method, steps, verdict, distortion"),
+    ]
+};

@@ -12,6 +12,7 @@
 //! | `hull_stage.rs` | stages of the virtual boundary |
 //! | `seam.rs` | clicks of the seam tool, rules that choose edges |
 //! | `unsaved.rs` | the question about unsaved work |
+//! | `help.rs` | windows that help: command palette, list of keys, messages, About |
 //! | `inset_view.rs` | zoom and pan of the insets |
 //! | `pin_drag.rs` | a drag of a pin |
 //! | `timeline_view.rs` | state of the timeline in the window |
@@ -21,6 +22,7 @@
 
 mod comparison;
 mod file_dialog_kind;
+mod help;
 mod hull_stage;
 mod inset_view;
 mod page;
@@ -38,7 +40,10 @@ mod unsaved;
 mod welcome;
 
 pub use comparison::{ComparisonExport, MorphRequest};
-pub(in crate::ui) use file_dialog_kind::{DialogForm, FileDialogKind};
+pub(crate) use file_dialog_kind::is_picture;
+pub(in crate::ui) use file_dialog_kind::{DialogForm, EXPORTS, FileDialogKind, MESHES};
+pub use help::Help;
+pub(in crate::ui) use help::{KeyClash, KeyList, Palette};
 pub use hull_stage::HullStage;
 pub(in crate::ui) use inset_view::{InsetKind, InsetPan, InsetSubject, InsetView};
 pub use page::{Alignment, Axis, GestureKind, PageRequest, Snap};
@@ -53,7 +58,7 @@ pub use shading_mode::ShadingMode;
 pub(in crate::ui) use timeline_view::{CURVE_COUNT, ROW_HEIGHT, TimelineView};
 pub(in crate::ui) use toast::Toast;
 pub use tool::{Half, Intent, Tool};
-pub use tour::{Tour, TourCard};
 pub(in crate::ui) use tour::TourStart;
+pub use tour::{Tour, TourCard};
 pub(in crate::ui) use unsaved::{PendingClose, UnsavedAnswer};
 pub use welcome::Welcome;

@@ -168,6 +168,12 @@ pub enum Request {
     ToggleWelcome,
     /// Sets whether the welcome shows at a start without a file.
     ToggleWelcomeAtStart,
+    /// Opens the command palette, or closes it.
+    TogglePalette,
+    /// Shows or hides the messages of this run.
+    ToggleLog,
+    /// Shows or hides version, licence and reference of the program.
+    ToggleAbout,
     /// Starts the guided tour.
     StartTour,
     /// Follows the system's theme, or sets a fixed one.

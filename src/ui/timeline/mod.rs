@@ -16,9 +16,9 @@ mod room;
 
 use eframe::egui::{self, Align, Layout, RichText};
 
-use crate::session::{RunStop, Status};
+use crate::session::{Action, RunStop, Status};
 use crate::ui::state::ROW_HEIGHT;
-use crate::ui::{Editor, Request, remark, theme_of};
+use crate::ui::{Editor, Request, remark, theme_of, with_keys_set};
 pub(super) use buttons::lasting_menu;
 use buttons::{fold_button, playback_buttons, run_buttons, stop_menu};
 use chips::chips;
@@ -58,6 +58,8 @@ pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut
         if let Some(words) = notice(editor) {
             let theme = theme_of(ui);
             let ink = if words == PRESS_SPACE { theme.text } else { theme.weak_text };
+            let step = Request::Do(Action::Step);
+            let words = with_keys_set(ui.ctx(), words, ["", "Space", " "], &step);
             ui.centered_and_justified(|ui| ui.label(RichText::new(words).color(ink)));
         } else {
             curves(ui, editor, requests);

@@ -1,0 +1,231 @@
+//! Menus of the bar.
+
+use eframe::egui::ThemePreference;
+
+use super::{ALWAYS, Mark, MenuBuilder, MenuCommand, when};
+use crate::examples::Example;
+use crate::session::{Action, LockState};
+use crate::ui::state::{
+    Axis, EXPORTS, FileDialogKind, GestureKind, PageRequest, Pane, Request, SeamRule, ShadingMode, StepTarget, Tab,
+    Tool,
+};
+use freebound_core::pipeline::Fit;
+
+/// Reasons why entries are disabled.
+const NO_MESH: &str = "Open a mesh first";
+const NO_DISK: &str = "Open a mesh that can be flattened first";
+const NO_MAP: &str = "There is nothing to export yet: open a mesh";
+const NO_PINS: &str = "Place a pin first";
+const NO_SEAMS: &str = "There are no seams";
+const NO_CHART: &str = "Select charts of the page that are not locked first";
+const NO_PAGE: &str = "Show all charts on the page first";
+
+/// Function that fills a menu.
+type Fill = fn(&mut MenuBuilder<'_>);
+
+/// Menus of the bar: title and entries.
+pub(in crate::ui) const MENUS: [(&str, Fill); 5] =
+    [("File", file_menu), ("Edit", edit_menu), ("View", view_menu), ("Solve", solve_menu), ("Help", help_menu)];
+
+fn help_menu(menu: &mut MenuBuilder<'_>) {
+    menu.item(ALWAYS, "All keys", Request::ToggleKeys);
+    menu.item(ALWAYS, "Guided tour", Request::StartTour);
+    menu.item(ALWAYS, "Welcome", Request::ToggleWelcome);
+    menu.item(ALWAYS, "Find a command…", Request::TogglePalette);
+    menu.separator();
+    menu.item(ALWAYS, "Messages of this run", Request::ToggleLog);
+    menu.item(ALWAYS, "About Freebound", Request::ToggleAbout);
+}
+
+fn file_menu(menu: &mut MenuBuilder<'_>) {
+    let editor = menu.editor;
+    menu.item(ALWAYS, "Open…", Request::Ask(FileDialogKind::Open));
+    menu.part("Recent", |menu| {
+        let paths = editor.session.recent().paths();
+        for path in paths {
+            menu.item(ALWAYS, &path.display().to_string(), Action::Open(path.clone()));
+        }
+        if paths.is_empty() {
+            menu.remark("No files yet");
+        } else {
+            menu.separator();
+            menu.item(ALWAYS, "Clear this list", Action::ClearRecent);
+        }
+    });
+    menu.part("Examples", |menu| {
+        for example in Example::ALL {
+            menu.explained(ALWAYS, [example.title(), example.about()], Action::OpenExample(example));
+        }
+    });
+    menu.separator();
+    let has_model = editor.session.model().is_some();
+    menu.item(when(has_model, NO_MESH), "Save project", Request::SaveProject);
+    menu.item(when(has_model, NO_MESH), "Save project as…", Request::Ask(FileDialogKind::SaveProject));
+    menu.separator();
+    // Picture and constraints are read from and written to files.
+    let has_disk = editor.has_disk();
+    menu.item(when(has_disk, NO_DISK), "Open picture…", Request::Ask(FileDialogKind::OpenPicture));
+    menu.item(when(editor.has_picture(), "There is no picture"), "Remove picture", Action::RemovePicture);
+    menu.item(when(has_disk, NO_DISK), "Import constraints…", Request::Ask(FileDialogKind::ImportConstraints));
+    let has_pins = !editor.session.document().targets.is_empty();
+    menu.item(when(has_pins, NO_PINS), "Export constraints…", Request::Ask(FileDialogKind::ExportConstraints));
+    menu.separator();
+    menu.part("Export", |menu| {
+        for (kind, words, about) in EXPORTS {
+            menu.explained(when(editor.session.outcome().is_some(), NO_MAP), [words, about], Request::Ask(kind));
+        }
+    });
+    menu.part("Size in files", |menu| {
+        let (unit, true_size) = (Fit::Unit, Fit::True);
+        menu.choice(editor.files.fit == unit, "Fit into the unit square", Request::SetFit(unit));
+        menu.choice(editor.files.fit == true_size, "True scale: the mesh's own area", Request::SetFit(true_size));
+        menu.separator();
+        menu.remark("With pins, coordinates are not scaled.");
+    });
+    menu.separator();
+    menu.item(ALWAYS, "Quit", Request::Quit);
+}
+
+fn edit_menu(menu: &mut MenuBuilder<'_>) {
+    let (editor, session) = (menu.editor, &menu.editor.session);
+    menu.item(when(session.history().can_undo(), "There is nothing to undo"), "Undo", Action::Undo);
+    menu.item(when(session.history().can_redo(), "There is nothing to redo"), "Redo", Action::Redo);
+    menu.separator();
+    for tool in Tool::ALL {
+        menu.choice(editor.tools.tool() == tool, tool.words()[1], Request::SetTool(tool));
+    }
+    menu.part("Seams", |menu| {
+        let has_model = session.model().is_some();
+        menu.item(when(session.can_unwrap(), NO_MESH), "Unwrap: find short seams", Action::Unwrap(None));
+        let degrees = editor.tools.seam.rules.degrees;
+        let sharp = format!("Cut along sharp edges: {degrees:.0}° or more");
+        menu.item(when(has_model, NO_MESH), &sharp, Request::CutByRule(SeamRule::Sharp(degrees)));
+        menu.item(when(has_model, NO_MESH), "Cut along borders of materials", Request::CutByRule(SeamRule::Materials));
+        menu.item(when(has_model, NO_MESH), "Cut along borders of groups", Request::CutByRule(SeamRule::Groups));
+        menu.separator();
+        let has_seams = !session.seams().edges().is_empty();
+        menu.item(when(has_model, NO_MESH), "Import seams…", Request::Ask(FileDialogKind::ImportSeams));
+        let can_export = has_seams || !session.seams().automatic().is_empty();
+        menu.item(when(can_export, NO_SEAMS), "Export seams…", Request::Ask(FileDialogKind::ExportSeams));
+        menu.separator();
+        menu.item(when(has_seams, NO_SEAMS), "Clear seams", Request::ClearSeams);
+    });
+    menu.separator();
+    let fixable = !editor.selection.vertices().is_empty() && session.outcome().is_some();
+    menu.item(
+        when(fixable, "Select vertices of the map first"),
+        "Fix the selection",
+        Action::Fix(editor.selection.vertices().iter().copied().collect()),
+    );
+    menu.item(
+        when(editor.pins_selected().next().is_some(), "No pin is selected"),
+        "Free the selected pins",
+        Request::UnpinSelected,
+    );
+    let pin_count = session.document().targets.len();
+    menu.item(when(pin_count > 0, NO_PINS), "Free all pins", Action::UnpinAll);
+    menu.separator();
+    menu.item(when(pin_count > 0, NO_PINS), "Mirror the targets", Action::MirrorTargets);
+    menu.item(when(pin_count > 1, "Place at least two pins first"), "Fit the targets to the mesh", Action::FitTargets);
+    menu.item(when(session.model().is_some(), NO_MESH), "Reverse the faces", Action::TurnFaces);
+}
+
+fn view_menu(menu: &mut MenuBuilder<'_>) {
+    let editor = menu.editor;
+    for pane in Pane::BOTH {
+        menu.part(&format!("Shading of the {}", pane.title().to_lowercase()), |menu| {
+            for shading in ShadingMode::ALL.into_iter().filter(|shading| shading.is_for(pane)) {
+                let command = menu.command(ALWAYS, shading.title(), Request::SetPaneShading(pane, shading));
+                let mark = Mark::Choice(editor.shading(pane) == shading);
+                // Shortcuts shade the pane under the pointer; a menu entry names the pane.
+                menu.add(MenuCommand { mark, ..command }.has_keys_of(Request::SetShading(shading)));
+            }
+        });
+    }
+    menu.switch(editor.pane_shading.wireframe, "Wireframe", Request::ToggleWireframe);
+    menu.switch(editor.pane_shading.is_sharp(), "Sharp pixels", Request::ToggleSharp);
+    menu.switch(editor.plane.hull_shown(), "Hull and pockets", Request::ToggleHull);
+    menu.switch(editor.pane_shading.magnifier, "Magnifier", Request::ToggleMagnifier);
+    menu.switch(editor.pane_shading.glides, "Animate changes of step", Request::ToggleEase);
+    menu.part("Side panels", |menu| {
+        menu.switch(editor.layout.panels_shown(), "Show the panels", Request::TogglePanels);
+        menu.separator();
+        for tab in Tab::ALL {
+            menu.choice(editor.layout.shows(tab), tab.title(), Request::ShowTab(tab));
+        }
+    });
+    menu.switch(editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves);
+    menu.separator();
+    menu.item(ALWAYS, "Frame the selection, or all", Request::Frame);
+    menu.item(ALWAYS, "Go to…", Request::AskGoTo);
+    let has_defects = editor.defect_count() > 0;
+    menu.item(when(has_defects, "There are no defects"), "Next defect", Request::StepDefect(1));
+    menu.item(when(has_defects, "There are no defects"), "Previous defect", Request::StepDefect(-1));
+    if editor.session.charts().is_some() {
+        menu.item(ALWAYS, "Next chart", Request::StepChart(1));
+        menu.item(ALWAYS, "Previous chart", Request::StepChart(-1));
+        let states: Vec<LockState> =
+            editor.charts_to_work_on().into_iter().map(|chart| editor.session.lock_state(chart)).collect();
+        let can_lock = states.contains(&LockState::Open);
+        let words = if can_lock || states.is_empty() { "Lock the charts" } else { "Unlock the charts" };
+        menu.item(when(can_lock || states.contains(&LockState::Locked), NO_CHART), words, Request::ToggleLock);
+        menu.switch(editor.shows_page(), "All charts on the page", PageRequest::Toggle.into());
+        page_menu(menu);
+    }
+    menu.separator();
+    menu.part("Theme", |menu| {
+        use ThemePreference::{Dark, Light, System};
+        let now = editor.gpu.context().options(|options| options.theme_preference);
+        for (theme, words) in [(System, "System"), (Light, "Light"), (Dark, "Dark")] {
+            menu.choice(now == theme, words, Request::SetTheme(theme));
+        }
+    });
+}
+
+/// Entries on the charts of the page.
+fn page_menu(menu: &mut MenuBuilder<'_>) {
+    let editor = menu.editor;
+    let can_move = editor.shows_page() && !editor.movable_charts().is_empty();
+    let has_selected = editor.shows_page() && !editor.plane.page.selected().is_empty();
+    menu.part("Charts", |menu| {
+        menu.item(when(editor.shows_page(), NO_PAGE), "Select all", PageRequest::SelectAll);
+        menu.item(when(editor.shows_page(), NO_PAGE), "Invert the selection", PageRequest::Invert);
+        menu.item(when(has_selected, NO_CHART), "Show one alone", PageRequest::Open(None));
+        menu.separator();
+        for kind in GestureKind::ALL {
+            menu.item(when(can_move, NO_CHART), kind.title(), PageRequest::Begin(kind));
+        }
+        menu.item(when(can_move, NO_CHART), "Mirror left to right", PageRequest::Mirror(Axis::X));
+        menu.item(when(can_move, NO_CHART), "Mirror top to bottom", PageRequest::Mirror(Axis::Y));
+        menu.separator();
+        menu.item(when(has_selected, NO_CHART), "Stack", PageRequest::Stack);
+        menu.item(when(has_selected, NO_CHART), "Unstack", PageRequest::Unstack);
+        menu.item(when(editor.shows_page(), NO_PAGE), "Pack the selected charts, or all", PageRequest::Pack);
+    });
+}
+
+fn solve_menu(menu: &mut MenuBuilder<'_>) {
+    let (editor, session) = (menu.editor, &menu.editor.session);
+    menu.item(when(editor.has_disk(), NO_DISK), "Take one step", Action::Step);
+    let (run, can_run) =
+        if session.is_running() { ("Pause the run", true) } else { ("Start the run", session.can_run()) };
+    menu.item(when(can_run, "The method has no step left"), run, Request::RunOrPause);
+    menu.item(when(session.can_repair(), "The map has no defect to repair"), "Repair", Action::Repair);
+    menu.item(when(session.can_relax(), "Only a planar map can be relaxed"), "Relax", Action::Relax);
+    menu.separator();
+    let [has_previous, has_next] = editor.steps_around();
+    menu.item(when(has_previous, "This is the first step"), "First step", Request::GoToStep(StepTarget::First));
+    menu.item(when(has_previous, "This is the first step"), "Previous step", Request::GoToStep(StepTarget::Previous));
+    menu.item(when(has_next, "This is the newest step"), "Next step", Request::GoToStep(StepTarget::Next));
+    menu.item(when(has_next, "This is the newest step"), "Last step", Request::GoToStep(StepTarget::Last));
+    let play = if editor.timeline.playing_since.is_some() { "Stop playing" } else { "Play all steps" };
+    menu.item(when(has_previous || has_next, "There is only one step"), play, Request::TogglePlay);
+    menu.separator();
+    menu.item(when(editor.has_disk(), NO_DISK), "Solve from scratch", Action::Solve);
+    menu.item(when(session.busy().is_some(), "No work is running"), "Cancel", Action::Cancel);
+    menu.separator();
+    menu.item(ALWAYS, "Method and weights", Request::ShowTab(Tab::Method));
+    let is_comparing = editor.plane.comparison.is_shown();
+    let words = if is_comparing { "Leave the comparison" } else { "Compare methods…" };
+    menu.item(when(is_comparing || editor.has_disk(), NO_DISK), words, Request::ToggleComparison);
+}
