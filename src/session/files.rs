@@ -10,7 +10,7 @@ use super::open_project::OpenProject;
 use super::opened::{OpenError, Opened, Origin};
 use super::recovery::Autosave;
 use super::saving::{ProjectSaves, Request, project_of};
-use super::{Background, Document, Message, MessagePlace, Messages, Model, RecentFiles, Wake, Written};
+use super::{Background, Document, Message, MessagePlace, Messages, Model, RecentFiles, SaveRequest, Wake, Written};
 use crate::examples::Example;
 use freebound_io::{ProjectFile, ProjectView, RecoveryNote, WriteError};
 
@@ -31,6 +31,8 @@ pub(super) struct Files {
     /// Jobs that write results.
     outputs: Background<(), Result<Written, WriteError>>,
     projects: ProjectSaves,
+    /// Export that waits until all charts are solved.
+    awaited: Option<SaveRequest>,
     folder: FolderViewer,
     autosave: Autosave,
     recent: RecentFiles,
@@ -46,6 +48,7 @@ impl Files {
             together: None,
             outputs: Background::new("save", wake),
             projects: ProjectSaves::new(wake),
+            awaited: None,
             folder: FolderViewer::new(wake),
             autosave: Autosave::new(wake),
             recent,
@@ -74,7 +77,17 @@ impl Files {
 
     /// True while a file that the user requested is being written.
     pub(super) fn is_saving(&self) -> bool {
-        self.outputs.is_busy() || self.projects.is_busy()
+        self.outputs.is_busy() || self.projects.is_busy() || self.is_awaiting()
+    }
+
+    /// True if an export waits until all charts are solved.
+    pub(super) fn is_awaiting(&self) -> bool {
+        self.awaited.is_some()
+    }
+
+    /// Lets an export wait until all charts are solved, or none. Returns the one that waited before.
+    pub(super) fn wait_to_save(&mut self, request: Option<SaveRequest>) -> Option<SaveRequest> {
+        std::mem::replace(&mut self.awaited, request)
     }
 
     /// Constraint file that was imported last.

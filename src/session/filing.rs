@@ -36,6 +36,7 @@ impl Session {
         self.messages.clear();
         self.unwrapping.cancel();
         self.layout_check.end_wait();
+        self.files.wait_to_save(None);
         let follows = is_mesh && !waits && self.begin_first_map();
         if !follows {
             self.tell_faults();
@@ -124,6 +125,13 @@ impl Session {
     fn save_atlas(&mut self, SaveRequest { path, kind, fit }: SaveRequest) {
         let solved = match self.solved_atlas() {
             Ok(solved) => solved,
+            Err(_) if self.failed_chart().is_none() => {
+                self.messages.forget_notes();
+                let note = "the file is written once all charts are solved";
+                self.messages.say(Message::note(MessagePlace::Embedding, note));
+                self.files.wait_to_save(Some(SaveRequest { path, kind, fit }));
+                return;
+            }
             Err(missing) => {
                 let charts = if missing == 1 { "1 chart has" } else { &format!("{missing} charts have") };
                 let text = format!("{charts} no embedding for the current settings and pins yet");
@@ -139,6 +147,16 @@ impl Session {
             let files = output.write(kind, &path)?;
             Ok(Written { files, about: Some(output.summary()) })
         });
+    }
+
+    /// Writes the layout that was asked for while charts were being solved, once all of them are solved or one has
+    /// failed. Call once per frame.
+    pub(super) fn save_awaited(&mut self) {
+        let is_due = || self.solved_atlas().is_ok() || self.failed_chart().is_some();
+        if self.files.is_awaiting() && is_due() && self.is_current() {
+            let request = self.files.wait_to_save(None);
+            request.into_iter().for_each(|request| self.save(request));
+        }
     }
 
     /// Saves the project.

@@ -1,7 +1,7 @@
 //! First map of a mesh that was opened: the layout of its file, a map along automatic seams, or the mesh as it is.
 //!
-//! A layout that is proved planar is shown as it is. Other meshes are cut along automatic seams, unless all parts are
-//! disks.
+//! A layout that is proved planar is shown as it is. Other meshes are cut along automatic seams. A single disk, the input
+//! of the paper, is not cut.
 
 use super::{Command, Document, LayoutCheckState, Session};
 use freebound_core::mesh::{Preparation, Repair, Repaired};

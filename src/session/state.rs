@@ -173,6 +173,7 @@ impl Session {
         self.poll_unwrapping();
         self.poll_solving();
         self.poll_charts();
+        self.save_awaited();
         self.poll_atlas();
         self.poll_page();
         self.poll_comparing();
@@ -246,6 +247,7 @@ impl Session {
         self.drag.stop_following();
         self.jobs.stop();
         self.mesh.want(None);
+        self.files.wait_to_save(None);
         self.charts.forget_asked();
         self.solving.pause();
         // Last, because a mesh whose first map is stopped is solved as it is.

@@ -177,7 +177,7 @@ impl Session {
         let Some(repaired) = model.prepared.remedy.clone().or_else(|| model.prepared.repaired.clone()) else {
             return false;
         };
-        if cuts_or_fills(&repaired) {
+        if cuts_or_fills(&repaired) || model.prepared.chart_count() > 1 {
             self.find_seams(SeamOptions::DISTORTION, Purpose::Opening);
         } else if model.prepared.remedy.is_some() {
             self.cut_opened(self.form_to_be().with_all_repairs());

@@ -29,6 +29,7 @@ mod magnifier;
 mod mend;
 mod messages;
 mod morph;
+mod newcomer;
 mod page;
 mod pane_shading;
 mod panels;
