@@ -23,12 +23,10 @@ use crate::view::{ComparisonPicture, MorphPicture};
 use freebound_core::geom::PictureFrame;
 use freebound_core::pipeline::{Problem, Targets};
 use freebound_core::problem::{Control, Family, Method, NamedOption as _, Phase, Start, Variant};
+use freebound_io::figure::FigureFormat;
 use freebound_io::{
     ComparisonReport, ComparisonSeconds, PictureFile, TimedStep, WriteError, write_atomically, write_to_standard_output,
 };
-
-/// Pixels per point of the picture.
-const PIXELS: f64 = 2.0;
 
 pub(super) fn run(arguments: &CompareArguments) -> Result<CommandOutcome, CommandError> {
     let CompareArguments { input, solve, .. } = arguments;
@@ -38,9 +36,9 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<CommandOutcome, Comman
     if let Some(picture) = &arguments.picture {
         places.spare(picture, "the picture")?;
     }
-    let is_drawn = [&arguments.png, &arguments.svg, &arguments.morph].iter().any(|path| path.is_some());
-    if arguments.shading.is_some() && !is_drawn {
-        return Err(CommandError::Usage("--shading colours pictures only: add --png, --svg or --morph".into()));
+    let drawn = [&arguments.png, &arguments.svg, &arguments.pdf, &arguments.morph];
+    if arguments.shading.is_some() && drawn.iter().all(|path| path.is_none()) {
+        return Err(CommandError::Usage("--shading colours pictures only: add --png, --svg, --pdf or --morph".into()));
     }
     await_report(arguments.report.as_deref());
     set_threads(solve.threads)?;
@@ -184,7 +182,7 @@ struct Found<'a> {
 fn write(arguments: &CompareArguments, report: &ComparisonReport, found: &Found<'_>) -> Result<(), CommandError> {
     let Found { model, methods, tour } = *found;
     let shading = arguments.shading.unwrap_or_default();
-    let is_drawn = arguments.png.is_some() || arguments.svg.is_some();
+    let is_drawn = [&arguments.png, &arguments.svg, &arguments.pdf].iter().any(|path| path.is_some());
     let page = is_drawn.then(|| ComparisonPicture { model, methods, shading }.page());
     let morph = model.disk().zip(tour).map(|(mesh, tour)| MorphPicture::new(mesh, tour, shading));
     for (file, _, path) in arguments.outputs() {
@@ -192,10 +190,11 @@ fn write(arguments: &CompareArguments, report: &ComparisonReport, found: &Found<
         put(path, |mut out| match (file, &page, &morph) {
             (ComparisonFile::Table, ..) => report.write_csv(arguments.sort, out),
             (ComparisonFile::Steps, ..) => report.write_steps(out),
-            (ComparisonFile::Png, Some(page), _) => freebound_io::raster::write_png(&page.picture(PIXELS), out),
-            (ComparisonFile::Svg, Some(page), _) => page.write_svg(&mut out),
+            (ComparisonFile::Png, Some(page), _) => page.write(FigureFormat::Png, &mut out),
+            (ComparisonFile::Svg, Some(page), _) => page.write(FigureFormat::Svg, &mut out),
+            (ComparisonFile::Pdf, Some(page), _) => page.write(FigureFormat::Pdf, &mut out),
             (ComparisonFile::Morph, _, Some(morph)) => morph.write(out),
-            (ComparisonFile::Png | ComparisonFile::Svg | ComparisonFile::Morph, ..) => Ok(()),
+            (ComparisonFile::Png | ComparisonFile::Svg | ComparisonFile::Pdf | ComparisonFile::Morph, ..) => Ok(()),
         })?;
     }
     Ok(())

@@ -214,6 +214,25 @@ impl Session {
         });
     }
 
+    /// Writes several files in the background. `write` writes the content of the file at a place in the list; `about`
+    /// summarises them.
+    pub fn write_files(
+        &mut self,
+        paths: Vec<PathBuf>,
+        about: String,
+        write: impl Fn(usize, &mut dyn Write) -> io::Result<()> + Send + 'static,
+    ) {
+        if paths.is_empty() || paths.iter().any(|path| self.refuses_to_replace(path, None)) {
+            return;
+        }
+        self.files.write(move || {
+            for (place, path) in paths.iter().enumerate() {
+                write_atomically(path, |out| write(place, out))?;
+            }
+            Ok(Written { files: paths.into_iter().take(1).collect(), about: Some(about) })
+        });
+    }
+
     /// Reports a file name whose extension selects no kind of output.
     pub(super) fn refuse_name(&mut self, path: &Path) {
         let text = format!("{} has no known file extension", path.display());

@@ -147,6 +147,16 @@ impl Session {
         self.messages.fail_background(place, work, failure);
     }
 
+    /// Reports a success.
+    pub fn tell_note(&mut self, text: impl Into<String>) {
+        self.messages.say(Message::note(MessagePlace::Embedding, text));
+    }
+
+    /// Reports a fault of a file that the window reads, with its remedy.
+    pub fn tell_fault(&mut self, place: MessagePlace, text: impl Into<String>, remedy: &str) {
+        self.messages.fail(place, text, Some(remedy));
+    }
+
     /// Reports a face of the file that is not on the screen, because the mesh does not have it.
     pub fn tell_left_out(&mut self, face: FaceId) {
         let text = format!("face {} of the file is left out of the mesh", face.number());

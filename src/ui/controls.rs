@@ -116,10 +116,15 @@ pub(in crate::ui) fn figures(ui: &mut Ui, name: &str, width: usize, values: &[St
 
 /// Column heads over the numbers of [`figures`], with equal `width`.
 pub(in crate::ui) fn heads(ui: &mut Ui, width: usize, words: &[String]) {
-    let weak = theme_of(ui).weak_text;
     for words in words {
-        ui.label(RichText::new(format!("{words:>width$}")).monospace().color(weak));
+        head(ui, width, words);
     }
+}
+
+/// Column head over the numbers of [`figures`].
+pub(in crate::ui) fn head(ui: &mut Ui, width: usize, words: &str) -> Response {
+    let weak = theme_of(ui).weak_text;
+    ui.label(RichText::new(format!("{words:>width$}")).monospace().color(weak))
 }
 
 /// Close button: a cross painted into `rect`.

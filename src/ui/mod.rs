@@ -6,6 +6,7 @@
 //! | `commands/` | commands: one table for the menus and the command palette |
 //! | `key_map.rs` | keys as the user has set them |
 //! | `controls.rs` | building blocks of panels |
+//! | `explanations.rs` | meaning, formula and range of the measures |
 //! | `typed.rs` | number fields that mark invalid input |
 //! | `state/` | plain data that editor, panels and panes share: requests, tools, views |
 //! | `editor/` | the editor's state, and the handling of requests |
@@ -22,6 +23,7 @@ mod commands;
 mod controls;
 mod dialogs;
 mod editor;
+mod explanations;
 mod icons;
 mod key_map;
 mod keyboard;
@@ -37,12 +39,13 @@ mod window;
 
 pub use controls::sentence;
 use controls::{
-    Control, Offer, accented, close_button, counted, figures, five_digits, heads, list, number, pairs, remark, short,
-    tip_with_keys,
+    Control, Offer, accented, close_button, counted, figures, five_digits, head, heads, list, number, pairs, remark,
+    short, tip_with_keys,
 };
 pub(crate) use dialogs::Dialogs;
 pub use editor::{Defect, Editor, MorphView};
 use editor::{Element, HullScene};
+pub use explanations::Measure;
 pub use key_map::{KeyMap, KeyPreset};
 pub use keys::{BINDINGS, Binding};
 use keys::{keys_of, with_keys_set};
@@ -50,8 +53,9 @@ pub use panes::PinMark;
 use state::FileDialogKind;
 pub(crate) use state::is_picture;
 pub use state::{
-    Alignment, Axis, ComparisonExport, GestureKind, Half, Help, HullStage, Intent, MorphRequest, PageRequest, Pane,
-    Request, SeamClick, SeamRule, ShadingMode, Snap, StepTarget, Tab, Tool, Tour, TourCard, Welcome,
+    Alignment, Axis, ComparisonExport, CurveRequest, CurvesExport, GestureKind, Half, Help, HullStage, Intent,
+    MorphRequest, PageRequest, Pane, Request, SeamClick, SeamRule, ShadingMode, Snap, StepTarget, Tab, Tool, Tour,
+    TourCard, Welcome,
 };
 use theme::{Theme, theme_of};
 use typed::Typed;

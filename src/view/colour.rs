@@ -7,6 +7,8 @@
 //! | area    | log₂ of the area ratio | blue – white – red  | symmetric, the wider of 1st and 99th        |
 //! | stretch | root mean square of σ  | viridis             | 1st to 99th percentile                      |
 //! | move    | distance in the plane  | viridis             | 0 to the 99th percentile                    |
+//! | column  | number of one sign     | viridis             | 1st to 99th percentile                      |
+//! | signed  | number of both signs   | blue – white – red  | symmetric, the wider of 1st and 99th        |
 //!
 //! Viridis is by S. van der Walt and N. Smith (CC0); this module holds nine samples of it.
 
@@ -45,6 +47,10 @@ pub enum Scale {
     Stretch,
     /// Distance that a face has moved, embedding units, of any magnitude.
     Move,
+    /// Number of a table, of one sign.
+    Column,
+    /// Number of a table, of both signs.
+    SignedColumn,
 }
 
 /// Values at the two ends of a scale.
@@ -64,6 +70,12 @@ impl Range {
 }
 
 impl Scale {
+    /// Scale of the numbers of a table: diverging if they have both signs.
+    pub fn of_column(values: &[f64]) -> Self {
+        let has = |is_so: fn(&f64) -> bool| values.iter().any(is_so);
+        if has(|value| *value < 0.0) && has(|value| *value > 0.0) { Self::SignedColumn } else { Self::Column }
+    }
+
     /// Range that shows the bulk of the values. The lowest and highest hundredth of the values do not widen it.
     pub fn robust_range(self, values: &[f64]) -> Range {
         let [low, high] = tails(values);
@@ -79,6 +91,13 @@ impl Scale {
             }
             Self::Stretch => Range { low, high },
             Self::Move => Range { low: 0.0, high: if high > 0.0 { high } else { 1.0 } },
+            Self::Column if high > low => Range { low, high },
+            Self::Column => Range { low, high: low + low.abs().max(1.0) },
+            Self::SignedColumn => {
+                let reach = low.abs().max(high.abs());
+                let reach = if reach > 0.0 { reach } else { 1.0 };
+                Range { low: -reach, high: reach }
+            }
         }
     }
 
@@ -91,8 +110,8 @@ impl Scale {
     pub fn colour_at(self, share: f64) -> [u8; 3] {
         match self {
             Self::Angle => sample(&ANGLE, share),
-            Self::Area => sample(&AREA, share),
-            Self::Stretch | Self::Move => sample(&VIRIDIS, share),
+            Self::Area | Self::SignedColumn => sample(&AREA, share),
+            Self::Stretch | Self::Move | Self::Column => sample(&VIRIDIS, share),
         }
     }
 
@@ -102,8 +121,8 @@ impl Scale {
         let tick = |(value, step): (f64, f64)| Tick {
             at: range.share(value),
             label: match self {
-                Self::Angle | Self::Stretch | Self::Move => label(value, step),
                 Self::Area => ratio_label(value, step),
+                _ => label(value, step),
             },
         };
         values.into_iter().map(tick).collect()

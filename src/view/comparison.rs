@@ -99,7 +99,7 @@ impl ComparisonPicture<'_> {
                     (None, ..) => CellContent::Words(method.report.error_words()),
                 };
                 let lines = std::iter::once(method.report.verdict_line()).chain(method.report.number_lines());
-                GridCell { title: method.report.name.clone(), lines: lines.collect(), content }
+                GridCell { title: method.report.title.clone(), lines: lines.collect(), content }
             })
             .collect();
         cells.extend(self.curves());
@@ -126,7 +126,7 @@ impl ComparisonPicture<'_> {
         let curve = |method: &&Compared| {
             let report = &method.report;
             let points = report.steps.iter().map(|step| DVec2::new(step.elapsed, step.energy)).collect();
-            (report.steps.len() >= CURVE_STEPS).then(|| Curve { name: report.name.clone(), points })
+            (report.steps.len() >= CURVE_STEPS).then(|| Curve { name: report.title.clone(), points })
         };
         let curves: Vec<Curve> = self.methods.iter().filter_map(curve).collect();
         let axes = ["seconds".to_owned(), "energy".to_owned()];

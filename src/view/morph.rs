@@ -11,7 +11,7 @@ use super::{CellShading, Range};
 use crate::session::{MorphLeg, MorphTour};
 use freebound_core::geom::Bounds;
 use freebound_core::mesh::DiskMesh;
-use freebound_core::problem::Embedding;
+use freebound_core::problem::{Embedding, Variant};
 use freebound_core::verify::distortion;
 use freebound_io::figure::{CellContent, Page, Still, TintedDrawing, Window};
 use freebound_io::{AnimationForm, AnimationFrame, write_animation};
@@ -109,10 +109,13 @@ impl<'a> MorphPicture<'a> {
     }
 
     fn title(&self, place: MorphPlace) -> String {
-        let [from, to] = [0, 1].map(|next| self.tour.stops.stops[place.leg + next].name.as_str());
+        let [from, to] = [0, 1].map(|next| {
+            let stop = &self.tour.stops.stops[place.leg + next];
+            Variant::of(&stop.outcome.problem.settings).title()
+        });
         match place.frame {
-            0 => from.to_owned(),
-            frame if self.is_last(MorphPlace { frame, ..place }) => to.to_owned(),
+            0 => from,
+            frame if self.is_last(MorphPlace { frame, ..place }) => to,
             _ => format!("{from} to {to}"),
         }
     }

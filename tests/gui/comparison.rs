@@ -272,7 +272,8 @@ fn a_comparison_is_written_as_a_picture_and_as_tables() {
     assert!(window.editor().files.dialogs.is_open());
     window.click("Export");
     assert!(window.path("sheet-comparison.csv").is_file());
-    for (what, name) in [("Picture…", "all.png"), ("Steps…", "steps.csv")] {
+    let files = [("Picture…", "all.png"), ("Drawing…", "all.svg"), ("Document…", "all.pdf"), ("Steps…", "steps.csv")];
+    for (what, name) in files {
         let path = window.path(name);
         window.menu(&["Export the comparison", what]);
         window.fill_in(Role::TextInput, "Name", path.to_str().expect("a path of text"));
@@ -285,6 +286,12 @@ fn a_comparison_is_written_as_a_picture_and_as_tables() {
     assert_eq!(lines("sheet-comparison.csv"), 7);
     let steps: usize = titles(&window).iter().map(|title| found(&window, title).report.steps.len()).sum();
     assert_eq!(lines("steps.csv"), 1 + steps);
+    let drawing = fs::read_to_string(window.path("all.svg")).unwrap();
+    let words = drawing.split("<text ").skip(1).filter_map(|rest| rest.split(['>', '<']).nth(1)).collect::<Vec<_>>();
+    for title in titles(&window) {
+        assert!(words.join(" ").contains(&title), "{title} in {words:?}");
+    }
+    assert!(fs::read(window.path("all.pdf")).unwrap().starts_with(b"%PDF-"));
     let picture = image::open(window.path("all.png")).unwrap();
     assert!(picture.width() > 1000 && picture.height() > 800);
 }

@@ -6,7 +6,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::examples::Example;
 use freebound::session::{Action, Status};
-use freebound::ui::{Tab, sentence};
+use freebound::ui::{Measure, Tab, sentence};
 use freebound_core::geom::ConvexPolygon;
 use freebound_core::mesh::VertexId;
 use freebound_core::problem::{BoundaryShape, Family, Method, Settings, Spacing};
@@ -397,4 +397,17 @@ fn the_panel_keeps_its_width_whatever_it_shows() {
     }
     window.choose("Method", "Convex boundary");
     assert!((window.plane_view().right() - edge).abs() < 0.5);
+}
+
+#[test]
+fn measures_explain_themselves_under_the_pointer() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    for (name, measure) in [("Angle", Measure::Angle), ("Area", Measure::Area), ("Weights", Measure::Weights)] {
+        let label = window.harness.query_all_by_role_and_label(Role::Label, name).next().expect("a label").rect();
+        window.harness.hover_at(label.center());
+        for _ in 0..60 {
+            window.step();
+        }
+        assert!(window.shows(measure.tip()), "{name}: {:?}", window.words());
+    }
 }

@@ -8,6 +8,7 @@
 //! | `ply`         | PLY files                                                                  |
 //! | `gltf`        | glTF files, as text and binary (GLB)                                       |
 //! | `constraints` | constraint files: one pinned vertex per line                               |
+//! | `matrix_market` | the linear system of a step (MTX)                                        |
 //! | `edges`       | edges files: one edge of a seam per line                                   |
 //! | `project`     | project files: the user's edits of a mesh (JSON)                           |
 //! | `picture`     | pictures in (PNG, JPEG)                                                    |
@@ -32,6 +33,7 @@
 //! | `machine`     | memory figures of the operating system                                     |
 //! | `unfinished`  | temporary files and folders, removed at a sudden end                       |
 //! | `paths`       | identity of files, and relative paths                                      |
+//! | `value_table` | numbers of vertices or faces from a table (CSV)                            |
 //! | `stamp`       | length and checksum of a file                                              |
 
 mod animation;
@@ -50,6 +52,7 @@ mod finished;
 mod finite;
 mod gltf;
 mod machine;
+mod matrix_market;
 mod mesh_file;
 mod not_kept;
 mod obj;
@@ -71,6 +74,7 @@ mod study_table;
 mod svg;
 mod true_size;
 mod unfinished;
+mod value_table;
 
 pub use animation::{AnimationForm, AnimationFrame, write_animation};
 pub use atomic::{WriteError, try_place, write_atomically, write_durably, write_to_standard_output};
@@ -87,6 +91,7 @@ pub use file_layout::{JudgeError, JudgedLayout, groups_of};
 pub use finished::ResultSource;
 pub use gltf::write_glb;
 pub use machine::{bytes_in_words, machine_memory_bytes, peak_memory_bytes};
+pub use matrix_market::MatrixFile;
 pub use mesh_file::{
     Instances, LabelError, LayoutError, MAX_PARSE_FAULTS, MemoryShortage, MeshFile, NO_TEXTURE, ParseFault,
     ParseFaultKind, ReadError, ReadOptions, ReadProgress, ReadWarning, ReadWarningKind, Refined, RefinedChart, Source,
@@ -114,3 +119,4 @@ pub use steps::StepsFolder;
 pub use study_plots::study_plots;
 pub use study_table::{read_study, write_study};
 pub use unfinished::discard_unfinished;
+pub use value_table::{ElementCounts, TableElement, TableError, ValueColumn, ValueTable};

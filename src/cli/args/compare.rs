@@ -52,6 +52,9 @@ pub struct CompareArguments {
     /// Draw the maps side by side into this file (SVG), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub svg: Option<PathBuf>,
+    /// Draw the maps side by side into this file (PDF), or to standard output with `-`.
+    #[arg(long, value_name = "FILE|-")]
+    pub pdf: Option<PathBuf>,
     /// Animate a morph through the planar maps (animated PNG); `-` for standard output.
     ///
     /// Every frame is proved one-to-one. Two maps give a loop there and back. Methods without a planar map are left
@@ -77,6 +80,8 @@ pub enum ComparisonFile {
     Png,
     /// Embeddings side by side (SVG).
     Svg,
+    /// Embeddings side by side (PDF).
+    Pdf,
     /// Morph (animated PNG).
     Morph,
 }
@@ -89,6 +94,7 @@ impl CompareArguments {
             (ComparisonFile::Steps, "--steps-csv", &self.steps_csv),
             (ComparisonFile::Png, "--png", &self.png),
             (ComparisonFile::Svg, "--svg", &self.svg),
+            (ComparisonFile::Pdf, "--pdf", &self.pdf),
             (ComparisonFile::Morph, "--morph", &self.morph),
         ];
         asked.into_iter().filter_map(|(file, option, path)| Some((file, option, path.as_deref()?))).collect()

@@ -6,8 +6,8 @@ use super::{ALWAYS, Mark, MenuBuilder, MenuCommand, when};
 use crate::examples::Example;
 use crate::session::{Action, LockState};
 use crate::ui::state::{
-    Axis, EXPORTS, FileDialogKind, GestureKind, PageRequest, Pane, Request, SeamRule, ShadingMode, StepTarget, Tab,
-    Tool,
+    Axis, COPY_COMMAND, EXPORTS, FileDialogKind, GestureKind, PageRequest, Pane, Request, SeamRule, ShadingMode,
+    StepTarget, Tab, Tool,
 };
 use freebound_core::pipeline::Fit;
 
@@ -19,6 +19,10 @@ const NO_PINS: &str = "Place a pin first";
 const NO_SEAMS: &str = "There are no seams";
 const NO_CHART: &str = "Select charts of the page that are not locked first";
 const NO_PAGE: &str = "Show all charts on the page first";
+
+/// Entry that colours faces by a table, and its description.
+const COLOUR_BY_COLUMN: [&str; 2] =
+    ["Colour by column…", "Colour the faces by a CSV or TSV file with a row for each vertex or face"];
 
 /// Function that fills a menu.
 type Fill = fn(&mut MenuBuilder<'_>);
@@ -66,6 +70,7 @@ fn file_menu(menu: &mut MenuBuilder<'_>) {
     let has_disk = editor.has_disk();
     menu.item(when(has_disk, NO_DISK), "Open picture…", Request::Ask(FileDialogKind::OpenPicture));
     menu.item(when(editor.has_picture(), "There is no picture"), "Remove picture", Action::RemovePicture);
+    menu.explained(when(has_model, NO_MESH), COLOUR_BY_COLUMN, Request::Ask(FileDialogKind::OpenTable));
     menu.item(when(has_disk, NO_DISK), "Import constraints…", Request::Ask(FileDialogKind::ImportConstraints));
     let has_pins = !editor.session.document().targets.is_empty();
     menu.item(when(has_pins, NO_PINS), "Export constraints…", Request::Ask(FileDialogKind::ExportConstraints));
@@ -74,6 +79,8 @@ fn file_menu(menu: &mut MenuBuilder<'_>) {
         for (kind, words, about) in EXPORTS {
             menu.explained(when(editor.session.outcome().is_some(), NO_MAP), [words, about], Request::Ask(kind));
         }
+        menu.separator();
+        menu.explained(when(has_model, NO_MESH), COPY_COMMAND, Request::CopyCommandLine);
     });
     menu.part("Size in files", |menu| {
         let (unit, true_size) = (Fit::Unit, Fit::True);
@@ -139,6 +146,11 @@ fn view_menu(menu: &mut MenuBuilder<'_>) {
                 let mark = Mark::Choice(editor.shading(pane) == shading);
                 // Shortcuts shade the pane under the pointer; a menu entry names the pane.
                 menu.add(MenuCommand { mark, ..command }.has_keys_of(Request::SetShading(shading)));
+            }
+            for (place, title) in editor.files.table.titles().enumerate() {
+                let is_shown =
+                    editor.shading(pane) == ShadingMode::Column && editor.files.table.chosen() == Some(place);
+                menu.choice(is_shown, &format!("Column: {title}"), Request::ShowColumn(place));
             }
         });
     }

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::async_scene::AsyncScene;
-use super::paint::{BrushPaint, Legend, PaintKey};
+use super::colour_table::{ShownColumn, vertices_in_file};
+use super::paint::{BrushPaint, Legend, PaintKey, PaintValues};
 use super::scene::{MeshScene, PlaneScene};
 use crate::render::{PictureLayer, Sampling};
 use crate::session::{Document, JobFailure, Wake};
@@ -218,7 +219,8 @@ impl PaneShading {
 
     /// Recolours the faces of a pane if mesh, embedding or shading have changed. Moves are measured from `base`.
     pub(super) fn refresh_paint(&mut self, pane: Pane, shading: ShadingMode, sources: PaintSources<'_>) {
-        let PaintSources { given, plane, base } = sources;
+        let PaintSources { given, plane, base, column } = sources;
+        let column = column.filter(|_| shading == ShadingMode::Column);
         let base = base.filter(|_| shading == ShadingMode::Move);
         let key = PaintKey {
             model: given.model_revision,
@@ -226,12 +228,19 @@ impl PaneShading {
             // Shadings without a number per face share one paint.
             shading: if shading.is_by_number() { shading } else { ShadingMode::Plain },
             moved_from: base.map(|base| base.step.index),
+            column: column.map_or(0, |column| column.revision),
         };
         let fits = |paint: &&Arc<BrushPaint>| paint.key == key;
         if self.paints[pane as usize].as_ref().is_none_or(|paint| paint.key != key) {
             let shared = self.paints.iter().flatten().find(fits).cloned();
             let mesh = plane.map_or(given, |plane| &plane.mesh).mesh();
-            let made = || Arc::new(BrushPaint::new(key, mesh, plane.map(|plane| plane.outcome.as_ref()), base));
+            let made = || {
+                let numbers = |column: ShownColumn<'_>| {
+                    column.values_on(mesh, &given.model, vertices_in_file(&given.model).as_deref())
+                };
+                let values = PaintValues { base, column: column.map(numbers) };
+                Arc::new(BrushPaint::new(key, mesh, plane.map(|plane| plane.outcome.as_ref()), values))
+            };
             self.paints[pane as usize] = Some(shared.unwrap_or_else(made));
         }
     }
@@ -250,4 +259,6 @@ pub(super) struct PaintSources<'a> {
     pub(super) plane: Option<&'a PlaneScene>,
     /// Step that moves are measured from.
     pub(super) base: Option<&'a Outcome>,
+    /// Column of a table.
+    pub(super) column: Option<ShownColumn<'a>>,
 }

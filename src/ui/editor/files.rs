@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
 
+use super::colour_table::ColourTable;
 use crate::ui::dialogs::Dialogs;
 use crate::ui::state::PendingClose;
 use freebound_core::geom::Picture;
@@ -15,6 +16,8 @@ pub struct Files {
     pub unsaved: Unsaved,
     /// Size of coordinates in files.
     pub fit: Fit,
+    /// Table of numbers that colours the faces.
+    pub table: ColourTable,
     /// Requested picture of a pane, and its path.
     pub(in crate::ui) shot: Option<(PathBuf, Receiver<Picture>)>,
 }

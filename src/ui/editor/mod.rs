@@ -28,6 +28,9 @@
 //! | `preferences.rs` | settings of the window kept between runs |
 //! | `opened.rs` | state of the window for the open document |
 //! | `project_view.rs` | cameras, shadings, tool and selection in the project file |
+//! | `step_curve.rs`, `step_files.rs` | the numbers of the steps that have curves; files with curves and steps |
+//! | `colour_table.rs`, `table_actions.rs` | the table of numbers that colours the faces |
+//! | `command_line.rs` | the document as a command line, on the clipboard |
 //! | `gpu.rs` | egui's context and the graphics card |
 //! | `frames.rs` | duration of frames |
 //! | `views.rs` | framing of the selection, elements and defects |
@@ -37,6 +40,8 @@
 pub(super) mod appearance;
 mod around;
 mod async_scene;
+mod colour_table;
+mod command_line;
 pub(super) mod comparison;
 mod defect;
 mod element;
@@ -64,6 +69,9 @@ pub(super) mod seam_tool;
 mod selection;
 mod shade;
 mod sides;
+pub(super) mod step_curve;
+mod step_files;
+mod table_actions;
 mod unsaved;
 mod views;
 
@@ -217,6 +225,7 @@ impl Editor {
         self.tell_failures();
         self.pane_shading.refresh_picture(self.session.document());
         self.poll_shot();
+        self.poll_table();
         if let Some(plane) = self.plane.scene() {
             self.pane_shading.refresh_checks(plane, self.timeline.playing_since.is_some());
         }
@@ -288,6 +297,7 @@ impl Editor {
         if self.opened.put_on_screen(&self.session) {
             self.selection.select([]);
             self.plane.page.forget();
+            self.forget_table();
             self.put_on_view();
         }
         let scene = self.mesh.scene();

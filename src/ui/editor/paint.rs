@@ -27,6 +27,17 @@ pub struct PaintKey {
     pub shading: ShadingMode,
     /// Step that moves are measured from, for the shading by moves.
     pub moved_from: Option<usize>,
+    /// Number of changes of the shown column, for the shading by a column.
+    pub column: u64,
+}
+
+/// Numbers that do not come from the embedding alone.
+#[derive(Clone, Debug, Default)]
+pub struct PaintValues<'a> {
+    /// Step that moves are measured from.
+    pub base: Option<&'a Outcome>,
+    /// Number of each face, from a table.
+    pub column: Option<Vec<f64>>,
 }
 
 /// Colour scale with its range and a histogram of the faces.
@@ -48,8 +59,14 @@ impl Legend {
 }
 
 impl BrushPaint {
-    /// Colours the faces of an embedding. Moves are measured from `base`.
-    pub fn new(key: PaintKey, mesh: &TriMesh, outcome: Option<&Outcome>, base: Option<&Outcome>) -> Self {
+    /// Colours the faces of an embedding.
+    pub fn new(key: PaintKey, mesh: &TriMesh, outcome: Option<&Outcome>, values: PaintValues<'_>) -> Self {
+        let PaintValues { base, column } = values;
+        if let Some(values) = column {
+            let flipped = outcome.map_or(&[][..], |outcome| &outcome.step.verdict.flipped_faces);
+            let (faces, legend) = column_paint(&values, flipped);
+            return Self { key, faces: Arc::new(faces), legend: Some(legend) };
+        }
         let plain = |flipped: &[FaceId]| Self {
             key,
             faces: Arc::new(FacePaint::plain(mesh.real_face_count(), flipped)),
@@ -64,7 +81,14 @@ impl BrushPaint {
         };
         let by = |quantity: Quantity| by_values(quantity.scale(), &quantity.values(&outcome.distortion));
         match (key.shading, base) {
-            (ShadingMode::Plain | ShadingMode::Checker | ShadingMode::Picture | ShadingMode::SeeThrough, _)
+            (
+                ShadingMode::Plain
+                | ShadingMode::Checker
+                | ShadingMode::Picture
+                | ShadingMode::SeeThrough
+                | ShadingMode::Column,
+                _,
+            )
             | (ShadingMode::Move, None) => plain(flipped),
             (ShadingMode::Angle, _) => by(Quantity::Angle),
             (ShadingMode::Area, _) => by(Quantity::Area),
@@ -75,6 +99,13 @@ impl BrushPaint {
             }
         }
     }
+}
+
+/// Colours of the numbers of a table, with their legend.
+pub(super) fn column_paint(values: &[f64], flipped: &[FaceId]) -> (FacePaint, Legend) {
+    let scale = Scale::of_column(values);
+    let range = scale.robust_range(values);
+    (FacePaint::by_value(values, scale, range, flipped), Legend::new(scale, range, values))
 }
 
 fn histogram<'a>(values: impl IntoIterator<Item = &'a f64>, range: Range) -> Vec<u32> {

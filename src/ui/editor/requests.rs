@@ -31,6 +31,7 @@ impl Editor {
             Request::GoToStep(target) => self.go_to_step(target),
             Request::TogglePlay => self.toggle_play(),
             Request::ToggleCurves => self.timeline.curves_wanted = Some(!self.timeline.curves_shown()),
+            Request::Curve(request) => self.timeline.handle(request),
             Request::SetTool(tool) => self.tools.take_up(tool),
             Request::ClickSeam(click) => self.take_seam_click(click),
             Request::CutByRule(rule) => self.cut_by_rule(rule),
@@ -43,6 +44,7 @@ impl Editor {
             Request::TakeVertex(vertex) => self.take_vertex(vertex),
             Request::SetShading(shading) => self.shade(shading),
             Request::SetPaneShading(pane, shading) => self.shade_pane(pane, shading),
+            Request::ShowColumn(place) => self.show_column(place),
             Request::ToggleWireframe => self.pane_shading.wireframe = !self.pane_shading.wireframe,
             Request::ToggleEase => self.pane_shading.glides = !self.pane_shading.glides,
             Request::ToggleOutsideHull => self.selection.marks_outside_hull ^= true,
@@ -83,6 +85,7 @@ impl Editor {
             Request::SortComparison(column) => self.plane.comparison.sort_by(column),
             Request::ToggleComparisonTable => self.plane.comparison.toggle_table(),
             Request::Morph(request) => self.morph(request),
+            Request::CopyCommandLine => self.copy_command_line(),
             Request::Ask(kind) => self.ask(kind),
             Request::SaveProject => self.save_project(),
             Request::ToggleExports => self.layout.exports_shown = !self.layout.exports_shown,
@@ -130,6 +133,10 @@ impl Editor {
                 self.act(Action::SaveProject(path));
             }
             FileDialogKind::PanePicture(pane) => self.shoot_pane(pane, path),
+            FileDialogKind::Curves(what) => self.export_curves(what, path),
+            FileDialogKind::OpenTable => self.open_table(path),
+            FileDialogKind::LinearSystem => self.export_linear_system(path),
+            FileDialogKind::StepPictures => self.export_step_pictures(&path),
             FileDialogKind::Comparison(what) => self.export_comparison(what, path),
             FileDialogKind::Export(output, fit) => {
                 let fit = fit.unwrap_or(self.files.fit);
@@ -252,7 +259,7 @@ impl Editor {
 
     fn escape(&mut self) {
         let closes = self.close_question() || self.leave_large() || self.files.dialogs.close();
-        if closes || self.layout.close_window() || self.drop_gesture() {
+        if closes || self.layout.close_window() || self.timeline.close_curve() || self.drop_gesture() {
         } else if self.tools.end_drag() {
             self.act(Action::GiveUpGesture);
         } else if self.pointer.end_box() {

@@ -54,13 +54,14 @@ impl Editor {
     pub(super) fn refresh_paints(&mut self) {
         if self.shows_page() {
             for (pane, shading) in Pane::BOTH.map(|pane| (pane, self.shading(pane))) {
-                self.plane.page.refresh_paint(pane, shading);
+                self.plane.page.refresh_paint(pane, shading, self.files.table.shown());
             }
             return;
         }
         let Some(given) = self.mesh.scene() else { return };
         let base = self.plane.moved_from(&self.session).map(AsRef::as_ref);
-        let sources = PaintSources { given, plane: self.plane.scene().map(AsRef::as_ref), base };
+        let column = self.files.table.shown();
+        let sources = PaintSources { given, plane: self.plane.scene().map(AsRef::as_ref), base, column };
         for (pane, shading) in Pane::BOTH.map(|pane| (pane, self.shading(pane))) {
             self.pane_shading.refresh_paint(pane, shading, sources);
         }

@@ -3,7 +3,7 @@
 use eframe::egui;
 
 use crate::session::{StepDistortion, Timeline};
-use crate::ui::{Editor, figures, heads, short};
+use crate::ui::{Editor, Measure, figures, heads, short};
 use freebound_core::pipeline::Outcome;
 
 /// Width of a number, characters.
@@ -40,7 +40,10 @@ pub(super) fn comparison(ui: &mut egui::Ui, editor: &Editor) {
         heads(ui, FIGURE, &[format!("step {before}"), format!("step {now}"), "change".to_owned()]);
         ui.end_row();
         for row in rows(timeline, [before, now]) {
-            ui.label(row.name);
+            let label = ui.label(row.name);
+            if let Some(measure) = Measure::called(row.name) {
+                label.on_hover_text(measure.tip());
+            }
             figures(ui, row.name, FIGURE, &row.words());
             ui.end_row();
         }

@@ -7,7 +7,8 @@ use std::sync::mpsc::sync_channel;
 use eframe::egui::{self, Align2, Key, Pos2, Rect};
 
 use crate::ui::editor::layout::GoTo;
-use crate::ui::state::EXPORTS;
+use crate::ui::state::{COPY_COMMAND, EXPORTS};
+use crate::ui::timeline::enlarged_curve;
 use crate::ui::{Control, Editor, Element, Pane, Request};
 use freebound_core::geom::Picture;
 
@@ -21,6 +22,7 @@ pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Edit
         exports_window(context, editor, requests);
     }
     super::palette::palette(context, editor, requests);
+    enlarged_curve(context, editor, requests);
     super::tour::tour(context, editor);
     super::toast::toast(context, editor, requests);
     super::unsaved::question(context, editor, requests);
@@ -63,14 +65,25 @@ fn go_to_window(
     (open && !gone).then_some(go_to)
 }
 
+/// Least height of a window that lists all exports in one column, points.
+const ONE_COLUMN: f32 = 600.0;
+
 fn exports_window(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
     let solved = editor.session.outcome().is_some();
     let window = egui::Window::new("Export").open(&mut editor.layout.exports_shown).collapsible(false).resizable(false);
     window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(context, |ui| {
-        for (kind, words, about) in EXPORTS {
-            let button = ui.add_enabled(solved, egui::Button::new(words).min_size(egui::vec2(250.0, 24.0)));
-            button.on_hover_text(about).asks(Request::Ask(kind), requests);
-        }
+        let columns = if context.content_rect().height() < ONE_COLUMN { 2 } else { 1 };
+        egui::Grid::new("exports").num_columns(columns).spacing([6.0, 4.0]).show(ui, |ui| {
+            let commands = std::iter::once((Request::CopyCommandLine, COPY_COMMAND));
+            let files = EXPORTS.into_iter().map(|(kind, words, about)| (Request::Ask(kind), [words, about]));
+            for (place, (request, [words, about])) in files.chain(commands).enumerate() {
+                let button = ui.add_enabled(solved, egui::Button::new(words).min_size(egui::vec2(250.0, 22.0)));
+                button.on_hover_text(about).asks(request, requests);
+                if place % columns + 1 == columns {
+                    ui.end_row();
+                }
+            }
+        });
         if !solved {
             ui.weak("There is nothing to export yet: open a mesh.");
         }

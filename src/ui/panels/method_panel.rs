@@ -8,8 +8,8 @@ use super::surface::{charts_row, holes_row, start_remark, start_row};
 use crate::session::Action;
 use crate::ui::timeline::chips::residual_words;
 use crate::ui::{
-    Control, Editor, Request, Typed, figures, heads, list, number, pairs, remark, sentence, short, tip_with_keys,
-    with_keys_set,
+    Control, Editor, Measure, Request, Typed, figures, head, list, number, pairs, remark, sentence, short,
+    tip_with_keys, with_keys_set,
 };
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::{Family, Growth, Method, NamedOption, Settings, Treatment};
@@ -30,7 +30,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
         ui.end_row();
         boundary_rows(ui, chosen);
         if chosen.method.uses_family() {
-            ui.label("Weights");
+            ui.label("Weights").on_hover_text(Measure::Weights.tip());
             family_list(ui, chosen);
             ui.end_row();
         }
@@ -263,14 +263,18 @@ fn distortion(ui: &mut egui::Ui, outcome: &Outcome) {
     ui.strong("Distortion");
     egui::Grid::new("distortion").num_columns(4).spacing([8.0, 4.0]).show(ui, |ui| {
         ui.label("");
-        heads(ui, FIGURE, &["mean", "p99", "max"].map(str::to_owned));
+        for (words, measure) in [("mean", Measure::Mean), ("p99", Measure::P99), ("max", Measure::Max)] {
+            head(ui, FIGURE, words).on_hover_text(measure.tip());
+        }
         ui.end_row();
-        for (name, spread) in [("Angle", summary.angle), ("Area", summary.area)] {
-            ui.label(name);
+        let spreads = [("Angle", summary.angle, Measure::Angle), ("Area", summary.area, Measure::Area)];
+        for (name, spread, measure) in spreads {
+            ui.label(name).on_hover_text(measure.tip());
             figures(ui, name, FIGURE, &[spread.mean, spread.p99, spread.max].map(figure));
             ui.end_row();
         }
-        ui.label("Stretch").on_hover_text("L² stretch (Sander et al. 2001); at the right, L∞ stretch");
+        let stretch = [Measure::StretchL2, Measure::StretchLinf].map(Measure::tip).join("\n\nAt the right: ");
+        ui.label("Stretch").on_hover_text(stretch);
         figures(ui, "Stretch", FIGURE, &[figure(summary.stretch_l2), String::new(), figure(summary.stretch_linf)]);
         ui.end_row();
     });

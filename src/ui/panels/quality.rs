@@ -8,7 +8,7 @@ use super::advice::ratio_words;
 use crate::session::{Action, Status};
 use crate::ui::icons::{self, Sign};
 use crate::ui::theme::CHIP_HOVERED;
-use crate::ui::{Control, Editor, Request, ShadingMode, short, theme_of, with_keys_set};
+use crate::ui::{Control, Editor, Measure, Request, ShadingMode, short, theme_of, with_keys_set};
 use freebound_core::pipeline::Outcome;
 use freebound_core::verify::DistortionSummary;
 
@@ -106,7 +106,8 @@ impl Quality {
 
     /// Numbers and remedy, for the tooltip.
     fn tip(&self) -> String {
-        let mut lines = vec![format!("Mean energy {}: 4 changes no lengths, below {GOOD} is good", short(self.energy))];
+        let mut lines =
+            vec![format!("Mean energy {}: below {GOOD} is good", short(self.energy)), Measure::Energy.tip().to_owned()];
         lines.extend(self.worst.map(|(chart, energy)| format!("Worst chart: {chart}, with energy {}", short(energy))));
         let ratio = if self.area_ratio < 10.0 { short(self.area_ratio) } else { ratio_words(self.area_ratio) };
         lines.push(format!("Areas of faces differ up to {ratio} : 1"));

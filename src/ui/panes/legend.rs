@@ -17,7 +17,7 @@ pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane) {
     let Some(legend) = editor.legend(pane) else { return };
     let title = match (editor.shading(pane), editor.plane.moved_from(&editor.session)) {
         (ShadingMode::Move, Some(base)) => format!("Move from step {}, plane units", base.step.index),
-        (shading, _) => shading.title().to_owned(),
+        (shading, _) => editor.title_of_shading(shading),
     };
     let theme = theme_of(ui);
     let painter = ui.painter_at(rect);
@@ -27,7 +27,9 @@ pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane) {
     }
     let frame = Rect::from_min_size(rect.left_bottom() + Vec2::new(12.0, -12.0 - size.y), size);
     painter.rect_filled(frame, 4.0, theme.panel.gamma_multiply(0.92));
-    painter.text(frame.min + Vec2::new(10.0, 6.0), Align2::LEFT_TOP, title, FontId::proportional(11.0), theme.text);
+    let at = frame.min + Vec2::new(10.0, 6.0);
+    let words = painter.with_clip_rect(frame.shrink2(Vec2::new(8.0, 0.0)));
+    words.text(at, Align2::LEFT_TOP, title, FontId::proportional(11.0), theme.text);
     let bar = Rect::from_min_size(frame.min + Vec2::new(10.0, 44.0), Vec2::new(size.x - 20.0, 9.0));
     columns(&painter, bar, legend, theme);
     scale(&painter, bar, legend, theme);

@@ -230,7 +230,9 @@ pub(super) fn style_of(editor: &Editor, chosen: ShadingMode, check_size: f64) ->
         ShadingMode::Plain | ShadingMode::SeeThrough => render::FaceShading::Plain,
         ShadingMode::Picture if editor.has_picture() => render::FaceShading::Picture,
         ShadingMode::Checker | ShadingMode::Picture => render::FaceShading::Checker,
-        ShadingMode::Angle | ShadingMode::Area | ShadingMode::Stretch | ShadingMode::Move => render::FaceShading::Paint,
+        ShadingMode::Angle | ShadingMode::Area | ShadingMode::Stretch | ShadingMode::Move | ShadingMode::Column => {
+            render::FaceShading::Paint
+        }
     };
     Style {
         shading,

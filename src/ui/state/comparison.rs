@@ -7,6 +7,10 @@ use freebound_core::problem::Variant;
 pub enum ComparisonExport {
     /// Embeddings side by side.
     Picture,
+    /// Embeddings side by side as a drawing.
+    Drawing,
+    /// Embeddings side by side as a document.
+    Document,
     /// Table of the methods.
     Table,
     /// Every step of every method.
@@ -17,12 +21,14 @@ pub enum ComparisonExport {
 
 impl ComparisonExport {
     /// All exports, in menu order.
-    pub const ALL: [Self; 4] = [Self::Picture, Self::Table, Self::Steps, Self::Morph];
+    pub const ALL: [Self; 6] = [Self::Picture, Self::Drawing, Self::Document, Self::Table, Self::Steps, Self::Morph];
 
     /// Menu entry and description.
     pub(in crate::ui) const fn words(self) -> [&'static str; 2] {
         match self {
             Self::Picture => ["Picture…", "PNG: the embeddings at one scale, with their numbers"],
+            Self::Drawing => ["Drawing…", "SVG: the embeddings at one scale, with their numbers"],
+            Self::Document => ["Document…", "PDF: the embeddings at one scale, with their numbers"],
             Self::Table => ["Table…", "CSV, a line for each method"],
             Self::Steps => ["Steps…", "CSV, every step of every method with its seconds, energy and stretch"],
             Self::Morph => ["Animated picture…", "APNG: the morph on the screen, forwards and back"],

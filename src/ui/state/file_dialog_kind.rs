@@ -5,6 +5,7 @@ use std::slice;
 
 use super::comparison::ComparisonExport;
 use super::pane::Pane;
+use super::timeline_view::CurvesExport;
 use freebound_core::pipeline::Fit;
 use freebound_io::OutputKind;
 
@@ -14,6 +15,8 @@ pub enum FileDialogKind {
     /// Mesh or project to open, or picture for the open mesh.
     Open,
     OpenPicture,
+    /// Table of numbers that colours the faces.
+    OpenTable,
     ImportConstraints,
     ExportConstraints,
     ImportSeams,
@@ -25,6 +28,12 @@ pub enum FileDialogKind {
     PanePicture(Pane),
     /// Export of the method comparison.
     Comparison(ComparisonExport),
+    /// Export of the curves of the steps.
+    Curves(CurvesExport),
+    /// Linear system of the step on the screen.
+    LinearSystem,
+    /// Pictures of all steps, one numbered file each.
+    StepPictures,
 }
 
 /// Texts and extensions of a dialog.
@@ -70,6 +79,7 @@ impl FileDialogKind {
         let (title, files, extensions, ending): (_, _, &[&str], _) = match self {
             Self::Open => ("Open a mesh, a project or a picture", "Meshes, projects and pictures", OPENED, ""),
             Self::OpenPicture => ("Open a picture", "Pictures", PICTURES, ""),
+            Self::OpenTable => ("Open a table of numbers", "Tables", &["csv", "tsv", "txt"], ""),
             Self::ImportConstraints => ("Import constraints", "Constraints", &["txt"], ""),
             Self::ExportConstraints => ("Export the constraints", "Constraints", &["txt"], "-constraints.txt"),
             Self::ImportSeams => ("Import seams", "Edges", &["edges", "txt"], ""),
@@ -86,6 +96,25 @@ impl FileDialogKind {
             Self::Comparison(ComparisonExport::Picture) => {
                 ("Export a picture of the comparison", "PNG picture", &["png"], "-comparison.png")
             }
+            Self::Curves(CurvesExport::Table) => ("Export the curves as a table", "CSV table", &["csv"], "-curves.csv"),
+            Self::Curves(CurvesExport::Svg) => {
+                ("Export a drawing of the curves", "SVG drawing", &["svg"], "-curves.svg")
+            }
+            Self::Curves(CurvesExport::Pdf) => {
+                ("Export a document of the curves", "PDF document", &["pdf"], "-curves.pdf")
+            }
+            Self::Comparison(ComparisonExport::Drawing) => {
+                ("Export a drawing of the comparison", "SVG drawing", &["svg"], "-comparison.svg")
+            }
+            Self::Comparison(ComparisonExport::Document) => {
+                ("Export a document of the comparison", "PDF document", &["pdf"], "-comparison.pdf")
+            }
+            Self::LinearSystem => {
+                ("Export the linear system of the step", "Matrix Market file", &["mtx"], "-matrix.mtx")
+            }
+            Self::StepPictures => {
+                ("Export pictures of all steps", "PNG, SVG or PDF files", &["png", "svg", "pdf"], "-step.png")
+            }
             Self::Comparison(ComparisonExport::Table) => {
                 ("Export the table of the comparison", "CSV table", &["csv"], "-comparison.csv")
             }
@@ -101,7 +130,7 @@ impl FileDialogKind {
 
     /// True if the dialog asks for an existing file.
     pub(in crate::ui) const fn is_reading(self) -> bool {
-        matches!(self, Self::Open | Self::OpenPicture | Self::ImportConstraints | Self::ImportSeams)
+        matches!(self, Self::Open | Self::OpenPicture | Self::OpenTable | Self::ImportConstraints | Self::ImportSeams)
     }
 
     /// True if the dialog accepts a path: its extension fits. Input files, OBJ files, constraints and seams accept
@@ -113,11 +142,16 @@ impl FileDialogKind {
     }
 }
 
+/// Entry that copies a command line, and its description.
+pub(in crate::ui) const COPY_COMMAND: [&str; 2] =
+    ["Copy as command line", "Copy the command that makes this map, with comments on what it does not express"];
+
 /// All exports: dialog, menu entry and description.
-pub(in crate::ui) const EXPORTS: [(FileDialogKind, &str, &str); 9] = {
-    use FileDialogKind::{Export, PanePicture};
+pub(in crate::ui) const EXPORTS: [(FileDialogKind, &str, &str); 14] = {
+    use FileDialogKind::{Curves, Export, LinearSystem, PanePicture, StepPictures};
     use OutputKind::{Glb, Json, Obj, Ply, Png, Svg};
     let (unit, true_scale) = (Some(Fit::Unit), Some(Fit::True));
+    let [table, svg, pdf] = CurvesExport::ALL;
     [
         (
             Export(Obj, None),
@@ -132,5 +166,18 @@ pub(in crate::ui) const EXPORTS: [(FileDialogKind, &str, &str); 9] = {
         (PanePicture(Pane::Plane), "Picture of the embedding's pane…", "PNG, as shown in the pane"),
         (Export(Png, None), "Mesh and layout side by side…", "PNG, redrawn for the file"),
         (Export(Json, None), "Report…", "JSON: method, steps, verdict, distortion"),
+        (Curves(table), table.words()[0], table.words()[1]),
+        (Curves(svg), svg.words()[0], svg.words()[1]),
+        (Curves(pdf), pdf.words()[0], pdf.words()[1]),
+        (
+            StepPictures,
+            "Pictures of all steps…",
+            "Numbered PNG, SVG or PDF files, one for each step, all with one camera",
+        ),
+        (
+            LinearSystem,
+            "Linear system of this step…",
+            "Matrix Market: the matrix, and the right-hand side in a second file",
+        ),
     ]
 };

@@ -41,7 +41,7 @@ mod welcome;
 
 pub use comparison::{ComparisonExport, MorphRequest};
 pub(crate) use file_dialog_kind::is_picture;
-pub(in crate::ui) use file_dialog_kind::{DialogForm, EXPORTS, FileDialogKind, MESHES};
+pub(in crate::ui) use file_dialog_kind::{COPY_COMMAND, DialogForm, EXPORTS, FileDialogKind, MESHES};
 pub use help::Help;
 pub(in crate::ui) use help::{KeyClash, KeyList, Palette};
 pub use hull_stage::HullStage;
@@ -56,6 +56,7 @@ pub(in crate::ui) use seam::Edge;
 pub use seam::{SeamClick, SeamRule};
 pub use shading_mode::ShadingMode;
 pub(in crate::ui) use timeline_view::{CURVE_COUNT, ROW_HEIGHT, TimelineView};
+pub use timeline_view::{CurveRequest, CurvesExport};
 pub(in crate::ui) use toast::Toast;
 pub use tool::{Half, Intent, Tool};
 pub(in crate::ui) use tour::TourStart;

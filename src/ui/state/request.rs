@@ -11,6 +11,7 @@ use super::page::PageRequest;
 use super::pane::{Pane, Tab};
 use super::seam::{SeamClick, SeamRule};
 use super::shading_mode::ShadingMode;
+use super::timeline_view::CurveRequest;
 use super::tool::Tool;
 use super::unsaved::UnsavedAnswer;
 use crate::session::Action;
@@ -46,6 +47,8 @@ pub enum Request {
     TogglePlay,
     /// Shows or hides the curves under the panes.
     ToggleCurves,
+    /// Request to the curves of the steps.
+    Curve(CurveRequest),
     /// Activates a tool.
     SetTool(Tool),
     /// Activates the constrain tool with a vertex that waits for its target.
@@ -70,6 +73,8 @@ pub enum Request {
     SetShading(ShadingMode),
     /// Sets the shading of one pane.
     SetPaneShading(Pane, ShadingMode),
+    /// Colours both panes by a column of the open table.
+    ShowColumn(usize),
     /// Shows or hides the wireframe.
     ToggleWireframe,
     /// Shows or hides the insets that magnify a defect and a pair.
@@ -144,6 +149,8 @@ pub enum Request {
     ToggleComparisonTable,
     /// Request to the morph between two compared methods.
     Morph(MorphRequest),
+    /// Copies the command line that makes the map of the document.
+    CopyCommandLine,
     /// Opens a file dialog.
     Ask(FileDialogKind),
     /// Saves the project to its file, or asks for one.

@@ -23,6 +23,8 @@ pub enum ShadingMode {
     Move,
     /// Translucent faces over the picture, for the embedding only.
     SeeThrough,
+    /// Column of a table that the user opened. Not among [`ALL`](Self::ALL): menus list its columns.
+    Column,
 }
 
 impl ShadingMode {
@@ -50,7 +52,7 @@ impl ShadingMode {
 
     /// True if each face is coloured by a number.
     pub(in crate::ui) const fn is_by_number(self) -> bool {
-        matches!(self, Self::Angle | Self::Area | Self::Stretch | Self::Move)
+        matches!(self, Self::Angle | Self::Area | Self::Stretch | Self::Move | Self::Column)
     }
 
     /// Quantity that colours the faces, if the shading shows a distortion.
@@ -59,7 +61,7 @@ impl ShadingMode {
             Self::Angle => Some(Quantity::Angle),
             Self::Area => Some(Quantity::Area),
             Self::Stretch => Some(Quantity::Stretch),
-            Self::Plain | Self::Checker | Self::Picture | Self::Move | Self::SeeThrough => None,
+            Self::Plain | Self::Checker | Self::Picture | Self::Move | Self::SeeThrough | Self::Column => None,
         }
     }
 
@@ -81,6 +83,7 @@ impl ShadingMode {
             ],
             Self::Stretch => ["Stretch", "root mean square stretch from the plane to the mesh per face (L²)"],
             Self::Move => ["Move", "movement of faces since the compared step, or since the previous step"],
+            Self::Column => ["Column", "number of a table for each vertex or face"],
             Self::SeeThrough => ["See-through", "faces filled at 30 %, so that the picture behind them is visible"],
         }
     }

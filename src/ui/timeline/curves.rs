@@ -1,14 +1,16 @@
-//! Curves of the numbers of the steps, side by side. A click shows the step under the pointer.
+//! Curves of the numbers of the steps, side by side. A click shows the step under the pointer; a click on the name
+//! enlarges the curve.
 
-use eframe::egui::{self, Align, Color32, Layout, Rect, RichText, Role, Sense};
-use egui_plot::{HPlacement, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotResponse, Points, VLine};
+use eframe::egui::{self, Align, Button, Layout, Rect, Response, RichText, Role, Sense};
+use egui_plot::{HPlacement, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotResponse, Points, VLine};
 
 use super::buttons::lasting_menu;
 use super::marks::Marks;
-use crate::session::{Action, StepDistortion, Timeline};
-use crate::ui::state::CURVE_COUNT;
-use crate::ui::{Control, Editor, Request, Theme, remark, short, theme_of};
-use freebound_io::StepReport;
+use crate::session::{Action, Timeline};
+use crate::ui::editor::step_curve::ShownCurve;
+use crate::ui::state::CurveRequest;
+use crate::ui::{Control, CurvesExport, Editor, FileDialogKind, Request, Theme, theme_of};
+use freebound_io::figure::{AxisScale, AxisSpan};
 
 /// Least width of a curve, points.
 const LEAST_WIDTH: f32 = 118.0;
@@ -17,228 +19,164 @@ const LEAST_WIDTH: f32 = 118.0;
 const GAP: f32 = 12.0;
 
 /// Greatest number of steps for which single points are drawn.
-const MOST_POINTS: usize = 80;
+pub(super) const MOST_POINTS: usize = 80;
 
-/// Exponent that stands for 0 on a logarithmic scale.
-const LEAST_POWER: f64 = -17.0;
+/// Distance of numbers without a place on the scale from the lowest number with one, in shares of the height.
+const BELOW: f64 = 0.14;
 
-/// Curve of one number of each step.
-pub(super) struct Curve {
-    title: &'static str,
-    about: &'static str,
-    pub(super) scale: CurveScale,
-    value: ValueOf,
-    colour: ColourOf,
-}
-
-/// Scale of a curve.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum CurveScale {
-    /// Linear from 0, for counts.
-    Count,
-    /// Logarithmic.
-    Powers,
-}
-
-type ValueOf = fn(&StepReport, &StepDistortion) -> Option<f64>;
-type ColourOf = fn(&Theme) -> Color32;
-
-const fn count(title: &'static str, about: &'static str, value: ValueOf, colour: ColourOf) -> Curve {
-    Curve { title, about, scale: CurveScale::Count, value, colour }
-}
-
-const fn size(title: &'static str, about: &'static str, value: ValueOf, colour: ColourOf) -> Curve {
-    Curve { title, about, scale: CurveScale::Powers, value, colour }
-}
-
-const CURVES: [Curve; CURVE_COUNT] = [
-    count("Flipped", "flipped faces", |record, _| Some(record.flipped_faces as f64), |theme| theme.flipped),
-    count(
-        "Crossings",
-        "pairs of boundary edges that cross",
-        |record, _| Some(record.boundary_crossings as f64),
-        |theme| theme.crossing,
-    ),
-    size(
-        "Largest move",
-        "largest move of a vertex since the previous step, in units of the plane; by powers of ten",
-        |record, _| record.max_move,
-        |theme| theme.accent,
-    ),
-    size(
-        "Distance left",
-        "largest distance of a hard pin from its target, in units of the plane; by powers of ten",
-        |_, standing| Some(standing.progress?.distance_left),
-        |theme| theme.unmet,
-    ),
-    size(
-        "Energy",
-        "mean symmetric Dirichlet energy: 4 without distortion",
-        |_, standing| Some(standing.progress?.energy),
-        |theme| theme.constraint,
-    ),
-    size(
-        "Equation residual",
-        "|A z| of all equations relative to their terms; by powers of ten",
-        |record, _| record.equation_residual.filter(|residual| residual.is_finite()),
-        |theme| theme.accent,
-    ),
-    count("Concave", "concave polygons", |record, _| Some(record.concave_polygons as f64), |theme| theme.concave),
-    count(
-        "Overwound",
-        "overwound vertices",
-        |record, _| Some(record.overwound_vertices as f64),
-        |theme| theme.overwound,
-    ),
-    count(
-        "Outside hull",
-        "vertices outside the hull of their neighbours",
-        |record, _| Some(record.outside_hull_vertices as f64),
-        |theme| theme.outside_hull,
-    ),
-    size(
-        "Residual",
-        "|Ax − b| / |b| of the step's linear solve; by powers of ten",
-        |record, _| record.residual.filter(|residual| residual.is_finite()),
-        |theme| theme.weak_text,
-    ),
-    size(
-        "Determinant",
-        "smallest determinant of a face's map, at equal total areas; by powers of ten",
-        |_, standing| Some(standing.progress?.least_determinant),
-        |theme| theme.planar,
-    ),
-];
-
-impl Curve {
-    /// Height of a value in the plot.
-    pub(super) fn height_of(&self, value: f64) -> f64 {
-        match self.scale {
-            CurveScale::Count => value,
-            CurveScale::Powers => value.log10().max(LEAST_POWER),
-        }
-    }
-
-    /// Number of a step, if it has one.
-    fn value_at(&self, timeline: &Timeline, index: usize) -> Option<f64> {
-        (self.value)(timeline.records().get(index)?, timeline.standings().get(index)?).filter(|value| value.is_finite())
-    }
-
-    /// Least and greatest value over all steps.
-    fn ends(&self, timeline: &Timeline) -> Option<[f64; 2]> {
-        let values = (0..timeline.records().len()).filter_map(|index| self.value_at(timeline, index));
-        values.fold(None, |ends, value| match ends {
-            None => Some([value; 2]),
-            Some([least, greatest]) => Some([value.min(least), value.max(greatest)]),
-        })
-    }
-
-    /// Formats a value.
-    pub(super) fn words(&self, value: f64) -> String {
-        match self.scale {
-            CurveScale::Count => format!("{value:.0}"),
-            CurveScale::Powers if value == 0.0 => "0".to_owned(),
-            CurveScale::Powers if (0.01..1e4).contains(&value) => short(value),
-            CurveScale::Powers => format!("{value:.1e}"),
-        }
-    }
-}
-
-/// Menu that hides or shows curves. Entries name curves without numbers and curves that are 0 in every step.
-pub(super) fn curves_menu(ui: &mut egui::Ui, editor: &mut Editor) {
-    let (timeline, hidden) = (editor.session.timeline(), &mut editor.timeline.curves_hidden);
+/// Menu that hides or shows curves, and exports them. Entries name curves without numbers and curves that are 0 in
+/// every step.
+pub(super) fn curves_menu(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+    let (timeline, view) = (editor.session.timeline(), &mut editor.timeline);
     let response = lasting_menu(ui, "Curves", |ui| {
-        for (curve, hidden) in CURVES.iter().zip(hidden) {
-            let mut shown = !*hidden;
-            let words = match curve.ends(timeline) {
-                None => format!("{}: no numbers", curve.title),
-                Some(ends) if says_nothing(ends) => format!("{}: 0 in every step", curve.title),
-                Some(_) => curve.title.to_owned(),
+        for shown in ShownCurve::all(timeline, view) {
+            let hidden = &mut view.curves_hidden[shown.place];
+            let mut is_wanted = !*hidden;
+            let words = match shown.says_something() {
+                true => shown.curve.title.to_owned(),
+                false if shown.is_empty() => format!("{}: no numbers", shown.curve.title),
+                false => format!("{}: 0 in every step", shown.curve.title),
             };
-            ui.checkbox(&mut shown, words).on_hover_text(curve.about);
-            *hidden = !shown;
+            ui.checkbox(&mut is_wanted, words).on_hover_text(shown.about());
+            *hidden = !is_wanted;
         }
+        ui.separator();
+        export_entries(ui, requests);
     });
     response
         .named(Role::Button, "Choice of curves")
         .on_hover_text("Choose the curves to show. Default: the first ones with numbers other than 0, as many as fit.");
 }
 
-/// True if all numbers between these ends are 0.
-fn says_nothing(ends: [f64; 2]) -> bool {
-    ends.iter().all(|end| end.abs() <= 0.0)
+/// Entries that export the curves.
+pub(super) fn export_entries(ui: &mut egui::Ui, requests: &mut Vec<Request>) {
+    for what in CurvesExport::ALL {
+        let [words, about] = what.words();
+        let entry = ui.button(words).on_hover_text(about);
+        if entry.asks(Request::Ask(FileDialogKind::Curves(what)), requests) {
+            ui.close();
+        }
+    }
+}
+
+/// Entries that choose the scale of a curve. Returns true if one was clicked.
+pub(super) fn scale_entries(ui: &mut egui::Ui, shown: &ShownCurve, requests: &mut Vec<Request>) -> bool {
+    let scales = [
+        (AxisScale::Linear, "Linear", "Equal distances for equal differences"),
+        (AxisScale::Logarithmic, "Logarithmic", "Equal distances for equal factors; numbers up to 0 are marked below"),
+    ];
+    let mut is_clicked = false;
+    for (scale, words, about) in scales {
+        let entry = ui.selectable_label(shown.scale == scale, words).on_hover_text(about);
+        is_clicked |= entry.asks(Request::Curve(CurveRequest::SetScale(shown.place, scale)), requests);
+    }
+    is_clicked
 }
 
 /// Shows the first visible curves that fit side by side.
 pub(in crate::ui) fn curves(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let all = ui.available_rect_before_wrap().shrink2(egui::vec2(4.0, 0.0));
     let timeline = editor.session.timeline();
-    let has_numbers = |curve: &Curve| curve.ends(timeline).is_some_and(|ends| !says_nothing(ends));
-    let wanted = CURVES.iter().zip(editor.timeline.curves_hidden).filter(|(_, hidden)| !hidden).map(|(curve, _)| curve);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few curves have room")]
     let room = (((all.width() + GAP) / (LEAST_WIDTH + GAP)) as usize).max(1);
-    let shown: Vec<&Curve> = wanted.filter(|curve| has_numbers(curve)).take(room).collect();
+    let mut shown = ShownCurve::telling(timeline, &editor.timeline);
+    shown.truncate(room);
     let width = (all.width() + GAP) / shown.len().max(1) as f32 - GAP;
-    for (place, curve) in shown.into_iter().enumerate() {
+    for (place, curve) in shown.iter().enumerate() {
         let left = all.left() + place as f32 * (width + GAP);
         let rect = Rect::from_x_y_ranges(left..=left + width, all.y_range());
-        ui.scope_builder(egui::UiBuilder::new().max_rect(rect).id_salt(curve.title), |ui| {
+        ui.scope_builder(egui::UiBuilder::new().max_rect(rect).id_salt(curve.curve.title), |ui| {
             show_curve(ui, curve, timeline, requests);
         });
     }
 }
 
-fn show_curve(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline, requests: &mut Vec<Request>) {
+fn show_curve(ui: &mut egui::Ui, curve: &ShownCurve, timeline: &Timeline, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
-    let records = timeline.records();
     ui.horizontal(|ui| {
-        remark(ui, curve.title).on_hover_text(curve.about);
+        title(ui, curve, requests);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if let Some(shown) = timeline.shown() {
-                let words = curve.value_at(timeline, shown).map_or_else(|| "–".to_owned(), |v| curve.words(v));
+                let value = curve.values[shown];
+                let words = value.map_or_else(|| "–".to_owned(), |value| curve.words(value));
                 ui.label(RichText::new(words).small().color(theme.text));
             }
         });
     });
-    let Some(ends) = curve.ends(timeline) else { return };
-    let marks = Marks::new(ui, curve, ends);
+    let marks = Marks::new(ui, curve, unplaced_height(&curve.span()));
     let room = ui.available_rect_before_wrap();
     let inner = room.with_min_x(room.left() + marks.width());
     let plot = |ui: &mut egui::Ui| plot(ui, curve, timeline);
     let PlotResponse { response, transform, .. } = ui.scope_builder(egui::UiBuilder::new().max_rect(inner), plot).inner;
-    let response = response.named(Role::Image, &format!("Curve: {}", curve.about));
+    let response = response.named(Role::Image, &format!("Curve: {}", curve.about()));
     let at = |height: f64| transform.position_from_point(&PlotPoint::new(0.0, height)).y;
     marks.paint(ui, room.left(), response.rect, &at);
+    context_menu(&response, curve, requests);
+    if response.double_clicked() {
+        requests.push(Request::Curve(CurveRequest::Enlarge(curve.place)));
+    }
     let Some(pointer) = response.hover_pos() else { return };
-    let index = nearest(transform.value_from_position(pointer).x, records.len());
+    let index = nearest(transform.value_from_position(pointer).x, curve.values.len());
     ui.painter().with_clip_rect(response.rect).vline(
         transform.position_from_point_x(index as f64),
         response.rect.y_range(),
         egui::Stroke::new(1.0, theme.weak_text.gamma_multiply(0.6)),
     );
     response.asks(Action::ShowStep(index), requests);
-    let value = curve.value_at(timeline, index);
-    let words = value.map_or_else(|| "this step has no such number".to_owned(), |value| curve.words(value));
-    response.on_hover_text_at_pointer(format!("Step {index}: {words}\n{}", curve.about));
+    response.on_hover_text_at_pointer(format!("Step {index}: {}\n{}", curve.words_at(index), curve.about()));
+}
+
+/// Name of a curve, a button that enlarges it.
+fn title(ui: &mut egui::Ui, curve: &ShownCurve, requests: &mut Vec<Request>) {
+    let words = RichText::new(curve.curve.title).small().color(theme_of(ui).weak_text);
+    let response = ui.add(Button::new(words).frame(false).min_size(egui::Vec2::ZERO));
+    let response = response.named(Role::Button, &format!("Enlarge the curve: {}", curve.curve.title));
+    context_menu(&response, curve, requests);
+    let response = response.on_hover_text(format!("{}. Click to enlarge", curve.about()));
+    response.asks(Request::Curve(CurveRequest::Enlarge(curve.place)), requests);
+}
+
+fn context_menu(response: &Response, curve: &ShownCurve, requests: &mut Vec<Request>) {
+    response.context_menu(|ui| {
+        if ui.button("Enlarge").asks(Request::Curve(CurveRequest::Enlarge(curve.place)), requests) {
+            ui.close();
+        }
+        ui.separator();
+        if scale_entries(ui, curve, requests) {
+            ui.close();
+        }
+        ui.separator();
+        export_entries(ui, requests);
+    });
 }
 
 /// Step nearest to a place of the horizontal axis.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the steps that there are")]
-fn nearest(place: f64, count: usize) -> usize {
+pub(super) fn nearest(place: f64, count: usize) -> usize {
     place.round().clamp(0.0, count.saturating_sub(1) as f64) as usize
 }
 
-fn plot(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline) -> PlotResponse<()> {
+/// Height at which numbers without a place on the scale are marked, if there are some.
+fn unplaced_height(span: &AxisSpan) -> Option<f64> {
+    span.has_unplaced.then(|| span.low - BELOW * (span.high - span.low))
+}
+
+fn plot(ui: &mut egui::Ui, curve: &ShownCurve, timeline: &Timeline) -> PlotResponse<()> {
     let theme = theme_of(ui);
-    let records = timeline.records();
-    let colour = (curve.colour)(theme);
-    let point = |index: usize| curve.value_at(timeline, index).map(|v| [index as f64, curve.height_of(v)]);
-    let points: Vec<[f64; 2]> = (0..records.len()).filter_map(point).collect();
+    let colour = curve.colour(theme);
+    let span = curve.span();
+    let below = unplaced_height(&span);
+    let height = |value: f64| curve.scale.height_of(value).or(below);
+    let point = |index: usize| Some([index as f64, height(curve.values[index]?)?]);
+    let count = curve.values.len();
+    let is_placed = |index: usize| curve.values[index].is_some_and(|value| curve.scale.height_of(value).is_some());
+    let points = |placed: bool| (0..count).filter(|&k| is_placed(k) == placed).filter_map(point).collect::<Vec<_>>();
+    let (placed, unplaced) = (points(true), points(false));
     let shown = timeline.shown();
-    let at_shown = shown.and_then(point);
+    let at_shown = shown.filter(|&shown| is_placed(shown)).and_then(point);
     let compared = timeline.compared();
-    let few = records.len() <= MOST_POINTS;
-    base(theme, curve, &points, records.len()).show(ui, move |plot| {
+    let title = curve.curve.title;
+    base(theme, curve, &span).show(ui, move |plot| {
         if let Some(compared) = compared {
             let style = LineStyle::dashed_dense();
             plot.vline(VLine::new("compared", compared as f64).color(theme.weak_text).width(1.0).style(style));
@@ -246,10 +184,12 @@ fn plot(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline) -> PlotResponse<(
         if let Some(shown) = shown {
             plot.vline(VLine::new("shown", shown as f64).color(theme.accent.gamma_multiply(0.5)).width(1.0));
         }
-        plot.line(Line::new(curve.title, PlotPoints::from(points.clone())).color(colour).width(1.5));
-        if few {
-            plot.points(Points::new(curve.title, PlotPoints::from(points)).color(colour).radius(2.0));
+        plot.line(Line::new(title, PlotPoints::from(placed.clone())).color(colour).width(1.5));
+        if count <= MOST_POINTS {
+            plot.points(Points::new(title, PlotPoints::from(placed)).color(colour).radius(2.0));
         }
+        let marks = Points::new("no place on the scale", PlotPoints::from(unplaced)).shape(MarkerShape::Down);
+        plot.points(marks.color(colour).filled(false).radius(3.0));
         if let Some(at) = at_shown {
             plot.points(Points::new("here", PlotPoints::from(vec![at])).color(colour).radius(4.0));
         }
@@ -257,17 +197,10 @@ fn plot(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline) -> PlotResponse<(
 }
 
 /// Plot without interaction, scaled to the range of the run.
-fn base<'a>(theme: &Theme, curve: &Curve, points: &[[f64; 2]], count: usize) -> Plot<'a> {
-    let heights = || points.iter().map(|point| point[1]);
-    let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
-    let (low, high) = match curve.scale {
-        CurveScale::Count => (0.0, high.max(1.0)),
-        CurveScale::Powers if low <= high => (low - 0.5, high + 0.5),
-        CurveScale::Powers => (-1.0, 1.0),
-    };
-    Plot::new(curve.title)
+fn base<'a>(theme: &Theme, curve: &ShownCurve, span: &AxisSpan) -> Plot<'a> {
+    Plot::new(curve.curve.title)
         .show_axes([false, false])
-        .show_grid([false, curve.scale == CurveScale::Count])
+        .show_grid([false, curve.scale == AxisScale::Linear])
         .grid_color(theme.separator)
         .grid_fade(0.0)
         .show_background(false)
@@ -286,7 +219,7 @@ fn base<'a>(theme: &Theme, curve: &Curve, points: &[[f64; 2]], count: usize) -> 
         .set_margin_fraction(egui::vec2(0.04, 0.12))
         .y_axis_position(HPlacement::Left)
         .include_x(0.0)
-        .include_x(count.saturating_sub(1).max(1) as f64)
-        .include_y(low)
-        .include_y(high)
+        .include_x(curve.values.len().saturating_sub(1).max(1) as f64)
+        .include_y(unplaced_height(span).unwrap_or(span.low))
+        .include_y(span.high)
 }

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use eframe::egui::{self, FontId, Galley, Rect};
 
-use super::curves::{Curve, CurveScale};
+use crate::ui::editor::step_curve::ShownCurve;
 use crate::ui::theme_of;
+use freebound_io::figure::AxisScale;
 
 /// Font size of the marks, points.
 const MARKS: f32 = 9.0;
@@ -13,19 +14,26 @@ const MARKS: f32 = 9.0;
 /// Marks at the left of a curve: its greatest and its least value, and whole powers of ten between them, with their
 /// heights. Lines at the powers of ten cross the plot; the labels stay outside.
 pub(super) struct Marks {
-    /// Greatest value, and the least if its label differs.
+    /// Greatest value, the least if its label differs, and numbers without a place on the scale if there are some.
     ends: Vec<(f64, Arc<Galley>)>,
     powers: Vec<(f64, Arc<Galley>)>,
 }
 
 impl Marks {
-    pub(super) fn new(ui: &egui::Ui, curve: &Curve, [least, greatest]: [f64; 2]) -> Self {
+    /// Marks of a curve. `unplaced` is the height of numbers without a place on the scale, if there are some.
+    pub(super) fn new(ui: &egui::Ui, shown: &ShownCurve, unplaced: Option<f64>) -> Self {
         let ink = theme_of(ui).weak_text;
         let laid = |words: String| ui.painter().layout_no_wrap(words, FontId::proportional(MARKS), ink);
-        let [low, high] = [least, greatest].map(|value| curve.height_of(value));
-        let mut ends = vec![(high, curve.words(greatest))];
-        ends.extend(Some((low, curve.words(least))).filter(|(_, words)| *words != ends[0].1));
-        let powers = if curve.scale == CurveScale::Powers { powers_within(low, high) } else { Vec::new() };
+        let height = |value: f64| shown.scale.height_of(value).unwrap_or(0.0);
+        let (mut ends, mut powers) = (Vec::new(), Vec::new());
+        if let Some([least, greatest]) = shown.ends() {
+            ends.push((height(greatest), shown.words(greatest)));
+            ends.extend(Some((height(least), shown.words(least))).filter(|(_, words)| *words != ends[0].1));
+            if shown.scale == AxisScale::Logarithmic {
+                powers = powers_within(height(least), height(greatest));
+            }
+        }
+        ends.extend(unplaced.map(|height| (height, "≤ 0".to_owned())));
         Self {
             ends: ends.into_iter().map(|(height, words)| (height, laid(words))).collect(),
             powers: powers.into_iter().map(|power| (f64::from(power), laid(format!("1e{power}")))).collect(),

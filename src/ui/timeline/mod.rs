@@ -4,13 +4,15 @@
 //! |---|---|
 //! | `buttons.rs` | navigation between steps, running, stop conditions |
 //! | `chips.rs` | the row of steps |
-//! | `curves.rs` | curves of the numbers of the steps |
+//! | `curves.rs` | curves side by side |
+//! | `enlarged.rs` | a curve in its own window |
 //! | `room.rs` | amount of room in a row |
 //! | `marks.rs` | least and greatest value of a curve, and powers of ten |
 
 mod buttons;
 pub(super) mod chips;
 mod curves;
+mod enlarged;
 mod marks;
 mod room;
 
@@ -23,6 +25,7 @@ pub(super) use buttons::lasting_menu;
 use buttons::{fold_button, playback_buttons, run_buttons, stop_menu};
 use chips::chips;
 use curves::{curves, curves_menu};
+pub(super) use enlarged::enlarged_curve;
 use freebound_core::flatten::Ending;
 use room::Room;
 
@@ -41,7 +44,7 @@ pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             fold_button(ui, editor, requests);
             if editor.timeline.curves_shown() && room == Room::Ample {
-                curves_menu(ui, editor);
+                curves_menu(ui, editor, requests);
             }
             stop_menu(ui, editor, room, requests);
             // Show the reason for the stop, unless the verdict says it.

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::str::FromStr as _;
 
 use freebound::examples::Example;
 use freebound::view::Quantity;
-use freebound_core::problem::NamedOption as _;
+use freebound_core::problem::{NamedOption as _, Variant};
 use freebound_io::Column;
 use freebound_io::figure::has_glyph;
 use serde_json::Value;
@@ -23,13 +24,15 @@ fn the_picture_has_every_method_with_its_numbers_at_one_scale() {
     let program = Program::new();
     example_file(&program, Example::Cube);
     let list = "natural,lscm,convex/uniform,auto";
-    let files = ["--svg", "all.svg", "--png", "all.png", "--report", "all.json"];
+    let files = ["--svg", "all.svg", "--png", "all.png", "--pdf", "all.pdf", "--report", "all.json"];
     program.run(&[&["compare", IN, "--methods", list, "--shading", "area"], &files[..]].concat()).expect(0);
     let svg = fs::read_to_string(program.path("all.svg")).unwrap();
     let words: Vec<&str> = svg.split("<text ").skip(1).filter_map(|rest| rest.split(['>', '<']).nth(1)).collect();
     for name in list.split(',') {
-        assert!(words.contains(&name), "{name} in {words:?}");
+        let title = Variant::from_str(name).unwrap().title();
+        assert!(words.join(" ").contains(&title), "{title} in {words:?}");
     }
+    assert!(fs::read(program.path("all.pdf")).unwrap().starts_with(b"%PDF-"));
     assert!(words.contains(&Quantity::Area.title()), "{words:?}");
     assert!(words.iter().any(|line| line.split(' ').next() == Some(Column::Angle.name())), "{words:?}");
     assert!(words.iter().flat_map(|line| line.chars()).all(has_glyph), "{words:?}");

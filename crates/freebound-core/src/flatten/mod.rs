@@ -7,9 +7,11 @@
 //! | `prepared`, `tutte` | equations and factors of a linear method; Tutte's map |
 //! | `placing`, `upright` | place, size and turn of an embedding that pins leave free |
 //! | `equation` | the equation of a vertex in a step |
+//! | `linear_system` | the linear system of a step as numbers |
 
 mod equation;
 mod flattener;
+mod linear_system;
 mod one_call;
 mod placing;
 mod prepared;
@@ -18,6 +20,7 @@ mod upright;
 
 pub use equation::equation_of_step;
 pub use flattener::{Candidate, Ending, Flattener, Options, PlanarStart, SolverCache, Step, largest_move};
+pub use linear_system::{NoLinearSystem, StepSystem, SystemEntry, SystemRow, linear_system_of_step};
 pub use one_call::{FlattenError, flatten};
 pub use placing::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two, true_area_factor};
 pub use prepared::{Prepared, solve_once};

@@ -17,12 +17,12 @@ const RIGHT: f64 = 8.0;
 /// Size of the words.
 const WORDS: f64 = 8.0;
 
+/// Least distance between the names of two powers of ten.
+const ROOM: DVec2 = DVec2::new(34.0, 11.0);
+
 /// Width of a curve, and half the side of the square at a step, points.
 const CURVE: f64 = 1.2;
 const STEP: f64 = 1.2;
-
-/// Distance between lines of the legend.
-const LINE: f64 = 11.0;
 
 /// Curve with its name.
 #[derive(Clone, Debug)]
@@ -80,41 +80,38 @@ impl Curves {
             page.outlines(line.iter().map(square).collect(), Ink::fill(colour), None);
             page.lines(vec![line], Ink::stroke(colour, CURVE), None);
         }
-        self.draw_key(page, plot);
     }
 
     /// Draws lines at the powers of ten, with their numbers.
     fn draw_axes(&self, page: &mut Page, plot: Bounds, span: Bounds) {
         let grid = Ink::stroke(colours::GRID, 0.5);
         let step = DVec2::ONE / span.size() * plot.size();
+        // Names of neighbours do not touch.
+        let every = |room: f64, step: f64| (room / step).ceil().max(1.0);
+        let [across, up] = [every(ROOM.x, step.x), every(ROOM.y, step.y)];
+        let is_named = |k: u32, every: f64| (f64::from(k) % every).abs() < 0.5;
         for (k, words) in (0_u32..).zip(decades(span.low.x, span.high.x)) {
             let x = plot.low.x + f64::from(k) * step.x;
             page.lines(vec![vec![DVec2::new(x, plot.low.y), DVec2::new(x, plot.high.y)]], grid, None);
-            page.words(DVec2::new(x, plot.high.y + 1.3 * WORDS), Anchor::Middle, WORDS, &words);
+            if is_named(k, across) {
+                page.words(DVec2::new(x, plot.high.y + 1.3 * WORDS), Anchor::Middle, WORDS, &words);
+            }
         }
         for (k, words) in (0_u32..).zip(decades(span.low.y, span.high.y)) {
             let y = plot.high.y - f64::from(k) * step.y;
             page.lines(vec![vec![DVec2::new(plot.low.x, y), DVec2::new(plot.high.x, y)]], grid, None);
-            page.words(DVec2::new(plot.low.x - LEFT + 3.0, y + 0.35 * WORDS), Anchor::Start, WORDS, &words);
+            if is_named(k, up) {
+                page.words(DVec2::new(plot.low.x - LEFT + 3.0, y + 0.35 * WORDS), Anchor::Start, WORDS, &words);
+            }
         }
         let [time, quantity] = &self.axes;
         page.words(DVec2::new(plot.middle().x, plot.high.y + 2.7 * WORDS), Anchor::Middle, WORDS, time);
         page.words(plot.low - DVec2::new(LEFT - 3.0, 0.7 * WORDS), Anchor::Start, WORDS, quantity);
     }
 
-    /// Draws the legend at the upper right.
-    fn draw_key(&self, page: &mut Page, plot: Bounds) {
-        for (number, curve) in self.curves.iter().enumerate() {
-            let at = DVec2::new(plot.middle().x, plot.low.y + LINE * (number as f64 + 1.0));
-            let colour = COLOURS[number % COLOURS.len()];
-            let middle = at - DVec2::new(0.0, 0.35 * WORDS);
-            page.lines(
-                vec![vec![middle - DVec2::new(14.0, 0.0), middle - DVec2::new(4.0, 0.0)]],
-                Ink::stroke(colour, CURVE),
-                None,
-            );
-            page.words(at, Anchor::Start, WORDS, &curve.name);
-        }
+    /// Names of the curves with their colours, for a legend.
+    pub(super) fn key(&self) -> impl Iterator<Item = (&str, Colour)> {
+        self.curves.iter().zip(COLOURS.iter().cycle()).map(|(curve, &colour)| (curve.name.as_str(), colour))
     }
 }
 

@@ -1,10 +1,12 @@
 //! Cells laid out on a grid, each a drawing with a title and lines of numbers. Below them are a colour bar with its
 //! numbers, and a caption.
+//!
+//! Titles are broken into lines, and lines that are still too long have smaller letters: no words leave their cell.
 
 use glam::DVec2;
 
 use super::sheet::wrapped;
-use super::{Anchor, Curves, Ink, Item, Page, TintedDrawing, colours};
+use super::{Anchor, Curves, Ink, Item, Page, TintedDrawing, colours, width_of};
 use crate::raster::Colour;
 use freebound_core::geom::{Bounds, Picture};
 
@@ -24,6 +26,9 @@ const WORDS: f64 = 10.0;
 /// Distances to the next line, of a title and of numbers.
 const TITLE_LINE: f64 = 17.0;
 const LINE: f64 = 14.0;
+
+/// Space for the line beside a name in a legend.
+const KEY: f64 = 22.0;
 
 /// Length and height of the colour bar, and the height with its numbers.
 const BAR: DVec2 = DVec2::new(230.0, 9.0);
@@ -103,18 +108,19 @@ impl PanelGrid {
     /// Page with the cells, the bar and the caption.
     pub fn page(&self) -> Page {
         let columns = Self::columns(self.cells.len());
-        let rows = self.cells.len().div_ceil(columns);
-        let line_count = self.cells.iter().map(|cell| cell.lines.len()).max().unwrap_or(0);
-        let cell = DVec2::new(SIDE, SIDE + TITLE_LINE + LINE * line_count as f64);
+        let heights: Vec<f64> = self.cells.chunks(columns).map(row_height).collect();
         // A single cell still leaves space for the bar and a line of words.
         let width = 2.0 * MARGIN + columns.max(2) as f64 * (SIDE + GAP) - GAP;
         let caption = wrapped(&self.caption, WORDS, width - 2.0 * MARGIN);
-        let below_cells = MARGIN + rows as f64 * (cell.y + GAP);
+        let below_cells = MARGIN + heights.iter().map(|height| height + GAP).sum::<f64>();
         let below_bar = below_cells + if self.bar.is_some() { BAR_ROOM } else { 0.0 };
         let mut page = Page::new(DVec2::new(width, below_bar + LINE * caption.len() as f64 + MARGIN));
-        for (k, of) in self.cells.iter().enumerate() {
-            let place = DVec2::new((k % columns) as f64, (k / columns) as f64);
-            of.draw(&mut page, Bounds::at(place * (cell + GAP) + MARGIN, cell));
+        let mut y = MARGIN;
+        for (cells, height) in self.cells.chunks(columns).zip(heights) {
+            for (k, cell) in cells.iter().enumerate() {
+                cell.draw(&mut page, DVec2::new(MARGIN + k as f64 * (SIDE + GAP), y));
+            }
+            y += height + GAP;
         }
         if let Some(bar) = &self.bar {
             bar.draw(&mut page, DVec2::new(MARGIN, below_cells));
@@ -126,15 +132,48 @@ impl PanelGrid {
     }
 }
 
+/// Height of a row: that of its highest cell.
+fn row_height(cells: &[GridCell]) -> f64 {
+    cells.iter().map(GridCell::height).fold(0.0, f64::max)
+}
+
+/// Type size of a line, smaller if the line would be wider than `width`.
+fn fitting_size(line: &str, size: f64, width: f64) -> f64 {
+    size * (width / width_of(line, size).max(f64::MIN_POSITIVE)).min(1.0)
+}
+
 impl GridCell {
-    fn draw(&self, page: &mut Page, cell: Bounds) {
-        let area = Bounds::at(cell.low, DVec2::splat(SIDE));
+    fn title_lines(&self) -> Vec<String> {
+        wrapped(&self.title, TITLE, SIDE)
+    }
+
+    fn key(&self) -> Vec<(&str, Colour)> {
+        if let CellContent::Curves(curves) = &self.content { curves.key().collect() } else { Vec::new() }
+    }
+
+    fn height(&self) -> f64 {
+        let lines = self.lines.len() + self.key().len();
+        SIDE + TITLE_LINE * self.title_lines().len() as f64 + LINE * lines as f64
+    }
+
+    /// Draws the cell with its upper left corner at a position.
+    fn draw(&self, page: &mut Page, corner: DVec2) {
+        let area = Bounds::at(corner, DVec2::splat(SIDE));
         self.content.draw(page, area);
-        let below = area.high.y + 0.75 * TITLE_LINE;
-        page.words(DVec2::new(cell.low.x, below), Anchor::Start, TITLE, &self.title);
-        for (k, line) in self.lines.iter().enumerate() {
-            let at = DVec2::new(cell.low.x, below + LINE * (k as f64 + 1.0));
-            page.words(at, Anchor::Start, WORDS, line);
+        let mut at = DVec2::new(corner.x, area.high.y - 0.25 * TITLE_LINE);
+        for line in self.title_lines() {
+            at.y += TITLE_LINE;
+            page.words(at, Anchor::Start, fitting_size(&line, TITLE, SIDE), &line);
+        }
+        for line in &self.lines {
+            at.y += LINE;
+            page.words(at, Anchor::Start, fitting_size(line, WORDS, SIDE), line);
+        }
+        for (name, colour) in self.key() {
+            at.y += LINE;
+            let middle = at - DVec2::new(0.0, 0.35 * WORDS);
+            page.lines(vec![vec![middle, middle + DVec2::new(KEY - 6.0, 0.0)]], Ink::stroke(colour, 1.6), None);
+            page.words(at + DVec2::new(KEY, 0.0), Anchor::Start, fitting_size(name, WORDS, SIDE - KEY), name);
         }
     }
 }
@@ -157,6 +196,54 @@ impl ColourBar {
             let at = DVec2::new(bar.low.x + place * BAR.x, bar.high.y);
             page.lines(vec![vec![at, at + DVec2::new(0.0, 3.0)]], Ink::stroke(colours::INK, 0.6), None);
             page.words(at + DVec2::new(0.0, LINE), Anchor::Middle, WORDS, words);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::{Curve, Words};
+
+    /// Box around words, from the capitals to the descenders.
+    fn bounds_of(words: &Words) -> Bounds {
+        let width = width_of(&words.text, words.size);
+        let left = if words.anchor == Anchor::Middle { words.at.x - width / 2.0 } else { words.at.x };
+        let top = DVec2::new(left, words.at.y - 0.7 * words.size);
+        Bounds { low: top, high: DVec2::new(left + width, words.at.y + 0.2 * words.size) }
+    }
+
+    fn cell(number: usize, content: CellContent) -> GridCell {
+        let title = format!("Convex boundary {number}, Shape-preserving weights, on a regular polygon of many sides");
+        let lines = vec!["planar, with 0 flipped faces and 0 crossings of the boundary in all".to_owned(); 4];
+        GridCell { title, lines, content }
+    }
+
+    #[test]
+    fn words_never_overlap_for_any_number_of_methods_with_long_names() {
+        for count in 1..=17 {
+            let mut cells: Vec<GridCell> =
+                (0..count).map(|k| cell(k, CellContent::Words("no map".to_owned()))).collect();
+            let curve = |cell: &GridCell| Curve {
+                name: cell.title.clone(),
+                points: (1..9).map(|k| DVec2::new(10_f64.powi(k - 6), 10_f64.powi(5 * k))).collect(),
+            };
+            let curves = cells.iter().map(curve).collect();
+            let axes = ["seconds".to_owned(), "energy".to_owned()];
+            cells.push(cell(count, CellContent::Curves(Curves { axes, curves })));
+            let bar = ColourBar { title: "Angle".to_owned(), colours: vec![colours::FACE], ticks: Vec::new() };
+            let page = PanelGrid { cells, bar: Some(bar), caption: "A caption of some words. ".repeat(9) }.page();
+            let words = page.items.iter().filter_map(|item| if let Item::Words(of) = item { Some(of) } else { None });
+            let words: Vec<&Words> = words.collect();
+            for (k, first) in words.iter().enumerate() {
+                let own = bounds_of(first);
+                assert!(own.low.min_element() >= 0.0 && own.high.cmple(page.size).all(), "{count}: {first:?}");
+                for second in &words[k + 1..] {
+                    let other = bounds_of(second);
+                    let is_apart = own.high.cmple(other.low).any() || other.high.cmple(own.low).any();
+                    assert!(is_apart, "{count}: {first:?} and {second:?}");
+                }
+            }
         }
     }
 }

@@ -8,16 +8,12 @@
 
 use glam::DVec2;
 
-use super::font::{strokes_of, width_of};
-use super::{Anchor, Ink, Item, Page, Path, Words, colours};
+use super::{Item, Page, Path, colours};
 use crate::raster::Colour;
 use freebound_core::geom::{Bounds, Picture};
 
 /// Number of scan lines per row of pixels.
 const SCAN_LINES: u32 = 4;
-
-/// Width of the strokes of letters, relative to their size.
-const LETTER_STROKE: f64 = 0.085;
 
 impl Page {
     /// Draws the page with `scale` pixels per point.
@@ -28,7 +24,7 @@ impl Page {
         for item in &self.items {
             match item {
                 Item::Path(path) => draw(&mut picture, path, scale),
-                Item::Words(words) => draw(&mut picture, &strokes(words), scale),
+                Item::Words(words) => draw(&mut picture, &words.as_strokes(), scale),
                 Item::Picture(area, source) => paste(&mut picture, *area, source, scale),
             }
         }
@@ -48,16 +44,6 @@ fn paste(page: &mut Picture, area: Bounds, source: &Picture, scale: f64) {
             page.pixels[at..at + 4].copy_from_slice(&[r, g, b, 255]);
         }
     }
-}
-
-/// Strokes of the letters of words.
-fn strokes(words: &Words) -> Path {
-    let shift = match words.anchor {
-        Anchor::Start => 0.0,
-        Anchor::Middle => width_of(&words.text, words.size) / 2.0,
-    };
-    let lines = strokes_of(&words.text, words.at - DVec2::new(shift, 0.0), words.size);
-    Path { lines, is_closed: false, ink: Ink::stroke(colours::INK, LETTER_STROKE * words.size) }
 }
 
 /// Fills and strokes a path.

@@ -1,6 +1,7 @@
-//! Figures: panels of meshes and embeddings, laid out on a page, as a drawing (SVG) and as a picture (PNG).
+//! Figures: panels of meshes and embeddings, laid out on a page, as a drawing (SVG), a document (PDF) and a
+//! picture (PNG).
 //!
-//! Both are made from one list of fills, strokes and words on a [`Page`], so their contents agree. Lengths on a page
+//! All are made from one list of fills, strokes and words on a [`Page`], so their contents agree. Lengths on a page
 //! are points; x points right, y down.
 //!
 //! | file    | contents                                                               |
@@ -16,18 +17,26 @@
 //! | `photo` | a picture with numbered marks in a panel                               |
 //! | `plot`  | shares as bars and curves                                              |
 //! | `svg`   | a page as a drawing                                                    |
+//! | `pdf`   | a page as a document                                                   |
+//! | `format`| formats of a page, by the names of files                               |
+//! | `axis`  | scales of axes, and their marks                                        |
+//! | `steps` | quantities over the steps of a run                                     |
 //! | `ink`   | a page as a picture                                                    |
 //! | `font`  | letters made of strokes                                                |
 
+mod axis;
 mod curves;
 mod font;
+mod format;
 mod grid;
 mod ink;
 mod panel;
+mod pdf;
 mod photo;
 mod plot;
 mod sheet;
 mod space;
+mod steps;
 mod still;
 mod svg;
 mod tinted;
@@ -37,8 +46,11 @@ use glam::DVec2;
 use super::raster::Colour;
 use freebound_core::geom::{Bounds, Picture, clip_polygon, clip_segment};
 
+pub use axis::{AxisScale, AxisSpan};
 pub use curves::{Curve, Curves};
 pub use font::has_glyph;
+use font::{strokes_of, width_of};
+pub use format::FigureFormat;
 pub use grid::{CellContent, ColourBar, GridCell, PanelGrid};
 use panel::placing;
 pub use panel::{OutsideShade, PlaneDrawing, Pockets, Window, zones_of};
@@ -46,6 +58,7 @@ pub use photo::PhotoDrawing;
 pub use plot::{Bar, Marks, Plot, Shares, plots};
 pub use sheet::{Drawing, Panel, PrintedSheet};
 pub use space::SpaceDrawing;
+pub use steps::{StepCurve, StepFigure};
 pub use still::Still;
 pub use tinted::TintedDrawing;
 
@@ -93,6 +106,9 @@ pub mod colours {
         [0x56, 0xb4, 0xe9],
     ];
 }
+
+/// Width of the strokes of letters, relative to their size.
+const LETTER_STROKE: f64 = 0.085;
 
 /// Style of a line or an outline.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -144,6 +160,18 @@ struct Words {
     anchor: Anchor,
     size: f64,
     text: String,
+}
+
+impl Words {
+    /// Strokes of the letters.
+    fn as_strokes(&self) -> Path {
+        let shift = match self.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => width_of(&self.text, self.size) / 2.0,
+        };
+        let lines = strokes_of(&self.text, self.at - DVec2::new(shift, 0.0), self.size);
+        Path { lines, is_closed: false, ink: Ink::stroke(colours::INK, LETTER_STROKE * self.size) }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -52,6 +52,11 @@ impl Window {
         Self { centre: bounds.middle(), half: bounds.size().max_element() * (0.5 + margin) }
     }
 
+    /// Square around all embeddings, so that drawings of them have one camera.
+    pub fn common<'a>(embeddings: impl Iterator<Item = &'a Embedding>) -> Option<Self> {
+        embeddings.map(Embedding::bounds).reduce(Bounds::union).map(|bounds| Self::around(bounds, MARGIN))
+    }
+
     /// Square around some faces of an embedding.
     pub fn on_faces(mesh: &DiskMesh, embedding: &Embedding, faces: &[FaceId]) -> Self {
         let corners = faces.iter().flat_map(|&face| mesh.face(face));

@@ -68,7 +68,9 @@ impl Panel {
             }
         }
         let at = DVec2::new(cell.middle().x, cell.low.y + PANEL + 8.0 + LINE * 0.7);
-        page.words(at, Anchor::Middle, WORDS, &self.words);
+        // Letters are smaller if the line would reach into the next panel.
+        let size = WORDS * (cell.size().x / width_of(&self.words, WORDS).max(f64::MIN_POSITIVE)).min(1.0);
+        page.words(at, Anchor::Middle, size, &self.words);
     }
 }
 

@@ -10,9 +10,7 @@ use crate::ui::editor::Editor;
 use crate::ui::state::{ComparisonExport, Pane, ShadingMode};
 use crate::view::{CellShading, ComparisonPicture, MorphPicture, Quantity};
 use freebound_core::problem::{Method, NamedOption as _, Variant};
-
-/// Pixels per point in exported pictures.
-const PIXELS: f64 = 2.0;
+use freebound_io::figure::FigureFormat;
 
 impl Editor {
     /// Shows the comparison of methods in place of the embedding, or the embedding again.
@@ -78,7 +76,11 @@ impl Editor {
             ShadingMode::Angle => Some(Quantity::Angle),
             ShadingMode::Area => Some(Quantity::Area),
             ShadingMode::Stretch => Some(Quantity::Stretch),
-            ShadingMode::Checker | ShadingMode::Picture | ShadingMode::Move | ShadingMode::SeeThrough => return false,
+            ShadingMode::Checker
+            | ShadingMode::Picture
+            | ShadingMode::Move
+            | ShadingMode::SeeThrough
+            | ShadingMode::Column => return false,
         };
         view.colour_by(quantity);
         true
@@ -97,11 +99,11 @@ impl Editor {
         let morph = self.session.morph();
         self.session.write_file(path, move |mut out| {
             let methods: Vec<&Compared> = methods.iter().map(AsRef::as_ref).collect();
+            let page = |methods: &[&Compared]| ComparisonPicture { model: &model, methods, shading }.page();
             match what {
-                ComparisonExport::Picture => {
-                    let page = ComparisonPicture { model: &model, methods: &methods, shading }.page();
-                    freebound_io::raster::write_png(&page.picture(PIXELS), out)
-                }
+                ComparisonExport::Picture => page(&methods).write(FigureFormat::Png, &mut out),
+                ComparisonExport::Drawing => page(&methods).write(FigureFormat::Svg, &mut out),
+                ComparisonExport::Document => page(&methods).write(FigureFormat::Pdf, &mut out),
                 ComparisonExport::Table => comparison_report(&model, &methods).write_csv(None, &mut out),
                 ComparisonExport::Steps => comparison_report(&model, &methods).write_steps(&mut out),
                 ComparisonExport::Morph => match (model.disk(), &morph) {

@@ -20,6 +20,7 @@ pub(in crate::ui) use self::scene::PageScene;
 
 use self::scene::{PageKey, PageSpace};
 use super::async_scene::AsyncScene;
+use super::colour_table::ShownColumn;
 use super::paint::Legend;
 use super::scene::MeshScene;
 use crate::session::{ChartMove, JobFailure, MoveState, Session, Wake};
@@ -89,6 +90,8 @@ struct MovedPlane {
 struct PagePaint {
     key: PageKey,
     shading: ShadingMode,
+    /// Number of changes of the shown column.
+    column: u64,
     faces: Arc<FacePaint>,
     legend: Option<Legend>,
 }
@@ -268,13 +271,20 @@ impl PageView {
     }
 
     /// Recolours the faces of a pane if the scene or the shading has changed.
-    pub(super) fn refresh_paint(&mut self, pane: Pane, shading: ShadingMode) {
+    pub(super) fn refresh_paint(&mut self, pane: Pane, shading: ShadingMode, column: Option<ShownColumn<'_>>) {
         let Some(scene) = &self.scene else { return };
-        let shading = if shading.quantity().is_some() { shading } else { ShadingMode::Plain };
-        let fits = |paint: &PagePaint| paint.key == scene.key && paint.shading == shading;
+        let column = column.filter(|_| shading == ShadingMode::Column);
+        let is_by_number = shading.quantity().is_some() || column.is_some();
+        let shading = if is_by_number { shading } else { ShadingMode::Plain };
+        let revision = column.map_or(0, |column| column.revision);
+        let fits = |paint: &PagePaint| paint.key == scene.key && paint.shading == shading && paint.column == revision;
         if !self.paints[pane as usize].as_ref().is_some_and(fits) {
-            let (faces, legend) = scene.paint(shading);
-            self.paints[pane as usize] = Some(PagePaint { key: scene.key, shading, faces: Arc::new(faces), legend });
+            let (faces, legend) = match column {
+                Some(column) => scene.paint_by_column(column),
+                None => scene.paint(shading),
+            };
+            let faces = Arc::new(faces);
+            self.paints[pane as usize] = Some(PagePaint { key: scene.key, shading, column: revision, faces, legend });
         }
     }
 

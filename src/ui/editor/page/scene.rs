@@ -6,7 +6,8 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use crate::session::{ChartPage, JudgedMove, PageChart};
-use crate::ui::editor::paint::Legend;
+use crate::ui::editor::colour_table::{ShownColumn, vertices_in_file};
+use crate::ui::editor::paint::{Legend, column_paint};
 use crate::ui::state::ShadingMode;
 use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, Quantity, Ray, Sphere, SurfacePicker};
 use freebound_core::geom::{Bounds, winding_number};
@@ -201,11 +202,25 @@ impl PageScene {
         PlaneArrays::in_frame(&places, &self.mesh.triangles, self.plane.frame)
     }
 
+    /// Colours of all faces by a column of a table, with their legend.
+    pub(super) fn paint_by_column(&self, column: ShownColumn<'_>) -> (FacePaint, Option<Legend>) {
+        // All charts belong to one file.
+        let in_file = self.charts.first().and_then(|chart| vertices_in_file(&chart.model));
+        let of_chart = |chart: &PageChart| column.values_on(chart.mesh().mesh(), &chart.model, in_file.as_deref());
+        let values: Vec<f64> = self.charts.iter().flat_map(of_chart).collect();
+        let (paint, legend) = column_paint(&values, &self.flipped());
+        (paint, Some(legend))
+    }
+
+    /// Flipped faces of all charts.
+    fn flipped(&self) -> Vec<FaceId> {
+        self.charts.iter().zip(self.spans.iter()).flat_map(|(chart, span)| flipped_faces(chart, span)).collect()
+    }
+
     /// Colours of all faces, with a legend if the shading shows numbers. Areas and stretches are relative to the mean
     /// scale of the page, so that charts of different density differ in colour.
     pub(super) fn paint(&self, shading: ShadingMode) -> (FacePaint, Option<Legend>) {
-        let flipped: Vec<FaceId> =
-            self.charts.iter().zip(self.spans.iter()).flat_map(|(chart, span)| flipped_faces(chart, span)).collect();
+        let flipped = self.flipped();
         let Some(quantity) = shading.quantity() else {
             return (FacePaint::plain(self.mesh.triangles.len(), &flipped), None);
         };

@@ -3,7 +3,7 @@
 use eframe::egui::{self, FontId, Rect, RichText, Role, Vec2, WidgetInfo};
 
 use crate::session::{Contender, ContenderState};
-use crate::ui::{Control, Editor, Request, icons, sentence, theme_of};
+use crate::ui::{Control, Editor, Measure, Request, icons, sentence, theme_of};
 use freebound_core::problem::{NamedOption as _, Variant};
 use freebound_io::{Column, Direction};
 
@@ -69,7 +69,9 @@ fn head(ui: &mut egui::Ui, editor: &Editor, column: Column, requests: &mut Vec<R
         label.widget_info(|| {
             WidgetInfo::selected(Role::Button, true, sort.is_some(), format!("Sort by {title}{order}"))
         });
-        let label = label.on_hover_text(sentence(column.labels().about));
+        let about = sentence(column.labels().about);
+        let explained = Measure::of_column(column).map(|measure| format!("{about}.\n{}", measure.tip()));
+        let label = label.on_hover_text(explained.unwrap_or(about));
         label.asks(Request::SortComparison(column), requests);
     };
     if column.is_of_words() { add(ui) } else { at_right(ui, add) }

@@ -176,6 +176,11 @@ impl Repaired {
         &self.polygons
     }
 
+    /// Face of the given mesh for a face of the repaired mesh; `None` without such a face.
+    pub fn face_in_file(&self, face: u32) -> Option<super::FaceId> {
+        self.face_of.get(face as usize).copied().map(super::FaceId::new)
+    }
+
     /// Corner of the given mesh for a corner of the repaired mesh.
     pub fn corner_of(&self, corner: usize) -> usize {
         self.corner_of[corner] as usize
