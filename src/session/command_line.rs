@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Document, Model};
+use super::{ChartLayout, Document, Model};
 use freebound_core::geom::VAxis;
 use freebound_core::mesh::{HoleTreatment, Repairs};
 use freebound_core::pipeline::{Fit, Target};
@@ -26,12 +26,11 @@ impl CommandLine {
         let stem = Path::new(&model.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let folder = model.path.as_ref().and_then(|path| path.parent()).unwrap_or(Path::new("")).to_owned();
         let beside = |ending: &str| path_words(&folder.join(format!("{stem}{ending}")));
-        match &model.path {
-            Some(path) => line.words.push(path_words(path)),
-            None => {
-                line.words.push(path_words(&PathBuf::from(format!("{stem}.obj"))));
-                line.remark("The mesh has no file: write it first, by File, Export");
-            }
+        if let Some(path) = &model.path {
+            line.words.push(path_words(path));
+        } else {
+            line.words.push(path_words(&PathBuf::from(format!("{stem}.obj"))));
+            line.remark("The mesh has no file: write it first, by File, Export");
         }
         line.option("-o", beside("-flat.obj"));
         line.add_form(document, beside(".edges"));
@@ -178,7 +177,10 @@ impl CommandLine {
         let limits = [
             (form.faces_turned, "The window reversed the faces; no option does that"),
             (!form.left_out.is_empty(), "The window left out parts: choose the others with --parts"),
-            (document.layout != Default::default(), "Places, locks and stacks of charts on the page are not expressed"),
+            (
+                document.layout != ChartLayout::default(),
+                "Places, locks and stacks of charts on the page are not expressed",
+            ),
             (
                 document.elsewhere.values().any(|edits| edits.relaxed > 0),
                 "Relaxing of single charts is not expressed: --relax holds for all",

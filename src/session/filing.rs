@@ -153,9 +153,9 @@ impl Session {
     /// failed. Call once per frame.
     pub(super) fn save_awaited(&mut self) {
         let is_due = || self.solved_atlas().is_ok() || self.failed_chart().is_some();
-        if self.files.is_awaiting() && is_due() && self.is_current() {
-            let request = self.files.wait_to_save(None);
-            request.into_iter().for_each(|request| self.save(request));
+        let is_due = self.files.is_awaiting() && is_due() && self.is_current();
+        if let Some(request) = is_due.then(|| self.files.wait_to_save(None)).flatten() {
+            self.save(request);
         }
     }
 

@@ -43,6 +43,7 @@ fn solved(window: &mut Window) -> (Vec<usize>, Vec<[f64; 2]>) {
     assert_eq!((entries.len(), right.len()), (sizes[2], 2 * sizes[0]));
     assert_eq!(of_right, [sizes[0], 2]);
     let mut a = Mat::<f64>::zeros(sizes[0], sizes[1]);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "indices that the file counts from 1")]
     for entry in &entries {
         a[(entry[0] as usize - 1, entry[1] as usize - 1)] += entry[2];
     }

@@ -100,7 +100,9 @@ fn charts(mesh: &TriMesh) -> Vec<usize> {
         let before = chart.clone();
         for corners in &mesh.triangles {
             let least = corners.iter().map(|v| chart[v.index()]).min().expect("three corners");
-            corners.iter().for_each(|v| chart[v.index()] = least);
+            for v in corners {
+                chart[v.index()] = least;
+            }
         }
         if chart == before {
             return mesh.triangles.iter().map(|corners| chart[corners[0].index()]).collect();
@@ -131,12 +133,14 @@ fn worst_energy(mesh: &TriMesh, uv: &Embedding) -> f64 {
 
 /// Area of a face in space, and its map to the plane in an orthonormal frame of the face.
 fn jacobian(mesh: &TriMesh, uv: &Embedding, corners: [VertexId; 3]) -> (f64, DMat2) {
-    let [a, b, c] = corners.map(|v| mesh.positions[v.index()]);
-    let x = (b - a).normalize();
-    let y = (b - a).cross(c - a).cross(b - a).normalize();
-    let in_space = DMat2::from_cols(DVec2::new((b - a).dot(x), 0.0), DVec2::new((c - a).dot(x), (c - a).dot(y)));
-    let [p, q, r] = corners.map(|v| uv[v]);
-    (in_space.determinant() / 2.0, DMat2::from_cols(q - p, r - p) * in_space.inverse())
+    let edges = |at: [DVec3; 3]| [at[1] - at[0], at[2] - at[0]];
+    let [along, across] = edges(corners.map(|v| mesh.positions[v.index()]));
+    let x = along / along.length();
+    let up = along.cross(across).cross(along);
+    let y = up / up.length();
+    let in_space = DMat2::from_cols(DVec2::new(along.dot(x), 0.0), DVec2::new(across.dot(x), across.dot(y)));
+    let [along, across] = edges(corners.map(|v| uv[v].extend(0.0)));
+    (in_space.determinant() / 2.0, DMat2::from_cols(along.truncate(), across.truncate()) * in_space.inverse())
 }
 
 #[track_caller]

@@ -141,7 +141,7 @@ impl MatrixFile<'_> {
             let words = if first == last { format!(" {first}") } else { format!(" {first}-{last}") };
             if line.len() + words.len() > LINE {
                 writeln!(out, "{line}")?;
-                line = "%  ".to_owned();
+                "%  ".clone_into(&mut line);
             }
             line.push_str(&words);
         }

@@ -238,7 +238,8 @@ mod tests {
         assert_eq!(parse("x\n1\n2\n").unwrap().element, TableElement::Face);
         let table = parse("\u{feff}Vertex\tx\n2\t7\n0\t5\n").unwrap();
         assert_eq!(table.element, TableElement::Vertex);
-        assert!(table.columns[0].values[0] == 5.0 && table.columns[0].values[1].is_nan());
+        assert_eq!(table.columns[0].values[..1], [5.0]);
+        assert!(table.columns[0].values[1].is_nan());
         assert_eq!(parse("face;x\n1;7\n").unwrap().element, TableElement::Face);
     }
 

@@ -105,9 +105,9 @@ fn ways(ui: &mut egui::Ui, requests: &mut Vec<Request>) {
         }
     };
     if columns > 1.0 {
-        ui.horizontal(|ui| cards(ui))
+        ui.horizontal(cards)
     } else {
-        ui.vertical(|ui| cards(ui))
+        ui.vertical(cards)
     };
 }
 

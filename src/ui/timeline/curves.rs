@@ -158,7 +158,7 @@ pub(super) fn nearest(place: f64, count: usize) -> usize {
 
 /// Height at which numbers without a place on the scale are marked, if there are some.
 fn unplaced_height(span: &AxisSpan) -> Option<f64> {
-    span.has_unplaced.then(|| span.low - BELOW * (span.high - span.low))
+    span.has_unplaced.then_some(span.low - BELOW * (span.high - span.low))
 }
 
 fn plot(ui: &mut egui::Ui, curve: &ShownCurve, timeline: &Timeline) -> PlotResponse<()> {
