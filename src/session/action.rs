@@ -221,6 +221,8 @@ pub enum Action {
     Save(SaveRequest),
     /// Reports a file name whose extension selects no kind of output.
     RefuseName(PathBuf),
+    /// Reports a file that exists and is not replaced, because the user was not asked about it.
+    RefuseToReplace(PathBuf),
     /// Shows the folder of a file in the system's file manager.
     ShowFolder(PathBuf),
     /// Dismisses a message.

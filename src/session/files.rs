@@ -15,7 +15,7 @@ use crate::examples::Example;
 use freebound_io::{ProjectFile, ProjectView, RecoveryNote, WriteError};
 
 /// Maximum time that the end of a session waits for files that the user writes, which may be large.
-const PATIENCE: Duration = Duration::from_mins(1);
+pub(super) const PATIENCE: Duration = Duration::from_mins(1);
 
 /// State of open files, of reading and of writing.
 pub(super) struct Files {
@@ -31,8 +31,8 @@ pub(super) struct Files {
     /// Jobs that write results.
     outputs: Background<(), Result<Written, WriteError>>,
     projects: ProjectSaves,
-    /// Export that waits until all charts are solved.
-    awaited: Option<SaveRequest>,
+    /// Exports that wait until all charts are solved.
+    awaited: Vec<SaveRequest>,
     folder: FolderViewer,
     autosave: Autosave,
     recent: RecentFiles,
@@ -48,7 +48,7 @@ impl Files {
             together: None,
             outputs: Background::new("save", wake),
             projects: ProjectSaves::new(wake),
-            awaited: None,
+            awaited: Vec::new(),
             folder: FolderViewer::new(wake),
             autosave: Autosave::new(wake),
             recent,
@@ -77,17 +77,22 @@ impl Files {
 
     /// True while a file that the user requested is being written.
     pub(super) fn is_saving(&self) -> bool {
-        self.outputs.is_busy() || self.projects.is_busy() || self.is_awaiting()
+        self.outputs.is_busy() || self.projects.is_busy()
     }
 
-    /// True if an export waits until all charts are solved.
+    /// True if exports wait until all charts are solved.
     pub(super) fn is_awaiting(&self) -> bool {
-        self.awaited.is_some()
+        !self.awaited.is_empty()
     }
 
-    /// Lets an export wait until all charts are solved, or none. Returns the one that waited before.
-    pub(super) fn wait_to_save(&mut self, request: Option<SaveRequest>) -> Option<SaveRequest> {
-        std::mem::replace(&mut self.awaited, request)
+    /// Lets an export wait until all charts are solved.
+    pub(super) fn wait_to_save(&mut self, request: SaveRequest) {
+        self.awaited.push(request);
+    }
+
+    /// Removes the exports that wait.
+    pub(super) fn take_awaited(&mut self) -> Vec<SaveRequest> {
+        std::mem::take(&mut self.awaited)
     }
 
     /// Constraint file that was imported last.

@@ -36,7 +36,7 @@ impl Session {
         self.messages.clear();
         self.unwrapping.cancel();
         self.layout_check.end_wait();
-        self.files.wait_to_save(None);
+        self.give_up_exports();
         let follows = is_mesh && !waits && self.begin_first_map();
         if !follows {
             self.tell_faults();
@@ -129,8 +129,7 @@ impl Session {
                 self.messages.forget_notes();
                 let note = "the file is written once all charts are solved";
                 self.messages.say(Message::note(MessagePlace::Embedding, note));
-                self.files.wait_to_save(Some(SaveRequest { path, kind, fit }));
-                return;
+                return self.files.wait_to_save(SaveRequest { path, kind, fit });
             }
             Err(missing) => {
                 let charts = if missing == 1 { "1 chart has" } else { &format!("{missing} charts have") };
@@ -149,13 +148,28 @@ impl Session {
         });
     }
 
-    /// Writes the layout that was asked for while charts were being solved, once all of them are solved or one has
-    /// failed. Call once per frame.
+    /// Writes the layouts that were asked for while charts were being solved, once all charts are solved. Gives them up if
+    /// a chart has failed or the mesh has other charts now. Call once per frame.
     pub(super) fn save_awaited(&mut self) {
-        let is_due = || self.solved_atlas().is_ok() || self.failed_chart().is_some();
-        let is_due = self.files.is_awaiting() && is_due() && self.is_current();
-        if let Some(request) = is_due.then(|| self.files.wait_to_save(None)).flatten() {
-            self.save(request);
+        if !self.files.is_awaiting() {
+            return;
+        }
+        let is_idle = self.is_current() || (!self.is_running() && !self.history.is_in_gesture());
+        let is_lost = self.charts().is_none() || !self.has_form_as_wanted() || self.failed_chart().is_some();
+        if self.is_current() && !is_lost && self.solved_atlas().is_ok() {
+            for request in self.files.take_awaited() {
+                self.save(request);
+            }
+        } else if is_lost || (is_idle && !self.is_current()) {
+            self.give_up_exports();
+        }
+    }
+
+    /// Drops the exports that wait until all charts are solved, and says so.
+    pub(super) fn give_up_exports(&mut self) {
+        for request in self.files.take_awaited() {
+            let text = format!("{} was not written: its charts were not solved", request.path.display());
+            self.complain(text, Some("export again once all charts are solved"));
         }
     }
 

@@ -1,11 +1,11 @@
 //! First map of a mesh that was opened: the layout of its file, a map along automatic seams, or the mesh as it is.
 //!
-//! A layout that is proved planar is shown as it is. Other meshes are cut along automatic seams. A single disk, the input
-//! of the paper, is not cut.
+//! A layout that is proved planar is shown as it is. Other meshes are cut along automatic seams. A single disk, the
+//! input of the paper, is not cut.
 
 use super::{Command, Document, LayoutCheckState, Session};
 use freebound_core::mesh::{Preparation, Repair, Repaired};
-use freebound_core::problem::{Method, Settings, Start};
+use freebound_core::problem::{Method, Settings, Stage, Start};
 
 /// Name of the check of a layout on the screen.
 pub(super) const CHECKING: &str = "checking the layout of the file";
@@ -15,9 +15,13 @@ pub(super) const CHECKING: &str = "checking the layout of the file";
 pub enum MapOrigin {
     /// Texture coordinates of the file, unchanged.
     FileLayout,
+    /// Texture coordinates of the file, which a run has changed.
+    FromLayout,
     /// Automatic seams, with the number of their edges.
     AutomaticSeams(usize),
-    /// Mesh without automatic seams.
+    /// Seams that the user has chosen.
+    ChosenSeams,
+    /// Mesh without seams.
     Plain,
 }
 
@@ -44,11 +48,13 @@ impl Session {
     /// Shows the layout of the file if the check has proved it planar, and another map if it has not. An edit of the
     /// user ends the wait.
     pub(super) fn choose_first_map(&mut self) {
-        let is_bare = |waiting: &Document| *waiting == self.document && self.mesh.wanted().is_none();
-        if self.layout_check.decides_for().is_some_and(|waiting| !is_bare(waiting) || self.unwrapping.is_busy()) {
+        let Some(waiting) = self.layout_check.decides_for() else { return };
+        if self.mesh.wanted().is_some() || self.unwrapping.is_cutting() || !has_same_map(waiting, &self.document) {
+            // The user has asked for another map meanwhile.
             self.layout_check.end_wait();
-        }
-        if self.layout_check.decides_for().is_none() {
+            if self.outcome().is_none() && !self.is_running() && !self.unwrapping.is_busy() {
+                self.map_without_layout();
+            }
             return;
         }
         let is_good = match self.layout_check() {
@@ -60,9 +66,18 @@ impl Session {
         let is_torn = self.model().and_then(|model| model.source.has_texture_seams().ok());
         if let Some(is_torn) = is_torn.filter(|_| is_good) {
             self.keeping_saved(|session| session.take_layout_of_opened(is_torn));
-        } else if !self.unwrap_opened() {
+        } else {
+            self.map_without_layout();
+        }
+    }
+
+    /// Cuts an opened mesh along automatic seams, or solves it as it is.
+    fn map_without_layout(&mut self) {
+        if !self.unwrap_opened() {
             self.tell_faults();
-            self.solve();
+            if !self.is_current() && !self.is_running() {
+                self.solve();
+            }
         }
     }
 
@@ -116,19 +131,27 @@ impl Session {
         Settings { method, family, start: Start::File, ..before }
     }
 
-    /// Origin of the map on the screen. `None` if there is no map, and if the user has set pins or a picture.
+    /// Origin of the map on the screen. `None` if there is no map, for an example, and with pins.
     pub fn map_origin(&self) -> Option<MapOrigin> {
-        let model = self.model()?;
-        let is_own = model.built_in.is_none() && self.document.picture.is_none();
-        if !is_own || !self.document.targets.is_empty() || self.outcome().is_none() {
+        let (model, outcome) = (self.model()?, self.outcome()?);
+        if model.built_in.is_some() || !self.document.targets.is_empty() {
             return None;
         }
-        Some(match (&self.document.settings.start, self.automatic_seams()) {
-            (Start::File, _) => MapOrigin::FileLayout,
+        let seams = self.seams();
+        Some(match (self.document.settings.start, self.automatic_seams()) {
+            (Start::File, _) if outcome.step.candidate.stage == Stage::Given => MapOrigin::FileLayout,
+            (Start::File, _) => MapOrigin::FromLayout,
             (_, Some(seams)) => MapOrigin::AutomaticSeams(seams.edges().len()),
+            (_, None) if seams.of_texture || !seams.edges().is_empty() => MapOrigin::ChosenSeams,
             (_, None) => MapOrigin::Plain,
         })
     }
+}
+
+/// True if two documents ask for the same map.
+fn has_same_map(a: &Document, b: &Document) -> bool {
+    let has_same_edits = a.targets == b.targets && a.elsewhere == b.elsewhere && a.relaxed == b.relaxed;
+    has_same_edits && a.settings == b.settings && a.form == b.form && a.chart == b.chart
 }
 
 /// True if repairs cut the mesh or fill its holes.

@@ -149,8 +149,8 @@ impl Session {
         }
     }
 
-    /// Settings that start from scratch, if the map starts from the layout of the file and a preparation cuts the mesh in
-    /// another way.
+    /// Settings that start from scratch, if the map starts from the layout of the file and a preparation cuts the mesh
+    /// in another way.
     fn settings_for(&self, form: &Preparation) -> Option<Command> {
         let settings = &self.document.settings;
         let cuts_otherwise =

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::files::PATIENCE;
 use super::{
     JobFailure, LargeFile, LoggedMessage, Message, MessagePlace, Model, RecentFiles, Recoverable, RunStop, Session,
     StopConditions, Timeline,
@@ -99,6 +100,11 @@ impl Session {
     /// Waits until all requested files are written or a time limit is reached. Call it at the end of the program, which
     /// would interrupt the writing.
     pub fn finish_writing(&mut self) {
+        let begun = std::time::Instant::now();
+        while self.files.is_awaiting() && begun.elapsed() < PATIENCE {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+            self.poll();
+        }
         self.files.finish_writing(&mut self.messages);
     }
 

@@ -59,6 +59,7 @@ impl Session {
     /// Takes one more step, even if the method has ended. A run in progress stops after its current step. The history
     /// remembers the number of steps for the next time that the document has this state.
     pub(super) fn step(&mut self) {
+        self.layout_check.end_wait();
         self.solving.follow_newest();
         if !self.resume_relaxing(1)
             && let Some(newest) = self.timeline().newest().filter(|_| self.is_current())
@@ -73,6 +74,7 @@ impl Session {
 
     /// Continues until a stop condition holds, and resumes relaxation that was paused.
     pub(super) fn run_on(&mut self) {
+        self.layout_check.end_wait();
         if !self.is_running() && self.can_run() {
             self.resume_relaxing(usize::MAX);
         }
@@ -172,6 +174,7 @@ impl Session {
 
     /// Solves from scratch, ignoring the current embedding and dropping the requested relaxation.
     pub(super) fn solve_from_scratch(&mut self) {
+        self.layout_check.end_wait();
         self.apply(Command::SetRelaxed(0));
         self.history.set_taken_to(0);
         self.solve_from(None);

@@ -96,6 +96,10 @@ impl Session {
             Action::SaveProject(path) => self.save_project(path),
             Action::ExportConstraints(path) => self.export_constraints(path),
             Action::RefuseName(path) => self.refuse_name(&path),
+            Action::RefuseToReplace(path) => {
+                let text = format!("{} exists and was not replaced", path.display());
+                self.complain(text, Some("choose another name"));
+            }
             Action::ShowFolder(file) => self.files.show_folder(file),
             Action::Dismiss(id) => self.messages.dismiss(id),
             Action::Solve => self.solve_from_scratch(),
@@ -247,7 +251,7 @@ impl Session {
         self.drag.stop_following();
         self.jobs.stop();
         self.mesh.want(None);
-        self.files.wait_to_save(None);
+        self.give_up_exports();
         self.charts.forget_asked();
         self.solving.pause();
         // Last, because a mesh whose first map is stopped is solved as it is.

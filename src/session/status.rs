@@ -82,7 +82,7 @@ impl Session {
         } else if self.is_running() {
             Some(Busy::Solving(self.solving.phase()))
         } else {
-            self.files.is_saving().then_some(Busy::Saving)
+            (self.files.is_saving() || self.files.is_awaiting()).then_some(Busy::Saving)
         }
     }
 

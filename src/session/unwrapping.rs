@@ -109,6 +109,11 @@ impl Unwrapping {
         self.is_busy() && self.purpose == Purpose::Opening
     }
 
+    /// True during a search whose result is to be cut.
+    pub(super) fn is_cutting(&self) -> bool {
+        self.is_busy() && self.purpose != Purpose::Preview
+    }
+
     /// True during a search.
     pub(super) fn is_busy(&self) -> bool {
         self.search.is_busy()
@@ -161,7 +166,7 @@ impl Session {
     /// Finds the seams for a bound and shows them, but does not cut the mesh. `None` ends the preview. A search whose
     /// result is to be cut goes on instead.
     pub(super) fn preview_seams(&mut self, bound: Option<f64>) {
-        let is_cutting = self.unwrapping.is_busy() && self.unwrapping.purpose != Purpose::Preview;
+        let is_cutting = self.unwrapping.is_cutting();
         self.unwrapping.previewed = bound.filter(|_| !is_cutting);
         match self.unwrapping.previewed {
             Some(bound) => self.find_seams(bound, Purpose::Preview),
@@ -170,10 +175,9 @@ impl Session {
         }
     }
 
-    /// Unwraps a mesh that was opened, if it has to be repaired or has parts that are no disks. Returns true if a search
-    /// or an edit follows.
+    /// Unwraps a mesh that was opened, unless it is a single disk. Returns true if a search or an edit follows.
     pub(super) fn unwrap_opened(&mut self) -> bool {
-        let Some(model) = self.model() else { return false };
+        let Some(model) = self.model().filter(|_| self.can_unwrap()) else { return false };
         let Some(repaired) = model.prepared.remedy.clone().or_else(|| model.prepared.repaired.clone()) else {
             return false;
         };
@@ -287,7 +291,7 @@ impl Session {
     /// Reports the faults of the mesh. A mesh that was opened without faults is solved as it is.
     fn go_on_without_seams(&mut self) {
         self.tell_faults();
-        if self.unwrapping.purpose == Purpose::Opening && !self.is_current() {
+        if self.outcome().is_none() && !self.is_running() {
             self.solve();
         }
     }

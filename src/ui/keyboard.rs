@@ -27,9 +27,9 @@ const ARROWS: [(Key, DVec2); 4] = [
 ];
 
 /// Requests of the keys pressed in this pass, one for each press. While a text field has the focus, the window uses
-/// only Esc, F1, F3, F10 and combinations with Ctrl, except Ctrl+A, Ctrl+Z and Ctrl+Y. While a menu or a list is open, Esc, Space and the
-/// arrows belong to the menu. Otherwise the focused control keeps those of these keys that it needs. Shift+Tab always
-/// moves the focus.
+/// only Esc, F1, F3, F10 and combinations with Ctrl, except Ctrl+A, Ctrl+Z and Ctrl+Y. While a menu or a list is open,
+/// Esc, Space and the arrows belong to the menu. Otherwise the focused control keeps those of these keys that it needs.
+/// Shift+Tab always moves the focus.
 pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request> {
     if editor.layout.help.keys.listens_for.is_some() {
         // The list of keys takes the next press.
@@ -47,10 +47,11 @@ pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request>
     // Before the other keys: if pins are selected, the arrows do not move along the timeline.
     let nudges = nudges(context, editor);
     let keyboard = Keyboard::of(context);
-    let mut requests = Vec::new();
+    let (mut requests, mut has_taken_tab) = (Vec::new(), false);
     context.input_mut(|input| {
         input.events.retain(|event| {
             let Some((binding, is_repeat)) = keyboard.press_of(event, &map) else { return true };
+            has_taken_tab |= matches!(event, egui::Event::Key { key: Key::Tab, .. });
             let request = (binding.request)();
             // Ignore repeats during a run, whose steps would continue after the key is released.
             let is_wanted = request.repeats() && !(editor.session.is_running() && request == Request::Do(Action::Step));
@@ -58,8 +59,8 @@ pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request>
             false
         });
     });
-    if requests.contains(&Request::TogglePane) {
-        // Tab toggles the pane here; egui would also move the focus to the next control.
+    if has_taken_tab {
+        // Tab is a command here; egui would also move the focus to the next control.
         context.memory_mut(|memory| memory.move_focus(egui::FocusDirection::None));
     }
     requests.extend(of_page);

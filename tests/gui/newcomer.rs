@@ -5,10 +5,12 @@ use std::fmt::Write as _;
 
 use eframe::egui::accesskit::Role;
 use freebound::app::LaunchFile;
+use freebound::session::{Action, SaveRequest};
 use freebound_core::mesh::{PolygonMesh, TriMesh, VertexId};
+use freebound_core::pipeline::Fit;
 use freebound_core::problem::{Control, Embedding};
 use freebound_core::verify::LayoutOptions;
-use freebound_io::{MeshFile, read_mesh};
+use freebound_io::{MeshFile, OutputKind, read_mesh};
 use freebound_testkit::solids::prism;
 use freebound_testkit::{Random, bumpy_ball, head, quad_sheet, scan};
 use glam::{DMat2, DVec2, DVec3};
@@ -153,6 +155,32 @@ fn serves(model: &str) {
     assert!(uv.iter().all(inside), "packed into the unit square");
     let worst = worst_energy(&judged.texture.mesh, uv);
     assert!((4.0..SERVES).contains(&worst), "{worst}");
+}
+
+#[test]
+fn all_exports_that_wait_for_their_charts_are_written_at_last() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("model.obj");
+    std::fs::write(&path, furniture()).expect("written");
+    let mut window = Window::with_file(&path);
+    let written = ["a.obj", "b.svg"].map(|name| folder.path().join(name));
+    for (path, kind) in written.iter().zip([OutputKind::Obj, OutputKind::Svg]) {
+        let request = SaveRequest { path: path.clone(), kind, fit: Fit::default() };
+        window.editor_mut().session.handle(Action::Save(request));
+    }
+    window.settle();
+    assert!(written.iter().all(|path| path.exists()), "{:?}", window.words());
+    // An export that cannot be written any more is told.
+    window.open(&path);
+    let lost = folder.path().join("lost.obj");
+    let request = SaveRequest { path: lost.clone(), kind: OutputKind::Obj, fit: Fit::default() };
+    let session = &mut window.editor_mut().session;
+    let waits = session.solved_count()[0] < session.solved_count()[1];
+    session.handle(Action::Save(request));
+    session.handle(Action::Cancel);
+    window.settle();
+    let is_told = window.words().iter().any(|words| words.contains("lost.obj"));
+    assert!(if waits { is_told && !lost.exists() } else { lost.exists() }, "{:?}", window.words());
 }
 
 #[test]

@@ -7,6 +7,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::session::{Action, MapOrigin};
+use freebound_core::geom::VAxis;
 use freebound_core::mesh::{HoleTreatment, Repair, TriMesh};
 use freebound_core::problem::{Embedding, Stage, Start};
 use glam::DVec2;
@@ -141,6 +142,27 @@ fn a_layout_that_is_not_one_to_one_stays_in_its_file_and_the_mesh_is_solved() {
     assert!(!window.has_button("Change the map"));
     window.open(&path);
     assert!(window.has_button("Change the map"));
+}
+
+#[test]
+fn an_edit_of_the_picture_during_the_check_does_not_replace_the_layout() {
+    let (mut window, layout) = opened(f64::INFINITY);
+    let path = window.path("laid.obj");
+    window.editor_mut().session.handle(Action::Open(path));
+    while window.editor().session.first_map_work().is_none() {
+        window.step();
+    }
+    window.editor_mut().session.handle(Action::SetVAxis(VAxis::Down));
+    window.settle();
+    assert_eq!((start(&window), window.embedding().len()), (Start::File, layout.len()));
+    assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::FileLayout));
+}
+
+#[test]
+fn a_relaxed_layout_is_no_longer_that_of_the_file() {
+    let (mut window, _) = opened(f64::INFINITY);
+    window.click("Relax");
+    assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::FromLayout));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use egui::{Key, Modifiers};
 use freebound::examples::Example;
 use freebound::session::{Action, FirstMapWork, MapOrigin};
 use freebound::ui::{Request, Tab, Tool};
-use freebound_core::mesh::{TriMesh, VertexId};
+use freebound_core::mesh::{Seams, TriMesh, VertexId};
 use freebound_testkit::{assert_message, bumpy_ball};
 
 use crate::harness::Window;
@@ -86,6 +86,32 @@ fn stopping_the_search_of_a_mesh_with_holes_solves_it_as_it_is() {
     window.settle();
     assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::Plain));
     assert!(window.is_proved() && energy(&window) > 4.1, "{}", window.verdict());
+}
+
+#[test]
+fn unwrap_during_the_search_of_an_opened_mesh_and_stop_solve_it_as_it_is() {
+    let mut window = Window::with_mesh("scan.obj", &scan());
+    let path = window.path("scan.obj");
+    window.editor_mut().session.handle(Action::Open(path));
+    while window.editor().session.first_map_work() != Some(FirstMapWork::Seams) {
+        window.step();
+    }
+    for action in [Action::Unwrap(None), Action::Cancel] {
+        window.editor_mut().session.handle(action);
+    }
+    window.settle();
+    assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::Plain));
+    assert!(window.is_proved(), "{}", window.verdict());
+}
+
+#[test]
+fn seams_that_a_person_draws_are_told_apart_from_a_mesh_without_seams() {
+    let mut window = Window::with_mesh("sheet.obj", &crate::harness::sheet(6, 0.3));
+    assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::Plain));
+    let edge = [VertexId::new(0), VertexId::new(8)];
+    window.editor_mut().session.handle(Action::SetSeams(Seams::default().with([edge])));
+    window.settle();
+    assert_eq!(window.editor().session.map_origin(), Some(MapOrigin::ChosenSeams));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::Editor;
 use super::step_curve::ShownCurve;
-use crate::session::Timeline;
+use crate::session::{Action, Timeline};
 use crate::ui::state::{CURVE_COUNT, CurvesExport, TimelineView};
 use freebound_core::flatten::{NoLinearSystem, StepSystem, linear_system_of_step};
 use freebound_core::pipeline::Outcome;
@@ -37,7 +37,11 @@ impl Editor {
         let missing = count - kept.len();
         let missing = if missing == 0 { String::new() } else { format!("; {missing} others are no longer in memory") };
         let about = format!("{} of {count} steps{missing}", kept.len());
-        let paths = kept.iter().map(|(step, _)| numbered(path, *step)).collect();
+        let paths: Vec<PathBuf> = kept.iter().map(|(step, _)| numbered(path, *step)).collect();
+        if let Some(existing) = paths.iter().find(|path| path.exists()) {
+            let existing = existing.clone();
+            return self.act(Action::RefuseToReplace(existing));
+        }
         let (format, caption) = (FigureFormat::of_path(path), self.figure_caption());
         self.session.write_files(paths, about, move |place, mut out| {
             let step = &kept[place].1.step;
@@ -59,6 +63,10 @@ impl Editor {
         let stage = outcome.step.candidate.stage.words();
         let about = format!("{} Step {}: {stage}.", self.figure_caption(), outcome.step.index);
         let right_side = beside(&path, "rhs");
+        // If the matrix exists, the user has chosen to replace it.
+        if right_side.exists() && !path.exists() {
+            return self.act(Action::RefuseToReplace(right_side));
+        }
         let words =
             format!("the right-hand side is in {}", right_side.file_name().unwrap_or_default().to_string_lossy());
         let made: OnceLock<Result<StepSystem, NoLinearSystem>> = OnceLock::new();

@@ -98,8 +98,10 @@ fn listen(context: &egui::Context, list: &mut KeyList, map: &mut KeyMap) {
     let mut press = None;
     context.input_mut(|input| {
         input.events.retain(|event| {
-            let &egui::Event::Key { key, pressed: true, modifiers, .. } = event else { return true };
-            press.get_or_insert((key, modifiers));
+            let &egui::Event::Key { key, pressed: true, repeat, modifiers, .. } = event else { return true };
+            if !repeat {
+                press.get_or_insert((key, modifiers));
+            }
             false
         });
     });

@@ -49,8 +49,10 @@ fn words(origin: MapOrigin, session: &Session) -> String {
     let in_charts = charts.map_or_else(String::new, |charts| format!(", {charts}"));
     let own = match origin {
         MapOrigin::FileLayout => return format!("Layout of the file{in_charts}"),
+        MapOrigin::FromLayout => return format!("Relaxed layout of the file{in_charts}"),
         MapOrigin::AutomaticSeams(0) => "Flattened without seams".to_owned(),
         MapOrigin::AutomaticSeams(edges) => format!("Unwrapped: {}", counted(edges, "seam edge", "seam edges")),
+        MapOrigin::ChosenSeams => "Flattened along chosen seams".to_owned(),
         MapOrigin::Plain => "Flattened as it is".to_owned(),
     };
     let replaced = if has_faulty_layout(session) { "; the layout of the file is not one-to-one" } else { "" };
@@ -65,16 +67,17 @@ fn has_faulty_layout(session: &Session) -> bool {
 /// Menu of other maps for the mesh.
 fn menu(ui: &mut egui::Ui, origin: MapOrigin, session: &Session, requests: &mut Vec<Request>) {
     let button = ui.menu_button("Change…", |ui| {
-        if origin == MapOrigin::FileLayout || origin == MapOrigin::Plain {
-            let again = if origin == MapOrigin::FileLayout { "Unwrap again" } else { "Unwrap" };
-            let tip = "Cut the mesh along short seams, so that its map has little distortion";
-            entry(ui, session.can_unwrap(), [again, tip], Action::Unwrap(None).into(), requests);
-        } else {
+        if matches!(origin, MapOrigin::AutomaticSeams(_)) {
             let tip = "Choose between few seams and little distortion, in the Charts tab";
             entry(ui, true, ["More or fewer seams", tip], Request::ShowTab(Tab::Charts), requests);
             let tip = "Keep only the seams without which the mesh cannot lie flat";
             let seams = session.seams().without_automatic();
             entry(ui, true, ["As few seams as possible", tip], Action::SetSeams(seams).into(), requests);
+        } else {
+            let is_layout = matches!(origin, MapOrigin::FileLayout | MapOrigin::FromLayout);
+            let again = if is_layout { "Unwrap again" } else { "Unwrap" };
+            let tip = "Cut the mesh along short seams, so that its map has little distortion";
+            entry(ui, session.can_unwrap(), [again, tip], Action::Unwrap(None).into(), requests);
         }
         if origin != MapOrigin::FileLayout && session.model().is_some_and(|model| model.source.texture.is_some()) {
             let tip = "Show the texture coordinates of the file as they are, faults included";

@@ -24,7 +24,10 @@ const DISTANCE: Vec2 = Vec2::new(60.0, 140.0);
 
 /// Shows the enlarged curve, if one is chosen.
 pub(in crate::ui) fn enlarged_curve(context: &egui::Context, editor: &Editor, requests: &mut Vec<Request>) {
-    let Some(place) = editor.timeline.curve_enlarged.filter(|_| editor.has_disk()) else { return };
+    let Some(place) = editor.timeline.curve_enlarged else { return };
+    if !editor.has_disk() {
+        return requests.push(Request::Curve(CurveRequest::Close));
+    }
     let shown = ShownCurve::new(place, editor.session.timeline(), &editor.timeline);
     let mut open = true;
     egui::Window::new("Curve of the steps")
