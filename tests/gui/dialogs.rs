@@ -6,7 +6,7 @@ use std::sync::Arc;
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::app::LaunchFile;
 use freebound::examples::Example;
 use freebound::session::{Action, Severity};
@@ -398,6 +398,21 @@ fn a_name_of_another_kind_is_refused_with_a_remedy() {
     assert_eq!(message.severity, Severity::Error);
     assert!(message.remedy.as_ref().expect("a remedy").contains(".svg"));
     assert!(window.shows("drawing.pdf") && window.shows(".svg"));
+}
+
+#[test]
+fn letters_after_a_click_on_a_file_go_to_the_name_of_a_dialog_that_saves() {
+    let mut window = window();
+    ask_where_to_save(&mut window);
+    let name = |window: &Window| {
+        window.harness.get_by_role_and_label(Role::TextInput, "Name").accesskit_node().value().unwrap_or_default()
+    };
+    window.click("sheet.obj");
+    let before = name(&window);
+    window.type_text("xy");
+    window.settle();
+    assert_eq!(before, "sheet.obj");
+    assert!(name(&window).contains('y') && window.has_button("sheet.obj"), "{}", name(&window));
 }
 
 #[test]

@@ -97,11 +97,14 @@ impl Browser {
         self.answer.take()
     }
 
-    /// Keys of the list: arrows, Enter, and the way up. A text or a button with the focus keeps what it needs.
+    /// Keys of the list: arrows, Enter, and the way up. A text or a button with the focus keeps what it needs. Letters go
+    /// to the filter of a dialog that opens, and to the name of one that saves.
     fn take_keys(&mut self, context: &egui::Context) {
         let focused = context.memory(egui::Memory::focused);
         let is_ours = focused.is_none_or(|id| id == filter_id() || id == name_id());
-        let is_empty = focused.is_none() || (focused == Some(filter_id()) && self.listing.filter.is_empty());
+        let field = if self.kind.is_reading() { filter_id() } else { name_id() };
+        let has_no_text = focused.is_none() && self.kind.is_reading();
+        let is_empty = has_no_text || (focused == Some(filter_id()) && self.listing.filter.is_empty());
         let pressed = |key| context.input_mut(|input| input.consume_key(Modifiers::NONE, key));
         let mut goes_up = context.input_mut(|input| input.consume_key(Modifiers::ALT, Key::ArrowUp));
         goes_up |= is_empty && pressed(Key::Backspace);
@@ -120,7 +123,7 @@ impl Browser {
         }
         let types = context.input(|input| input.events.iter().any(|event| matches!(event, egui::Event::Text(_))));
         if focused.is_none() && types {
-            context.memory_mut(|memory| memory.request_focus(filter_id()));
+            context.memory_mut(|memory| memory.request_focus(field));
         }
     }
 
