@@ -29,6 +29,8 @@ pub(crate) const SIZE: Vec2 = Vec2::new(1280.0, 800.0);
 pub(crate) struct Window {
     pub(crate) harness: Harness<'static, App>,
     folder: TempDir,
+    /// Longest time that a frame took so far.
+    pub(crate) slowest: Duration,
 }
 
 impl Window {
@@ -46,7 +48,8 @@ impl Window {
     fn build(builder: HarnessBuilder<App>, start: LaunchFile) -> Self {
         let builder = builder.with_step_dt(1.0 / 60.0);
         let harness = builder.build_eframe(move |context| App::new(context, start));
-        let mut window = Self { harness, folder: tempfile::tempdir().expect("a folder for files") };
+        let folder = tempfile::tempdir().expect("a folder for files");
+        let mut window = Self { harness, folder, slowest: Duration::ZERO };
         window.settle();
         window
     }
@@ -111,7 +114,9 @@ impl Window {
     }
 
     pub(crate) fn step(&mut self) {
+        let begun = Instant::now();
         self.harness.step();
+        self.slowest = self.slowest.max(begun.elapsed());
     }
 
     /// Runs one frame with all these events.

@@ -480,7 +480,8 @@ fn the_page_agrees_with_the_layout_whatever_is_pressed() {
             walk.rest();
         }
     }
-    println!("{actions} actions, {} rests with overlaps", walk.overlaps);
+    let slowest = walk.window.slowest;
+    println!("{actions} actions, {} rests with overlaps, slowest frame {slowest:?}", walk.overlaps);
 }
 
 #[test]

@@ -366,6 +366,7 @@ fn walk(seed: u64, actions: u32) -> BTreeSet<Said> {
             assert!(found.is_empty(), "{found:#?}\nafter {:#?}", walk.done);
         }
     }
+    println!("{actions} actions, slowest frame {:?}", walk.window.slowest);
     walk.said
 }
 
