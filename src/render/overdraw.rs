@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::frame::PlaneFrame;
 use super::uniforms::PaneSize;
 use crate::view::PlaneArrays;
+use freebound_core::geom::{Bounds, clip_polygon};
 
 /// Most pixels that the faces of a pane may cover together at full resolution, beside twice those of the pane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,24 +75,7 @@ fn area_inside(corners: [DVec2; 3], size: DVec2) -> f64 {
     if low.cmpge(DVec2::ZERO).all() && high.cmple(size).all() {
         return 0.5 * (b - a).perp_dot(c - a).abs();
     }
-    // Sutherland and Hodgman 1974: clip by one side of the pane after the other.
-    let sides = [(DVec2::X, 0.0), (DVec2::Y, 0.0), (DVec2::NEG_X, -size.x), (DVec2::NEG_Y, -size.y)];
-    let mut polygon = corners.to_vec();
-    for (normal, least) in sides {
-        let height = |point: DVec2| normal.dot(point) - least;
-        let next = polygon.iter().cycle().skip(1);
-        let clipped: Vec<DVec2> = polygon
-            .iter()
-            .zip(next)
-            .flat_map(|(&from, &to)| {
-                let heights = [height(from), height(to)];
-                let crossing = (heights[0] < 0.0) != (heights[1] < 0.0);
-                let crossing = crossing.then(|| from.lerp(to, heights[0] / (heights[0] - heights[1])));
-                [(heights[0] >= 0.0).then_some(from), crossing].into_iter().flatten()
-            })
-            .collect();
-        polygon = clipped;
-    }
+    let polygon = clip_polygon(&corners, Bounds { low: DVec2::ZERO, high: size });
     let Some(&first) = polygon.first() else { return 0.0 };
     0.5 * polygon.windows(2).map(|side| (side[0] - first).perp_dot(side[1] - first)).sum::<f64>().abs()
 }

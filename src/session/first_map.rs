@@ -4,7 +4,7 @@
 //! input of the paper, is not cut.
 
 use super::{Command, Document, LayoutCheckState, Session};
-use freebound_core::mesh::{Preparation, Repair, Repaired};
+use freebound_core::mesh::Preparation;
 use freebound_core::problem::{Method, Settings, Stage, Start};
 
 /// Name of the check of a layout on the screen.
@@ -74,10 +74,7 @@ impl Session {
     /// Cuts an opened mesh along automatic seams, or solves it as it is.
     fn map_without_layout(&mut self) {
         if !self.unwrap_opened() {
-            self.tell_faults();
-            if !self.is_current() && !self.is_running() {
-                self.solve();
-            }
+            self.go_on_without_seams();
         }
     }
 
@@ -92,8 +89,7 @@ impl Session {
     /// Ends the wait for the check of the file's layout, and solves the mesh as it is.
     pub(super) fn stop_first_map(&mut self) {
         if self.layout_check.end_wait() {
-            self.tell_faults();
-            self.solve();
+            self.go_on_without_seams();
         }
     }
 
@@ -152,9 +148,4 @@ impl Session {
 fn has_same_map(a: &Document, b: &Document) -> bool {
     let has_same_edits = a.targets == b.targets && a.elsewhere == b.elsewhere && a.relaxed == b.relaxed;
     has_same_edits && a.settings == b.settings && a.form == b.form && a.chart == b.chart
-}
-
-/// True if repairs cut the mesh or fill its holes.
-pub(super) fn cuts_or_fills(repaired: &Repaired) -> bool {
-    repaired.done().iter().any(|done| matches!(done.repair, Repair::Cut | Repair::FillHoles))
 }

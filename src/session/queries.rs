@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use super::files::PATIENCE;
 use super::{
@@ -100,9 +101,9 @@ impl Session {
     /// Waits until all requested files are written or a time limit is reached. Call it at the end of the program, which
     /// would interrupt the writing.
     pub fn finish_writing(&mut self) {
-        let begun = std::time::Instant::now();
+        let begun = Instant::now();
         while self.files.is_awaiting() && begun.elapsed() < PATIENCE {
-            std::thread::sleep(std::time::Duration::from_millis(1));
+            std::thread::sleep(Duration::from_millis(1));
             self.poll();
         }
         self.files.finish_writing(&mut self.messages);

@@ -4,10 +4,9 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::first_map::cuts_or_fills;
 use super::{Background, Message, MessagePlace, Model, Session, Wake};
 use freebound_core::cutting::SeamOptions;
-use freebound_core::mesh::{Preparation, Seams, VertexId};
+use freebound_core::mesh::{Preparation, Repair, Seams, VertexId};
 use freebound_core::pipeline::{AutomaticSeams, SeamProgress};
 use freebound_core::problem::{Control, SolveError, Start};
 
@@ -181,7 +180,8 @@ impl Session {
         let Some(repaired) = model.prepared.remedy.clone().or_else(|| model.prepared.repaired.clone()) else {
             return false;
         };
-        if cuts_or_fills(&repaired) || model.prepared.chart_count() > 1 {
+        let cuts_or_fills = |repair: Repair| matches!(repair, Repair::Cut | Repair::FillHoles);
+        if repaired.done().iter().any(|done| cuts_or_fills(done.repair)) || model.prepared.chart_count() > 1 {
             self.find_seams(SeamOptions::DISTORTION, Purpose::Opening);
         } else if model.prepared.remedy.is_some() {
             self.cut_opened(self.form_to_be().with_all_repairs());
@@ -202,10 +202,7 @@ impl Session {
         if purpose != Purpose::Preview {
             self.unwrapping.previewed = None;
         }
-        let form = Preparation {
-            seams: self.without_layout(self.with_paint().without_automatic()),
-            ..self.without_automatic_seams(&model)
-        };
+        let form = self.form_to_search(&model);
         let wanted = Wanted { form, bound: bound.max(SeamOptions::LEAST) };
         match model.known_seams(&wanted.form, wanted.bound) {
             Some(known) => {
@@ -225,6 +222,12 @@ impl Session {
         let wanted = self.form_to_be();
         let repaired = if model.is_faulty() { wanted.with_all_repairs() } else { wanted.clone() };
         Preparation { seams: self.without_layout(wanted.seams.without_automatic()), cut: true, ..repaired }
+    }
+
+    /// Preparation whose automatic seams are found, with all paint.
+    fn form_to_search(&self, model: &Model) -> Preparation {
+        let seams = self.without_layout(self.with_paint().without_automatic());
+        Preparation { seams, ..self.without_automatic_seams(model) }
     }
 
     /// Seams without those of the file's layout, if the map is that layout.
@@ -289,7 +292,7 @@ impl Session {
     }
 
     /// Reports the faults of the mesh. A mesh that was opened without faults is solved as it is.
-    fn go_on_without_seams(&mut self) {
+    pub(super) fn go_on_without_seams(&mut self) {
         self.tell_faults();
         if self.outcome().is_none() && !self.is_running() {
             self.solve();
@@ -321,10 +324,7 @@ impl Session {
             return Some(edges);
         }
         let (model, bound) = (self.model()?, self.unwrapping.previewed?);
-        let form = Preparation {
-            seams: self.without_layout(self.with_paint().without_automatic()),
-            ..self.without_automatic_seams(model)
-        };
+        let form = self.form_to_search(model);
         let known = model.known_seams(&form, bound.max(SeamOptions::LEAST))?;
         Some(known.edges().iter().copied().collect())
     }

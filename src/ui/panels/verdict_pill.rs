@@ -81,17 +81,12 @@ fn busy_words(busy: Busy) -> String {
 fn pill(editor: &Editor) -> Option<Pill> {
     let session = &editor.session;
     let model = session.model()?;
-    match session.first_map_work() {
-        Some(FirstMapWork::Check) => {
-            return Some(Pill::new(Sign::Working, "checking…", "The layout of the file is being checked"));
-        }
-        Some(FirstMapWork::Seams) => {
-            return Some(Pill::new(Sign::Working, "unwrapping…", "Short seams are being found"));
-        }
-        None if model.is_faulty() && session.seam_search().is_some() => {
-            return Some(Pill::new(Sign::Working, "unwrapping…", "Short seams are being found"));
-        }
-        None => {}
+    let work = session.first_map_work();
+    if work == Some(FirstMapWork::Check) {
+        return Some(Pill::new(Sign::Working, "checking…", "The layout of the file is being checked"));
+    }
+    if work.is_some() || (model.is_faulty() && session.seam_search().is_some()) {
+        return Some(Pill::new(Sign::Working, "unwrapping…", "Short seams are being found"));
     }
     if let Surface::Faulty(_, diagnosis) = &model.prepared.surface {
         let words = counted(diagnosis.faults.len(), "fault", "faults");

@@ -11,6 +11,7 @@ use crate::ui::editor::scene::{MeshScene, PlaneScene};
 use crate::ui::state::Viewport;
 use crate::ui::{Control, Editor, Pane, Request, Theme, Tool, theme_of};
 use crate::view::PlaneCamera;
+use freebound_core::geom::{Bounds, clip_segment};
 use freebound_core::mesh::VertexId;
 
 /// Text in the middle of an empty pane.
@@ -67,25 +68,15 @@ pub(super) fn dashed(painter: &egui::Painter, ends: [Pos2; 2], stroke: Stroke, [
     painter.extend(within(seen, ends).into_iter().flat_map(|part| egui::Shape::dashed_line(&part, stroke, dash, gap)));
 }
 
-/// Part of a line inside a rectangle (Liang and Barsky 1984).
-fn within(rect: Rect, [from, to]: [Pos2; 2]) -> Option<[Pos2; 2]> {
-    let way = to - from;
-    let (mut first, mut last) = (0.0_f32, 1.0_f32);
-    let sides =
-        [(way.x, rect.left() - from.x, rect.right() - from.x), (way.y, rect.top() - from.y, rect.bottom() - from.y)];
-    for (along, low, high) in sides {
-        let [enters, leaves] = if along > 0.0 {
-            [low / along, high / along]
-        } else if along < 0.0 {
-            [high / along, low / along]
-        } else if low <= 0.0 && high >= 0.0 {
-            continue;
-        } else {
-            return None;
-        };
-        (first, last) = (first.max(enters), last.min(leaves));
+/// Part of a line inside a rectangle.
+fn within(rect: Rect, ends: [Pos2; 2]) -> Option<[Pos2; 2]> {
+    if !ends.iter().all(|end| end.is_finite()) {
+        return None;
     }
-    (first <= last).then(|| [from + way * first, from + way * last])
+    let point = |at: Pos2| DVec2::new(at.x.into(), at.y.into());
+    let part = clip_segment(ends.map(point), Bounds { low: point(rect.min), high: point(rect.max) })?;
+    #[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
+    Some(part.map(|at| Pos2::new(at.x as f32, at.y as f32)))
 }
 
 /// Follows a selection box, drawn by Ctrl and a drag. Returns the box, in window points, at the end of the drag.
