@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use glam::DVec2;
 
+use super::brushing::BrushDab;
 use super::StopConditions;
 use super::page::ChartMove;
 use crate::examples::Example;
@@ -148,6 +149,12 @@ pub enum Action {
     },
     /// Moves several of the user's pins during a drag.
     MovePins(Vec<(VertexId, DVec2)>),
+    /// Applies a brush to the map on the screen, as a frame of a stroke.
+    Brush(BrushDab),
+    /// Ends a stroke of a brush.
+    EndBrush,
+    /// Drops a stroke of a brush.
+    GiveUpBrush,
     /// Reports that the pointer pauses during a drag, so that the remaining steps are taken.
     Rest,
     /// Changes the kind of pins.

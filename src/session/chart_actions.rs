@@ -34,7 +34,7 @@ impl Session {
                 None => return ChartState::Solving,
             }
         };
-        let problem = self.document.problem_with(self.document.edits_of(number, of).targets);
+        let problem = self.document.problem_with(self.document.edits_of(number, of));
         let newest = solving.newest().filter(|outcome| outcome.problem.has_steps_of(&problem));
         match newest {
             Some(outcome) if !is_running => ChartState::Solved(Arc::clone(outcome)),

@@ -33,7 +33,7 @@ impl Document {
         for number in numbers.into_iter().filter(|&number| number != here && number < model.chart_count()) {
             let targets = by_chart.remove(&number).unwrap_or_default();
             let relaxed = relaxed.get(&number).copied().unwrap_or_default();
-            self.put_elsewhere(number, ChartEdits { targets, relaxed });
+            self.put_elsewhere(number, ChartEdits { targets, relaxed, shaped: None });
         }
     }
 }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::solving::{Next, Solving, StopReason, Task};
 use super::stop::Goal;
-use super::{Background, ChartEdits, Document, Messages, Model, StopConditions, TIMELINE_BUDGET, Timeline, Wake};
+use super::{Background, Document, Messages, Model, StopConditions, TIMELINE_BUDGET, Timeline, Wake};
 use freebound_core::pipeline::{ChartOf, Outcome, Problem};
 
 /// Maximum number of charts that are solved at once beside the shown chart.
@@ -155,8 +155,8 @@ impl OtherCharts {
     pub(super) fn poll_runs(&mut self, document: &Document, of: &ChartOf, stop: StopConditions, is_at_rest: bool) {
         let mut free = AT_ONCE.saturating_sub(self.running_count());
         for (&number, other) in &mut self.others {
-            let ChartEdits { targets, relaxed } = document.edits_of(number, of);
-            let problem = document.problem_with(targets);
+            let edits = document.edits_of(number, of);
+            let (relaxed, problem) = (edits.relaxed, document.problem_with(edits));
             // A run of an outdated problem passes its place to the next run.
             let may_begin = is_at_rest && (free > 0 || other.solving.is_running());
             let has_begun = other.poll(problem, relaxed, may_begin.then_some(stop));

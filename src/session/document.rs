@@ -7,7 +7,7 @@ use super::chart_layout::ChartLayout;
 use crate::examples::Example;
 use freebound_core::geom::{PictureFrame, VAxis};
 use freebound_core::mesh::{Preparation, VertexId};
-use freebound_core::pipeline::{ChartOf, Problem, Target, Targets, hard_targets, pins_in_plane};
+use freebound_core::pipeline::{ChartOf, Problem, ShapedMap, Target, Targets, hard_targets, pins_in_plane};
 use freebound_core::problem::{Pins, Settings};
 use freebound_io::PictureFile;
 
@@ -36,6 +36,8 @@ pub struct Document {
     /// picture and faces. A change of method or weights, a repair and solving from scratch reset the number. A pause
     /// keeps the rounds that were taken.
     pub relaxed: usize,
+    /// Map of the shown chart that the user shaped with brushes.
+    pub shaped: Option<ShapedMap>,
 }
 
 /// Edits of one chart of several.
@@ -45,6 +47,8 @@ pub struct ChartEdits {
     pub targets: Targets,
     /// Number of relaxation rounds that the user requested, see [`Document::relaxed`].
     pub relaxed: usize,
+    /// Map that the user shaped with brushes, see [`Document::shaped`].
+    pub shaped: Option<ShapedMap>,
 }
 
 /// Preparation of the mesh, with all edits whose vertex and chart numbers depend on it.
@@ -67,6 +71,7 @@ impl Shape {
         std::mem::swap(&mut self.chart, &mut document.chart);
         std::mem::swap(&mut self.shown.targets, &mut document.targets);
         std::mem::swap(&mut self.shown.relaxed, &mut document.relaxed);
+        std::mem::swap(&mut self.shown.shaped, &mut document.shaped);
         std::mem::swap(&mut self.elsewhere, &mut document.elsewhere);
     }
 }
@@ -90,21 +95,27 @@ impl Document {
 
     /// Problem that a run of the document solves. If there is a picture, the embedding is placed on it.
     pub fn problem(&self) -> Problem {
-        self.problem_with(self.targets.clone())
+        self.problem_with(self.edits_shown())
+    }
+
+    /// Edits of the shown chart.
+    fn edits_shown(&self) -> ChartEdits {
+        ChartEdits { targets: self.targets.clone(), relaxed: self.relaxed, shaped: self.shaped.clone() }
     }
 
     /// Edits of a chart.
     pub(super) fn edits_of(&self, number: usize, of: &ChartOf) -> ChartEdits {
         if of.charts.pick(self.chart) == number {
-            return ChartEdits { targets: self.targets.clone(), relaxed: self.relaxed };
+            return self.edits_shown();
         }
         self.elsewhere.get(&number).cloned().unwrap_or_default()
     }
 
-    /// Problem of the document with other targets.
-    pub(super) fn problem_with(&self, targets: Targets) -> Problem {
+    /// Problem of a chart with these edits.
+    pub(super) fn problem_with(&self, edits: ChartEdits) -> Problem {
         let has_picture = self.picture.is_some() || self.aspect.is_some();
-        Problem::new(&self.settings, self.frame(), has_picture, targets)
+        let ChartEdits { targets, shaped, .. } = edits;
+        Problem::new(&self.settings, self.frame(), has_picture, targets).with_shaped_map(shaped)
     }
 
     /// Stores the edits of a chart that is not shown. Default edits get no entry.
@@ -142,6 +153,8 @@ pub enum Command {
     Reshape(Box<Shape>),
     /// Sets the number of relaxation rounds that follow a run.
     SetRelaxed(usize),
+    /// Sets the map of the shown chart that the user shaped.
+    SetShaped(Option<ShapedMap>),
     /// Shows another chart.
     ShowChart {
         /// Number of the chart to show.
@@ -185,10 +198,14 @@ impl Command {
                 Self::Reshape(shape)
             }
             Self::SetRelaxed(rounds) => Self::SetRelaxed(std::mem::replace(&mut document.relaxed, rounds)),
+            Self::SetShaped(shaped) => Self::SetShaped(std::mem::replace(&mut document.shaped, shaped)),
             Self::ShowChart { to, from, chart } => {
                 let coming = document.elsewhere.remove(&to).unwrap_or_default();
-                let targets = std::mem::replace(&mut document.targets, coming.targets);
-                let going = ChartEdits { targets, relaxed: std::mem::replace(&mut document.relaxed, coming.relaxed) };
+                let going = ChartEdits {
+                    targets: std::mem::replace(&mut document.targets, coming.targets),
+                    relaxed: std::mem::replace(&mut document.relaxed, coming.relaxed),
+                    shaped: std::mem::replace(&mut document.shaped, coming.shaped),
+                };
                 document.put_elsewhere(from, going);
                 Self::ShowChart { to: from, from: to, chart: std::mem::replace(&mut document.chart, chart) }
             }

@@ -53,14 +53,15 @@ impl Session {
         }
     }
 
-    /// Edits that drop the requested relaxation on all charts.
+    /// Edits that drop the requested relaxation and the maps that the user shaped, on all charts.
     pub(super) fn drop_relaxing(&self) -> Vec<Command> {
-        let relaxed = self.document.elsewhere.iter().filter(|(_, edits)| edits.relaxed > 0);
-        let elsewhere = relaxed.map(|(&chart, edits)| {
-            let edits = ChartEdits { relaxed: 0, ..edits.clone() };
+        let is_worked = |edits: &ChartEdits| edits.relaxed > 0 || edits.shaped.is_some();
+        let worked = self.document.elsewhere.iter().filter(|(_, edits)| is_worked(edits));
+        let elsewhere = worked.map(|(&chart, edits)| {
+            let edits = ChartEdits { relaxed: 0, shaped: None, ..edits.clone() };
             Command::SetElsewhere { chart, edits }
         });
-        std::iter::once(Command::SetRelaxed(0)).chain(elsewhere).collect()
+        [Command::SetRelaxed(0), Command::SetShaped(None)].into_iter().chain(elsewhere).collect()
     }
 
     /// Sets method and weights during a drag of a slider.

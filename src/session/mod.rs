@@ -44,6 +44,7 @@
 //! | `drag`               | part: preview of a drag                                                |
 //! | `drag_request`       | request of a drag, and the state of the screen at its start            |
 //! | `continue_from`      | start of a run after an edit                                           |
+//! | `brushing`           | part: strokes of brushes on the map, proved at every frame             |
 //! | `live`               | part: planar embedding that follows the pointer, proved at every frame |
 //! | `background_jobs`    | part: short background jobs for the document                           |
 //! | `target_checks`      | part: conflicts among targets, and the check for mirrored targets      |
@@ -66,6 +67,7 @@ mod arrivals;
 mod atlas_view;
 mod background;
 mod background_jobs;
+mod brushing;
 mod chart_actions;
 mod chart_layout;
 mod chart_targets;
@@ -121,6 +123,7 @@ mod v_axis;
 pub use action::{Action, SaveRequest, UndoGroup};
 pub use atlas_view::AtlasView;
 pub use background::{Background, JobFailure, Wake};
+pub use brushing::BrushDab;
 pub use chart_layout::{ChartLayout, ChartPlace};
 pub use charts::{ChartState, LockState};
 pub use command_line::CommandLine;

@@ -149,6 +149,10 @@ impl Session {
         };
         let ([w, h], [w_before, h_before]) = (sides(&picture), sides(&self.document.picture));
         let mut edits = vec![Command::SetPicture(picture)];
+        if self.document.shaped.is_some() || self.document.elsewhere.values().any(|edits| edits.shaped.is_some()) {
+            // A map that the user shaped has a place of its own, not the new picture's.
+            edits.extend(self.drop_relaxing());
+        }
         if w * h_before != w_before * h && !self.document.layout.placed.is_empty() {
             let layout = ChartLayout { placed: BTreeMap::new(), ..self.document.layout.clone() };
             edits.push(Command::SetLayout(Box::new(layout)));
@@ -179,7 +183,7 @@ impl Session {
     }
 
     /// Layout of the document with all charts placed where they lie on the page.
-    fn layout_as_it_lies(&self) -> Option<ChartLayout> {
+    pub(super) fn layout_as_it_lies(&self) -> Option<ChartLayout> {
         let (charts, page) = (self.charts()?, self.page().filter(|_| self.can_move_charts())?);
         let mut layout = self.document.layout.clone();
         for (number, chart) in page.charts.iter().enumerate() {

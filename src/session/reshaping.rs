@@ -51,6 +51,7 @@ impl Reshaped {
         let mut edits = |number: usize| ChartEdits {
             targets: by_chart.remove(&number).unwrap_or_default(),
             relaxed: self.rounds(document, number),
+            shaped: None,
         };
         let here = self.now.prepared.chart.as_ref().map_or(0, |of| of.number);
         let shown = edits(here);

@@ -31,7 +31,7 @@ pub(super) fn restored(model: &Model, document: &Document, maps: &BTreeMap<u32, 
     let chart = |number: usize| {
         let map = maps.get(&of.charts.first_face(number).number())?;
         let model = if number == of.number { model.clone() } else { model.of_chart(number) };
-        let problem = document.problem_with(document.edits_of(number, of).targets);
+        let problem = document.problem_with(document.edits_of(number, of));
         restore(Arc::new(model), problem, map)
     };
     (0..of.charts.count()).filter_map(chart).collect()

@@ -175,7 +175,7 @@ impl Session {
     /// Solves from scratch, ignoring the current embedding and dropping the requested relaxation.
     pub(super) fn solve_from_scratch(&mut self) {
         self.layout_check.end_wait();
-        self.apply(Command::SetRelaxed(0));
+        self.apply(Command::Together(vec![Command::SetRelaxed(0), Command::SetShaped(None)]));
         self.history.set_taken_to(0);
         self.solve_from(None);
     }

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use super::atlas_view::AtlasViews;
 use super::background_jobs::BackgroundJobs;
+use super::brushing::Brushing;
 use super::charts::OtherCharts;
 use super::comparing::Comparing;
 use super::drag::Drag;
@@ -31,6 +32,7 @@ pub struct Session {
     pub(super) comparing: Comparing,
     pub(super) morphing: Morphing,
     pub(super) drag: Drag,
+    pub(super) brushing: Brushing,
     pub(super) jobs: BackgroundJobs,
     pub(super) target_checks: TargetChecks,
     pub(super) files: Files,
@@ -59,6 +61,7 @@ impl Session {
             comparing: Comparing::new(&wake),
             morphing: Morphing::new(&wake),
             drag: Drag::new(&wake),
+            brushing: Brushing::new(&wake),
             jobs: BackgroundJobs::new(&wake),
             target_checks: TargetChecks::new(&wake),
             files: Files::new(&wake, recent),
@@ -108,6 +111,9 @@ impl Session {
             Action::Relax => self.relax(),
             Action::Repair => self.repair(),
             Action::Rest => self.rest(),
+            Action::Brush(dab) => self.brush(dab),
+            Action::EndBrush => self.end_brush(),
+            Action::GiveUpBrush => self.give_up_brush(),
             Action::EndGesture => self.end_gesture(),
             Action::Cancel => self.cancel(),
             Action::ShowStep(index) => self.solving.show(index),
@@ -183,6 +189,7 @@ impl Session {
         self.poll_comparing();
         self.poll_morph();
         self.poll_drag();
+        self.poll_brush();
         self.refresh_target_checks();
         self.files.poll_saving(&mut self.messages);
         if self.has_numbers_as_wanted() {
@@ -208,6 +215,8 @@ impl Session {
     fn undo(&mut self) {
         if self.page.give_up() {
             // A move that has not ended is no edit yet.
+        } else if self.is_brushing() {
+            self.give_up_brush();
         } else if self.mesh.wanted().is_some() {
             self.mesh.want(None);
         } else if self.unwrapping.is_busy() {
@@ -249,6 +258,7 @@ impl Session {
     fn cancel(&mut self) {
         self.files.cancel_loading();
         self.drag.stop_following();
+        self.give_up_brush();
         self.jobs.stop();
         self.mesh.want(None);
         self.give_up_exports();

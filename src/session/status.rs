@@ -92,9 +92,9 @@ impl Session {
         self.has_form_as_wanted() && self.outcome().is_some_and(is_solved)
     }
 
-    /// True if a frame, the column or the verdict of a drag is being computed. This work is not waited for, because it
+    /// True if a frame of a drag or a brush, or a drag's column or verdict, is being computed. This work is not waited for, because it
     /// lasts as long as the drag.
     pub fn is_following(&self) -> bool {
-        self.drag.is_busy()
+        self.drag.is_busy() || self.brushing.is_busy()
     }
 }

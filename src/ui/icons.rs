@@ -13,7 +13,7 @@ fn on_grid(rect: Rect, points: &[(f32, f32)]) -> Vec<Pos2> {
 }
 
 /// Draws the icon of a tool into a square. Icons: a mouse arrow, a drawing pin, a dot joined with a diamond, a path
-/// with stitches.
+/// with stitches, a brush.
 pub(super) fn tool(painter: &egui::Painter, rect: Rect, tool: Tool, colour: Color32) {
     let stroke = Stroke::new(1.6, colour);
     let outline: &[(f32, f32)] = match tool {
@@ -23,6 +23,7 @@ pub(super) fn tool(painter: &egui::Painter, rect: Rect, tool: Tool, colour: Colo
         Tool::Fix => &[(9.0, 5.0), (15.0, 5.0), (14.2, 11.0), (16.6, 13.6), (7.4, 13.6), (9.8, 11.0)],
         Tool::Constrain => &[(16.5, 4.5), (20.0, 8.0), (16.5, 11.5), (13.0, 8.0)],
         Tool::Seam => &[],
+        Tool::Brush => &[(10.5, 12.0), (13.5, 14.5), (11.0, 18.0), (6.0, 19.5), (7.5, 15.0)],
     };
     painter.add(Shape::closed_line(on_grid(rect, outline), stroke));
     let line: &[(f32, f32)] = match tool {
@@ -30,6 +31,7 @@ pub(super) fn tool(painter: &egui::Painter, rect: Rect, tool: Tool, colour: Colo
         Tool::Fix => &[(12.0, 13.6), (12.0, 19.5)],
         Tool::Constrain => &[(7.5, 16.5), (14.2, 10.0)],
         Tool::Seam => &[(5.0, 19.0), (9.0, 14.5), (15.0, 9.5), (19.0, 5.0)],
+        Tool::Brush => &[(12.0, 13.2), (19.5, 4.5)],
     };
     let line = on_grid(rect, line);
     if tool == Tool::Constrain {

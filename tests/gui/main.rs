@@ -6,6 +6,7 @@
 mod actions;
 mod advice;
 mod artist;
+mod brushes;
 mod charts;
 mod colour_table;
 mod command_line;

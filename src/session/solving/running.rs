@@ -9,7 +9,7 @@ use crate::session::{Background, Model, Wake};
 use freebound_core::flatten::{Ending, Flattener};
 use freebound_core::mesh::DiskMesh;
 use freebound_core::pipeline::{Outcome, Problem};
-use freebound_core::problem::{Control, Embedding, Phase, SolveError};
+use freebound_core::problem::{Control, Embedding, Phase, SolveError, Stage};
 
 /// Problem to be solved, and its mesh.
 #[derive(Clone, Debug)]
@@ -144,17 +144,37 @@ fn locked<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
     value.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// Delivers a step. Cancels the run if the receiver is gone.
+fn deliver(delivery: Delivery, shared: &Shared, deliveries: &SyncSender<Delivery>) -> Result<(), SolveError> {
+    deliveries.send(delivery).map_err(|_| SolveError::Cancelled)?;
+    (shared.wake)();
+    Ok(())
+}
+
 /// Takes steps until the goal is reached, and delivers each of them. Runs in the background. The run is cancelled if
 /// the receiver is gone.
 pub(super) fn take_steps(
     run: &mut Flattener,
-    Task { mesh, problem, .. }: &Task,
+    Task { mesh, problem, from, .. }: &Task,
     shared: &Shared,
     deliveries: &SyncSender<Delivery>,
     cancel: &AtomicBool,
 ) -> Result<(), SolveError> {
     let report = |phase| *locked(&shared.phase) = Some(phase);
     let control = Control::new(cancel, &report);
+    if run.step_count() == 0
+        && from.is_none()
+        && let Some(outcome) = Outcome::of_shaped_map(mesh, problem)
+    {
+        let fresh = std::mem::replace(run, problem.flattener());
+        *run = fresh.resume_after(&outcome.step, &[Stage::Saved]);
+        let ending = run.ending();
+        if ending.is_none() {
+            // Nothing changes the map that the user shaped unless the user asks for it.
+            *locked(&shared.goal) = Goal::Steps(0);
+        }
+        return deliver(Delivery { outcome: Arc::new(outcome), ending }, shared, deliveries);
+    }
     loop {
         let step = run.step(mesh, control)?;
         let outcome = Arc::new(Outcome::new(mesh, problem.clone(), step));
@@ -166,8 +186,7 @@ pub(super) fn take_steps(
             }
             goal.is_reached(&outcome, ending)
         };
-        deliveries.send(Delivery { outcome, ending }).map_err(|_| SolveError::Cancelled)?;
-        (shared.wake)();
+        deliver(Delivery { outcome, ending }, shared, deliveries)?;
         if is_reached {
             return Ok(());
         }

@@ -33,6 +33,10 @@ impl Editor {
             Request::ToggleCurves => self.timeline.curves_wanted = Some(!self.timeline.curves_shown()),
             Request::Curve(request) => self.timeline.handle(request),
             Request::SetTool(tool) => self.tools.take_up(tool),
+            Request::SetBrush(brush) => self.tools.brush = brush,
+            Request::ResizeBrush { grows } => {
+                self.tools.brush = self.tools.brush.resized(if grows { 1.0 } else { -1.0 });
+            }
             Request::ClickSeam(click) => self.take_seam_click(click),
             Request::CutByRule(rule) => self.cut_by_rule(rule),
             Request::ClearSeams => self.act(Action::SetSeams(self.without_seams())),
@@ -260,6 +264,8 @@ impl Editor {
     fn escape(&mut self) {
         let closes = self.close_question() || self.leave_large() || self.files.dialogs.close();
         if closes || self.layout.close_window() || self.timeline.close_curve() || self.drop_gesture() {
+        } else if self.session.is_brushing() {
+            self.act(Action::GiveUpBrush);
         } else if self.tools.end_drag() {
             self.act(Action::GiveUpGesture);
         } else if self.pointer.end_box() {

@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::seam_hover::SeamHover;
 use super::seam_tool::SeamTool;
 use crate::session::Wake;
-use crate::ui::state::{Half, Intent, Pane, PinDrag, Tool};
+use crate::ui::state::{BrushChoice, Half, Intent, Pane, PinDrag, Tool};
 use freebound_core::mesh::VertexId;
 use freebound_core::problem::PinKind;
 
@@ -184,6 +184,8 @@ pub struct ToolState {
     kind: Option<PinKind>,
     drag: Option<PinDrag>,
     is_nudging: bool,
+    /// Brush of the brush tool.
+    pub brush: BrushChoice,
 }
 
 impl ToolState {
@@ -197,6 +199,7 @@ impl ToolState {
             kind: None,
             drag: None,
             is_nudging: false,
+            brush: BrushChoice::default(),
         }
     }
 

@@ -16,6 +16,7 @@ enum Group {
     Select,
     Pins,
     Seams,
+    Brushes,
     Charts,
     Steps,
     Files,
@@ -24,11 +25,12 @@ enum Group {
 }
 
 impl Group {
-    const ALL: [Self; 9] = [
+    const ALL: [Self; 10] = [
         Self::View,
         Self::Select,
         Self::Pins,
         Self::Seams,
+        Self::Brushes,
         Self::Charts,
         Self::Steps,
         Self::Files,
@@ -37,7 +39,8 @@ impl Group {
     ];
 
     const fn title(self) -> &'static str {
-        ["View", "Select", "Pins", "Seams", "Charts", "Steps", "Files", "Menus and help", "Mouse"][self as usize]
+        ["View", "Select", "Pins", "Seams", "Brushes", "Charts", "Steps", "Files", "Menus and help", "Mouse"]
+            [self as usize]
     }
 
     const fn of(request: &Request) -> Self {
@@ -48,6 +51,7 @@ impl Group {
             | Request::StepDefect(_)
             | Request::Page(PageRequest::SelectAll | PageRequest::Invert) => Self::Select,
             Request::SetTool(Tool::Seam) | Request::EndSeam | Request::Do(Action::Unwrap(_)) => Self::Seams,
+            Request::SetTool(Tool::Brush) | Request::ResizeBrush { .. } => Self::Brushes,
             Request::SetTool(_) | Request::UnpinSelected => Self::Pins,
             Request::Page(_) | Request::StepChart(_) | Request::ToggleLock => Self::Charts,
             Request::Do(Action::Undo | Action::Redo)

@@ -67,6 +67,9 @@ fn hint(editor: &Editor, has_shift: bool) -> Cow<'static, str> {
         Tool::Select if editor.pins_selected().next().is_some() => {
             "Drag a selected pin to move them all. Arrows move by a pixel (Shift: ten). Delete frees them."
         }
+        Tool::Brush => {
+            "Drag over the map. [ and ] change the size, Ctrl inverts pinch and texels. The right button pans. Esc ends."
+        }
         Tool::Fix => "Click a vertex to pin it. Drag a square to move it. Esc ends.",
         Tool::Select | Tool::Constrain => {
             "Click a vertex to select it. Shift adds; Ctrl + drag selects a box. Drag a square to move a pin."

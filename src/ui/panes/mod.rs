@@ -10,6 +10,7 @@
 //! | `page_pane.rs` | all charts on the page, in both panes |
 //! | `comparison/` | methods side by side, in place of the embedding |
 //! | `bars.rs` | bars over a pane: messages and questions |
+//! | `brush.rs` | the brush tool in the embedding pane |
 //! | `map_origin.rs` | line over the embedding: origin of the map, and other maps to choose |
 //! | `legend.rs` | the legend of a shading, notes about compared steps |
 //! | `constrain.rs` | the constrain tool: vertex and place on the picture |
@@ -21,6 +22,7 @@
 //! | `vertex_menu.rs` | the context menu of a vertex or a pin |
 
 mod bars;
+mod brush;
 pub(super) mod comparison;
 pub(super) mod constrain;
 mod header;

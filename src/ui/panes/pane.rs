@@ -107,7 +107,7 @@ pub(super) fn click(ui: &egui::Ui, response: &Response, editor: &mut Editor, req
     }
     if response.hovered() {
         ui.ctx().set_cursor_icon(match (editor.tools.tool(), editor.pointer.vertex()) {
-            (Tool::Constrain | Tool::Seam, _) | (Tool::Fix, Some(_)) => CursorIcon::Crosshair,
+            (Tool::Constrain | Tool::Seam | Tool::Brush, _) | (Tool::Fix, Some(_)) => CursorIcon::Crosshair,
             (_, None) => CursorIcon::Default,
             (Tool::Select, Some(_)) => CursorIcon::PointingHand,
         });
@@ -118,6 +118,8 @@ fn clicked(ui: &egui::Ui, editor: &mut Editor) -> Vec<Request> {
     match editor.tools.tool() {
         Tool::Constrain => return editor.constrain(),
         Tool::Seam => return seam::clicked(ui, editor),
+        // A click of a brush is a stroke.
+        Tool::Brush => return Vec::new(),
         Tool::Select | Tool::Fix => {}
     }
     let Some(vertex) = editor.pointer.vertex() else { return vec![Request::Select(Vec::new())] };

@@ -9,7 +9,7 @@ use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, picture_layer, seam_line, style};
 use super::pane;
 use super::{
-    bars, constrain, header, inset, legend, magnifier, map_origin, page_pane, pin_drag, pins, seam, vertex_menu,
+    bars, brush, constrain, header, inset, legend, magnifier, map_origin, page_pane, pin_drag, pins, seam, vertex_menu,
 };
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::session::FirstMapWork;
@@ -46,7 +46,11 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     let (Some(plane), Some(mut camera)) = (editor.plane.drawn().map(Arc::clone), editor.plane.pane.camera()) else {
         return pane::empty_state(ui, rect, &waiting_words(editor));
     };
-    navigate(ui, &response, &mut camera);
+    if brush::takes_drags(editor) {
+        brush::navigate(ui, &response, &mut camera, editor, requests);
+    } else {
+        navigate(ui, &response, &mut camera);
+    }
     if editor.plane.pane.camera() != Some(camera) {
         editor.plane.pane.set_camera(camera);
         ui.ctx().request_repaint();
@@ -62,21 +66,26 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
         let frame = frame(editor, &plane, camera, theme);
         ui.painter().add(render::plane_pane(PaneId("plane"), rect, frame));
     }
-    if let Some(chosen) = pane::drag_box(ui, &response, editor, Pane::Plane) {
+    let chosen = if brush::takes_drags(editor) { None } else { pane::drag_box(ui, &response, editor, Pane::Plane) };
+    if let Some(chosen) = chosen {
         requests.push(Request::AddToSelection(within(view, chosen, editor, &plane)));
     }
     pane::click(ui, &response, editor, requests);
     vertex_menu::of_pane(&response, editor, requests);
     marks(ui, view, editor, &plane);
     equation_table::draw(ui, view, editor, &plane);
-    if !plane.is_stage() {
+    if !brush::hides_pins(editor, &plane) {
         pin_drag::pins_ui(ui, view, editor, requests);
+    }
+    brush::over_plane(ui, &response, view, editor, requests);
+    if !plane.is_stage() {
         magnifier::over_plane(ui, view, editor, &plane, requests);
     }
     if let Some(magnifier) = magnifier {
         magnifier.show(ui, editor, &plane, requests);
     }
     stage_selector(ui, rect, editor, requests);
+    brush::bar(ui, rect, editor, requests);
     if legend::plane_has_own(editor) {
         legend::legend(ui, rect, editor, Pane::Plane);
         legend::no_move_note(ui, rect, editor, Pane::Plane);

@@ -13,6 +13,7 @@
 //! | `seam.rs` | clicks of the seam tool, rules that choose edges |
 //! | `unsaved.rs` | the question about unsaved work |
 //! | `help.rs` | windows that help: command palette, list of keys, messages, About |
+//! | `brush.rs` | the brush of the brush tool |
 //! | `inset_view.rs` | zoom and pan of the insets |
 //! | `pin_drag.rs` | a drag of a pin |
 //! | `timeline_view.rs` | state of the timeline in the window |
@@ -20,6 +21,7 @@
 //! | `tour.rs` | the guided tour |
 //! | `welcome.rs` | the welcome at a start without a file |
 
+mod brush;
 mod comparison;
 mod file_dialog_kind;
 mod help;
@@ -39,6 +41,8 @@ mod tour;
 mod unsaved;
 mod welcome;
 
+pub use brush::BrushChoice;
+pub(in crate::ui) use brush::brush_words;
 pub use comparison::{ComparisonExport, MorphRequest};
 pub(crate) use file_dialog_kind::is_picture;
 pub(in crate::ui) use file_dialog_kind::{COPY_COMMAND, DialogForm, EXPORTS, FileDialogKind, MESHES};

@@ -3,6 +3,7 @@
 use eframe::egui;
 use glam::DVec2;
 
+use super::brush::BrushChoice;
 use super::comparison::MorphRequest;
 use super::file_dialog_kind::FileDialogKind;
 use super::hull_stage::HullStage;
@@ -51,6 +52,13 @@ pub enum Request {
     Curve(CurveRequest),
     /// Activates a tool.
     SetTool(Tool),
+    /// Sets the brush of the brush tool.
+    SetBrush(BrushChoice),
+    /// Enlarges the brush by a step, or makes it smaller.
+    ResizeBrush {
+        /// True to enlarge it.
+        grows: bool,
+    },
     /// Activates the constrain tool with a vertex that waits for its target.
     TakeVertex(VertexId),
     /// Click of the seam tool on a vertex.

@@ -16,11 +16,13 @@ pub enum Tool {
     Constrain,
     /// Cut the mesh along paths from vertex to vertex.
     Seam,
+    /// Shape a planar map with brushes.
+    Brush,
 }
 
 impl Tool {
     /// All tools, from top to bottom.
-    pub const ALL: [Self; 4] = [Self::Select, Self::Fix, Self::Constrain, Self::Seam];
+    pub const ALL: [Self; 5] = [Self::Select, Self::Fix, Self::Constrain, Self::Seam, Self::Brush];
 
     /// Name in files, menu entry, and description.
     pub(in crate::ui) const fn words(self) -> [&'static str; 3] {
@@ -29,6 +31,7 @@ impl Tool {
             Self::Fix => ["fix", "Fix vertices", "Fix: pin a vertex at its current position"],
             Self::Constrain => ["constrain", "Constrain vertices", "Constrain: choose the position of a vertex"],
             Self::Seam => ["seam", "Draw seams", "Seam: cut the mesh along paths from vertex to vertex"],
+            Self::Brush => ["brush", "Brush the map", "Brush: relax, grab, pinch, smooth, or more texels"],
         }
     }
 }

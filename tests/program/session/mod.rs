@@ -2,6 +2,7 @@
 
 pub(crate) mod background;
 pub(crate) mod basics;
+pub(crate) mod brushes;
 pub(crate) mod charts;
 pub(crate) mod constraints;
 pub(crate) mod documents;

@@ -7,7 +7,7 @@
 //! | `matchmaker/`, `clearance` | new vertices along paths; new vertices inside a pinned boundary |
 //! | `convexity` | concave polygons of a one-to-one map made convex |
 //! | `multires/` | coarsening of a disk, and prolongation back to the mesh |
-//! | `drag/` | an embedding under a dragged pin, proved at every frame |
+//! | `drag/` | an embedding under a dragged pin or a brush, proved at every frame |
 //! | `morph/` | a planar morph between two embeddings |
 //! | `schnyder` | a grid drawing, planar by theorem |
 
@@ -25,7 +25,7 @@ mod schnyder;
 mod virtual_boundary;
 
 pub(crate) use advance::Advance;
-pub use drag::{Blocker, DragFrame, DragSolver, DragTarget};
+pub use drag::{Blocker, Brush, BrushFrame, BrushKind, BrushSolver, DragFrame, DragSolver, DragTarget};
 pub use lee::Padded;
 pub use matchmaker::{Matched, matched, simplified, with_clearance};
 pub use morph::{Morph, MorphOptions, NoMorph, Route, morph};

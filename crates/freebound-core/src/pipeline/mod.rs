@@ -45,7 +45,7 @@ pub use laid_chart::{JoinedCharts, LaidChart, joined, prove_atlas, restack};
 pub use options::PipelineOptions;
 pub use outcome::{Outcome, pins_summary, upright};
 pub use prepared_mesh::{ChartOf, PreparedMesh, Surface};
-pub use problem::Problem;
+pub use problem::{Problem, ShapedMap};
 pub use repack::{
     ChartSizes, GivenLayout, LockedCharts, RepackError, RepackOptions, Repacked, RepackedChart, repack, repack_with,
 };

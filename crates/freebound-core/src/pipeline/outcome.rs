@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::{Fit, PinsSummary, Placement, Problem, SoftPinSummary, Target};
 use crate::flatten::{Candidate, Step, to_unit_box, to_unit_square, to_unit_square_by_power_of_two, true_area_factor};
-use crate::geom::VAxis;
+use crate::geom::{Similarity, VAxis};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::problem::{Embedding, GaugeSize, PinKind, Pins, Treatment};
 use crate::verify::{Distortion, Verdict, distortion, verdict};
@@ -39,6 +39,27 @@ impl Outcome {
         let step = Step::of_saved_map(mesh, embedding, &pins, &problem.output_frame());
         let outcome = Self::new(mesh, problem, step);
         outcome.can_be_saved().then_some(outcome)
+    }
+
+    /// Map that the user shaped, as the first step of a run, see [`Problem::shaped`]. Up to two hard pins move, turn and
+    /// scale it. `None` if there is none, or it does not meet the hard pins and stay planar.
+    pub fn of_shaped_map(mesh: &DiskMesh, problem: &Problem) -> Option<Self> {
+        let shaped = &problem.shaped.as_ref()?.0;
+        let pins = problem.settings.held(&problem.pins());
+        let hard: Vec<(VertexId, DVec2)> =
+            pins.iter().filter(|(_, pin)| pin.kind.is_hard()).map(|(&vertex, pin)| (vertex, pin.target)).collect();
+        let is_met = |(vertex, target): &(VertexId, DVec2)| shaped.get(vertex.index()) == Some(target);
+        if shaped.len() != mesh.vertex_count() || hard.iter().all(is_met) {
+            return Self::of_saved_map(mesh, problem.clone(), shaped.as_ref().clone());
+        }
+        let moved_to = match hard.as_slice() {
+            [(a, to)] => Similarity::new(DVec2::X, shaped[*a], *to),
+            [(a, to_a), (b, to_b)] => Similarity::fitting(&[[shaped[*a], *to_a], [shaped[*b], *to_b]])?,
+            _ => return None,
+        };
+        let mut embedding: Embedding = shaped.iter().map(|&z| moved_to.apply(z)).collect();
+        hard.iter().for_each(|&(vertex, target)| embedding[vertex] = target);
+        Self::of_saved_map(mesh, problem.clone(), embedding)
     }
 
     /// True if a project can keep the map of this outcome: it is planar, upright, meets all hard pins, and has no new

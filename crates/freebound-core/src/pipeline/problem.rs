@@ -13,6 +13,17 @@ use crate::verify::UvFrame;
 /// Least number of pins that fix the map: two fix position, rotation and size.
 const HOLDING_PINS: usize = 2;
 
+/// Map that the user shaped by hand: one position per vertex, in the plane. Equal if all positions are.
+#[derive(Clone, Debug)]
+pub struct ShapedMap(pub Arc<Embedding>);
+
+impl PartialEq for ShapedMap {
+    fn eq(&self, other: &Self) -> bool {
+        // Most maps are shared, and a map can have a million vertices.
+        Arc::ptr_eq(&self.0, &other.0) || self.0 == other.0
+    }
+}
+
 /// Problem of one chart: settings, output frame and targets.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Problem {
@@ -22,6 +33,8 @@ pub struct Problem {
     pub frame: PictureFrame,
     /// Targets of the user's pins.
     pub targets: Targets,
+    /// Map that the steps start from, if the user shaped one.
+    pub shaped: Option<ShapedMap>,
 }
 
 impl Problem {
@@ -30,7 +43,13 @@ impl Problem {
     pub fn new(settings: &Settings, frame: PictureFrame, has_picture: bool, targets: Targets) -> Self {
         let [low, high] = frame.corners();
         let size = if has_picture { GaugeSize::Within(Bounds { low, high }) } else { GaugeSize::TrueArea };
-        Self { settings: Settings { size, ..settings.clone() }, frame, targets }
+        Self { settings: Settings { size, ..settings.clone() }, frame, targets, shaped: None }
+    }
+
+    /// This problem, with steps that start from a map that the user shaped.
+    #[must_use]
+    pub fn with_shaped_map(self, shaped: Option<ShapedMap>) -> Self {
+        Self { shaped, ..self }
     }
 
     /// Pins in the plane of the embedding.
@@ -82,6 +101,7 @@ impl Problem {
     /// True if both problems pin the same vertices in the same way and differ at most in targets.
     pub fn differs_in_targets_alone(&self, other: &Self) -> bool {
         let is_alike = self.settings.resolves_to(&other.settings) && self.frame == other.frame;
+        let is_alike = is_alike && self.shaped == other.shaped;
         let are_like = |((v, target), (w, other)): ((&VertexId, &Target), (&VertexId, &Target))| {
             v == w && target.kind.is_like(other.kind)
         };
@@ -91,13 +111,13 @@ impl Problem {
     /// True if both problems have identical steps. Targets are compared only if the method uses pins.
     pub fn has_steps_of(&self, other: &Self) -> bool {
         let has_targets = !self.settings.method.uses_pins() || self.targets == other.targets;
-        has_targets && self.settings == other.settings && self.frame == other.frame
+        has_targets && self.settings == other.settings && self.frame == other.frame && self.shaped == other.shaped
     }
 
-    /// This problem with another method.
+    /// This problem with another method, which starts from scratch.
     #[must_use]
     pub fn by(&self, variant: &Variant) -> Self {
-        Self { settings: variant.settings(&self.settings), ..self.clone() }
+        Self { settings: variant.settings(&self.settings), shaped: None, ..self.clone() }
     }
 
     /// True if a method is useful for this problem. With constraints, the method must accept constraints. Without
@@ -114,8 +134,9 @@ impl Problem {
     /// at least two targets must be unchanged.
     pub fn continues_from(&self, before: &Self) -> bool {
         let of_way = |settings: Settings| Settings { new_vertices: true, ..settings };
-        let is_alike =
-            of_way(self.settings.clone()).resolves_to(&of_way(before.settings.clone())) && self.frame == before.frame;
+        let is_alike = of_way(self.settings.clone()).resolves_to(&of_way(before.settings.clone()))
+            && self.frame == before.frame
+            && self.shaped == before.shaped;
         let stays = before
             .targets
             .iter()

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::patch::{Ground, Patch};
+use super::patch::{FaceRest, Ground, Patch};
 use super::scaffold::LocalScaffold;
 use super::{DragSolver, DragTarget, GROWTH, MOST_VERTICES};
 use crate::geom::double_area;
@@ -76,6 +76,7 @@ impl DragSolver {
         let ground = Ground {
             mesh,
             begin: &self.begin,
+            rest: FaceRest::Begin,
             embedding: &self.embedding,
             pins: &self.pins,
             dragged: &self.dragged,

@@ -23,6 +23,7 @@
 //! | file | contents |
 //! |---|---|
 //! | `mod.rs` | [`DragSolver`]: the drag, frame by frame |
+//! | `brush.rs` | [`BrushSolver`]: strokes of brushes on an embedding |
 //! | `reach.rs` | nearest vertices |
 //! | `grow.rs` | size of the neighbourhood |
 //! | `patch.rs` | the region that moves: its energy, and the longest step |
@@ -31,6 +32,7 @@
 //! | `proof.rs` | proof of a frame, from that of the previous frame |
 
 mod blocker;
+mod brush;
 mod grow;
 mod patch;
 mod proof;
@@ -42,6 +44,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 pub use self::blocker::Blocker;
+pub use self::brush::{Brush, BrushFrame, BrushKind, BrushSolver};
 
 use self::grow::Scale;
 use self::patch::Patch;

@@ -31,12 +31,24 @@ const ADVANCE_SHARE: f64 = 0.8;
 /// Triangles that share the work of one task.
 const TRIANGLES_PER_TASK: usize = 1024;
 
+/// Rest shapes of the faces of a region. Fillings of holes and the outside rest as they lie.
+#[derive(Clone, Copy)]
+pub(super) enum FaceRest<'a> {
+    /// Positions at the start of the drag.
+    Begin,
+    /// Triangles of the surface, their lengths scaled by this factor.
+    Surface(f64),
+    /// Positions at the start of the drag, each triangle scaled by a factor at its middle.
+    Scaled(&'a dyn Fn(DVec2) -> f64),
+}
+
 /// Embedding in which a region is to move.
 #[derive(Clone, Copy)]
 pub(super) struct Ground<'a> {
     pub(super) mesh: &'a DiskMesh,
-    /// Embedding at the start of the drag: the rest shape.
+    /// Embedding at the start of the drag.
     pub(super) begin: &'a Embedding,
+    pub(super) rest: FaceRest<'a>,
     pub(super) embedding: &'a Embedding,
     pub(super) pins: &'a Pins,
     pub(super) dragged: &'a [VertexId],
@@ -101,6 +113,19 @@ impl Ground<'_> {
         match self.around {
             Some(around) if is_outside => around.at_rest(self.mesh, corner),
             _ => self.begin[corner],
+        }
+    }
+
+    /// Rest shape of a triangle. Kind 0: faces and ears; 1: fillings of holes; 2: the outside.
+    fn rest_of(&self, corners: [VertexId; 3], kind: usize) -> [DVec2; 3] {
+        let begin = corners.map(|corner| self.at_rest(corner, kind == 2));
+        match self.rest {
+            FaceRest::Surface(scale) if kind == 0 => self.mesh.rest_shape(corners, scale),
+            FaceRest::Scaled(factor) if kind == 0 => {
+                let factor = factor(begin.iter().sum::<DVec2>() / 3.0);
+                begin.map(|z| factor * z)
+            }
+            _ => begin,
         }
     }
 
@@ -301,7 +326,7 @@ fn elements(ground: &Ground<'_>, gathered: &Gathered, triangles: &[[u32; 3]]) ->
     ];
     let of = |(at, (corners, &local)): (usize, (&[VertexId; 3], &[u32; 3]))| {
         let kind = usize::from(at >= gathered.face_count) + usize::from(at >= gathered.inside_count);
-        let rest = corners.map(|corner| ground.at_rest(corner, kind == 2));
+        let rest = ground.rest_of(*corners, kind);
         let per_area = kinds[kind];
         let area = double_area(rest).max(0.0);
         let weight = per_area.weight * area * softness(rest, per_area.thinnest);

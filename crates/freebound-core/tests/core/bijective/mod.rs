@@ -1,5 +1,6 @@
 //! Continuation, matchmaker, relaxation, dragging, morphs, virtual boundary and Schnyder drawings.
 
+pub(crate) mod brush;
 pub(crate) mod coarse;
 pub(crate) mod continuation;
 pub(crate) mod live;

@@ -1,0 +1,157 @@
+//! The brush tool in the embedding pane: its bar, its circle, and its strokes.
+
+use eframe::egui::{self, PointerButton, Rect, Response, Stroke};
+use glam::DVec2;
+
+use super::{pane, plane_pane};
+use crate::session::{Action, BrushDab};
+use crate::ui::editor::scene::PlaneScene;
+use crate::ui::state::{BrushChoice, Viewport, brush_words};
+use crate::ui::{Control, Editor, Request, Tool, theme_of};
+use crate::view::PlaneCamera;
+use freebound_core::bijective::BrushKind;
+
+/// Kinds in the order of the bar.
+const KINDS: [BrushKind; 5] =
+    [BrushKind::Relax, BrushKind::Grab, BrushKind::Pinch, BrushKind::Smooth, BrushKind::Texels];
+
+/// True if the brush tool takes drags of the left button in the embedding pane.
+pub(super) fn takes_drags(editor: &Editor) -> bool {
+    editor.tools.tool() == Tool::Brush
+}
+
+/// Bar with the kinds of brushes, size and strength, at the top of the pane.
+pub(super) fn bar(ui: &mut egui::Ui, rect: Rect, editor: &Editor, requests: &mut Vec<Request>) {
+    if !takes_drags(editor) {
+        return;
+    }
+    let theme = theme_of(ui);
+    let place = Rect::from_min_max(rect.min + egui::vec2(8.0, 8.0), rect.max - egui::vec2(8.0, 8.0));
+    let mut ui = ui.new_child(egui::UiBuilder::new().max_rect(place));
+    let frame = egui::Frame::new().fill(theme.panel.gamma_multiply(0.95)).corner_radius(4).inner_margin(8);
+    let choice = editor.tools.brush;
+    frame.show(&mut ui, |ui| {
+        ui.spacing_mut().item_spacing = egui::vec2(8.0, 4.0);
+        ui.horizontal_wrapped(|ui| {
+            for kind in KINDS {
+                let [name, about] = brush_words(kind);
+                let label = ui.selectable_label(choice.kind == kind, name).on_hover_text(about);
+                label.asks(Request::SetBrush(BrushChoice { kind, ..choice }), requests);
+            }
+        });
+        ui.horizontal_wrapped(|ui| sliders(ui, choice, requests));
+        if !editor.session.can_brush() && !editor.session.is_brushing() {
+            let words = "Brushes shape a planar map without new vertices that meets its pins.";
+            ui.label(egui::RichText::new(words).small().color(theme.weak_text));
+        }
+    });
+}
+
+fn sliders(ui: &mut egui::Ui, choice: BrushChoice, requests: &mut Vec<Request>) {
+    let mut next = choice;
+    ui.spacing_mut().slider_width = 80.0;
+    let size = egui::Slider::new(&mut next.radius, BrushChoice::RADII).logarithmic(true).text("Size").suffix(" pt");
+    ui.add(size.max_decimals(0)).on_hover_text("Radius of the brush in points of the screen ([ and ], Alt + wheel)");
+    if choice.kind != BrushKind::Grab {
+        let mut percent = 100.0 * next.strength;
+        let strength = egui::Slider::new(&mut percent, 1.0..=100.0).text("Strength").suffix(" %").max_decimals(0);
+        if ui.add(strength).on_hover_text("Effect of the brush at each moment").changed() {
+            next.strength = percent / 100.0;
+        }
+    }
+    if next != choice {
+        requests.push(Request::SetBrush(next));
+    }
+}
+
+/// Carries out strokes, and draws the circle of the brush.
+pub(super) fn over_plane(
+    ui: &egui::Ui,
+    response: &Response,
+    view: Viewport<PlaneCamera>,
+    editor: &Editor,
+    requests: &mut Vec<Request>,
+) {
+    if !takes_drags(editor) {
+        return;
+    }
+    let choice = editor.tools.brush;
+    let pointer = ui.input(|input| input.pointer.latest_pos());
+    stroke(ui, response, view, editor, requests);
+    let Some(at) = pointer.filter(|at| view.rect.contains(*at) && response.contains_pointer()) else { return };
+    if editor.session.can_brush() || editor.session.is_brushing() {
+        ui.ctx().set_cursor_icon(egui::CursorIcon::None);
+    } else {
+        ui.ctx().set_cursor_icon(egui::CursorIcon::NotAllowed);
+    }
+    let theme = theme_of(ui);
+    let point = point_size(view);
+    // A brush over too many vertices is smaller than chosen.
+    let used = editor.session.brush_radius().map(|radius| (radius / point) as f32);
+    let painter = ui.painter_at(view.rect);
+    let is_narrowed = used.is_some_and(|used| used < 0.99 * choice.radius);
+    if is_narrowed {
+        painter.circle_stroke(at, choice.radius, Stroke::new(1.0, theme.weak_text));
+    }
+    let radius = used.map_or(choice.radius, |used| used.min(choice.radius));
+    painter.circle_stroke(at, radius, Stroke::new(3.0, theme.background));
+    painter.circle_stroke(at, radius, Stroke::new(1.5, theme.selection));
+    painter.circle_filled(at, 1.5, theme.selection);
+}
+
+/// Size of a point of the screen in the plane.
+fn point_size(view: Viewport<PlaneCamera>) -> f64 {
+    let [a, b] = [view.rect.min, view.rect.min + egui::vec2(100.0, 0.0)].map(|at| view.point_at(at));
+    a.distance(b) / 100.0
+}
+
+fn stroke(
+    ui: &egui::Ui,
+    response: &Response,
+    view: Viewport<PlaneCamera>,
+    editor: &Editor,
+    requests: &mut Vec<Request>,
+) {
+    let is_down = response.is_pointer_button_down_on() && ui.input(|input| input.pointer.primary_down());
+    let is_brushing = editor.session.is_brushing();
+    if !is_down {
+        if is_brushing {
+            requests.push(Request::Do(Action::EndBrush));
+        }
+        return;
+    }
+    let has_begun = is_brushing || ui.input(|input| input.pointer.button_pressed(PointerButton::Primary));
+    let at = response.interact_pointer_pos().filter(|_| has_begun && (is_brushing || editor.session.can_brush()));
+    if let Some(at) = at {
+        let inverts = ui.input(|input| input.modifiers.command);
+        let brush = editor.tools.brush.in_plane(point_size(view), inverts);
+        requests.push(Request::Do(Action::Brush(BrushDab { brush, at: view.point_at(at) })));
+        // The brush works on while the button is held.
+        ui.ctx().request_repaint();
+    }
+}
+
+/// Camera moves beside a brush: the other buttons pan, the wheel zooms. With Alt the wheel resizes the brush.
+pub(super) fn navigate(
+    ui: &egui::Ui,
+    response: &Response,
+    camera: &mut PlaneCamera,
+    editor: &Editor,
+    requests: &mut Vec<Request>,
+) {
+    if response.dragged() && !response.dragged_by(PointerButton::Primary) {
+        camera.pan(DVec2::new(response.drag_delta().x.into(), response.drag_delta().y.into()));
+    }
+    if !ui.input(|input| input.modifiers.alt) {
+        return plane_pane::zoom(ui, response, camera);
+    }
+    let turned = pane::wheel(ui).zoom;
+    if response.contains_pointer() && (turned - 1.0).abs() > f64::EPSILON {
+        requests.push(Request::ResizeBrush { grows: turned > 1.0 });
+    }
+}
+
+/// True if the pins under the brush tool are not dragged.
+pub(super) fn hides_pins(editor: &Editor, plane: &PlaneScene) -> bool {
+    takes_drags(editor) || plane.is_stage()
+}

@@ -1,0 +1,110 @@
+//! The brush tool in the embedding pane.
+
+use egui::{Key, Modifiers, Pos2, Vec2};
+use freebound::examples::Example;
+use freebound::ui::Tool;
+use freebound_core::bijective::BrushKind;
+
+use crate::harness::Window;
+
+/// Window with a planar map and the brush tool.
+fn window() -> Window {
+    let mut window = Window::with_example(Example::Dome);
+    window.key(Key::B);
+    assert_eq!(window.editor().tools.tool(), Tool::Brush);
+    window
+}
+
+/// Middle of the map on the screen.
+fn middle(window: &Window) -> Pos2 {
+    window.place_in_plane(window.embedding().bounds().middle())
+}
+
+fn can_undo(window: &Window) -> bool {
+    window.editor().session.history().can_undo()
+}
+
+#[test]
+fn a_drag_with_each_brush_is_one_edit_of_the_map_and_keeps_the_camera() {
+    let mut window = window();
+    let before = window.embedding();
+    let camera = window.editor().plane.pane.camera();
+    for (name, kind) in [
+        ("Relax", BrushKind::Relax),
+        ("Grab", BrushKind::Grab),
+        ("Pinch", BrushKind::Pinch),
+        ("Texels", BrushKind::Texels),
+    ] {
+        window.click(name);
+        assert_eq!(window.editor().tools.brush.kind, kind);
+        let from = middle(&window);
+        window.drag(from, from + Vec2::new(30.0, 12.0), Modifiers::NONE);
+        assert!(window.embedding() != before, "{name}");
+        assert!(window.is_proved(), "{name}: {}", window.verdict());
+        assert_eq!(window.editor().plane.pane.camera(), camera);
+        window.press(Modifiers::COMMAND, Key::Z);
+        assert_eq!(window.embedding(), before, "{name}");
+        assert!(!can_undo(&window), "{name}");
+    }
+}
+
+#[test]
+fn control_inverts_a_pinch() {
+    let area_near_the_middle = |modifiers: Modifiers| {
+        let mut window = window();
+        window.click("Pinch");
+        let at = middle(&window);
+        let flat = window.embedding();
+        let centre = flat.bounds().middle();
+        let nearest = (0..flat.len()).min_by(|&a, &b| flat[a].distance(centre).total_cmp(&flat[b].distance(centre)));
+        let vertex = nearest.expect("vertices");
+        let mesh = Example::Dome.mesh();
+        let neighbours: Vec<usize> = mesh
+            .triangles
+            .iter()
+            .map(|corners| corners.map(|corner| corner.index()))
+            .filter(|corners| corners.contains(&vertex))
+            .flatten()
+            .collect();
+        window.drag(at, at + Vec2::new(1.0, 0.0), modifiers);
+        let after = window.embedding();
+        neighbours.iter().map(|&other| after[other].distance(after[vertex])).sum::<f64>()
+    };
+    let [pinched, spread] = [Modifiers::NONE, Modifiers::COMMAND].map(area_near_the_middle);
+    assert!(pinched < spread, "{pinched} {spread}");
+}
+
+#[test]
+fn escape_during_a_stroke_restores_the_map_and_then_puts_the_brush_away() {
+    let mut window = window();
+    window.click("Grab");
+    let before = window.embedding();
+    let from = middle(&window);
+    window.begin_drag(from, from + Vec2::new(40.0, 0.0), Modifiers::NONE);
+    assert!(window.editor().session.is_brushing());
+    window.harness.key_press(Key::Escape);
+    window.step();
+    assert!(!window.editor().session.is_brushing());
+    window.end_drag(from);
+    assert_eq!(window.embedding(), before);
+    assert!(!can_undo(&window));
+    window.key(Key::Escape);
+    assert_eq!(window.editor().tools.tool(), Tool::Select);
+}
+
+#[test]
+fn keys_resize_the_brush_and_a_click_beside_the_map_changes_nothing() {
+    let mut window = window();
+    let radius = |window: &Window| window.editor().tools.brush.radius;
+    let before = radius(&window);
+    window.key(Key::CloseBracket);
+    assert!(radius(&window) > before);
+    window.key(Key::OpenBracket);
+    window.key(Key::OpenBracket);
+    assert!(radius(&window) < before);
+    let beside = window.plane_view().right_bottom() - Vec2::new(12.0, 12.0);
+    let map = window.embedding();
+    window.click_at(beside, Modifiers::NONE);
+    assert_eq!(window.embedding(), map);
+    assert!(!can_undo(&window));
+}
