@@ -37,7 +37,9 @@ struct Pane {
     overlap: vec4<f32>,
     checker_light: vec4<f32>,
     checker_dark: vec4<f32>,
+    // The wire over bright colours; over dark colours of a checker or a picture.
     wire: vec4<f32>,
+    wire_light: vec4<f32>,
     flipped: vec4<f32>,
 }
 
@@ -48,6 +50,7 @@ const SHADING_PLAIN: u32 = 0u;
 const SHADING_CHECKER: u32 = 1u;
 const SHADING_PAINT: u32 = 2u;
 const SHADING_PICTURE: u32 = 3u;
+const SHADING_PATTERN: u32 = 4u;
 
 // Bit of a face, as in `FacePaint` of src/view/draw.rs.
 const FLIPPED: u32 = 1u;

@@ -2,6 +2,14 @@
 
 @group(0) @binding(1) var picture_texture: texture_2d<f32>;
 @group(0) @binding(2) var picture_sampler: sampler;
+// A tile of eight by eight checks, repeated over the plane.
+@group(0) @binding(3) var pattern_texture: texture_2d<f32>;
+@group(0) @binding(4) var pattern_sampler: sampler;
+
+// Checks along the side of a tile.
+const CHECKS_PER_TILE: f32 = 8.0;
+// Luminance on which black and white have the same contrast: sqrt(1.05 * 0.05) - 0.05 (WCAG 2.2).
+const EVEN_LUMINANCE: f32 = 0.179;
 
 // Corner k of each face has weight 1 at k: the corner's number is the running number of the vertex modulo 3.
 fn corner_weight(vertex_index: u32) -> vec3<f32> {
@@ -54,10 +62,27 @@ fn face_colour(plain: vec3<f32>, paint: vec3<f32>, plane: vec2<f32>) -> vec3<f32
             let picture = textureSample(picture_texture, picture_sampler, place);
             return mix(plain, picture.rgb, picture.a);
         }
+        case SHADING_PATTERN: {
+            let checks = (plane * pane.checker.x + pane.checker.yz) / CHECKS_PER_TILE;
+            let pattern = textureSample(pattern_texture, pattern_sampler, vec2<f32>(checks.x, -checks.y));
+            return mix(plain, pattern.rgb, pattern.a);
+        }
         default: {
             return plain;
         }
     }
+}
+
+// The wire over a colour. Over the many colours of a checker or a picture it is opaque, and dark or light by the colour
+// below, so that it stands out from each.
+fn wired(colour: vec3<f32>, cover: f32) -> vec3<f32> {
+    let shading = pane.choice.x;
+    let is_over_many = shading == SHADING_CHECKER || shading == SHADING_PATTERN || shading == SHADING_PICTURE;
+    if !is_over_many {
+        return mix(colour, pane.wire.rgb, cover * pane.wire.a);
+    }
+    let is_bright = dot(colour, vec3<f32>(0.2126, 0.7152, 0.0722)) > EVEN_LUMINANCE;
+    return mix(colour, select(pane.wire_light.rgb, pane.wire.rgb, is_bright), cover);
 }
 
 fn marked(colour: vec3<f32>, flags: u32) -> vec3<f32> {

@@ -69,8 +69,7 @@ fn fs_shaded(in: Corner, @builtin(front_facing) front: bool) -> @location(0) vec
     // What is not worked on stands back, plain in every shading.
     let is_faint = (flags & FAINT) != 0u;
     albedo = select(albedo, mix(plain, pane.background.rgb, 0.6), is_faint);
-    let relief = select(0.6, 1.0, pane.choice.x == SHADING_PLAIN || pane.choice.x == SHADING_CHECKER);
+    let relief = select(0.6, 1.0, pane.choice.x == SHADING_PLAIN || pane.choice.x == SHADING_CHECKER || pane.choice.x == SHADING_PATTERN);
     let shaded = lit(albedo, normal, to_eye, relief);
-    let wire_opacity = select(pane.wire.a, 0.3 * pane.wire.a, is_faint);
-    return vec4<f32>(mix(shaded, pane.wire.rgb, wire * wire_opacity), 1.0);
+    return vec4<f32>(wired(shaded, select(wire, 0.3 * wire, is_faint)), 1.0);
 }

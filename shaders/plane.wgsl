@@ -61,7 +61,7 @@ fn fs_flat(in: Corner) -> @location(0) vec4<f32> {
     if has_picture && !is_flipped && (any(in.clip.xy < box.xy) || any(in.clip.xy > box.zw)) {
         colour = mix(colour, pane.background.rgb, OUTSIDE * hatch_cover(in.clip.x - in.clip.y));
     }
-    colour = mix(colour, pane.wire.rgb, wire * pane.wire.a);
+    colour = wired(colour, wire);
     // Flipped faces lie in front and speak for themselves: they are not counted.
     return vec4<f32>(colour, select(COUNT_STEP, 0.0, is_flipped));
 }

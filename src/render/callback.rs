@@ -9,8 +9,9 @@ use egui::epaint::ViewportInPixels;
 use super::frame::{MeshFrame, PaneId, PictureLayer, PlaneFrame};
 use super::gpu::{BufferSlot, GpuResources, Io, Stats};
 use super::overdraw::{MostCovered, affordable};
-use super::plan::{Plan, Planner};
+use super::plan::{Plan, Planner, Textures};
 use super::uniforms::PaneSize;
+use crate::view::PictureQuad;
 
 /// Compiles the pipelines and stores them in egui's callback resources. Call once per window.
 ///
@@ -28,25 +29,27 @@ pub fn stats(state: &RenderState) -> Option<Stats> {
 
 /// Paint callback of the 3D pane. The rectangle must lie within the window.
 pub fn mesh_pane(pane: PaneId, rect: egui::Rect, frame: MeshFrame) -> egui::PaintCallback {
-    let picture = frame.picture.clone();
+    let (picture, pattern) = (frame.picture.clone(), frame.pattern.clone());
     let plan = Box::new(move |planner: &mut Planner<'_>| planner.mesh(&frame));
-    Callback::new_paint_callback(rect, PaneCallback { pane, rect, picture, resolution: Box::new(|size, _| size), plan })
+    let resolution = Box::new(|size, _| size);
+    Callback::new_paint_callback(rect, PaneCallback { pane, rect, picture, pattern, resolution, plan })
 }
 
 /// Paint callback of the embedding's pane. The rectangle must lie within the window.
 pub fn plane_pane(pane: PaneId, rect: egui::Rect, frame: PlaneFrame) -> egui::PaintCallback {
-    let picture = frame.picture.clone();
+    let (picture, pattern) = (frame.picture.clone(), frame.pattern.clone());
     let frame = Arc::new(frame);
     let measured = Arc::clone(&frame);
     let resolution = Box::new(move |size, most| affordable(&measured, size, most));
     let plan = Box::new(move |planner: &mut Planner<'_>| planner.plane(&frame));
-    Callback::new_paint_callback(rect, PaneCallback { pane, rect, picture, resolution, plan })
+    Callback::new_paint_callback(rect, PaneCallback { pane, rect, picture, pattern, resolution, plan })
 }
 
 struct PaneCallback {
     pane: PaneId,
     rect: egui::Rect,
     picture: Option<PictureLayer>,
+    pattern: Option<Arc<PictureQuad>>,
     /// Size of the picture of the pane, which may have fewer pixels than the pane.
     resolution: Box<dyn Fn(PaneSize, MostCovered) -> PaneSize + Send + Sync>,
     plan: Box<dyn Fn(&mut Planner<'_>) -> Plan + Send + Sync>,
@@ -65,7 +68,8 @@ impl CallbackTrait for PaneCallback {
             let mut io = Io { device, queue, encoder };
             let size = (self.resolution)(pane_size(self.rect, screen), gpu.most_covered());
             let place = BufferSlot { pane: self.pane, size };
-            gpu.prepare(&mut io, place, self.picture.as_ref(), &self.plan);
+            let textures = Textures { picture: self.picture.as_ref(), pattern: self.pattern.as_ref() };
+            gpu.prepare(&mut io, place, textures, &self.plan);
         }
         Vec::new()
     }

@@ -23,6 +23,19 @@ pub enum FaceShading {
     Paint,
     /// Picture in the plane, mapped to the mesh.
     Picture,
+    /// Picture repeated over the plane, mapped to the mesh: a tile for every eight by eight checks.
+    Pattern,
+}
+
+impl FaceShading {
+    /// Width of a legible wireframe, points. Lines between two pixels cover each by half their width; over a checker
+    /// or a picture that must suffice for a contrast of 3 : 1.
+    pub const fn wire_in_points(self) -> f32 {
+        match self {
+            Self::Plain | Self::Paint => 1.0,
+            Self::Checker | Self::Picture | Self::Pattern => 1.75,
+        }
+    }
 }
 
 /// Normals for the light on the mesh.
@@ -144,6 +157,8 @@ pub struct MeshFrame {
     pub around_lines: Vec<LineLayer>,
     /// The picture for [`FaceShading::Picture`].
     pub picture: Option<PictureLayer>,
+    /// Tile for [`FaceShading::Pattern`].
+    pub pattern: Option<Arc<PictureQuad>>,
     /// Camera of the pane.
     pub camera: OrbitCamera,
     /// Appearance of the faces.
@@ -169,6 +184,8 @@ pub struct PlaneFrame {
     pub ghost: Option<GhostLayer>,
     /// Picture behind the embedding.
     pub picture: Option<PictureLayer>,
+    /// Tile for [`FaceShading::Pattern`].
+    pub pattern: Option<Arc<PictureQuad>>,
     /// Outlined box: the unit square of texture coordinates, in the plane.
     pub outlined: Bounds,
     /// Camera of the pane.

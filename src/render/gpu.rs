@@ -6,12 +6,12 @@ use std::sync::Arc;
 use eframe::wgpu;
 
 use super::cache::{Cache, Key};
-use super::frame::{PaneId, PictureLayer, Sampling};
+use super::frame::{PaneId, Sampling};
 use super::overdraw::MostCovered;
 use super::pipelines::{Pipelines, Target};
-use super::plan::{Draw, Faces, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape};
+use super::plan::{Draw, Faces, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape, Textures};
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
-use crate::view::Revision;
+use crate::view::{PictureQuad, Revision};
 use freebound_core::geom::Picture;
 
 /// Stride of the uniforms of two lines in their buffer: the largest alignment that a device may require.
@@ -43,6 +43,8 @@ pub(super) struct GpuResources {
     pictures: BTreeMap<Option<Revision>, wgpu::TextureView>,
     smooth: wgpu::Sampler,
     sharp: wgpu::Sampler,
+    /// Sampler of tiles that repeat.
+    tiled: wgpu::Sampler,
     panes: BTreeMap<PaneId, PaneState>,
     most_covered: MostCovered,
     tick: u64,
@@ -67,9 +69,11 @@ impl GpuResources {
         window_format: wgpu::TextureFormat,
         most_covered: MostCovered,
     ) -> Self {
-        let sampler = |magnified| {
+        let sampler = |magnified, beyond| {
             device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("picture"),
+                address_mode_u: beyond,
+                address_mode_v: beyond,
                 mag_filter: magnified,
                 min_filter: wgpu::FilterMode::Linear,
                 mipmap_filter: wgpu::MipmapFilterMode::Linear,
@@ -84,8 +88,9 @@ impl GpuResources {
             pipelines: Pipelines::new(device, window_format),
             cache: Cache::default(),
             pictures: BTreeMap::from([(None, clear)]),
-            smooth: sampler(wgpu::FilterMode::Linear),
-            sharp: sampler(wgpu::FilterMode::Nearest),
+            smooth: sampler(wgpu::FilterMode::Linear, wgpu::AddressMode::ClampToEdge),
+            sharp: sampler(wgpu::FilterMode::Nearest, wgpu::AddressMode::ClampToEdge),
+            tiled: sampler(wgpu::FilterMode::Linear, wgpu::AddressMode::Repeat),
             panes: BTreeMap::new(),
             most_covered,
             tick: 0,
@@ -106,7 +111,7 @@ impl GpuResources {
         &mut self,
         io: &mut Io<'_>,
         BufferSlot { pane, size }: BufferSlot,
-        picture: Option<&PictureLayer>,
+        textures: Textures<'_>,
         plan: impl FnOnce(&mut Planner<'_>) -> Plan,
     ) {
         let [width, height] = size.in_pixels;
@@ -116,7 +121,8 @@ impl GpuResources {
             return;
         }
         let plan = plan(&mut Planner { device: io.device, cache: &mut self.cache, size });
-        self.ensure_picture(io, picture);
+        self.ensure_picture(io, textures.picture.map(|layer| &layer.picture));
+        self.ensure_picture(io, textures.pattern);
         self.tick += 1;
         let tick = self.tick;
         if self.panes.get(&pane).is_none_or(|state| state.target.size != size.in_pixels) {
@@ -126,21 +132,8 @@ impl GpuResources {
         state.last_tick = tick;
         if state.shown.as_ref() != Some(&plan) {
             state.upload_uniforms(io.queue, &plan);
-            let picture = self.pictures.get(&plan.picture).or_else(|| self.pictures.get(&None));
-            let picture = picture.expect("the clear picture stays");
-            let sampler = match plan.sampling {
-                Sampling::Smooth => &self.smooth,
-                Sampling::Sharp => &self.sharp,
-            };
-            let group = io.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("pane"),
-                layout: &self.pipelines.pane_layout,
-                entries: &[
-                    wgpu::BindGroupEntry { binding: 0, resource: state.uniforms.as_entire_binding() },
-                    wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(picture) },
-                    wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(sampler) },
-                ],
-            });
+            let group = self.pane_group(io.device, &pane, &plan);
+            let state = self.panes.get_mut(&pane).expect("just put there");
             let scene = Scene { pipelines: &self.pipelines, cache: &self.cache, group: &group };
             let draw_calls = scene.draw(io.encoder, state, &plan);
             self.cache.stats.drawn_panes += 1;
@@ -159,8 +152,32 @@ impl GpuResources {
         pass.draw(0..3, 0..1);
     }
 
-    fn ensure_picture(&mut self, io: &Io<'_>, layer: Option<&PictureLayer>) {
-        let Some(picture) = layer.map(|layer| &layer.picture) else { return };
+    /// Uniforms and pictures of a pane for its shaders.
+    fn pane_group(&self, device: &wgpu::Device, pane: &PaneId, plan: &Plan) -> wgpu::BindGroup {
+        let state = &self.panes[pane];
+        let view = |key| {
+            let picture = self.pictures.get(&key).or_else(|| self.pictures.get(&None));
+            wgpu::BindingResource::TextureView(picture.expect("the clear picture stays"))
+        };
+        let sampler = match plan.sampling {
+            Sampling::Smooth => &self.smooth,
+            Sampling::Sharp => &self.sharp,
+        };
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("pane"),
+            layout: &self.pipelines.pane_layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: state.uniforms.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: view(plan.picture) },
+                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(sampler) },
+                wgpu::BindGroupEntry { binding: 3, resource: view(plan.pattern) },
+                wgpu::BindGroupEntry { binding: 4, resource: wgpu::BindingResource::Sampler(&self.tiled) },
+            ],
+        })
+    }
+
+    fn ensure_picture(&mut self, io: &Io<'_>, picture: Option<&Arc<PictureQuad>>) {
+        let Some(picture) = picture else { return };
         let key = Some(picture.revision);
         if self.pictures.contains_key(&key) {
             return;
@@ -176,7 +193,7 @@ impl GpuResources {
         self.panes.retain(|_, state| tick - state.last_tick < PANE_LIFETIME);
         let shown = || self.panes.values().filter_map(|state| state.shown.as_ref());
         let used: BTreeSet<Key> = shown().flat_map(Plan::keys).collect();
-        let pictures: BTreeSet<Revision> = shown().filter_map(|plan| plan.picture).collect();
+        let pictures: BTreeSet<Revision> = shown().flat_map(|plan| [plan.picture, plan.pattern]).flatten().collect();
         self.cache.retain(&used);
         self.pictures.retain(|key, _| key.is_none_or(|revision| pictures.contains(&revision)));
     }

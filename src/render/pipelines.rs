@@ -257,9 +257,11 @@ fn layouts(device: &wgpu::Device) -> [wgpu::BindGroupLayout; 3] {
         view_dimension: wgpu::TextureViewDimension::D2,
         multisampled: false,
     };
+    let sampler = BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+    let [pattern, tiled] = [(3, texture), (4, sampler)].map(|(at, ty)| entry(at, ShaderStages::FRAGMENT, ty));
     let texture = entry(1, ShaderStages::FRAGMENT, texture);
-    let sampler = entry(2, ShaderStages::FRAGMENT, BindingType::Sampler(wgpu::SamplerBindingType::Filtering));
-    [("pane", vec![pane, texture, sampler]), ("line", vec![line]), ("blit", vec![pane, texture])].map(
+    let sampler = entry(2, ShaderStages::FRAGMENT, sampler);
+    [("pane", vec![pane, texture, sampler, pattern, tiled]), ("line", vec![line]), ("blit", vec![pane, texture])].map(
         |(label, entries)| {
             let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries };
             device.create_bind_group_layout(&descriptor)

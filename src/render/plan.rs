@@ -8,7 +8,7 @@ use eframe::wgpu;
 use super::cache::{Cache, Key};
 use super::frame::{LineLayer, MeshFrame, PictureLayer, PlaneFrame, Sampling, Style};
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
-use crate::view::{EdgeList, FacePaint, MeshArrays, Palette, PlaneArrays};
+use crate::view::{EdgeList, FacePaint, MeshArrays, Palette, PictureQuad, PlaneArrays, Revision};
 use freebound_core::mesh::VertexId;
 
 /// Shift of a line from its surface towards the eye, relative to the distance.
@@ -36,6 +36,24 @@ pub(super) struct Draw {
     pub(super) buffers: Vec<Key>,
     /// Number of vertices of faces and fills, or of instances of lines.
     pub(super) count: u32,
+}
+
+/// Pictures that the faces of a pane show.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Textures<'a> {
+    pub(super) picture: Option<&'a PictureLayer>,
+    /// Tile that repeats over the plane.
+    pub(super) pattern: Option<&'a Arc<PictureQuad>>,
+}
+
+impl<'a> Textures<'a> {
+    pub(super) fn of_mesh(frame: &'a MeshFrame) -> Self {
+        Self { picture: frame.picture.as_ref(), pattern: frame.pattern.as_ref() }
+    }
+
+    pub(super) fn of_plane(frame: &'a PlaneFrame) -> Self {
+        Self { picture: frame.picture.as_ref(), pattern: frame.pattern.as_ref() }
+    }
 }
 
 /// Draw call of faces.
@@ -71,7 +89,8 @@ pub(super) struct Plan {
     pub(super) faces: Vec<Faces>,
     /// Fills first, then lines.
     pub(super) layers: Vec<Layer>,
-    pub(super) picture: Option<crate::view::Revision>,
+    pub(super) picture: Option<Revision>,
+    pub(super) pattern: Option<Revision>,
     pub(super) sampling: Sampling,
     pub(super) clear: [f64; 4],
 }
@@ -87,7 +106,7 @@ impl Plan {
         size: PaneSize,
         uniforms: &PaneUniforms,
         palette: &Palette,
-        picture: Option<&PictureLayer>,
+        Textures { picture, pattern }: Textures<'_>,
     ) -> Self {
         let [r, g, b, _] = palette.background.to_linear().map(f64::from);
         Self {
@@ -97,6 +116,7 @@ impl Plan {
             faces: Vec::new(),
             layers: Vec::new(),
             picture: picture.map(|layer| layer.picture.revision),
+            pattern: pattern.map(|pattern| pattern.revision),
             sampling: picture.map_or(Sampling::default(), |layer| layer.sampling),
             // Alpha counts faces, so it starts at 0.
             clear: [r, g, b, 0.0],
@@ -121,7 +141,7 @@ impl Planner<'_> {
     /// Plans the 3D pane and creates the buffers that it lacks.
     pub(super) fn mesh(&mut self, frame: &MeshFrame) -> Plan {
         let uniforms = PaneUniforms::of_mesh(frame, self.size);
-        let mut plan = Plan::new(Kind::Mesh, self.size, &uniforms, &frame.palette, frame.picture.as_ref());
+        let mut plan = Plan::new(Kind::Mesh, self.size, &uniforms, &frame.palette, Textures::of_mesh(frame));
         let mesh = &frame.mesh;
         let around = frame.around.as_ref().map(|around| (&around.mesh, None, Some(&around.paint)));
         for (mesh, plane, paint) in [(mesh, frame.plane.as_ref(), frame.paint.as_ref())].into_iter().chain(around) {
@@ -159,7 +179,7 @@ impl Planner<'_> {
 
     pub(super) fn plane(&mut self, frame: &PlaneFrame) -> Plan {
         let uniforms = PaneUniforms::of_plane(frame, self.size);
-        let mut plan = Plan::new(Kind::Plane, self.size, &uniforms, &frame.palette, frame.picture.as_ref());
+        let mut plan = Plan::new(Kind::Plane, self.size, &uniforms, &frame.palette, Textures::of_plane(frame));
         let Some(plane) = frame.plane.as_ref() else { return plan };
         let mesh = &frame.mesh;
         // Flipped faces are drawn first: they are in front, and the depth test skips faces behind them.

@@ -12,6 +12,9 @@ const FAR_PIXEL: f64 = 1e7;
 /// Spacing in points at which grid lines start to fade in, and at which they show in full.
 const GRID_FADE: [f64; 2] = [16.0, 45.0];
 
+/// Checks along the side of a tile of a pattern. The plain checker repeats after two.
+const CHECKS_PER_TILE: f64 = 8.0;
+
 /// Matches `Pane` of shaders/common.wgsl, field by field.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -30,7 +33,7 @@ pub(super) struct PaneUniforms {
     picture_box: [f32; 4],
     strength: [f32; 4],
     choice: [u32; 4],
-    colours: [[f32; 4]; 11],
+    colours: [[f32; 4]; 12],
 }
 
 /// Matches `Line` of shaders/lines.wgsl.
@@ -78,10 +81,15 @@ impl PaneUniforms {
             }
         }
         // Without coordinates, or without a picture, there is nothing to map to the mesh.
-        let bare = frame.plane.is_none() || (frame.picture.is_none() && frame.style.shading == FaceShading::Picture);
-        if bare && matches!(frame.style.shading, FaceShading::Checker | FaceShading::Picture) {
-            uniforms.choice[0] = FaceShading::Plain as u32;
-        }
+        let shading = match frame.style.shading {
+            FaceShading::Checker | FaceShading::Picture | FaceShading::Pattern if frame.plane.is_none() => {
+                FaceShading::Plain
+            }
+            FaceShading::Picture if frame.picture.is_none() => FaceShading::Plain,
+            FaceShading::Pattern if frame.pattern.is_none() => FaceShading::Checker,
+            shading => shading,
+        };
+        uniforms.choice[0] = shading as u32;
         uniforms
     }
 
@@ -101,6 +109,9 @@ impl PaneUniforms {
             uniforms.strength[1] = layer.opacity.clamp(0.0, 1.0);
         } else if frame.style.shading == FaceShading::Picture {
             uniforms.choice[0] = FaceShading::Plain as u32;
+        }
+        if frame.pattern.is_none() && frame.style.shading == FaceShading::Pattern {
+            uniforms.choice[0] = FaceShading::Checker as u32;
         }
         uniforms
     }
@@ -136,8 +147,7 @@ impl PaneUniforms {
     /// middle.
     fn set_checker(&mut self, unit: UnitPlane, origin: DVec2, check_size: f64) {
         let size = if check_size.is_normal() && check_size > 0.0 { check_size } else { 1.0 };
-        // Two checks form a period.
-        let offset = (origin / size).rem_euclid(DVec2::splat(2.0)).as_vec2();
+        let offset = (origin / size).rem_euclid(DVec2::splat(CHECKS_PER_TILE)).as_vec2();
         self.checker = [single(unit.embedding_per_unit / size), offset.x, offset.y, 0.0];
     }
 
@@ -166,7 +176,7 @@ impl PaneUniforms {
 const WIRE: usize = 9;
 
 /// Colours in the order of the fields of `Pane`.
-fn colours(palette: &Palette) -> [[f32; 4]; 11] {
+fn colours(palette: &Palette) -> [[f32; 4]; 12] {
     [
         palette.background,
         palette.grid,
@@ -178,6 +188,7 @@ fn colours(palette: &Palette) -> [[f32; 4]; 11] {
         palette.checker[0],
         palette.checker[1],
         palette.wire,
+        palette.wire_light,
         palette.flipped,
     ]
     .map(Srgb::to_linear)

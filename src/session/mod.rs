@@ -142,7 +142,7 @@ use messages::{Messages, Written};
 pub use morphing::MorphState;
 pub use morphs::{MORPH_FRAMES, MissingLeg, MorphLeg, MorphShortage, MorphStop, MorphStops, MorphTour, morph_end};
 pub use page::{ChartMove, ChartPage, JudgedMove, MoveState, PageChart, movement_about};
-pub use preferences::{KeptFolders, Preferences};
+pub use preferences::{KeptChecker, KeptFolders, Preferences};
 pub use recent::RecentFiles;
 pub use recovery::{Recoverable, recovery_folder};
 pub use state::Session;

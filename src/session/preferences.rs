@@ -32,6 +32,20 @@ pub struct Preferences {
     pub keys: BTreeMap<String, String>,
     /// Names of the commands chosen last in the command palette, newest first.
     pub recent_commands: Vec<String>,
+    /// Checker over the plane.
+    pub checker: KeptChecker,
+}
+
+/// Checker over the plane.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct KeptChecker {
+    /// Name of its squares.
+    pub style: String,
+    /// Number of squares along the page, if the user has chosen it.
+    pub squares: Option<u32>,
+    /// Picture that the user chose.
+    pub picture: Option<PathBuf>,
 }
 
 /// Greatest number of recent folders.

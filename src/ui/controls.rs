@@ -1,6 +1,6 @@
 //! Building blocks of panels: controls that make requests, drop-down lists, and rows of numbers.
 
-use eframe::egui::{self, ComboBox, Grid, Response, RichText, Role, Ui, WidgetInfo};
+use eframe::egui::{self, ComboBox, Grid, PopupCloseBehavior, Response, RichText, Role, Ui, WidgetInfo};
 
 use super::keys::keys_of;
 use super::state::Request;
@@ -83,6 +83,20 @@ pub(in crate::ui) fn list(ui: &mut Ui, name: &str, width: f32, shown: &str, entr
     // Show all entries at once if they fit: users overlook entries that need scrolling.
     let height = LIST_HEIGHT.min(ui.ctx().content_rect().height() - 60.0);
     let list = ComboBox::from_id_salt(name).selected_text(shown).width(width).height(height);
+    list.show_ui(ui, entries).response.named(Role::ComboBox, name)
+}
+
+/// List like [`list`] that clicks inside do not close. Its entries close it.
+pub(in crate::ui) fn open_list(
+    ui: &mut Ui,
+    name: &str,
+    width: f32,
+    shown: &str,
+    entries: impl FnOnce(&mut Ui),
+) -> Response {
+    let height = LIST_HEIGHT.min(ui.ctx().content_rect().height() - 60.0);
+    let list = ComboBox::from_id_salt(name).selected_text(shown).width(width).height(height);
+    let list = list.close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     list.show_ui(ui, entries).response.named(Role::ComboBox, name)
 }
 

@@ -17,6 +17,7 @@
 //! | `keys.rs`, `keyboard.rs` | table of shortcuts; requests of key presses, pins moved by arrow keys |
 //! | `dialogs/` | file dialogs |
 //! | `icons.rs` | signs of tools and verdicts |
+//! | `round_joins.rs` | closed lines without spikes |
 //! | `theme.rs` | colours and sizes |
 
 mod commands;
@@ -31,6 +32,7 @@ mod keys;
 mod panels;
 mod panes;
 mod presses;
+mod round_joins;
 mod state;
 pub mod theme;
 mod timeline;
@@ -39,8 +41,8 @@ mod window;
 
 pub use controls::sentence;
 use controls::{
-    Control, Offer, accented, close_button, counted, figures, five_digits, head, heads, list, number, pairs, remark,
-    short, tip_with_keys,
+    Control, Offer, accented, close_button, counted, figures, five_digits, head, heads, list, number, open_list, pairs,
+    remark, short, tip_with_keys,
 };
 pub(crate) use dialogs::Dialogs;
 pub use editor::{Defect, Editor, MorphView};
@@ -53,9 +55,9 @@ pub use panes::PinMark;
 use state::FileDialogKind;
 pub(crate) use state::is_picture;
 pub use state::{
-    Alignment, Axis, ComparisonExport, CurveRequest, CurvesExport, GestureKind, Half, Help, HullStage, Intent,
-    MorphRequest, PageRequest, Pane, Request, SeamClick, SeamRule, ShadingMode, Snap, StepTarget, Tab, Tool, Tour,
-    TourCard, Welcome,
+    Alignment, Axis, CheckerRequest, CheckerStyle, ComparisonExport, CurveRequest, CurvesExport, GestureKind, Half,
+    Help, HullStage, Intent, MorphRequest, PageRequest, Pane, Request, SeamClick, SeamRule, ShadingMode, Snap,
+    StepTarget, Tab, Tool, Tour, TourCard, Welcome,
 };
 use theme::{Theme, theme_of};
 use typed::Typed;

@@ -128,6 +128,7 @@ const fn theme(tone: Column) -> Theme {
         overlap: tone.srgb(0x004A_4640, 0x0026_241F),
         checker: [tone.srgb(0x00F1_EEE8, 0x00D6_D1C7), tone.srgb(0x008F_A3B8, 0x0053_687F)],
         wire: tone.srgb(0x002A_2A2A, 0x0010_1010).with_alpha(tone.of(130, 140)),
+        wire_light: tone.srgb(0x00FF_FFFF, 0x00F4_F4F0),
         flipped: tone.srgb(0x00D9_2D3A, 0x00FF_5A64),
     };
     Theme {

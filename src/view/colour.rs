@@ -267,6 +267,8 @@ pub struct Palette {
     pub checker: [Srgb; 2],
     /// Wireframe.
     pub wire: Srgb,
+    /// Wireframe over the dark parts of a checker or a picture.
+    pub wire_light: Srgb,
     /// Flipped faces.
     pub flipped: Srgb,
 }

@@ -171,6 +171,7 @@ impl Window {
             && editor.plane.page.is_drawn(session)
             && !session.is_judging_move()
             && !editor.pane_shading.is_making_picture()
+            && !editor.pane_shading.checker.is_making()
             && !editor.tools.seam.is_busy()
             && !session.is_comparing()
             && !session.is_morphing()

@@ -8,6 +8,7 @@ mod advice;
 mod artist;
 mod brushes;
 mod charts;
+mod checker;
 mod colour_table;
 mod command_line;
 mod compare;

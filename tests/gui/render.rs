@@ -41,6 +41,7 @@ const PALETTE: Palette = Palette {
     overlap: Srgb([0, 0, 0, 255]),
     checker: [Srgb([255, 255, 255, 255]), Srgb([0, 0, 0, 255])],
     wire: Srgb([0, 0, 0, 255]),
+    wire_light: Srgb([255, 255, 255, 255]),
     flipped: Srgb([255, 0, 0, 255]),
 };
 
@@ -101,6 +102,7 @@ pub(crate) fn mesh_frame() -> MeshFrame {
         paint: None,
         lines: Vec::new(),
         picture: None,
+        pattern: None,
         camera: camera_in_front(),
         style: Style::default(),
         palette: PALETTE,
@@ -120,6 +122,7 @@ pub(crate) fn plane_frame(corner: DVec2, flipped: &[FaceId]) -> PlaneFrame {
         ghost: None,
         lines: Vec::new(),
         picture: None,
+        pattern: None,
         outlined: Bounds::UNIT,
         camera: PlaneCamera::framing(box_of_sheet, PANE_SIZE),
         style: Style { flipped_outline_in_points: 0.0, ..Style::default() },
@@ -278,6 +281,23 @@ fn lines_lie_where_their_vertices_lie() {
     let in_pane = mesh.camera.pane_from_world(DVec3::new(-0.5, 0.0, 0.0), PANE_SIZE).expect("before the eye");
     let [r, _, b] = pixel(&mesh_picture(mesh), in_pane.x, in_pane.y);
     assert!(b > 240 && r < 10, "on the mesh: {r} {b}");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn a_sharp_zigzag_ends_round_at_its_corners() {
+    // Lines from 3 to 5 and back to 2, which lies near 3: the angle at 5 is 3°.
+    let mut plane = plane_frame(DVec2::new(-0.8, 0.1), &[]);
+    let edges = Arc::new(EdgeList::new(vec![[id(3), id(5)], [id(5), id(2)]]));
+    plane.lines.push(LineLayer { edges, colour: Srgb([0, 0, 255, 255]), width_in_points: 8.0 });
+    let picture = plane_picture(plane.clone());
+    let corner = plane.camera.pane_from_embedding(DVec2::new(1.0, 0.0), PANE_SIZE);
+    let is_line = |x: f64, y: f64| {
+        let [r, g, b] = pixel(&picture, corner.x + x, corner.y + y);
+        b > 200 && r < 60 && g < 60
+    };
+    assert!(is_line(2.5, 0.0) && is_line(1.5, 1.5) && is_line(1.5, -1.5), "no gap");
+    assert!(!is_line(6.0, 0.0) && !is_line(4.5, 4.5) && !is_line(4.5, -4.5), "no spike");
 }
 
 #[test]

@@ -313,11 +313,11 @@ fn curves_say_their_least_and_greatest_value() {
 fn the_checker_keeps_its_scale_while_steps_are_played() {
     let mut window = with_four_steps();
     window.key(Key::Home);
-    let before = window.editor().pane_shading.check_size();
+    let before = window.editor().pane_shading.checker.check_size();
     window.click("Play the steps");
     for _ in 0..600 {
         window.step();
-        assert_eq!(window.editor().pane_shading.check_size(), before);
+        assert_eq!(window.editor().pane_shading.checker.check_size(), before);
         if window.editor().timeline.playing_since.is_none() {
             break;
         }

@@ -6,8 +6,8 @@ use super::{ALWAYS, Mark, MenuBuilder, MenuCommand, when};
 use crate::examples::Example;
 use crate::session::{Action, LockState};
 use crate::ui::state::{
-    Axis, COPY_COMMAND, EXPORTS, FileDialogKind, GestureKind, PageRequest, Pane, Request, SeamRule, ShadingMode,
-    StepTarget, Tab, Tool,
+    Axis, COPY_COMMAND, CheckerRequest, CheckerStyle, EXPORTS, FileDialogKind, GestureKind, PageRequest, Pane, Request,
+    SQUARES, SeamRule, ShadingMode, StepTarget, Tab, Tool,
 };
 use freebound_core::pipeline::Fit;
 
@@ -154,6 +154,7 @@ fn view_menu(menu: &mut MenuBuilder<'_>) {
             }
         });
     }
+    checker_menu(menu);
     menu.switch(editor.pane_shading.wireframe, "Wireframe", Request::ToggleWireframe);
     menu.switch(editor.pane_shading.is_sharp(), "Sharp pixels", Request::ToggleSharp);
     menu.switch(editor.plane.hull_shown(), "Hull and pockets", Request::ToggleHull);
@@ -191,6 +192,24 @@ fn view_menu(menu: &mut MenuBuilder<'_>) {
         for (theme, words) in [(System, "System"), (Light, "Light"), (Dark, "Dark")] {
             menu.choice(now == theme, words, Request::SetTheme(theme));
         }
+    });
+}
+
+/// Entries on the checker over the plane.
+fn checker_menu(menu: &mut MenuBuilder<'_>) {
+    let editor = menu.editor;
+    let checker = &editor.pane_shading.checker;
+    menu.part("Checker", |menu| {
+        for style in CheckerStyle::ALL {
+            let [words, tip] = style.words();
+            let command = menu.command(ALWAYS, words, CheckerRequest::SetStyle(style)).has_tip(tip);
+            menu.add(MenuCommand { mark: Mark::Choice(checker.style() == style), ..command });
+        }
+        menu.separator();
+        let (shown, [least, most]) = (editor.squares_shown(), SQUARES);
+        menu.item(when(shown < most, "There are no smaller squares"), "More squares", CheckerRequest::Finer);
+        menu.item(when(shown > least, "There are no larger squares"), "Fewer squares", CheckerRequest::Coarser);
+        menu.choice(checker.squares().is_none(), "Automatic squares", CheckerRequest::SetSquares(None).into());
     });
 }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::async_scene::AsyncScene;
+use super::checker::Checker;
 use super::colour_table::{ShownColumn, vertices_in_file};
 use super::paint::{BrushPaint, Legend, PaintKey, PaintValues};
 use super::scene::{MeshScene, PlaneScene};
@@ -16,9 +17,6 @@ use freebound_core::pipeline::Outcome;
 
 /// Initial opacity of the picture behind the embedding.
 const OPACITY: f32 = 0.55;
-
-/// Number of checks across the embedding.
-const CHECKER_FIELDS: f64 = 40.0;
 
 /// Effect of a new picture on the shadings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -95,8 +93,7 @@ pub struct PaneShading {
     picture_count: u64,
     /// Face colours of the mesh pane and of the embedding pane, shared if both are equal.
     paints: [Option<Arc<BrushPaint>>; 2],
-    /// Revision of the mesh that the checker was sized for, and side length of a check in the plane.
-    check: Option<(u64, f64)>,
+    pub checker: Checker,
 }
 
 impl PaneShading {
@@ -119,7 +116,7 @@ impl PaneShading {
             job: AsyncScene::new("picture", wake),
             picture_count: 0,
             paints: [None, None],
-            check: None,
+            checker: Checker::new(wake),
         }
     }
 
@@ -152,22 +149,6 @@ impl PaneShading {
 
     pub(super) fn toggle_sharp(&mut self) {
         self.sampling = if self.is_sharp() { Sampling::Smooth } else { Sampling::Sharp };
-    }
-
-    /// Side length of a check in the plane.
-    pub fn check_size(&self) -> f64 {
-        self.check.map_or(1.0, |(_, side)| side)
-    }
-
-    /// Chooses the size of the checks for an embedding. Keeps the size while it is within a factor of 2 of the wanted
-    /// one, so that steps are comparable. Keeps it in any case while steps are played. Call once per frame.
-    pub(super) fn refresh_checks(&mut self, plane: &PlaneScene, is_playing: bool) {
-        let model = plane.mesh.model_revision;
-        let wanted = plane.arrays.bounds.extent() / CHECKER_FIELDS;
-        let is_right = |side: f64| (0.5..=2.0).contains(&(wanted / side));
-        if self.check.is_none_or(|(of, side)| of != model || !(is_playing || is_right(side))) {
-            self.check = Some((model, wanted));
-        }
     }
 
     /// Layer that draws the picture in its box in the plane, with an opacity.

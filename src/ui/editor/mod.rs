@@ -29,6 +29,7 @@
 //! | `opened.rs` | state of the window for the open document |
 //! | `project_view.rs` | cameras, shadings, tool and selection in the project file |
 //! | `step_curve.rs`, `step_files.rs` | the numbers of the steps that have curves; files with curves and steps |
+//! | `checker.rs`, `checker_actions.rs` | the checker over the plane |
 //! | `colour_table.rs`, `table_actions.rs` | the table of numbers that colours the faces |
 //! | `command_line.rs` | the document as a command line, on the clipboard |
 //! | `gpu.rs` | egui's context and the graphics card |
@@ -40,6 +41,8 @@
 pub(super) mod appearance;
 mod around;
 mod async_scene;
+mod checker;
+mod checker_actions;
 mod colour_table;
 mod command_line;
 pub(super) mod comparison;
@@ -226,8 +229,9 @@ impl Editor {
         self.pane_shading.refresh_picture(self.session.document());
         self.poll_shot();
         self.poll_table();
+        self.refresh_checker();
         if let Some(plane) = self.plane.scene() {
-            self.pane_shading.refresh_checks(plane, self.timeline.playing_since.is_some());
+            self.pane_shading.checker.refresh_size(plane, self.timeline.playing_since.is_some());
         }
         self.refresh_paints();
         self.gpu.note_work(self.session.busy().is_some(), Instant::now());
@@ -236,6 +240,7 @@ impl Editor {
             || self.plane.page.is_making()
             || self.session.is_judging_move()
             || self.pane_shading.is_making_picture()
+            || self.pane_shading.checker.is_making()
             || self.tools.seam.is_busy();
         if self.session.busy().is_some() || scenes_pending || self.files.dialogs.is_open() {
             self.gpu.context().request_repaint_after(Duration::from_millis(100));

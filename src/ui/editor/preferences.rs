@@ -29,6 +29,7 @@ impl Editor {
             folders: self.files.dialogs.folders.clone(),
             keys: KeyMap::of(context).written(),
             recent_commands: self.layout.help.recent.clone(),
+            checker: self.pane_shading.checker.kept(),
         }
     }
 
@@ -42,6 +43,7 @@ impl Editor {
         self.layout.help.recent.clone_from(&left.recent_commands);
         KeyMap::read(&left.keys).put_on(self.gpu.context());
         self.pane_shading.wireframe = left.wireframe;
+        self.pane_shading.checker.put_on(&left.checker);
         for (pane, name) in Pane::BOTH.into_iter().zip([&left.mesh_shading, &left.plane_shading]) {
             self.pane_shading.keep_own_shading(pane, name.as_deref());
         }

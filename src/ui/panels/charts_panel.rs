@@ -9,6 +9,7 @@ use super::menu::grouped;
 use super::seams_section::seams_section;
 use super::surface::charts_row;
 use crate::session::{Action, AtlasView, ChartState, LockState, Session};
+use crate::ui::round_joins::closed_line;
 use crate::ui::theme::{HOVERED, SELECTED};
 use crate::ui::{
     Alignment, Axis, Control, Editor, GestureKind, Offer, PageRequest, Request, Snap, counted, five_digits, icons,
@@ -165,10 +166,8 @@ fn layout(ui: &mut egui::Ui, session: &Session, side: f32, requests: &mut Vec<Re
         let is_marked = Some(chart) == shown || Some(chart) == under;
         let colour = if Some(chart) == shown { theme.accent } else { theme.text };
         let stroke = Stroke::new(if is_marked { 2.0 } else { 1.0 }, colour);
-        // Joined lines would have long spikes at the tips of seams.
-        for (&from, &to) in outline.iter().zip(outline.iter().cycle().skip(1)) {
-            painter.line_segment([place.of(from), place.of(to)], stroke);
-        }
+        let corners: Vec<egui::Pos2> = outline.iter().map(|&at| place.of(at)).collect();
+        closed_line(&painter, &corners, stroke);
     }
     if let Some(chart) = under {
         ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);

@@ -2,7 +2,9 @@
 
 use eframe::egui::{self, Role};
 
-use crate::ui::{Control, Editor, Measure, PageRequest, Pane, Request, ShadingMode, list, tip_with_keys};
+use crate::ui::{Control, Editor, Measure, PageRequest, Pane, Request, ShadingMode, open_list, tip_with_keys};
+
+use super::checker;
 
 /// Least width of a pane with a title in its header, points.
 const ROOM_FOR_TITLE: f32 = 270.0;
@@ -78,20 +80,25 @@ fn shading_menu(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut V
     ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
     let now = editor.shading(pane);
     let name = format!("Shading of the {}", pane.title().to_lowercase());
-    let menu = list(ui, &name, width, &editor.title_of_shading(now), |ui| {
+    let menu = open_list(ui, &name, width, &editor.title_of_shading(now), |ui| {
         for shading in ShadingMode::ALL.into_iter().filter(|shading| shading.is_for(pane)) {
             let [title, about] = shading.words();
             let about = Measure::of_shading(shading).map_or(about, Measure::tip);
             let tip = tip_with_keys(ui, about, &Request::SetShading(shading));
             let entry = ui.selectable_label(now == shading, title).on_hover_text(tip);
-            entry.asks(Request::SetPaneShading(pane, shading), requests);
+            if entry.asks(Request::SetPaneShading(pane, shading), requests) {
+                ui.close();
+            }
         }
         for (place, title) in editor.files.table.titles().enumerate() {
             let is_shown = now == ShadingMode::Column && editor.files.table.chosen() == Some(place);
             let entry = ui.selectable_label(is_shown, format!("Column: {title}"));
             let entry = entry.on_hover_text("Number of the opened table, in both panes");
-            entry.asks(Request::ShowColumn(place), requests);
+            if entry.asks(Request::ShowColumn(place), requests) {
+                ui.close();
+            }
         }
+        checker::rows(ui, editor, requests);
     });
     menu.on_hover_text(
         "Shading of this pane. Number keys set it for the pane under the pointer, or for both panes if it is over \

@@ -160,6 +160,7 @@ impl Magnifier {
             lines: vec![mesh_pane::boundary_line(&plane.mesh, theme)],
             ghost: editor.plane.ghost_layer(theme),
             picture: None,
+            pattern: None,
             style: render::Style {
                 shading: FaceShading::Plain,
                 wire_in_points: 1.0,

@@ -186,6 +186,7 @@ pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, the
         lines,
         around_lines: scene.around.iter().map(|around| seam_line(&around.seams, theme)).collect(),
         picture: picture_layer(editor),
+        pattern: editor.pane_shading.checker.tile(),
         paint: editor
             .plane
             .preview_paint()
@@ -221,7 +222,7 @@ pub(super) fn style(editor: &Editor, pane: Pane) -> Style {
         ShadingMode::Move if editor.plane.moved_from(&editor.session).is_none() => ShadingMode::Plain,
         shading => shading,
     };
-    style_of(editor, chosen, editor.pane_shading.check_size())
+    style_of(editor, chosen, editor.pane_shading.checker.check_size())
 }
 
 /// Style of faces with a shading and a size of checks.
@@ -229,6 +230,9 @@ pub(super) fn style_of(editor: &Editor, chosen: ShadingMode, check_size: f64) ->
     let shading = match chosen {
         ShadingMode::Plain | ShadingMode::SeeThrough => render::FaceShading::Plain,
         ShadingMode::Picture if editor.has_picture() => render::FaceShading::Picture,
+        ShadingMode::Checker | ShadingMode::Picture if editor.pane_shading.checker.tile().is_some() => {
+            render::FaceShading::Pattern
+        }
         ShadingMode::Checker | ShadingMode::Picture => render::FaceShading::Checker,
         ShadingMode::Angle | ShadingMode::Area | ShadingMode::Stretch | ShadingMode::Move | ShadingMode::Column => {
             render::FaceShading::Paint
@@ -236,7 +240,7 @@ pub(super) fn style_of(editor: &Editor, chosen: ShadingMode, check_size: f64) ->
     };
     Style {
         shading,
-        wire_in_points: if editor.pane_shading.wireframe { 1.0 } else { 0.0 },
+        wire_in_points: if editor.pane_shading.wireframe { shading.wire_in_points() } else { 0.0 },
         check_size,
         face_opacity: if chosen == ShadingMode::SeeThrough { THIN_FILL } else { 1.0 },
         ..Style::default()
@@ -290,12 +294,13 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
     for outline in pane::concave(editor, scene) {
         let corners: Vec<(Pos2, bool)> = outline.iter().filter_map(|&corner| place(corner)).collect();
         if corners.len() == outline.len() && corners.iter().any(|(_, is_seen)| *is_seen) {
-            pane::concave_mark(&painter, corners.into_iter().map(|(at, _)| at).collect(), theme);
+            let corners: Vec<Pos2> = corners.into_iter().map(|(at, _)| at).collect();
+            pane::concave_mark(&painter, &corners, theme);
         }
     }
     for rim in pane::crossed_holes(editor, scene) {
         if let Some(line) = rim.iter().map(|&vertex| seen(vertex)).collect::<Option<Vec<Pos2>>>() {
-            pane::crossed_hole_mark(&painter, line, theme);
+            pane::crossed_hole_mark(&painter, &line, theme);
         }
     }
     for at in pane::overwound(editor).into_iter().filter_map(seen) {

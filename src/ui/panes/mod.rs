@@ -12,6 +12,7 @@
 //! | `bars.rs` | bars over a pane: messages and questions |
 //! | `brush.rs` | the brush tool in the embedding pane |
 //! | `map_origin.rs` | line over the embedding: origin of the map, and other maps to choose |
+//! | `checker.rs` | rows of the shading menu that set the squares of the checker |
 //! | `legend.rs` | the legend of a shading, notes about compared steps |
 //! | `constrain.rs` | the constrain tool: vertex and place on the picture |
 //! | `seam.rs` | the seam tool: preview of paths, and its options |
@@ -23,6 +24,7 @@
 
 mod bars;
 mod brush;
+mod checker;
 pub(super) mod comparison;
 pub(super) mod constrain;
 mod header;

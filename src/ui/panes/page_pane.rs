@@ -179,7 +179,7 @@ fn style(editor: &Editor, pane: Pane) -> Style {
     // A movement of faces is a movement of one chart between its steps.
     let chosen =
         Some(editor.shading(pane)).filter(|shading| *shading != ShadingMode::Move).unwrap_or(ShadingMode::Plain);
-    mesh_pane::style_of(editor, chosen, editor.plane.page.check_size())
+    mesh_pane::style_of(editor, chosen, editor.plane.page.check_size(editor.pane_shading.checker.wanted_squares()))
 }
 
 /// Frame of the embedding pane.
@@ -192,6 +192,7 @@ pub(super) fn plane_frame(editor: &Editor, scene: &PageScene, camera: PlaneCamer
         lines: lines(editor, scene, theme, theme.boundary),
         ghost: None,
         picture: editor.pane_shading.picture_layer(scene.page_box(), editor.appearance().opacity),
+        pattern: editor.pane_shading.checker.tile(),
         outlined: scene.page_box(),
         style: style(editor, Pane::Plane),
         palette: theme.palette,
@@ -209,6 +210,7 @@ pub(super) fn mesh_frame(editor: &Editor, scene: &PageScene, camera: OrbitCamera
         lines: lines(editor, scene, theme, theme.seam),
         around_lines: Vec::new(),
         picture: editor.pane_shading.picture_layer(scene.page_box(), editor.appearance().opacity),
+        pattern: editor.pane_shading.checker.tile(),
         camera,
         style: style(editor, Pane::Mesh),
         palette: theme.palette,

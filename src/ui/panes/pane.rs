@@ -8,6 +8,7 @@ use super::outside_hull::{self, MARKS_SHOWN};
 use super::seam;
 use crate::session::Action;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
+use crate::ui::round_joins::closed_line;
 use crate::ui::state::Viewport;
 use crate::ui::{Control, Editor, Pane, Request, Theme, Tool, theme_of};
 use crate::view::PlaneCamera;
@@ -194,11 +195,12 @@ pub(super) fn plane_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &E
         }
         painter.circle_stroke(view.spot(crossing_point(first, second)), 7.0, Stroke::new(1.5, theme.crossing));
     }
+    let spots = |vertices: Vec<VertexId>| -> Vec<Pos2> { vertices.into_iter().map(|v| view.spot(at(v))).collect() };
     for outline in concave(editor, &plane.mesh) {
-        concave_mark(painter, outline.into_iter().map(|v| view.spot(at(v))).collect(), theme);
+        concave_mark(painter, &spots(outline), theme);
     }
     for rim in crossed_holes(editor, &plane.mesh) {
-        crossed_hole_mark(painter, rim.into_iter().map(|v| view.spot(at(v))).collect(), theme);
+        crossed_hole_mark(painter, &spots(rim), theme);
     }
     for vertex in overwound(editor) {
         overwound_mark(painter, view.spot(at(vertex)), theme);
@@ -222,13 +224,13 @@ pub(super) fn crossed_holes(editor: &Editor, scene: &MeshScene) -> Vec<Vec<Verte
 }
 
 /// Mark of a crossed hole: a heavy outline.
-pub(super) fn crossed_hole_mark(painter: &egui::Painter, rim: Vec<Pos2>, theme: &Theme) {
-    painter.add(egui::Shape::closed_line(rim, Stroke::new(3.0, theme.crossing)));
+pub(super) fn crossed_hole_mark(painter: &egui::Painter, rim: &[Pos2], theme: &Theme) {
+    closed_line(painter, rim, Stroke::new(3.0, theme.crossing));
 }
 
 /// Mark of a concave polygon: a heavy outline.
-pub(super) fn concave_mark(painter: &egui::Painter, outline: Vec<Pos2>, theme: &Theme) {
-    painter.add(egui::Shape::closed_line(outline, Stroke::new(3.0, theme.concave)));
+pub(super) fn concave_mark(painter: &egui::Painter, outline: &[Pos2], theme: &Theme) {
+    closed_line(painter, outline, Stroke::new(3.0, theme.concave));
 }
 
 /// Marked overwound vertices.

@@ -182,6 +182,7 @@ pub(super) fn frame(editor: &Editor, plane: &PlaneScene, camera: PlaneCamera, th
         lines,
         ghost: editor.plane.ghost_layer(theme).filter(|_| !plane.is_stage()),
         picture: picture_layer(editor),
+        pattern: editor.pane_shading.checker.tile(),
         outlined: picture_box(editor.session.document()),
         style,
         palette: theme.palette,

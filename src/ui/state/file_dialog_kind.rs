@@ -17,6 +17,8 @@ pub enum FileDialogKind {
     OpenPicture,
     /// Table of numbers that colours the faces.
     OpenTable,
+    /// Picture that the checker repeats.
+    OpenChecker,
     ImportConstraints,
     ExportConstraints,
     ImportSeams,
@@ -80,6 +82,7 @@ impl FileDialogKind {
             Self::Open => ("Open a mesh, a project or a picture", "Meshes, projects and pictures", OPENED, ""),
             Self::OpenPicture => ("Open a picture", "Pictures", PICTURES, ""),
             Self::OpenTable => ("Open a table of numbers", "Tables", &["csv", "tsv", "txt"], ""),
+            Self::OpenChecker => ("Open a picture for the checker", "Pictures", PICTURES, ""),
             Self::ImportConstraints => ("Import constraints", "Constraints", &["txt"], ""),
             Self::ExportConstraints => ("Export the constraints", "Constraints", &["txt"], "-constraints.txt"),
             Self::ImportSeams => ("Import seams", "Edges", &["edges", "txt"], ""),
@@ -130,7 +133,15 @@ impl FileDialogKind {
 
     /// True if the dialog asks for an existing file.
     pub(in crate::ui) const fn is_reading(self) -> bool {
-        matches!(self, Self::Open | Self::OpenPicture | Self::OpenTable | Self::ImportConstraints | Self::ImportSeams)
+        matches!(
+            self,
+            Self::Open
+                | Self::OpenPicture
+                | Self::OpenTable
+                | Self::OpenChecker
+                | Self::ImportConstraints
+                | Self::ImportSeams
+        )
     }
 
     /// True if the dialog accepts a path: its extension fits. Input files, OBJ files, constraints and seams accept

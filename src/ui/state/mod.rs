@@ -8,6 +8,7 @@
 //! | `page.rs` | requests to the page of all charts, gestures on it |
 //! | `shading_mode.rs` | colours of faces |
 //! | `file_dialog_kind.rs` | kinds of file dialogs |
+//! | `checker.rs` | squares of the checker, requests to change it |
 //! | `comparison.rs` | requests to the comparison of methods and its morph |
 //! | `hull_stage.rs` | stages of the virtual boundary |
 //! | `seam.rs` | clicks of the seam tool, rules that choose edges |
@@ -22,6 +23,7 @@
 //! | `welcome.rs` | the welcome at a start without a file |
 
 mod brush;
+mod checker;
 mod comparison;
 mod file_dialog_kind;
 mod help;
@@ -43,6 +45,8 @@ mod welcome;
 
 pub use brush::BrushChoice;
 pub(in crate::ui) use brush::brush_words;
+pub use checker::{CheckerRequest, CheckerStyle};
+pub(in crate::ui) use checker::{SQUARES, nearest_squares};
 pub use comparison::{ComparisonExport, MorphRequest};
 pub(crate) use file_dialog_kind::is_picture;
 pub(in crate::ui) use file_dialog_kind::{COPY_COMMAND, DialogForm, EXPORTS, FileDialogKind, MESHES};

@@ -4,6 +4,7 @@ use eframe::egui;
 use glam::DVec2;
 
 use super::brush::BrushChoice;
+use super::checker::CheckerRequest;
 use super::comparison::MorphRequest;
 use super::file_dialog_kind::FileDialogKind;
 use super::hull_stage::HullStage;
@@ -83,6 +84,8 @@ pub enum Request {
     SetPaneShading(Pane, ShadingMode),
     /// Colours both panes by a column of the open table.
     ShowColumn(usize),
+    /// Request to the checker over the plane.
+    Checker(CheckerRequest),
     /// Shows or hides the wireframe.
     ToggleWireframe,
     /// Shows or hides the insets that magnify a defect and a pair.
@@ -202,6 +205,12 @@ pub enum Request {
 impl From<PageRequest> for Request {
     fn from(request: PageRequest) -> Self {
         Self::Page(request)
+    }
+}
+
+impl From<CheckerRequest> for Request {
+    fn from(request: CheckerRequest) -> Self {
+        Self::Checker(request)
     }
 }
 

@@ -21,10 +21,12 @@
 //! | `format`| formats of a page, by the names of files                               |
 //! | `axis`  | scales of axes, and their marks                                        |
 //! | `steps` | quantities over the steps of a run                                     |
+//! | `chessboard` | squares from A1 to H8, as a picture                               |
 //! | `ink`   | a page as a picture                                                    |
 //! | `font`  | letters made of strokes                                                |
 
 mod axis;
+mod chessboard;
 mod curves;
 mod font;
 mod format;
@@ -47,6 +49,7 @@ use super::raster::Colour;
 use freebound_core::geom::{Bounds, Picture, clip_polygon, clip_segment};
 
 pub use axis::{AxisScale, AxisSpan};
+pub use chessboard::chessboard;
 pub use curves::{Curve, Curves};
 pub use font::has_glyph;
 use font::{strokes_of, width_of};

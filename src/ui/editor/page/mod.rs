@@ -20,6 +20,7 @@ pub(in crate::ui) use self::scene::PageScene;
 
 use self::scene::{PageKey, PageSpace};
 use super::async_scene::AsyncScene;
+use super::checker::ALONG_PAGE;
 use super::colour_table::ShownColumn;
 use super::paint::Legend;
 use super::scene::MeshScene;
@@ -27,9 +28,6 @@ use crate::session::{ChartMove, JobFailure, MoveState, Session, Wake};
 use crate::ui::state::{PageGesture, Pane, PaneView, ShadingMode, Snap};
 use crate::view::{EdgeList, FacePaint, PlaneArrays, PlaneCamera};
 use freebound_core::geom::Bounds;
-
-/// Number of checks along the height of the page.
-const CHECKS: f64 = 64.0;
 
 /// Page in the window.
 #[derive(Debug)]
@@ -177,10 +175,14 @@ impl PageView {
         self.hovered.outlines.as_ref().map(|(_, outlines)| outlines)
     }
 
-    /// Side length of a check: a power of two of the page's height.
-    pub(in crate::ui) fn check_size(&self) -> f64 {
+    /// Side length of a check: the height of the page divided by the chosen number, or a power of two of the height
+    /// of all charts.
+    pub(in crate::ui) fn check_size(&self, squares: Option<u32>) -> f64 {
+        if let Some(squares) = squares {
+            return 1.0 / f64::from(squares);
+        }
         let extent = self.scene.as_ref().map_or(1.0, |scene| scene.plane.bounds.extent());
-        extent.log2().round().exp2() / CHECKS
+        extent.log2().round().exp2() / f64::from(ALONG_PAGE)
     }
 
     /// True if the drawn page is the page of the session.

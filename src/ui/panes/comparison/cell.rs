@@ -160,6 +160,7 @@ fn frame_of(editor: &Editor, scene: &CellScene, camera: PlaneCamera, theme: &The
         lines: vec![boundary_line(&plane.mesh, theme)],
         ghost: None,
         picture: None,
+        pattern: None,
         outlined: picture_box(editor.session.document()),
         style: Style {
             shading,

@@ -155,6 +155,7 @@ fn drawing(ui: &egui::Ui, editor: &Editor, frame: &MorphFrame, camera: PlaneCame
         lines: vec![boundary_line(&frame.mesh, theme)],
         ghost: None,
         picture: None,
+        pattern: None,
         outlined: picture_box(editor.session.document()),
         style: Style {
             shading,
