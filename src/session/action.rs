@@ -13,7 +13,7 @@ use freebound_core::geom::{PackingOptions, VAxis};
 use freebound_core::mesh::{HoleTreatment, Repair, Seams, VertexId, WeldDistance};
 use freebound_core::pipeline::{Fit, Target};
 use freebound_core::problem::{PinKind, Settings, Variant};
-use freebound_io::OutputKind;
+use freebound_io::{OutputKind, PinName};
 
 /// Request to write a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -189,6 +189,15 @@ pub enum Action {
     EndGesture,
     /// Cancels a drag and restores the state before it.
     GiveUpGesture,
+    /// Names a pin, or takes its name away.
+    NamePin {
+        /// The pinned vertex.
+        vertex: VertexId,
+        /// New name.
+        name: Option<PinName>,
+    },
+    /// Keeps the first of two pins and frees the second.
+    MergePins([VertexId; 2]),
     /// Unpins vertices.
     Unpin(Vec<VertexId>),
     /// Unpins all vertices.

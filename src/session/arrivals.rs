@@ -8,7 +8,6 @@ use super::edits::pin;
 use super::open_mesh::Near;
 use super::{Command, Message, MessagePlace, Session};
 use crate::examples::Example;
-use freebound_core::pipeline::Targets;
 use freebound_io::{Constraints, ConstraintsError, PictureFile};
 
 impl Session {
@@ -66,7 +65,7 @@ impl Session {
             }
             BackgroundJob::Constraints { path, read: Ok(constraints) } => {
                 self.files.remember_constraints(path);
-                self.take_constraints(constraints.targets);
+                self.take_constraints(constraints);
             }
             BackgroundJob::Constraints { path, read: Err(error) } => self.tell_constraints(&path, &error),
             BackgroundJob::Near { distance, count } => self.mesh.take_near(Near { distance, count: Some(count) }),
@@ -94,7 +93,7 @@ impl Session {
         self.messages.say(message.with_remedy("nothing was imported: repair the file and import it again"));
     }
 
-    fn take_constraints(&mut self, targets: Targets) {
+    fn take_constraints(&mut self, Constraints { targets, notes, .. }: Constraints) {
         if targets.is_empty() {
             return self.complain("the file has no constraints", None);
         }
@@ -104,17 +103,20 @@ impl Session {
             return self.complain(text, Some("solve, then import them again"));
         }
         if self.takes_pins() {
-            let mut by_chart = model.by_chart(targets);
+            let (mut by_chart, mut notes) = (model.by_chart(targets), model.by_chart(notes));
             let shown = model.prepared.chart.as_ref().map_or(0, |of| of.charts.pick(self.document.chart));
             let here = by_chart.remove(&shown).unwrap_or_default();
             let known = &self.document.targets;
             let fresh = here.into_iter().filter(|(vertex, target)| known.get(vertex) != Some(target));
+            let names = notes.remove(&shown).unwrap_or_default().into_iter();
+            let names = names.map(|(vertex, note)| Command::SetNote { vertex, note });
             let elsewhere = by_chart.into_iter().map(|(chart, targets)| {
                 let mut edits = self.document.elsewhere.get(&chart).cloned().unwrap_or_default();
                 edits.targets.extend(targets);
+                edits.notes.extend(notes.remove(&chart).unwrap_or_default());
                 Command::SetElsewhere { chart, edits }
             });
-            self.edit(fresh.map(|(vertex, target)| pin(vertex, target)).chain(elsewhere).collect());
+            self.edit(fresh.map(|(vertex, target)| pin(vertex, target)).chain(names).chain(elsewhere).collect());
         }
     }
 }

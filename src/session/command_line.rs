@@ -157,7 +157,7 @@ impl CommandLine {
     }
 
     fn add_pins(&mut self, document: &Document, model: &Model, file: String) {
-        let targets = document.all_targets(model);
+        let targets = document.all_pins(model).targets;
         if targets.is_empty() || MethodOption::Pins.unused_by(&document.settings.method).is_some() {
             return;
         }

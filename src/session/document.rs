@@ -4,18 +4,20 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::chart_layout::ChartLayout;
-use crate::examples::Example;
+use crate::examples::{Example, Landmark};
 use freebound_core::geom::{PictureFrame, VAxis};
 use freebound_core::mesh::{Preparation, VertexId};
 use freebound_core::pipeline::{ChartOf, Problem, ShapedMap, Target, Targets, hard_targets, pins_in_plane};
 use freebound_core::problem::{Pins, Settings};
-use freebound_io::PictureFile;
+use freebound_io::{PictureFile, PinName, PinNote, PinNotes};
 
 /// Document that the user edits. It is small, because mesh and pictures are immutable and stored elsewhere.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Document {
     /// Targets of the user's pins.
     pub targets: Targets,
+    /// Names of pins. No solve needs them.
+    pub notes: PinNotes,
     /// Method and weights.
     pub settings: Settings,
     /// The picture that is mapped on the mesh.
@@ -45,6 +47,8 @@ pub struct Document {
 pub struct ChartEdits {
     /// Targets of the chart's pins, by the chart's own vertices.
     pub targets: Targets,
+    /// Notes on the chart's pins, see [`Document::notes`].
+    pub notes: PinNotes,
     /// Number of relaxation rounds that the user requested, see [`Document::relaxed`].
     pub relaxed: usize,
     /// Map that the user shaped with brushes, see [`Document::shaped`].
@@ -70,6 +74,7 @@ impl Shape {
         std::mem::swap(&mut self.form, &mut document.form);
         std::mem::swap(&mut self.chart, &mut document.chart);
         std::mem::swap(&mut self.shown.targets, &mut document.targets);
+        std::mem::swap(&mut self.shown.notes, &mut document.notes);
         std::mem::swap(&mut self.shown.relaxed, &mut document.relaxed);
         std::mem::swap(&mut self.shown.shaped, &mut document.shaped);
         std::mem::swap(&mut self.elsewhere, &mut document.elsewhere);
@@ -79,9 +84,11 @@ impl Shape {
 impl Document {
     /// Document of a built-in mesh: its landmarks as constraints, on its picture.
     pub fn of_example(example: Example) -> Self {
-        let landmarks = example.landmarks().into_iter();
+        let landmarks = example.landmarks();
+        let note = |landmark: &Landmark| Some((landmark.vertex, PinNote::named(PinName::new(landmark.name).ok()?)));
         Self {
-            targets: hard_targets(landmarks.map(|landmark| (landmark.vertex, landmark.target.into()))),
+            notes: landmarks.iter().filter_map(note).collect(),
+            targets: hard_targets(landmarks.iter().map(|landmark| (landmark.vertex, landmark.target.into()))),
             picture: example.picture_file(),
             ..Self::default()
         }
@@ -100,7 +107,12 @@ impl Document {
 
     /// Edits of the shown chart.
     fn edits_shown(&self) -> ChartEdits {
-        ChartEdits { targets: self.targets.clone(), relaxed: self.relaxed, shaped: self.shaped.clone() }
+        ChartEdits {
+            targets: self.targets.clone(),
+            notes: self.notes.clone(),
+            relaxed: self.relaxed,
+            shaped: self.shaped.clone(),
+        }
     }
 
     /// Edits of a chart.
@@ -140,6 +152,13 @@ pub enum Command {
         vertex: VertexId,
         /// Its target.
         target: Option<Target>,
+    },
+    /// Sets the note on a pin. An empty note removes it.
+    SetNote {
+        /// The pinned vertex.
+        vertex: VertexId,
+        /// New note.
+        note: PinNote,
     },
     /// Sets method and weights.
     SetSettings(Settings),
@@ -189,6 +208,11 @@ impl Command {
                 };
                 Self::SetPin { vertex, target: before }
             }
+            Self::SetNote { vertex, note } => {
+                let before =
+                    if note.is_empty() { document.notes.remove(&vertex) } else { document.notes.insert(vertex, note) };
+                Self::SetNote { vertex, note: before.unwrap_or_default() }
+            }
             Self::SetSettings(settings) => Self::SetSettings(std::mem::replace(&mut document.settings, settings)),
             Self::SetPicture(picture) => Self::SetPicture(std::mem::replace(&mut document.picture, picture)),
             Self::SetVAxis(v_axis) => Self::SetVAxis(std::mem::replace(&mut document.v_axis, v_axis)),
@@ -203,6 +227,7 @@ impl Command {
                 let coming = document.elsewhere.remove(&to).unwrap_or_default();
                 let going = ChartEdits {
                     targets: std::mem::replace(&mut document.targets, coming.targets),
+                    notes: std::mem::replace(&mut document.notes, coming.notes),
                     relaxed: std::mem::replace(&mut document.relaxed, coming.relaxed),
                     shaped: std::mem::replace(&mut document.shaped, coming.shaped),
                 };

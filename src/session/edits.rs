@@ -10,6 +10,7 @@ use freebound_core::geom::{Bounds, PictureFrame, Similarity, VAxis};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Target, Targets};
 use freebound_core::problem::{Control, Family, GaugeSize, Method, PinKind, Pins, Settings};
+use freebound_io::{PinName, PinNote};
 
 /// Edits of the document.
 impl Session {
@@ -174,13 +175,43 @@ impl Session {
     pub(super) fn unpin(&mut self, vertices: &[VertexId]) {
         let has_form = self.has_form_as_wanted();
         let pinned = vertices.iter().filter(|v| has_form && self.document.targets.contains_key(v));
-        self.edit(pinned.map(|&vertex| Command::SetPin { vertex, target: None }).collect());
+        self.edit(pinned.flat_map(|&vertex| unpinned(vertex)).collect());
     }
 
     /// Unpins all vertices of the mesh or chart.
     pub(super) fn unpin_all(&mut self) {
         let pinned = self.document.targets.keys();
-        self.edit(pinned.map(|&vertex| Command::SetPin { vertex, target: None }).collect());
+        self.edit(pinned.flat_map(|&vertex| unpinned(vertex)).collect());
+    }
+
+    /// Names a pin, or takes its name away.
+    pub(super) fn name_pin(&mut self, vertex: VertexId, name: Option<PinName>) {
+        let is_pin = self.has_form_as_wanted() && self.document.targets.contains_key(&vertex);
+        let key = name.as_ref().map(PinName::key);
+        let has_name = |note: &PinNote| note.name.as_ref().map(PinName::key) == key;
+        let other = self.document.notes.iter().find(|(other, note)| **other != vertex && has_name(note));
+        if let (Some(name), Some((other, _))) = (&name, other) {
+            let text = format!("pin {other} has the name \"{name}\" already");
+            return self.complain(text, Some("choose another name"));
+        }
+        if is_pin {
+            self.apply(Command::SetNote { vertex, note: PinNote { name } });
+        }
+    }
+
+    /// Joins pins with nearly equal targets: keeps the first pin and frees the second.
+    pub(super) fn merge_pins(&mut self, [kept, freed]: [VertexId; 2]) {
+        let targets = &self.document.targets;
+        if kept == freed || !targets.contains_key(&kept) || !targets.contains_key(&freed) || !self.has_form_as_wanted()
+        {
+            return;
+        }
+        let note = |vertex: VertexId| self.document.notes.get(&vertex).cloned().unwrap_or_default();
+        let mut commands = unpinned(freed).to_vec();
+        if note(kept).name.is_none() {
+            commands.push(Command::SetNote { vertex: kept, note: note(freed) });
+        }
+        self.edit(commands);
     }
 }
 
@@ -274,6 +305,11 @@ impl Session {
         self.turned_v = into;
         self.edit(commands);
     }
+}
+
+/// Edits that free a pin and take its name away.
+fn unpinned(vertex: VertexId) -> [Command; 2] {
+    [Command::SetPin { vertex, target: None }, Command::SetNote { vertex, note: PinNote::default() }]
 }
 
 pub(super) fn pin(vertex: VertexId, target: Target) -> Command {

@@ -9,7 +9,7 @@ use super::opened::{Opened, Origin};
 use super::stop::Goal;
 use super::{History, Message, MessagePlace, SaveRequest, Session, StopConditions, Written};
 use freebound_core::pipeline::Surface;
-use freebound_io::{EXTENSIONS, write_atomically, write_constraints, write_durably};
+use freebound_io::{EXTENSIONS, ProjectPins, write_atomically, write_constraints, write_durably};
 
 /// Maximum number of faults that are reported separately if all of them can be repaired.
 const FAULTS_TOLD: usize = 2;
@@ -192,7 +192,8 @@ impl Session {
         if self.refuses_formless() {
             return;
         }
-        let targets = self.model().map(|model| self.document.all_targets(model)).unwrap_or_default();
+        let pins = self.model().map(|model| self.document.all_pins(model)).unwrap_or_default();
+        let ProjectPins { targets, notes } = pins;
         if targets.is_empty() {
             return self.complain("there are no constraints to write: pin a vertex first", None);
         }
@@ -200,7 +201,7 @@ impl Session {
             return;
         }
         self.files.write(move || {
-            write_durably(&path, |out| write_constraints(out, &targets))?;
+            write_durably(&path, |out| write_constraints(out, &targets, &notes))?;
             let words = if targets.len() == 1 { "constraint" } else { "constraints" };
             Ok(Written { about: Some(format!("{} {words}", targets.len())), ..Written::file(path) })
         });

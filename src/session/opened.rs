@@ -12,11 +12,11 @@ use super::restored_charts::{RestoredChart, restored};
 use super::{Document, Message, MessagePlace, Model};
 use crate::examples::Example;
 use freebound_core::mesh::{FaceId, Preparation, VertexId};
-use freebound_core::pipeline::{Target, Targets};
+use freebound_core::pipeline::Target;
 use freebound_core::problem::Control;
 use freebound_io::{
-    FileStamp, MemoryShortage, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectSource, ProjectView,
-    ReadError, RecoveryNote, SavedMap, check_memory, material_picture,
+    FileStamp, MemoryShortage, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectPins, ProjectSource,
+    ProjectView, ReadError, RecoveryNote, SavedMap, check_memory, material_picture,
 };
 
 /// Result of opening a file.
@@ -129,9 +129,9 @@ impl Opened {
         let form = with_seams_there_are(&asked, &model, &mut remarks);
         let model = model.asking_for(form.clone());
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
-        let (settings, pin_count) = (project.settings(), project.targets.len());
-        let targets = targets_there_are(project.targets, &model, &mut remarks);
-        let is_partial = targets.len() < pin_count || form != asked;
+        let (settings, pin_count) = (project.settings(), project.pins.targets.len());
+        let pins = pins_there_are(project.pins, &model, &mut remarks);
+        let is_partial = pins.targets.len() < pin_count || form != asked;
         let layout = ChartLayout {
             packing: project.packing,
             sizes: project.sizes.into_iter().map(|(face, size)| (FaceId::new(face), size)).collect(),
@@ -149,7 +149,7 @@ impl Opened {
             relaxed: project.relaxed,
             ..Document::default()
         };
-        document.take_charts(&model, targets, &project.relaxed_elsewhere);
+        document.take_charts(&model, pins, &project.relaxed_elsewhere);
         let restored = restored(&model, &document, &project.maps);
         if project.maps.values().any(|SavedMap(map)| map.is_empty()) {
             remarks.push(Message::note(MessagePlace::Embedding, "a map of the project is damaged: it is solved again"));
@@ -256,8 +256,9 @@ fn with_seams_there_are(form: &Preparation, model: &Model, remarks: &mut Vec<Mes
     Preparation { seams: form.seams.without(lost), ..form.clone() }
 }
 
-/// Targets on existing vertices, with a remark about the others.
-fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Message>) -> Targets {
+/// Pins of existing vertices, with a remark about the others.
+fn pins_there_are(mut pins: ProjectPins, model: &Model, remarks: &mut Vec<Message>) -> ProjectPins {
+    let targets = &mut pins.targets;
     let count = model.vertex_count_in_file();
     let before = targets.len();
     let has_face =
@@ -266,6 +267,7 @@ fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Mess
         |vertex: &VertexId, target: &Target| vertex.index() < count && target.uv.is_finite() && has_face(*vertex);
     let lost: Vec<VertexId> = targets.iter().filter(|(v, target)| !is_there(v, target)).map(|(&v, _)| v).collect();
     targets.retain(|vertex, target| is_there(vertex, target));
+    pins.notes.retain(|vertex, _| pins.targets.contains_key(vertex));
     if !lost.is_empty() {
         let text = format!(
             "{} of the project's {before} pins are left out ({}): the mesh has only {count} vertices",
@@ -275,5 +277,5 @@ fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Mess
         let remedy = "place them again, or restore the mesh and open the project again";
         remarks.push(Message::error(MessagePlace::Embedding, text).with_remedy(remedy));
     }
-    targets
+    pins
 }

@@ -13,7 +13,7 @@ use freebound_core::mesh::{DiskMesh, FaceId, VertexId};
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::Pins;
 use freebound_core::verify::Conflict;
-use freebound_io::ProjectView;
+use freebound_io::{PinName, ProjectView};
 
 /// Queries of the open mesh.
 impl Session {
@@ -231,6 +231,21 @@ impl Session {
     /// Conflicts among the constraints of the document on the current mesh.
     pub fn conflicts(&self) -> &[Conflict] {
         self.target_checks.conflicts()
+    }
+
+    /// Name of a pin of the mesh or chart.
+    pub fn pin_name(&self, vertex: VertexId) -> Option<&PinName> {
+        self.document.notes.get(&vertex)?.name.as_ref()
+    }
+
+    /// Number of a vertex, with the name of its pin if it has one.
+    pub fn pin_words(&self, vertex: VertexId) -> String {
+        self.pin_name(vertex).map_or_else(|| vertex.to_string(), |name| format!("{vertex} ({name})"))
+    }
+
+    /// Description of a conflict in one line, with the names of its pins.
+    pub fn conflict_words(&self, conflict: &Conflict) -> String {
+        conflict.words_with(|vertex| self.pin_words(vertex))
     }
 
     /// First conflict that involves a pin.

@@ -73,7 +73,7 @@ fn recoverable(path: PathBuf) -> Option<Recoverable> {
     let project = ProjectFile::read(&path).ok()?;
     let time = fs::metadata(&path).and_then(|data| data.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
     let note = project.recovery.unwrap_or_default();
-    Some(Recoverable { path, name: note.name, project: note.project, time, pin_count: project.targets.len() })
+    Some(Recoverable { path, name: note.name, project: note.project, time, pin_count: project.pins.targets.len() })
 }
 
 /// Recovery copy of this session.

@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 use super::{ChartEdits, Document, Model, Shape};
 use freebound_core::mesh::{FaceId, Preparation, Repaired, VertexId};
-use freebound_core::pipeline::Targets;
 use freebound_core::problem::Control;
+use freebound_io::ProjectPins;
 
 /// Open mesh in another preparation, with the same orientation of its faces.
 pub(super) struct Reshaped {
@@ -41,15 +41,19 @@ impl Reshaped {
 
     /// Preparation with the document's edits, transferred to the new vertices and charts.
     pub(super) fn shape(&self, document: &Document) -> Shape {
-        let mut pins = Targets::new();
-        for (vertex, target) in document.all_targets(&self.before) {
-            if let Some(now) = self.vertices_now.get(vertex.index()).copied().flatten() {
-                pins.entry(now).or_insert(target);
+        let before = document.all_pins(&self.before);
+        let mut pins = ProjectPins::default();
+        for (vertex, target) in before.targets {
+            let now = self.vertices_now.get(vertex.index()).copied().flatten();
+            if let Some(now) = now.filter(|now| !pins.targets.contains_key(now)) {
+                pins.targets.insert(now, target);
+                pins.notes.extend(before.notes.get(&vertex).map(|note| (now, note.clone())));
             }
         }
-        let mut by_chart = self.now.by_chart(pins);
+        let (mut targets_of, mut notes_of) = (self.now.by_chart(pins.targets), self.now.by_chart(pins.notes));
         let mut edits = |number: usize| ChartEdits {
-            targets: by_chart.remove(&number).unwrap_or_default(),
+            targets: targets_of.remove(&number).unwrap_or_default(),
+            notes: notes_of.remove(&number).unwrap_or_default(),
             relaxed: self.rounds(document, number),
             shaped: None,
         };

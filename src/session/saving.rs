@@ -92,7 +92,7 @@ pub(super) fn project_of(model: &Model, document: &Document) -> Option<ProjectFi
     project.relaxed = document.relaxed;
     project.picture = document.picture.as_ref().and_then(|picture| picture_source(picture, model));
     project.v_axis = document.v_axis;
-    project.targets = document.all_targets(model);
+    project.pins = document.all_pins(model);
     project.chart = document.chart;
     let layout = &document.layout;
     project.packing = layout.packing;

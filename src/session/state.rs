@@ -160,6 +160,8 @@ impl Session {
             Action::MovePins(moves) => self.move_pins(&moves),
             Action::SetPinKind { vertices, kind } => self.set_pin_kind(&vertices, kind),
             Action::SlideHold { vertices, kind } => self.slide_hold(&vertices, kind),
+            Action::NamePin { vertex, name } => self.name_pin(vertex, name),
+            Action::MergePins(pins) => self.merge_pins(pins),
             Action::Unpin(vertices) => self.unpin(&vertices),
             Action::UnpinAll => self.unpin_all(),
             Action::SetSettings(settings) => self.choose(settings),

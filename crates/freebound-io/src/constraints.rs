@@ -1,4 +1,7 @@
 //! Constraint files: one pinned vertex per line, "vertex u v [weight]"; a # starts a comment.
+//!
+//! A comment behind a constraint is the name of its pin, for example `384 0.63 0.56 # left eye, outer corner`. A comment
+//! that is too long for a name is a comment only. Versions without names read these files, too.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -7,6 +10,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec2;
 
 use super::finite::check_finite;
+use super::{PinName, PinNote, PinNotes};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Target, Targets};
 use freebound_core::problem::{PinKind, TakenTargets};
@@ -18,6 +22,8 @@ pub struct Constraints {
     pub targets: Targets,
     /// Line of each target, counted from 1.
     pub lines: BTreeMap<VertexId, u64>,
+    /// Names of pins.
+    pub notes: PinNotes,
 }
 
 /// Failure to read a constraint file.
@@ -137,7 +143,8 @@ impl Constraints {
         let mut taken = TakenTargets::default();
         // Some editors put a byte-order mark at the start of a text.
         for (line, text) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
-            let text = text.split('#').next().unwrap_or_default().trim();
+            let (text, comment) = text.split_once('#').unwrap_or((text, ""));
+            let text = text.trim();
             if text.is_empty() {
                 continue;
             }
@@ -145,6 +152,9 @@ impl Constraints {
             found.check(vertex, &target, vertex_count, &mut taken).map_err(|kind| (line, kind))?;
             found.targets.insert(vertex, target);
             found.lines.insert(vertex, line);
+            if let Ok(name) = PinName::new(comment) {
+                found.notes.insert(vertex, PinNote::named(name));
+            }
         }
         Ok(found)
     }
@@ -193,20 +203,55 @@ fn parse_line(text: &str) -> Result<(VertexId, Target), ConstraintFault> {
     }
 }
 
-/// Writes targets as a constraint file; the numbers read back bit for bit.
+/// Writes targets with the names of their pins as a constraint file; the numbers read back bit for bit.
 ///
 /// # Errors
 ///
 /// If `out` cannot be written, or a target is infinite or not a number.
-pub fn write_constraints(out: &mut impl Write, targets: &Targets) -> io::Result<()> {
+pub fn write_constraints(out: &mut impl Write, targets: &Targets, notes: &PinNotes) -> io::Result<()> {
     check_finite(targets.values().map(|target| &target.uv))?;
     writeln!(out, "# vertex u v [weight]; vertices are numbered from 0; without a weight a pin is hard")?;
     for (vertex, Target { uv, kind }) in targets {
         write!(out, "{} {:?} {:?}", vertex.number(), uv.x, uv.y)?;
         match kind {
-            PinKind::Soft(weight) => writeln!(out, " {weight:?}")?,
-            PinKind::Fixed | PinKind::Hard => writeln!(out)?,
+            PinKind::Soft(weight) => write!(out, " {weight:?}")?,
+            PinKind::Fixed | PinKind::Hard => {}
+        }
+        match notes.get(vertex).and_then(|note| note.name.as_ref()) {
+            Some(name) => writeln!(out, " # {name}")?,
+            None => writeln!(out)?,
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(constraints: &Constraints) -> String {
+        let mut out = Vec::new();
+        write_constraints(&mut out, &constraints.targets, &constraints.notes).unwrap();
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn names_come_back_and_a_file_without_names_keeps_its_bytes() {
+        let head = "# vertex u v [weight]; vertices are numbered from 0; without a weight a pin is hard\n";
+        let plain = format!("{head}3 0.25 0.5\n8 0.5 0.75 2.0\n");
+        assert_eq!(written(&Constraints::parse(&plain, 9).unwrap()), plain);
+        let with_names = format!("{head}3 0.25 0.5 # left eye, outer # corner\n8 0.5 0.75 2.0 # #2\n");
+        let read = Constraints::parse(&with_names, 9).unwrap();
+        let name = |vertex: u32| read.notes[&VertexId::new(vertex)].name.as_ref().unwrap().as_str();
+        assert_eq!([name(3), name(8)], ["left eye, outer # corner", "#2"]);
+        assert_eq!(written(&read), with_names);
+    }
+
+    #[test]
+    fn a_comment_that_is_no_name_names_nothing() {
+        let long = "x".repeat(PinName::LONGEST + 1);
+        let text = format!("# 3 1 1\n3 0.25 0.5 #\n4 0.25 0.75 # {long}\n");
+        let read = Constraints::parse(&text, 9).unwrap();
+        assert!(read.targets.len() == 2 && read.notes.is_empty(), "{:?}", read.notes);
+    }
 }

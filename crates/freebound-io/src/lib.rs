@@ -8,6 +8,9 @@
 //! | `ply`         | PLY files                                                                  |
 //! | `gltf`        | glTF files, as text and binary (GLB)                                       |
 //! | `constraints` | constraint files: one pinned vertex per line                               |
+//! | `pin_notes`   | names of pins and landmarks, notes on pins                                 |
+//! | `pts`         | landmarks of a picture (PTS)                                               |
+//! | `landmark_sets` | numbered sets of landmarks on faces, with names                          |
 //! | `matrix_market` | the linear system of a step (MTX)                                        |
 //! | `edges`       | edges files: one edge of a seam per line                                   |
 //! | `project`     | project files: the user's edits of a mesh (JSON)                           |
@@ -51,6 +54,7 @@ mod file_values;
 mod finished;
 mod finite;
 mod gltf;
+mod landmark_sets;
 mod machine;
 mod matrix_market;
 mod mesh_file;
@@ -59,9 +63,11 @@ mod obj;
 mod output;
 mod paths;
 mod picture;
+mod pin_notes;
 mod ply;
 mod precision;
 mod project;
+mod pts;
 pub mod raster;
 mod repacked;
 mod report;
@@ -90,6 +96,7 @@ pub use file_data::FileData;
 pub use file_layout::{JudgeError, JudgedLayout, groups_of};
 pub use finished::ResultSource;
 pub use gltf::write_glb;
+pub use landmark_sets::LandmarkSet;
 pub use machine::{bytes_in_words, machine_memory_bytes, peak_memory_bytes};
 pub use matrix_market::MatrixFile;
 pub use mesh_file::{
@@ -102,12 +109,14 @@ pub use obj::{Materials, copies_of_materials, material_files, material_picture, 
 pub use output::{EXTENSIONS, Format, Output, OutputKind, ProvedEmbedding};
 pub use paths::{is_same_file, is_standard_input, would_replace};
 pub use picture::{PictureError, PictureFile, decode_picture};
+pub use pin_notes::{PinName, PinNameFault, PinNote, PinNotes};
 pub use ply::write_ply;
 pub use precision::Precision;
 pub use project::{
-    PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
-    SavedMap,
+    PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectPins, ProjectSource, ProjectView,
+    RecoveryNote, SavedMap,
 };
+pub use pts::{IncompleteSet, PictureLandmark, PtsError, PtsFault, in_order_of_a_set, parse_pts, read_pts, write_pts};
 pub use repacked::{LayoutPacking, LayoutToPackError, RepackedFile};
 pub use report::{
     ChartReport, MeshReport, REPORT_SCHEMA, Report, SeamsReport, Seconds, ShapeReport, verdict_as_in_file, write_report,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Model;
-use freebound_core::pipeline::Targets;
+use freebound_core::mesh::VertexId;
 
 impl Model {
     /// Number of vertices that a pin file can name. With several charts these are the vertices of the repaired mesh.
@@ -12,10 +12,11 @@ impl Model {
         whole.unwrap_or_else(|| self.vertex_count())
     }
 
-    /// Splits the targets of the mesh by chart. Targets on vertices that belong to no chart are dropped.
-    pub fn by_chart(&self, of_mesh: Targets) -> BTreeMap<usize, Targets> {
+    /// Splits values of vertices of the mesh, such as targets, by chart. Values of vertices that belong to no chart are
+    /// dropped.
+    pub fn by_chart<T>(&self, of_mesh: BTreeMap<VertexId, T>) -> BTreeMap<usize, BTreeMap<VertexId, T>> {
         let Some(of) = &self.prepared.chart else { return BTreeMap::from([(0, of_mesh)]) };
-        let mut found: BTreeMap<usize, Targets> = BTreeMap::new();
+        let mut found: BTreeMap<usize, BTreeMap<VertexId, T>> = BTreeMap::new();
         for (vertex, target) in of_mesh {
             if let Some(chart) = of.charts.chart_of_vertex(vertex) {
                 found.entry(chart).or_default().insert(vertex, target);

@@ -16,12 +16,17 @@ use crate::ui::{
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
 use freebound_core::problem::{Pin, PinKind};
+use freebound_core::verify::Conflict;
+use freebound_io::PinName;
 
 /// Height reserved below the table, points.
 const BELOW: f32 = 250.0;
 
 /// Widths of the fields for a coordinate and for a weight, points.
 const FIELDS: [f32; 2] = [50.0, 44.0];
+
+/// Width and height of the name of a pin, points.
+const NAME: [f32; 2] = [210.0, 17.0];
 
 /// Gaps between columns and between rows of the table, points.
 const GAPS: [f32; 2] = [7.0, 4.0];
@@ -76,6 +81,8 @@ struct Row {
 
 fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let document = editor.session.document();
+    let mut selected = editor.pins_selected();
+    let chosen_pin = selected.next().filter(|_| selected.next().is_none());
     let speed = editor.plane.scene().map_or(0.01, |plane| plane.arrays.bounds.extent() / 500.0);
     let height = (ui.available_height() - BELOW).max(80.0);
     egui::ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
@@ -95,6 +102,10 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
                 let held = document.settings.kind_of(target.kind);
                 row(ui, editor, Row { vertex, target, held, speed }, requests);
                 ui.end_row();
+                if editor.session.pin_name(vertex).is_some() || chosen_pin == Some(vertex) {
+                    name_row(ui, editor, vertex, requests);
+                    ui.end_row();
+                }
             }
         });
     });
@@ -128,6 +139,36 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
     free.asks(Action::Unpin(vec![vertex]), requests);
 }
 
+/// Name of a pin, under its numbers. It is edited in place; Enter or a click elsewhere takes the new name.
+fn name_row(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, requests: &mut Vec<Request>) {
+    ui.label("");
+    // The cell takes no width, because a name is longer than the column.
+    let (cell, _) = ui.allocate_exact_size(Vec2::new(1.0, NAME[1]), Sense::hover());
+    let place = egui::Rect::from_min_size(cell.min, NAME.into());
+    let name = editor.session.pin_name(vertex).map_or("", PinName::as_str);
+    let key = egui::Id::unique(("name of a pin", vertex));
+    let mut text = ui.data_mut(|data| data.get_temp::<String>(key)).unwrap_or_else(|| name.to_owned());
+    let weak = theme_of(ui).weak_text;
+    let hint = RichText::new("Name this pin, such as \"left eye\"").small();
+    let field = egui::TextEdit::singleline(&mut text).font(egui::TextStyle::Small).hint_text(hint);
+    let field = field.text_color(weak).frame(egui::Frame::NONE).char_limit(PinName::LONGEST);
+    let response = ui.put(place, field.desired_width(place.width()));
+    let response = response.named(Role::TextInput, &format!("Name of pin {vertex}"));
+    let tip = "Name of this pin. It is saved, and joins the pin with a landmark of that name";
+    let response = response.on_hover_text(if name.is_empty() { tip.to_owned() } else { format!("{name}\n{tip}") });
+    if !response.lost_focus() {
+        if response.has_focus() {
+            ui.data_mut(|data| data.insert_temp(key, text));
+        }
+        return;
+    }
+    ui.data_mut(|data| data.remove::<String>(key));
+    let gives_up = ui.input(|input| input.key_pressed(egui::Key::Escape));
+    if text != name && !gives_up {
+        requests.push(Action::NamePin { vertex, name: PinName::new(&text).ok() }.into());
+    }
+}
+
 /// Cell of a hard pin: its state, and a menu of other kinds.
 fn exact(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>) {
     let (theme, vertex) = (theme_of(ui), row.vertex);
@@ -135,7 +176,7 @@ fn exact(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Reques
         let tip = "The embedding on the screen is planar, but this vertex is not on its target";
         ("not met", theme.unmet, tip.to_owned())
     } else if let Some(conflict) = editor.session.conflict_of(vertex) {
-        ("conflict", theme.stale, sentence(&conflict.words()))
+        ("conflict", theme.stale, sentence(&editor.session.conflict_words(conflict)))
     } else {
         ("hard", theme.weak_text, "Hard pin: its target is met exactly. Click: choose another kind".to_owned())
     };
@@ -268,7 +309,35 @@ fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     };
     let words = format!("{words}: {}", named(&first.vertices()));
     let link = ui.link(RichText::new(words).color(theme_of(ui).stale));
-    link.on_hover_text(sentence(&first.words())).asks(Request::GoTo(first.vertices()), requests);
+    let about = sentence(&editor.session.conflict_words(first));
+    link.on_hover_text(about).asks(Request::GoTo(first.vertices()), requests);
+    let near = found.iter().find_map(|conflict| match conflict {
+        Conflict::NearCoincidentTargets { vertices } => Some(*vertices),
+        Conflict::TurnedFace { .. } | Conflict::CrossingEdges { .. } => None,
+    });
+    if let Some(pair) = near {
+        equal_targets(ui, editor, pair, requests);
+    }
+}
+
+/// Two pins with nearly equal targets, and one-click remedies.
+fn equal_targets(ui: &mut egui::Ui, editor: &Editor, pair: [VertexId; 2], requests: &mut Vec<Request>) {
+    let [kept, other] = pair;
+    let [kept_words, other_words] = pair.map(|vertex| editor.session.pin_words(vertex));
+    remark(ui, format!("Pins {kept_words} and {other_words} have nearly equal targets."));
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let merge = ui.small_button(format!("Keep only {kept}"));
+        let tip = format!("Merge: keep pin {kept_words} and free pin {other_words}");
+        merge.on_hover_text(tip).asks(Action::MergePins(pair), requests);
+        let merge = ui.small_button(format!("Keep only {other}"));
+        let tip = format!("Merge: keep pin {other_words} and free pin {kept_words}");
+        merge.on_hover_text(tip).asks(Action::MergePins([other, kept]), requests);
+        let loosen = ui.small_button(format!("Loosen {other}"));
+        let tip = format!("Make pin {other_words} soft: it pulls to its target, but need not meet it");
+        let kind = PinKind::Soft(Pin::DEFAULT_WEIGHT);
+        loosen.on_hover_text(tip).asks(Action::SetPinKind { vertices: vec![other], kind }, requests);
+    });
 }
 
 /// Largest distance of a hard pin and of a soft pin from its target, in texture coordinates.

@@ -306,9 +306,7 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
     for at in pane::overwound(editor).into_iter().filter_map(seen) {
         pane::overwound_mark(&painter, at, theme);
     }
-    for at in outside_hull::marked(editor).filter_map(seen) {
-        outside_hull::mark(&painter, at, theme);
-    }
+    outside_hull::marked(editor).filter_map(seen).for_each(|at| outside_hull::mark(&painter, at, theme));
     for at in new_vertices(scene).filter_map(seen) {
         new_vertex_mark(&painter, at, theme);
     }
@@ -336,5 +334,6 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
             Tool::Fix => PinMark::Gauge.mark(&painter, at, theme, Emphasis::Plain),
             Tool::Constrain => pins::ghost(&painter, at, theme),
         }
+        pins::name_beside(&painter, at, theme, editor);
     }
 }

@@ -48,7 +48,7 @@ pub(super) fn pins_ui(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut E
         let is_strong = response.hovered() || editor.selection.vertices().contains(&pin.vertex);
         if let Some(conflict) = editor.session.conflict_of(pin.vertex) {
             pins::conflict_mark(&painter, at, theme);
-            response = response.on_hover_text(sentence(&conflict.words()));
+            response = response.on_hover_text(sentence(&editor.session.conflict_words(conflict)));
         }
         pin.kind.mark(&painter, at, theme, Emphasis::strong_if(is_strong));
         // A mark that leaves the click to the pane also leaves hover and cursor to it.

@@ -27,6 +27,12 @@ const STRONG: f32 = 2.0;
 /// Least length of an arrow or line, points. A shorter one would only hide its ends.
 const LEAST_LINE: f32 = 3.0;
 
+/// Size of the name of a pin under the pointer, points.
+const NAME_SIZE: f32 = 12.0;
+
+/// Position of the name of a pin relative to its mark, points.
+const NAME_OFFSET: Vec2 = Vec2::new(12.0, -24.0);
+
 /// Kind of a pin, for its mark.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PinMark {
@@ -144,6 +150,22 @@ impl Emphasis {
 /// Ring around the vertex of a pin that misses its target.
 pub(super) fn unmet_mark(painter: &Painter, at: Pos2, theme: &Theme) {
     painter.circle_stroke(at, DIAMOND + 4.0, Stroke::new(2.0, theme.unmet));
+}
+
+/// Name of the pin under the pointer, beside its mark.
+pub(super) fn name_beside(painter: &Painter, at: Pos2, theme: &Theme, editor: &Editor) {
+    let Some(name) = editor.pointer.vertex().and_then(|vertex| editor.session.pin_name(vertex)) else { return };
+    let text = painter.layout_no_wrap(name.to_string(), egui::FontId::proportional(NAME_SIZE), theme.text);
+    let mut place = Rect::from_min_size(at + NAME_OFFSET, text.size()).expand2(Vec2::new(4.0, 2.0));
+    let pane = painter.clip_rect();
+    if place.right() > pane.right() {
+        place = place.translate(Vec2::new(at.x - NAME_OFFSET.x - place.right(), 0.0));
+    }
+    if place.top() < pane.top() {
+        place = place.translate(Vec2::new(0.0, at.y - NAME_OFFSET.y - place.bottom()));
+    }
+    painter.rect_filled(place, 3.0, theme.panel.gamma_multiply(0.92));
+    painter.galley(place.min + Vec2::new(4.0, 2.0), text, theme.text);
 }
 
 /// Thin ring around a pin that conflicts with others on the given mesh.

@@ -225,6 +225,9 @@ fn marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &Pl
         let copies = plane.mesh.in_file.vertex(vertex).into_iter().flat_map(|of| plane.mesh.in_file.copies(of));
         copies.filter(|copy| *copy != vertex).for_each(|copy| pane::halo(&over, spot(copy), theme.selection, 4.0));
         pane::halo(&over, spot(vertex), theme.selection, 5.0);
+        let pin = editor.session.document().targets.get(&vertex);
+        let at = pin.map_or(spot(vertex), |pin| view.spot(editor.session.document().frame().plane_from_uv(pin.uv)));
+        pins::name_beside(&over, at, theme, editor);
     }
 }
 

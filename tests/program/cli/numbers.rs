@@ -13,7 +13,7 @@ use freebound_core::problem::{
 };
 use freebound_core::verify::verdict;
 use freebound_core::weights::equations::barycentric;
-use freebound_io::{MeshFile, Texture, write_constraints, write_obj};
+use freebound_io::{MeshFile, PinNotes, Texture, write_constraints, write_obj};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 use serde_json::Value;
@@ -216,7 +216,7 @@ fn no_writer_lets_a_nan_or_an_infinity_pass() {
         let mut text = Vec::new();
         assert!(write_obj(&mut text, &file, &Texture::per_vertex(&file.polygons, &embedding)).is_err());
         let target = Target::hard(DVec2::new(0.0, bad));
-        assert!(write_constraints(&mut text, &Targets::from([(VertexId::new(0), target)])).is_err());
+        assert!(write_constraints(&mut text, &Targets::from([(VertexId::new(0), target)]), &PinNotes::new()).is_err());
         assert!(text.is_empty(), "nothing was written before");
         assert_eq!(embedding.check_finite(), Err(SolveError::OutOfRange { vertex: VertexId::new(3) }));
     }

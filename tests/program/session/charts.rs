@@ -178,7 +178,7 @@ fn a_project_brings_chart_pins_and_packing_back() {
     let charts = session.charts().unwrap();
     for (chart, at) in [(first, 0.1), (second, 0.6)] {
         let vertex = charts.chart(chart).vertex_of[0];
-        assert_eq!(of_file.targets[&vertex].uv, DVec2::splat(at), "pins have the file's numbers");
+        assert_eq!(of_file.pins.targets[&vertex].uv, DVec2::splat(at), "pins have the file's numbers");
     }
     let mut again = super::basics::session();
     settled(&mut again, Action::Open(path));

@@ -202,7 +202,7 @@ fn nothing_is_written_by_the_numbers_of_another_form() {
     settle(&mut session);
     assert!(!pins.exists() && !project.exists());
     settled(&mut session, Action::SaveProject(project.clone()));
-    let saved = ProjectFile::read(&project).expect("a project").targets;
+    let saved = ProjectFile::read(&project).expect("a project").pins.targets;
     assert_eq!(saved.keys().copied().collect::<Vec<_>>(), [4, 10].map(VertexId::new));
 }
 
@@ -222,7 +222,7 @@ fn a_copy_for_recovery_has_the_pins_of_its_form() {
         }
         assert!(begun.elapsed() < Duration::from_secs(90), "no copy is made");
     };
-    assert_eq!(copy.targets.keys().copied().collect::<Vec<_>>(), [4, 10].map(VertexId::new));
+    assert_eq!(copy.pins.targets.keys().copied().collect::<Vec<_>>(), [4, 10].map(VertexId::new));
 }
 
 #[test]

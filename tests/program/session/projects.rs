@@ -183,7 +183,7 @@ fn an_edit_while_a_save_is_under_way_is_unsaved() {
     session.handle(Action::Place { vertex: id(2), target: Target::hard(DVec2::Y) });
     settle(&mut session);
     assert!(session.has_unsaved_work());
-    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().targets.len(), 1);
+    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().pins.targets.len(), 1);
 }
 
 #[test]
@@ -194,7 +194,7 @@ fn of_many_saves_the_last_one_is_in_the_file() {
         session.handle(Action::SaveProject(project_in(&folder)));
     }
     settle(&mut session);
-    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().targets, session.document().targets);
+    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().pins.targets, session.document().targets);
     assert!(!session.has_unsaved_work());
 }
 

@@ -35,7 +35,7 @@ fn until_copies(session: &mut Session, now: Instant, (store, pins): (&Path, &[us
 }
 
 fn pins_in_copies(store: &Path) -> Vec<usize> {
-    copies(store).iter().map(|copy| ProjectFile::read(copy).unwrap().targets.len()).collect()
+    copies(store).iter().map(|copy| ProjectFile::read(copy).unwrap().pins.targets.len()).collect()
 }
 
 fn with_recovery(folder: &Path) -> Session {
@@ -240,7 +240,7 @@ fn a_project_is_whole_whenever_its_writer_is_killed() {
         fs::remove_file(&sign).ok();
         killed(child("session::recovery::child_saves_two_projects_by_turns", folder.path()), &sign, round);
         let project = ProjectFile::read(&path).unwrap_or_else(|error| panic!("round {round}: {error}"));
-        match project.targets.len() {
+        match project.pins.targets.len() {
             0 => seen[0] += 1,
             30 => seen[1] += 1,
             count => panic!("{count} pins are of neither project"),

@@ -69,14 +69,22 @@ impl Conflict {
 
     /// Description in one line.
     pub fn words(&self) -> String {
+        self.words_with(|vertex| vertex.to_string())
+    }
+
+    /// Description in one line, with vertices as `name` writes them.
+    pub fn words_with(&self, name: impl Fn(VertexId) -> String) -> String {
         match self {
             Self::TurnedFace { vertices: [a, b, c], .. } => {
+                let [a, b, c] = [a, b, c].map(|vertex| name(*vertex));
                 format!("vertices {a}, {b}, {c}: their face would flip: needs new vertices")
             }
             Self::CrossingEdges { edges: [[a, b], [c, d]] } => {
+                let [a, b, c, d] = [a, b, c, d].map(|vertex| name(*vertex));
                 format!("edges {a}–{b} and {c}–{d} would cross: needs new vertices")
             }
             Self::NearCoincidentTargets { vertices: [a, b] } => {
+                let [a, b] = [a, b].map(|vertex| name(*vertex));
                 format!("vertices {a} and {b}: targets closer than {TOO_NEAR:e} of the extent of all: move one of them")
             }
         }

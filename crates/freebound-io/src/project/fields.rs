@@ -7,8 +7,8 @@ use glam::DVec2;
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::ProjectSource;
-use crate::FileStamp;
+use super::{ProjectPins, ProjectSource};
+use crate::{FileStamp, PinName, PinNote};
 use freebound_core::mesh::{Seams, VertexId};
 use freebound_core::pipeline::Target;
 use freebound_core::problem::{Pin, PinKind};
@@ -68,16 +68,20 @@ struct PinFields {
     hold: HoldName,
     #[serde(default, deserialize_with = "weight", skip_serializing_if = "Option::is_none")]
     weight: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    name: Option<PinName>,
 }
 
 impl PinFields {
-    fn of(vertex: VertexId, target: &Target) -> Self {
+    fn of(vertex: VertexId, target: &Target, note: Option<&PinNote>) -> Self {
         let (hold, weight) = match target.kind {
             PinKind::Fixed => (HoldName::Fixed, None),
             PinKind::Hard => (HoldName::Hard, None),
             PinKind::Soft(weight) => (HoldName::Weighted, Some(weight)),
         };
-        Self { vertex: vertex.number(), u: target.uv.x, v: target.uv.y, hold, weight }
+        let PinNote { name } = note.cloned().unwrap_or_default();
+        let (vertex, DVec2 { x: u, y: v }) = (vertex.number(), target.uv);
+        Self { vertex, u, v, hold, weight, name }
     }
 
     fn target(&self) -> Target {
@@ -87,6 +91,10 @@ impl PinFields {
             HoldName::Weighted => PinKind::Soft(self.weight.unwrap_or(Pin::DEFAULT_WEIGHT)),
         };
         Target { uv: DVec2::new(self.u, self.v), kind }
+    }
+
+    fn note(self) -> PinNote {
+        PinNote { name: self.name }
     }
 }
 
@@ -168,23 +176,27 @@ pub(super) mod seam_list {
 }
 
 /// Pins as a list.
-pub(super) mod pin_list {
-    use super::{Deserialize, Deserializer, Error, PinFields, Serializer, VertexId};
-    use freebound_core::pipeline::Targets;
-
-    pub(in super::super) fn serialize<S: Serializer>(targets: &Targets, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(targets.iter().map(|(&vertex, target)| PinFields::of(vertex, target)))
+impl Serialize for ProjectPins {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let pins = self.targets.iter();
+        serializer.collect_seq(pins.map(|(&vertex, target)| PinFields::of(vertex, target, self.notes.get(&vertex))))
     }
+}
 
-    pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Targets, D::Error> {
-        let mut targets = Targets::new();
+impl<'de> Deserialize<'de> for ProjectPins {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut pins = Self::default();
         for fields in Vec::<PinFields>::deserialize(deserializer)? {
             let vertex = VertexId::new(fields.vertex);
-            if targets.insert(vertex, fields.target()).is_some() {
+            if pins.targets.insert(vertex, fields.target()).is_some() {
                 return Err(D::Error::custom(format!("vertex {vertex} is pinned twice")));
             }
+            let note = fields.note();
+            if !note.is_empty() {
+                pins.notes.insert(vertex, note);
+            }
         }
-        Ok(targets)
+        Ok(pins)
     }
 }
 

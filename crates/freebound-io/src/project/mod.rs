@@ -23,11 +23,11 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 pub use self::error::ProjectError;
-use self::fields::{SourceFields, pin_list, seam_list};
+use self::fields::{SourceFields, seam_list};
 pub use self::saved_map::SavedMap;
 use super::finite::check_finite;
 use super::paths::{named_in_files, relative, whole_folder_of};
-use super::{FileStamp, WriteError, write_durably};
+use super::{FileStamp, PinNotes, WriteError, write_durably};
 use freebound_core::geom::{PackingOptions, VAxis};
 use freebound_core::mesh::{HoleTreatment, Preparation, Repairs, Seams, WeldDistance};
 use freebound_core::pipeline::Targets;
@@ -126,9 +126,9 @@ pub struct ProjectFile {
     /// Maps of the charts, by the number of their first face in the file. The only chart of a mesh has 0.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub maps: BTreeMap<u32, SavedMap>,
-    /// Targets of the user's pins.
-    #[serde(default, rename = "pins", with = "pin_list")]
-    pub targets: Targets,
+    /// The user's pins.
+    #[serde(default)]
+    pub pins: ProjectPins,
     /// View of the project on the screen.
     #[serde(default)]
     pub view: ProjectView,
@@ -143,6 +143,15 @@ fn default_layers() -> usize {
 
 fn default_new_vertices() -> bool {
     Settings::default().new_vertices
+}
+
+/// Pins of a project.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ProjectPins {
+    /// Targets of the pins.
+    pub targets: Targets,
+    /// Names of the pins.
+    pub notes: PinNotes,
 }
 
 /// Origin of a mesh or a picture.
@@ -253,7 +262,7 @@ impl ProjectFile {
             maps: BTreeMap::new(),
             new_vertices: settings.new_vertices,
             start: settings.start,
-            targets: Targets::new(),
+            pins: ProjectPins::default(),
             view: ProjectView::default(),
             recovery: None,
         }
@@ -311,7 +320,7 @@ impl ProjectFile {
     /// [`WriteError`] with the path and the cause.
     pub fn write(&self, path: &Path, style: PathStyle) -> Result<(), WriteError> {
         let failed = |source| WriteError::writing(path, source);
-        check_finite(self.targets.values().map(|target| &target.uv)).map_err(failed)?;
+        check_finite(self.pins.targets.values().map(|target| &target.uv)).map_err(failed)?;
         let mut project = self.clone();
         let folder = whole_folder_of(path);
         for source in [Some(&mut project.mesh), project.picture.as_mut()].into_iter().flatten() {
