@@ -7,8 +7,8 @@ use crate::session::MorphShortage;
 use freebound_core::mesh::{Diagnosis, Done, Repair, Repairs};
 use freebound_core::problem::{Cause, Method, NamedOption as _, SolveError};
 use freebound_io::{
-    ConstraintsError, EdgesError, LayoutError, LayoutToPackError, MemoryShortage, PictureError, ReadError,
-    TextureError, WriteError,
+    ConstraintsError, EdgesError, LayoutError, LayoutToPackError, MemoryShortage, PatternError, PictureError,
+    ReadError, TextureError, WriteError,
 };
 use freebound_run::{Model, RunError};
 
@@ -139,6 +139,9 @@ pub enum CommandError {
         /// Memory that the frames would take, and memory of the machine.
         shortage: MorphShortage,
     },
+    /// The charts have no cutting pattern.
+    #[error("--pattern: {0}")]
+    Pattern(#[from] PatternError),
     /// A result cannot be written, or a file to be copied with it cannot be read.
     #[error("{0}")]
     Write(#[from] WriteError),
@@ -262,6 +265,8 @@ impl CommandError {
             | Self::LayoutToPack { .. }
             | Self::NotADisk { .. } => UNUSABLE_INPUT,
             Self::NoMorph { .. } | Self::MorphMemory { .. } => FALLS_SHORT,
+            Self::Pattern(PatternError::TooWide { .. }) => WRONG_USE,
+            Self::Pattern(_) => FALLS_SHORT,
             Self::Write(error) if error.is_not_finite() => FALLS_SHORT,
             Self::Write(error) if error.is_of_input() => UNUSABLE_INPUT,
             Self::Write(_) | Self::StandardOutput(_) => INTERNAL,

@@ -84,6 +84,7 @@ fn kind_of(failure: &CommandError) -> &'static str {
         CommandError::NotADisk { .. } => "not-a-disk",
         CommandError::Solve(error) | CommandError::Method { error, .. } => error.name(),
         CommandError::NoMorph { .. } => "no-morph",
+        CommandError::Pattern(_) => "no-pattern",
         CommandError::Write(error) if error.is_of_input() => "unreadable",
         CommandError::Write(_) | CommandError::StandardOutput(_) => "not-written",
         CommandError::Usage(_) => "wrong-use",

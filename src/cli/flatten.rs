@@ -14,6 +14,7 @@ use super::error::{CommandError, CommandOutcome};
 use super::exit::conclude;
 use super::job::HeadlessJob;
 use super::opened::{InputSpec, LoadedMesh};
+use super::pattern::PatternJob;
 use super::places::OutputPaths;
 use super::progress::{ProgressLine, stop_on_interrupt};
 use super::say::say;
@@ -57,6 +58,7 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
         return Err(CommandError::Usage("--start keeps the position of the layout: remove --fit unit".into()));
     }
     refuse_unwritten_formats(arguments.output.as_deref())?;
+    let pattern = PatternJob::typed(&arguments.cutting)?;
     let places = OutputPaths::of_flatten(arguments);
     refuse_clashes(arguments, &places)?;
     await_report(arguments.report.as_deref());
@@ -97,6 +99,7 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
             materials: if arguments.copy_materials { Materials::Copied } else { Materials::Stay },
             report: arguments.report.as_deref(),
             steps: arguments.steps.as_deref(),
+            pattern,
             locked,
         };
         job.run(&model, start, &progress)
@@ -205,6 +208,7 @@ fn flatten_example() -> Result<CommandOutcome, CommandError> {
         materials: Materials::Stay,
         report: Some(&report),
         steps: None,
+        pattern: None,
         locked: BTreeSet::new(),
     };
     let progress = ProgressLine::default();

@@ -8,6 +8,7 @@ use std::time::Instant;
 use super::error::is_standard;
 use super::error::{CommandError, CommandOutcome};
 use super::opened::disk_of;
+use super::pattern::PatternJob;
 use super::progress::{INTERRUPTED, ProgressLine, go_on};
 use super::report_file::put_report;
 use super::summary::{atlas_summary, deliver, ending_words, step_words, summary, warn_of};
@@ -32,6 +33,7 @@ pub(super) struct HeadlessJob<'a> {
     pub(super) materials: Materials,
     pub(super) report: Option<&'a Path>,
     pub(super) steps: Option<&'a Path>,
+    pub(super) pattern: Option<PatternJob<'a>>,
     /// Numbers of the charts that stay where the layout to start from has them.
     pub(super) locked: BTreeSet<usize>,
 }
@@ -69,10 +71,16 @@ impl HeadlessJob<'_> {
         output.report.seconds.read = read - output.report.seconds.cut;
         let folder = folder.and_then(|folder| folder.into_inner().ok());
         self.write(&mut output, folder, start, progress)?;
-        self.conclude(&output, || match &solved.charts[..] {
-            [chart] if !is_packed => summary(&output.report, &ending_words(&chart.solved, &output)),
-            _ => atlas_summary(&output.report),
-        })
+        let name = model.name.as_str();
+        let pattern = self.pattern.map(|pattern| pattern.write(&output, name)).transpose()?;
+        self.conclude(
+            &output,
+            || match &solved.charts[..] {
+                [chart] if !is_packed => summary(&output.report, &ending_words(&chart.solved, &output)),
+                _ => atlas_summary(&output.report),
+            },
+            pattern.as_deref(),
+        )
     }
 
     /// True if every mesh that is written keeps the materials of the file: in the format of the file, and without a
@@ -148,12 +156,19 @@ impl HeadlessJob<'_> {
     }
 
     /// Prints the summary and writes the report.
-    fn conclude(&self, output: &Output<'_>, words: impl FnOnce() -> String) -> Result<CommandOutcome, CommandError> {
+    fn conclude(
+        &self,
+        output: &Output<'_>,
+        words: impl FnOnce() -> String,
+        pattern: Option<&str>,
+    ) -> Result<CommandOutcome, CommandError> {
         let report = &output.report;
         if self.outputs.iter().any(|(_, path)| is_standard(path)) {
             self.report.map_or(Ok(()), |path| put_report(report, path))?;
         } else {
-            deliver(report, self.report, words)?;
+            deliver(report, self.report, || {
+                words() + &pattern.map(|words| format!("\npattern: {words}")).unwrap_or_default()
+            })?;
         }
         let is_fine = output.is_planar() && report.meets_request();
         Ok(if is_fine { CommandOutcome::Fine } else { CommandOutcome::FallsShort })

@@ -19,6 +19,7 @@
 //! | `failed`      | report of a failed run                                                   |
 //! | `opened`      | loaded mesh of a run in its preparation, with its pins and its picture   |
 //! | `parts`       | parts of a mesh that are flattened                                       |
+//! | `pattern`     | cutting pattern of a run                                                 |
 //! | `pins`        | requested pins                                                           |
 //! | `places`      | clashes between the files of a run                                       |
 //! | `seams`       | requested preparation of a mesh, with its seams                          |
@@ -48,6 +49,7 @@ mod morph;
 mod opened;
 mod pack;
 mod parts;
+mod pattern;
 mod pins;
 mod places;
 mod progress;
@@ -69,8 +71,8 @@ use freebound_core::problem::{Family, Labels, Method, NamedOption};
 
 pub use args::{
     Arguments, BatchArguments, BatchCommand, BatchFormat, CompareArguments, ComparisonFile, CompletionsArguments, Cut,
-    ExampleArguments, FlattenArguments, ManArguments, MeshArguments, PackArguments, SolveArguments, StartOf,
-    StudyArguments, Subcommands, ThreadArguments, TypedShape, UnwrapArguments,
+    ExampleArguments, FlattenArguments, ManArguments, MeshArguments, PackArguments, PatternArguments, SolveArguments,
+    StartOf, StudyArguments, Subcommands, ThreadArguments, TypedShape, UnwrapArguments,
 };
 pub use error::{CommandError, CommandOutcome, Remedy};
 pub use figures::pairs;

@@ -32,8 +32,9 @@ impl OutputPaths {
         let library = output.as_deref().filter(|path| arguments.picture.is_some() && !is_standard(path));
         let library = library.map(PictureFile::library_beside);
         let asked = [("-o", output), ("--svg", svg), ("--png", png), ("--report", report), ("--picture", &library)];
+        let asked = asked.into_iter().chain([("--pattern", &arguments.cutting.pattern)]);
         let place = |(option, path): (_, &Option<PathBuf>)| Some(OutputPath { option, path: path.clone()? });
-        Self { files: asked.into_iter().filter_map(place).collect(), steps: arguments.steps.clone() }
+        Self { files: asked.filter_map(place).collect(), steps: arguments.steps.clone() }
     }
 
     pub(super) fn of_compare(arguments: &CompareArguments) -> Self {

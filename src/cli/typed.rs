@@ -10,7 +10,7 @@ use freebound_core::mesh::{VertexId, WeldDistance};
 use freebound_core::pipeline::Target;
 use freebound_core::problem::{NamedOption, PinKind};
 use freebound_core::verify::FindingCode;
-use freebound_io::ConstraintFault;
+use freebound_io::{ConstraintFault, PatternOptions};
 
 /// Parser for named options, which lists all names with a description of each.
 pub(super) fn choice<C: NamedOption>() -> impl TypedValueParser<Value = C> {
@@ -108,6 +108,12 @@ pub(super) fn parse_chart_size(text: &str) -> Result<ChartSize, String> {
 pub(super) fn parse_density(text: &str) -> Result<f64, String> {
     let parsed = text.trim().parse().ok().filter(|density: &f64| density.is_finite() && *density > 0.0);
     parsed.ok_or_else(|| "write pixels per unit of length, a number above 0, for example 512".to_owned())
+}
+
+/// Parses a length in millimetres.
+pub(super) fn parse_millimetres(text: &str) -> Result<f64, String> {
+    let parsed = text.trim().parse().ok().filter(|length| (0.0..=PatternOptions::LONGEST).contains(length));
+    parsed.ok_or_else(|| format!("write millimetres, from 0 to {}, for example 10", PatternOptions::LONGEST))
 }
 
 /// Tiles that charts are packed into.

@@ -29,6 +29,7 @@
 //! | `steps`       | the steps of a run as a folder of drawings and a table                     |
 //! | `study_table` | the runs of a study as a table, out and in                                 |
 //! | `study_plots` | the runs of a study as plots                                               |
+//! | `pattern`     | cutting patterns in true size: allowances, notches, pages of paper         |
 //! | `raster`      | pictures of meshes without a screen                                        |
 //! | `figure`      | figures: panels on a page, as a drawing and as a picture                   |
 //! | `atomic`      | files that are written whole or not at all                                 |
@@ -62,6 +63,7 @@ mod not_kept;
 mod obj;
 mod output;
 mod paths;
+mod pattern;
 mod picture;
 mod pin_notes;
 mod ply;
@@ -108,6 +110,9 @@ pub use mesh_file::{
 pub use obj::{Materials, copies_of_materials, material_files, material_picture, write_obj};
 pub use output::{EXTENSIONS, Format, Output, OutputKind, ProvedEmbedding};
 pub use paths::{is_same_file, is_standard_input, would_replace};
+pub use pattern::{
+    AllowanceJoins, EdgeStrain, LengthUnit, Pattern, PatternError, PatternFormat, PatternOptions, PatternPaper,
+};
 pub use picture::{PictureError, PictureFile, decode_picture};
 pub use pin_notes::{PinName, PinNameFault, PinNote, PinNotes};
 pub use ply::write_ply;

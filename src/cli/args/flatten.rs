@@ -6,7 +6,7 @@ use std::str::FromStr as _;
 use clap::Args;
 use glam::UVec2;
 
-use super::{MeshArguments, SolveArguments, TypedShape};
+use super::{MeshArguments, PatternArguments, SolveArguments, TypedShape};
 use crate::cli::typed::{ChartSize, TileRule, choice, parse_chart_size, parse_density, parse_pixels, parse_tiles};
 use freebound_core::geom::{PackingOptions, Rotations, Stacking};
 use freebound_core::pipeline::{Arrangement, Fit};
@@ -120,6 +120,9 @@ pub struct FlattenArguments {
     /// Steps of an earlier run in the folder are replaced.
     #[arg(long, value_name = "DIR", hide_short_help = true)]
     pub steps: Option<PathBuf>,
+    /// Cutting pattern.
+    #[command(flatten)]
+    pub cutting: PatternArguments,
 }
 
 /// Arguments of `unwrap`: those of `flatten` with other defaults.

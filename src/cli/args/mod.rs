@@ -9,6 +9,7 @@
 //! | `solve`   | arguments for pins and settings of the solver |
 //! | `flatten` | arguments of `flatten`                        |
 //! | `pack`    | arguments of `pack`                           |
+//! | `pattern` | arguments for a cutting pattern               |
 //! | `reading` | arguments for reading a mesh                  |
 //! | `compare` | arguments of `compare`                        |
 //! | `shape`   | value for the shape of a boundary             |
@@ -21,6 +22,7 @@ mod compare;
 mod flatten;
 mod mesh;
 mod pack;
+mod pattern;
 mod reading;
 mod shape;
 mod solve;
@@ -40,6 +42,7 @@ pub use compare::{CompareArguments, ComparisonFile};
 pub use flatten::{FlattenArguments, UnwrapArguments};
 pub use mesh::{Cut, MeshArguments};
 pub use pack::PackArguments;
+pub use pattern::PatternArguments;
 pub(super) use reading::ReadingArguments;
 pub use shape::TypedShape;
 pub use solve::{SolveArguments, StartOf};

@@ -32,6 +32,7 @@ pub(crate) mod obj_picture;
 pub(crate) mod obj_refined;
 pub(crate) mod pack;
 pub(crate) mod parts;
+pub(crate) mod pattern;
 pub(crate) mod pipes;
 pub(crate) mod places;
 pub(crate) mod ply_write;

@@ -10,6 +10,7 @@
 //! | `convex_polygon.rs` | convex polygon given by the user |
 //! | `visibility_kernel.rs` | kernel of a polygon: the points that see all of it |
 //! | `hull.rs`, `rectangle.rs` | convex hull and point-in-hull test; rectangle of least area around points |
+//! | `offset.rs`, `pole.rs` | outline at a distance around a region; point of a region farthest from its outline |
 //! | `packing/` | shapes of charts packed into a picture |
 //! | `triangulation.rs` | triangulations of points and of the outside of a polygon |
 //! | `similarity.rs` | similarity that best fits pairs of points; test for mirrored pairs |
@@ -23,12 +24,14 @@ mod clip;
 mod convex_polygon;
 mod crossings;
 mod hull;
+mod offset;
 mod order_along_direction;
 mod orient;
 mod overlaps;
 mod packing;
 mod picture;
 mod picture_frame;
+mod pole;
 mod polygon;
 mod power;
 mod random;
@@ -43,6 +46,7 @@ pub use clip::{clip_polygon, clip_segment};
 pub use convex_polygon::{ConvexPolygon, PolygonFault};
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, folds_back, is_simple, segments_meet};
 pub use hull::{convex_hull, is_inside_hull};
+pub use offset::{OffsetJoins, OffsetOptions, offset_outward};
 pub use order_along_direction::order_along;
 pub(crate) use orient::point_key;
 pub use orient::{Orientation, double_area, orientation};
@@ -53,6 +57,7 @@ pub use packing::{
 };
 pub use picture::Picture;
 pub use picture_frame::{PictureFrame, VAxis};
+pub use pole::{Pole, distance_to_loop, pole};
 pub use polygon::{is_down, turning_number, winding_number};
 pub use power::power_of_two_near;
 pub use random::Random;

@@ -57,6 +57,7 @@ pub use format::FigureFormat;
 pub use grid::{CellContent, ColourBar, GridCell, PanelGrid};
 use panel::placing;
 pub use panel::{OutsideShade, PlaneDrawing, Pockets, Window, zones_of};
+pub(crate) use pdf::{PdfFile, text_operand, text_width};
 pub use photo::PhotoDrawing;
 pub use plot::{Bar, Marks, Plot, Shares, plots};
 pub use sheet::{Drawing, Panel, PrintedSheet};

@@ -95,14 +95,14 @@ impl Page {
 }
 
 /// File under construction: counts bytes, and keeps the offset of every object.
-struct PdfFile<'a, W> {
+pub(crate) struct PdfFile<'a, W> {
     out: &'a mut W,
     written: usize,
     offsets: Vec<usize>,
 }
 
 impl<'a, W: Write> PdfFile<'a, W> {
-    fn begin(out: &'a mut W) -> io::Result<Self> {
+    pub(crate) fn begin(out: &'a mut W) -> io::Result<Self> {
         let mut file = Self { out, written: 0, offsets: Vec::new() };
         // Bytes above 127 in the second line tell programs that the file is not plain text.
         file.put(b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n")?;
@@ -115,14 +115,14 @@ impl<'a, W: Write> PdfFile<'a, W> {
     }
 
     /// Writes the next object.
-    fn object(&mut self, body: &str) -> io::Result<()> {
+    pub(crate) fn object(&mut self, body: &str) -> io::Result<()> {
         self.offsets.push(self.written);
         let number = self.offsets.len();
         self.put(format!("{number} 0 obj\n{body}\nendobj\n").as_bytes())
     }
 
     /// Writes the next object as a compressed stream. `entries` are entries of its dictionary.
-    fn stream(&mut self, entries: &str, data: &[u8]) -> io::Result<()> {
+    pub(crate) fn stream(&mut self, entries: &str, data: &[u8]) -> io::Result<()> {
         let mut packed = ZlibEncoder::new(Vec::new(), Compression::default());
         packed.write_all(data)?;
         let packed = packed.finish()?;
@@ -135,7 +135,7 @@ impl<'a, W: Write> PdfFile<'a, W> {
     }
 
     /// Writes the table of offsets and the trailer.
-    fn end(mut self) -> io::Result<()> {
+    pub(crate) fn end(mut self) -> io::Result<()> {
         let (start, count) = (self.written, self.offsets.len() + 1);
         self.put(format!("xref\n0 {count}\n0000000000 65535 f \n").as_bytes())?;
         for offset in std::mem::take(&mut self.offsets) {
@@ -193,14 +193,32 @@ fn write_words(out: &mut impl Write, words: &Words) -> io::Result<()> {
     };
     write_colour(out, colours::INK, "rg")?;
     write!(out, "BT /F1 {} Tf 1 0 0 -1 {:.2} {:.2} Tm (", words.size, words.at.x - shift, words.at.y)?;
+    out.write_all(&escaped(codes.into_iter()))?;
+    writeln!(out, ") Tj ET")
+}
+
+/// Codes as they stand between the brackets of a text.
+fn escaped(codes: impl Iterator<Item = u8>) -> Vec<u8> {
+    let mut bytes = Vec::new();
     for code in codes {
         match code {
-            b'(' | b')' | b'\\' => out.write_all(&[b'\\', code])?,
-            b' '..=b'~' => out.write_all(&[code])?,
-            _ => write!(out, "\\{code:03o}")?,
+            b'(' | b')' | b'\\' => bytes.extend([b'\\', code]),
+            b' '..=b'~' => bytes.push(code),
+            _ => bytes.extend(format!("\\{code:03o}").into_bytes()),
         }
     }
-    writeln!(out, ") Tj ET")
+    bytes
+}
+
+/// Text as it stands between brackets. Characters without a code become question marks.
+pub(crate) fn text_operand(text: &str) -> Vec<u8> {
+    escaped(text.chars().map(|c| code_of(c).unwrap_or(b'?')))
+}
+
+/// Width of a text in Helvetica of a size.
+pub(crate) fn text_width(text: &str, size: f64) -> f64 {
+    let widths = text.chars().map(|c| f64::from(width_of_code(code_of(c).unwrap_or(b'?'))));
+    widths.sum::<f64>() * size / 1000.0
 }
 
 /// Code of a character in the encoding of the font.

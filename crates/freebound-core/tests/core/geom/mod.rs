@@ -2,6 +2,7 @@
 
 pub(crate) mod closed_polygon;
 pub(crate) mod convex_polygon;
+pub(crate) mod offset;
 pub(crate) mod packing;
 pub(crate) mod plane;
 pub(crate) mod rectangle;
