@@ -264,13 +264,11 @@ impl CommandError {
             | Self::Texture { .. }
             | Self::LayoutToPack { .. }
             | Self::NotADisk { .. } => UNUSABLE_INPUT,
-            Self::NoMorph { .. } | Self::MorphMemory { .. } => FALLS_SHORT,
-            Self::Pattern(PatternError::TooWide { .. }) => WRONG_USE,
-            Self::Pattern(_) => FALLS_SHORT,
+            Self::Usage(_) | Self::Pattern(PatternError::TooWide { .. }) => WRONG_USE,
+            Self::NoMorph { .. } | Self::MorphMemory { .. } | Self::Pattern(_) => FALLS_SHORT,
             Self::Write(error) if error.is_not_finite() => FALLS_SHORT,
             Self::Write(error) if error.is_of_input() => UNUSABLE_INPUT,
             Self::Write(_) | Self::StandardOutput(_) => INTERNAL,
-            Self::Usage(_) => WRONG_USE,
             Self::Solve(error) | Self::Method { error, .. } => code_of_solve(error),
         }
     }

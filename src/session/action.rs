@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use glam::DVec2;
 
-use super::brushing::BrushDab;
 use super::StopConditions;
+use super::brushing::BrushDab;
 use super::page::ChartMove;
 use crate::examples::Example;
 use freebound_core::geom::{PackingOptions, VAxis};

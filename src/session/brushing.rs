@@ -76,8 +76,8 @@ impl Brushing {
         let (begin, target) = (Arc::clone(&stroke.begin), stroke.problem.drag_target());
         self.frames.start((), move |cancel| {
             let solver = before.map(|solver| *solver);
-            let begun = || BrushSolver::new(&mesh, Embedding::clone(&begin), target, dab.brush, dab.at);
-            let mut solver = solver.or_else(begun)?;
+            let first = || BrushSolver::new(&mesh, Embedding::clone(&begin), target, dab.brush, dab.at);
+            let mut solver = solver.or_else(first)?;
             let frame = solver.frame(&mesh, dab.at, Control::new(cancel, &|_| {})).ok()?;
             Some((solver, frame))
         });
@@ -170,9 +170,9 @@ impl Session {
             return self.give_up_brush();
         }
         match self.brushing.frames.poll() {
-            Some((_, Ok(Some((solver, frame))))) => self.take_frame(solver, frame),
-            Some((_, Ok(None))) => self.give_up_brush(),
-            Some((_, Err(failure))) => {
+            Some(((), Ok(Some((solver, frame))))) => self.take_frame(solver, frame),
+            Some(((), Ok(None))) => self.give_up_brush(),
+            Some(((), Err(failure))) => {
                 self.give_up_brush();
                 self.messages.fail_background(MessagePlace::Embedding, "moving vertices with a brush", &failure);
             }

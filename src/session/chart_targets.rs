@@ -13,7 +13,7 @@ impl Document {
         let Some(of) = &model.prepared.chart else {
             return ProjectPins { targets: self.targets.clone(), notes: self.notes.clone() };
         };
-        let here = ChartEdits { targets: self.targets.clone(), notes: self.notes.clone(), relaxed: 0 };
+        let here = ChartEdits { targets: self.targets.clone(), notes: self.notes.clone(), ..ChartEdits::default() };
         let elsewhere = self.elsewhere.iter().map(|(&number, edits)| (number, edits));
         let mut all = ProjectPins::default();
         let charts = std::iter::once((of.charts.pick(self.chart), &here)).chain(elsewhere);

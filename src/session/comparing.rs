@@ -38,7 +38,7 @@ enum State {
     /// The method has ended. The result holds the problem.
     Done,
     /// The thread of this problem was lost, with this message.
-    Lost(Problem, String),
+    Lost(Box<Problem>, String),
 }
 
 /// State of a method relative to the document.
@@ -146,7 +146,7 @@ impl Comparing {
             Ok(Ok(compared)) => (State::Done, Some(Arc::new(compared))),
             // Cancelled. Nothing waits for a cancelled run.
             Ok(Err(_)) => (State::Waiting, contender.found.take()),
-            Err(failure) => (State::Lost(problem, failure.words(variant.method.words())), None),
+            Err(failure) => (State::Lost(Box::new(problem), failure.words(variant.method.words())), None),
         };
     }
 

@@ -55,9 +55,9 @@ pub use panes::PinMark;
 use state::FileDialogKind;
 pub(crate) use state::is_picture;
 pub use state::{
-    Alignment, Axis, CheckerRequest, CheckerStyle, ComparisonExport, CurveRequest, CurvesExport, GestureKind, Half,
-    Help, HullStage, Intent, MorphRequest, PageRequest, Pane, Request, SeamClick, SeamRule, ShadingMode, Snap,
-    StepTarget, Tab, Tool, Tour, TourCard, Welcome,
+    Alignment, Axis, BrushChoice, CheckerRequest, CheckerStyle, ComparisonExport, CurveRequest, CurvesExport,
+    GestureKind, Half, Help, HullStage, Intent, MorphRequest, PageRequest, Pane, Request, SeamClick, SeamRule,
+    ShadingMode, Snap, StepTarget, Tab, Tool, Tour, TourCard, Welcome,
 };
 use theme::{Theme, theme_of};
 use typed::Typed;

@@ -1,9 +1,10 @@
 //! The brush tool in the embedding pane.
 
-use egui::{Key, Modifiers, Pos2, Vec2};
+use eframe::egui::{Key, Modifiers, Pos2, Vec2};
 use freebound::examples::Example;
 use freebound::ui::Tool;
 use freebound_core::bijective::BrushKind;
+use freebound_core::mesh::VertexId;
 
 use crate::harness::Window;
 
@@ -62,7 +63,7 @@ fn control_inverts_a_pinch() {
         let neighbours: Vec<usize> = mesh
             .triangles
             .iter()
-            .map(|corners| corners.map(|corner| corner.index()))
+            .map(|corners| corners.map(VertexId::index))
             .filter(|corners| corners.contains(&vertex))
             .flatten()
             .collect();

@@ -87,16 +87,17 @@ pub(super) fn over_plane(
     let theme = theme_of(ui);
     let point = point_size(view);
     // A brush over too many vertices is smaller than chosen.
+    #[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
     let used = editor.session.brush_radius().map(|radius| (radius / point) as f32);
-    let painter = ui.painter_at(view.rect);
+    let over = ui.painter_at(view.rect);
     let is_narrowed = used.is_some_and(|used| used < 0.99 * choice.radius);
     if is_narrowed {
-        painter.circle_stroke(at, choice.radius, Stroke::new(1.0, theme.weak_text));
+        over.circle_stroke(at, choice.radius, Stroke::new(1.0, theme.weak_text));
     }
     let radius = used.map_or(choice.radius, |used| used.min(choice.radius));
-    painter.circle_stroke(at, radius, Stroke::new(3.0, theme.background));
-    painter.circle_stroke(at, radius, Stroke::new(1.5, theme.selection));
-    painter.circle_filled(at, 1.5, theme.selection);
+    over.circle_stroke(at, radius, Stroke::new(3.0, theme.background));
+    over.circle_stroke(at, radius, Stroke::new(1.5, theme.selection));
+    over.circle_filled(at, 1.5, theme.selection);
 }
 
 /// Size of a point of the screen in the plane.
@@ -131,7 +132,7 @@ fn stroke(
     }
 }
 
-/// Camera moves beside a brush: the other buttons pan, the wheel zooms. With Alt the wheel resizes the brush.
+/// Camera moves. Beside a brush the other buttons pan, and the wheel with Alt resizes the brush.
 pub(super) fn navigate(
     ui: &egui::Ui,
     response: &Response,
@@ -139,6 +140,9 @@ pub(super) fn navigate(
     editor: &Editor,
     requests: &mut Vec<Request>,
 ) {
+    if !takes_drags(editor) {
+        return plane_pane::navigate(ui, response, camera);
+    }
     if response.dragged() && !response.dragged_by(PointerButton::Primary) {
         camera.pan(DVec2::new(response.drag_delta().x.into(), response.drag_delta().y.into()));
     }

@@ -294,8 +294,7 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
     for outline in pane::concave(editor, scene) {
         let corners: Vec<(Pos2, bool)> = outline.iter().filter_map(|&corner| place(corner)).collect();
         if corners.len() == outline.len() && corners.iter().any(|(_, is_seen)| *is_seen) {
-            let corners: Vec<Pos2> = corners.into_iter().map(|(at, _)| at).collect();
-            pane::concave_mark(&painter, &corners, theme);
+            pane::concave_mark(&painter, &corners.into_iter().map(|(at, _)| at).collect::<Vec<_>>(), theme);
         }
     }
     for rim in pane::crossed_holes(editor, scene) {
@@ -330,7 +329,7 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
         pane::halo(&painter, at, theme.selection, if editor.tools.tool() == Tool::Fix { 7.0 } else { 5.0 });
         match editor.tools.tool() {
             _ if editor.is_new_vertex(vertex) => {}
-            Tool::Select | Tool::Seam => {}
+            Tool::Select | Tool::Seam | Tool::Brush => {}
             Tool::Fix => PinMark::Gauge.mark(&painter, at, theme, Emphasis::Plain),
             Tool::Constrain => pins::ghost(&painter, at, theme),
         }

@@ -36,21 +36,23 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     }
     map_origin::chip(ui, rect, editor, requests);
     if editor.shows_page() {
-        return page_pane::plane_ui(ui, &response, editor, requests);
-    }
-    if editor.awaits_page() {
+        page_pane::plane_ui(ui, &response, editor, requests);
+    } else if editor.awaits_page() {
         let words = page_pane::waiting_words(editor);
-        return pane::empty_state(ui, rect, &words.iter().map(String::as_str).collect::<Vec<_>>());
+        pane::empty_state(ui, rect, &words.iter().map(String::as_str).collect::<Vec<_>>());
+    } else {
+        chart_ui(ui, rect, &response, editor, requests);
     }
+}
+
+/// One chart, or the whole map.
+fn chart_ui(ui: &mut egui::Ui, rect: Rect, response: &Response, editor: &mut Editor, requests: &mut Vec<Request>) {
+    let theme = theme_of(ui);
     editor.lay_out_plane(rect);
     let (Some(plane), Some(mut camera)) = (editor.plane.drawn().map(Arc::clone), editor.plane.pane.camera()) else {
         return pane::empty_state(ui, rect, &waiting_words(editor));
     };
-    if brush::takes_drags(editor) {
-        brush::navigate(ui, &response, &mut camera, editor, requests);
-    } else {
-        navigate(ui, &response, &mut camera);
-    }
+    brush::navigate(ui, response, &mut camera, editor, requests);
     if editor.plane.pane.camera() != Some(camera) {
         editor.plane.pane.set_camera(camera);
         ui.ctx().request_repaint();
@@ -66,18 +68,19 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
         let frame = frame(editor, &plane, camera, theme);
         ui.painter().add(render::plane_pane(PaneId("plane"), rect, frame));
     }
-    let chosen = if brush::takes_drags(editor) { None } else { pane::drag_box(ui, &response, editor, Pane::Plane) };
-    if let Some(chosen) = chosen {
+    if !brush::takes_drags(editor)
+        && let Some(chosen) = pane::drag_box(ui, response, editor, Pane::Plane)
+    {
         requests.push(Request::AddToSelection(within(view, chosen, editor, &plane)));
     }
-    pane::click(ui, &response, editor, requests);
-    vertex_menu::of_pane(&response, editor, requests);
+    pane::click(ui, response, editor, requests);
+    vertex_menu::of_pane(response, editor, requests);
     marks(ui, view, editor, &plane);
     equation_table::draw(ui, view, editor, &plane);
     if !brush::hides_pins(editor, &plane) {
         pin_drag::pins_ui(ui, view, editor, requests);
     }
-    brush::over_plane(ui, &response, view, editor, requests);
+    brush::over_plane(ui, response, view, editor, requests);
     if !plane.is_stage() {
         magnifier::over_plane(ui, view, editor, &plane, requests);
     }

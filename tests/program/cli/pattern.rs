@@ -34,7 +34,7 @@ impl Drawing {
                 ("20", y) => {
                     at.y = y.parse().unwrap();
                     if let ("VERTEX", Some(line)) = (kind, drawing.lines.last_mut()) {
-                        line.0 = layer.to_owned();
+                        layer.clone_into(&mut line.0);
                         line.1.push(at);
                     }
                 }

@@ -45,7 +45,7 @@ fn first_step() -> Outcome {
     let frame = PictureFrame { aspect: 2.0, ..PictureFrame::default() };
     let targets = [(3, [0.2, 0.2]), (40, [0.8, 0.3]), (11, [0.7, 0.9])];
     let targets = hard_targets(targets.map(|(vertex, uv)| (VertexId::new(vertex), uv.into())));
-    let problem = Problem { settings: Settings::default(), frame, targets };
+    let problem = Problem { settings: Settings::default(), frame, targets, shaped: None };
     let mut run = Flattener::new(problem.settings.clone(), problem.pins());
     let step = run.step(mesh, Control::unattended()).expect("a dome can be solved");
     Outcome::new(mesh, problem, step)

@@ -20,7 +20,7 @@ fn on_picture(aspect: f64, targets: Targets) -> Problem {
     let frame = PictureFrame { aspect, v_axis: VAxis::Up };
     let [low, high] = frame.corners();
     let settings = Settings { size: GaugeSize::Within(Bounds { low, high }), ..Settings::default() };
-    Problem { settings, frame, targets }
+    Problem { settings, frame, targets, shaped: None }
 }
 
 fn steps_of(mesh: &DiskMesh, problem: &Problem) -> (Vec<Step>, Ending) {

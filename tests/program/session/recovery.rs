@@ -217,7 +217,7 @@ fn numbered(vertex: u32) -> Target {
 #[ignore = "the child of a_project_is_whole_whenever_its_writer_is_killed"]
 fn child_saves_two_projects_by_turns() {
     let Some(folder) = std::env::var_os(FOLDER_OF_CHILD).map(PathBuf::from) else { return };
-    let mut sessions = [with_pins(&folder, 0), with_pins(&folder, 30)];
+    let mut sessions = vec![with_pins(&folder, 0), with_pins(&folder, 30)];
     loop {
         for session in &mut sessions {
             settled(session, Action::SaveProject(folder.join("work.freebound")));

@@ -12,7 +12,12 @@ use glam::DVec2;
 fn outcome(mesh: &DiskMesh, variant: &str, pins: &[(VertexId, DVec2)]) -> Outcome {
     let variant: Variant = variant.parse().expect("a variant");
     let targets = hard_targets(pins.iter().copied());
-    let problem = Problem { settings: variant.settings(&Settings::default()), frame: PictureFrame::default(), targets };
+    let problem = Problem {
+        settings: variant.settings(&Settings::default()),
+        frame: PictureFrame::default(),
+        targets,
+        shaped: None,
+    };
     let step = problem.flattener().step(mesh, Control::unattended()).expect("solved");
     Outcome::new(mesh, problem, step)
 }

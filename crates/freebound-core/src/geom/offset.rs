@@ -97,7 +97,7 @@ struct OuterSide {
 /// Convex pieces around a region, and their outer sides.
 #[derive(Default)]
 struct Pieces {
-    pieces: Vec<Vec<DVec2>>,
+    convex: Vec<Vec<DVec2>>,
     sides: Vec<OuterSide>,
     points: u32,
 }
@@ -132,7 +132,7 @@ impl Corner {
         let [before, at, after] = [line[(place + count - 1) % count], line[place], line[(place + 1) % count]];
         let [first, second] = [at - before, after - at];
         let turn = first.perp_dot(second).atan2(first.dot(second));
-        let normals = [first, second].map(|along| -along.perp().normalize());
+        let normals = [first, second].map(|along| -along.perp().normalize_or_zero());
         Self { at, normals, turn, shorter: first.length().min(second.length()) }
     }
 
@@ -219,8 +219,8 @@ impl Pieces {
 
     /// Adds a convex piece, counter-clockwise, with its outer sides.
     fn add_piece(&mut self, corners: Vec<DVec2>, outer: &[(u32, DVec2)]) {
-        let piece = u32::try_from(self.pieces.len()).expect("fewer than 2^32 pieces");
-        self.pieces.push(corners);
+        let piece = u32::try_from(self.convex.len()).expect("fewer than 2^32 pieces");
+        self.convex.push(corners);
         let side =
             |pair: &[(u32, DVec2)]| OuterSide { ends: [pair[0].1, pair[1].1], numbers: [pair[0].0, pair[1].0], piece };
         self.sides.extend(outer.windows(2).map(side));
@@ -228,7 +228,7 @@ impl Pieces {
 
     /// Outline of the union of all pieces and the region. `None` if its parts do not close.
     fn outline(&self, loops: &[Vec<DVec2>]) -> Option<Vec<Vec<DVec2>>> {
-        let cover = Cover::new(&self.pieces, loops);
+        let cover = Cover::new(&self.convex, loops);
         let mut parts = Vec::new();
         for (side, mut cuts) in self.sides.iter().zip(self.crossings()) {
             cuts.sort_by(|a, b| a.0.total_cmp(&b.0));

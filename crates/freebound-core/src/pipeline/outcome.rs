@@ -58,7 +58,9 @@ impl Outcome {
             _ => return None,
         };
         let mut embedding: Embedding = shaped.iter().map(|&z| moved_to.apply(z)).collect();
-        hard.iter().for_each(|&(vertex, target)| embedding[vertex] = target);
+        for (vertex, target) in hard {
+            embedding[vertex] = target;
+        }
         Self::of_saved_map(mesh, problem.clone(), embedding)
     }
 

@@ -125,7 +125,7 @@ fn sides_of(
             continue;
         }
         let run = &turned[start..=end];
-        let ends = [run[0], run[run.len() - 1]].map(|vertex| surface(vertex));
+        let ends = [run[0], run[run.len() - 1]].map(&surface);
         let length = run.windows(2).map(|pair| surface(pair[0]).distance(surface(pair[1]))).sum();
         let line = run.iter().map(|&vertex| placed[vertex]).collect();
         sides.push(PieceSide { ends: ends.map(key_of), line, length });

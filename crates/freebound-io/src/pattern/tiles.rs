@@ -80,7 +80,7 @@ impl Tiling {
 /// Name of a row: A to Z, then AA, AB, …
 fn letters_of(row: u32) -> String {
     let letter = char::from(b'A' + u8::try_from(row % 26).unwrap_or(0));
-    let before = (row >= 26).then(|| letters_of(row / 26 - 1)).unwrap_or_default();
+    let before = if row >= 26 { letters_of(row / 26 - 1) } else { String::new() };
     format!("{before}{letter}")
 }
 

@@ -285,7 +285,8 @@ impl BrushSolver {
             BrushKind::Smooth => {
                 let (count, around) = (mesh.boundary_loop().len(), mesh.boundary_loop());
                 let target = |&v: &VertexId| {
-                    let place = mesh.boundary_place(v).filter(|_| pins.get(&v).is_none_or(|pin| !pin.kind.is_hard()))?;
+                    let place =
+                        mesh.boundary_place(v).filter(|_| pins.get(&v).is_none_or(|pin| !pin.kind.is_hard()))?;
                     let [before, after] = [count - 1, 1].map(|by| embedding[around[(place + by) % count]]);
                     let share = 0.5 * strength * falloff(embedding[v].distance(circle.centre) / circle.radius);
                     Some((v, embedding[v].lerp(0.5 * (before + after), share)))
@@ -304,13 +305,7 @@ impl BrushSolver {
     }
 
     /// Places the solver on the vertices of a circle. Returns true if they can move.
-    fn place(
-        &mut self,
-        mesh: &DiskMesh,
-        circle: &Circle,
-        targets: &[(VertexId, DVec2)],
-        rest: FaceRest<'_>,
-    ) -> bool {
+    fn place(&mut self, mesh: &DiskMesh, circle: &Circle, targets: &[(VertexId, DVec2)], rest: FaceRest<'_>) -> bool {
         if self.brush.kind == BrushKind::Smooth && targets.is_empty() {
             return false;
         }

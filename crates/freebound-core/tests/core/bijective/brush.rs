@@ -137,7 +137,9 @@ fn smoothing_shortens_the_boundary_and_moves_the_boundary_near_the_brush_alone()
     let at = begin[middle];
     let mut stroke = Stroke::new(mesh, begin, Brush { kind: BrushKind::Smooth, radius: 0.4, strength: 1.0 }, at);
     let length = |embedding: &Embedding| -> f64 {
-        (0..boundary.len()).map(|k| embedding[boundary[k]].distance(embedding[boundary[(k + 1) % boundary.len()]])).sum()
+        (0..boundary.len())
+            .map(|k| embedding[boundary[k]].distance(embedding[boundary[(k + 1) % boundary.len()]]))
+            .sum()
     };
     let before = length(&stroke.begin);
     for _ in 0..10 {
@@ -158,7 +160,9 @@ fn a_brush_beside_the_map_or_without_a_size_does_nothing() {
     let mesh = disk(jittered_sheet(4));
     let begin = from_above(&mesh);
     let target = || DragTarget { pins: Pins::new(), sheet: Arc::default() };
-    for (radius, strength, at) in [(0.0, 1.0, 0.0), (f64::NAN, 1.0, 0.0), (1.0, f64::NAN, 0.0), (1.0, 1.0, f64::INFINITY)] {
+    for (radius, strength, at) in
+        [(0.0, 1.0, 0.0), (f64::NAN, 1.0, 0.0), (1.0, f64::NAN, 0.0), (1.0, 1.0, f64::INFINITY)]
+    {
         let brush = Brush { kind: BrushKind::Pinch, radius, strength };
         assert!(BrushSolver::new(&mesh, begin.clone(), target(), brush, DVec2::splat(at)).is_none());
     }
