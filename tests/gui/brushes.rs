@@ -36,15 +36,16 @@ fn a_drag_with_each_brush_is_one_edit_of_the_map_and_keeps_the_camera() {
         ("Pinch", BrushKind::Pinch),
         ("Texels", BrushKind::Texels),
     ] {
-        window.click(name);
+        window.click(&format!("{name} brush"));
         assert_eq!(window.editor().tools.brush.kind, kind);
         let from = middle(&window);
         window.drag(from, from + Vec2::new(30.0, 12.0), Modifiers::NONE);
         assert!(window.embedding() != before, "{name}");
+        assert_eq!(window.editor().session.history().depth(), 1, "{name}");
         assert!(window.is_proved(), "{name}: {}", window.verdict());
         assert_eq!(window.editor().plane.pane.camera(), camera);
         window.press(Modifiers::COMMAND, Key::Z);
-        assert_eq!(window.embedding(), before, "{name}");
+        assert!(window.embedding() == before, "{name} {}", window.editor().session.history().depth());
         assert!(!can_undo(&window), "{name}");
     }
 }
@@ -53,7 +54,7 @@ fn a_drag_with_each_brush_is_one_edit_of_the_map_and_keeps_the_camera() {
 fn control_inverts_a_pinch() {
     let area_near_the_middle = |modifiers: Modifiers| {
         let mut window = window();
-        window.click("Pinch");
+        window.click("Pinch brush");
         let at = middle(&window);
         let flat = window.embedding();
         let centre = flat.bounds().middle();
@@ -78,7 +79,7 @@ fn control_inverts_a_pinch() {
 #[test]
 fn escape_during_a_stroke_restores_the_map_and_then_puts_the_brush_away() {
     let mut window = window();
-    window.click("Grab");
+    window.click("Grab brush");
     let before = window.embedding();
     let from = middle(&window);
     window.begin_drag(from, from + Vec2::new(40.0, 0.0), Modifiers::NONE);
@@ -87,7 +88,7 @@ fn escape_during_a_stroke_restores_the_map_and_then_puts_the_brush_away() {
     window.step();
     assert!(!window.editor().session.is_brushing());
     window.end_drag(from);
-    assert_eq!(window.embedding(), before);
+    assert!(window.embedding() == before);
     assert!(!can_undo(&window));
     window.key(Key::Escape);
     assert_eq!(window.editor().tools.tool(), Tool::Select);
@@ -106,6 +107,6 @@ fn keys_resize_the_brush_and_a_click_beside_the_map_changes_nothing() {
     let beside = window.plane_view().right_bottom() - Vec2::new(12.0, 12.0);
     let map = window.embedding();
     window.click_at(beside, Modifiers::NONE);
-    assert_eq!(window.embedding(), map);
+    assert!(window.embedding() == map);
     assert!(!can_undo(&window));
 }

@@ -56,11 +56,11 @@ fn the_menu_of_a_pane_sets_style_and_number_of_squares_and_stays_open() {
 #[test]
 fn commands_of_the_view_menu_do_the_same() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
-    window.menu(&["View", "Checker", "Letters and numbers"]);
-    window.menu(&["View", "Checker", "More squares"]);
+    window.menu(&["View", "Checker and pixels", "Letters and numbers"]);
+    window.menu(&["View", "Checker and pixels", "More squares"]);
     assert_eq!(style(&window), (CheckerStyle::Lettered, 32));
-    window.menu(&["View", "Checker", "Fewer squares"]);
-    window.menu(&["View", "Checker", "Automatic squares"]);
+    window.menu(&["View", "Checker and pixels", "Fewer squares"]);
+    window.menu(&["View", "Checker and pixels", "Automatic squares"]);
     assert_eq!(style(&window), (CheckerStyle::Lettered, 16));
 }
 
@@ -80,11 +80,11 @@ fn style_picture_and_number_come_back_in_the_next_run() {
     image::RgbaImage::from_pixel(2, 2, image::Rgba([9, 8, 7, 255])).save(mesh.path("tile.png")).unwrap();
     let path = mesh.path("state/window.json");
     let mut first = start(&mesh, &path);
-    first.menu(&["View", "Checker", "Own picture…"]);
+    first.menu(&["View", "Checker and pixels", "Own picture…"]);
     first.click("tile.png");
     first.click("Open");
     assert_eq!(style(&first), (CheckerStyle::Picture, 16));
-    first.menu(&["View", "Checker", "More squares"]);
+    first.menu(&["View", "Checker and pixels", "More squares"]);
     first.harness.state_mut().on_exit();
     let mut second = start(&mesh, &path);
     assert_eq!(style(&second), (CheckerStyle::Picture, 32));
@@ -188,7 +188,7 @@ fn the_wire_stands_out_from_both_checks_in_both_themes_and_panes() {
 #[test]
 fn the_page_has_the_chosen_number_of_squares_too() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
-    window.menu(&["View", "Checker", "Letters and numbers"]);
+    window.menu(&["View", "Checker and pixels", "Letters and numbers"]);
     assert!(window.harness.query_by_label("Letters and numbers").is_none(), "the menu is closed");
     window.editor_mut().handle(freebound::ui::CheckerRequest::SetSquares(Some(8)).into());
     window.settle();

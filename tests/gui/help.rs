@@ -108,8 +108,18 @@ fn the_palette_has_every_entry_of_every_menu_and_every_key() {
     let mut seen = 0;
     for (menu, parts) in [
         ("File", &["Recent", "Examples", "Export", "Size in files"][..]),
-        ("Edit", &["Seams"]),
-        ("View", &["Shading of the mesh", "Shading of the embedding", "Side panels", "Theme"]),
+        ("Edit", &["Tools", "Seams"]),
+        (
+            "View",
+            &[
+                "Shading of the mesh",
+                "Shading of the embedding",
+                "Checker and pixels",
+                "Side panels",
+                "Step through defects",
+                "Theme",
+            ],
+        ),
         ("Solve", &[]),
         ("Help", &[]),
     ] {

@@ -5,7 +5,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::session::{Action, Document};
-use freebound::ui::{BINDINGS, Pane, Request, SeamClick, ShadingMode, StepTarget, Tool};
+use freebound::ui::{BINDINGS, BrushChoice, Pane, Request, SeamClick, ShadingMode, StepTarget, Tool};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
 use freebound_core::problem::Stage;
@@ -110,6 +110,7 @@ fn shortcuts_do_what_the_table_says() {
                 editor.session.chart_on_screen().is_none()
             }
             Request::SetTool(tool) => editor.tools.tool() == tool,
+            Request::ResizeBrush { grows } => (editor.tools.brush.radius > BrushChoice::default().radius) == grows,
             Request::EndSeam => editor.tools.seam.last().is_none() && editor.tools.tool() == Tool::Seam,
             Request::UnpinSelected => document(&window).targets.len() == pins - 1,
             Request::Frame => editor.mesh.pane.camera() != orbit,

@@ -147,21 +147,19 @@ fn no_two_controls_of_a_state_have_the_same_role_and_name() {
 
 #[test]
 fn each_menu_has_its_entries() {
-    let menus: [(&[&str], &[&str]); 10] = [
+    let menus: [(&[&str], &[&str]); 11] = [
         (
             &["File"],
             &["Open…", "Save project", "Save project as…", "Open picture…", "Import constraints…", "Export", "Quit"],
         ),
         (&["File", "Examples"], &["Face", "Open cube", "Flat L", "Dome", "Bumpy cap", "Spiral strip"]),
         (&["File", "Size in files"], &["Fit into the unit square", "True scale: the mesh's own area"]),
+        (&["Edit", "Tools"], &["Select vertices", "Fix vertices", "Constrain vertices", "Draw seams", "Brush the map"]),
         (
             &["Edit"],
             &[
                 "Undo",
                 "Redo",
-                "Select vertices",
-                "Fix vertices",
-                "Constrain vertices",
                 "Fix the selection",
                 "Free the selected pins",
                 "Mirror the targets",

@@ -98,9 +98,14 @@ fn edit_menu(menu: &mut MenuBuilder<'_>) {
     menu.item(when(session.history().can_undo(), "There is nothing to undo"), "Undo", Action::Undo);
     menu.item(when(session.history().can_redo(), "There is nothing to redo"), "Redo", Action::Redo);
     menu.separator();
-    for tool in Tool::ALL {
-        menu.choice(editor.tools.tool() == tool, tool.words()[1], Request::SetTool(tool));
-    }
+    menu.part("Tools", |menu| {
+        for tool in Tool::ALL {
+            menu.choice(editor.tools.tool() == tool, tool.words()[1], Request::SetTool(tool));
+        }
+        menu.separator();
+        menu.item(ALWAYS, "Make the brush larger", Request::ResizeBrush { grows: true });
+        menu.item(ALWAYS, "Make the brush smaller", Request::ResizeBrush { grows: false });
+    });
     menu.part("Seams", |menu| {
         let has_model = session.model().is_some();
         menu.item(when(session.can_unwrap(), NO_MESH), "Unwrap: find short seams", Action::Unwrap(None));
@@ -156,7 +161,6 @@ fn view_menu(menu: &mut MenuBuilder<'_>) {
     }
     checker_menu(menu);
     menu.switch(editor.pane_shading.wireframe, "Wireframe", Request::ToggleWireframe);
-    menu.switch(editor.pane_shading.is_sharp(), "Sharp pixels", Request::ToggleSharp);
     menu.switch(editor.plane.hull_shown(), "Hull and pockets", Request::ToggleHull);
     menu.switch(editor.pane_shading.magnifier, "Magnifier", Request::ToggleMagnifier);
     menu.switch(editor.pane_shading.glides, "Animate changes of step", Request::ToggleEase);
@@ -199,7 +203,9 @@ fn view_menu(menu: &mut MenuBuilder<'_>) {
 fn checker_menu(menu: &mut MenuBuilder<'_>) {
     let editor = menu.editor;
     let checker = &editor.pane_shading.checker;
-    menu.part("Checker", |menu| {
+    menu.part("Checker and pixels", |menu| {
+        menu.switch(editor.pane_shading.is_sharp(), "Sharp pixels", Request::ToggleSharp);
+        menu.separator();
         for style in CheckerStyle::ALL {
             let [words, tip] = style.words();
             let command = menu.command(ALWAYS, words, CheckerRequest::SetStyle(style)).has_tip(tip);

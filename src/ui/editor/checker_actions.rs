@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::Editor;
 use super::checker::{ACROSS_CHART, ALONG_PAGE};
-use crate::session::MessagePlace;
+use crate::session::{Busy, MessagePlace};
 use crate::ui::state::{CheckerRequest, CheckerStyle, FileDialogKind};
 
 impl Editor {
@@ -30,11 +30,15 @@ impl Editor {
 
     /// Makes the tile of the checker, and reports faults. Call once per frame.
     pub(super) fn refresh_checker(&mut self) {
+        if matches!(self.session.busy(), Some(Busy::Loading)) {
+            // An opened mesh would dismiss the message.
+            return;
+        }
         if let Some(failure) = self.pane_shading.checker.take_failure() {
             self.session.tell_failure(MessagePlace::Embedding, "drawing", &failure);
         }
         if let Some(fault) = self.pane_shading.checker.refresh_tile() {
-            let remedy = "Choose a PNG or JPEG file in View › Checker › Own picture";
+            let remedy = "Choose a PNG or JPEG file in View › Checker and pixels › Own picture";
             self.session.tell_fault(MessagePlace::Embedding, fault.to_string(), remedy);
         }
     }

@@ -1,6 +1,6 @@
 //! The brush tool in the embedding pane: its bar, its circle, and its strokes.
 
-use eframe::egui::{self, PointerButton, Rect, Response, Stroke};
+use eframe::egui::{self, PointerButton, Rect, Response, Role, Stroke, WidgetInfo};
 use glam::DVec2;
 
 use super::{pane, plane_pane};
@@ -35,7 +35,10 @@ pub(super) fn bar(ui: &mut egui::Ui, rect: Rect, editor: &Editor, requests: &mut
         ui.horizontal_wrapped(|ui| {
             for kind in KINDS {
                 let [name, about] = brush_words(kind);
-                let label = ui.selectable_label(choice.kind == kind, name).on_hover_text(about);
+                let is_on = choice.kind == kind;
+                let label = ui.selectable_label(is_on, name).on_hover_text(about);
+                // The name tells the brush from the button that relaxes the whole map.
+                label.widget_info(|| WidgetInfo::selected(Role::Button, true, is_on, format!("{name} brush")));
                 label.asks(Request::SetBrush(BrushChoice { kind, ..choice }), requests);
             }
         });

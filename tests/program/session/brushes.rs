@@ -52,9 +52,9 @@ fn a_stroke_is_one_edit_that_undo_and_redo_show_bit_for_bit() {
         assert!(session.is_current() && session.preview().is_none() && session.has_unsaved_work());
         assert!(session.outcome().expect("there").step.verdict.planar);
         settled(&mut session, Action::Undo);
-        assert_eq!(embedding(&session), before, "{kind:?}");
+        assert!(embedding(&session) == before, "{kind:?}");
         settled(&mut session, Action::Redo);
-        assert_eq!(embedding(&session), after, "{kind:?}");
+        assert!(embedding(&session) == after, "{kind:?}");
         settled(&mut session, Action::Undo);
     }
 }
@@ -73,7 +73,7 @@ fn a_cancelled_stroke_leaves_the_map_and_the_history() {
         assert!(session.is_brushing() && session.preview().is_some());
         settled(&mut session, cancel);
         assert!(!session.is_brushing() && session.preview().is_none() && !session.history().can_undo());
-        assert_eq!(embedding(&session), before);
+        assert!(embedding(&session) == before);
     }
 }
 
@@ -84,7 +84,7 @@ fn a_shaped_map_stays_when_a_pin_is_added_and_goes_with_another_method() {
     stroke(&mut session, BrushKind::Grab, &[[0.0, 0.0], [0.1, 0.05]]);
     let shaped = embedding(&session);
     settled(&mut session, Action::Fix(vec![VertexId::new(3)]));
-    assert_eq!(embedding(&session), shaped);
+    assert!(embedding(&session) == shaped);
     let by = DVec2::new(0.25, 0.5);
     let target = Target::hard(shaped[3] + by);
     settled(&mut session, Action::Place { vertex: VertexId::new(3), target });
@@ -93,11 +93,11 @@ fn a_shaped_map_stays_when_a_pin_is_added_and_goes_with_another_method() {
     let error = moved.iter().zip(shaped.iter()).map(|(a, b)| a.distance(*b + by)).fold(0.0, f64::max);
     assert!(error < 1e-9, "{error}");
     settled(&mut session, Action::UnpinAll);
-    assert_eq!(embedding(&session), shaped);
+    assert!(embedding(&session) == shaped);
     settled(&mut session, Action::Solve);
-    assert_eq!(embedding(&session), solved);
+    assert!(embedding(&session) == solved);
     settled(&mut session, Action::Undo);
-    assert_eq!(embedding(&session), shaped);
+    assert!(embedding(&session) == shaped);
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn a_shaped_map_returns_from_a_project_bit_for_bit() {
     settled(&mut session, Action::SaveProject(project.clone()));
     let mut again = super::basics::session();
     settled(&mut again, Action::Open(project));
-    assert_eq!(embedding(&again), shaped);
+    assert!(embedding(&again) == shaped);
     stroke(&mut again, BrushKind::Relax, &[[0.1, 0.0]]);
     assert!(embedding(&again) != shaped);
 }

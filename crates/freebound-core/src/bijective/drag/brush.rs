@@ -5,7 +5,7 @@
 //!
 //! | brush | dab |
 //! |---|---|
-//! | grab | a drag of the vertices in the inner half of the circle, see [`DragSolver`] |
+//! | grab | the inner half moves with the pointer from the start; the rest of the circle follows like rubber |
 //! | relax | a Newton step on the symmetric Dirichlet energy against the surface, scaled to the map's area |
 //! | pinch | the inner half shrinks about the centre (or grows); the rest of the circle follows like rubber |
 //! | smooth | boundary vertices move towards the middle of their neighbours; the circle follows like rubber |
@@ -19,7 +19,7 @@ use super::blocker::Blocker;
 use super::patch::{FaceRest, Ground, Patch};
 use super::proof::{InF32, verdict_of_planar};
 use super::scaffold::LocalScaffold;
-use super::{Advance, DragFrame, DragSolver, DragTarget, HALVINGS, REST};
+use super::{ADVANCES, Advance, DragSolver, DragTarget, HALVINGS, REST};
 use crate::geom::double_area;
 use crate::mesh::{DiskMesh, VertexId};
 use crate::nonlinear::energy_problem::{Limits, Unfolding};
@@ -30,8 +30,6 @@ use crate::weights::equations::length_scale;
 
 /// Largest number of vertices that a dab moves. The circle shrinks to them.
 const MOST_BRUSHED: usize = 3000;
-/// Largest number of vertices that a grab moves rigidly.
-const MOST_GRABBED: usize = 1000;
 
 /// Radius of the inner part of the circle, relative to the radius.
 const INNER: f64 = 0.5;
@@ -110,11 +108,14 @@ pub struct BrushSolver {
     last: DVec2,
     /// Factor from lengths of the surface to lengths of the map, by their areas.
     surface_scale: f64,
+    /// Grab in progress.
+    grip: Option<Grip>,
     moved: Vec<VertexId>,
     is_moved: Vec<bool>,
 }
 
 /// Vertices within a circle, nearest first, and the radius that holds them.
+#[derive(Debug)]
 struct Circle {
     vertices: Vec<VertexId>,
     centre: DVec2,
@@ -147,6 +148,13 @@ impl Circle {
     }
 }
 
+/// Circle of a grab, and the vertices that it moves with the pointer.
+#[derive(Debug)]
+struct Grip {
+    circle: Circle,
+    inner: Vec<VertexId>,
+}
+
 /// Weight of a relative distance from the centre.
 fn falloff(distance: f64) -> f64 {
     (1.0 - distance * distance).max(0.0).powi(2)
@@ -166,18 +174,15 @@ impl BrushSolver {
         }
         let least = if kind.has_inverse() { -1.0 } else { 0.0 };
         let brush = Brush { strength: strength.clamp(least, 1.0), ..brush };
-        let mut pins = target.pins.clone();
-        let mut grabbed = Vec::new();
-        if kind == BrushKind::Grab {
-            let circle = Circle::new(mesh, &embedding, at, [radius, radius], MOST_GRABBED);
-            grabbed = circle.inner(&embedding, &pins);
-            pins.extend(hard_pins(grabbed.iter().map(|&v| (v, embedding[v]))));
-        }
-        let sheet = target.sheet.clone();
-        let solver = DragSolver::new(mesh, embedding, &grabbed, DragTarget { pins, sheet })?;
+        let solver = DragSolver::new(mesh, embedding, &[], target.clone())?;
+        let grip = (kind == BrushKind::Grab).then(|| {
+            let circle = Circle::new(mesh, &solver.begin, at, [radius, solver.scale.mean_edge], MOST_BRUSHED);
+            let inner = circle.inner(&solver.begin, &target.pins);
+            Grip { circle, inner }
+        });
         let surface_scale = surface_scale(mesh, solver.scale.double_area);
         let (moved, is_moved) = (Vec::new(), vec![false; mesh.vertex_count()]);
-        let stroke = Self { solver, brush, target, start: at, last: at, surface_scale, moved, is_moved };
+        let stroke = Self { solver, brush, target, start: at, last: at, surface_scale, grip, moved, is_moved };
         surface_scale.is_normal().then_some(stroke)
     }
 
@@ -225,17 +230,44 @@ impl BrushSolver {
 
     /// Moves the grabbed vertices with the pointer.
     fn grab(&mut self, mesh: &DiskMesh, at: DVec2, control: Control<'_>) -> Result<BrushFrame, SolveError> {
-        let dragged = self.solver.dragged.clone();
-        if dragged.is_empty() {
-            return Ok(self.at_rest());
-        }
-        let by = at - self.start;
-        let mut target = self.target.clone();
-        target.pins.extend(hard_pins(dragged.iter().map(|&v| (v, self.solver.begin[v] + by))));
-        let DragFrame { obstacle, is_at_rest, verdict, .. } = self.solver.drag(mesh, &target, control)?;
+        let Some(grip) = self.grip.take() else { return Ok(self.at_rest()) };
+        let frame = self.move_grip(mesh, &grip, at, control);
+        self.grip = Some(grip);
         self.last = at;
         self.note_moved();
-        Ok(BrushFrame { radius: self.brush.radius, obstacle, is_at_rest, verdict })
+        frame
+    }
+
+    fn move_grip(
+        &mut self,
+        mesh: &DiskMesh,
+        Grip { circle, inner }: &Grip,
+        at: DVec2,
+        control: Control<'_>,
+    ) -> Result<BrushFrame, SolveError> {
+        let by = at - self.start;
+        let targets: Vec<(VertexId, DVec2)> = inner.iter().map(|&v| (v, self.solver.begin[v] + by)).collect();
+        let aim = self.aim(&targets);
+        if inner.is_empty() || (self.solver.patch.is_none() && !self.place(mesh, circle, &targets, FaceRest::Begin)) {
+            return Ok(self.at_rest());
+        }
+        let (mut last, mut largest) = (Advance::default(), 0.0_f64);
+        for _ in 0..ADVANCES {
+            last = self.solver.advance(mesh, &aim, control)?;
+            largest = largest.max(last.largest);
+            last.obstacle = last.end.and_then(|end| self.solver.obstacle(mesh, end)).filter(|_| last.share < 1.0);
+            if last.share >= 1.0 {
+                break;
+            }
+            self.solver.settle(mesh, &aim, control)?;
+            let is_outside = |end| self.solver.patch.as_ref().is_some_and(|patch| patch.is_outside(end));
+            if last.end.is_some_and(is_outside) {
+                self.solver.around = None;
+                self.place(mesh, circle, &targets, FaceRest::Begin);
+            }
+        }
+        let is_at_rest = largest <= REST * self.solver.scale.mean_edge;
+        Ok(BrushFrame { radius: circle.radius, obstacle: last.obstacle, is_at_rest, ..self.at_rest() })
     }
 
     /// Applies the brush once. Returns the radius that was used, and the largest move.

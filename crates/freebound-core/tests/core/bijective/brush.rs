@@ -74,6 +74,9 @@ fn a_grab_takes_the_inner_half_along_and_returns_with_the_pointer() {
     for &v in &inner {
         assert!(stroke.solver.embedding()[v].distance(stroke.begin[v] + by) < 1e-9);
     }
+    for v in stroke.mesh.vertices().filter(|&v| stroke.begin[v].distance(start) >= 0.4) {
+        assert_eq!(stroke.solver.embedding()[v], stroke.begin[v], "beyond the circle");
+    }
     assert!(settle(&mut stroke, start));
     let farthest = |v: VertexId| stroke.solver.embedding()[v].distance(stroke.begin[v]);
     assert!(stroke.mesh.vertices().map(farthest).fold(0.0, f64::max) < 1e-3);
