@@ -39,6 +39,7 @@ fn a_drag_with_each_brush_is_one_edit_of_the_map_and_keeps_the_camera() {
         window.click(&format!("{name} brush"));
         assert_eq!(window.editor().tools.brush.kind, kind);
         let from = middle(&window);
+        assert!(!can_undo(&window), "a click on the bar is no stroke");
         window.drag(from, from + Vec2::new(30.0, 12.0), Modifiers::NONE);
         assert!(window.embedding() != before, "{name}");
         assert_eq!(window.editor().session.history().depth(), 1, "{name}");

@@ -109,17 +109,7 @@ fn the_palette_has_every_entry_of_every_menu_and_every_key() {
     for (menu, parts) in [
         ("File", &["Recent", "Examples", "Export", "Size in files"][..]),
         ("Edit", &["Tools", "Seams"]),
-        (
-            "View",
-            &[
-                "Shading of the mesh",
-                "Shading of the embedding",
-                "Checker and pixels",
-                "Side panels",
-                "Step through defects",
-                "Theme",
-            ],
-        ),
+        ("View", &["Shading of the mesh", "Shading of the embedding", "Checker and pixels", "Side panels", "Theme"]),
         ("Solve", &[]),
         ("Help", &[]),
     ] {

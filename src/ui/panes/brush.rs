@@ -15,38 +15,45 @@ use freebound_core::bijective::BrushKind;
 const KINDS: [BrushKind; 5] =
     [BrushKind::Relax, BrushKind::Grab, BrushKind::Pinch, BrushKind::Smooth, BrushKind::Texels];
 
+/// Distance of the bar from the sides of the pane, points.
+const GAP: f32 = 8.0;
+
 /// True if the brush tool takes drags of the left button in the embedding pane.
 pub(super) fn takes_drags(editor: &Editor) -> bool {
     editor.tools.tool() == Tool::Brush
 }
 
 /// Bar with the kinds of brushes, size and strength, at the top of the pane.
-pub(super) fn bar(ui: &mut egui::Ui, rect: Rect, editor: &Editor, requests: &mut Vec<Request>) {
+pub(super) fn bar(ui: &egui::Ui, rect: Rect, editor: &Editor, requests: &mut Vec<Request>) {
     if !takes_drags(editor) {
         return;
     }
     let theme = theme_of(ui);
-    let place = Rect::from_min_max(rect.min + egui::vec2(8.0, 8.0), rect.max - egui::vec2(8.0, 8.0));
-    let mut ui = ui.new_child(egui::UiBuilder::new().max_rect(place));
+    // An area takes drags, too: a press on a button of the bar must not begin a stroke below it.
+    let area = egui::Area::new(egui::Id::unique("brush bar")).movable(false).order(egui::Order::Middle);
+    let area = area.fixed_pos(rect.min + egui::Vec2::splat(GAP)).constrain_to(rect);
     let frame = egui::Frame::new().fill(theme.panel.gamma_multiply(0.95)).corner_radius(4).inner_margin(8);
     let choice = editor.tools.brush;
-    frame.show(&mut ui, |ui| {
-        ui.spacing_mut().item_spacing = egui::vec2(8.0, 4.0);
-        ui.horizontal_wrapped(|ui| {
-            for kind in KINDS {
-                let [name, about] = brush_words(kind);
-                let is_on = choice.kind == kind;
-                let label = ui.selectable_label(is_on, name).on_hover_text(about);
-                // The name tells the brush from the button that relaxes the whole map.
-                label.widget_info(|| WidgetInfo::selected(Role::Button, true, is_on, format!("{name} brush")));
-                label.asks(Request::SetBrush(BrushChoice { kind, ..choice }), requests);
+    area.show(ui.ctx(), |ui| {
+        frame.show(ui, |ui| {
+            ui.set_max_width(rect.width() - 2.0 * GAP - 16.0);
+            ui.spacing_mut().item_spacing = egui::vec2(8.0, 4.0);
+            ui.horizontal_wrapped(|ui| {
+                for kind in KINDS {
+                    let [name, about] = brush_words(kind);
+                    let is_on = choice.kind == kind;
+                    let label = ui.selectable_label(is_on, name).on_hover_text(about);
+                    // The name tells the brush from the button that relaxes the whole map.
+                    label.widget_info(|| WidgetInfo::selected(Role::Button, true, is_on, format!("{name} brush")));
+                    label.asks(Request::SetBrush(BrushChoice { kind, ..choice }), requests);
+                }
+            });
+            ui.horizontal_wrapped(|ui| sliders(ui, choice, requests));
+            if !editor.session.can_brush() && !editor.session.is_brushing() {
+                let words = "Brushes shape a planar map without new vertices that meets its pins.";
+                ui.label(egui::RichText::new(words).small().color(theme.weak_text));
             }
-        });
-        ui.horizontal_wrapped(|ui| sliders(ui, choice, requests));
-        if !editor.session.can_brush() && !editor.session.is_brushing() {
-            let words = "Brushes shape a planar map without new vertices that meets its pins.";
-            ui.label(egui::RichText::new(words).small().color(theme.weak_text));
-        }
+        })
     });
 }
 
