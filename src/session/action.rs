@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use glam::DVec2;
 
 use super::StopConditions;
-use super::brushing::BrushDab;
 use super::page::ChartMove;
 use crate::examples::Example;
+use freebound_core::bijective::Brush;
 use freebound_core::geom::{PackingOptions, VAxis};
 use freebound_core::mesh::{HoleTreatment, Repair, Seams, VertexId, WeldDistance};
 use freebound_core::pipeline::{Fit, Target};
@@ -37,6 +37,15 @@ pub struct UndoGroup {
     pub constraints: Vec<PathBuf>,
     /// Files that are not opened, because only one mesh with one picture can be open at a time.
     pub left: Vec<PathBuf>,
+}
+
+/// Brush with the position of the pointer in the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BrushDab {
+    /// The brush. It does not change during a stroke.
+    pub brush: Brush,
+    /// Position of the pointer.
+    pub at: DVec2,
 }
 
 /// Request of the user.

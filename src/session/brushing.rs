@@ -10,23 +10,15 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::action::BrushDab;
 use super::drag_request::Screen;
 use super::live::Frame;
 use super::stop::Goal;
 use super::{Background, Command, MessagePlace, Session, Wake};
-use freebound_core::bijective::{Brush, BrushFrame, BrushSolver, DragFrame};
+use freebound_core::bijective::{BrushFrame, BrushSolver, DragFrame};
 use freebound_core::mesh::{DiskMesh, VertexId};
 use freebound_core::pipeline::{Problem, ShapedMap};
 use freebound_core::problem::{Control, Embedding};
-
-/// Brush with the position of the pointer in the plane.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BrushDab {
-    /// The brush. It does not change during a stroke.
-    pub brush: Brush,
-    /// Position of the pointer.
-    pub at: DVec2,
-}
 
 /// Strokes of brushes.
 pub(super) struct Brushing {

@@ -120,10 +120,9 @@ mod timeline;
 mod unwrapping;
 mod v_axis;
 
-pub use action::{Action, SaveRequest, UndoGroup};
+pub use action::{Action, BrushDab, SaveRequest, UndoGroup};
 pub use atlas_view::AtlasView;
 pub use background::{Background, JobFailure, Wake};
-pub use brushing::BrushDab;
 pub use chart_layout::{ChartLayout, ChartPlace};
 pub use charts::{ChartState, LockState};
 pub use command_line::CommandLine;

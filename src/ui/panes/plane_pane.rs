@@ -45,7 +45,7 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     }
 }
 
-/// One chart, or the whole map.
+/// Pane with one chart alone, or the whole map.
 fn chart_ui(ui: &mut egui::Ui, rect: Rect, response: &Response, editor: &mut Editor, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     editor.lay_out_plane(rect);
