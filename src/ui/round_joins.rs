@@ -32,9 +32,13 @@ mod tests {
         let zigzag = [pos2(50.0, 50.0), pos2(150.0, 52.0), pos2(52.0, 54.0), pos2(150.0, 56.0), pos2(50.0, 90.0)];
         let width = 6.0;
         let context = egui::Context::default();
-        let output = context.run_ui(egui::RawInput::default(), |ui| {
+        // The corners of a disc that is drawn as a picture lie off the disc.
+        context.tessellation_options_mut(|options| options.prerasterized_discs = false);
+        let mut output = context.run_ui(egui::RawInput::default(), |ui| {
             closed_line(ui.painter(), &zigzag, Stroke::new(width, Color32::RED));
         });
+        // Nothing is drawn on a screen.
+        output.textures_delta.clear();
         let ends: Vec<[Pos2; 2]> = (0..zigzag.len()).map(|k| [zigzag[k], zigzag[(k + 1) % zigzag.len()]]).collect();
         let meshes = context.tessellate(output.shapes, 1.0);
         let vertices: Vec<Pos2> = meshes
