@@ -102,6 +102,8 @@ mod tests {
             }
         }
         let mut page = Page::new(DVec2::splat(8.0));
+        let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|corner| DVec2::new(0.0, 7.0) + corner);
+        page.path(vec![corners.to_vec()], true, Ink::fill(colour(0, 0)));
         let at = DVec2::new(0.5 - width_of("A1", LETTERS) / 2.0, 7.5 + CAPITALS * LETTERS / 2.0);
         page.path(strokes_of("A1", at, LETTERS), false, Ink::stroke(INKS[0], STROKE));
         let written = square(&page.picture(f64::from(SIDE)), [0, 0]);
