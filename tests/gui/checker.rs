@@ -1,12 +1,10 @@
 //! Squares of the checker: their style, their number, and the wire over them.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use eframe::App as _;
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
-use freebound::app::LaunchFile;
 use freebound::render::{FaceShading, MeshFrame, PlaneFrame, mesh_pane, plane_pane};
 use freebound::session::Severity;
 use freebound::ui::{CheckerStyle, Pane, theme};
@@ -15,7 +13,8 @@ use freebound_io::figure::chessboard;
 use glam::{DVec2, DVec3};
 use image::RgbaImage;
 
-use crate::harness::{SIZE, Window, sheet};
+use crate::harness::{Window, sheet};
+use crate::preferences::start;
 use crate::render;
 
 const LIST: &str = "Shading of the embedding";
@@ -62,16 +61,6 @@ fn commands_of_the_view_menu_do_the_same() {
     window.menu(&["View", "Checker and pixels", "Fewer squares"]);
     window.menu(&["View", "Checker and pixels", "Automatic squares"]);
     assert_eq!(style(&window), (CheckerStyle::Lettered, 16));
-}
-
-fn start(mesh: &Window, preferences: &Path) -> Window {
-    let start = LaunchFile {
-        file: Some(mesh.path("sheet.obj")),
-        preferences: Some(preferences.to_owned()),
-        dialogs_inside: true,
-        ..LaunchFile::default()
-    };
-    Window::start(SIZE, start)
 }
 
 #[test]

@@ -8,7 +8,8 @@ use freebound::ui::{Request, ShadingMode};
 
 use crate::harness::{SIZE, Window, sheet};
 
-fn start(mesh: &Window, preferences: &Path) -> Window {
+/// Window with the sheet of another window, and the preferences of a file.
+pub(crate) fn start(mesh: &Window, preferences: &Path) -> Window {
     let start = LaunchFile {
         file: Some(mesh.path("sheet.obj")),
         preferences: Some(preferences.to_owned()),
