@@ -1,14 +1,16 @@
 //! Cost of one move of a dragged pin: `cargo bench --bench drag`.
 //!
 //! The first part drags pins of an embedding that stays planar, proved at every frame (see `live.rs`). The second
-//! part is for linear methods, and for screens that show no planar embedding. `cargo bench --bench drag -- live` and
-//! `-- linear` run one part. Numbers set other sizes: faces in `live`, vertices in `linear`.
+//! part shapes such an embedding with brushes (see `brushes.rs`). The third part is for linear methods, and for
+//! screens that show no planar embedding. `cargo bench --bench drag -- live`, `-- brushes` and `-- linear` run one
+//! part. Numbers set other sizes: vertices in `linear`, faces in the others.
 //!
 //! In `linear` the pins are hard, except that every sixth is soft; all are dragged once. "first move" is the time
 //! until the embedding follows: base and column are solved with the factors of the run before. "move" is all work of
 //! the session for one further move. "arrays" is the window's work on arrays for the graphics card, and "bytes" is
 //! the size of the upload. The verdict is computed separately. A frame at 60 frames per second has 16.7 ms.
 
+mod brushes;
 #[path = "../common/mod.rs"]
 mod common;
 mod live;
@@ -43,12 +45,17 @@ fn main() {
     print_machine();
     let wanted: Vec<usize> = arguments().iter().filter_map(|text| text.parse().ok()).collect();
     let is_wanted = |part: &str| {
-        let mut named =
-            arguments().into_iter().filter(|argument| ["live", "linear"].contains(&argument.as_str())).peekable();
+        let mut named = arguments()
+            .into_iter()
+            .filter(|argument| ["live", "brushes", "linear"].contains(&argument.as_str()))
+            .peekable();
         named.peek().is_none() || named.any(|argument| argument == part)
     };
     if is_wanted("live") {
         live::print(&wanted);
+    }
+    if is_wanted("brushes") {
+        brushes::print(&wanted);
     }
     if is_wanted("linear") {
         print_linear(&wanted);

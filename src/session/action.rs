@@ -13,7 +13,7 @@ use freebound_core::geom::{PackingOptions, VAxis};
 use freebound_core::mesh::{HoleTreatment, Repair, Seams, VertexId, WeldDistance};
 use freebound_core::pipeline::{Fit, Target};
 use freebound_core::problem::{PinKind, Settings, Variant};
-use freebound_io::{OutputKind, PinName};
+use freebound_io::{OutputKind, PatternOptions, PinName};
 
 /// Request to write a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,6 +24,15 @@ pub struct SaveRequest {
     pub kind: OutputKind,
     /// Size of the layout, unless the user's pins set the size.
     pub fit: Fit,
+}
+
+/// Request to write a cutting pattern.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PatternRequest {
+    /// Path of the file. Its extension selects the format.
+    pub path: PathBuf,
+    /// Options of the pattern.
+    pub options: PatternOptions,
 }
 
 /// Files that are opened together.
@@ -61,6 +70,10 @@ pub enum Action {
     OpenLarge,
     /// Declines to open the file that waits for confirmation.
     LeaveLarge,
+    /// Opens the project whose mesh is missing with another mesh file.
+    LocateMesh(PathBuf),
+    /// Drops the landmarks that wait for a vertex. Pins stay.
+    CloseLandmarks,
     /// Clears the list of recently opened files.
     ClearRecent,
     /// Pins vertices at their current positions.
@@ -244,6 +257,8 @@ pub enum Action {
     SetStop(StopConditions),
     /// Writes a file.
     Save(SaveRequest),
+    /// Writes a cutting pattern.
+    SavePattern(PatternRequest),
     /// Reports a file name whose extension selects no kind of output.
     RefuseName(PathBuf),
     /// Reports a file that exists and is not replaced, because the user was not asked about it.

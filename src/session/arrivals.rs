@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::background_jobs::{BackgroundJob, FORMING, RESHAPING};
 use super::edits::pin;
+use super::landmarks::has_landmarks;
 use super::open_mesh::Near;
 use super::{Command, Message, MessagePlace, Session};
 use crate::examples::Example;
@@ -26,8 +27,11 @@ impl Session {
         });
     }
 
-    /// Reads constraints in the background.
+    /// Reads constraints, or landmarks of the picture, in the background.
     pub(super) fn import_constraints(&mut self, path: PathBuf) {
+        if has_landmarks(&path) {
+            return self.import_landmarks(path);
+        }
         if self.model().is_none() {
             return self.complain("constraints need a mesh: open one first", None);
         }
@@ -68,6 +72,7 @@ impl Session {
                 self.take_constraints(constraints);
             }
             BackgroundJob::Constraints { path, read: Err(error) } => self.tell_constraints(&path, &error),
+            BackgroundJob::Landmarks { path, read } => self.take_landmarks(&path, read),
             BackgroundJob::Near { distance, count } => self.mesh.take_near(Near { distance, count: Some(count) }),
             BackgroundJob::Flat(flat) => self.take_flat(&flat),
             BackgroundJob::Seams(read) => self.take_seams(read),

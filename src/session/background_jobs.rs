@@ -10,7 +10,7 @@ use super::{Background, JobFailure, Model, Wake};
 use freebound_core::geom::PictureFrame;
 use freebound_core::mesh::{Preparation, VertexId, WeldDistance};
 use freebound_core::problem::{Embedding, SolveError};
-use freebound_io::{Constraints, ConstraintsError, EdgesError, PictureError, PictureFile};
+use freebound_io::{Constraints, ConstraintsError, EdgesError, PictureError, PictureFile, PictureLandmark, PtsError};
 
 /// Name of the job that prepares the mesh as the document wants it, or extracts a chart.
 pub(super) const FORMING: &str = "reversing or repairing the faces";
@@ -34,6 +34,8 @@ pub(super) enum BackgroundJob {
     Picture { path: PathBuf, read: Result<PictureFile, PictureError> },
     /// Constraints for the open mesh, read from a file.
     Constraints { path: PathBuf, read: Result<Constraints, ConstraintsError> },
+    /// Landmarks of the picture in pixels, read from a file.
+    Landmarks { path: PathBuf, read: Result<Vec<PictureLandmark>, PtsError> },
     /// Seams for the open mesh, read from a file.
     Seams(Result<Vec<[VertexId; 2]>, EdgesError>),
     /// Open mesh in another preparation, for an edit.

@@ -110,7 +110,10 @@ impl Session {
         let is_valid =
             vertex.index() < self.vertex_count() && target.uv.is_finite() && target.kind.invalid_weight().is_none();
         if is_valid && self.takes_pins() {
-            self.edit(vec![pin(vertex, target)]);
+            // A pin on a landmark takes its name.
+            let name = self.landmark_at(target.uv).map(|landmark| PinNote::named(landmark.name));
+            let name = name.map(|note| Command::SetNote { vertex, note });
+            self.edit(std::iter::once(pin(vertex, target)).chain(name).collect());
         }
     }
 

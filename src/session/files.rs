@@ -4,15 +4,16 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use super::action::UndoGroup;
+use super::exports::Export;
 use super::folder::FolderViewer;
-use super::large::{LargeFile, OpenRequest};
+use super::large::{LargeFile, MissingMesh, OpenRequest};
 use super::open_project::OpenProject;
 use super::opened::{OpenError, Opened, Origin};
 use super::recovery::Autosave;
 use super::saving::{ProjectSaves, Request, project_of};
-use super::{Background, Document, Message, MessagePlace, Messages, Model, RecentFiles, SaveRequest, Wake, Written};
+use super::{Background, Document, Message, MessagePlace, Messages, Model, RecentFiles, Wake, Written};
 use crate::examples::Example;
-use freebound_io::{ProjectFile, ProjectView, RecoveryNote, WriteError};
+use freebound_io::{ProjectFile, ProjectSource, ProjectView, RecoveryNote, WriteError};
 
 /// Maximum time that the end of a session waits for files that the user writes, which may be large.
 pub(super) const PATIENCE: Duration = Duration::from_mins(1);
@@ -26,13 +27,15 @@ pub(super) struct Files {
     memory: Option<u64>,
     /// File that waits for a confirmation.
     large: Option<LargeFile>,
+    /// Project that was not opened because its mesh does not exist.
+    missing_mesh: Option<MissingMesh>,
     /// Files that are opened after the mesh.
     together: Option<UndoGroup>,
     /// Jobs that write results.
     outputs: Background<(), Result<Written, WriteError>>,
     projects: ProjectSaves,
     /// Exports that wait until all charts are solved.
-    awaited: Vec<SaveRequest>,
+    awaited: Vec<Export>,
     folder: FolderViewer,
     autosave: Autosave,
     recent: RecentFiles,
@@ -45,6 +48,7 @@ impl Files {
             loading: Background::new("load", wake),
             memory: None,
             large: None,
+            missing_mesh: None,
             together: None,
             outputs: Background::new("save", wake),
             projects: ProjectSaves::new(wake),
@@ -86,12 +90,12 @@ impl Files {
     }
 
     /// Lets an export wait until all charts are solved.
-    pub(super) fn wait_to_save(&mut self, request: SaveRequest) {
+    pub(super) fn wait_to_save(&mut self, request: Export) {
         self.awaited.push(request);
     }
 
     /// Removes the exports that wait.
-    pub(super) fn take_awaited(&mut self) -> Vec<SaveRequest> {
+    pub(super) fn take_awaited(&mut self) -> Vec<Export> {
         std::mem::take(&mut self.awaited)
     }
 
@@ -153,6 +157,16 @@ impl Files {
     /// File that waits for a confirmation.
     pub(super) fn large(&self) -> Option<&LargeFile> {
         self.large.as_ref()
+    }
+
+    /// Message about the mesh that a project lacks.
+    pub(super) fn missing_mesh(&self) -> Option<u64> {
+        self.missing_mesh.as_ref().map(|missing| missing.message)
+    }
+
+    /// Picture that the open project lacks.
+    pub(super) fn missing_picture(&self) -> Option<&ProjectSource> {
+        self.table.missing_picture.as_ref()
     }
 
     /// Recently opened files.
@@ -218,7 +232,7 @@ impl Files {
     }
 
     fn load(&mut self, wanted: OpenRequest, memory: Option<u64>) {
-        self.large = None;
+        (self.large, self.missing_mesh) = (None, None);
         self.loading.start(wanted.clone(), move |_| wanted.open(memory));
     }
 
@@ -249,6 +263,16 @@ impl Files {
         }
     }
 
+    /// Opens the project whose mesh does not exist with a mesh that the user located.
+    pub(super) fn locate_mesh(&mut self, mesh: PathBuf, messages: &mut Messages) {
+        let Some(MissingMesh { message, project, is_recovery }) = self.missing_mesh.take() else { return };
+        messages.dismiss(message);
+        if is_recovery && !self.autosave.claim(&project) {
+            return self.recover(project, messages);
+        }
+        self.begin(OpenRequest::Located { project, is_recovery, mesh });
+    }
+
     /// Opens a picture after the mesh that is being opened.
     pub(super) fn open_picture_after(&mut self, path: PathBuf) {
         let group = UndoGroup { mesh: PathBuf::new(), picture: None, constraints: Vec::new(), left: Vec::new() };
@@ -267,7 +291,7 @@ impl Files {
         let (wanted, loaded) = self.loading.poll()?;
         match loaded {
             Ok(Ok(opened)) => {
-                if let OpenRequest::File(path) = wanted {
+                if let Some((path, false)) = wanted.project() {
                     self.recent.remember(&path);
                 }
                 return Some(opened);
@@ -277,12 +301,12 @@ impl Files {
                 return None;
             }
             Ok(Err(error)) => {
-                let file = match &wanted {
-                    OpenRequest::File(path) | OpenRequest::Recovery(path) => Some(&**path),
-                    OpenRequest::Example(_) => None,
-                };
-                let message = Message::error(MessagePlace::Mesh, error.to_string()).with_remedy(error.remedy());
-                messages.say(message.of_file(file));
+                let file = wanted.project();
+                let text = Message::error(MessagePlace::Mesh, error.to_string()).with_remedy(error.remedy());
+                let message = messages.say(text.of_file(file.as_ref().map(|(path, _)| &**path)));
+                if let (OpenError::NoMesh { .. }, Some((project, is_recovery))) = (error, file) {
+                    self.missing_mesh = Some(MissingMesh { message, project, is_recovery });
+                }
             }
             Err(failure) => messages.fail_background(MessagePlace::Mesh, "loading", &failure),
         }

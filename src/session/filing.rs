@@ -2,12 +2,15 @@
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::action::UndoGroup;
+use super::exports::Export;
 use super::in_use::Role;
+use super::landmarks::has_landmarks;
 use super::opened::{Opened, Origin};
 use super::stop::Goal;
-use super::{History, Message, MessagePlace, SaveRequest, Session, StopConditions, Written};
+use super::{History, Message, MessagePlace, Model, Session, StopConditions, Written};
 use freebound_core::pipeline::Surface;
 use freebound_io::{EXTENSIONS, ProjectPins, write_atomically, write_constraints, write_durably};
 
@@ -28,6 +31,7 @@ impl Session {
         self.history = History::default();
         self.solving.set_stop(StopConditions::default());
         self.jobs.forget();
+        self.close_landmarks();
         self.mesh.open(model);
         self.charts.forget();
         self.page.forget();
@@ -96,7 +100,7 @@ impl Session {
     }
 
     /// Writes the embedding on the screen.
-    pub(super) fn save(&mut self, request: SaveRequest) {
+    pub(super) fn save(&mut self, request: Export) {
         let (Some(model), Some(outcome)) = (self.model().cloned(), self.outcome().cloned()) else {
             return self.complain("there is nothing to save yet: open a mesh first", None);
         };
@@ -104,32 +108,30 @@ impl Session {
             let text = "the embedding on the screen does not match the settings and pins yet";
             return self.complain(text, Some("save again when it is solved"));
         }
-        if self.refuses_to_replace(&request.path, None) {
+        if self.refuses_to_replace(request.path(), None) {
             return;
         }
         if model.prepared.chart.is_some() {
-            return self.save_atlas(request);
+            return self.save_atlas(model, request);
         }
         let records = self.timeline().records()[..=outcome.step.index].to_vec();
         let picture = self.document.picture.clone();
         self.files.write(move || {
-            let mut output = model.finished(&outcome, records, request.fit);
+            let mut output = model.finished(&outcome, records, request.fit());
             output.picture = picture.as_deref();
-            output.round_to(None, request.kind);
-            let files = output.write(request.kind, &request.path)?;
-            Ok(Written { files, about: Some(output.summary()) })
+            request.write(output, &model)
         });
     }
 
     /// Writes the layout of all charts.
-    fn save_atlas(&mut self, SaveRequest { path, kind, fit }: SaveRequest) {
+    fn save_atlas(&mut self, model: Arc<Model>, request: Export) {
         let solved = match self.solved_atlas() {
             Ok(solved) => solved,
             Err(_) if self.failed_chart().is_none() => {
                 self.messages.forget_notes();
                 let note = "the file is written once all charts are solved";
                 self.messages.say(Message::note(MessagePlace::Embedding, note));
-                return self.files.wait_to_save(SaveRequest { path, kind, fit });
+                return self.files.wait_to_save(request);
             }
             Err(missing) => {
                 let charts = if missing == 1 { "1 chart has" } else { &format!("{missing} charts have") };
@@ -141,10 +143,8 @@ impl Session {
         self.files.write(move || {
             let mut output = solved.output();
             output.picture = picture.as_deref();
-            output.svg_fit = fit;
-            output.round_to(None, kind);
-            let files = output.write(kind, &path)?;
-            Ok(Written { files, about: Some(output.summary()) })
+            output.svg_fit = request.fit();
+            request.write(output, &model)
         });
     }
 
@@ -168,7 +168,7 @@ impl Session {
     /// Drops the exports that wait until all charts are solved, and says so.
     pub(super) fn give_up_exports(&mut self) {
         for request in self.files.take_awaited() {
-            let text = format!("{} was not written: its charts were not solved", request.path.display());
+            let text = format!("{} was not written: its charts were not solved", request.path().display());
             self.complain(text, Some("export again once all charts are solved"));
         }
     }
@@ -187,10 +187,13 @@ impl Session {
         }
     }
 
-    /// Writes the targets to a constraint file.
+    /// Writes the targets to a constraint file, or the named pins as landmarks of the picture.
     pub(super) fn export_constraints(&mut self, path: PathBuf) {
         if self.refuses_formless() {
             return;
+        }
+        if has_landmarks(&path) {
+            return self.export_landmarks(path);
         }
         let pins = self.model().map(|model| self.document.all_pins(model)).unwrap_or_default();
         let ProjectPins { targets, notes } = pins;

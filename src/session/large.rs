@@ -15,6 +15,8 @@ pub(super) enum OpenRequest {
     Example(Example),
     /// A recovery copy of an earlier session.
     Recovery(PathBuf),
+    /// A project or a recovery copy with the mesh that the user located.
+    Located { project: PathBuf, is_recovery: bool, mesh: PathBuf },
 }
 
 impl OpenRequest {
@@ -23,9 +25,42 @@ impl OpenRequest {
         match self {
             Self::File(path) => Opened::read(path, memory),
             Self::Example(example) => Ok(Opened::example(*example)),
-            Self::Recovery(path) => Opened::recovered(path, memory),
+            Self::Recovery(path) => Opened::recovered(path, None, memory),
+            Self::Located { project, is_recovery: true, mesh } => Opened::recovered(project, Some(mesh), memory),
+            Self::Located { project, mesh, .. } => Opened::project_with_mesh(project, mesh, memory),
         }
     }
+}
+
+/// Request that failed because the mesh of a project does not exist.
+#[derive(Debug)]
+pub(super) struct MissingMesh {
+    /// Message about it.
+    pub(super) message: u64,
+    /// Project or recovery copy.
+    pub(super) project: PathBuf,
+    pub(super) is_recovery: bool,
+}
+
+impl OpenRequest {
+    /// Project or recovery copy of a request, and true for a copy.
+    pub(super) fn project(&self) -> Option<(PathBuf, bool)> {
+        match self {
+            Self::File(path) => Some((path.clone(), false)),
+            Self::Recovery(path) => Some((path.clone(), true)),
+            Self::Located { project, is_recovery, .. } => Some((project.clone(), *is_recovery)),
+            Self::Example(_) => None,
+        }
+    }
+}
+
+/// Missing file of a project that the user can locate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MissingFile {
+    /// Mesh. The project is not open.
+    Mesh,
+    /// Picture of the open project.
+    Picture,
 }
 
 /// File that needs a confirmation before it is read.

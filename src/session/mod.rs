@@ -24,6 +24,7 @@
 //! | `v_axis`             | part: last reversal of v                                               |
 //! | `runs`               | runs that solve the document                                           |
 //! | `filing`             | opening and saving                                                     |
+//! | `exports`            | files of results, and cutting patterns                                 |
 //! | `in_use`             | open files, which must not be overwritten                              |
 //! | `document`           | part: the document that the user edits; its edits                      |
 //! | `history`            | part: undo and redo                                                    |
@@ -48,10 +49,13 @@
 //! | `live`               | part: planar embedding that follows the pointer, proved at every frame |
 //! | `background_jobs`    | part: short background jobs for the document                           |
 //! | `target_checks`      | part: conflicts among targets, and the check for mirrored targets      |
+//! | `landmarks`          | part: landmarks of the picture, which wait for their vertices          |
+//! | `landmark_pins`      | landmarks as pins: import, names, export                               |
 //! | `files`              | part: files that are open, read and written                            |
 //! | `open_project`       | of files: the open project, and the document in its saved state        |
 //! | `opened`             | result of opening a file                                               |
 //! | `large`              | requests to open files; files that need much memory                    |
+//! | `locating`           | missing files of projects: search in nearby folders                   |
 //! | `restored_charts`    | of opening: charts of a project with their saved maps                  |
 //! | `saved_maps`         | maps of a project, which return without a solve                        |
 //! | `saving`             | projects being written                                                 |
@@ -82,6 +86,7 @@ mod drag;
 mod drag_request;
 mod dragging;
 mod edits;
+mod exports;
 mod files;
 mod filing;
 mod first_map;
@@ -89,9 +94,12 @@ mod folder;
 mod forming;
 mod history;
 mod in_use;
+mod landmark_pins;
+mod landmarks;
 mod large;
 mod layout_check;
 mod live;
+mod locating;
 mod messages;
 mod morphing;
 mod morphs;
@@ -120,7 +128,7 @@ mod timeline;
 mod unwrapping;
 mod v_axis;
 
-pub use action::{Action, BrushDab, SaveRequest, UndoGroup};
+pub use action::{Action, BrushDab, PatternRequest, SaveRequest, UndoGroup};
 pub use atlas_view::AtlasView;
 pub use background::{Background, JobFailure, Wake};
 pub use chart_layout::{ChartLayout, ChartPlace};
@@ -133,7 +141,8 @@ pub use drag::{LivePreview, MovedVertices, Preview};
 pub use first_map::{FirstMapWork, MapOrigin};
 pub use freebound_run::{Model, SolvedModel, finished_atlas};
 pub use history::History;
-pub use large::LargeFile;
+pub use landmarks::WaitingLandmark;
+pub use large::{LargeFile, MissingFile};
 pub use layout_check::LayoutCheckState;
 pub use messages::{LoggedMessage, Message, MessagePlace, Severity, named};
 use messages::{Messages, Written};

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::chart_layout::{ChartLayout, ChartPlace};
+use super::locating::located;
 use super::messages::named;
 use super::restored_charts::{RestoredChart, restored};
 use super::{Document, Message, MessagePlace, Model};
@@ -47,6 +48,17 @@ pub(super) enum Origin {
     Recovery(RecoveryNote),
 }
 
+impl Origin {
+    /// Project of the document.
+    fn project(&self) -> Option<&Path> {
+        match self {
+            Self::Mesh => None,
+            Self::Project(path) => Some(path),
+            Self::Recovery(note) => note.project.as_deref(),
+        }
+    }
+}
+
 /// Reason for not opening a file.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum OpenError {
@@ -69,7 +81,7 @@ impl OpenError {
             Self::Mesh { source, .. } => source.remedy(),
             Self::Memory { .. } => "open it on a machine with more memory, or simplify the mesh",
             Self::Project(error) => error.remedy(),
-            Self::NoMesh { .. } => "restore the file, or edit its path in the project, which is a text file",
+            Self::NoMesh { .. } => "press Locate… to choose its new place, or restore the file",
             Self::NoExample { .. } => "open it with a newer version of Freebound",
         }
     }
@@ -95,9 +107,15 @@ impl Opened {
         Ok(Self { remarks, ..Self::mesh(model, document) })
     }
 
-    /// Opens a recovery copy. At most half of `memory`, bytes, may be used.
-    pub(super) fn recovered(path: &Path, memory: Option<u64>) -> Result<Self, OpenError> {
-        let mut project = ProjectFile::read(path)?;
+    /// Opens a project with another mesh file than the one it names.
+    pub(super) fn project_with_mesh(path: &Path, mesh: &Path, memory: Option<u64>) -> Result<Self, OpenError> {
+        let project = with_mesh(ProjectFile::read(path)?, Some(mesh));
+        Self::project(project, Origin::Project(path.to_owned()), memory)
+    }
+
+    /// Opens a recovery copy, possibly with another mesh file. At most half of `memory`, bytes, may be used.
+    pub(super) fn recovered(path: &Path, mesh: Option<&Path>, memory: Option<u64>) -> Result<Self, OpenError> {
+        let mut project = with_mesh(ProjectFile::read(path)?, mesh);
         let note = project.recovery.take().unwrap_or_default();
         Self::project(project, Origin::Recovery(note), memory)
     }
@@ -120,8 +138,11 @@ impl Opened {
         }
     }
 
-    fn project(project: ProjectFile, origin: Origin, memory: Option<u64>) -> Result<Self, OpenError> {
+    fn project(mut project: ProjectFile, origin: Origin, memory: Option<u64>) -> Result<Self, OpenError> {
         let mut remarks = Vec::new();
+        let near = origin.project();
+        project.mesh = located(project.mesh, near, MessagePlace::Mesh, &mut remarks);
+        project.picture = project.picture.map(|it| located(it, near, MessagePlace::Embedding, &mut remarks));
         let asked = project.form();
         let (mesh, change) = project_mesh(&project.mesh, asked.clone(), memory)?;
         remarks.extend(change);
@@ -160,6 +181,17 @@ impl Opened {
         view.selection.retain(|&vertex| (vertex as usize) < model.vertex_count());
         Ok(Self { model, document, view, origin, restored, remarks, missing_picture, is_partial })
     }
+}
+
+/// Project with another mesh file. The stamp stays that of the mesh before.
+fn with_mesh(mut project: ProjectFile, mesh: Option<&Path>) -> ProjectFile {
+    let Some(path) = mesh.map(Path::to_owned) else { return project };
+    let stamp = match &project.mesh {
+        ProjectSource::File { stamp, .. } => stamp.clone(),
+        ProjectSource::Example(_) => None,
+    };
+    project.mesh = ProjectSource::File { path, stamp };
+    project
 }
 
 /// Places of charts of a project.

@@ -6,14 +6,14 @@ use std::time::{Duration, Instant};
 
 use super::files::PATIENCE;
 use super::{
-    JobFailure, LargeFile, LoggedMessage, Message, MessagePlace, Model, RecentFiles, Recoverable, RunStop, Session,
-    StopConditions, Timeline,
+    JobFailure, LargeFile, LoggedMessage, Message, MessagePlace, MissingFile, Model, RecentFiles, Recoverable, RunStop,
+    Session, StopConditions, Timeline,
 };
 use freebound_core::mesh::{DiskMesh, FaceId, VertexId};
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::Pins;
 use freebound_core::verify::Conflict;
-use freebound_io::{PinName, ProjectView};
+use freebound_io::{PinName, ProjectSource, ProjectView};
 
 /// Queries of the open mesh.
 impl Session {
@@ -118,6 +118,17 @@ impl Session {
     /// [`Action::LeaveLarge`](super::Action::LeaveLarge).
     pub fn large_file(&self) -> Option<&LargeFile> {
         self.files.large()
+    }
+
+    /// File that a message reports as missing, if the user can locate it.
+    pub fn missing_file(&self, message: &Message) -> Option<MissingFile> {
+        if self.files.missing_mesh() == Some(message.id) {
+            return Some(MissingFile::Mesh);
+        }
+        let picture = self.files.missing_picture().filter(|_| self.document().picture.is_none());
+        let is_about =
+            matches!(picture, Some(ProjectSource::File { path, .. }) if message.about.as_ref() == Some(path));
+        is_about.then_some(MissingFile::Picture)
     }
 
     /// Sets the folder for recovery copies and lists the copies found there.

@@ -8,7 +8,9 @@ use super::brushing::Brushing;
 use super::charts::OtherCharts;
 use super::comparing::Comparing;
 use super::drag::Drag;
+use super::exports::Export;
 use super::files::Files;
+use super::landmarks::Landmarks;
 use super::layout_check::LayoutCheck;
 use super::morphing::Morphing;
 use super::open_mesh::OpenMesh;
@@ -35,6 +37,7 @@ pub struct Session {
     pub(super) brushing: Brushing,
     pub(super) jobs: BackgroundJobs,
     pub(super) target_checks: TargetChecks,
+    pub(super) landmarks: Landmarks,
     pub(super) files: Files,
     pub(super) messages: Messages,
     pub(super) turned_v: TurnedV,
@@ -64,6 +67,7 @@ impl Session {
             brushing: Brushing::new(&wake),
             jobs: BackgroundJobs::new(&wake),
             target_checks: TargetChecks::new(&wake),
+            landmarks: Landmarks::default(),
             files: Files::new(&wake, recent),
             messages: Messages::default(),
             turned_v: TurnedV::default(),
@@ -92,10 +96,13 @@ impl Session {
             Action::OpenExample(example) => self.files.open_example(example),
             Action::OpenLarge => self.files.open_large(),
             Action::LeaveLarge => self.files.leave_large(),
+            Action::CloseLandmarks => self.close_landmarks(),
+            Action::LocateMesh(mesh) => self.files.locate_mesh(mesh, &mut self.messages),
             Action::Recover(path) => self.files.recover(path, &mut self.messages),
             Action::DiscardRecovery(path) => self.files.autosave_mut().discard(&path),
             Action::ClearRecent => self.files.recent_mut().clear(),
-            Action::Save(request) => self.save(request),
+            Action::Save(request) => self.save(Export::Result(request)),
+            Action::SavePattern(request) => self.save(Export::Pattern(request)),
             Action::SaveProject(path) => self.save_project(path),
             Action::ExportConstraints(path) => self.export_constraints(path),
             Action::RefuseName(path) => self.refuse_name(&path),

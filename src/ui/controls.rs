@@ -5,6 +5,7 @@ use eframe::egui::{self, ComboBox, Grid, PopupCloseBehavior, Response, RichText,
 use super::keys::keys_of;
 use super::state::Request;
 use super::theme::{Theme, theme_of};
+use freebound_core::problem::NamedOption;
 
 /// Helpers for the response of a control.
 pub(in crate::ui) trait Control {
@@ -84,6 +85,24 @@ pub(in crate::ui) fn list(ui: &mut Ui, name: &str, width: f32, shown: &str, entr
     let height = LIST_HEIGHT.min(ui.ctx().content_rect().height() - 60.0);
     let list = ComboBox::from_id_salt(name).selected_text(shown).width(width).height(height);
     list.show_ui(ui, entries).response.named(Role::ComboBox, name)
+}
+
+/// Drop-down list of an option. True if another entry was clicked.
+pub(in crate::ui) fn option_list<T>(ui: &mut Ui, name: &str, tip: &str, now: &mut T) -> bool
+where
+    T: NamedOption + PartialEq + Copy + 'static,
+{
+    let before = *now;
+    let list = list(ui, name, 72.0, before.labels().title, |ui| {
+        for &option in T::ALL {
+            let label = ui.selectable_label(before == option, option.labels().title);
+            if label.on_hover_text(option.labels().tip()).clicked() {
+                *now = option;
+            }
+        }
+    });
+    list.on_hover_text(tip);
+    *now != before
 }
 
 /// List like [`list`] that clicks inside do not close. Its entries close it.

@@ -4,10 +4,12 @@ use eframe::egui;
 use egui::{Key, Modifiers, Pos2, Vec2};
 use freebound::session::Action;
 use freebound::ui::{Half, Intent, Tool};
+use freebound_core::geom::Picture;
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Target, Targets};
 use glam::DVec2;
 
+use crate::dialogs::dropped;
 use crate::harness::{Window, sheet};
 use freebound_testkit::assert_message;
 
@@ -321,4 +323,54 @@ fn v_turned_around_and_back_is_the_same_document_to_the_last_bit() {
         window.click("v up");
         assert_eq!(*window.editor().session.document(), before);
     }
+}
+
+#[test]
+fn landmarks_of_a_picture_are_placed_one_after_the_other() {
+    let mut window = window();
+    let picture = Picture::filled(40, 40, [10, 120, 200, 255]);
+    let mut file = std::fs::File::create(window.path("photo.png")).expect("created");
+    freebound_io::raster::write_png(&picture, &mut file).expect("written");
+    let text = "version: 1\nn_points: 3\n{\n10.5 30.5\n30.5 30.5\n20.5 10.5\n}\n";
+    std::fs::write(window.path("photo.pts"), text).expect("written");
+    let files = ["photo.png", "photo.pts"].map(|name| window.path(name));
+    for file in files {
+        window.harness.input_mut().dropped_files.push(dropped(file));
+        window.settle();
+    }
+    window.click("Pins");
+    assert!(window.shows("0 of 3 placed"), "{:?}", window.words());
+    window.click("Place next");
+    let vertices = [10, 16, 67].map(VertexId::new);
+    for (count, vertex) in vertices.into_iter().enumerate() {
+        assert!(window.editor().tools.pair().is_some(), "landmark {count} waits");
+        window.click_at(window.place_on_mesh(vertex), Modifiers::NONE);
+        window.settle();
+        assert_eq!(pins(&window).len(), count + 1);
+    }
+    assert_eq!(window.editor().tools.pair(), None, "all are placed");
+    let at = |vertex: VertexId| pins(&window)[&vertex].uv;
+    assert_eq!(vertices.map(at), [[0.25, 0.25], [0.75, 0.25], [0.5, 0.75]].map(DVec2::from));
+    let names = vertices.map(|vertex| window.editor().session.pin_name(vertex).map(ToString::to_string));
+    assert_eq!(names, ["point 1", "point 2", "point 3"].map(|name| Some(name.to_owned())));
+    window.click("Close");
+    assert!(!window.shows("3 of 3 placed"));
+}
+
+#[test]
+fn a_click_near_a_landmark_takes_it() {
+    let mut window = window();
+    let picture = Picture::filled(40, 40, [10, 120, 200, 255]);
+    let mut file = std::fs::File::create(window.path("photo.png")).expect("created");
+    freebound_io::raster::write_png(&picture, &mut file).expect("written");
+    std::fs::write(window.path("photo.pts"), "version: 1\nn_points: 1\n{\n10.5 30.5\n}\n").expect("written");
+    for file in ["photo.png", "photo.pts"].map(|name| window.path(name)) {
+        window.harness.input_mut().dropped_files.push(dropped(file));
+        window.settle();
+    }
+    window.key(Key::F);
+    window.key(Key::C);
+    let near = window.place_in_plane(DVec2::new(0.25, 0.25)) + Vec2::new(3.0, -2.0);
+    window.click_at(near, Modifiers::NONE);
+    assert_eq!(window.editor().tools.pair(), Some(Half::Target(DVec2::new(0.25, 0.25))));
 }

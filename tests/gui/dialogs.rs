@@ -12,7 +12,7 @@ use freebound::examples::Example;
 use freebound::session::{Action, Severity};
 use freebound_core::geom::Picture;
 use freebound_core::mesh::VertexId;
-use freebound_io::read_mesh;
+use freebound_io::{LengthUnit, PatternPaper, read_mesh};
 
 use crate::harness::{SIZE, Window, sheet, write_obj};
 use freebound_testkit::assert_message;
@@ -374,6 +374,43 @@ fn drawings_pictures_and_reports_are_exported() {
         let found = bytes.windows(begin.len()).take(200).any(|part| part == begin);
         assert!(found, "{file} begins as such files do");
     }
+}
+
+#[test]
+fn a_cutting_pattern_is_exported_with_the_options_of_its_window() {
+    let mut window = window();
+    window.menu(&["File", "Export", "Cutting pattern…"]);
+    window.choose("Unit of the mesh", "Metre");
+    window.choose("Paper", "A4");
+    window.key(Key::Escape);
+    assert!(!window.editor().files.pattern.is_shown);
+    window.press(Modifiers::COMMAND, Key::E);
+    window.click("Cutting pattern…");
+    let options = window.editor().files.pattern.options;
+    assert_eq!((options.unit, options.paper), (LengthUnit::Metre, PatternPaper::A4), "options stay");
+    window.click("Export the pattern…");
+    window.click("Export");
+    let bytes = std::fs::read(window.path("sheet-pattern.pdf")).expect("written");
+    let pages = bytes.windows(11).filter(|part| part == b"/Type /Page").count();
+    assert!(bytes.starts_with(b"%PDF") && pages > 4, "metres on A4 take many pages: {pages}");
+}
+
+#[test]
+fn a_project_without_its_mesh_opens_with_the_mesh_that_the_user_locates() {
+    let mut window = window();
+    let project = window.path("work.freebound");
+    window.editor_mut().session.handle(Action::SaveProject(project.clone()));
+    window.settle();
+    let moved = tempfile::tempdir().expect("a folder");
+    let mesh = moved.path().join("moved.obj");
+    std::fs::rename(window.path("sheet.obj"), &mesh).expect("moved");
+    window.open(&project);
+    assert!(window.has_button("Locate…"), "{:?}", window.words());
+    window.click("Locate…");
+    window.fill_in(Role::TextInput, "Name", &mesh.display().to_string());
+    window.key(Key::Enter);
+    assert_eq!(window.editor().session.model().expect("open").path.as_ref(), Some(&mesh));
+    assert!(!window.has_button("Locate…"));
 }
 
 #[test]

@@ -39,6 +39,7 @@
 //! | `paths`       | identity of files, and relative paths                                      |
 //! | `value_table` | numbers of vertices or faces from a table (CSV)                            |
 //! | `stamp`       | length and checksum of a file                                              |
+//! | `nearby`      | search for a moved file by its stamp                                       |
 
 mod animation;
 mod atomic;
@@ -59,6 +60,7 @@ mod landmark_sets;
 mod machine;
 mod matrix_market;
 mod mesh_file;
+mod nearby;
 mod not_kept;
 mod obj;
 mod output;
@@ -107,6 +109,7 @@ pub use mesh_file::{
     Statement, Texture, TextureError, TextureMesh, check_memory, memory_to_read, read_mesh, read_mesh_with,
     read_stream, read_stream_with,
 };
+pub use nearby::find_nearby;
 pub use obj::{Materials, copies_of_materials, material_files, material_picture, write_obj};
 pub use output::{EXTENSIONS, Format, Output, OutputKind, ProvedEmbedding};
 pub use paths::{is_same_file, is_standard_input, would_replace};

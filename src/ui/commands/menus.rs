@@ -6,8 +6,8 @@ use super::{ALWAYS, Mark, MenuBuilder, MenuCommand, when};
 use crate::examples::Example;
 use crate::session::{Action, LockState};
 use crate::ui::state::{
-    Axis, COPY_COMMAND, CheckerRequest, CheckerStyle, EXPORTS, FileDialogKind, GestureKind, PageRequest, Pane, Request,
-    SQUARES, SeamRule, ShadingMode, StepTarget, Tab, Tool,
+    Axis, COPY_COMMAND, CheckerRequest, CheckerStyle, EXPORTS, FileDialogKind, GestureKind, PATTERN, PageRequest, Pane,
+    Request, SQUARES, SeamRule, ShadingMode, StepTarget, Tab, Tool,
 };
 use freebound_core::pipeline::Fit;
 
@@ -79,6 +79,7 @@ fn file_menu(menu: &mut MenuBuilder<'_>) {
         for (kind, words, about) in EXPORTS {
             menu.explained(when(editor.session.outcome().is_some(), NO_MAP), [words, about], Request::Ask(kind));
         }
+        menu.explained(when(editor.session.outcome().is_some(), NO_MAP), PATTERN, Request::TogglePattern);
         menu.separator();
         menu.explained(when(has_model, NO_MESH), COPY_COMMAND, Request::CopyCommandLine);
     });

@@ -8,6 +8,7 @@ use crate::ui::dialogs::Dialogs;
 use crate::ui::state::PendingClose;
 use freebound_core::geom::Picture;
 use freebound_core::pipeline::Fit;
+use freebound_io::PatternOptions;
 
 /// File dialogs and files about to be written.
 #[derive(Debug, Default)]
@@ -18,8 +19,17 @@ pub struct Files {
     pub fit: Fit,
     /// Table of numbers that colours the faces.
     pub table: ColourTable,
+    pub pattern: PatternChoice,
     /// Requested picture of a pane, and its path.
     pub(in crate::ui) shot: Option<(PathBuf, Receiver<Picture>)>,
+}
+
+/// Options of the next cutting pattern.
+#[derive(Debug, Default)]
+pub struct PatternChoice {
+    /// True while their window is open.
+    pub is_shown: bool,
+    pub options: PatternOptions,
 }
 
 /// State of the question about unsaved work.

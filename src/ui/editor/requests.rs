@@ -3,9 +3,11 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use glam::DVec2;
+
 use super::Editor;
 use super::appearance::OnPicture;
-use crate::session::{Action, LockState, SaveRequest, UndoGroup};
+use crate::session::{Action, LockState, PatternRequest, SaveRequest, UndoGroup};
 use crate::ui::dialogs::DialogChoice;
 use crate::ui::state::{FileDialogKind, Half, PageRequest, Pane, PendingClose, Request, StepTarget, Tool, is_picture};
 use freebound_core::mesh::VertexId;
@@ -71,6 +73,7 @@ impl Editor {
             Request::ToggleSelected(vertex) => self.selection.toggle(vertex),
             Request::Nudge(nudge) => self.nudge(nudge),
             Request::EndNudge => self.end_nudge(),
+            Request::TakeLandmark { after } => self.take_landmark(after),
             Request::SetPinKind(kind) => self.set_pin_kind(kind),
             Request::SetOpacity(opacity) => self.appearance_mut().opacity = opacity.clamp(0.0, 1.0),
             Request::Checker(request) => self.handle_checker(request),
@@ -94,6 +97,10 @@ impl Editor {
             Request::Ask(kind) => self.ask(kind),
             Request::SaveProject => self.save_project(),
             Request::ToggleExports => self.layout.exports_shown = !self.layout.exports_shown,
+            Request::TogglePattern => {
+                self.layout.exports_shown = false;
+                self.files.pattern.is_shown ^= true;
+            }
             Request::Answer(answer) => self.answer(answer),
             Request::LeaveFaces => self.opened.leave_faces(&self.session),
             Request::LeaveTargets => self.opened.leave_targets(&self.session),
@@ -129,6 +136,7 @@ impl Editor {
         match kind {
             FileDialogKind::Open => self.act(Action::Open(path)),
             FileDialogKind::OpenPicture => self.act(Action::OpenPicture(path)),
+            FileDialogKind::LocateMesh => self.act(Action::LocateMesh(path)),
             FileDialogKind::ImportConstraints => self.act(Action::ImportConstraints(path)),
             FileDialogKind::ExportConstraints => self.act(Action::ExportConstraints(path)),
             FileDialogKind::ImportSeams => self.act(Action::ImportSeams(path)),
@@ -136,6 +144,11 @@ impl Editor {
             FileDialogKind::SaveProject => {
                 self.keep_view();
                 self.act(Action::SaveProject(path));
+            }
+            FileDialogKind::Pattern => {
+                self.files.pattern.is_shown = false;
+                let options = self.files.pattern.options;
+                self.act(Action::SavePattern(PatternRequest { path, options }));
             }
             FileDialogKind::PanePicture(pane) => self.shoot_pane(pane, path),
             FileDialogKind::Curves(what) => self.export_curves(what, path),
@@ -230,7 +243,8 @@ impl Editor {
         if matches!(action, Action::OpenPicture(_)) {
             self.pane_shading.usual.on_picture = OnPicture::Shows;
         }
-        if matches!(action, Action::Open(_) | Action::OpenTogether(_) | Action::OpenExample(_) | Action::Recover(_)) {
+        let opens = matches!(action, Action::Open(_) | Action::OpenTogether(_) | Action::OpenExample(_));
+        if opens || matches!(action, Action::Recover(_) | Action::LocateMesh(_)) {
             return self.close_or_ask(PendingClose::Do(action));
         }
         if self.drop_gesture() && matches!(action, Action::Undo | Action::Redo) {
@@ -263,8 +277,19 @@ impl Editor {
         self.selection.select([vertex]);
     }
 
+    /// Lets the next landmark wait for a click on its vertex.
+    fn take_landmark(&mut self, after: Option<DVec2>) {
+        let Some(landmark) = self.session.next_landmark(after) else { return };
+        self.tools.take_up(Tool::Constrain);
+        self.tools.set_pair(Some(Half::Target(landmark.uv)));
+        self.selection.select([]);
+    }
+
     fn escape(&mut self) {
-        let closes = self.close_question() || self.leave_large() || self.files.dialogs.close();
+        let closes = self.close_question()
+            || self.leave_large()
+            || self.files.dialogs.close()
+            || std::mem::take(&mut self.files.pattern.is_shown);
         if closes || self.layout.close_window() || self.timeline.close_curve() || self.drop_gesture() {
         } else if self.session.is_brushing() {
             self.act(Action::GiveUpBrush);

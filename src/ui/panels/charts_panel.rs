@@ -13,12 +13,11 @@ use crate::ui::round_joins::closed_line;
 use crate::ui::theme::{HOVERED, SELECTED};
 use crate::ui::{
     Alignment, Axis, Control, Editor, GestureKind, Offer, PageRequest, Request, Snap, counted, five_digits, icons,
-    keys_of, list, pairs, remark, sentence, theme_of, tip_with_keys,
+    keys_of, list, option_list, pairs, remark, sentence, theme_of, tip_with_keys,
 };
 use freebound_core::geom::{Bounds, FIRST_UDIM_TILE, PackingOptions, corner_of_tile};
 use freebound_core::mesh::Charts;
 use freebound_core::pipeline::{PackingSummary, StackedOn};
-use freebound_core::problem::NamedOption;
 
 /// Height of a row of the list, points: two lines.
 const ROW: f32 = 38.0;
@@ -332,7 +331,7 @@ fn gap_and_rotations(ui: &mut egui::Ui, options: &mut PackingOptions) -> bool {
         field.on_hover_text("Minimum distance between charts, in pixels of the picture");
         ui.label("px");
         ui.label("Rotation");
-        has_ended |= choice(ui, "Rotation of charts", "Rotations of packed charts", &mut options.rotations);
+        has_ended |= option_list(ui, "Rotation of charts", "Rotations of packed charts", &mut options.rotations);
     });
     has_ended
 }
@@ -343,7 +342,7 @@ fn stack_and_tiles(ui: &mut egui::Ui, options: &mut PackingOptions) -> bool {
     ui.horizontal_wrapped(|ui| {
         ui.label("Stack");
         let tip = "Charts with congruent surfaces that share one place in the picture";
-        has_ended |= choice(ui, "Stacking of charts", tip, &mut options.stack);
+        has_ended |= option_list(ui, "Stacking of charts", tip, &mut options.stack);
         ui.label("Tiles");
         let value = DragValue::new(&mut options.tiles).range(1..=PackingOptions::MOST_TILES).speed(0.05);
         let field = ui.add(value).named(Role::SpinButton, "Largest number of tiles");
@@ -351,21 +350,6 @@ fn stack_and_tiles(ui: &mut egui::Ui, options: &mut PackingOptions) -> bool {
         field.on_hover_text("Largest number of tiles (UDIM), each a picture of its own");
     });
     has_ended
-}
-
-/// Drop-down list of an option. True if another entry was clicked.
-fn choice<T: NamedOption + PartialEq + Copy + 'static>(ui: &mut egui::Ui, name: &str, tip: &str, now: &mut T) -> bool {
-    let before = *now;
-    let list = list(ui, name, 72.0, before.labels().title, |ui| {
-        for &option in T::ALL {
-            let label = ui.selectable_label(before == option, option.labels().title);
-            if label.on_hover_text(option.labels().tip()).clicked() {
-                *now = option;
-            }
-        }
-    });
-    list.on_hover_text(tip);
-    *now != before
 }
 
 /// Switch and field for a fixed density. It starts at the density that was `found`. True if an edit has ended.

@@ -14,6 +14,7 @@
 //! | `surface.rs` | rows of tabs: charts and holes of the mesh, and the start of the map |
 //! | `seams_section.rs` | unwrapping and the seams: in the tab of the charts |
 //! | `compare_panel.rs` | numbers of two compared steps |
+//! | `landmarks_section.rs` | landmarks that wait for a vertex: in the pins tab |
 //! | `picture_panel.rs` | picture section of the pins tab |
 //! | `equation_table.rs` | terms of a vertex's equation, as a table and in the embedding pane |
 //! | `menu.rs`, `verdict_pill.rs` | the menu bar and the verdict in it |
@@ -23,6 +24,7 @@
 //! | `floating.rs` | "Go to", file dialog inside the window, exports, pictures of panes |
 //! | `keys_window.rs` | list of keys and gestures; changes of keys |
 //! | `palette.rs` | command palette |
+//! | `pattern_window.rs` | options of a cutting pattern |
 //! | `about.rs` | About, and the messages of this run |
 //! | `toast.rs` | success message, for a few seconds |
 //! | `tour.rs` | card of the guided tour |
@@ -42,11 +44,13 @@ mod file_layout;
 pub(super) mod floating;
 mod hull_section;
 mod keys_window;
+mod landmarks_section;
 mod large;
 pub(super) mod menu;
 pub(super) mod method_panel;
 mod palette;
 mod parts;
+mod pattern_window;
 mod picture_panel;
 mod pins_panel;
 mod quality;

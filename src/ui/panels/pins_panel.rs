@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use eframe::egui::containers::menu::MenuButton;
 use eframe::egui::{self, DragValue, RichText, Role, Sense, Vec2};
 
-use super::picture_panel;
+use super::{landmarks_section, picture_panel};
 use crate::session::{Action, named};
 use crate::ui::panes::pins::{Emphasis, PinMark};
 use crate::ui::panes::vertex_menu::{hold_entries, vertex_menu};
@@ -54,6 +54,7 @@ pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &m
     ui.separator();
     egui::ScrollArea::vertical().id_salt("below the pins").auto_shrink([false, true]).show(ui, |ui| {
         all_of_them(ui, editor, requests);
+        landmarks_section::landmarks_ui(ui, editor, requests);
         ui.separator();
         picture_panel::picture_ui(ui, editor, requests);
     });
@@ -376,11 +377,15 @@ fn all_of_them(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) 
             Offer::new("Mirror", "Mirror all targets left to right", Action::MirrorTargets).when(count > 0),
             Offer::new("Fit", "Rotate, scale and move all targets together to fit the mesh", Action::FitTargets)
                 .when(count > 1),
-            Offer::new("Import…", "Read constraints from a file", Request::Ask(FileDialogKind::ImportConstraints))
-                .when(editor.has_disk()),
+            Offer::new(
+                "Import…",
+                "Read constraints (TXT) or landmarks of the picture (PTS)",
+                Request::Ask(FileDialogKind::ImportConstraints),
+            )
+            .when(editor.has_disk()),
             Offer::new(
                 "Export…",
-                "Write the pins as a constraint file",
+                "Write the pins as constraints (TXT) or landmarks (PTS)",
                 Request::Ask(FileDialogKind::ExportConstraints),
             )
             .when(count > 0),

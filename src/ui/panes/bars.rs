@@ -6,8 +6,9 @@ use std::time::{Duration, SystemTime};
 use eframe::egui::{self, Label, Rect, RichText, Sense, Vec2};
 
 use super::seam;
-use crate::session::{Action, Message, MessagePlace, Severity, named};
+use crate::session::{Action, Message, MessagePlace, MissingFile, Severity, named};
 use crate::ui::icons::{self, Sign};
+use crate::ui::state::FileDialogKind;
 use crate::ui::{Control, Editor, Offer, Pane, Request, Tab, Tool, counted, sentence, theme_of};
 
 /// Shows the bars at the upper edge of a pane.
@@ -117,7 +118,7 @@ fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: MessagePlace, request
     let limit = ui.available_height() / 2.0;
     egui::ScrollArea::vertical().id_salt(("messages", place == MessagePlace::Mesh)).max_height(limit).show(ui, |ui| {
         for group in grouped(&messages) {
-            group_bars(ui, &group, requests);
+            group_bars(ui, editor, &group, requests);
         }
     });
 }
@@ -136,9 +137,9 @@ fn grouped<'a>(messages: &[&'a Message]) -> Vec<Vec<&'a Message>> {
 }
 
 /// Newest message of a group. A button under it unfolds the others.
-fn group_bars(ui: &mut egui::Ui, group: &[&Message], requests: &mut Vec<Request>) {
+fn group_bars(ui: &mut egui::Ui, editor: &Editor, group: &[&Message], requests: &mut Vec<Request>) {
     let Some((newest, others)) = group.split_first() else { return };
-    message_bar(ui, newest, requests);
+    message_bar(ui, editor, newest, requests);
     let Some(file) = newest.about.as_ref().filter(|_| !others.is_empty()) else { return };
     let id = ui.scope_id().with(("unfolded", file));
     let is_open = ui.data(|data| data.get_temp(id).unwrap_or(false));
@@ -155,18 +156,18 @@ fn group_bars(ui: &mut egui::Ui, group: &[&Message], requests: &mut Vec<Request>
         }
     });
     for message in others.iter().filter(|_| is_open) {
-        message_bar(ui, message, requests);
+        message_bar(ui, editor, message, requests);
     }
 }
 
-fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
+fn message_bar(ui: &mut egui::Ui, editor: &Editor, message: &Message, requests: &mut Vec<Request>) {
     bar(ui, Sign::Bad, |ui| {
         ui.add(Label::new(sentence(&message.text)).wrap());
         if let Some(remedy) = &message.remedy {
             let weak = theme_of(ui).weak_text;
             ui.add(Label::new(RichText::new(sentence(remedy)).color(weak)).wrap());
         }
-        ui.horizontal_wrapped(|ui| message_buttons(ui, message, requests));
+        ui.horizontal_wrapped(|ui| message_buttons(ui, editor, message, requests));
     });
 }
 
@@ -188,7 +189,14 @@ fn bar(ui: &mut egui::Ui, sign: Sign, add: impl FnOnce(&mut egui::Ui)) {
     });
 }
 
-fn message_buttons(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
+fn message_buttons(ui: &mut egui::Ui, editor: &Editor, message: &Message, requests: &mut Vec<Request>) {
+    if let Some(missing) = editor.session.missing_file(message) {
+        let (kind, about) = match missing {
+            MissingFile::Mesh => (FileDialogKind::LocateMesh, "Choose the mesh file, and open the project with it"),
+            MissingFile::Picture => (FileDialogKind::OpenPicture, "Choose the picture file"),
+        };
+        ui.small_button("Locate…").on_hover_text(about).asks(Request::Ask(kind), requests);
+    }
     if !message.vertices.is_empty() {
         let kind = if message.vertices.len() == 1 { "vertex" } else { "vertices" };
         let button = ui.small_button(format!("Go to {kind} {}", named(&message.vertices)));

@@ -18,6 +18,9 @@ const KINDS: [BrushKind; 5] =
 /// Distance of the bar from the sides of the pane, points.
 const GAP: f32 = 8.0;
 
+/// Width of the pane in points below which the sliders stand one below the other.
+const NARROW: f32 = 440.0;
+
 /// True if the brush tool takes drags of the left button in the embedding pane.
 pub(super) fn takes_drags(editor: &Editor) -> bool {
     editor.tools.tool() == Tool::Brush
@@ -48,7 +51,10 @@ pub(super) fn bar(ui: &egui::Ui, rect: Rect, editor: &Editor, requests: &mut Vec
                     label.asks(Request::SetBrush(BrushChoice { kind, ..choice }), requests);
                 }
             });
-            ui.horizontal_wrapped(|ui| sliders(ui, choice, requests));
+            // A row does not wrap between a slider and its number.
+            let row = egui::Layout::left_to_right(egui::Align::Center);
+            let layout = if rect.width() < NARROW { egui::Layout::top_down(egui::Align::Min) } else { row };
+            ui.with_layout(layout, |ui| sliders(ui, choice, requests));
             if !editor.session.can_brush() && !editor.session.is_brushing() {
                 let words = "Brushes shape a planar map without new vertices that meets its pins.";
                 ui.label(egui::RichText::new(words).small().color(theme.weak_text));

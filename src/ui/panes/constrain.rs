@@ -16,6 +16,12 @@ use freebound_core::pipeline::Target;
 /// Least size of a pixel on the screen for targets to snap to pixels, points.
 const SNAP_FROM: f64 = 8.0;
 
+/// Distance at which a click takes a landmark, points.
+const LANDMARK_REACH: f64 = 8.0;
+
+/// Radius of the mark of a landmark, points.
+const LANDMARK: f32 = 3.0;
+
 impl Editor {
     /// Sets the effect of a click at the pointer. Call in each pane after the vertex under the pointer is set. `grip`
     /// is the vertex of the pin whose mark would take the click.
@@ -75,8 +81,20 @@ impl Editor {
         let target = document.frame().uv_from_plane(place);
         let (Some(picture), Some(camera)) = (&document.picture, self.plane.pane.camera()) else { return target };
         let pixels = DVec2::new(picture.pixels.width.into(), picture.pixels.height.into());
+        if let Some(landmark) = self.landmark_near(place, camera.points_per_unit()) {
+            return landmark;
+        }
         let is_large = camera.points_per_unit() / pixels.y > SNAP_FROM;
         if is_large && !modifiers.alt { snapped(target, pixels) } else { target }
+    }
+
+    /// Texture coordinates of the waiting landmark at a point of the plane.
+    fn landmark_near(&self, place: DVec2, points_per_unit: f64) -> Option<DVec2> {
+        let frame = self.session.document().frame();
+        let distance = |uv: DVec2| frame.plane_from_uv(uv).distance(place) * points_per_unit;
+        let near = self.session.landmarks_waiting().into_iter().map(|landmark| (distance(landmark.uv), landmark.uv));
+        let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.filter(|(distance, _)| *distance < LANDMARK_REACH).map(|(_, uv)| uv)
     }
 
     /// Carries out the effect of a click.
@@ -94,8 +112,13 @@ impl Editor {
             }
             Intent::Join(vertex, target) => {
                 self.tools.set_pair(None);
-                let target = Target { uv: target, kind: self.tools.kind() };
-                vec![Request::Do(Action::Place { vertex, target }), Request::Select(vec![vertex])]
+                let is_landmark = self.session.landmark_at(target).is_some();
+                let place = Action::Place { vertex, target: Target { uv: target, kind: self.tools.kind() } };
+                let mut requests = vec![Request::Do(place), Request::Select(vec![vertex])];
+                if is_landmark && self.session.landmarks_waiting().len() > 1 {
+                    requests.push(Request::TakeLandmark { after: Some(target) });
+                }
+                requests
             }
             Intent::Select(vertex) => vec![Request::Select(vec![vertex])],
         }
@@ -114,7 +137,10 @@ impl Editor {
             (Intent::Nothing, Some(Half::Vertex(vertex))) => {
                 format!("Click the position of {vertex} in the embedding. Esc cancels.")
             }
-            (Intent::Nothing, Some(Half::Target(_))) => {
+            (Intent::Nothing, Some(Half::Target(target))) => {
+                if let Some(landmark) = self.session.landmark_at(target) {
+                    return format!("Click the vertex of {}, in either pane. Esc cancels.", landmark.name);
+                }
                 "Click the vertex that goes there, in either pane. Esc cancels.".to_owned()
             }
             (Intent::Nothing, None) => {
@@ -152,6 +178,20 @@ pub(super) fn preview(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Edito
         painter.line_segment([view.spot(from), target], Stroke::new(1.5, theme.constraint.gamma_multiply(0.75)));
     }
     pins::ghost(&painter, target, theme);
+}
+
+/// Marks of the landmarks that wait for a vertex, over the picture.
+pub(super) fn landmarks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor) {
+    let waiting = editor.session.landmarks_waiting();
+    if waiting.is_empty() {
+        return;
+    }
+    let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
+    let frame = editor.session.document().frame();
+    for at in waiting.iter().map(|landmark| view.spot(frame.plane_from_uv(landmark.uv))) {
+        painter.circle_stroke(at, LANDMARK, Stroke::new(3.0, theme.background));
+        painter.circle_stroke(at, LANDMARK, Stroke::new(1.5, theme.constraint));
+    }
 }
 
 /// Line across both panes, from the vertex on the mesh to its target.

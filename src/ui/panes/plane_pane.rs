@@ -212,6 +212,7 @@ fn marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &Pl
             }
             pins::residual(&over, [spot(pin.vertex), view.spot(pin.target)], theme, pin.kind);
         }
+        constrain::landmarks(ui, view, editor);
         constrain::preview(ui, view, editor, plane);
         seam::over_plane(ui, view, editor, plane);
     }

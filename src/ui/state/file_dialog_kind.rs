@@ -7,7 +7,7 @@ use super::comparison::ComparisonExport;
 use super::pane::Pane;
 use super::timeline_view::CurvesExport;
 use freebound_core::pipeline::Fit;
-use freebound_io::OutputKind;
+use freebound_io::{OutputKind, PatternFormat};
 
 /// Kinds of file dialogs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,6 +15,8 @@ pub enum FileDialogKind {
     /// Mesh or project to open, or picture for the open mesh.
     Open,
     OpenPicture,
+    /// Mesh of a project that is not at its place any more.
+    LocateMesh,
     /// Table of numbers that colours the faces.
     OpenTable,
     /// Picture that the checker repeats.
@@ -26,6 +28,8 @@ pub enum FileDialogKind {
     SaveProject,
     /// Export of the flattening in a format. Default size: the size chosen in the editor.
     Export(OutputKind, Option<Fit>),
+    /// Cutting pattern.
+    Pattern,
     /// Picture of a pane.
     PanePicture(Pane),
     /// Export of the method comparison.
@@ -81,16 +85,24 @@ impl FileDialogKind {
         let (title, files, extensions, ending): (_, _, &[&str], _) = match self {
             Self::Open => ("Open a mesh, a project or a picture", "Meshes, projects and pictures", OPENED, ""),
             Self::OpenPicture => ("Open a picture", "Pictures", PICTURES, ""),
+            Self::LocateMesh => ("Locate the mesh of the project", "Meshes", MESHES, ""),
             Self::OpenTable => ("Open a table of numbers", "Tables", &["csv", "tsv", "txt"], ""),
             Self::OpenChecker => ("Open a picture for the checker", "Pictures", PICTURES, ""),
-            Self::ImportConstraints => ("Import constraints", "Constraints", &["txt"], ""),
-            Self::ExportConstraints => ("Export the constraints", "Constraints", &["txt"], "-constraints.txt"),
+            Self::ImportConstraints => {
+                ("Import constraints or landmarks", "Constraints, landmarks", &["txt", "pts"], "")
+            }
+            Self::ExportConstraints => {
+                ("Export the constraints", "Constraints, landmarks", &["txt", "pts"], "-constraints.txt")
+            }
             Self::ImportSeams => ("Import seams", "Edges", &["edges", "txt"], ""),
             Self::ExportSeams => ("Export the seams", "Edges", &["edges", "txt"], ".edges"),
             Self::SaveProject => ("Save the project", "Freebound project", &["freebound"], ".freebound"),
             Self::Export(kind, _) => {
                 let format = kind.format();
                 (format.title, format.name, slice::from_ref(&format.extension), format.ending)
+            }
+            Self::Pattern => {
+                ("Export the cutting pattern", "PDF, SVG or DXF drawing", PatternFormat::EXTENSIONS, "-pattern.pdf")
             }
             Self::PanePicture(Pane::Mesh) => ("Export a picture of the pane", "PNG picture", &["png"], "-mesh.png"),
             Self::PanePicture(Pane::Plane) => {
@@ -137,6 +149,7 @@ impl FileDialogKind {
             self,
             Self::Open
                 | Self::OpenPicture
+                | Self::LocateMesh
                 | Self::OpenTable
                 | Self::OpenChecker
                 | Self::ImportConstraints
@@ -152,6 +165,10 @@ impl FileDialogKind {
         is_free || self.form().fits(path)
     }
 }
+
+/// Entry that opens the options of a cutting pattern, and its description.
+pub(in crate::ui) const PATTERN: [&str; 2] =
+    ["Cutting pattern…", "PDF, SVG or DXF in true size, with seam allowance, notches and pages of paper"];
 
 /// Entry that copies a command line, and its description.
 pub(in crate::ui) const COPY_COMMAND: [&str; 2] =

@@ -49,7 +49,7 @@ pub use checker::{CheckerRequest, CheckerStyle};
 pub(in crate::ui) use checker::{SQUARES, nearest_squares};
 pub use comparison::{ComparisonExport, MorphRequest};
 pub(crate) use file_dialog_kind::is_picture;
-pub(in crate::ui) use file_dialog_kind::{COPY_COMMAND, DialogForm, EXPORTS, FileDialogKind, MESHES};
+pub(in crate::ui) use file_dialog_kind::{COPY_COMMAND, DialogForm, EXPORTS, FileDialogKind, MESHES, PATTERN};
 pub use help::Help;
 pub(in crate::ui) use help::{KeyClash, KeyList, Palette};
 pub use hull_stage::HullStage;

@@ -134,6 +134,11 @@ pub enum Request {
     EndNudge,
     /// Sets the kind of the selected pins. A kind other than fixed also applies to pins placed later.
     SetPinKind(PinKind),
+    /// Takes the next landmark that waits for a vertex, after the one with these texture coordinates.
+    TakeLandmark {
+        /// Landmark before, if any.
+        after: Option<DVec2>,
+    },
     /// Sets the opacity of the picture behind the embedding, 0 to 1.
     SetOpacity(f32),
     /// Draws pixels of the picture as squares, or interpolated.
@@ -168,6 +173,8 @@ pub enum Request {
     SaveProject,
     /// Shows or hides the list of exports.
     ToggleExports,
+    /// Shows or hides the options of a cutting pattern.
+    TogglePattern,
     /// Answers the question about unsaved work.
     Answer(UnsavedAnswer),
     /// Accepts faces that point inward.

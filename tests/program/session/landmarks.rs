@@ -1,13 +1,16 @@
-//! Names of pins, and pins with equal targets.
+//! Names of pins, pins with equal targets, and landmarks of the picture.
 
-use freebound::session::Action;
+use std::path::{Path, PathBuf};
+
+use freebound::session::{Action, Session, UndoGroup};
+use freebound_core::geom::VAxis;
 use freebound_core::pipeline::Target;
 use freebound_core::problem::PinKind;
-use freebound_io::{PinName, ProjectFile};
+use freebound_io::{LandmarkSet, PinName, ProjectFile, parse_pts};
 use glam::DVec2;
 
-use super::basics::settled;
-use super::documents::{id, place, with_dome};
+use super::basics::{session, settled};
+use super::documents::{id, place, with_dome, write_picture};
 
 fn name(text: &str) -> PinName {
     PinName::new(text).unwrap()
@@ -99,4 +102,110 @@ fn a_message_about_equal_targets_names_both_pins() {
     let kind = PinKind::Soft(1.0);
     settled(&mut session, Action::SetPinKind { vertices: vec![id(8)], kind });
     assert!(session.conflict_of(id(8)).is_none(), "a loosened pin is no conflict");
+}
+
+/// Session with a dome, a picture of 40 × 20 pixels, and a file of five landmarks.
+fn with_points() -> (tempfile::TempDir, Session, PathBuf) {
+    let (folder, mut session) = with_dome();
+    let picture = folder.path().join("photo.png");
+    write_picture(&picture, 40, 20);
+    settled(&mut session, Action::OpenPicture(picture));
+    let points = folder.path().join("photo.pts");
+    std::fs::write(&points, "version: 1\nn_points: 5\n{\n10.5 5.5\n30.5 5.5\n20.5 10.5\n12.5 15.5\n28.5 15.5\n}\n")
+        .unwrap();
+    (folder, session, points)
+}
+
+#[test]
+fn landmarks_move_the_pins_of_their_names_in_one_undo_step() {
+    let (_folder, mut session, points) = with_points();
+    let names: Vec<PinName> = LandmarkSet::Five.names().iter().map(|text| name(text)).collect();
+    for (vertex, place_of) in [(3, 0), (8, 2)] {
+        place(&mut session, vertex, Target::weighted(DVec2::new(0.01 * f64::from(vertex), 0.5), 7.0));
+        session.handle(Action::NamePin { vertex: id(vertex), name: Some(names[place_of].clone()) });
+    }
+    let (before, depth) = (session.document().clone(), session.history().depth());
+    settled(&mut session, Action::ImportConstraints(points));
+    let targets = &session.document().targets;
+    assert_eq!(targets[&id(3)], Target::weighted(DVec2::new(0.25, 0.75), 7.0), "the kind stays");
+    assert_eq!(targets[&id(8)].uv, DVec2::new(0.5, 0.5));
+    let waiting: Vec<PinName> = session.landmarks_waiting().into_iter().map(|landmark| landmark.name).collect();
+    assert_eq!(waiting, [names[1].clone(), names[3].clone(), names[4].clone()]);
+    assert_eq!((session.landmark_count(), session.history().depth()), (5, depth + 1));
+    settled(&mut session, Action::Undo);
+    assert_eq!(*session.document(), before);
+}
+
+#[test]
+fn a_pin_on_a_landmark_takes_its_name_and_the_next_one_waits() {
+    let (_folder, mut session, points) = with_points();
+    settled(&mut session, Action::ImportConstraints(points.clone()));
+    assert!(session.document().targets.is_empty() && session.landmarks_waiting().len() == 5);
+    let first = session.next_landmark(None).expect("waits");
+    let depth = session.history().depth();
+    place(&mut session, 3, Target::hard(first.uv));
+    assert_eq!(session.pin_name(id(3)), Some(&first.name));
+    assert_eq!(session.history().depth(), depth + 1, "pin and name are one step");
+    let second = session.next_landmark(Some(first.uv)).expect("waits");
+    assert_eq!(session.next_landmark(Some(second.uv)).map(|third| third.uv), Some(DVec2::new(0.5, 0.5)));
+    assert!(session.landmark_at(first.uv).is_none() && session.landmark_at(second.uv).is_some());
+    place(&mut session, 9, Target::hard(DVec2::new(0.111, 0.2)));
+    assert_eq!(session.pin_name(id(9)), None);
+    settled(&mut session, Action::CloseLandmarks);
+    assert!(session.next_landmark(None).is_none() && session.pin_name(id(3)).is_some());
+    settled(&mut session, Action::ImportConstraints(points));
+    assert_eq!(session.landmarks_waiting().len(), 4);
+    settled(&mut session, Action::RemovePicture);
+    assert_eq!(session.landmark_count(), 0, "they belong to the picture");
+}
+
+#[test]
+fn named_pins_are_written_as_the_landmarks_that_they_came_from() {
+    for v_axis in [VAxis::Up, VAxis::Down] {
+        let (folder, mut session, points) = with_points();
+        settled(&mut session, Action::SetVAxis(v_axis));
+        settled(&mut session, Action::ImportConstraints(points.clone()));
+        for vertex in [3, 8, 12, 18, 30] {
+            let next = session.next_landmark(None).expect("waits");
+            place(&mut session, vertex, Target::hard(next.uv));
+        }
+        assert!(session.landmarks_waiting().is_empty());
+        let out = folder.path().join("out.pts");
+        settled(&mut session, Action::ExportConstraints(out.clone()));
+        let read = |path: &Path| parse_pts(&std::fs::read_to_string(path).unwrap()).unwrap();
+        let (before, after) = (read(&points), read(&out));
+        assert!(before.iter().zip(&after).all(|(a, b)| a.distance(*b) < 1e-6) && before.len() == after.len());
+    }
+}
+
+#[test]
+fn landmarks_without_a_picture_and_incomplete_sets_say_what_to_do() {
+    let (folder, mut session, points) = with_points();
+    settled(&mut session, Action::RemovePicture);
+    settled(&mut session, Action::ImportConstraints(points.clone()));
+    let remedies = |session: &Session| session.messages().iter().filter(|message| message.remedy.is_some()).count();
+    assert_eq!((session.landmark_count(), remedies(&session)), (0, 1));
+    settled(&mut session, Action::Undo);
+    place(&mut session, 3, Target::hard(DVec2::new(0.25, 0.75)));
+    session.handle(Action::NamePin { vertex: id(3), name: Some(name(LandmarkSet::Five.names()[0])) });
+    let out = folder.path().join("out.pts");
+    settled(&mut session, Action::ExportConstraints(out.clone()));
+    assert!(!out.exists() && remedies(&session) >= 2);
+    std::fs::write(&points, "version: 2\n").unwrap();
+    let before = session.document().clone();
+    settled(&mut session, Action::ImportConstraints(points));
+    assert!(*session.document() == before && session.landmark_count() == 0);
+}
+
+#[test]
+fn a_picture_and_its_landmarks_can_be_dropped_together() {
+    let (folder, _, points) = with_points();
+    let mut session = session();
+    let (mesh, picture) = (folder.path().join("dome.obj"), Some(folder.path().join("photo.png")));
+    settled(
+        &mut session,
+        Action::OpenTogether(UndoGroup { mesh, picture, constraints: vec![points], left: Vec::new() }),
+    );
+    assert!(session.document().picture.is_some());
+    assert_eq!(session.landmarks_waiting().len(), 5, "{:?}", session.messages());
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use freebound::examples::Example;
-use freebound::session::{Action, ChartState, Session, Severity};
+use freebound::session::{Action, ChartState, MissingFile, Session, Severity};
 use freebound_core::geom::{ConvexPolygon, VAxis};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
@@ -228,6 +228,58 @@ fn a_missing_mesh_is_named_and_what_was_open_stays() {
     assert_eq!(session.model().expect("still open").built_in, Some(Example::Ell.name()));
     let message = session.messages().last().expect("said");
     assert!(message.text.contains("dome.obj") && message.remedy.is_some(), "{message:?}");
+    assert_eq!(session.missing_file(message), Some(MissingFile::Mesh));
+}
+
+#[test]
+fn a_mesh_that_was_moved_is_found_by_its_content() {
+    let (folder, mut first) = with_everything();
+    settled(&mut first, Action::SaveProject(project_in(&folder)));
+    let deep = folder.path().join("models").join("old");
+    fs::create_dir_all(&deep).unwrap();
+    fs::rename(folder.path().join("dome.obj"), deep.join("renamed.obj")).unwrap();
+    fs::rename(folder.path().join("pictures").join("ä b.png"), folder.path().join("photo.png")).unwrap();
+    let mut session = reopened(&project_in(&folder));
+    assert_eq!(session.model().expect("open").path.as_ref(), Some(&deep.join("renamed.obj")));
+    assert_eq!(session.document().targets, first.document().targets);
+    assert!(session.document().picture.is_some() && errors(&session).is_empty());
+    assert_eq!(session.messages().iter().filter(|message| message.severity == Severity::Note).count(), 2);
+    settled(&mut session, Action::SaveProject(project_in(&folder)));
+    let after = reopened(&project_in(&folder));
+    assert!(after.messages().is_empty() && after.model().is_some(), "{:?}", after.messages());
+}
+
+#[test]
+fn a_mesh_that_the_user_locates_opens_its_project() {
+    let (folder, mut first) = with_everything();
+    settled(&mut first, Action::SaveProject(project_in(&folder)));
+    let elsewhere = tempfile::tempdir().unwrap();
+    let (same, other) = (elsewhere.path().join("same.obj"), elsewhere.path().join("other.obj"));
+    fs::copy(folder.path().join("dome.obj"), &same).unwrap();
+    fs::remove_file(folder.path().join("dome.obj")).unwrap();
+    write_dome(&other, 6, 3);
+    for (mesh, faults) in [(&same, 0), (&other, 2)] {
+        let mut session = reopened(&project_in(&folder));
+        assert!(session.model().is_none());
+        settled(&mut session, Action::LocateMesh(mesh.clone()));
+        assert_eq!(session.model().expect("open").path.as_ref(), Some(mesh));
+        assert_eq!(errors(&session).len(), faults, "{:?}", session.messages());
+        assert!(session.messages().iter().all(|message| session.missing_file(message).is_none()));
+        let has_all = session.document().targets == first.document().targets;
+        assert_eq!(has_all, faults == 0);
+    }
+}
+
+#[test]
+fn a_located_file_that_is_no_mesh_says_so_and_the_project_can_be_opened_again() {
+    let (folder, mut first) = with_everything();
+    settled(&mut first, Action::SaveProject(project_in(&folder)));
+    fs::remove_file(folder.path().join("dome.obj")).unwrap();
+    let mut session = reopened(&project_in(&folder));
+    settled(&mut session, Action::LocateMesh(folder.path().join("missing.obj")));
+    assert!(session.model().is_none() && !errors(&session).is_empty());
+    let lacks = |session: &Session| session.messages().iter().any(|message| session.missing_file(message).is_some());
+    assert!(lacks(&session), "another file can be located: {:?}", session.messages());
 }
 
 #[test]
@@ -255,6 +307,7 @@ fn a_missing_and_a_changed_picture_are_said() {
     let session = reopened(&project_in(&folder));
     assert!(session.document().picture.is_none() && session.document().targets.len() == 3);
     assert_message("projects-missing-picture", errors(&session)[0]);
+    assert_eq!(session.missing_file(&session.messages()[0]), Some(MissingFile::Picture));
 }
 
 #[test]

@@ -123,17 +123,24 @@ struct Circle {
 }
 
 impl Circle {
-    /// Used vertices within a radius, at most `most`. On a coarse mesh the nearest vertex, if it is within `least`.
-    fn new(mesh: &DiskMesh, embedding: &Embedding, centre: DVec2, [radius, least]: [f64; 2], most: usize) -> Self {
+    /// Used vertices within a radius, at most [`MOST_BRUSHED`]. On a coarse mesh the nearest vertex, if it is within
+    /// `least`.
+    fn new(mesh: &DiskMesh, embedding: &Embedding, centre: DVec2, [radius, least]: [f64; 2]) -> Self {
         let reach = radius.max(least);
         let at = |v: VertexId| (embedding[v].distance(centre), v);
         let is_near = |(distance, v): &(f64, VertexId)| *distance < reach && mesh.is_used(*v);
         let mut near: Vec<(f64, VertexId)> = mesh.vertices().map(at).filter(is_near).collect();
-        near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let order = |a: &(f64, VertexId), b: &(f64, VertexId)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        if near.len() > MOST_BRUSHED {
+            // The circle may hold all of a large mesh: only the vertices that a dab moves are sorted.
+            near.select_nth_unstable_by(MOST_BRUSHED, order);
+            near.truncate(MOST_BRUSHED + 1);
+        }
+        near.sort_unstable_by(order);
         let within = near.partition_point(|(distance, _)| *distance < radius).max(1);
         near.truncate(within);
-        let next = near.get(most).map_or(radius, |(distance, _)| *distance);
-        near.truncate(most);
+        let next = near.get(MOST_BRUSHED).map_or(radius, |(distance, _)| *distance);
+        near.truncate(MOST_BRUSHED);
         Self { vertices: near.into_iter().map(|(_, v)| v).collect(), centre, radius: next.min(radius) }
     }
 
@@ -176,7 +183,7 @@ impl BrushSolver {
         let brush = Brush { strength: strength.clamp(least, 1.0), ..brush };
         let solver = DragSolver::new(mesh, embedding, &[], target.clone())?;
         let grip = (kind == BrushKind::Grab).then(|| {
-            let circle = Circle::new(mesh, &solver.begin, at, [radius, solver.scale.mean_edge], MOST_BRUSHED);
+            let circle = Circle::new(mesh, &solver.begin, at, [radius, solver.scale.mean_edge]);
             let inner = circle.inner(&solver.begin, &target.pins);
             Grip { circle, inner }
         });
@@ -275,7 +282,7 @@ impl BrushSolver {
         let Brush { kind, radius, strength } = self.brush;
         let wide = if kind == BrushKind::Texels { WIDE } else { 1.0 };
         let reach = [wide * radius, self.solver.scale.mean_edge];
-        let circle = Circle::new(mesh, &self.solver.embedding, centre, reach, MOST_BRUSHED);
+        let circle = Circle::new(mesh, &self.solver.embedding, centre, reach);
         let used = circle.radius / wide;
         let targets = self.targets(mesh, &circle);
         let factor = |z: DVec2| 1.0 + GROWTH * strength * falloff(z.distance(centre) / used);
