@@ -6,13 +6,15 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::examples::Example;
 use freebound::session::{Action, Status};
-use freebound::ui::{Measure, Tab, sentence};
+use freebound::ui::{Measure, Request, Tab, sentence};
 use freebound_core::geom::ConvexPolygon;
 use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Target;
 use freebound_core::problem::{BoundaryShape, Family, Method, Settings, Spacing};
+use freebound_io::PinName;
 use glam::DVec2;
 
-use crate::harness::{Pill, Window, sheet};
+use crate::harness::{Pill, SIZE, Window, sheet};
 use freebound_testkit::assert_message;
 
 fn settings(window: &Window) -> Settings {
@@ -409,5 +411,24 @@ fn measures_explain_themselves_under_the_pointer() {
             window.step();
         }
         assert!(window.shows(measure.tip()), "{name}: {:?}", window.words());
+    }
+}
+
+#[test]
+fn every_column_of_named_pins_fits_into_the_panel() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    let vertices = [10, 24, 33].map(VertexId::new);
+    for (vertex, name) in vertices.into_iter().zip(["left eye, outer corner", "a", &"long ".repeat(11)]) {
+        let target = Target::hard(DVec2::new(0.1 * vertex.index() as f64, 0.5));
+        let name = PinName::new(name).ok();
+        window.editor_mut().session.handle(Action::Place { vertex, target });
+        window.editor_mut().session.handle(Action::NamePin { vertex, name });
+    }
+    window.settle();
+    window.editor_mut().handle(Request::ShowTab(Tab::Pins));
+    window.settle();
+    for vertex in vertices {
+        let free = window.rect(Role::Button, &format!("Free pin {vertex}"));
+        assert!(free.right() < SIZE.x && free.left() > window.plane_view().right(), "{vertex}: {free}");
     }
 }

@@ -153,7 +153,9 @@ fn name_row(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, requests: &mut
     let hint = RichText::new("Name this pin, such as \"left eye\"").small();
     let field = egui::TextEdit::singleline(&mut text).font(egui::TextStyle::Small).hint_text(hint);
     let field = field.text_color(weak).frame(egui::Frame::NONE).char_limit(PinName::LONGEST);
-    let response = ui.put(place, field.desired_width(place.width()));
+    // A child of its own, because `put` would widen the column.
+    let mut child = ui.new_child(egui::UiBuilder::new().max_rect(place));
+    let response = child.add_sized(place.size(), field.desired_width(place.width()));
     let response = response.named(Role::TextInput, &format!("Name of pin {vertex}"));
     let tip = "Name of this pin. It is saved, and joins the pin with a landmark of that name";
     let response = response.on_hover_text(if name.is_empty() { tip.to_owned() } else { format!("{name}\n{tip}") });
