@@ -264,7 +264,9 @@ impl CommandError {
             | Self::Texture { .. }
             | Self::LayoutToPack { .. }
             | Self::NotADisk { .. } => UNUSABLE_INPUT,
-            Self::Usage(_) | Self::Pattern(PatternError::TooWide { .. }) => WRONG_USE,
+            Self::Usage(_) | Self::Pattern(PatternError::TooWide { .. } | PatternError::TooManyPages { .. }) => {
+                WRONG_USE
+            }
             Self::NoMorph { .. } | Self::MorphMemory { .. } | Self::Pattern(_) => FALLS_SHORT,
             Self::Write(error) if error.is_not_finite() => FALLS_SHORT,
             Self::Write(error) if error.is_of_input() => UNUSABLE_INPUT,

@@ -72,6 +72,8 @@ pub enum Action {
     LeaveLarge,
     /// Opens the project whose mesh is missing with another mesh file.
     LocateMesh(PathBuf),
+    /// Opens the project whose picture is missing with another picture file.
+    LocatePicture(PathBuf),
     /// Drops the landmarks that wait for a vertex. Pins stay.
     CloseLandmarks,
     /// Clears the list of recently opened files.

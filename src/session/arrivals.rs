@@ -27,8 +27,12 @@ impl Session {
         });
     }
 
-    /// Reads constraints, or landmarks of the picture, in the background.
+    /// Reads constraints, or landmarks of the picture, in the background. They belong to the mesh that is being opened,
+    /// else to the open one.
     pub(super) fn import_constraints(&mut self, path: PathBuf) {
+        if self.files.is_loading() {
+            return self.files.import_after(path);
+        }
         if has_landmarks(&path) {
             return self.import_landmarks(path);
         }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::action::UndoGroup;
 use super::exports::Export;
 use super::folder::FolderViewer;
-use super::large::{LargeFile, MissingMesh, OpenRequest};
+use super::large::{LargeFile, LocatedFile, MissingMesh, OpenRequest};
 use super::open_project::OpenProject;
 use super::opened::{OpenError, Opened, Origin};
 use super::recovery::Autosave;
@@ -232,7 +232,7 @@ impl Files {
     }
 
     fn load(&mut self, wanted: OpenRequest, memory: Option<u64>) {
-        (self.large, self.missing_mesh) = (None, None);
+        self.large = None;
         self.loading.start(wanted.clone(), move |_| wanted.open(memory));
     }
 
@@ -265,18 +265,38 @@ impl Files {
 
     /// Opens the project whose mesh does not exist with a mesh that the user located.
     pub(super) fn locate_mesh(&mut self, mesh: PathBuf, messages: &mut Messages) {
-        let Some(MissingMesh { message, project, is_recovery }) = self.missing_mesh.take() else { return };
-        messages.dismiss(message);
+        let Some(MissingMesh { project, is_recovery, .. }) = self.missing_mesh.clone() else { return };
         if is_recovery && !self.autosave.claim(&project) {
             return self.recover(project, messages);
         }
-        self.begin(OpenRequest::Located { project, is_recovery, mesh });
+        self.begin(OpenRequest::Located { project, is_recovery, file: LocatedFile::Mesh(mesh) });
+    }
+
+    /// Opens the project on the table again, with a picture that the user located. Returns the picture if there is no
+    /// such project, or its picture is not missing.
+    #[must_use = "the picture is still to be opened"]
+    pub(super) fn locate_picture(&mut self, picture: PathBuf) -> Option<PathBuf> {
+        // A recovered document differs from its project.
+        let saved = self.table.saved.as_ref().filter(|saved| saved.picture.is_none());
+        let project = self.table.project.clone().filter(|_| saved.is_some() && self.table.missing_picture.is_some());
+        let Some(project) = project else { return Some(picture) };
+        self.begin(OpenRequest::Located { project, is_recovery: false, file: LocatedFile::Picture(picture) });
+        None
+    }
+
+    /// Imports constraints after the mesh that is being opened.
+    pub(super) fn import_after(&mut self, path: PathBuf) {
+        self.to_follow().constraints.push(path);
+    }
+
+    fn to_follow(&mut self) -> &mut UndoGroup {
+        let group = UndoGroup { mesh: PathBuf::new(), picture: None, constraints: Vec::new(), left: Vec::new() };
+        self.together.get_or_insert(group)
     }
 
     /// Opens a picture after the mesh that is being opened.
     pub(super) fn open_picture_after(&mut self, path: PathBuf) {
-        let group = UndoGroup { mesh: PathBuf::new(), picture: None, constraints: Vec::new(), left: Vec::new() };
-        self.together.get_or_insert(group).picture = Some(path);
+        self.to_follow().picture = Some(path);
     }
 
     /// Cancels the opening of files.
@@ -291,6 +311,7 @@ impl Files {
         let (wanted, loaded) = self.loading.poll()?;
         match loaded {
             Ok(Ok(opened)) => {
+                self.missing_mesh = None;
                 if let Some((path, false)) = wanted.project() {
                     self.recent.remember(&path);
                 }
@@ -304,8 +325,14 @@ impl Files {
                 let file = wanted.project();
                 let text = Message::error(MessagePlace::Mesh, error.to_string()).with_remedy(error.remedy());
                 let message = messages.say(text.of_file(file.as_ref().map(|(path, _)| &**path)));
-                if let (OpenError::NoMesh { .. }, Some((project, is_recovery))) = (error, file) {
-                    self.missing_mesh = Some(MissingMesh { message, project, is_recovery });
+                // Another file can be located if this one is no mesh.
+                let is_mesh = matches!(&wanted, OpenRequest::Located { file: LocatedFile::Mesh(_), .. });
+                let lacks_mesh = matches!(error, OpenError::NoMesh { .. }) || is_mesh;
+                if let Some((project, is_recovery)) = file.filter(|_| lacks_mesh) {
+                    let missing = MissingMesh { message, project, is_recovery };
+                    if let Some(before) = self.missing_mesh.replace(missing) {
+                        messages.dismiss(before.message);
+                    }
                 }
             }
             Err(failure) => messages.fail_background(MessagePlace::Mesh, "loading", &failure),

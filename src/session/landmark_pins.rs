@@ -1,6 +1,6 @@
 //! Landmarks of the picture as pins. They move the pins of their names, and wait for a vertex if there is no such pin.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use glam::DVec2;
@@ -8,10 +8,12 @@ use glam::DVec2;
 use super::background_jobs::BackgroundJob;
 use super::edits::pin;
 use super::in_use::Role;
-use super::landmarks::{Landmarks, WaitingLandmark, turned};
-use super::{Message, MessagePlace, Session, Written};
-use freebound_core::pipeline::Target;
-use freebound_io::{PictureLandmark, PinName, PtsError, in_order_of_a_set, read_pts, write_durably, write_pts};
+use super::landmarks::{Landmarks, WaitingLandmark, names_after, turned, waiting};
+use super::{Command, Message, MessagePlace, Session, Written};
+use freebound_core::pipeline::{Target, Targets};
+use freebound_io::{
+    LandmarkSet, PictureLandmark, PinName, PinNotes, PtsError, in_order_of_a_set, read_pts, write_durably, write_pts,
+};
 
 /// Size of a picture that leaves coordinates in pixels.
 const IN_PIXELS: [u32; 2] = [1, 1];
@@ -39,52 +41,65 @@ impl Session {
                 return;
             }
         };
-        let Some(size) = self.picture_size() else {
+        let Some(picture) = self.document.picture.clone() else {
             return self.complain("landmarks belong to a picture", Some("open the picture, then import them again"));
         };
+        let size = DVec2::new(picture.pixels.width.into(), picture.pixels.height.into());
         for landmark in &mut list {
             landmark.place /= size;
         }
-        self.landmarks = Landmarks::new(list);
+        self.landmarks = Landmarks::new(list, picture);
         if !self.takes_pins() {
             return;
         }
-        let v_axis = self.document.v_axis;
-        let named = |landmark: &PictureLandmark| {
-            let key = landmark.name.key();
-            let of_name = |note: &PinName| note.key() == key;
-            let has_name = self.document.notes.iter().find(|(_, note)| note.name.as_ref().is_some_and(of_name));
-            let vertex = *has_name?.0;
-            let before = *self.document.targets.get(&vertex)?;
-            let target = Target { uv: turned(landmark.place, v_axis), ..before };
-            (target != before).then(|| pin(vertex, target))
-        };
-        let moves: Vec<_> = self.landmarks.list().iter().filter_map(named).collect();
-        if !moves.is_empty() {
-            self.edit(moves);
+        let document = &self.document;
+        let here = self.moved_to_landmarks(&document.targets, &document.notes);
+        let mut commands: Vec<Command> = here.into_iter().map(|(vertex, target)| pin(vertex, target)).collect();
+        for (&chart, edits) in &document.elsewhere {
+            let moved = self.moved_to_landmarks(&edits.targets, &edits.notes);
+            if !moved.is_empty() {
+                let mut edits = edits.clone();
+                edits.targets.extend(moved);
+                commands.push(Command::SetElsewhere { chart, edits });
+            }
+        }
+        if !commands.is_empty() {
+            self.edit(commands);
         }
     }
 
-    /// Width and height of the picture, pixels.
-    fn picture_size(&self) -> Option<DVec2> {
-        let picture = self.document.picture.as_ref()?;
-        Some(DVec2::new(picture.pixels.width.into(), picture.pixels.height.into()))
+    /// Landmarks of the picture of the document.
+    fn landmarks(&self) -> &[PictureLandmark] {
+        self.landmarks.of(self.document.picture.as_ref())
+    }
+
+    /// Targets that landmarks of their names move.
+    fn moved_to_landmarks(&self, targets: &Targets, notes: &PinNotes) -> Targets {
+        let places: BTreeMap<String, DVec2> = self.landmarks().iter().map(|it| (it.name.key(), it.place)).collect();
+        let v_axis = self.document.v_axis;
+        let moved = notes.iter().filter_map(|(&vertex, note)| {
+            let place = *places.get(&note.name.as_ref()?.key())?;
+            let before = *targets.get(&vertex)?;
+            let target = Target { uv: turned(place, v_axis), ..before };
+            (target != before).then_some((vertex, target))
+        });
+        moved.collect()
     }
 
     /// Number of imported landmarks.
     pub fn landmark_count(&self) -> usize {
-        self.landmarks.list().len()
+        self.landmarks().len()
     }
 
     /// Landmarks that no pin has the name of, in the order of their file.
     pub fn landmarks_waiting(&self) -> Vec<WaitingLandmark> {
-        if self.landmarks.list().is_empty() {
+        if self.landmarks().is_empty() {
             return Vec::new();
         }
         let elsewhere = self.document.elsewhere.values().flat_map(|edits| edits.notes.values());
         let notes = self.document.notes.values().chain(elsewhere);
         let taken: BTreeSet<String> = notes.filter_map(|note| note.name.as_ref()).map(PinName::key).collect();
-        self.landmarks.waiting(&taken, self.document.v_axis)
+        waiting(self.landmarks(), &taken, self.document.v_axis)
     }
 
     /// Waiting landmark with exactly these texture coordinates.
@@ -94,9 +109,9 @@ impl Session {
 
     /// First waiting landmark after the one with these texture coordinates, cyclically. Default: the first one.
     pub fn next_landmark(&self, after: Option<DVec2>) -> Option<WaitingLandmark> {
-        let waiting = self.landmarks_waiting();
-        let order = self.landmarks.names_after(after, self.document.v_axis);
-        order.into_iter().find_map(|name| waiting.iter().find(|landmark| landmark.name == name)).cloned()
+        let all = self.landmarks_waiting();
+        let order = names_after(self.landmarks(), after, self.document.v_axis);
+        order.into_iter().find_map(|name| all.iter().find(|landmark| landmark.name == name)).cloned()
     }
 
     /// Drops the landmarks that wait. Pins stay.
@@ -117,16 +132,18 @@ impl Session {
         });
         let named: Vec<PictureLandmark> = named.collect();
         let with_name = |name: &PinName| named.iter().find(|landmark| landmark.name.key() == name.key()).cloned();
-        let in_file: Option<Vec<_>> = self.landmarks.list().iter().map(|landmark| with_name(&landmark.name)).collect();
-        let ordered = match in_file.filter(|list| !list.is_empty()) {
-            Some(list) => list,
-            None => match in_order_of_a_set(&named) {
-                Ok(list) => list.into_iter().cloned().collect(),
-                Err(missing) => {
-                    let text = format!("{}: the landmarks are incomplete: {missing}", path.display());
-                    return self.complain(text, Some("name the pins of the missing points, or export a .txt file"));
-                }
-            },
+        let in_file: Option<Vec<_>> = self.landmarks().iter().map(|landmark| with_name(&landmark.name)).collect();
+        // A file without known names was imported, and is not open any more.
+        let count = named.len();
+        let numbered = || (0..count).map(|place| with_name(&LandmarkSet::name_of(count, place))).collect();
+        let ordered = in_file.filter(|list| !list.is_empty()).or_else(numbered);
+        let ordered: Vec<PictureLandmark> = match (ordered.filter(|list| !list.is_empty()), in_order_of_a_set(&named)) {
+            (Some(list), _) => list,
+            (None, Ok(list)) => list.into_iter().cloned().collect(),
+            (None, Err(missing)) => {
+                let text = format!("{}: the landmarks are incomplete: {missing}", path.display());
+                return self.complain(text, Some("name the pins of the missing points, or export a .txt file"));
+            }
         };
         if self.refuses_to_replace(&path, Some(Role::Constraints)) {
             return;

@@ -15,8 +15,8 @@ pub(super) enum OpenRequest {
     Example(Example),
     /// A recovery copy of an earlier session.
     Recovery(PathBuf),
-    /// A project or a recovery copy with the mesh that the user located.
-    Located { project: PathBuf, is_recovery: bool, mesh: PathBuf },
+    /// A project or a recovery copy with a file that the user located.
+    Located { project: PathBuf, is_recovery: bool, file: LocatedFile },
 }
 
 impl OpenRequest {
@@ -26,14 +26,21 @@ impl OpenRequest {
             Self::File(path) => Opened::read(path, memory),
             Self::Example(example) => Ok(Opened::example(*example)),
             Self::Recovery(path) => Opened::recovered(path, None, memory),
-            Self::Located { project, is_recovery: true, mesh } => Opened::recovered(project, Some(mesh), memory),
-            Self::Located { project, mesh, .. } => Opened::project_with_mesh(project, mesh, memory),
+            Self::Located { project, is_recovery: true, file } => Opened::recovered(project, Some(file), memory),
+            Self::Located { project, file, .. } => Opened::project_with(project, file, memory),
         }
     }
 }
 
+/// File that the user located in place of a missing one.
+#[derive(Clone, Debug)]
+pub(super) enum LocatedFile {
+    Mesh(PathBuf),
+    Picture(PathBuf),
+}
+
 /// Request that failed because the mesh of a project does not exist.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct MissingMesh {
     /// Message about it.
     pub(super) message: u64,

@@ -17,7 +17,7 @@ pub(super) fn located(
     if path.exists() {
         return source;
     }
-    let Some(found) = find_nearby(stamp, &folders_near(project, path)) else { return source };
+    let Some(found) = find_nearby(path, stamp, &folders_near(project, path)) else { return source };
     let text = format!("{}: moved, and found as {}", path.display(), found.display());
     remarks.push(Message::note(place, text).with_remedy("save the project to keep the new place"));
     ProjectSource::File { path: found, stamp: Some(stamp.clone()) }
@@ -25,7 +25,9 @@ pub(super) fn located(
 
 /// Folders in which a missing file is searched.
 fn folders_near(project: Option<&Path>, missing: &Path) -> Vec<PathBuf> {
-    let folder = project.and_then(Path::parent);
+    // The folder of a relative path is known only then.
+    let project = project.and_then(|project| std::path::absolute(project).ok());
+    let folder = project.as_deref().and_then(Path::parent);
     let of_file = missing.ancestors().skip(1).take(2).find(|folder| folder.is_dir());
     let beside = folder.and_then(Path::parent);
     let mut folders: Vec<PathBuf> = Vec::new();

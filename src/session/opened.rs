@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::chart_layout::{ChartLayout, ChartPlace};
+use super::large::LocatedFile;
 use super::locating::located;
 use super::messages::named;
 use super::restored_charts::{RestoredChart, restored};
@@ -107,15 +108,16 @@ impl Opened {
         Ok(Self { remarks, ..Self::mesh(model, document) })
     }
 
-    /// Opens a project with another mesh file than the one it names.
-    pub(super) fn project_with_mesh(path: &Path, mesh: &Path, memory: Option<u64>) -> Result<Self, OpenError> {
-        let project = with_mesh(ProjectFile::read(path)?, Some(mesh));
+    /// Opens a project with a file in place of a missing one.
+    pub(super) fn project_with(path: &Path, file: &LocatedFile, memory: Option<u64>) -> Result<Self, OpenError> {
+        let project = with_file(ProjectFile::read(path)?, Some(file));
         Self::project(project, Origin::Project(path.to_owned()), memory)
     }
 
-    /// Opens a recovery copy, possibly with another mesh file. At most half of `memory`, bytes, may be used.
-    pub(super) fn recovered(path: &Path, mesh: Option<&Path>, memory: Option<u64>) -> Result<Self, OpenError> {
-        let mut project = with_mesh(ProjectFile::read(path)?, mesh);
+    /// Opens a recovery copy, possibly with a file in place of a missing one. At most half of `memory`, bytes, may be
+    /// used.
+    pub(super) fn recovered(path: &Path, file: Option<&LocatedFile>, memory: Option<u64>) -> Result<Self, OpenError> {
+        let mut project = with_file(ProjectFile::read(path)?, file);
         let note = project.recovery.take().unwrap_or_default();
         Self::project(project, Origin::Recovery(note), memory)
     }
@@ -183,14 +185,20 @@ impl Opened {
     }
 }
 
-/// Project with another mesh file. The stamp stays that of the mesh before.
-fn with_mesh(mut project: ProjectFile, mesh: Option<&Path>) -> ProjectFile {
-    let Some(path) = mesh.map(Path::to_owned) else { return project };
-    let stamp = match &project.mesh {
-        ProjectSource::File { stamp, .. } => stamp.clone(),
-        ProjectSource::Example(_) => None,
+/// Project with a file in place of a missing one. The stamp stays that of the missing file.
+fn with_file(mut project: ProjectFile, file: Option<&LocatedFile>) -> ProjectFile {
+    let moved = |source: Option<&ProjectSource>, path: &PathBuf| {
+        let stamp = match source {
+            Some(ProjectSource::File { stamp, .. }) => stamp.clone(),
+            _ => None,
+        };
+        ProjectSource::File { path: path.clone(), stamp }
     };
-    project.mesh = ProjectSource::File { path, stamp };
+    match file {
+        None => {}
+        Some(LocatedFile::Mesh(path)) => project.mesh = moved(Some(&project.mesh), path),
+        Some(LocatedFile::Picture(path)) => project.picture = Some(moved(project.picture.as_ref(), path)),
+    }
     project
 }
 

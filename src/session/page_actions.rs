@@ -148,8 +148,6 @@ impl Session {
             sides.unwrap_or(self.document.layout.packing.picture).map(u64::from)
         };
         let ([w, h], [w_before, h_before]) = (sides(&picture), sides(&self.document.picture));
-        // Landmarks belong to one picture.
-        self.close_landmarks();
         let mut edits = vec![Command::SetPicture(picture)];
         if self.document.shaped.is_some() || self.document.elsewhere.values().any(|edits| edits.shaped.is_some()) {
             // A map that the user shaped has a place of its own, not the new picture's.

@@ -97,6 +97,11 @@ impl Session {
             Action::OpenLarge => self.files.open_large(),
             Action::LeaveLarge => self.files.leave_large(),
             Action::CloseLandmarks => self.close_landmarks(),
+            Action::LocatePicture(path) => {
+                if let Some(picture) = self.files.locate_picture(path) {
+                    self.open_picture(picture);
+                }
+            }
             Action::LocateMesh(mesh) => self.files.locate_mesh(mesh, &mut self.messages),
             Action::Recover(path) => self.files.recover(path, &mut self.messages),
             Action::DiscardRecovery(path) => self.files.autosave_mut().discard(&path),

@@ -353,8 +353,12 @@ fn landmarks_of_a_picture_are_placed_one_after_the_other() {
     assert_eq!(vertices.map(at), [[0.25, 0.25], [0.75, 0.25], [0.5, 0.75]].map(DVec2::from));
     let names = vertices.map(|vertex| window.editor().session.pin_name(vertex).map(ToString::to_string));
     assert_eq!(names, ["point 1", "point 2", "point 3"].map(|name| Some(name.to_owned())));
+    window.press(Modifiers::COMMAND, Key::Z);
+    window.click("Place next");
+    assert!(window.editor().tools.pair().is_some() && window.shows("2 of 3 placed"));
     window.click("Close");
-    assert!(!window.shows("3 of 3 placed"));
+    assert!(!window.shows("2 of 3 placed"));
+    assert_eq!(window.editor().tools.pair(), None, "a click pins nothing at a landmark that is gone");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::Editor;
 use super::appearance::OnPicture;
-use crate::session::{Action, LockState, PatternRequest, SaveRequest, UndoGroup};
+use crate::session::{Action, LockState, PatternRequest, SaveRequest, UndoGroup, WaitingLandmark};
 use crate::ui::dialogs::DialogChoice;
 use crate::ui::state::{FileDialogKind, Half, PageRequest, Pane, PendingClose, Request, StepTarget, Tool, is_picture};
 use freebound_core::mesh::VertexId;
@@ -136,6 +136,7 @@ impl Editor {
         match kind {
             FileDialogKind::Open => self.act(Action::Open(path)),
             FileDialogKind::OpenPicture => self.act(Action::OpenPicture(path)),
+            FileDialogKind::LocatePicture => self.act(Action::LocatePicture(path)),
             FileDialogKind::LocateMesh => self.act(Action::LocateMesh(path)),
             FileDialogKind::ImportConstraints => self.act(Action::ImportConstraints(path)),
             FileDialogKind::ExportConstraints => self.act(Action::ExportConstraints(path)),
@@ -244,7 +245,7 @@ impl Editor {
             self.pane_shading.usual.on_picture = OnPicture::Shows;
         }
         let opens = matches!(action, Action::Open(_) | Action::OpenTogether(_) | Action::OpenExample(_));
-        if opens || matches!(action, Action::Recover(_) | Action::LocateMesh(_)) {
+        if opens || matches!(action, Action::Recover(_) | Action::LocateMesh(_) | Action::LocatePicture(_)) {
             return self.close_or_ask(PendingClose::Do(action));
         }
         if self.drop_gesture() && matches!(action, Action::Undo | Action::Redo) {
@@ -252,8 +253,12 @@ impl Editor {
             return;
         }
         let before = self.session.document().frame();
+        let landmark = self.landmark_taken();
         self.session.handle(action);
         self.let_go_of_vertices();
+        if landmark.is_some() && self.landmark_taken() != landmark {
+            self.tools.set_pair(None);
+        }
         let after = self.session.document().frame();
         if before.aspect.to_bits() == after.aspect.to_bits() {
             // If the direction of v changes, the picture moves in the plane. Move the cameras so that it stays on the
@@ -275,6 +280,14 @@ impl Editor {
         self.tools.take_up(Tool::Constrain);
         self.tools.set_pair(Some(Half::Vertex(vertex)));
         self.selection.select([vertex]);
+    }
+
+    /// Landmark that waits for a click on its vertex.
+    pub(in crate::ui) fn landmark_taken(&self) -> Option<WaitingLandmark> {
+        match self.tools.pair() {
+            Some(Half::Target(uv)) => self.session.landmark_at(uv),
+            _ => None,
+        }
     }
 
     /// Lets the next landmark wait for a click on its vertex.

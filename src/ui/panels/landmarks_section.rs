@@ -3,7 +3,6 @@
 use eframe::egui;
 
 use crate::session::Action;
-use crate::ui::state::Half;
 use crate::ui::{Editor, Offer, Request, remark};
 
 pub(super) fn landmarks_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
@@ -17,10 +16,7 @@ pub(super) fn landmarks_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
         ui.strong("Landmarks");
         ui.weak(format!("{} of {count} placed", count - waiting.len()));
     });
-    let taken = match editor.tools.pair() {
-        Some(Half::Target(uv)) => editor.session.landmark_at(uv),
-        _ => None,
-    };
+    let taken = editor.landmark_taken();
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let (words, after) =

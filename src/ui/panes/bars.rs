@@ -193,7 +193,9 @@ fn message_buttons(ui: &mut egui::Ui, editor: &Editor, message: &Message, reques
     if let Some(missing) = editor.session.missing_file(message) {
         let (kind, about) = match missing {
             MissingFile::Mesh => (FileDialogKind::LocateMesh, "Choose the mesh file, and open the project with it"),
-            MissingFile::Picture => (FileDialogKind::OpenPicture, "Choose the picture file"),
+            MissingFile::Picture => {
+                (FileDialogKind::LocatePicture, "Choose the picture file, and open the project with it")
+            }
         };
         ui.small_button("Locate…").on_hover_text(about).asks(Request::Ask(kind), requests);
     }

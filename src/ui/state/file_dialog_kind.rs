@@ -17,6 +17,8 @@ pub enum FileDialogKind {
     OpenPicture,
     /// Mesh of a project that is not at its place any more.
     LocateMesh,
+    /// Picture of a project that is not at its place any more.
+    LocatePicture,
     /// Table of numbers that colours the faces.
     OpenTable,
     /// Picture that the checker repeats.
@@ -86,6 +88,7 @@ impl FileDialogKind {
             Self::Open => ("Open a mesh, a project or a picture", "Meshes, projects and pictures", OPENED, ""),
             Self::OpenPicture => ("Open a picture", "Pictures", PICTURES, ""),
             Self::LocateMesh => ("Locate the mesh of the project", "Meshes", MESHES, ""),
+            Self::LocatePicture => ("Locate the picture of the project", "Pictures", PICTURES, ""),
             Self::OpenTable => ("Open a table of numbers", "Tables", &["csv", "tsv", "txt"], ""),
             Self::OpenChecker => ("Open a picture for the checker", "Pictures", PICTURES, ""),
             Self::ImportConstraints => {
@@ -150,6 +153,7 @@ impl FileDialogKind {
             Self::Open
                 | Self::OpenPicture
                 | Self::LocateMesh
+                | Self::LocatePicture
                 | Self::OpenTable
                 | Self::OpenChecker
                 | Self::ImportConstraints

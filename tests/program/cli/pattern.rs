@@ -136,5 +136,7 @@ fn patterns_that_cannot_be_made_are_named_and_write_nothing() {
     assert!(failed.stderr.contains("p.txt") && failed.stderr.contains("--pattern"), "{}", failed.stderr);
     let failed = run(&["p.pdf", "--sheet-width", "1"]).expect(2);
     assert!(failed.stderr.contains("chart 0"), "{}", failed.stderr);
+    let failed = run(&["p.pdf", "--allowance", "100000", "--paper", "a4"]).expect(2);
+    assert!(failed.stderr.contains("pages"), "{}", failed.stderr);
     assert!(!program.path("p.pdf").exists());
 }

@@ -9,7 +9,7 @@ use freebound_core::problem::PinKind;
 use freebound_io::{LandmarkSet, PinName, ProjectFile, parse_pts};
 use glam::DVec2;
 
-use super::basics::{session, settled};
+use super::basics::{session, settle, settled};
 use super::documents::{id, place, with_dome, write_picture};
 
 fn name(text: &str) -> PinName {
@@ -157,6 +157,8 @@ fn a_pin_on_a_landmark_takes_its_name_and_the_next_one_waits() {
     assert_eq!(session.landmarks_waiting().len(), 4);
     settled(&mut session, Action::RemovePicture);
     assert_eq!(session.landmark_count(), 0, "they belong to the picture");
+    settled(&mut session, Action::Undo);
+    assert_eq!(session.landmark_count(), 5, "and return with it");
 }
 
 #[test]
@@ -171,6 +173,9 @@ fn named_pins_are_written_as_the_landmarks_that_they_came_from() {
         }
         assert!(session.landmarks_waiting().is_empty());
         let out = folder.path().join("out.pts");
+        if v_axis == VAxis::Down {
+            session.handle(Action::CloseLandmarks);
+        }
         settled(&mut session, Action::ExportConstraints(out.clone()));
         let read = |path: &Path| parse_pts(&std::fs::read_to_string(path).unwrap()).unwrap();
         let (before, after) = (read(&points), read(&out));
@@ -208,4 +213,60 @@ fn a_picture_and_its_landmarks_can_be_dropped_together() {
     );
     assert!(session.document().picture.is_some());
     assert_eq!(session.landmarks_waiting().len(), 5, "{:?}", session.messages());
+}
+
+#[test]
+fn files_that_are_opened_while_a_mesh_is_loading_belong_to_it() {
+    let (folder, _, points) = with_points();
+    let mut session = session();
+    session.handle(Action::Open(folder.path().join("dome.obj")));
+    session.handle(Action::ImportConstraints(points));
+    session.handle(Action::OpenPicture(folder.path().join("photo.png")));
+    settle(&mut session);
+    assert_eq!(session.landmarks_waiting().len(), 5, "{:?}", session.messages());
+}
+
+#[test]
+fn numbered_landmarks_are_written_in_their_order_and_points_on_one_place_can_be_skipped() {
+    let (folder, mut session, points) = with_points();
+    std::fs::write(&points, "version: 1\nn_points: 3\n{\n0 0\n0 0\n20.5 10.5\n}\n").unwrap();
+    settled(&mut session, Action::ImportConstraints(points.clone()));
+    let first = session.next_landmark(None).expect("waits");
+    assert_eq!(session.next_landmark(Some(first.uv)).expect("waits").name, name("point 3"));
+    for vertex in [3, 8, 12] {
+        let next = session.next_landmark(None).expect("waits");
+        place(&mut session, vertex, Target::hard(next.uv));
+    }
+    session.handle(Action::CloseLandmarks);
+    let out = folder.path().join("out.pts");
+    settled(&mut session, Action::ExportConstraints(out.clone()));
+    let read = |path: &Path| parse_pts(&std::fs::read_to_string(path).unwrap()).unwrap();
+    assert!(read(&points).iter().zip(read(&out)).all(|(a, b)| a.distance(b) < 1e-6));
+}
+
+#[test]
+fn landmarks_move_pins_of_charts_that_are_not_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let [mesh, picture, points] = ["two.obj", "photo.png", "photo.pts"].map(|name| folder.path().join(name));
+    let square = |x: f64| format!("v {x} 0 0\nv {} 0 0\nv {} 1 0\nv {x} 1 0\n", x + 1.0, x + 1.0);
+    std::fs::write(&mesh, format!("{}{}f 1 2 3 4\nf 5 6 7 8\n", square(0.0), square(3.0))).unwrap();
+    write_picture(&picture, 40, 20);
+    std::fs::write(&points, "version: 1\nn_points: 2\n{\n10.5 5.5\n30.5 5.5\n}\n").unwrap();
+    let mut session = session();
+    settled(
+        &mut session,
+        Action::OpenTogether(UndoGroup { mesh, picture: Some(picture), constraints: Vec::new(), left: Vec::new() }),
+    );
+    for (chart, text) in [(0, "point 1"), (1, "point 2")] {
+        settled(&mut session, Action::ShowChart(chart));
+        place(&mut session, 1, Target::hard(DVec2::new(0.1, 0.1)));
+        session.handle(Action::NamePin { vertex: id(1), name: Some(name(text)) });
+    }
+    let depth = session.history().depth();
+    settled(&mut session, Action::ImportConstraints(points));
+    assert_eq!(session.history().depth(), depth + 1);
+    assert!(session.landmarks_waiting().is_empty());
+    assert_eq!(session.document().targets[&id(1)].uv, DVec2::new(0.75, 0.75));
+    settled(&mut session, Action::ShowChart(0));
+    assert_eq!(session.document().targets[&id(1)].uv, DVec2::new(0.25, 0.75));
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use freebound::examples::Example;
-use freebound::session::{Action, ChartState, MissingFile, Session, Severity};
+use freebound::session::{Action, ChartState, Message, MissingFile, Session, Severity};
 use freebound_core::geom::{ConvexPolygon, VAxis};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
@@ -271,15 +271,44 @@ fn a_mesh_that_the_user_locates_opens_its_project() {
 }
 
 #[test]
+fn a_picture_that_the_user_locates_opens_its_project_and_is_no_edit() {
+    let (folder, mut first) = with_everything();
+    settled(&mut first, Action::SaveProject(project_in(&folder)));
+    let elsewhere = tempfile::tempdir().unwrap();
+    let photo = elsewhere.path().join("photo.png");
+    fs::copy(folder.path().join("pictures").join("ä b.png"), &photo).unwrap();
+    fs::remove_file(folder.path().join("pictures").join("ä b.png")).unwrap();
+    let mut session = reopened(&project_in(&folder));
+    assert!(session.document().picture.is_none());
+    settled(&mut session, Action::LocatePicture(photo.clone()));
+    assert_eq!(session.document().picture.as_ref().and_then(|picture| picture.path.clone()), Some(photo.clone()));
+    assert!(session.messages().is_empty() && !session.has_unsaved_work() && !session.history().can_undo());
+    let embedding = |session: &Session| session.outcome().expect("solved").step.candidate.solution.embedding.clone();
+    assert!(embedding(&session) == embedding(&first), "the map is that of the project");
+    settled(&mut session, Action::SaveProject(project_in(&folder)));
+    assert!(reopened(&project_in(&folder)).document().picture.is_some());
+    // Without a missing picture the action opens a picture.
+    write_picture(&photo, 7, 3);
+    settled(&mut session, Action::LocatePicture(photo));
+    assert!(session.history().can_undo());
+}
+
+#[test]
 fn a_located_file_that_is_no_mesh_says_so_and_the_project_can_be_opened_again() {
     let (folder, mut first) = with_everything();
     settled(&mut first, Action::SaveProject(project_in(&folder)));
     fs::remove_file(folder.path().join("dome.obj")).unwrap();
     let mut session = reopened(&project_in(&folder));
-    settled(&mut session, Action::LocateMesh(folder.path().join("missing.obj")));
-    assert!(session.model().is_none() && !errors(&session).is_empty());
-    let lacks = |session: &Session| session.messages().iter().any(|message| session.missing_file(message).is_some());
-    assert!(lacks(&session), "another file can be located: {:?}", session.messages());
+    let lacks = |session: &Session| {
+        let is_lacking = |message: &&Message| session.missing_file(message) == Some(MissingFile::Mesh);
+        session.messages().iter().filter(is_lacking).count()
+    };
+    fs::write(folder.path().join("empty.obj"), "").unwrap();
+    for file in ["missing.obj", "empty.obj", "work.freebound"] {
+        settled(&mut session, Action::LocateMesh(folder.path().join(file)));
+        assert!(session.model().is_none() && !errors(&session).is_empty());
+        assert_eq!(lacks(&session), 1, "another file can be located: {:?}", session.messages());
+    }
 }
 
 #[test]

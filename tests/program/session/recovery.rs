@@ -157,13 +157,19 @@ fn a_copy_that_cannot_be_opened_stays_for_another_day() {
     place(&mut doomed, 3, Target::hard(DVec2::X));
     until_copies(&mut doomed, Instant::now() + LONG, (&store, &[1]));
     drop(doomed);
-    fs::rename(folder.path().join("dome.obj"), folder.path().join("away.obj")).unwrap();
+    // A mesh that was only moved nearby would be found.
+    let (away, far) = (tempfile::tempdir().unwrap(), "dome.obj");
+    fs::copy(folder.path().join("dome.obj"), away.path().join(far)).unwrap();
+    fs::remove_file(folder.path().join("dome.obj")).unwrap();
     let mut next = after_release(&store);
     let path = next.recoverable()[0].path.clone();
     settled(&mut next, Action::Recover(path));
     assert!(errors(&next)[0].contains("dome.obj") && next.model().is_none());
     assert_eq!(next.recoverable().len(), 1);
     assert_eq!(with_recovery(&store).recoverable().len(), 1);
+    settled(&mut next, Action::LocateMesh(away.path().join(far)));
+    assert_eq!(next.document().targets.len(), 1, "{:?}", next.messages());
+    assert!(next.has_unsaved_work() && errors(&next).is_empty());
 }
 
 #[test]

@@ -174,7 +174,7 @@ impl Default for PatternOptions {
 #[non_exhaustive]
 pub enum PatternError {
     /// A chart folds or crosses itself, so no outline bounds it.
-    #[error("chart {0} folds or overlaps itself: flatten it with --method auto first")]
+    #[error("chart {0} folds or overlaps itself: only a planar chart has a pattern")]
     NotPlanar(usize),
     /// No simple line surrounds a chart at the distance of the allowance.
     #[error("chart {0} has no simple line at this seam allowance: change the allowance a little")]
@@ -188,6 +188,12 @@ pub enum PatternError {
         width: f64,
         /// Width of the sheet, millimetres.
         sheet: f64,
+    },
+    /// The sheet takes too many pages of paper.
+    #[error("up to {pages} pages are more than {most}: check the unit of the mesh", most = tiles::MOST_PAGES)]
+    TooManyPages {
+        /// Number of pages that cover the sheet.
+        pages: u64,
     },
     /// The lengths are not finite.
     #[error("chart {0} has no finite size: check the unit of the mesh")]
@@ -268,6 +274,10 @@ impl Pattern {
         let strain = pieces.iter().map(|piece| piece.strain).reduce(EdgeStrain::union).unwrap_or_default();
         let about = about(options, strain);
         let sheet = PatternSheet::new(&pieces, &seams, options, [name, &about]);
+        let pages = tiles::pages_to_cover(&sheet, options.paper);
+        if pages > tiles::MOST_PAGES {
+            return Err(PatternError::TooManyPages { pages });
+        }
         Ok(Self { sheet, options, pieces: pieces.len(), seams: seams.len(), strain })
     }
 

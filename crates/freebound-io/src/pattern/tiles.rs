@@ -6,12 +6,15 @@
 
 use std::io::{self, Write};
 
-use glam::DVec2;
+use glam::{DVec2, UVec2};
 
 use super::PatternPaper;
 use super::drawing::{PatternLayer, PatternLine, PatternSheet, PatternWords};
 use super::pdf::{PatternPage, write_pages};
 use freebound_core::geom::{Bounds, clip_segment};
+
+/// Greatest number of pages that a pattern is divided into.
+pub(super) const MOST_PAGES: u64 = 4000;
 
 /// Margin of a page, which printers leave empty, millimetres.
 const MARGIN: f64 = 10.0;
@@ -61,7 +64,7 @@ impl Tiling {
     fn on(sheet: &PatternSheet, page: DVec2) -> Self {
         let part = page - 2.0 * MARGIN;
         let step = part - OVERLAP;
-        let counts = ((sheet.size - OVERLAP) / step).ceil().max(DVec2::ONE).as_uvec2();
+        let counts = counts_on(sheet, page);
         let mut tiles = Vec::new();
         for row in 0..counts.y {
             for column in 0..counts.x {
@@ -75,6 +78,21 @@ impl Tiling {
         }
         Self { page, tiles }
     }
+}
+
+/// Columns and rows of pages that cover a sheet.
+fn counts_on(sheet: &PatternSheet, page: DVec2) -> UVec2 {
+    let step = page - 2.0 * MARGIN - OVERLAP;
+    ((sheet.size - OVERLAP) / step).ceil().max(DVec2::ONE).as_uvec2()
+}
+
+/// Number of upright pages that cover a sheet; 1 for a page of the size of the sheet.
+pub(super) fn pages_to_cover(sheet: &PatternSheet, paper: PatternPaper) -> u64 {
+    if paper == PatternPaper::Sheet {
+        return 1;
+    }
+    let counts = counts_on(sheet, paper.size());
+    u64::from(counts.x) * u64::from(counts.y)
 }
 
 /// Name of a row: A to Z, then AA, AB, …
