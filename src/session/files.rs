@@ -286,17 +286,17 @@ impl Files {
 
     /// Imports constraints after the mesh that is being opened.
     pub(super) fn import_after(&mut self, path: PathBuf) {
-        self.to_follow().constraints.push(path);
+        self.beside_mesh().constraints.push(path);
     }
 
-    fn to_follow(&mut self) -> &mut UndoGroup {
+    fn beside_mesh(&mut self) -> &mut UndoGroup {
         let group = UndoGroup { mesh: PathBuf::new(), picture: None, constraints: Vec::new(), left: Vec::new() };
         self.together.get_or_insert(group)
     }
 
     /// Opens a picture after the mesh that is being opened.
     pub(super) fn open_picture_after(&mut self, path: PathBuf) {
-        self.to_follow().picture = Some(path);
+        self.beside_mesh().picture = Some(path);
     }
 
     /// Cancels the opening of files.
