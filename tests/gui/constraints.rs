@@ -325,19 +325,24 @@ fn v_turned_around_and_back_is_the_same_document_to_the_last_bit() {
     }
 }
 
-#[test]
-fn landmarks_of_a_picture_are_placed_one_after_the_other() {
+/// Window on which a picture of 40 × 40 pixels and its landmarks were dropped. `points` is the file after its version.
+fn window_with_landmarks(points: &str) -> Window {
     let mut window = window();
-    let picture = Picture::filled(40, 40, [10, 120, 200, 255]);
-    let mut file = std::fs::File::create(window.path("photo.png")).expect("created");
-    freebound_io::raster::write_png(&picture, &mut file).expect("written");
-    let text = "version: 1\nn_points: 3\n{\n10.5 30.5\n30.5 30.5\n20.5 10.5\n}\n";
-    std::fs::write(window.path("photo.pts"), text).expect("written");
-    let files = ["photo.png", "photo.pts"].map(|name| window.path(name));
-    for file in files {
+    let [picture, landmarks] = ["photo.png", "photo.pts"].map(|name| window.path(name));
+    let mut file = std::fs::File::create(&picture).expect("created");
+    let pixels = Picture::filled(40, 40, [10, 120, 200, 255]);
+    freebound_io::raster::write_png(&pixels, &mut file).expect("written");
+    std::fs::write(&landmarks, format!("version: 1\n{points}")).expect("written");
+    for file in [picture, landmarks] {
         window.harness.input_mut().dropped_files.push(dropped(file));
         window.settle();
     }
+    window
+}
+
+#[test]
+fn landmarks_of_a_picture_are_placed_one_after_the_other() {
+    let mut window = window_with_landmarks("n_points: 3\n{\n10.5 30.5\n30.5 30.5\n20.5 10.5\n}\n");
     window.click("Pins");
     assert!(window.shows("0 of 3 placed"), "{:?}", window.words());
     window.click("Place next");
@@ -363,15 +368,7 @@ fn landmarks_of_a_picture_are_placed_one_after_the_other() {
 
 #[test]
 fn a_click_near_a_landmark_takes_it() {
-    let mut window = window();
-    let picture = Picture::filled(40, 40, [10, 120, 200, 255]);
-    let mut file = std::fs::File::create(window.path("photo.png")).expect("created");
-    freebound_io::raster::write_png(&picture, &mut file).expect("written");
-    std::fs::write(window.path("photo.pts"), "version: 1\nn_points: 1\n{\n10.5 30.5\n}\n").expect("written");
-    for file in ["photo.png", "photo.pts"].map(|name| window.path(name)) {
-        window.harness.input_mut().dropped_files.push(dropped(file));
-        window.settle();
-    }
+    let mut window = window_with_landmarks("n_points: 1\n{\n10.5 30.5\n}\n");
     window.key(Key::F);
     window.key(Key::C);
     let near = window.place_in_plane(DVec2::new(0.25, 0.25)) + Vec2::new(3.0, -2.0);
