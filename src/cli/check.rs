@@ -11,14 +11,14 @@ use super::places::OutputPaths;
 use super::progress::{INTERRUPTED, go_on};
 use super::say::say;
 use super::standard::read_typed;
-use super::summary::{deliver, file_words, mesh_words, size_words};
+use super::summary::{deliver, file_words, finding_words, mesh_words, size_words};
 use crate::session::Model;
 use freebound_core::mesh::{DiskMesh, Part, Preparation, parts};
 use freebound_core::pipeline::{PreparedMesh, Surface};
 use freebound_core::problem::{Control, SolveError};
 use freebound_core::verify::{
-    AtlasVerdict, ChartRelations, DistortionSummary, Finding, FindingSeverity, Verdict, distortion, equal_outlines,
-    stacked_atlas_verdict, verdict,
+    AtlasVerdict, ChartRelations, DistortionSummary, Verdict, distortion, equal_outlines, stacked_atlas_verdict,
+    verdict,
 };
 use freebound_io::{
     JudgeError, JudgedLayout, MeshReport, Report, Seconds, TextureError, TextureMesh, groups_of, verdict_as_in_file,
@@ -65,16 +65,6 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandE
     };
     deliver(&report, arguments.report.as_deref(), || words)?;
     Ok(outcome)
-}
-
-/// Line of a finding, which begins with its severity and code.
-fn finding_words(finding: &Finding) -> String {
-    let severity = match finding.severity {
-        FindingSeverity::Error => "error",
-        FindingSeverity::Warning => "warning",
-        FindingSeverity::Note => "note",
-    };
-    format!("{severity} {}: {finding}", finding.code.name())
 }
 
 /// Material of all triangles of a chart; `None` if they differ.

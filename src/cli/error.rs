@@ -8,7 +8,7 @@ use freebound_core::mesh::{Diagnosis, Done, Repair, Repairs};
 use freebound_core::problem::{Cause, Method, NamedOption as _, SolveError};
 use freebound_io::{
     ConstraintsError, EdgesError, LayoutError, LayoutToPackError, MemoryShortage, PatternError, PictureError,
-    ReadError, TextureError, WriteError,
+    ReadError, TextureError, TransferError, WriteError,
 };
 use freebound_run::{Model, RunError};
 
@@ -101,6 +101,14 @@ pub enum CommandError {
         path: String,
         /// Fault of the texture coordinates.
         error: LayoutToPackError,
+    },
+    /// The texture coordinates cannot be copied, or their picture cannot be drawn anew.
+    #[error("{path}: {error}; {}", transfer_remedy(error))]
+    Transfer {
+        /// Name of the file.
+        path: String,
+        /// Fault of the texture coordinates or of the mesh.
+        error: TransferError,
     },
     /// The mesh is not a disk.
     #[error("{path}: the mesh cannot be flattened\n{diagnosis}{}", remedy.as_ref().map(Remedy::to_string).unwrap_or_default())]
@@ -263,6 +271,7 @@ impl CommandError {
             | Self::Picture(_)
             | Self::Texture { .. }
             | Self::LayoutToPack { .. }
+            | Self::Transfer { .. }
             | Self::NotADisk { .. } => UNUSABLE_INPUT,
             Self::Usage(_) | Self::Pattern(PatternError::TooWide { .. } | PatternError::TooManyPages { .. }) => {
                 WRONG_USE
@@ -282,6 +291,15 @@ const fn code_of_solve(error: &SolveError) -> u8 {
         Cause::Targets => UNUSABLE_INPUT,
         Cause::Method => FALLS_SHORT,
         Cause::Request => WRONG_USE,
+    }
+}
+
+/// Remedy if a layout cannot be copied.
+pub(super) const fn transfer_remedy(error: &TransferError) -> &'static str {
+    match error {
+        TransferError::Texture(TextureError::Missing(_)) => TEXTURE_REMEDY,
+        TransferError::NoFaces => "choose a mesh with faces",
+        _ => LAYOUT_REMEDY,
     }
 }
 

@@ -5,11 +5,11 @@ use std::path::Path;
 use super::awaited::{forget, may_be_replaced};
 use super::error::{
     CommandError, FALLS_SHORT, FRAMES_REMEDY, LAYOUT_REMEDY, MEMORY_REMEDY, METHOD_REMEDY, MORPH_REMEDY,
-    TEXTURE_REMEDY, UNUSABLE_INPUT, WRONG_USE, message_of, name_of_input,
+    TEXTURE_REMEDY, UNUSABLE_INPUT, WRONG_USE, message_of, name_of_input, transfer_remedy,
 };
 use super::report_file::put_report;
 use super::say::warn;
-use freebound_io::{ErrorReport, ErrorWords, FaultReport, LayoutToPackError, ReadError};
+use freebound_io::{ErrorReport, ErrorWords, FaultReport, LayoutToPackError, ReadError, TransferError};
 
 /// Mesh of a run, and path of its report.
 #[derive(Clone, Copy)]
@@ -50,6 +50,7 @@ fn remedy_and_faults(failure: &CommandError) -> (Option<&'static str>, Vec<Fault
         CommandError::Edges(error) => (None, FaultReport::of_edges(error)),
         CommandError::Texture { error, .. } => (Some(TEXTURE_REMEDY), FaultReport::of_texture(error)),
         CommandError::LayoutToPack { error, .. } => (Some(LAYOUT_REMEDY), faults_of_layout(error)),
+        CommandError::Transfer { error, .. } => (Some(transfer_remedy(error)), faults_of_transfer(error)),
         CommandError::NotADisk { diagnosis, .. } => (None, FaultReport::of_diagnosis(diagnosis)),
         CommandError::Memory { .. } => (Some(MEMORY_REMEDY), Vec::new()),
         CommandError::Method { .. } => (Some(METHOD_REMEDY), Vec::new()),
@@ -62,6 +63,13 @@ fn remedy_and_faults(failure: &CommandError) -> (Option<&'static str>, Vec<Fault
 fn faults_of_layout(error: &LayoutToPackError) -> Vec<FaultReport> {
     match error {
         LayoutToPackError::Texture(error) => FaultReport::of_texture(error),
+        _ => Vec::new(),
+    }
+}
+
+fn faults_of_transfer(error: &TransferError) -> Vec<FaultReport> {
+    match error {
+        TransferError::Texture(error) => FaultReport::of_texture(error),
         _ => Vec::new(),
     }
 }
@@ -81,6 +89,8 @@ fn kind_of(failure: &CommandError) -> &'static str {
         CommandError::Edges(_) => "edges",
         CommandError::Picture(_) => "picture",
         CommandError::Texture { .. } | CommandError::LayoutToPack { .. } => "texture-coordinates",
+        CommandError::Transfer { error: TransferError::NoFaces, .. } => "no-faces",
+        CommandError::Transfer { .. } => "texture-coordinates",
         CommandError::NotADisk { .. } => "not-a-disk",
         CommandError::Solve(error) | CommandError::Method { error, .. } => error.name(),
         CommandError::NoMorph { .. } => "no-morph",

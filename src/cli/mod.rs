@@ -31,6 +31,7 @@
 //! | `exit`        | end of a command: last message, report, exit status                      |
 //! | `report_file` | writing of report files                                                  |
 //! | `awaited`     | report file of the current run                                           |
+//! | `transfer`    | commands `transfer` and `bake`: layouts and pictures of other meshes     |
 //! | `threads`     | number of threads of a run                                               |
 
 mod args;
@@ -62,6 +63,7 @@ mod study;
 mod summary;
 mod threads;
 mod tiles;
+mod transfer;
 mod typed;
 
 use std::process::ExitCode;
@@ -70,9 +72,10 @@ use self::failed::ReportTarget;
 use freebound_core::problem::{Family, Labels, Method, NamedOption};
 
 pub use args::{
-    Arguments, BatchArguments, BatchCommand, BatchFormat, CompareArguments, ComparisonFile, CompletionsArguments, Cut,
-    ExampleArguments, FlattenArguments, ManArguments, MeshArguments, PackArguments, PatternArguments, SolveArguments,
-    StartOf, StudyArguments, Subcommands, ThreadArguments, TypedShape, UnwrapArguments,
+    Arguments, BakeArguments, BatchArguments, BatchCommand, BatchFormat, CompareArguments, ComparisonFile,
+    CompletionsArguments, Cut, ExampleArguments, FlattenArguments, ManArguments, MeshArguments, PackArguments,
+    PatternArguments, SolveArguments, StartOf, StudyArguments, Subcommands, ThreadArguments, TransferArguments,
+    TypedShape, UnwrapArguments,
 };
 pub use error::{CommandError, CommandOutcome, Remedy};
 pub use figures::pairs;
@@ -90,6 +93,8 @@ pub fn run(command: &Subcommands, form: ProgressForm) -> ExitCode {
             (flatten::unwrap(&arguments.flatten), Some((&arguments.flatten.input.mesh, &arguments.flatten.report)))
         }
         Subcommands::Pack(arguments) => (pack::run(arguments), Some((&arguments.mesh, &arguments.report))),
+        Subcommands::Transfer(arguments) => (transfer::run(arguments), Some((&arguments.mesh, &arguments.report))),
+        Subcommands::Bake(arguments) => (transfer::run_bake(arguments), Some((&arguments.new, &arguments.report))),
         Subcommands::Compare(arguments) => (compare::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
         Subcommands::Check(arguments) => (check::run(arguments), Some((&arguments.mesh, &arguments.report))),
         Subcommands::Batch(arguments) => (batch::run(arguments), None),

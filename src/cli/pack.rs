@@ -38,7 +38,7 @@ pub(super) fn run(arguments: &PackArguments) -> Result<CommandOutcome, CommandEr
         let model = read_typed(&arguments.mesh, arguments.reading)?;
         places.spare_materials(&model.source, &arguments.mesh)?;
         if arguments.copy_materials {
-            places.spare_copied_materials(arguments, &model.source)?;
+            places.spare_copied_materials(arguments.output.as_deref(), &model.source, &arguments.mesh)?;
         }
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         let read = start.elapsed().as_secs_f64();

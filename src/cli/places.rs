@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::args::{
-    CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments, PackArguments, SolveArguments, StartOf,
-    StudyArguments,
+    BakeArguments, CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments, PackArguments,
+    SolveArguments, StartOf, StudyArguments, TransferArguments,
 };
 use super::error::CommandError;
 use super::error::is_standard;
@@ -49,6 +49,19 @@ impl OutputPaths {
         let asked = [("-o", output), ("--svg", svg), ("--report", report)];
         let place = |(option, path): (_, &Option<PathBuf>)| Some(OutputPath { option, path: path.clone()? });
         Self { files: asked.into_iter().filter_map(place).collect(), steps: None }
+    }
+
+    pub(super) fn of_transfer(arguments: &TransferArguments) -> Self {
+        let asked = [("-o", &arguments.output), ("--report", &arguments.report)];
+        let place = |(option, path): (_, &Option<PathBuf>)| Some(OutputPath { option, path: path.clone()? });
+        Self { files: asked.into_iter().filter_map(place).collect(), steps: None }
+    }
+
+    pub(super) fn of_bake(arguments: &BakeArguments) -> Self {
+        let report = arguments.report.iter().map(|path| ("--report", path));
+        let asked = std::iter::once(("-o", &arguments.output)).chain(report);
+        let place = |(option, path): (_, &PathBuf)| OutputPath { option, path: path.clone() };
+        Self { files: asked.map(place).collect(), steps: None }
     }
 
     pub(super) fn of_check(arguments: &CheckArguments) -> Self {
@@ -105,11 +118,12 @@ impl OutputPaths {
     /// [`CommandError`] if outputs clash with copies, or a file to be copied cannot be read.
     pub(super) fn spare_copied_materials(
         &self,
-        arguments: &PackArguments,
+        output: Option<&Path>,
         source: &MeshFile,
+        mesh: &Path,
     ) -> Result<(), CommandError> {
-        let Some(mesh) = arguments.output.as_deref() else { return Ok(()) };
-        self.spare_files("--copy-materials", &copies_of_materials(source, &arguments.mesh, mesh)?)
+        let Some(output) = output else { return Ok(()) };
+        self.spare_files("--copy-materials", &copies_of_materials(source, mesh, output)?)
     }
 
     /// Rejects other outputs that clash with the files that an option copies.

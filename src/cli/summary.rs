@@ -13,14 +13,17 @@ use freebound_core::geom::PackingOptions;
 use freebound_core::mesh::{Diagnosis, Repair};
 use freebound_core::pipeline::{PackingSummary, PinsSummary, Placement, SolvedProblem, StackedOn};
 use freebound_core::problem::{Method, NamedOption as _, SolveError, Stage};
-use freebound_core::verify::{Conflict, DistortionSummary, Verdict};
+use freebound_core::verify::{Conflict, DistortionSummary, Finding, FindingSeverity, Verdict};
 use freebound_io::{
-    ChartNumber, ChartReport, Column, ComparisonReport, ComparisonSeconds, MeshReport, MorphReport, Output, Report,
-    SeamsReport, Seconds, StepReport,
+    BakeReport, ChartNumber, ChartReport, Column, ComparisonReport, ComparisonSeconds, MeshReport, MorphReport, Output,
+    Report, SeamsReport, Seconds, StepReport, TransferReport,
 };
 
 /// Symmetric Dirichlet energy above which a map is badly distorted: twice that of an isometric map.
 const BAD_ENERGY: f64 = 8.0;
+
+/// Distance of two surfaces from which they lie apart, relative to the diagonal of their box.
+const FAR_APART: f64 = 0.05;
 
 /// Maximum number of vertices, conflicts or charts that are listed. The others are only counted.
 const NAMED: usize = 10;
@@ -251,6 +254,67 @@ pub(super) fn pack_summary(report: &Report, faults: Option<&Diagnosis>) -> Strin
     lines.extend(packing_words(report));
     let Seconds { read, verify, write, total, .. } = report.seconds;
     lines.push(format!("{total:.3} s: read {read:.3}, pack and verify {verify:.3}, write {write:.3}"));
+    lines.join("\n")
+}
+
+/// Summary of a layout that was copied to another mesh.
+pub(super) fn transfer_summary(report: &Report) -> String {
+    let MeshReport { path, vertices, faces, .. } = &report.mesh;
+    let mut lines = vec![format!("{path}: {vertices} vertices, {faces} faces")];
+    lines.extend(file_words(&report.mesh));
+    lines.extend(report.transfer.as_ref().map(|transfer| match *transfer {
+        TransferReport::Corners => "transfer: the meshes have equal faces: matched corner by corner".to_owned(),
+        TransferReport::NearestPoints { largest_distance, mean_distance, diagonal } => {
+            let [largest, mean] = [largest_distance, mean_distance].map(|distance| 100.0 * distance / diagonal);
+            format!(
+                "transfer: matched by nearest points, {mean:.2} % of the size apart on average, {largest:.2} % at most"
+            )
+        }
+    }));
+    lines.extend(apart_words(report));
+    lines.extend(report.layout.as_ref().map(|layout| format!("layout: {}", layout.summary())));
+    lines.extend(report.layout.iter().flat_map(|layout| layout.findings.iter().map(finding_words)));
+    lines.extend(not_kept_words(report));
+    let Seconds { read, verify, write, total, .. } = report.seconds;
+    lines.push(format!("{total:.3} s: read {read:.3}, copy and verify {verify:.3}, write {write:.3}"));
+    lines.join("\n")
+}
+
+/// Warning about meshes that lie apart.
+fn apart_words(report: &Report) -> Option<String> {
+    let (mean, diagonal) = match report.transfer? {
+        TransferReport::NearestPoints { mean_distance, diagonal, .. } => (mean_distance, diagonal),
+        TransferReport::Corners => return None,
+    };
+    (mean > FAR_APART * diagonal).then(|| "the meshes lie apart: move and scale them to one place and size".to_owned())
+}
+
+/// Line of a finding, which begins with its severity and code.
+pub(super) fn finding_words(finding: &Finding) -> String {
+    let severity = match finding.severity {
+        FindingSeverity::Error => "error",
+        FindingSeverity::Warning => "warning",
+        FindingSeverity::Note => "note",
+    };
+    format!("{severity} {}: {finding}", finding.code.name())
+}
+
+/// Summary of a picture that was drawn for another layout.
+pub(super) fn bake_summary(report: &Report, picture: &Path, [width, height]: [u32; 2]) -> String {
+    let Some(BakeReport { covered, outside, largest_distance, diagonal }) = report.baked else { return String::new() };
+    let mut lines = vec![format!("{}: {width} x {height} pixels, {:.1} % covered", picture.display(), 100.0 * covered)];
+    lines.extend(file_words(&report.mesh));
+    let percent = 100.0 * largest_distance / diagonal;
+    lines.push(format!("bake: the surfaces are {percent:.2} % of the size apart at most"));
+    if largest_distance > FAR_APART * diagonal {
+        lines.push("the meshes lie apart: move and scale them to one place and size".to_owned());
+    }
+    lines.extend((outside > 0).then(|| {
+        let faces = counted(outside, "triangle lies", "triangles lie");
+        format!("{faces} outside the picture, at least in part: pack the new layout first")
+    }));
+    let Seconds { read, solve, write, total, .. } = report.seconds;
+    lines.push(format!("{total:.3} s: read {read:.3}, draw {solve:.3}, write {write:.3}"));
     lines.join("\n")
 }
 

@@ -47,6 +47,15 @@ pub(super) fn parse_pixels(text: &str) -> Result<UVec2, String> {
     parsed().ok_or_else(|| format!("write WIDTHxHEIGHT, for example 2048x1024, up to {}", PackingOptions::LONGEST_SIDE))
 }
 
+/// Longest side of a picture that is drawn, pixels.
+const LONGEST_DRAWN: u32 = 1 << 14;
+
+/// Parses the size of a picture that is drawn.
+pub(super) fn parse_drawn_pixels(text: &str) -> Result<UVec2, String> {
+    let size = parse_pixels(text).ok().filter(|size| size.max_element() <= LONGEST_DRAWN);
+    size.ok_or_else(|| format!("write WIDTHxHEIGHT, for example 2048x1024, up to {LONGEST_DRAWN}"))
+}
+
 /// Parses an aspect ratio "width:height" and returns width over height.
 pub(super) fn parse_aspect(text: &str) -> Result<f64, String> {
     let parsed = || {

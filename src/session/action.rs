@@ -13,7 +13,7 @@ use freebound_core::geom::{PackingOptions, VAxis};
 use freebound_core::mesh::{HoleTreatment, Repair, Seams, VertexId, WeldDistance};
 use freebound_core::pipeline::{Fit, Target};
 use freebound_core::problem::{PinKind, Settings, Variant};
-use freebound_io::{OutputKind, PatternOptions, PinName};
+use freebound_io::{BakeOptions, OutputKind, PatternOptions, PinName};
 
 /// Request to write a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,6 +33,15 @@ pub struct PatternRequest {
     pub path: PathBuf,
     /// Options of the pattern.
     pub options: PatternOptions,
+}
+
+/// Request to draw the picture of the file's layout for the layout on the screen.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BakeRequest {
+    /// Path of the new picture.
+    pub path: PathBuf,
+    /// Size and margin of the new picture.
+    pub options: BakeOptions,
 }
 
 /// Files that are opened together.
@@ -110,6 +119,8 @@ pub enum Action {
     CheckLayout,
     /// Starts from the texture coordinates of the file and cuts the mesh along their seams, if there are any.
     TakeLayout,
+    /// Copies the layout of another mesh file: its seams, and its charts at their places.
+    CopyLayout(PathBuf),
     /// Adds the edges in a file to the seams.
     ImportSeams(PathBuf),
     /// Writes the seams to a file of edges.
@@ -261,6 +272,8 @@ pub enum Action {
     Save(SaveRequest),
     /// Writes a cutting pattern.
     SavePattern(PatternRequest),
+    /// Writes the picture of the file's layout, drawn for the layout on the screen.
+    SaveBaked(BakeRequest),
     /// Reports a file name whose extension selects no kind of output.
     RefuseName(PathBuf),
     /// Reports a file that exists and is not replaced, because the user was not asked about it.

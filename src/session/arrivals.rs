@@ -80,6 +80,7 @@ impl Session {
             BackgroundJob::Near { distance, count } => self.mesh.take_near(Near { distance, count: Some(count) }),
             BackgroundJob::Flat(flat) => self.take_flat(&flat),
             BackgroundJob::Seams(read) => self.take_seams(read),
+            BackgroundJob::LayoutOfOther { path, read } => self.take_layout_of_other(&path, read),
             BackgroundJob::Reshaped(reshaped) => self.take_reshaped(*reshaped),
             BackgroundJob::Formed(model) => {
                 self.mesh.take_other(Arc::from(model));

@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
+use super::layout_of_other::{LayoutOfOther, LayoutOfOtherError};
 use super::reshaping::Reshaped;
 use super::{Background, JobFailure, Model, Wake};
 use freebound_core::geom::PictureFrame;
@@ -38,6 +39,8 @@ pub(super) enum BackgroundJob {
     Landmarks { path: PathBuf, read: Result<Vec<PictureLandmark>, PtsError> },
     /// Seams for the open mesh, read from a file.
     Seams(Result<Vec<[VertexId; 2]>, EdgesError>),
+    /// Layout of another mesh file on the open mesh.
+    LayoutOfOther { path: PathBuf, read: Result<Box<LayoutOfOther>, LayoutOfOtherError> },
     /// Open mesh in another preparation, for an edit.
     Reshaped(Box<Reshaped>),
     /// Number of vertices of the open mesh within a distance of another vertex.

@@ -1,10 +1,15 @@
-//! Exports of the map: files of results, and cutting patterns.
+//! Exports of the map: files of results, cutting patterns, and pictures drawn for the map.
 
 use std::path::{Path, PathBuf};
 
-use super::{Model, PatternRequest, SaveRequest, Written};
-use freebound_core::pipeline::Fit;
-use freebound_io::{Output, Pattern, PatternError, PatternFormat, PatternOptions, WriteError, write_atomically};
+use super::{BakeRequest, Model, PatternRequest, SaveRequest, Written};
+use freebound_core::pipeline::{Fit, LayoutSurface};
+use freebound_core::problem::Control;
+use freebound_io::raster::write_png;
+use freebound_io::{
+    BakeOptions, BakedPicture, MeshFile, Output, PaintedSurface, Pattern, PatternError, PatternFormat, PatternOptions,
+    TextureError, TexturedMesh, WriteError, bake, write_atomically,
+};
 
 /// Export that the user requested.
 #[derive(Clone, Debug)]
@@ -13,6 +18,8 @@ pub(super) enum Export {
     Result(SaveRequest),
     /// Cutting pattern.
     Pattern(PatternRequest),
+    /// Picture of the file's layout, drawn for the layout on the screen.
+    Baked(BakeRequest),
 }
 
 impl Export {
@@ -21,6 +28,7 @@ impl Export {
         match self {
             Self::Result(request) => &request.path,
             Self::Pattern(request) => &request.path,
+            Self::Baked(request) => &request.path,
         }
     }
 
@@ -28,8 +36,8 @@ impl Export {
     pub(super) fn fit(&self) -> Fit {
         match self {
             Self::Result(request) => request.fit,
-            // A pattern finds the true size of every chart by itself.
-            Self::Pattern(_) => Fit::default(),
+            // A pattern finds the true size of every chart by itself, and a picture shows the unit square.
+            Self::Pattern(_) | Self::Baked(_) => Fit::default(),
         }
     }
 
@@ -42,6 +50,7 @@ impl Export {
                 Ok(Written { files, about: Some(output.summary()) })
             }
             Self::Pattern(PatternRequest { path, options }) => write_pattern(&output, model, path, *options),
+            Self::Baked(BakeRequest { path, options }) => write_baked(&output, model, path, *options),
         }
     }
 }
@@ -58,4 +67,25 @@ fn write_pattern(
     let format = PatternFormat::of_path(path).unwrap_or(PatternFormat::Pdf);
     write_atomically(path, |out| pattern.write(format, out))?;
     Ok(Written { about: Some(pattern.summary()), ..Written::file(path.to_owned()) })
+}
+
+/// Draws the picture of the file's layout for the finished map.
+fn write_baked(output: &Output<'_>, model: &Model, path: &Path, options: BakeOptions) -> Result<Written, WriteError> {
+    let fault = |error: TextureError| WriteError::writing(path, std::io::Error::other(error));
+    let TexturedMesh { mesh, texture, .. } = output.textured();
+    let new = MeshFile { texture: Some(texture), ..mesh.into_owned() };
+    let (old, _) = model.source.partial_texture_mesh().map_err(fault)?;
+    let (new, _) = new.partial_texture_mesh().map_err(fault)?;
+    let [old, new] = [&old, &new].map(|layout| LayoutSurface { mesh: &layout.mesh, coordinates: &layout.embedding });
+    let picture = output.picture.ok_or_else(|| fault(TextureError::None))?;
+    let old = PaintedSurface { layout: old, picture: &picture.pixels };
+    let baked = bake(old, new, options, Control::unattended());
+    let BakedPicture { picture, report } =
+        baked.map_err(|error| WriteError::writing(path, std::io::Error::other(error)))?;
+    write_atomically(path, |out| write_png(&picture, out))?;
+    let mut about = format!("{} × {} pixels, {:.0} % covered", picture.width, picture.height, 100.0 * report.covered);
+    if report.outside > 0 {
+        about.push_str("; some faces lie outside the picture: pack the charts first");
+    }
+    Ok(Written { about: Some(about), ..Written::file(path.to_owned()) })
 }

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::action::UndoGroup;
+use super::action::{BakeRequest, UndoGroup};
 use super::exports::Export;
 use super::in_use::Role;
 use super::landmarks::has_landmarks;
@@ -121,6 +121,21 @@ impl Session {
             output.picture = picture.as_deref();
             request.write(output, &model)
         });
+    }
+
+    /// True if the picture can be drawn for another layout: the file has a layout that it belongs to.
+    pub fn can_bake(&self) -> bool {
+        self.document.picture.is_some() && self.model().is_some_and(|model| model.source.texture.is_some())
+    }
+
+    /// Writes the picture of the file's layout, drawn for the layout on the screen.
+    pub(super) fn save_baked(&mut self, request: BakeRequest) {
+        if self.can_bake() {
+            self.save(Export::Baked(request));
+        } else {
+            let text = "no picture was drawn: the file needs texture coordinates, and a picture that fits them";
+            self.complain(text, Some("open a mesh with texture coordinates, then its picture"));
+        }
     }
 
     /// Writes the layout of all charts.

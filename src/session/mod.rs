@@ -39,6 +39,8 @@
 //! | `morphs`             | planar morphs through the results of methods                           |
 //! | `atlas_view`         | part: layout of all charts, for files and for the screen               |
 //! | `page`               | part: charts as they lie on the page, and moves of charts              |
+//! | `layout_of_other`    | layout of another mesh file on the open mesh                           |
+//! | `layout_copying`     | of the session: the copy of such a layout as an edit                   |
 //! | `chart_layout`       | of the document: sizes, places, locks and stacks of charts             |
 //! | `chart_targets`      | pins of a mesh with several charts, in files and in the document       |
 //! | `charts`             | part: charts that are not shown, solved in the background              |
@@ -98,6 +100,8 @@ mod landmark_pins;
 mod landmarks;
 mod large;
 mod layout_check;
+mod layout_copying;
+mod layout_of_other;
 mod live;
 mod locating;
 mod messages;
@@ -128,7 +132,7 @@ mod timeline;
 mod unwrapping;
 mod v_axis;
 
-pub use action::{Action, BrushDab, PatternRequest, SaveRequest, UndoGroup};
+pub use action::{Action, BakeRequest, BrushDab, PatternRequest, SaveRequest, UndoGroup};
 pub use atlas_view::AtlasView;
 pub use background::{Background, JobFailure, Wake};
 pub use chart_layout::{ChartLayout, ChartPlace};

@@ -79,6 +79,11 @@ impl Reshaped {
         &self.before
     }
 
+    /// Mesh in the new preparation.
+    pub(super) fn now(&self) -> &Model {
+        &self.now
+    }
+
     /// New preparation.
     pub(super) fn form(&self) -> &Preparation {
         &self.now.prepared.form

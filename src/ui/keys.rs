@@ -115,7 +115,8 @@ pub(super) fn with_keys_set(
 pub(super) const MOUSE: &[(&str, &str)] = &[
     ("Left drag on the mesh", "Orbit"),
     ("Left drag on the embedding", "Pan; on a pin: move it"),
-    ("Ctrl + left drag", "Select the vertices and pins in a box"),
+    ("Ctrl + left drag", "Select the vertices, pins or charts in a box"),
+    ("Ctrl + Alt + left drag", "Select the vertices, pins or charts in a lasso"),
     ("Arrows, with pins selected", "Move them by a pixel of the picture; with Shift, by ten"),
     ("Alt, while choosing a position", "Do not snap to pixels of the picture"),
     ("Left drag on a chart", "Move the selected charts; Ctrl snaps, Alt lets them overlap"),

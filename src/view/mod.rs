@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `space.rs` | extents, and unit space |
 //! | `orbit.rs`, `plane.rs` | the cameras of the two panes |
-//! | `pick.rs`, `bvh.rs`, `kdtree.rs` | picking under the pointer, and its search structures |
+//! | `pick.rs`, `ray_hit.rs`, `kdtree.rs` | picking under the pointer, and its searches |
 //! | `draw.rs`, `picture.rs` | arrays for the graphics card, and normals; pictures with their smaller sizes |
 //! | `colour.rs` | scales of colours with their legends; the colours of the panes |
 //! | `beside.rs` | embeddings side by side, under one camera |
@@ -26,7 +26,6 @@
 //! | pane      | points from a pane's upper left corner, y down                                          |
 
 mod beside;
-mod bvh;
 mod colour;
 mod comparison;
 mod draw;
@@ -37,6 +36,7 @@ mod pick;
 mod picture;
 mod plane;
 mod quantity;
+mod ray_hit;
 mod space;
 
 pub use beside::{CellFrame, CellFrames};

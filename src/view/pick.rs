@@ -2,10 +2,10 @@
 
 use glam::{DMat4, DVec2, DVec3};
 
-use super::bvh::Bvh;
 use super::orbit::pane_from_clip;
+use super::ray_hit::first_hit;
 use super::{OrbitCamera, Ray};
-use freebound_core::mesh::{FaceId, VertexId};
+use freebound_core::mesh::{FaceId, TriangleTree, VertexId};
 
 /// Largest distance between the pointer and a vertex that it picks, points.
 pub const PICK_RADIUS: f64 = 12.0;
@@ -52,7 +52,7 @@ pub struct SurfacePicker {
     triangles: Vec<[VertexId; 3]>,
     /// First face around each vertex, so that a search visits the vertex once.
     first_face: Vec<u32>,
-    bvh: Bvh,
+    tree: TriangleTree,
 }
 
 impl SurfacePicker {
@@ -72,13 +72,18 @@ impl SurfacePicker {
                 *first = face.min(*first);
             }
         }
-        Self { positions: positions.to_vec(), triangles: triangles.to_vec(), first_face, bvh: Bvh::new(&corners) }
+        Self {
+            positions: positions.to_vec(),
+            triangles: triangles.to_vec(),
+            first_face,
+            tree: TriangleTree::new(&corners),
+        }
     }
 
     /// Returns the first point of the surface on a ray.
     pub fn hit(&self, ray: Ray) -> Option<SurfaceHit> {
         let (number, [distance, u, v]) =
-            self.bvh.first_hit(ray, f64::INFINITY, |number| self.corners(number), |_| true)?;
+            first_hit(&self.tree, ray, f64::INFINITY, |number| self.corners(number), |_| true)?;
         Some(SurfaceHit { face: FaceId::new(number), point: ray.at(distance), weights: [1.0 - u - v, u, v], distance })
     }
 
@@ -104,7 +109,7 @@ impl SurfacePicker {
         let Some(direction) = to_vertex.try_normalize() else { return true };
         let limit = to_vertex.length() * (1.0 - HIDING_MARGIN);
         let other = |number: u32| !self.triangles[number as usize].contains(&vertex);
-        self.bvh.first_hit(Ray { origin: eye, direction }, limit, |number| self.corners(number), other).is_none()
+        first_hit(&self.tree, Ray { origin: eye, direction }, limit, |number| self.corners(number), other).is_none()
     }
 
     /// Position of each vertex in the pane. `None` for vertices behind the near plane.
@@ -124,7 +129,7 @@ impl SurfacePicker {
     /// Vertices within the pick radius.
     fn vertices_near(&self, clip_from_world: &DMat4, pane_size: DVec2, pointer: DVec2) -> Vec<VertexPick> {
         let mut near = Vec::new();
-        self.bvh.visit(
+        self.tree.visit(
             |low, high| may_show_near([low, high], clip_from_world, pane_size, pointer),
             |number| {
                 let corners = self.triangles[number as usize];

@@ -12,9 +12,10 @@ use freebound::examples::Example;
 use freebound::session::{Action, Severity};
 use freebound_core::geom::Picture;
 use freebound_core::mesh::VertexId;
-use freebound_io::{LengthUnit, PatternPaper, read_mesh};
+use freebound_io::{LengthUnit, PatternPaper, PictureFile, read_mesh};
 
 use crate::harness::{SIZE, Window, sheet, write_obj};
+use crate::pictures::open_picture;
 use freebound_testkit::assert_message;
 
 pub(crate) fn window() -> Window {
@@ -383,16 +384,48 @@ fn a_cutting_pattern_is_exported_with_the_options_of_its_window() {
     window.choose("Unit of the mesh", "Metre");
     window.choose("Paper", "A4");
     window.key(Key::Escape);
-    assert!(!window.editor().files.pattern.is_shown);
+    assert_eq!(window.editor().files.options_shown, None);
     window.press(Modifiers::COMMAND, Key::E);
     window.click("Cutting pattern…");
-    let options = window.editor().files.pattern.options;
+    let options = window.editor().files.pattern;
     assert_eq!((options.unit, options.paper), (LengthUnit::Metre, PatternPaper::A4), "options stay");
-    window.click("Export the pattern…");
+    window.click("Export: Cutting pattern…");
     window.click("Export");
     let bytes = std::fs::read(window.path("sheet-pattern.pdf")).expect("written");
     let pages = bytes.windows(11).filter(|part| part == b"/Type /Page").count();
     assert!(bytes.starts_with(b"%PDF") && pages > 4, "metres on A4 take many pages: {pages}");
+}
+
+#[test]
+fn the_picture_of_the_files_layout_is_drawn_for_the_layout_on_the_screen() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // A square whose own layout shows the left half of the picture.
+    let path = folder.path().join("square.obj");
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0\nvt 0 0\nvt 0.5 0\nvt 0.5 1\nvt 0 1\nvt 0.25 0.5\n\
+                f 1/1 2/2 5/5\nf 2/2 3/3 5/5\nf 3/3 4/4 5/5\nf 4/4 1/1 5/5\n";
+    std::fs::write(&path, text).expect("written");
+    let mut window = Window::with_file(&path);
+    window.settle();
+    window.menu(&["File", "Export"]);
+    assert!(!window.editor().session.can_bake(), "there is no picture yet");
+    window.key(Key::Escape);
+    window.key(Key::Escape);
+    open_picture(&mut window);
+    window.editor_mut().session.handle(Action::Unwrap(None));
+    window.settle();
+    window.menu(&["File", "Export", "Picture for this layout…"]);
+    window.choose("Size in pixels", "512 × 512");
+    window.click("Export: Picture for this layout…");
+    window.click("Export");
+    window.settle();
+    let written: Vec<_> = std::fs::read_dir(folder.path()).expect("a folder").filter_map(Result::ok).collect();
+    let path = written.iter().map(std::fs::DirEntry::path).find(|path| path.extension() == Some("png".as_ref()));
+    let picture = PictureFile::read(&path.expect("a picture is written")).expect("it can be read").pixels;
+    assert_eq!([picture.width, picture.height], [512, 512]);
+    let colours = picture.pixels.as_chunks::<4>().0;
+    let has = |colour: [u8; 4]| colours.contains(&colour);
+    assert!(has([250, 20, 20, 255]) && has([20, 20, 250, 255]), "the left half is on the square");
+    assert!(!has([20, 250, 20, 255]) && !has([250, 250, 20, 255]), "the right half is not");
 }
 
 #[test]

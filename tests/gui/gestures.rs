@@ -141,6 +141,37 @@ fn a_box_drawn_with_ctrl_selects_what_is_in_it() {
 }
 
 #[test]
+fn a_lasso_drawn_with_ctrl_and_alt_selects_what_it_surrounds() {
+    let mut window = window();
+    let embedding = window.embedding();
+    // A triangle: its box holds vertices that it does not surround.
+    let [a, b, c] = [[0.1, 0.1], [0.9, 0.15], [0.2, 0.9]].map(|[x, y]| {
+        let view = window.plane_view();
+        view.min + view.size() * Vec2::new(x, y)
+    });
+    let modifiers = Modifiers::COMMAND | Modifiers::ALT;
+    window.begin_drag(a, a + (b - a) * 0.1, modifiers);
+    for (from, to) in [(a, b), (b, c)] {
+        for step in 1..=20_u8 {
+            window.harness.hover_at(from + (to - from) * (f32::from(step) / 20.0));
+            window.step();
+        }
+    }
+    window.end_drag(c);
+    let side = |from: egui::Pos2, to: egui::Pos2, at: egui::Pos2| {
+        let (edge, out) = (to - from, at - from);
+        edge.x * out.y - edge.y * out.x
+    };
+    let is_inside = |at: egui::Pos2| [(a, b), (b, c), (c, a)].iter().all(|&(from, to)| side(from, to, at) > 0.0);
+    let places: Vec<egui::Pos2> = embedding.iter().map(|z| window.place_in_plane(*z)).collect();
+    let expected: Vec<u32> = (0..).zip(&places).filter(|(_, at)| is_inside(**at)).map(|(i, _)| i).collect();
+    let in_box = places.iter().filter(|at| Rect::from_points(&[a, b, c]).contains(**at)).count();
+    assert!(!expected.is_empty() && expected.len() < in_box);
+    let selected: Vec<u32> = window.editor().selection.vertices().iter().map(|v| v.number()).collect();
+    assert_eq!(selected, expected);
+}
+
+#[test]
 fn a_dragged_pin_goes_where_it_is_dropped_and_no_other_moves() {
     let mut window = window();
     pin(&mut window, &[0, 40, 80]);

@@ -121,6 +121,29 @@ fn a_box_adds_the_charts_that_it_meets() {
 }
 
 #[test]
+fn a_lasso_adds_the_charts_that_it_meets() {
+    let mut window = with_sheets();
+    let corner = spot(&window, page(&window).charts[2].coordinates[0]);
+    let around = [[-9.0, 0.0], [0.0, -9.0], [9.0, 0.0], [0.0, 9.0]].map(|[x, y]| corner + egui::vec2(x, y));
+    window.begin_drag(around[0], around[1], Modifiers::COMMAND | Modifiers::ALT);
+    for at in around {
+        window.harness.hover_at(at);
+        window.step();
+    }
+    window.end_drag(around[3]);
+    window.settle();
+    let met = (0..3).filter(|&chart| {
+        let outline = window.editor().session.page().expect("a page").charts[chart].coordinates.clone();
+        outline.iter().any(|uv| {
+            let away = (spot(&window, *uv) - corner).abs();
+            away.x + away.y < 9.0
+        })
+    });
+    assert_eq!(selected(&window), met.collect::<Vec<_>>());
+    assert!(!selected(&window).is_empty());
+}
+
+#[test]
 fn a_dragged_chart_follows_the_pointer_in_one_edit_and_all_frames_are_proved() {
     let mut window = with_sheets();
     let before: Vec<Bounds> = (0..3).map(|chart| bounds(&window, chart)).collect();

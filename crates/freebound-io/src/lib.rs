@@ -37,12 +37,16 @@
 //! | `machine`     | memory figures of the operating system                                     |
 //! | `unfinished`  | temporary files and folders, removed at a sudden end                       |
 //! | `paths`       | identity of files, and relative paths                                      |
+//! | `bake`        | picture of one layout, drawn anew for another layout                      |
+//! | `transferred` | layout of one file on the mesh of another                                 |
+//! | `textured_file` | mesh file with new texture coordinates, ready to be written             |
 //! | `value_table` | numbers of vertices or faces from a table (CSV)                            |
 //! | `stamp`       | length and checksum of a file                                              |
 //! | `nearby`      | search for a moved file by its stamp                                       |
 
 mod animation;
 mod atomic;
+mod bake;
 mod charts;
 mod comparison;
 mod constraints;
@@ -82,12 +86,15 @@ mod steps;
 mod study_plots;
 mod study_table;
 mod svg;
+mod textured_file;
+mod transferred;
 mod true_size;
 mod unfinished;
 mod value_table;
 
 pub use animation::{AnimationForm, AnimationFrame, write_animation};
 pub use atomic::{WriteError, try_place, write_atomically, write_durably, write_to_standard_output};
+pub use bake::{BakeOptions, BakeReport, BakedPicture, PaintedSurface, bake};
 pub use charts::TexturedMesh;
 pub use comparison::{
     Cell, ChartNumber, Column, ComparisonReport, ComparisonSeconds, Direction, LeftOutReport, LegReport, MethodError,
@@ -127,7 +134,8 @@ pub use project::{
 pub use pts::{IncompleteSet, PictureLandmark, PtsError, PtsFault, in_order_of_a_set, parse_pts, read_pts, write_pts};
 pub use repacked::{LayoutPacking, LayoutToPackError, RepackedFile};
 pub use report::{
-    ChartReport, MeshReport, REPORT_SCHEMA, Report, SeamsReport, Seconds, ShapeReport, verdict_as_in_file, write_report,
+    ChartReport, MeshReport, REPORT_SCHEMA, Report, SeamsReport, Seconds, ShapeReport, TransferReport,
+    verdict_as_in_file, write_report,
 };
 pub use rounding::RoundingReport;
 pub use stamp::FileStamp;
@@ -135,5 +143,6 @@ pub use step_report::StepReport;
 pub use steps::StepsFolder;
 pub use study_plots::study_plots;
 pub use study_table::{read_study, write_study};
+pub use transferred::{TransferError, TransferredFile, copied_texture};
 pub use unfinished::discard_unfinished;
 pub use value_table::{ElementCounts, TableElement, TableError, ValueColumn, ValueTable};

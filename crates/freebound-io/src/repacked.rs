@@ -1,15 +1,13 @@
 //! Layouts with new places for their charts, ready to be written.
 
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::file_data::FileData;
 use super::finite::check_finite;
-use super::gltf::{Shading, write_glb_with};
-use super::obj::{Materials, copy_materials, relocated, write_obj_with};
-use super::ply::write_ply;
+use super::obj::Materials;
 use super::svg::{LayoutDrawing, write_layout_svg};
+use super::textured_file::TexturedFile;
 use super::{
     MeshFile, MeshReport, NO_TEXTURE, OutputKind, Precision, Report, RoundingReport, Seconds, Texture, TextureError,
     WriteError, write_atomically, write_to_standard_output,
@@ -136,14 +134,12 @@ impl<'a> RepackedFile<'a> {
     ///
     /// If the file cannot be written; the error names the file.
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<Vec<PathBuf>, WriteError> {
-        self.check().map_err(|source| WriteError::writing(path, source))?;
-        if kind == OutputKind::Obj && self.materials == Materials::Copied {
-            let (edits, copies) = copy_materials(self.source, self.source_place(), path)?;
-            write_atomically(path, |out| write_obj_with(out, self.source, &edits, &self.texture()))?;
-            return Ok(std::iter::once(path.to_owned()).chain(copies).collect());
+        if kind == OutputKind::Svg {
+            check_finite(&self.repacked.coordinates).map_err(|source| WriteError::writing(path, source))?;
+            write_atomically(path, |out| write_layout_svg(out, &self.drawing()))?;
+            return Ok(vec![path.to_owned()]);
         }
-        write_atomically(path, |out| self.write_to(kind, path, out))?;
-        Ok(vec![path.to_owned()])
+        self.with_file(|file| file.write(kind, path))
     }
 
     /// Writes to standard output.
@@ -152,35 +148,20 @@ impl<'a> RepackedFile<'a> {
     ///
     /// If standard output cannot be written.
     pub fn write_to_standard_output(&self, kind: OutputKind) -> Result<(), WriteError> {
-        write_to_standard_output(|out| {
-            self.check()?;
-            self.write_to(kind, self.source_place(), out)
-        })
-    }
-
-    fn write_to(&self, kind: OutputKind, path: &Path, mut out: &mut impl Write) -> io::Result<()> {
-        match kind {
-            OutputKind::Ply => {
-                write_ply(&mut out, self.source, &self.texture(), self.report.precision.unwrap_or_default())
-            }
-            OutputKind::Glb => {
-                let shading = Shading::of_obj(self.source, self.source_path);
-                write_glb_with(&mut out, self.source, &self.texture(), shading.as_ref())
-            }
-            OutputKind::Svg => write_layout_svg(&mut out, &self.drawing()),
-            _ => {
-                let edits = relocated(self.source, self.source_place(), path);
-                write_obj_with(&mut out, self.source, &edits, &self.texture())
-            }
+        if kind == OutputKind::Svg {
+            return write_to_standard_output(|mut out| {
+                check_finite(&self.repacked.coordinates)?;
+                write_layout_svg(&mut out, &self.drawing())
+            });
         }
+        self.with_file(|file| file.write_to_standard_output(kind))
     }
 
-    fn check(&self) -> io::Result<()> {
-        check_finite(&self.repacked.coordinates)
-    }
-
-    fn source_place(&self) -> &Path {
-        self.source_path.unwrap_or(Path::new("-"))
+    /// Calls `of` with the mesh file.
+    fn with_file<T>(&self, of: impl FnOnce(TexturedFile<'_>) -> T) -> T {
+        let precision = self.report.precision.unwrap_or_default();
+        let Self { source, source_path, materials, .. } = *self;
+        of(TexturedFile { source, source_path, materials, texture: &self.texture(), precision })
     }
 
     /// Data of the source that a mesh file of this kind does not hold.

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::file_data::FileData;
-use super::{MeshFile, Precision, ReadWarning, RoundingReport, StepReport, peak_memory_bytes};
+use super::{BakeReport, MeshFile, Precision, ReadWarning, RoundingReport, StepReport, peak_memory_bytes};
 use freebound_core::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
 use freebound_core::pipeline::{
     AutomaticSeams, PackingSummary, PinsSummary, Placement, PreparedMesh, RepackedChart, StackedOn,
@@ -71,6 +71,12 @@ pub struct Report {
     /// Verdict on a given layout, with findings. Decides the exit status of `check`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub layout: Option<LayoutVerdict>,
+    /// Correspondence between the meshes of a copied layout; absent if no layout was copied.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub transfer: Option<TransferReport>,
+    /// Picture that was drawn for another layout; absent if none was drawn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub baked: Option<BakeReport>,
     /// Automatic seams; absent if none were looked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seams: Option<SeamsReport>,
@@ -138,6 +144,23 @@ impl SeamsReport {
     pub fn of(seams: &AutomaticSeams) -> Self {
         Self { length: seams.length, relative_length: seams.relative_length(), bound: seams.bound }
     }
+}
+
+/// Correspondence between the two meshes of a copied layout.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(tag = "by", rename_all = "kebab-case")]
+pub enum TransferReport {
+    /// The meshes have equal faces: coordinates are copied corner by corner.
+    Corners,
+    /// Nearest points of the surfaces.
+    NearestPoints {
+        /// Largest distance of a vertex to the surface of the layout, mesh units.
+        largest_distance: f64,
+        /// Mean distance of the vertices to the surface of the layout, mesh units.
+        mean_distance: f64,
+        /// Diagonal of the box around the surface of the layout, mesh units.
+        diagonal: f64,
+    },
 }
 
 /// Writes a report as indented JSON.

@@ -314,7 +314,7 @@ impl Model {
     /// [`LayoutError`] if the file has no texture coordinates for this mesh.
     pub fn with_layout_of(self, path: String, file: &MeshFile) -> Result<Self, LayoutError> {
         let texture = self.source.texture_of(file)?;
-        Ok(Self { layout_file: Some(Arc::new(LayoutFile { path, texture })), ..self })
+        Ok(self.with_layout(path, texture))
     }
 
     /// Texture coordinates of the file as an embedding of this mesh or chart.
@@ -327,6 +327,12 @@ impl Model {
             Some(file) => self.source.layout_by(&file.texture, self.prepared.repaired.as_deref(), self.mesh()),
             None => self.source.layout(self.prepared.repaired.as_deref(), self.mesh()),
         }
+    }
+
+    /// Model that starts from texture coordinates for its corners, named `path` in reports.
+    #[must_use = "the model itself stays as it is"]
+    pub fn with_layout(self, path: String, texture: Texture) -> Self {
+        Self { layout_file: Some(Arc::new(LayoutFile { path, texture })), ..self }
     }
 
     /// Name of the layout that a run with these settings starts from. `None` if the run starts from scratch.

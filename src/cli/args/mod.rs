@@ -14,6 +14,7 @@
 //! | `compare` | arguments of `compare`                        |
 //! | `shape`   | value for the shape of a boundary             |
 //! | `study`   | arguments of `study`                          |
+//! | `transfer` | arguments of `transfer` and `bake`             |
 //! | `threads` | argument for the number of threads            |
 
 mod batch;
@@ -28,6 +29,7 @@ mod shape;
 mod solve;
 mod study;
 mod threads;
+mod transfer;
 
 use std::path::PathBuf;
 
@@ -48,6 +50,7 @@ pub use shape::TypedShape;
 pub use solve::{SolveArguments, StartOf};
 pub use study::StudyArguments;
 pub use threads::ThreadArguments;
+pub use transfer::{BakeArguments, TransferArguments};
 
 /// Flattens 3D triangle meshes into the plane and proves the result.
 #[derive(Debug, Parser)]
@@ -95,6 +98,19 @@ const PACK_HELP: &str = "Examples:
 Exit status: 0 planar and proved, 1 internal error, 2 wrong use, 3 unusable input,
 4 packed, but a chart folds or overlaps itself, 130 interrupted.";
 
+const TRANSFER_HELP: &str = "Examples:
+  freebound transfer detailed.obj coarse.obj -o coarse-uv.obj
+  freebound transfer old-version.glb new-version.obj -o new-uv.glb
+
+Exit status: 0 planar and proved, 1 internal error, 2 wrong use, 3 unusable input,
+4 copied, but not planar, 130 interrupted.";
+
+const BAKE_HELP: &str = "Examples:
+  freebound unwrap model.obj -o unwrapped.obj
+  freebound bake model.obj unwrapped.obj --picture skin.png -o new-skin.png
+
+Exit status: 0 drawn, 1 internal error, 2 wrong use, 3 unusable input, 130 interrupted.";
+
 const BATCH_HELP: &str = "Examples:
   freebound batch models --output-dir unwrapped
   freebound batch scans.txt --output-dir out --resume --format glb -- --distortion 4.2
@@ -124,6 +140,18 @@ pub enum Subcommands {
     /// Every chart keeps its shape. Charts are the pieces of the layout that share edges.
     #[command(after_help = PACK_HELP)]
     Pack(Box<PackArguments>),
+    /// Copy the texture coordinates of a mesh to another mesh of the surface, and prove them there.
+    ///
+    /// Meshes with equal faces are matched corner by corner. Others, such as levels of detail, are matched by nearest
+    /// points: they must lie at one place, in one size.
+    #[command(after_help = TRANSFER_HELP)]
+    Transfer(Box<TransferArguments>),
+    /// Draw the picture of an old layout for a new layout of the surface.
+    ///
+    /// Every pixel shows the point of the surface that the new layout has there. Use it for pictures of colours. A normal
+    /// map depends on its layout: bake it in the program that made it.
+    #[command(after_help = BAKE_HELP)]
+    Bake(Box<BakeArguments>),
     /// Flatten or unwrap many meshes side by side.
     ///
     /// Prints one line of JSON for each mesh as it ends. A mesh that cannot be used stops nothing. The exit status is the

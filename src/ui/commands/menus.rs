@@ -6,8 +6,9 @@ use super::{ALWAYS, Mark, MenuBuilder, MenuCommand, when};
 use crate::examples::Example;
 use crate::session::{Action, LockState};
 use crate::ui::state::{
-    Axis, COPY_COMMAND, CheckerRequest, CheckerStyle, EXPORTS, FileDialogKind, GestureKind, PATTERN, PageRequest, Pane,
-    Request, SQUARES, SeamRule, ShadingMode, StepTarget, Tab, Tool,
+    Axis, BAKED, COPY_COMMAND, COPY_LAYOUT, CheckerRequest, CheckerStyle, EXPORTS, ExportOptions, FileDialogKind,
+    GestureKind, NO_LAYOUT_PICTURE, PATTERN, PageRequest, Pane, Request, SQUARES, SeamRule, ShadingMode, StepTarget,
+    Tab, Tool,
 };
 use freebound_core::pipeline::Fit;
 
@@ -70,6 +71,7 @@ fn file_menu(menu: &mut MenuBuilder<'_>) {
     let has_disk = editor.has_disk();
     menu.item(when(has_disk, NO_DISK), "Open picture…", Request::Ask(FileDialogKind::OpenPicture));
     menu.item(when(editor.has_picture(), "There is no picture"), "Remove picture", Action::RemovePicture);
+    menu.explained(when(has_model, NO_MESH), COPY_LAYOUT, Request::Ask(FileDialogKind::CopyLayout));
     menu.explained(when(has_model, NO_MESH), COLOUR_BY_COLUMN, Request::Ask(FileDialogKind::OpenTable));
     menu.item(when(has_disk, NO_DISK), "Import constraints…", Request::Ask(FileDialogKind::ImportConstraints));
     let has_pins = !editor.session.document().targets.is_empty();
@@ -79,7 +81,10 @@ fn file_menu(menu: &mut MenuBuilder<'_>) {
         for (kind, words, about) in EXPORTS {
             menu.explained(when(editor.session.outcome().is_some(), NO_MAP), [words, about], Request::Ask(kind));
         }
-        menu.explained(when(editor.session.outcome().is_some(), NO_MAP), PATTERN, Request::TogglePattern);
+        let has_map = editor.session.outcome().is_some();
+        let baked = Request::ToggleOptions(ExportOptions::Baked);
+        menu.explained(when(has_map && editor.session.can_bake(), NO_LAYOUT_PICTURE), BAKED, baked);
+        menu.explained(when(has_map, NO_MAP), PATTERN, Request::ToggleOptions(ExportOptions::Pattern));
         menu.separator();
         menu.explained(when(has_model, NO_MESH), COPY_COMMAND, Request::CopyCommandLine);
     });

@@ -5,10 +5,10 @@ use std::sync::mpsc::Receiver;
 
 use super::colour_table::ColourTable;
 use crate::ui::dialogs::Dialogs;
-use crate::ui::state::PendingClose;
+use crate::ui::state::{ExportOptions, PendingClose};
 use freebound_core::geom::Picture;
 use freebound_core::pipeline::Fit;
-use freebound_io::PatternOptions;
+use freebound_io::{BakeOptions, PatternOptions};
 
 /// File dialogs and files about to be written.
 #[derive(Debug, Default)]
@@ -19,17 +19,37 @@ pub struct Files {
     pub fit: Fit,
     /// Table of numbers that colours the faces.
     pub table: ColourTable,
-    pub pattern: PatternChoice,
+    /// Export whose options are shown.
+    pub options_shown: Option<ExportOptions>,
+    /// Options of the next cutting pattern.
+    pub pattern: PatternOptions,
+    /// Options of the next picture drawn for the layout.
+    pub baked: BakeChoice,
     /// Requested picture of a pane, and its path.
     pub(in crate::ui) shot: Option<(PathBuf, Receiver<Picture>)>,
 }
 
-/// Options of the next cutting pattern.
-#[derive(Debug, Default)]
-pub struct PatternChoice {
-    /// True while their window is open.
-    pub is_shown: bool,
-    pub options: PatternOptions,
+/// Options of the next picture drawn for the layout.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BakeChoice {
+    /// Side of a square picture, pixels. Default: the size of the picture.
+    pub side: Option<u32>,
+    /// Margin around the charts, pixels.
+    pub margin: u32,
+}
+
+impl Default for BakeChoice {
+    fn default() -> Self {
+        Self { side: None, margin: BakeOptions::DEFAULT_MARGIN }
+    }
+}
+
+impl BakeChoice {
+    /// Options for a picture.
+    pub fn options(self, picture: &Picture) -> BakeOptions {
+        let pixels = self.side.map_or([picture.width, picture.height], |side| [side; 2]);
+        BakeOptions { pixels, margin: self.margin }
+    }
 }
 
 /// State of the question about unsaved work.

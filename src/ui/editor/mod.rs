@@ -92,6 +92,7 @@ use eframe::egui;
 use crate::session::{Busy, MessagePlace, RecentFiles, Session};
 use crate::ui::state::{Tab, TimelineView};
 use appearance::PaneShading;
+pub(in crate::ui) use files::BakeChoice;
 use files::Files;
 use gpu::Gpu;
 use layout::Layout;

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::Editor;
 use super::appearance::OnPicture;
-use crate::session::{Action, LockState, PatternRequest, SaveRequest, UndoGroup, WaitingLandmark};
+use crate::session::{Action, BakeRequest, LockState, PatternRequest, SaveRequest, UndoGroup, WaitingLandmark};
 use crate::ui::dialogs::DialogChoice;
 use crate::ui::state::{FileDialogKind, Half, PageRequest, Pane, PendingClose, Request, StepTarget, Tool, is_picture};
 use freebound_core::mesh::VertexId;
@@ -97,9 +97,9 @@ impl Editor {
             Request::Ask(kind) => self.ask(kind),
             Request::SaveProject => self.save_project(),
             Request::ToggleExports => self.layout.exports_shown = !self.layout.exports_shown,
-            Request::TogglePattern => {
+            Request::ToggleOptions(of) => {
                 self.layout.exports_shown = false;
-                self.files.pattern.is_shown ^= true;
+                self.files.options_shown = Some(of).filter(|_| self.files.options_shown != Some(of));
             }
             Request::Answer(answer) => self.answer(answer),
             Request::LeaveFaces => self.opened.leave_faces(&self.session),
@@ -138,6 +138,7 @@ impl Editor {
             FileDialogKind::OpenPicture => self.act(Action::OpenPicture(path)),
             FileDialogKind::LocatePicture => self.act(Action::LocatePicture(path)),
             FileDialogKind::LocateMesh => self.act(Action::LocateMesh(path)),
+            FileDialogKind::CopyLayout => self.act(Action::CopyLayout(path)),
             FileDialogKind::ImportConstraints => self.act(Action::ImportConstraints(path)),
             FileDialogKind::ExportConstraints => self.act(Action::ExportConstraints(path)),
             FileDialogKind::ImportSeams => self.act(Action::ImportSeams(path)),
@@ -147,10 +148,11 @@ impl Editor {
                 self.act(Action::SaveProject(path));
             }
             FileDialogKind::Pattern => {
-                self.files.pattern.is_shown = false;
-                let options = self.files.pattern.options;
+                self.files.options_shown = None;
+                let options = self.files.pattern;
                 self.act(Action::SavePattern(PatternRequest { path, options }));
             }
+            FileDialogKind::Baked => self.export_baked(path),
             FileDialogKind::PanePicture(pane) => self.shoot_pane(pane, path),
             FileDialogKind::Curves(what) => self.export_curves(what, path),
             FileDialogKind::OpenTable => self.open_table(path),
@@ -298,17 +300,25 @@ impl Editor {
         self.selection.select([]);
     }
 
+    fn export_baked(&mut self, path: PathBuf) {
+        self.files.options_shown = None;
+        if let Some(picture) = &self.session.document().picture {
+            let options = self.files.baked.options(&picture.pixels);
+            self.act(Action::SaveBaked(BakeRequest { path, options }));
+        }
+    }
+
     fn escape(&mut self) {
         let closes = self.close_question()
             || self.leave_large()
             || self.files.dialogs.close()
-            || std::mem::take(&mut self.files.pattern.is_shown);
+            || self.files.options_shown.take().is_some();
         if closes || self.layout.close_window() || self.timeline.close_curve() || self.drop_gesture() {
         } else if self.session.is_brushing() {
             self.act(Action::GiveUpBrush);
         } else if self.tools.end_drag() {
             self.act(Action::GiveUpGesture);
-        } else if self.pointer.end_box() {
+        } else if self.pointer.end_region() {
         } else if self.tools.pair().is_some() {
             self.tools.set_pair(None);
         } else if self.tools.seam.end() || self.leave_morph() || self.leave_comparison() {

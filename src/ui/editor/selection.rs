@@ -94,16 +94,26 @@ impl Selection {
     }
 }
 
-/// Element under the pointer, and the selection box being drawn.
-#[derive(Clone, Copy, Debug, Default)]
+/// Region that is being drawn to select what lies in it.
+#[derive(Clone, Debug)]
+pub(in crate::ui) struct DrawnRegion {
+    pane: Pane,
+    /// True for a lasso, false for a box.
+    pub(in crate::ui) is_lasso: bool,
+    /// Points of a lasso, or two corners of a box; window points.
+    pub(in crate::ui) points: Vec<egui::Pos2>,
+}
+
+/// Element under the pointer, and the region being drawn.
+#[derive(Clone, Debug, Default)]
 pub struct Pointer {
     pane: Option<Pane>,
     vertex: Option<VertexId>,
     in_embedding: Option<DVec2>,
     /// Vertex whose menu is or was open.
     menu_vertex: Option<VertexId>,
-    /// Pane and first corner of the box being drawn with Ctrl, in window points.
-    box_from: Option<(Pane, egui::Pos2)>,
+    /// Region being drawn with Ctrl.
+    region: Option<DrawnRegion>,
 }
 
 impl Pointer {
@@ -157,17 +167,24 @@ impl Pointer {
         (self.pane, self.in_embedding, self.vertex) = (Some(Pane::Plane), place, vertex);
     }
 
-    /// First corner of the box being drawn in a pane.
-    pub(in crate::ui) fn box_in(&self, pane: Pane) -> Option<egui::Pos2> {
-        self.box_from.filter(|(of, _)| *of == pane).map(|(_, from)| from)
+    /// Region being drawn in a pane, with the pointer as its newest point. A lasso gets a point after each `step`.
+    pub(in crate::ui) fn region_in(&mut self, pane: Pane, at: egui::Pos2, step: f32) -> Option<&DrawnRegion> {
+        let drawn = self.region.as_mut().filter(|drawn| drawn.pane == pane)?;
+        if !drawn.is_lasso {
+            drawn.points.truncate(1);
+        }
+        if !drawn.is_lasso || drawn.points.last().is_none_or(|last| last.distance(at) >= step) {
+            drawn.points.push(at);
+        }
+        self.region.as_ref()
     }
 
-    pub(in crate::ui) fn begin_box(&mut self, pane: Pane, from: Option<egui::Pos2>) {
-        self.box_from = from.map(|from| (pane, from));
+    pub(in crate::ui) fn begin_region(&mut self, pane: Pane, from: Option<egui::Pos2>, is_lasso: bool) {
+        self.region = from.map(|from| DrawnRegion { pane, is_lasso, points: vec![from] });
     }
 
-    pub(in crate::ui) fn end_box(&mut self) -> bool {
-        self.box_from.take().is_some()
+    pub(in crate::ui) fn end_region(&mut self) -> bool {
+        self.region.take().is_some()
     }
 }
 

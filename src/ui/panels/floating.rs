@@ -7,7 +7,7 @@ use std::sync::mpsc::sync_channel;
 use eframe::egui::{self, Align2, Key, Pos2, Rect};
 
 use crate::ui::editor::layout::GoTo;
-use crate::ui::state::{COPY_COMMAND, EXPORTS, PATTERN};
+use crate::ui::state::{BAKED, COPY_COMMAND, EXPORTS, ExportOptions, PATTERN};
 use crate::ui::timeline::enlarged_curve;
 use crate::ui::{Control, Editor, Element, Pane, Request};
 use freebound_core::geom::Picture;
@@ -21,7 +21,7 @@ pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Edit
     if editor.layout.exports_shown {
         exports_window(context, editor, requests);
     }
-    super::pattern_window::pattern_window(context, editor, requests);
+    super::export_options::export_options(context, editor, requests);
     super::palette::palette(context, editor, requests);
     enlarged_curve(context, editor, requests);
     super::tour::tour(context, editor);
@@ -75,7 +75,11 @@ fn exports_window(context: &egui::Context, editor: &mut Editor, requests: &mut V
     window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(context, |ui| {
         let columns = if context.content_rect().height() < ONE_COLUMN { 2 } else { 1 };
         egui::Grid::new("exports").num_columns(columns).spacing([6.0, 4.0]).show(ui, |ui| {
-            let commands = [(Request::TogglePattern, PATTERN), (Request::CopyCommandLine, COPY_COMMAND)];
+            let commands = [
+                (Request::ToggleOptions(ExportOptions::Baked), BAKED),
+                (Request::ToggleOptions(ExportOptions::Pattern), PATTERN),
+                (Request::CopyCommandLine, COPY_COMMAND),
+            ];
             let files = EXPORTS.into_iter().map(|(kind, words, about)| (Request::Ask(kind), [words, about]));
             for (place, (request, [words, about])) in files.chain(commands).enumerate() {
                 let button = ui.add_enabled(solved, egui::Button::new(words).min_size(egui::vec2(250.0, 22.0)));

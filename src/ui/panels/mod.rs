@@ -21,10 +21,10 @@
 //! | `quality.rs` | grade of the map, beside the verdict |
 //! | `advice.rs` | next action, beside the verdict |
 //! | `status.rs` | the status bar |
+//! | `export_options.rs` | options of a cutting pattern, and of a picture drawn for the layout |
 //! | `floating.rs` | "Go to", file dialog inside the window, exports, pictures of panes |
 //! | `keys_window.rs` | list of keys and gestures; changes of keys |
 //! | `palette.rs` | command palette |
-//! | `pattern_window.rs` | options of a cutting pattern |
 //! | `about.rs` | About, and the messages of this run |
 //! | `toast.rs` | success message, for a few seconds |
 //! | `tour.rs` | card of the guided tour |
@@ -40,6 +40,7 @@ mod compare_panel;
 mod defects_panel;
 mod diagnosis;
 pub(super) mod equation_table;
+mod export_options;
 mod file_layout;
 pub(super) mod floating;
 mod hull_section;
@@ -50,7 +51,6 @@ pub(super) mod menu;
 pub(super) mod method_panel;
 mod palette;
 mod parts;
-mod pattern_window;
 mod picture_panel;
 mod pins_panel;
 mod quality;

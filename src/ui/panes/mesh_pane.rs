@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::pane;
 use super::pins::{self, Emphasis, PinMark};
+use super::region::draw_region;
 use super::{bars, header, legend, magnifier, outside_hull, page_pane, seam, vertex_menu};
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PictureLayer, Style};
 use crate::session::Action;
@@ -62,10 +63,10 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         editor.aim(ui, Pane::Mesh, None);
     }
     let view = Viewport { rect, camera };
-    if let Some(chosen) = pane::drag_box(ui, &response, editor, Pane::Mesh) {
+    if let Some(region) = draw_region(ui, &response, editor, Pane::Mesh) {
         let inside = |vertex: &VertexId| {
             let at = view.spot(scene.mesh().positions[vertex.index()]);
-            at.is_some_and(|at| chosen.contains(at)) && scene.picker.is_visible(*vertex, camera.eye())
+            at.is_some_and(|at| region.contains(at)) && scene.picker.is_visible(*vertex, camera.eye())
         };
         requests.push(Request::AddToSelection(scene.vertices().filter(inside).collect()));
     }

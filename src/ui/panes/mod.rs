@@ -3,7 +3,8 @@
 //! | file | what |
 //! |---|---|
 //! | `header.rs` | the header of a pane: title, shading, switches |
-//! | `pane.rs` | common parts of both panes: positions on the screen, clicks and boxes, the wheel, marks of defects |
+//! | `pane.rs` | common parts of both panes: positions on the screen, clicks, the wheel, marks of defects |
+//! | `region.rs` | box or lasso that selects what lies in it |
 //! | `outside_hull.rs` | marks of vertices outside the hull of their neighbours |
 //! | `mesh_pane.rs` | the mesh in space |
 //! | `plane_pane.rs` | the embedding |
@@ -39,6 +40,7 @@ pub(super) mod pane;
 pub(super) mod pin_drag;
 pub(super) mod pins;
 pub(super) mod plane_pane;
+mod region;
 pub(super) mod seam;
 pub(super) mod vertex_menu;
 

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use eframe::egui::{self, Align2, Color32, CursorIcon, FontId, PointerButton, Pos2, Rect, Response, Stroke, Vec2};
 use glam::DVec2;
 
-use super::{legend, mesh_pane, pane, plane_pane};
+use super::region::draw_region;
+use super::{legend, mesh_pane, plane_pane};
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PlaneFrame, Style};
 use crate::session::ChartPage;
 use crate::ui::editor::PageScene;
@@ -51,9 +52,8 @@ pub(super) fn plane_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edit
         let frame = plane_frame(editor, &scene, camera, theme_of(ui));
         ui.painter().add(render::plane_pane(PaneId("page"), rect, frame));
     }
-    if let Some(chosen) = pane::drag_box(ui, response, editor, Pane::Plane) {
-        let corners = [chosen.left_bottom(), chosen.right_top()].map(|corner| view.point_at(corner));
-        requests.push(PageRequest::Add(scene.charts_within(corners)).into());
+    if let Some(region) = draw_region(ui, response, editor, Pane::Plane) {
+        requests.push(PageRequest::Add(scene.charts_within(|at| region.contains(view.spot(at)))).into());
     }
     click(ui, response, editor, requests);
     tiles(ui, view, editor, &scene);
@@ -145,10 +145,10 @@ pub(super) fn mesh_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edito
             ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
         }
     }
-    if let Some(chosen) = pane::drag_box(ui, response, editor, Pane::Mesh) {
+    if let Some(region) = draw_region(ui, response, editor, Pane::Mesh) {
         let view = Viewport { rect, camera };
-        let is_in_box = |at| view.spot(at).is_some_and(|at| chosen.contains(at));
-        let is_inside = |chart: &usize| scene.has_seen_vertex(*chart, camera.eye(), is_in_box);
+        let is_in_region = |at| view.spot(at).is_some_and(|at| region.contains(at));
+        let is_inside = |chart: &usize| scene.has_seen_vertex(*chart, camera.eye(), is_in_region);
         requests.push(PageRequest::Add((0..scene.spans.len()).filter(is_inside).collect()).into());
     }
     if response.clicked() && editor.plane.page.gesture().is_none() {

@@ -10,7 +10,7 @@ use crate::session::Action;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
 use crate::ui::round_joins::closed_line;
 use crate::ui::state::Viewport;
-use crate::ui::{Control, Editor, Pane, Request, Theme, Tool, theme_of};
+use crate::ui::{Control, Editor, Request, Theme, Tool, theme_of};
 use crate::view::PlaneCamera;
 use freebound_core::geom::{Bounds, clip_segment};
 use freebound_core::mesh::VertexId;
@@ -78,27 +78,6 @@ fn within(rect: Rect, ends: [Pos2; 2]) -> Option<[Pos2; 2]> {
     let part = clip_segment(ends.map(point), Bounds { low: point(rect.min), high: point(rect.max) })?;
     #[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
     Some(part.map(|at| Pos2::new(at.x as f32, at.y as f32)))
-}
-
-/// Follows a selection box, drawn by Ctrl and a drag. Returns the box, in window points, at the end of the drag.
-pub(super) fn drag_box(ui: &egui::Ui, response: &Response, editor: &mut Editor, pane: Pane) -> Option<Rect> {
-    if response.drag_started_by(egui::PointerButton::Primary) && ui.input(|input| input.modifiers.command) {
-        // Start at the position of the press, not at the later position of egui's drag detection.
-        let origin = ui.input(|input| input.pointer.press_origin()).or(response.interact_pointer_pos());
-        editor.pointer.begin_box(pane, origin);
-    }
-    let from = editor.pointer.box_in(pane)?;
-    let chosen = Rect::from_two_pos(from, ui.input(|input| input.pointer.latest_pos())?);
-    if response.drag_stopped() {
-        editor.pointer.end_box();
-        return Some(chosen);
-    }
-    let theme = theme_of(ui);
-    let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("selection box"));
-    let painter = ui.ctx().layer_painter(layer).with_clip_rect(response.rect);
-    painter.rect_filled(chosen, 0.0, theme.selection.gamma_multiply(0.12));
-    painter.rect_stroke(chosen, 0.0, Stroke::new(1.0, theme.selection), egui::StrokeKind::Inside);
-    None
 }
 
 /// Handles a click with the active tool, and sets the cursor for it.

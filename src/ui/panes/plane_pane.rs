@@ -8,6 +8,7 @@ use glam::DVec2;
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, picture_layer, seam_line, style};
 use super::pane;
+use super::region::{Region, draw_region};
 use super::{
     bars, brush, constrain, header, inset, legend, magnifier, map_origin, page_pane, pin_drag, pins, seam, vertex_menu,
 };
@@ -69,9 +70,9 @@ fn chart_ui(ui: &mut egui::Ui, rect: Rect, response: &Response, editor: &mut Edi
         ui.painter().add(render::plane_pane(PaneId("plane"), rect, frame));
     }
     if !brush::takes_drags(editor)
-        && let Some(chosen) = pane::drag_box(ui, response, editor, Pane::Plane)
+        && let Some(region) = draw_region(ui, response, editor, Pane::Plane)
     {
-        requests.push(Request::AddToSelection(within(view, chosen, editor, &plane)));
+        requests.push(Request::AddToSelection(within(view, &region, editor, &plane)));
     }
     pane::click(ui, response, editor, requests);
     vertex_menu::of_pane(response, editor, requests);
@@ -158,10 +159,9 @@ pub(super) fn zoom(ui: &egui::Ui, response: &Response, camera: &mut PlaneCamera)
     }
 }
 
-/// Vertices inside a box of the screen, and vertices with targets inside it.
-fn within(view: Viewport<PlaneCamera>, chosen: Rect, editor: &Editor, plane: &PlaneScene) -> Vec<VertexId> {
-    let [a, b] = [chosen.left_bottom(), chosen.right_top()].map(|corner| view.point_at(corner));
-    let is_inside = |z: DVec2| z.cmpge(a).all() && z.cmple(b).all();
+/// Vertices inside a region of the screen, and vertices with targets inside it.
+fn within(view: Viewport<PlaneCamera>, region: &Region, editor: &Editor, plane: &PlaneScene) -> Vec<VertexId> {
+    let is_inside = |z: DVec2| region.contains(view.spot(z));
     let inside = plane.mesh.vertices().filter(|&vertex| plane.position_of(vertex).is_some_and(is_inside));
     let pins = editor.pins_shown().into_iter().filter(|pin| is_inside(pin.target));
     inside.chain(pins.map(|pin| pin.vertex)).collect()

@@ -23,6 +23,8 @@ pub enum FileDialogKind {
     OpenTable,
     /// Picture that the checker repeats.
     OpenChecker,
+    /// Mesh whose layout is copied to the open mesh.
+    CopyLayout,
     ImportConstraints,
     ExportConstraints,
     ImportSeams,
@@ -32,6 +34,8 @@ pub enum FileDialogKind {
     Export(OutputKind, Option<Fit>),
     /// Cutting pattern.
     Pattern,
+    /// Picture of the file's layout, drawn for the layout on the screen.
+    Baked,
     /// Picture of a pane.
     PanePicture(Pane),
     /// Export of the method comparison.
@@ -91,6 +95,7 @@ impl FileDialogKind {
             Self::LocatePicture => ("Locate the picture of the project", "Pictures", PICTURES, ""),
             Self::OpenTable => ("Open a table of numbers", "Tables", &["csv", "tsv", "txt"], ""),
             Self::OpenChecker => ("Open a picture for the checker", "Pictures", PICTURES, ""),
+            Self::CopyLayout => ("Copy the layout of another mesh", "Meshes", MESHES, ""),
             Self::ImportConstraints => {
                 ("Import constraints or landmarks", "Constraints, landmarks", &["txt", "pts"], "")
             }
@@ -107,6 +112,7 @@ impl FileDialogKind {
             Self::Pattern => {
                 ("Export the cutting pattern", "PDF, SVG or DXF drawing", PatternFormat::EXTENSIONS, "-pattern.pdf")
             }
+            Self::Baked => ("Export the picture for this layout", "PNG picture", &["png"], "-texture.png"),
             Self::PanePicture(Pane::Mesh) => ("Export a picture of the pane", "PNG picture", &["png"], "-mesh.png"),
             Self::PanePicture(Pane::Plane) => {
                 ("Export a picture of the pane", "PNG picture", &["png"], "-embedding.png")
@@ -156,6 +162,7 @@ impl FileDialogKind {
                 | Self::LocatePicture
                 | Self::OpenTable
                 | Self::OpenChecker
+                | Self::CopyLayout
                 | Self::ImportConstraints
                 | Self::ImportSeams
         )
@@ -173,6 +180,28 @@ impl FileDialogKind {
 /// Entry that opens the options of a cutting pattern, and its description.
 pub(in crate::ui) const PATTERN: [&str; 2] =
     ["Cutting pattern…", "PDF, SVG or DXF in true size, with seam allowance, notches and pages of paper"];
+
+/// Entry that copies the layout of another mesh, and its description.
+pub(in crate::ui) const COPY_LAYOUT: [&str; 2] = [
+    "Copy the layout of another mesh…",
+    "Seams and charts of another level of detail or version of this model, by nearest points, proved on this mesh",
+];
+
+/// Entry that opens the options of a picture drawn for the layout, and its description.
+pub(in crate::ui) const BAKED: [&str; 2] =
+    ["Picture for this layout…", "PNG: the picture of the file's own layout, drawn anew for the layout on the screen"];
+
+/// Reason why no picture can be drawn for the layout.
+pub(in crate::ui) const NO_LAYOUT_PICTURE: &str = "Open a mesh with texture coordinates and its picture first";
+
+/// Export with a window of options.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExportOptions {
+    /// Cutting pattern.
+    Pattern,
+    /// Picture drawn for the layout.
+    Baked,
+}
 
 /// Entry that copies a command line, and its description.
 pub(in crate::ui) const COPY_COMMAND: [&str; 2] =

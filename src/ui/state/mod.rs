@@ -48,8 +48,11 @@ pub(in crate::ui) use brush::brush_words;
 pub use checker::{CheckerRequest, CheckerStyle};
 pub(in crate::ui) use checker::{SQUARES, nearest_squares};
 pub use comparison::{ComparisonExport, MorphRequest};
+pub(in crate::ui) use file_dialog_kind::ExportOptions;
 pub(crate) use file_dialog_kind::is_picture;
-pub(in crate::ui) use file_dialog_kind::{COPY_COMMAND, DialogForm, EXPORTS, FileDialogKind, MESHES, PATTERN};
+pub(in crate::ui) use file_dialog_kind::{
+    BAKED, COPY_COMMAND, COPY_LAYOUT, DialogForm, EXPORTS, FileDialogKind, MESHES, NO_LAYOUT_PICTURE, PATTERN,
+};
 pub use help::Help;
 pub(in crate::ui) use help::{KeyClash, KeyList, Palette};
 pub use hull_stage::HullStage;

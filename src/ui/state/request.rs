@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::brush::BrushChoice;
 use super::checker::CheckerRequest;
 use super::comparison::MorphRequest;
-use super::file_dialog_kind::FileDialogKind;
+use super::file_dialog_kind::{ExportOptions, FileDialogKind};
 use super::hull_stage::HullStage;
 use super::inset_view::InsetPan;
 use super::page::PageRequest;
@@ -173,8 +173,8 @@ pub enum Request {
     SaveProject,
     /// Shows or hides the list of exports.
     ToggleExports,
-    /// Shows or hides the options of a cutting pattern.
-    TogglePattern,
+    /// Shows or hides the options of an export.
+    ToggleOptions(ExportOptions),
     /// Answers the question about unsaved work.
     Answer(UnsavedAnswer),
     /// Accepts faces that point inward.

@@ -13,10 +13,15 @@ const OPTIONS: [&[&str]; 5] = [
     &["--charts", "uv", "--start", "uv"],
 ];
 
-/// Flattens a file to every format, and checks what was written. Returns the number of files that were written.
-fn agree(program: &Program, file: &str, options: &[&str]) -> usize {
+/// Names of the files of a run: an OBJ file, and a PLY or a GLB file by turns.
+fn formats(turn: usize) -> [&'static str; 2] {
+    ["out.obj", ["out.ply", "out.glb"][turn % 2]]
+}
+
+/// Flattens a file to these files, and checks what was written. Returns the number of files that were written.
+fn agree(program: &Program, file: &str, options: &[&str], outputs: [&str; 2]) -> usize {
     let mut written = 0;
-    for out in ["out.obj", "out.ply", "out.glb"] {
+    for out in outputs {
         let flattened = program.run(&[&["flatten", file, "-o", out], options].concat());
         if !matches!(flattened.status, Some(0 | 4)) || !program.path(out).exists() {
             assert!(matches!(flattened.status, Some(2..=4)), "{file} {options:?}: {flattened:?}");
@@ -67,15 +72,15 @@ fn odd_meshes() -> Vec<(&'static str, String)> {
 fn flatten_and_check_agree_on_meshes_with_odd_faces() {
     let program = Program::new();
     let mut written = 0;
-    for (name, text) in odd_meshes() {
+    for (turn, (name, text)) in odd_meshes().into_iter().enumerate() {
         program.write("in.obj", &text);
-        for options in OPTIONS {
-            let count = agree(&program, "in.obj", options);
+        for (place, options) in OPTIONS.into_iter().enumerate() {
+            let count = agree(&program, "in.obj", options, formats(turn + place));
             println!("{name} {options:?}: {count} files");
             written += count;
         }
     }
-    assert!(written > 180, "only {written} files were written");
+    assert!(written > 120, "only {written} files were written");
 }
 
 corpus_test! {
@@ -83,14 +88,14 @@ corpus_test! {
         let program = Program::new();
         let mut written = 0;
         let small = |size: u64| size < 400_000;
-        for entry in manifest() {
+        for (turn, entry) in manifest().into_iter().enumerate() {
             if !std::fs::metadata(&entry.path).is_ok_and(|file| small(file.len())) {
                 continue;
             }
-            for options in &OPTIONS[..2] {
-                written += agree(&program, &entry.path.display().to_string(), options);
+            for (place, options) in OPTIONS[..2].iter().enumerate() {
+                written += agree(&program, &entry.path.display().to_string(), options, formats(turn + place));
             }
         }
-        assert!(written > 60, "only {written} files were written");
+        assert!(written > 40, "only {written} files were written");
     }
 }

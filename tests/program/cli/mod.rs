@@ -49,4 +49,5 @@ pub(crate) mod start_session;
 pub(crate) mod steps;
 pub(crate) mod study;
 pub(crate) mod summary;
+pub(crate) mod transfer;
 pub(crate) mod unwrap;

@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use freebound_core::geom::Picture;
+use freebound_io::raster::write_png;
 use serde_json::Value;
 
 use super::program::Program;
@@ -151,7 +153,11 @@ fn has_type(value: &Value, rule: &Value) -> bool {
 pub(crate) const TENT: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0.3\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
 
 /// Input files with various faults.
-const FILES: [(&str, &str); 19] = [
+const FILES: [(&str, &str); 20] = [
+    (
+        "laid.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n",
+    ),
     (
         "twin-charts.obj",
         "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 5 0 0\nv 7 0 0\nv 5 1 0\nvt 0 0\nvt 1 0\nvt 0 0.5\n\
@@ -205,7 +211,11 @@ pub(crate) const ODD_POLYGONS: &str = "\
     f 4 6 3 12 10 11\nf 3 9 8 13 10 12\n";
 
 /// Runs with their exit status: together they write all kinds of fields.
-const RUNS: [(&[&str], i32); 37] = [
+const RUNS: [(&[&str], i32); 41] = [
+    (&["transfer", "laid.obj", "tent.obj"], 0),
+    (&["transfer", "laid.obj", "laid.obj"], 0),
+    (&["transfer", "half.obj", "half.obj"], 3),
+    (&["bake", "laid.obj", "laid.obj", "--picture", "skin.png", "-o", "baked.png"], 0),
     (&["flatten", "odd-polygons.obj", "--no-new-vertices"], 4),
     (&["flatten", "two-odd-parts.obj", "--no-new-vertices"], 4),
     (&["flatten", "named.obj", "-o", "named.ply"], 0),
@@ -300,6 +310,8 @@ fn every_report_is_as_the_schema_says_and_the_schema_says_nothing_that_no_report
         program.write(name, text);
     }
     program.write_huge("huge.obj");
+    let skin = fs::File::create(program.path("skin.png")).expect("the folder can be written to");
+    write_png(&Picture::filled(4, 4, [200, 100, 50, 255]), skin).expect("written");
     let square = "v 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\nf -4 -3 -2 -1\n";
     program.write("two-odd-parts.obj", &format!("{ODD_POLYGONS}{square}"));
     let mut schema = Schema::of_reports();

@@ -14,6 +14,7 @@ pub(crate) mod forms;
 pub(crate) mod fuzz;
 pub(crate) mod history;
 pub(crate) mod landmarks;
+pub(crate) mod layout_copy;
 pub(crate) mod live;
 pub(crate) mod many_charts;
 pub(crate) mod mend;

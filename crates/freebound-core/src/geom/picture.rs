@@ -46,14 +46,19 @@ impl Picture {
     /// Colour at texture coordinates, v up, interpolated bilinearly between pixel centres. Points beyond the edges
     /// get the colour of the nearest edge point.
     pub fn sample(&self, uv: DVec2) -> [u8; 3] {
+        let [r, g, b, _] = self.sample_with_opacity(uv);
+        [r, g, b]
+    }
+
+    /// Colour and opacity at texture coordinates, as [`sample`](Self::sample) finds them.
+    pub fn sample_with_opacity(&self, uv: DVec2) -> [u8; 4] {
         let size = DVec2::new(f64::from(self.width), f64::from(self.height));
         let at = (DVec2::new(uv.x, 1.0 - uv.y) * size - 0.5).clamp(DVec2::ZERO, size - 1.0);
         let (low, share) = (at.floor(), at - at.floor());
         let colour = |x: f64, y: f64| self.pixel(x as u32, y as u32).unwrap_or([0; 4]).map(f64::from);
         let far = (low + 1.0).min(size - 1.0);
         let rows = [low.y, far.y].map(|y| mix(colour(low.x, y), colour(far.x, y), share.x));
-        let [r, g, b, _] = mix(rows[0], rows[1], share.y).map(|channel| channel.round() as u8);
-        [r, g, b]
+        mix(rows[0], rows[1], share.y).map(|channel| channel.round() as u8)
     }
 
     /// Picture with `self` on the left and `right` on the right, aligned at the top, padded with white.

@@ -16,6 +16,7 @@
 //! | `holes.rs` | virtual faces, which fill holes |
 //! | `repair/` | repair of faults, filling of holes, cutting of surfaces |
 //! | `refinement.rs` | a disk with new vertices on its edges |
+//! | `triangle_tree.rs` | nearest triangle, and triangles of a region, by a tree of boxes |
 //! | `volume.rs` | outside of an open surface |
 
 mod area;
@@ -38,6 +39,7 @@ mod refinement;
 mod repair;
 mod scale;
 mod topology;
+mod triangle_tree;
 mod triangles;
 mod triangulate;
 pub(crate) mod union;
@@ -61,5 +63,6 @@ pub use repair::{
     Chart, Charts, Done, EdgePaths, HoleTreatment, PartFaces, PathTree, Preparation, Repair, Repaired, Repairs, Seams,
     WeldDistance, borders, creases, near_vertices, splits,
 };
+pub use triangle_tree::{NearestPoint, TriangleTree, nearest_point, point_at};
 pub use triangles::TriMesh;
 pub use volume::relative_volume;

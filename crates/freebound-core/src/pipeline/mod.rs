@@ -17,6 +17,8 @@
 //! | `pieces` | charts as pieces of a packing, around charts that stay |
 //! | `stacks` | charts with congruent surfaces that share one place |
 //! | `repack`, `given_charts` | new places for the charts of a given layout, without flattening |
+//! | `surface_search` | nearest point of a surface that faces a direction |
+//! | `layout_copy` | layout of one mesh on another mesh of the surface |
 //! | `unwrap` | the easy calls: any mesh to a proved atlas, and the proof of a given layout |
 //! | `summary` | plain data about a result |
 //! | `study/` | the iteration on many random trials (paper §7) |
@@ -25,6 +27,7 @@ mod atlas;
 mod automatic_seams;
 mod given_charts;
 mod laid_chart;
+mod layout_copy;
 mod options;
 mod outcome;
 mod pieces;
@@ -35,6 +38,7 @@ mod run;
 mod stacks;
 pub mod study;
 mod summary;
+mod surface_search;
 mod targets;
 mod unwrap;
 
@@ -42,6 +46,7 @@ pub use atlas::{Arrangement, Atlas, ChartSummary, SolvedChart, atlas};
 pub use automatic_seams::{AutomaticSeams, MeshToCut, SeamProgress, SeamReport};
 pub use given_charts::charts_of_layout;
 pub use laid_chart::{JoinedCharts, LaidChart, joined, prove_atlas, restack};
+pub use layout_copy::{CopiedLayout, CopyLayoutError, LayoutSurface, copy_layout};
 pub use options::PipelineOptions;
 pub use outcome::{Outcome, pins_summary, upright};
 pub use prepared_mesh::{ChartOf, PreparedMesh, Surface};
@@ -52,5 +57,6 @@ pub use repack::{
 pub use run::SolvedProblem;
 pub use stacks::StackedChart;
 pub use summary::{Fit, PackingSummary, PinsSummary, Placement, SoftPinSummary, StackedOn};
+pub use surface_search::SurfaceSearch;
 pub use targets::{Target, Targets, hard_targets, pins_in_plane};
 pub use unwrap::{NO_COORDINATE, UnwrapError, Unwrapped, unwrap, unwrap_with, verify};

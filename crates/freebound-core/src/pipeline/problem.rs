@@ -81,7 +81,7 @@ impl Problem {
     }
 
     /// Position of a layout in the plane. The layout has v up.
-    fn in_plane(&self, layout: &Embedding) -> Embedding {
+    pub fn in_plane(&self, layout: &Embedding) -> Embedding {
         let upright = upright(layout, self.frame.v_axis);
         upright.as_ref().unwrap_or(layout).iter().map(|&uv| self.frame.plane_from_uv(uv)).collect()
     }

@@ -34,6 +34,7 @@ mod texture;
 mod words;
 
 use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 
@@ -89,6 +90,31 @@ impl Texture {
         }
         let corners = polygons.corners.iter().map(|vertex| vertex.number()).collect();
         Self { coordinates: coordinates.to_vec(), corners }
+    }
+
+    /// Edges of polygons along which the texture is cut: their two sides have different coordinates. Each edge is listed
+    /// once, its lower vertex first.
+    ///
+    /// # Panics
+    ///
+    /// If the texture has fewer corners than the polygons.
+    pub fn seams(&self, polygons: &PolygonMesh) -> Vec<[VertexId; 2]> {
+        let key = |place: usize| self.coordinates.get(self.corners[place] as usize).copied().map(coordinate_key);
+        let mut ends = BTreeMap::new();
+        let mut seams = BTreeSet::new();
+        for face in 0..polygons.face_count() {
+            let range = polygons.corner_range(face);
+            for place in range.clone() {
+                let next = if place + 1 == range.end { range.start } else { place + 1 };
+                let [tail, head] = [place, next].map(|place| (polygons.corners[place], key(place)));
+                let [low, high] = if tail.0 <= head.0 { [tail, head] } else { [head, tail] };
+                let edge = [low.0, high.0];
+                if *ends.entry(edge).or_insert([low.1, high.1]) != [low.1, high.1] {
+                    seams.insert(edge);
+                }
+            }
+        }
+        seams.into_iter().collect()
     }
 
     /// Texture with one coordinate per vertex of a repaired mesh, at the corners of the mesh before the repair. Faces

@@ -3,6 +3,7 @@
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
 mod bad_input;
+mod bake;
 mod corner_data;
 mod formats;
 mod full_disk;

@@ -162,13 +162,9 @@ impl PageScene {
         under.min_by(|a, b| size(a).total_cmp(&size(b)))
     }
 
-    /// Charts whose bounds lie in a box of the plane.
-    pub(in crate::ui) fn charts_within(&self, [low, high]: [DVec2; 2]) -> Vec<usize> {
-        let is_within = |&chart: &usize| {
-            let bounds = self.bounds[chart];
-            let meets = bounds.meets(Bounds { low, high });
-            meets && self.outlines_of(chart).flatten().any(|z| z.cmpge(low).all() && z.cmple(high).all())
-        };
+    /// Charts with a point of their outlines at a place that counts. `is_inside` decides about places.
+    pub(in crate::ui) fn charts_within(&self, is_inside: impl Fn(DVec2) -> bool) -> Vec<usize> {
+        let is_within = |&chart: &usize| self.outlines_of(chart).flatten().any(|at| is_inside(at));
         (0..self.spans.len()).filter(is_within).collect()
     }
 

@@ -215,6 +215,8 @@ pub fn pack(input: PackingInput<'_>, options: PackingOptions, is_cancelled: &dyn
         match solved {
             _ if was_cancelled.get() => return None,
             Some((scale, places)) => return Some(Packing { picture, scale, places }),
+            // A larger picture makes no room where the fixed shapes leave none.
+            None if !task.has_room() => break,
             None if task.density.is_none() => (picture, doublings) = (picture * 2, doublings + 1),
             None if picture.max_element() > PackingOptions::LONGEST_SIDE / 2 => task.density = None,
             None => picture *= 2,

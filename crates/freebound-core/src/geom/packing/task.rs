@@ -245,6 +245,18 @@ impl<'a> Task<'a> {
         is_enough.then(|| (found.scale, packed(&scene, &found, finest)))
     }
 
+    /// True if the fixed shapes leave some of a tile free, whatever the gap is.
+    pub(crate) fn has_room(&self) -> bool {
+        if self.fixed.is_empty() {
+            return true;
+        }
+        let fixed = self.fixed.iter().map(|shape| shape.edges().collect()).collect();
+        let scene = Scene { charts: Vec::new(), fixed, tiles: self.tiles, picture: self.page, gap: 0.0 };
+        let of_all = self.pixels() * self.tiles as f64 / MOST_CELLS;
+        let grid = scene.grid(cell_of((self.pixels() / FINEST_CELLS).max(of_all)), Cover::Sampled);
+        scene.taken(grid).iter().any(|taken| taken.count() < grid.columns * grid.rows)
+    }
+
     /// Layout by the best order of placement that a search finds.
     fn ordered(&self, refiner: &Refiner<'_>, grid: Grid, effort: Effort) -> Option<Layout> {
         let TileLoad { area, pixels } = self.heaviest(refiner.scene.tiles, nominal_area);

@@ -7,4 +7,5 @@ pub(crate) mod polygon;
 pub(crate) mod repair;
 pub(crate) mod seam_paths;
 pub(crate) mod seams;
+pub(crate) mod triangle_tree;
 pub(crate) mod weld;

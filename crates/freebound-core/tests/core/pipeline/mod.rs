@@ -1,5 +1,6 @@
-//! Studies with their counterexamples, unwrapping in one call, and stacks of charts.
+//! Studies with their counterexamples, unwrapping in one call, stacks of charts, and copies of layouts.
 
+pub(crate) mod layout_copy;
 pub(crate) mod repack;
 pub(crate) mod stacks;
 pub(crate) mod study;

@@ -148,7 +148,7 @@ fn unusable_coordinates_are_named() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 12, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 8, ..ProptestConfig::default() })]
 
     #[test]
     fn scattered_faces_are_packed_and_proved(seed in any::<u64>(), columns in 1_u32..4, rows in 1_u32..3) {

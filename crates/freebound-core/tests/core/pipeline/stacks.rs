@@ -220,7 +220,7 @@ fn rings_share_a_place_with_their_holes() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 12, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 8, ..ProptestConfig::default() })]
 
     #[test]
     fn copies_of_random_sheets_are_found_among_others(seed in any::<u64>(), kinds in 1_u64..5, copies in 1_usize..4) {

@@ -1,0 +1,63 @@
+//! Nearest point of a surface that faces a direction.
+
+use glam::DVec3;
+
+use crate::mesh::{FaceId, NearestPoint, TriMesh, TriangleTree, nearest_point};
+
+/// Additional distance up to which a triangle that faces the direction is preferred to a nearer one that does not,
+/// relative to the diagonal of the surface's box. Keeps the two sides of a thin wall apart.
+const SLACK: f64 = 0.01;
+
+/// Search for nearest points of a surface.
+#[derive(Clone, Debug)]
+pub struct SurfaceSearch<'a> {
+    mesh: &'a TriMesh,
+    tree: TriangleTree,
+    /// Normal of each triangle, of length 1; zero if it has no area.
+    normals: Vec<DVec3>,
+    /// Diagonal of the box around the surface.
+    diagonal: f64,
+}
+
+impl<'a> SurfaceSearch<'a> {
+    /// Prepares the search in O(n log n).
+    pub fn new(mesh: &'a TriMesh) -> Self {
+        let faces = || (0..mesh.face_count()).map(FaceId::from_index);
+        let corners: Vec<[DVec3; 3]> = faces().map(|face| mesh.corners(face)).collect();
+        let points = || corners.iter().flatten().filter(|point| point.is_finite());
+        let low = points().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = points().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let diagonal = if low.is_finite() { low.distance(high) } else { 0.0 };
+        let normals = faces().map(|face| mesh.double_area_vector(face).normalize_or_zero()).collect();
+        Self { mesh, tree: TriangleTree::new(&corners), normals, diagonal }
+    }
+
+    /// Diagonal of the box around the surface.
+    pub fn diagonal(&self) -> f64 {
+        self.diagonal
+    }
+
+    /// Positions of a triangle's corners.
+    pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.mesh.corners(FaceId::new(triangle))
+    }
+
+    /// Nearest point of the surface. `None` if the surface has no triangle, or the point is not finite.
+    ///
+    /// A triangle that faces `direction` is preferred unless it is farther by more than 1 % of the surface's diagonal.
+    /// A zero direction is faced by all triangles. `near` is a triangle likely to be close; it changes the time alone.
+    pub fn nearest(&self, point: DVec3, direction: DVec3, near: Option<u32>) -> Option<NearestPoint> {
+        if !point.is_finite() {
+            return None;
+        }
+        let limit = near.map_or(f64::INFINITY, |near| nearest_point(point, self.corners(near), near).distance_squared);
+        let corners = |triangle: u32| self.corners(triangle);
+        let any = self.tree.nearest(point, limit, corners, |_| true)?;
+        let faces = |triangle: u32| self.normals[triangle as usize].dot(direction) >= 0.0;
+        if faces(any.triangle) {
+            return Some(any);
+        }
+        let limit = (any.distance_squared.sqrt() + SLACK * self.diagonal).powi(2);
+        self.tree.nearest(point, limit, corners, faces).or(Some(any))
+    }
+}

@@ -1,0 +1,194 @@
+//! Layout of one file on the mesh of another file, judged and ready to be written.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use super::obj::Materials;
+use super::textured_file::TexturedFile;
+use super::{
+    FileData, JudgeError, LayoutError, MeshFile, MeshReport, OutputKind, Precision, Report, Seconds, Texture,
+    TextureError, TransferReport, WriteError,
+};
+use freebound_core::pipeline::{CopyLayoutError, LayoutSurface, copy_layout};
+use freebound_core::problem::Control;
+use freebound_core::verify::{LayoutOptions, LayoutVerdict};
+
+/// Layout of one file on the mesh of another.
+#[derive(Debug)]
+pub struct TransferredFile<'a> {
+    /// Mesh with its new texture coordinates.
+    mesh: MeshFile,
+    /// File of the mesh; `None` for a stream.
+    pub source_path: Option<&'a Path>,
+    /// Treatment of its material libraries.
+    pub materials: Materials,
+    /// Report of the run, with the verdict on the layout.
+    pub report: Report,
+}
+
+/// Reason why a layout cannot be copied from a file.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TransferError {
+    /// The file of the layout has no usable texture coordinates.
+    #[error(transparent)]
+    Texture(#[from] TextureError),
+    /// The mesh has no faces.
+    #[error("the mesh has no faces")]
+    NoFaces,
+    /// The layout has no triangles.
+    #[error(transparent)]
+    Copy(CopyLayoutError),
+    /// The caller cancelled.
+    #[error("the copy was cancelled")]
+    Cancelled,
+}
+
+impl<'a> TransferredFile<'a> {
+    /// Copies the layout of a file onto a mesh. The report has no name of the mesh.
+    ///
+    /// If both files have equal faces, coordinates are copied corner by corner. Otherwise nearest points are used.
+    /// Coordinates are rounded to the numbers that a file of this kind holds. Default: the usual precision of the kind, or
+    /// 64 bits if 32 bits fold the layout and the kind has 64.
+    ///
+    /// # Errors
+    ///
+    /// [`TransferError`] if the layout or the mesh is unusable, or if the caller cancels.
+    pub fn new(
+        layout: &MeshFile,
+        mesh: &MeshFile,
+        kind: OutputKind,
+        precision: Option<Precision>,
+        control: Control<'_>,
+    ) -> Result<Self, TransferError> {
+        let start = Instant::now();
+        let (texture, transfer) = copied_texture(layout, mesh, control)?;
+        let exact = MeshFile { texture: Some(texture), ..mesh.clone() };
+        let (mesh, verdict, precision) = rounded(exact, kind, precision, control)?;
+        let (vertices, faces) = (mesh.polygons.positions.len(), verdict.triangles);
+        let described = MeshReport { vertices, faces, warnings: mesh.warnings.clone(), ..MeshReport::default() };
+        let verify = start.elapsed().as_secs_f64();
+        let seconds = Seconds { verify, ..Seconds::default() };
+        let (layout, transfer, precision) = (Some(verdict), Some(transfer), Some(precision));
+        let report = Report { layout, transfer, precision, seconds, ..Report::of_mesh(described) };
+        Ok(Self { mesh, source_path: None, materials: Materials::default(), report })
+    }
+
+    /// True if the layout is proved planar.
+    pub fn is_planar(&self) -> bool {
+        self.report.layout.as_ref().is_some_and(|verdict| verdict.planar)
+    }
+
+    /// Mesh with its new texture coordinates.
+    pub fn mesh(&self) -> &MeshFile {
+        &self.mesh
+    }
+
+    /// Data of the source that a mesh file of this kind does not hold.
+    pub fn not_kept_in(&self, kind: OutputKind) -> Vec<FileData> {
+        self.mesh.not_kept_in(kind, || self.texture().clone())
+    }
+
+    /// Writes the mesh atomically. Copied material libraries are written first. Returns the files written, `path` first.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be written; the error names the file.
+    pub fn write(&self, kind: OutputKind, path: &Path) -> Result<Vec<PathBuf>, WriteError> {
+        self.file().write(kind, path)
+    }
+
+    /// Writes the mesh to standard output.
+    ///
+    /// # Errors
+    ///
+    /// If standard output cannot be written.
+    pub fn write_to_standard_output(&self, kind: OutputKind) -> Result<(), WriteError> {
+        self.file().write_to_standard_output(kind)
+    }
+
+    fn texture(&self) -> &Texture {
+        self.mesh.texture.as_ref().expect("the layout was copied")
+    }
+
+    fn file(&self) -> TexturedFile<'_> {
+        TexturedFile {
+            source: &self.mesh,
+            source_path: self.source_path,
+            materials: self.materials,
+            texture: self.texture(),
+            precision: self.report.precision.unwrap_or_default(),
+        }
+    }
+}
+
+/// Texture coordinates of one file for the corners of another. If both files have equal faces, they are copied corner
+/// by corner. Otherwise nearest points are used.
+///
+/// # Errors
+///
+/// [`TransferError`] if the layout or the mesh is unusable, or if the caller cancels.
+pub fn copied_texture(
+    layout: &MeshFile,
+    mesh: &MeshFile,
+    control: Control<'_>,
+) -> Result<(Texture, TransferReport), TransferError> {
+    if mesh.polygons.face_count() == 0 {
+        return Err(TransferError::NoFaces);
+    }
+    let are_equal = layout.polygons.corners == mesh.polygons.corners && layout.polygons.starts == mesh.polygons.starts;
+    if are_equal {
+        return match mesh.texture_of(layout) {
+            Ok(texture) => Ok((texture, TransferReport::Corners)),
+            Err(LayoutError::Texture(error)) => Err(error.into()),
+            Err(_) => unreachable!("files with equal faces have equal corners"),
+        };
+    }
+    // Faces without coordinates are left out: other faces may lie near enough.
+    let (surface, _) = layout.partial_texture_mesh()?;
+    let surface = LayoutSurface { mesh: &surface.mesh, coordinates: &surface.embedding };
+    let copied = copy_layout(surface, &mesh.polygons, control).map_err(|error| match error {
+        CopyLayoutError::Cancelled => TransferError::Cancelled,
+        error => TransferError::Copy(error),
+    })?;
+    let report = TransferReport::NearestPoints {
+        largest_distance: copied.largest_distance,
+        mean_distance: copied.mean_distance,
+        diagonal: copied.diagonal,
+    };
+    Ok((Texture { coordinates: copied.coordinates, corners: copied.corners }, report))
+}
+
+/// Mesh with its coordinates in the precision of a file, with the verdict on them.
+fn rounded(
+    exact: MeshFile,
+    kind: OutputKind,
+    precision: Option<Precision>,
+    control: Control<'_>,
+) -> Result<(MeshFile, LayoutVerdict, Precision), TransferError> {
+    let Some(grid) = kind.grid(precision) else {
+        let verdict = verdict_on(&exact, control)?;
+        return Ok((exact, verdict, Precision::F64));
+    };
+    let mut rounded = exact.clone();
+    for coordinate in rounded.texture.iter_mut().flat_map(|texture| &mut texture.coordinates) {
+        *coordinate = grid.nearest(*coordinate);
+    }
+    let verdict = LayoutVerdict { planar_in_f32: true, ..verdict_on(&rounded, control)? };
+    if !verdict.planar && kind.has_choice(precision) {
+        let of_exact = verdict_on(&exact, control)?;
+        if of_exact.planar {
+            return Ok((exact, of_exact, Precision::F64));
+        }
+    }
+    let verdict = LayoutVerdict { planar_in_f32: verdict.planar, ..verdict };
+    Ok((rounded, verdict, Precision::F32))
+}
+
+fn verdict_on(mesh: &MeshFile, control: Control<'_>) -> Result<LayoutVerdict, TransferError> {
+    match mesh.judged_layout(LayoutOptions::default(), false, control) {
+        Ok(judged) => Ok(judged.verdict),
+        Err(JudgeError::Texture(error)) => Err(error.into()),
+        Err(JudgeError::Cancelled) => Err(TransferError::Cancelled),
+    }
+}

@@ -1,0 +1,188 @@
+//! `freebound transfer` and `freebound bake`: the layout of a mesh on another mesh, and its picture in another layout.
+
+use std::path::Path;
+use std::time::Instant;
+
+use super::args::{BakeArguments, TransferArguments};
+use super::awaited::await_report;
+use super::error::{CommandError, CommandOutcome, is_standard, name_of_input};
+use super::flatten::refuse_unwritten_formats;
+use super::places::OutputPaths;
+use super::progress::{INTERRUPTED, ProgressLine, go_on};
+use super::report_file::put_report;
+use super::standard::read_typed;
+use super::summary::{bake_summary, deliver, transfer_summary};
+use crate::session::Model;
+use freebound_core::pipeline::LayoutSurface;
+use freebound_core::problem::{Control, SolveError};
+use freebound_io::raster::write_png;
+use freebound_io::{
+    Materials, MeshReport, PaintedSurface, PictureFile, Report, Seconds, TextureMesh, TransferError, TransferredFile,
+    bake, material_picture, write_atomically,
+};
+
+pub(super) fn run(arguments: &TransferArguments) -> Result<CommandOutcome, CommandError> {
+    refuse_unwritten_formats(arguments.output.as_deref())?;
+    refuse_two_streams(&arguments.layout, &arguments.mesh)?;
+    if arguments.copy_materials && arguments.output.as_deref().is_some_and(is_standard) {
+        let text = "standard output: --copy-materials needs a folder for its files: name a file with -o";
+        return Err(CommandError::Usage(text.to_owned()));
+    }
+    let places = OutputPaths::of_transfer(arguments);
+    places.keep_apart()?;
+    places.spare(&arguments.layout, "the layout")?;
+    places.spare(&arguments.mesh, "the mesh")?;
+    await_report(arguments.report.as_deref());
+    let progress = ProgressLine::default();
+    progress.follow(|| {
+        let start = Instant::now();
+        progress.enter("reading");
+        let layout = read_typed(&arguments.layout, arguments.reading)?;
+        let mesh = read_typed(&arguments.mesh, arguments.reading)?;
+        places.spare_materials(&layout.source, &arguments.layout)?;
+        places.spare_materials(&mesh.source, &arguments.mesh)?;
+        if arguments.copy_materials {
+            places.spare_copied_materials(arguments.output.as_deref(), &mesh.source, &arguments.mesh)?;
+        }
+        let read = start.elapsed().as_secs_f64();
+        go_on()?;
+        progress.enter("copying");
+        let mut file = transferred(arguments, &layout, &mesh)?;
+        file.report.seconds.read = read;
+        go_on()?;
+        write(arguments, &mut file, start, &progress)?;
+        conclude(arguments, &file)
+    })
+}
+
+/// Refuses two inputs from standard input.
+fn refuse_two_streams(first: &Path, second: &Path) -> Result<(), CommandError> {
+    if is_standard(first) && is_standard(second) {
+        let text = "standard input: it cannot be both meshes: name a file for one of them";
+        return Err(CommandError::Usage(text.to_owned()));
+    }
+    Ok(())
+}
+
+fn transferred<'a>(
+    arguments: &'a TransferArguments,
+    layout: &Model,
+    mesh: &'a Model,
+) -> Result<TransferredFile<'a>, CommandError> {
+    let control = Control::new(&INTERRUPTED, &|_| {});
+    let file = TransferredFile::new(&layout.source, &mesh.source, arguments.kind(), arguments.precision, control);
+    let materials = if arguments.copy_materials { Materials::Copied } else { Materials::Stay };
+    match file {
+        Ok(mut file) => {
+            file.report.mesh.path = mesh.path_words();
+            (file.source_path, file.materials) = (mesh.path.as_deref(), materials);
+            Ok(file)
+        }
+        Err(TransferError::Cancelled) => Err(SolveError::Cancelled.into()),
+        Err(error @ TransferError::NoFaces) => Err(CommandError::Transfer { path: mesh.path_words(), error }),
+        Err(error) => Err(CommandError::Transfer { path: layout.path_words(), error }),
+    }
+}
+
+/// Writes the mesh.
+fn write(
+    arguments: &TransferArguments,
+    file: &mut TransferredFile<'_>,
+    start: Instant,
+    progress: &ProgressLine,
+) -> Result<(), CommandError> {
+    progress.enter("writing");
+    let before_writing = Instant::now();
+    if let Some(path) = arguments.output.as_deref() {
+        let kind = arguments.kind();
+        file.report.not_kept = file.not_kept_in(kind);
+        if is_standard(path) {
+            file.write_to_standard_output(kind)?;
+        } else {
+            file.write(kind, path)?;
+        }
+    }
+    file.report.seconds.write = before_writing.elapsed().as_secs_f64();
+    file.report.seconds.total = start.elapsed().as_secs_f64();
+    Ok(())
+}
+
+/// Prints the summary and writes the report.
+fn conclude(arguments: &TransferArguments, file: &TransferredFile<'_>) -> Result<CommandOutcome, CommandError> {
+    let report = arguments.report.as_deref();
+    if arguments.output.as_deref().is_some_and(is_standard) {
+        report.map_or(Ok(()), |path| put_report(&file.report, path))?;
+    } else {
+        deliver(&file.report, report, || transfer_summary(&file.report))?;
+    }
+    Ok(if file.is_planar() { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
+}
+
+pub(super) fn run_bake(arguments: &BakeArguments) -> Result<CommandOutcome, CommandError> {
+    refuse_two_streams(&arguments.old, &arguments.new)?;
+    if is_standard(&arguments.output) {
+        let text = "standard output: a picture cannot be written there: name a file with -o";
+        return Err(CommandError::Usage(text.to_owned()));
+    }
+    let places = OutputPaths::of_bake(arguments);
+    places.keep_apart()?;
+    places.spare(&arguments.old, "the old mesh")?;
+    places.spare(&arguments.new, "the new mesh")?;
+    if let Some(picture) = &arguments.picture {
+        places.spare(picture, "the picture")?;
+    }
+    await_report(arguments.report.as_deref());
+    let progress = ProgressLine::default();
+    progress.follow(|| {
+        let start = Instant::now();
+        progress.enter("reading");
+        let old = read_typed(&arguments.old, arguments.reading)?;
+        let new = read_typed(&arguments.new, arguments.reading)?;
+        places.spare_materials(&old.source, &arguments.old)?;
+        places.spare_materials(&new.source, &arguments.new)?;
+        let picture = picture_of(arguments, &old)?;
+        let [old_layout, new_layout] = [layout_of(&old)?, layout_of(&new)?];
+        let read = start.elapsed().as_secs_f64();
+        go_on()?;
+        progress.enter("drawing");
+        let painted = PaintedSurface { layout: surface_of(&old_layout), picture: &picture.pixels };
+        let control = Control::new(&INTERRUPTED, &|_| {});
+        let baked = bake(painted, surface_of(&new_layout), arguments.options(&picture), control)?;
+        let solve = start.elapsed().as_secs_f64() - read;
+        progress.enter("writing");
+        let before_writing = Instant::now();
+        write_atomically(&arguments.output, |out| write_png(&baked.picture, out))?;
+        let write = before_writing.elapsed().as_secs_f64();
+        let (vertices, faces) = (new.source.polygons.positions.len(), new_layout.mesh.face_count());
+        let warnings = new.source.warnings.clone();
+        let mesh = MeshReport { path: new.path_words(), vertices, faces, warnings, ..MeshReport::default() };
+        let total = start.elapsed().as_secs_f64();
+        let seconds = Seconds { read, solve, write, total, ..Seconds::default() };
+        let report = Report { baked: Some(baked.report), seconds, ..Report::of_mesh(mesh) };
+        let size = [baked.picture.width, baked.picture.height];
+        deliver(&report, arguments.report.as_deref(), || bake_summary(&report, &arguments.output, size))?;
+        Ok(CommandOutcome::Fine)
+    })
+}
+
+/// Picture of the old layout: the requested one, or that of the materials.
+fn picture_of(arguments: &BakeArguments, old: &Model) -> Result<PictureFile, CommandError> {
+    let of_materials = || material_picture(&old.source, &arguments.old);
+    let Some(path) = arguments.picture.clone().or_else(of_materials) else {
+        let text = format!("{}: its materials name no picture: add --picture FILE", name_of_input(&arguments.old));
+        return Err(CommandError::Usage(text));
+    };
+    Ok(PictureFile::read(&path)?)
+}
+
+/// Faces of a file that have texture coordinates.
+fn layout_of(model: &Model) -> Result<TextureMesh, CommandError> {
+    match model.source.partial_texture_mesh() {
+        Ok((layout, _)) => Ok(layout),
+        Err(error) => Err(CommandError::Transfer { path: model.path_words(), error: error.into() }),
+    }
+}
+
+fn surface_of(layout: &TextureMesh) -> LayoutSurface<'_> {
+    LayoutSurface { mesh: &layout.mesh, coordinates: &layout.embedding }
+}

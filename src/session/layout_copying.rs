@@ -1,0 +1,134 @@
+//! Copy of the layout of another mesh, as one edit: its seams, and its charts in their shapes at their places.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::background_jobs::BackgroundJob;
+use super::chart_layout::ChartPlace;
+use super::layout_of_other::{CopiedChart, LayoutOfOther, LayoutOfOtherError};
+use super::{ChartEdits, Command, Message, MessagePlace, Session, Shape};
+use freebound_core::pipeline::{ShapedMap, Target};
+use freebound_core::problem::{Control, Embedding, PinKind, Settings, Start};
+use freebound_io::{TransferError, TransferReport};
+
+/// Name of the job that copies the layout of another mesh.
+const COPYING: &str = "copying the layout";
+
+/// Mean distance of two surfaces from which they lie apart, relative to the diagonal of their box.
+const FAR_APART: f64 = 0.05;
+
+impl Session {
+    /// Copies the layout of another mesh file in the background.
+    pub(super) fn copy_layout_of(&mut self, path: PathBuf) {
+        let Some(model) = self.model().cloned() else {
+            return self.complain("a layout needs a mesh to be copied to: open one first", None);
+        };
+        if !self.has_form_as_wanted() {
+            let text = "the layout was not copied: the mesh is not prepared yet";
+            return self.complain(text, Some("try again in a moment"));
+        }
+        let document = self.document.clone();
+        self.jobs.send(COPYING, move |cancel| {
+            let read = LayoutOfOther::read(&path, model, &document, Control::new(cancel, &|_| {}));
+            BackgroundJob::LayoutOfOther { path, read: read.map(Box::new) }
+        });
+    }
+
+    /// Makes a copied layout an edit. Pins are dropped, because the layout holds all vertices.
+    pub(super) fn take_layout_of_other(&mut self, path: &Path, read: Result<Box<LayoutOfOther>, LayoutOfOtherError>) {
+        let copied = match read {
+            Ok(copied) => *copied,
+            Err(LayoutOfOtherError::Transfer(TransferError::Cancelled)) => return,
+            Err(error) => {
+                let message = Message::error(MessagePlace::Mesh, error.to_string()).of_file(Some(path));
+                self.messages.say(message.with_remedy("choose a mesh with texture coordinates"));
+                return;
+            }
+        };
+        let is_of_screen = self.model().is_some_and(|model| Arc::ptr_eq(model, copied.reshaped.before()));
+        if !is_of_screen || !self.has_form_as_wanted() || self.mesh.wanted().is_some() {
+            let text = "the layout was not copied: the mesh has changed meanwhile";
+            return self.complain(text, Some("copy the layout again"));
+        }
+        if copied.charts.is_empty() {
+            let message = Message::error(MessagePlace::Mesh, "no chart of the layout is planar on this mesh");
+            let message = message.of_file(Some(path));
+            self.messages.say(message.with_remedy("choose the layout of a mesh of the same surface"));
+            return;
+        }
+        let (missing, report) = (copied.missing(), copied.report);
+        let edits = self.edits_to_take(&copied);
+        self.mesh.take_other(Arc::new(copied.reshaped.into_model()));
+        self.edit(edits);
+        self.tell_copied(missing, report);
+    }
+
+    /// Edits that cut the mesh along the seams of a layout, and lay its charts as the layout does.
+    fn edits_to_take(&self, copied: &LayoutOfOther) -> Vec<Command> {
+        let shape = copied.reshaped.shape(&self.document);
+        let mut shape = Shape { shown: ChartEdits::default(), elsewhere: std::collections::BTreeMap::new(), ..shape };
+        let here = copied.reshaped.now().prepared.chart.as_ref().map_or(0, |of| of.number);
+        let mut layout = self.document.layout.without_places();
+        layout.stacked.clear();
+        for chart in &copied.charts {
+            let edits = self.edits_of_copied(chart);
+            if chart.number == here {
+                shape.shown = edits;
+            } else {
+                shape.elsewhere.insert(chart.number, edits);
+            }
+            if let Some(first_face) = chart.first_face {
+                layout.placed.insert(first_face, ChartPlace(Arc::clone(&chart.coordinates)));
+            }
+        }
+        let settings = Settings { start: Start::FromScratch, ..self.settings_from_layout() };
+        let shape = Command::Reshape(Box::new(shape));
+        vec![shape, Command::SetLayout(Box::new(layout)), Command::SetSettings(settings)]
+    }
+
+    /// Edits of a chart that has its shape in the layout. A single chart has no place on a page, so two pins hold it.
+    fn edits_of_copied(&self, chart: &CopiedChart) -> ChartEdits {
+        let in_plane = self.document.problem_with(ChartEdits::default()).in_plane(&chart.coordinates);
+        let mut edits = ChartEdits::default();
+        if chart.first_face.is_none() {
+            let frame = self.document.frame();
+            let held = farthest(&in_plane).map(|vertex| {
+                let target = Target { uv: frame.uv_from_plane(in_plane[vertex]), kind: PinKind::Hard };
+                (freebound_core::mesh::VertexId::from_index(vertex), target)
+            });
+            edits.targets.extend(held);
+        }
+        ChartEdits { shaped: Some(ShapedMap(Arc::new(in_plane))), ..edits }
+    }
+
+    fn tell_copied(&mut self, missing: usize, report: TransferReport) {
+        let by = match report {
+            TransferReport::Corners => "the layout was copied corner by corner".to_owned(),
+            TransferReport::NearestPoints { mean_distance, diagonal, .. } => {
+                format!("the layout was copied by nearest points, {:.2} % apart", 100.0 * mean_distance / diagonal)
+            }
+        };
+        let note = Message::note(MessagePlace::Embedding, by);
+        let is_apart = matches!(report, TransferReport::NearestPoints { mean_distance, diagonal, .. }
+            if mean_distance > FAR_APART * diagonal);
+        self.messages.say(match missing {
+            _ if is_apart => note.with_remedy("move and scale both meshes to one place and size"),
+            0 => note,
+            1 => note.with_remedy("1 chart would fold and was flattened anew"),
+            _ => note.with_remedy(&format!("{missing} charts would fold and were flattened anew")),
+        });
+    }
+}
+
+/// Two vertices far from each other in the plane.
+fn farthest(embedding: &Embedding) -> [usize; 2] {
+    let from = |from: usize| {
+        let far = |&a: &usize, &b: &usize| {
+            let [a, b] = [a, b].map(|vertex| embedding[vertex].distance_squared(embedding[from]));
+            a.total_cmp(&b)
+        };
+        (0..embedding.len()).max_by(far).unwrap_or(from)
+    };
+    let first = from(0);
+    [first, from(first)]
+}

@@ -1,0 +1,75 @@
+//! Layout of another mesh file, copied to the open mesh: the mesh cut along its seams, and the charts in it.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::reshaping::Reshaped;
+use super::{Document, Model};
+use freebound_core::mesh::{FaceId, Preparation, Seams};
+use freebound_core::pipeline::Outcome;
+use freebound_core::problem::{Control, Embedding};
+use freebound_io::{ReadError, ReadOptions, TransferError, TransferReport, copied_texture};
+
+/// Layout of another mesh file on the open mesh.
+pub(super) struct LayoutOfOther {
+    /// Mesh cut along the seams of the layout.
+    pub(super) reshaped: Reshaped,
+    /// Charts that are planar in the layout.
+    pub(super) charts: Vec<CopiedChart>,
+    /// Correspondence of the two meshes.
+    pub(super) report: TransferReport,
+}
+
+/// Chart in a copied layout.
+pub(super) struct CopiedChart {
+    /// Number of the chart.
+    pub(super) number: usize,
+    /// First face of the chart in the file. `None` if the mesh is a single chart.
+    pub(super) first_face: Option<FaceId>,
+    /// Texture coordinates of its vertices, v up.
+    pub(super) coordinates: Arc<Embedding>,
+}
+
+/// Reason why a layout was not copied.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum LayoutOfOtherError {
+    /// The file cannot be read.
+    #[error("{}", .0.to_string().lines().next().unwrap_or_default())]
+    Read(#[from] ReadError),
+    /// The layout cannot be copied.
+    #[error(transparent)]
+    Transfer(#[from] TransferError),
+}
+
+impl LayoutOfOther {
+    /// Copies the layout of a file to a mesh of a document, which may be faulty: it is repaired.
+    pub(super) fn read(
+        path: &PathBuf,
+        before: Arc<Model>,
+        document: &Document,
+        control: Control<'_>,
+    ) -> Result<Self, LayoutOfOtherError> {
+        let other = Model::read_formless(path, ReadOptions::default(), &|| control.go_on().is_err())?;
+        let (texture, report) = copied_texture(&other.source, &before.source, control)?;
+        let seams = Seams::default().with(texture.seams(&before.source.polygons));
+        let form = Preparation { seams, ..document.form.with_all_repairs() };
+        let reshaped = Reshaped::new(before, form, control);
+        let laid = reshaped.now().clone().with_layout(path.display().to_string(), texture);
+        let charts = (0..laid.chart_count().max(1)).filter_map(|number| {
+            let model = if laid.prepared.chart.is_some() { laid.of_chart(number) } else { laid.clone() };
+            let coordinates = model.layout().ok()?;
+            let problem = document.problem_with(super::ChartEdits::default());
+            let in_plane = problem.in_plane(&coordinates);
+            Outcome::of_saved_map(model.disk()?, problem, in_plane)?;
+            let first_face = model.prepared.chart.as_ref().map(|of| of.charts.first_face(number));
+            Some(CopiedChart { number, first_face, coordinates: Arc::new(coordinates) })
+        });
+        let charts = charts.collect();
+        Ok(Self { reshaped, charts, report })
+    }
+
+    /// Number of charts that are not planar in the layout.
+    pub(super) fn missing(&self) -> usize {
+        self.reshaped.now().chart_count().max(1) - self.charts.len()
+    }
+}
