@@ -88,9 +88,10 @@ fn kind_of(failure: &CommandError) -> &'static str {
         CommandError::Constraints(_) => "constraints",
         CommandError::Edges(_) => "edges",
         CommandError::Picture(_) => "picture",
-        CommandError::Texture { .. } | CommandError::LayoutToPack { .. } => "texture-coordinates",
         CommandError::Transfer { error: TransferError::NoFaces, .. } => "no-faces",
-        CommandError::Transfer { .. } => "texture-coordinates",
+        CommandError::Texture { .. } | CommandError::LayoutToPack { .. } | CommandError::Transfer { .. } => {
+            "texture-coordinates"
+        }
         CommandError::NotADisk { .. } => "not-a-disk",
         CommandError::Solve(error) | CommandError::Method { error, .. } => error.name(),
         CommandError::NoMorph { .. } => "no-morph",

@@ -115,7 +115,7 @@ impl Session {
             _ if is_apart => note.with_remedy("move and scale both meshes to one place and size"),
             0 => note,
             1 => note.with_remedy("1 chart would fold and was flattened anew"),
-            _ => note.with_remedy(&format!("{missing} charts would fold and were flattened anew")),
+            _ => note.with_remedy(format!("{missing} charts would fold and were flattened anew")),
         });
     }
 }

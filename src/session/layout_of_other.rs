@@ -1,6 +1,6 @@
 //! Layout of another mesh file, copied to the open mesh: the mesh cut along its seams, and the charts in it.
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::sync::Arc;
 
 use super::reshaping::Reshaped;
@@ -44,7 +44,7 @@ pub(super) enum LayoutOfOtherError {
 impl LayoutOfOther {
     /// Copies the layout of a file to a mesh of a document, which may be faulty: it is repaired.
     pub(super) fn read(
-        path: &PathBuf,
+        path: &Path,
         before: Arc<Model>,
         document: &Document,
         control: Control<'_>,

@@ -157,13 +157,15 @@ impl Drawing<'_> {
     fn triangles_of_bands(&self) -> Vec<Vec<u32>> {
         let mut bands = vec![Vec::new(); self.height.div_ceil(ROWS)];
         for triangle in self.triangles() {
-            let bounds = Bounds::of(self.in_picture(triangle).into_iter());
+            let bounds = Bounds::of(self.in_picture(triangle));
             if !(bounds.low.is_finite() && bounds.high.is_finite()) || bounds.high.y < 0.0 {
                 continue;
             }
             let [first, last] = [bounds.low.y, bounds.high.y].map(|y| y.max(0.0) as usize / ROWS);
             if let Some(bands) = bands.get_mut(first..=last.min(self.height.div_ceil(ROWS).saturating_sub(1))) {
-                bands.iter_mut().for_each(|band| band.push(triangle));
+                for band in bands {
+                    band.push(triangle);
+                }
             }
         }
         bands
@@ -205,7 +207,7 @@ impl Drawing<'_> {
         rows: std::ops::Range<usize>,
     ) -> impl Iterator<Item = (Sample, [f64; 3])> + use<'_> {
         let corners @ [a, b, c] = self.in_picture(triangle);
-        let bounds = Bounds::of(corners.into_iter());
+        let bounds = Bounds::of(corners);
         let scale = SAMPLES as f64;
         // Samples lie at the centres of the cells of a grid.
         let from = |low: f64, least: usize| ((low * scale - 0.5).ceil().max(0.0) as usize).max(least);

@@ -44,7 +44,7 @@ pub enum TransferError {
     Cancelled,
 }
 
-impl<'a> TransferredFile<'a> {
+impl TransferredFile<'_> {
     /// Copies the layout of a file onto a mesh. The report has no name of the mesh.
     ///
     /// If both files have equal faces, coordinates are copied corner by corner. Otherwise nearest points are used.
@@ -70,7 +70,7 @@ impl<'a> TransferredFile<'a> {
         let verify = start.elapsed().as_secs_f64();
         let seconds = Seconds { verify, ..Seconds::default() };
         let (layout, transfer, precision) = (Some(verdict), Some(transfer), Some(precision));
-        let report = Report { layout, transfer, precision, seconds, ..Report::of_mesh(described) };
+        let report = Report { precision, layout, transfer, seconds, ..Report::of_mesh(described) };
         Ok(Self { mesh, source_path: None, materials: Materials::default(), report })
     }
 

@@ -117,9 +117,6 @@ impl FileDialogKind {
             Self::PanePicture(Pane::Plane) => {
                 ("Export a picture of the pane", "PNG picture", &["png"], "-embedding.png")
             }
-            Self::Comparison(ComparisonExport::Picture) => {
-                ("Export a picture of the comparison", "PNG picture", &["png"], "-comparison.png")
-            }
             Self::Curves(CurvesExport::Table) => ("Export the curves as a table", "CSV table", &["csv"], "-curves.csv"),
             Self::Curves(CurvesExport::Svg) => {
                 ("Export a drawing of the curves", "SVG drawing", &["svg"], "-curves.svg")
@@ -127,25 +124,33 @@ impl FileDialogKind {
             Self::Curves(CurvesExport::Pdf) => {
                 ("Export a document of the curves", "PDF document", &["pdf"], "-curves.pdf")
             }
-            Self::Comparison(ComparisonExport::Drawing) => {
-                ("Export a drawing of the comparison", "SVG drawing", &["svg"], "-comparison.svg")
-            }
-            Self::Comparison(ComparisonExport::Document) => {
-                ("Export a document of the comparison", "PDF document", &["pdf"], "-comparison.pdf")
-            }
+            Self::Comparison(export) => return Self::form_of_comparison(export),
             Self::LinearSystem => {
                 ("Export the linear system of the step", "Matrix Market file", &["mtx"], "-matrix.mtx")
             }
             Self::StepPictures => {
                 ("Export pictures of all steps", "PNG, SVG or PDF files", &["png", "svg", "pdf"], "-step.png")
             }
-            Self::Comparison(ComparisonExport::Table) => {
-                ("Export the table of the comparison", "CSV table", &["csv"], "-comparison.csv")
+        };
+        DialogForm { title, files, extensions, ending }
+    }
+
+    fn form_of_comparison(export: ComparisonExport) -> DialogForm {
+        let (title, files, extensions, ending): (_, _, &[&str], _) = match export {
+            ComparisonExport::Picture => {
+                ("Export a picture of the comparison", "PNG picture", &["png"], "-comparison.png")
             }
-            Self::Comparison(ComparisonExport::Steps) => {
+            ComparisonExport::Drawing => {
+                ("Export a drawing of the comparison", "SVG drawing", &["svg"], "-comparison.svg")
+            }
+            ComparisonExport::Document => {
+                ("Export a document of the comparison", "PDF document", &["pdf"], "-comparison.pdf")
+            }
+            ComparisonExport::Table => ("Export the table of the comparison", "CSV table", &["csv"], "-comparison.csv"),
+            ComparisonExport::Steps => {
                 ("Export the steps of the comparison", "CSV table", &["csv"], "-comparison-steps.csv")
             }
-            Self::Comparison(ComparisonExport::Morph) => {
+            ComparisonExport::Morph => {
                 ("Export the morph as an animated picture", "Animated PNG", &["png", "apng"], "-morph.png")
             }
         };

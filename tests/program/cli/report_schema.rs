@@ -154,10 +154,7 @@ pub(crate) const TENT: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0.3
 
 /// Input files with various faults.
 const FILES: [(&str, &str); 20] = [
-    (
-        "laid.obj",
-        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n",
-    ),
+    ("laid.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n"),
     (
         "twin-charts.obj",
         "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 5 0 0\nv 7 0 0\nv 5 1 0\nvt 0 0\nvt 1 0\nvt 0 0.5\n\

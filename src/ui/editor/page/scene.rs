@@ -164,7 +164,7 @@ impl PageScene {
 
     /// Charts with a point of their outlines at a place that counts. `is_inside` decides about places.
     pub(in crate::ui) fn charts_within(&self, is_inside: impl Fn(DVec2) -> bool) -> Vec<usize> {
-        let is_within = |&chart: &usize| self.outlines_of(chart).flatten().any(|at| is_inside(at));
+        let is_within = |&chart: &usize| self.outlines_of(chart).flatten().any(&is_inside);
         (0..self.spans.len()).filter(is_within).collect()
     }
 

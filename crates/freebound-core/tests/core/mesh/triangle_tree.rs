@@ -14,8 +14,8 @@ fn soup(count: usize, random: &mut Random) -> Vec<[DVec3; 3]> {
         let corner = point(random);
         let mut near = || corner + 0.2 * (point(random) - 0.5);
         match number {
-            _ if number % 11 == 0 => [corner; 3],
-            _ if number % 7 == 0 => {
+            _ if number.is_multiple_of(11) => [corner; 3],
+            _ if number.is_multiple_of(7) => {
                 let end = near();
                 [corner, end, corner.midpoint(end)]
             }
@@ -55,7 +55,7 @@ fn the_tree_finds_what_a_search_through_all_triangles_finds() {
         let query = 2.0 * point(&mut random) - 0.5;
         let limit = 0.3 * random.unit();
         for accepted in [1, 3] {
-            let accept = |number: u32| number % accepted == 0;
+            let accept = |number: u32| number.is_multiple_of(accepted);
             let all = (0..500).filter(|&number| accept(number));
             let all = all.map(|number| nearest_point(query, corners(number), number));
             let within = all.filter(|found| found.distance_squared <= limit);

@@ -193,11 +193,11 @@ fn an_inside_out_mesh_takes_the_nearest_side_not_the_far_one() {
 
 #[test]
 fn a_layout_without_triangles_and_a_cancelled_copy_are_refused() {
-    let empty = Layout::by_positions(TriMesh::default(), |p| p.truncate());
+    let empty = Layout::by_positions(TriMesh::default(), DVec3::truncate);
     let mesh = PolygonMesh::from(&grid(2, 2));
     let refused = copy_layout(empty.surface(), &mesh, Control::unattended());
     assert_eq!(refused, Err(CopyLayoutError::NoTriangles));
-    let layout = Layout::by_positions(grid(3, 3), |p| p.truncate());
+    let layout = Layout::by_positions(grid(3, 3), DVec3::truncate);
     let cancel = AtomicBool::new(true);
     let refused = copy_layout(layout.surface(), &mesh, Control::new(&cancel, &|_| {}));
     assert_eq!(refused, Err(CopyLayoutError::Cancelled));
