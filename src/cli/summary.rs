@@ -22,9 +22,6 @@ use freebound_io::{
 /// Symmetric Dirichlet energy above which a map is badly distorted: twice that of an isometric map.
 const BAD_ENERGY: f64 = 8.0;
 
-/// Distance of two surfaces from which they lie apart, relative to the diagonal of their box.
-const FAR_APART: f64 = 0.05;
-
 /// Maximum number of vertices, conflicts or charts that are listed. The others are only counted.
 const NAMED: usize = 10;
 
@@ -271,7 +268,7 @@ pub(super) fn transfer_summary(report: &Report) -> String {
             )
         }
     }));
-    lines.extend(apart_words(report));
+    lines.extend(report.transfer.filter(TransferReport::is_apart).map(|_| APART.to_owned()));
     lines.extend(report.layout.as_ref().map(|layout| format!("layout: {}", layout.summary())));
     lines.extend(report.layout.iter().flat_map(|layout| layout.findings.iter().map(finding_words)));
     lines.extend(not_kept_words(report));
@@ -281,13 +278,7 @@ pub(super) fn transfer_summary(report: &Report) -> String {
 }
 
 /// Warning about meshes that lie apart.
-fn apart_words(report: &Report) -> Option<String> {
-    let (mean, diagonal) = match report.transfer? {
-        TransferReport::NearestPoints { mean_distance, diagonal, .. } => (mean_distance, diagonal),
-        TransferReport::Corners => return None,
-    };
-    (mean > FAR_APART * diagonal).then(|| "the meshes lie apart: move and scale them to one place and size".to_owned())
-}
+const APART: &str = "the meshes lie apart: move and scale them to one place and size";
 
 /// Line of a finding, which begins with its severity and code.
 pub(super) fn finding_words(finding: &Finding) -> String {
@@ -306,9 +297,7 @@ pub(super) fn bake_summary(report: &Report, picture: &Path, [width, height]: [u3
     lines.extend(file_words(&report.mesh));
     let percent = 100.0 * largest_distance / diagonal;
     lines.push(format!("bake: the surfaces are {percent:.2} % of the size apart at most"));
-    if largest_distance > FAR_APART * diagonal {
-        lines.push("the meshes lie apart: move and scale them to one place and size".to_owned());
-    }
+    lines.extend(report.baked.filter(BakeReport::is_apart).map(|_| APART.to_owned()));
     lines.extend((outside > 0).then(|| {
         let faces = counted(outside, "triangle lies", "triangles lie");
         format!("{faces} outside the picture, at least in part: pack the new layout first")

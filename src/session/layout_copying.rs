@@ -1,5 +1,6 @@
 //! Copy of the layout of another mesh, as one edit: its seams, and its charts in their shapes at their places.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -7,15 +8,13 @@ use super::background_jobs::BackgroundJob;
 use super::chart_layout::ChartPlace;
 use super::layout_of_other::{CopiedChart, LayoutOfOther, LayoutOfOtherError};
 use super::{ChartEdits, Command, Message, MessagePlace, Session, Shape};
+use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{ShapedMap, Target};
-use freebound_core::problem::{Control, Embedding, PinKind, Settings, Start};
+use freebound_core::problem::{Control, PinKind, Settings, Start};
 use freebound_io::{TransferError, TransferReport};
 
 /// Name of the job that copies the layout of another mesh.
 const COPYING: &str = "copying the layout";
-
-/// Mean distance of two surfaces from which they lie apart, relative to the diagonal of their box.
-const FAR_APART: f64 = 0.05;
 
 impl Session {
     /// Copies the layout of another mesh file in the background.
@@ -66,7 +65,7 @@ impl Session {
     /// Edits that cut the mesh along the seams of a layout, and lay its charts as the layout does.
     fn edits_to_take(&self, copied: &LayoutOfOther) -> Vec<Command> {
         let shape = copied.reshaped.shape(&self.document);
-        let mut shape = Shape { shown: ChartEdits::default(), elsewhere: std::collections::BTreeMap::new(), ..shape };
+        let mut shape = Shape { shown: ChartEdits::default(), elsewhere: BTreeMap::new(), ..shape };
         let here = copied.reshaped.now().prepared.chart.as_ref().map_or(0, |of| of.number);
         let mut layout = self.document.layout.without_places();
         layout.stacked.clear();
@@ -89,16 +88,12 @@ impl Session {
     /// Edits of a chart that has its shape in the layout. A single chart has no place on a page, so two pins hold it.
     fn edits_of_copied(&self, chart: &CopiedChart) -> ChartEdits {
         let in_plane = self.document.problem_with(ChartEdits::default()).in_plane(&chart.coordinates);
-        let mut edits = ChartEdits::default();
-        if chart.first_face.is_none() {
-            let frame = self.document.frame();
-            let held = farthest(&in_plane).map(|vertex| {
-                let target = Target { uv: frame.uv_from_plane(in_plane[vertex]), kind: PinKind::Hard };
-                (freebound_core::mesh::VertexId::from_index(vertex), target)
-            });
-            edits.targets.extend(held);
-        }
-        ChartEdits { shaped: Some(ShapedMap(Arc::new(in_plane))), ..edits }
+        let frame = self.document.frame();
+        let held = chart.held.iter().flatten();
+        let target =
+            |&vertex: &VertexId| (vertex, Target { uv: frame.uv_from_plane(in_plane[vertex]), kind: PinKind::Hard });
+        let targets = held.map(target).collect();
+        ChartEdits { targets, shaped: Some(ShapedMap(Arc::new(in_plane))), ..ChartEdits::default() }
     }
 
     fn tell_copied(&mut self, missing: usize, report: TransferReport) {
@@ -109,26 +104,11 @@ impl Session {
             }
         };
         let note = Message::note(MessagePlace::Embedding, by);
-        let is_apart = matches!(report, TransferReport::NearestPoints { mean_distance, diagonal, .. }
-            if mean_distance > FAR_APART * diagonal);
         self.messages.say(match missing {
-            _ if is_apart => note.with_remedy("move and scale both meshes to one place and size"),
+            _ if report.is_apart() => note.with_remedy("move and scale both meshes to one place and size"),
             0 => note,
             1 => note.with_remedy("1 chart would fold and was flattened anew"),
             _ => note.with_remedy(format!("{missing} charts would fold and were flattened anew")),
         });
     }
-}
-
-/// Two vertices far from each other in the plane.
-fn farthest(embedding: &Embedding) -> [usize; 2] {
-    let from = |from: usize| {
-        let far = |&a: &usize, &b: &usize| {
-            let [a, b] = [a, b].map(|vertex| embedding[vertex].distance_squared(embedding[from]));
-            a.total_cmp(&b)
-        };
-        (0..embedding.len()).max_by(far).unwrap_or(from)
-    };
-    let first = from(0);
-    [first, from(first)]
 }

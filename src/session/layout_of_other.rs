@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::reshaping::Reshaped;
 use super::{Document, Model};
-use freebound_core::mesh::{FaceId, Preparation, Seams};
+use freebound_core::mesh::{FaceId, Preparation, Seams, VertexId};
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::{Control, Embedding};
 use freebound_io::{ReadError, ReadOptions, TransferError, TransferReport, copied_texture};
@@ -28,6 +28,8 @@ pub(super) struct CopiedChart {
     pub(super) first_face: Option<FaceId>,
     /// Texture coordinates of its vertices, v up.
     pub(super) coordinates: Arc<Embedding>,
+    /// Two vertices far from each other, if the mesh is a single chart.
+    pub(super) held: Option<[VertexId; 2]>,
 }
 
 /// Reason why a layout was not copied.
@@ -60,9 +62,11 @@ impl LayoutOfOther {
             let coordinates = model.layout().ok()?;
             let problem = document.problem_with(super::ChartEdits::default());
             let in_plane = problem.in_plane(&coordinates);
+            let boundary = model.disk()?.boundary_loop().to_vec();
             Outcome::of_saved_map(model.disk()?, problem, in_plane)?;
             let first_face = model.prepared.chart.as_ref().map(|of| of.charts.first_face(number));
-            Some(CopiedChart { number, first_face, coordinates: Arc::new(coordinates) })
+            let held = if first_face.is_none() { farthest(&boundary, &coordinates) } else { None };
+            Some(CopiedChart { number, first_face, coordinates: Arc::new(coordinates), held })
         });
         let charts = charts.collect();
         Ok(Self { reshaped, charts, report })
@@ -72,4 +76,14 @@ impl LayoutOfOther {
     pub(super) fn missing(&self) -> usize {
         self.reshaped.now().chart_count().max(1) - self.charts.len()
     }
+}
+
+/// Two of these vertices that lie far from each other.
+fn farthest(vertices: &[VertexId], embedding: &Embedding) -> Option<[VertexId; 2]> {
+    let from = |from: VertexId| {
+        let away = |vertex: &VertexId| embedding[vertex].distance_squared(embedding[from]);
+        vertices.iter().copied().max_by(|a, b| away(a).total_cmp(&away(b)))
+    };
+    let first = from(*vertices.first()?)?;
+    Some([first, from(first)?])
 }

@@ -397,6 +397,23 @@ fn a_cutting_pattern_is_exported_with_the_options_of_its_window() {
 }
 
 #[test]
+fn the_layout_of_another_mesh_is_copied_through_the_menu_and_undone() {
+    let mut window = window();
+    ask_where_to_save(&mut window);
+    window.click("Export");
+    window.settle();
+    let before = window.editor().session.document().clone();
+    window.menu(&["Edit", "Seams", "Copy the layout of another mesh…"]);
+    window.click("sheet-flat.obj");
+    window.click("Copy");
+    window.settle();
+    assert!(window.editor().session.document().shaped.is_some());
+    assert_eq!(window.editor().session.document().targets.len(), 2, "two pins hold the only chart");
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(*window.editor().session.document(), before);
+}
+
+#[test]
 fn the_picture_of_the_files_layout_is_drawn_for_the_layout_on_the_screen() {
     let folder = tempfile::tempdir().expect("a folder");
     // A square whose own layout shows the left half of the picture.

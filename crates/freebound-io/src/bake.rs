@@ -14,6 +14,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::report::FAR_APART;
 use freebound_core::geom::{Bounds, Picture, double_area};
 use freebound_core::mesh::{FaceId, point_at};
 use freebound_core::pipeline::{LayoutSurface, SurfaceSearch};
@@ -68,6 +69,13 @@ pub struct BakeReport {
     pub largest_distance: f64,
     /// Diagonal of the box around the old surface, mesh units.
     pub diagonal: f64,
+}
+
+impl BakeReport {
+    /// True if some point of the new surface is farther from the old one than 5 % of the diagonal.
+    pub fn is_apart(&self) -> bool {
+        self.largest_distance > FAR_APART * self.diagonal
+    }
 }
 
 /// Draws the picture of an old layout for a new layout of the surface, by nearest points.

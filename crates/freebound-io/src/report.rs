@@ -17,6 +17,9 @@ use freebound_core::verify::{AtlasVerdict, DistortionSummary, LayoutVerdict, Ver
 /// changes its meaning, not if a field is added.
 pub const REPORT_SCHEMA: u32 = 2;
 
+/// Distance of two surfaces from which they lie apart, relative to the diagonal of their box.
+pub(crate) const FAR_APART: f64 = 0.05;
+
 /// Report of a run. Field names are part of the interface.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Report {
@@ -161,6 +164,16 @@ pub enum TransferReport {
         /// Diagonal of the box around the surface of the layout, mesh units.
         diagonal: f64,
     },
+}
+
+impl TransferReport {
+    /// True if the two surfaces lie apart, on average by more than 5 % of the diagonal: in other places or sizes.
+    pub fn is_apart(&self) -> bool {
+        match *self {
+            Self::Corners => false,
+            Self::NearestPoints { mean_distance, diagonal, .. } => mean_distance > FAR_APART * diagonal,
+        }
+    }
 }
 
 /// Writes a report as indented JSON.

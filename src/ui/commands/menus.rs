@@ -71,7 +71,6 @@ fn file_menu(menu: &mut MenuBuilder<'_>) {
     let has_disk = editor.has_disk();
     menu.item(when(has_disk, NO_DISK), "Open picture…", Request::Ask(FileDialogKind::OpenPicture));
     menu.item(when(editor.has_picture(), "There is no picture"), "Remove picture", Action::RemovePicture);
-    menu.explained(when(has_model, NO_MESH), COPY_LAYOUT, Request::Ask(FileDialogKind::CopyLayout));
     menu.explained(when(has_model, NO_MESH), COLOUR_BY_COLUMN, Request::Ask(FileDialogKind::OpenTable));
     menu.item(when(has_disk, NO_DISK), "Import constraints…", Request::Ask(FileDialogKind::ImportConstraints));
     let has_pins = !editor.session.document().targets.is_empty();
@@ -122,6 +121,7 @@ fn edit_menu(menu: &mut MenuBuilder<'_>) {
         menu.item(when(has_model, NO_MESH), "Cut along borders of groups", Request::CutByRule(SeamRule::Groups));
         menu.separator();
         let has_seams = !session.seams().edges().is_empty();
+        menu.explained(when(has_model, NO_MESH), COPY_LAYOUT, Request::Ask(FileDialogKind::CopyLayout));
         menu.item(when(has_model, NO_MESH), "Import seams…", Request::Ask(FileDialogKind::ImportSeams));
         let can_export = has_seams || !session.seams().automatic().is_empty();
         menu.item(when(can_export, NO_SEAMS), "Export seams…", Request::Ask(FileDialogKind::ExportSeams));

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use freebound::examples::Example;
-use freebound::session::{Action, Document, SaveRequest, Session};
+use freebound::session::{Action, BakeRequest, Document, SaveRequest, Session};
 use freebound_core::geom::VAxis;
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Fit, Target};
 use freebound_core::problem::{Family, Method, NamedOption as _, PinKind, Settings, Treatment};
-use freebound_io::{OutputKind, ProjectFile};
+use freebound_io::{BakeOptions, OutputKind, ProjectFile};
 use glam::DVec2;
 use tempfile::TempDir;
 
@@ -47,6 +47,8 @@ impl Fuzz {
         let mut session = session();
         session.keep_copies_in(at("recovery"));
         settled(&mut session, Action::Open(at("dome.obj")));
+        // A layout for meshes of any size.
+        settled(&mut session, Action::Save(SaveRequest { path: at("uv.obj"), kind: OutputKind::Obj, fit: Fit::Unit }));
         Self { session, random: Random(seed), folder, saves: 0, drags: 0 }
     }
 
@@ -126,7 +128,7 @@ impl Fuzz {
     }
 
     fn seldom(&mut self) -> Action {
-        match self.random.below(26) {
+        match self.random.below(28) {
             0 => Action::Fix(vec![self.vertex(), self.vertex()]),
             1 | 2 => Action::SetSettings(self.settings()),
             3 => Action::SlideSettings(self.settings()),
@@ -149,6 +151,11 @@ impl Fuzz {
             22 => Action::Dismiss(u64::from(self.random.below(50))),
             23 => Action::Solve,
             24 => Action::Recover(self.at("a.freebound")),
+            25 => Action::CopyLayout(self.one_of(&["uv.obj", "dome.obj", "missing.obj"])),
+            26 => {
+                let options = BakeOptions { pixels: [16, 16], margin: 2 };
+                Action::SaveBaked(BakeRequest { path: self.one_of(&["out.png", "missing/out.png"]), options })
+            }
             _ if self.random.below(12) == 0 => Action::OpenExample(Example::Ell),
             _ => Action::UnpinAll,
         }
