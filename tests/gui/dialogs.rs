@@ -9,10 +9,11 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::app::LaunchFile;
 use freebound::examples::Example;
-use freebound::session::{Action, Severity};
+use freebound::session::{Action, SaveRequest, Severity};
 use freebound_core::geom::Picture;
 use freebound_core::mesh::VertexId;
-use freebound_io::{LengthUnit, PatternPaper, PictureFile, read_mesh};
+use freebound_core::pipeline::Fit;
+use freebound_io::{LengthUnit, OutputKind, PatternPaper, PictureFile, read_mesh};
 
 use crate::harness::{SIZE, Window, sheet, write_obj};
 use crate::pictures::open_picture;
@@ -399,12 +400,12 @@ fn a_cutting_pattern_is_exported_with_the_options_of_its_window() {
 #[test]
 fn the_layout_of_another_mesh_is_copied_through_the_menu_and_undone() {
     let mut window = window();
-    ask_where_to_save(&mut window);
-    window.click("Export");
+    let request = SaveRequest { path: window.path("uv.obj"), kind: OutputKind::Obj, fit: Fit::Unit };
+    window.editor_mut().session.handle(Action::Save(request));
     window.settle();
     let before = window.editor().session.document().clone();
     window.menu(&["Edit", "Seams", "Copy the layout of another mesh…"]);
-    window.click("sheet-flat.obj");
+    window.click("uv.obj");
     window.click("Copy");
     window.settle();
     assert!(window.editor().session.document().shaped.is_some());
