@@ -14,7 +14,6 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::report::FAR_APART;
 use freebound_core::geom::{Bounds, Picture, double_area};
 use freebound_core::mesh::{FaceId, point_at};
 use freebound_core::pipeline::{LayoutSurface, SurfaceSearch};
@@ -25,6 +24,9 @@ const SAMPLES: usize = 2;
 
 /// Rows of pixels that one task draws.
 const ROWS: usize = 16;
+
+/// Distance of two surfaces from which they lie apart, relative to the diagonal of their box.
+pub(crate) const FAR_APART: f64 = 0.05;
 
 /// Size and margin of a baked picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

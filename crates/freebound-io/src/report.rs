@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
+use super::bake::FAR_APART;
 use super::file_data::FileData;
 use super::{BakeReport, MeshFile, Precision, ReadWarning, RoundingReport, StepReport, peak_memory_bytes};
 use freebound_core::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
@@ -16,9 +17,6 @@ use freebound_core::verify::{AtlasVerdict, DistortionSummary, LayoutVerdict, Ver
 /// Version of the report format, which `docs/report.schema.json` describes. Incremented if a field is removed or
 /// changes its meaning, not if a field is added.
 pub const REPORT_SCHEMA: u32 = 2;
-
-/// Distance of two surfaces from which they lie apart, relative to the diagonal of their box.
-pub(crate) const FAR_APART: f64 = 0.05;
 
 /// Report of a run. Field names are part of the interface.
 #[derive(Clone, Debug, Default, Serialize)]
