@@ -124,6 +124,10 @@ pub(super) fn run_bake(arguments: &BakeArguments) -> Result<CommandOutcome, Comm
         let text = "standard output: a picture cannot be written there: name a file with -o";
         return Err(CommandError::Usage(text.to_owned()));
     }
+    if !arguments.output.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")) {
+        let text = format!("{}: the picture is written as PNG: end the name in .png", arguments.output.display());
+        return Err(CommandError::Usage(text));
+    }
     let places = OutputPaths::of_bake(arguments);
     places.keep_apart()?;
     places.spare(&arguments.old, "the old mesh")?;

@@ -40,7 +40,12 @@ impl Session {
             Err(LayoutOfOtherError::Transfer(TransferError::Cancelled)) => return,
             Err(error) => {
                 let message = Message::error(MessagePlace::Mesh, error.to_string()).of_file(Some(path));
-                self.messages.say(message.with_remedy("choose a mesh with texture coordinates"));
+                let remedy = match error {
+                    LayoutOfOtherError::Read(_) => "choose another mesh file",
+                    LayoutOfOtherError::Transfer(TransferError::NoFaces) => "open a mesh with faces",
+                    LayoutOfOtherError::Transfer(_) => "choose a mesh with texture coordinates",
+                };
+                self.messages.say(message.with_remedy(remedy));
                 return;
             }
         };
@@ -68,7 +73,9 @@ impl Session {
         let mut shape = Shape { shown: ChartEdits::default(), elsewhere: BTreeMap::new(), ..shape };
         let here = copied.reshaped.now().prepared.chart.as_ref().map_or(0, |of| of.number);
         let mut layout = self.document.layout.without_places();
+        // They name charts by faces, which begin other charts now.
         layout.stacked.clear();
+        layout.sizes.clear();
         for chart in &copied.charts {
             let edits = self.edits_of_copied(chart);
             if chart.number == here {
@@ -107,8 +114,8 @@ impl Session {
         self.messages.say(match missing {
             _ if report.is_apart() => note.with_remedy("move and scale both meshes to one place and size"),
             0 => note,
-            1 => note.with_remedy("1 chart would fold and was flattened anew"),
-            _ => note.with_remedy(format!("{missing} charts would fold and were flattened anew")),
+            1 => note.with_remedy("1 chart would fold or is mirrored, and was flattened anew"),
+            _ => note.with_remedy(format!("{missing} charts would fold or are mirrored, and were flattened anew")),
         });
     }
 }

@@ -265,7 +265,9 @@ fn with_margin(
         let rows = y.saturating_sub(1)..(y + 2).min(height);
         rows.flat_map(move |row| (x.saturating_sub(1)..(x + 2).min(width)).map(move |column| row * width + column))
     };
-    let mut newest: Vec<usize> = (0..colours.len()).filter(|&pixel| colours[pixel].is_some()).collect();
+    let is_at_edge =
+        |&pixel: &usize| colours[pixel].is_some() && neighbours(pixel).any(|other| colours[other].is_none());
+    let mut newest: Vec<usize> = if margin > 0 { (0..colours.len()).filter(is_at_edge).collect() } else { Vec::new() };
     for _ in 0..margin {
         control.go_on()?;
         let mut next: Vec<usize> =

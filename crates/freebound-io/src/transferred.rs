@@ -11,7 +11,7 @@ use super::{
 };
 use freebound_core::pipeline::{CopyLayoutError, LayoutSurface, copy_layout};
 use freebound_core::problem::Control;
-use freebound_core::verify::{LayoutOptions, LayoutVerdict};
+use freebound_core::verify::{LayoutOptions, LayoutVerdict, RoundingGrid};
 
 /// Layout of one file on the mesh of another.
 #[derive(Debug)]
@@ -170,22 +170,39 @@ fn rounded(
         let verdict = verdict_on(&exact, control)?;
         return Ok((exact, verdict, Precision::F64));
     };
-    let mut rounded = exact.clone();
-    for coordinate in rounded.texture.iter_mut().flat_map(|texture| &mut texture.coordinates) {
-        *coordinate = grid.nearest(*coordinate);
-    }
-    let verdict = LayoutVerdict { planar_in_f32: true, ..verdict_on(&rounded, control)? };
+    let rounded = on_grid(&exact, grid);
+    let verdict = judged(&rounded, control)?;
     if !verdict.planar && kind.has_choice(precision) {
         let of_exact = verdict_on(&exact, control)?;
         if of_exact.planar {
-            return Ok((exact, of_exact, Precision::F64));
+            return Ok((exact, LayoutVerdict { planar_in_f32: false, ..of_exact }, Precision::F64));
         }
     }
     let verdict = LayoutVerdict { planar_in_f32: verdict.planar, ..verdict };
     Ok((rounded, verdict, Precision::F32))
 }
 
-fn verdict_on(mesh: &MeshFile, control: Control<'_>) -> Result<LayoutVerdict, TransferError> {
+/// Mesh with its coordinates rounded to a grid.
+fn on_grid(exact: &MeshFile, grid: RoundingGrid) -> MeshFile {
+    let mut rounded = exact.clone();
+    for coordinate in rounded.texture.iter_mut().flat_map(|texture| &mut texture.coordinates) {
+        *coordinate = grid.nearest(*coordinate);
+    }
+    rounded
+}
+
+/// Verdict on coordinates in 64 bits. Those on a mesh that was read from glTF come from another file: they are not yet
+/// rounded, as those of glTF are.
+fn verdict_on(exact: &MeshFile, control: Control<'_>) -> Result<LayoutVerdict, TransferError> {
+    let verdict = judged(exact, control)?;
+    if !(exact.is_turned_over() && verdict.planar) {
+        return Ok(verdict);
+    }
+    let rounded = judged(&on_grid(exact, RoundingGrid::Upright), control)?;
+    Ok(LayoutVerdict { planar_in_f32: rounded.planar, ..verdict })
+}
+
+fn judged(mesh: &MeshFile, control: Control<'_>) -> Result<LayoutVerdict, TransferError> {
     match mesh.judged_layout(LayoutOptions::default(), false, control) {
         Ok(judged) => Ok(judged.verdict),
         Err(JudgeError::Texture(error)) => Err(error.into()),

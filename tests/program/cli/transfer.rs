@@ -153,7 +153,9 @@ fn the_picture_of_the_materials_is_the_usual_one_and_its_lack_is_said() {
     let drawn = PictureFile::read(&program.path("new.png")).expect("a picture").pixels;
     assert_eq!([drawn.width, drawn.height], [40, 20]);
     assert!(drawn.pixels.chunks(4).any(|pixel| pixel == [9, 8, 7, 255]));
-    program.run(&["bake", "painted.obj", "plain.obj", "-o", "painted.obj"]).expect(2);
+    for output in ["painted.obj", "skin.png", "new.jpg"] {
+        program.run(&["bake", "painted.obj", "plain.obj", "--picture", "skin.png", "-o", output]).expect(2);
+    }
     program.run(&["bake", "painted.obj", "sheet.obj", "-o", "other.png"]).expect(3);
     assert!(!program.path("other.png").exists());
 }

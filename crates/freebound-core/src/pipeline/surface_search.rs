@@ -8,6 +8,9 @@ use crate::mesh::{FaceId, NearestPoint, TriMesh, TriangleTree, nearest_point};
 /// relative to the diagonal of the surface's box. Keeps the two sides of a thin wall apart.
 const SLACK: f64 = 0.01;
 
+/// Distance beyond a known triangle up to which others are searched, relative to the diagonal. Covers rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// Search for nearest points of a surface.
 #[derive(Clone, Debug)]
 pub struct SurfaceSearch<'a> {
@@ -45,14 +48,17 @@ impl<'a> SurfaceSearch<'a> {
     /// Nearest point of the surface. `None` if the surface has no triangle, or the point is not finite.
     ///
     /// A triangle that faces `direction` is preferred unless it is farther by more than 1 % of the surface's diagonal.
-    /// A zero direction is faced by all triangles. `near` is a triangle likely to be close; it changes the time alone.
+    /// A zero direction is faced by all triangles. `near` is a triangle likely to be close, which saves time.
     pub fn nearest(&self, point: DVec3, direction: DVec3, near: Option<u32>) -> Option<NearestPoint> {
         if !point.is_finite() {
             return None;
         }
-        let limit = near.map_or(f64::INFINITY, |near| nearest_point(point, self.corners(near), near).distance_squared);
+        let near = near.map(|near| nearest_point(point, self.corners(near), near));
+        // Distances to boxes and to triangles round differently, so the limit is a little farther.
+        let limit =
+            near.map_or(f64::INFINITY, |near| (near.distance_squared.sqrt() + ROUNDING * self.diagonal).powi(2));
         let corners = |triangle: u32| self.corners(triangle);
-        let any = self.tree.nearest(point, limit, corners, |_| true)?;
+        let any = self.tree.nearest(point, limit, corners, |_| true).or(near)?;
         let faces = |triangle: u32| self.normals[triangle as usize].dot(direction) >= 0.0;
         if faces(any.triangle) {
             return Some(any);

@@ -147,6 +147,21 @@ fn the_seam_of_a_tube_is_found_again_wherever_the_edges_of_the_new_mesh_run() {
 }
 
 #[test]
+fn every_vertex_beside_a_flat_sheet_gets_a_coordinate_at_any_height() {
+    let at = |mesh: TriMesh, height: f64| {
+        let positions = mesh.positions.iter().map(|p| *p + height * DVec3::Z).collect();
+        TriMesh { positions, ..mesh }
+    };
+    for (height, above) in [(0.1, 0.15), (0.3, 0.301), (10.1, 10.3), (0.7, 0.7)] {
+        let layout = Layout::by_positions(at(flat(9, 7), height), DVec3::truncate);
+        let mesh = PolygonMesh::from(&at(flat(13, 17), above));
+        let copied = copy_layout(layout.surface(), &mesh, Control::unattended()).expect("it can be copied");
+        assert!(copied.corners.iter().all(|corner| (*corner as usize) < copied.coordinates.len()), "{height} {above}");
+        assert!((copied.mean_distance - (above - height)).abs() < 1e-12, "{height} {above}");
+    }
+}
+
+#[test]
 fn charts_of_a_closed_surface_are_copied_to_coarser_and_finer_meshes() {
     let layout = Layout::unwrapped(&ball(40, 26));
     let charts = layout.verdict().charts;
