@@ -79,11 +79,6 @@ impl TransferredFile<'_> {
         self.report.layout.as_ref().is_some_and(|verdict| verdict.planar)
     }
 
-    /// Mesh with its new texture coordinates.
-    pub fn mesh(&self) -> &MeshFile {
-        &self.mesh
-    }
-
     /// Data of the source that a mesh file of this kind does not hold.
     pub fn not_kept_in(&self, kind: OutputKind) -> Vec<FileData> {
         self.mesh.not_kept_in(kind, || self.texture().clone())
