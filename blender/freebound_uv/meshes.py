@@ -102,6 +102,16 @@ class Selection(Faces):
         """Faces for the package."""
         return self.corners, self.starts
 
+    def meshes(self):
+        """Mesh of each part with its corners in the selection: positions, faces for the package, range of corners."""
+        ends = [part.first_vertex for part in self.parts[1:]] + [len(self.vertices)]
+        first_face = first_corner = 0
+        for part, end in zip(self.parts, ends):
+            corners = slice(first_corner, first_corner + len(part.loops))
+            starts = self.starts[first_face : first_face + len(part.faces) + 1] - first_corner
+            yield self.vertices[part.first_vertex : end], (self.corners[corners] - part.first_vertex, starts), corners
+            first_face, first_corner = first_face + len(part.faces), corners.stop
+
 
 def corner_after(starts):
     """Next corner around its face, for each corner."""
@@ -209,14 +219,32 @@ def gather_all(context):
     return _gathered(context, lambda mesh: np.ones(len(mesh.polygons), dtype=bool), "edit a mesh first")
 
 
-def _gathered(context, chosen, missing, *, group="", needs_uv=True, needs_place=False, is_around=False):
+def gather_objects(context, objects, missing, is_in_world, needs_uv=False):
+    """All faces of some objects. ``missing`` is the message if there are none. Positions are those of the meshes, or those
+    in the world."""
+    options = {"needs_uv": needs_uv, "objects": objects, "is_in_world": is_in_world}
+    return _gathered(context, lambda mesh: np.ones(len(mesh.polygons), dtype=bool), missing, **options)
+
+
+def _gathered(
+    context,
+    chosen,
+    missing,
+    *,
+    group="",
+    needs_uv=True,
+    needs_place=False,
+    is_around=False,
+    objects=None,
+    is_in_world=True,
+):
     """Faces of each mesh that ``chosen`` finds, and all others. ``missing`` tells what to do if it finds none."""
-    objects = objects_of(context)
+    objects = objects_of(context) if objects is None else objects
     with object_mode(context):
         positions, firsts, count = [], {}, 0
         for item in objects:
             co = _numbers(item.data.vertices, "co", np.float32, 3).astype(np.float64)
-            matrix = np.array(item.matrix_world, dtype=np.float64)
+            matrix = np.array(item.matrix_world, dtype=np.float64) if is_in_world else np.eye(4)
             positions.append(co @ matrix[:3, :3].T + matrix[:3, 3])
             firsts[item] = count
             count += len(co)

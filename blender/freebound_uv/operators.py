@@ -22,7 +22,7 @@ def picture_size(context):
 
 def is_running():
     """True while a run is under way."""
-    return _Run.running is not None
+    return Run.running is not None
 
 
 def tell(context, text, is_fine):
@@ -31,7 +31,7 @@ def tell(context, text, is_fine):
     context.window_manager.freebound_is_fine = is_fine
 
 
-class _Run:
+class Run:
     """Operator that runs the solver: in the background if a person calls it, to the end if a script does."""
 
     bl_options = {"REGISTER", "UNDO"}
@@ -105,7 +105,7 @@ class _Run:
     def invoke(self, context, event):
         if bpy.app.background or context.window is None:
             return self.execute(context)
-        self._task = _Run.running = self._start(context)
+        self._task = Run.running = self._start(context)
         if self._task is None:
             return {"CANCELLED"}
         self._workspace = context.workspace
@@ -132,12 +132,12 @@ class _Run:
         self._leave(context)
 
     def _leave(self, context):
-        _Run.running = None
+        Run.running = None
         self._workspace.status_text_set(None)
         context.window_manager.event_timer_remove(self._timer)
 
 
-class FREEBOUND_OT_unwrap(_Run, bpy.types.Operator):
+class FREEBOUND_OT_unwrap(Run, bpy.types.Operator):
     """Unwrap the selected faces along seams. Pinned coordinates stay, and no face overlaps another"""
 
     bl_idname = "uv.freebound_unwrap"
@@ -184,7 +184,7 @@ class FREEBOUND_OT_unwrap(_Run, bpy.types.Operator):
         return lambda *given: solving.unwrap(*given, options, marks)
 
 
-class FREEBOUND_OT_relax(_Run, bpy.types.Operator):
+class FREEBOUND_OT_relax(Run, bpy.types.Operator):
     """Lower the distortion of the selected charts. Pinned coordinates stay. Charts move only if they come to overlap"""
 
     bl_idname = "uv.freebound_relax"
@@ -203,7 +203,7 @@ class FREEBOUND_OT_relax(_Run, bpy.types.Operator):
         return lambda *given: solving.relax(*given, rounds)
 
 
-class FREEBOUND_OT_pack(_Run, bpy.types.Operator):
+class FREEBOUND_OT_pack(Run, bpy.types.Operator):
     """Pack the charts of the selected faces. Charts with pins stay, and charts that are partly selected"""
 
     bl_idname = "uv.freebound_pack"

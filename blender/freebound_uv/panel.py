@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import dragging, operators
+from . import copying, dragging, operators
 
 #: Entries of the panel and the menus: operator, icon, and True if it needs the UV editor.
 _ENTRIES = (
@@ -75,17 +75,27 @@ def draw_menu(self, context):
             self.layout.operator(operator.bl_idname, icon=icon)
 
 
-MENUS = ("IMAGE_MT_uvs", "VIEW3D_MT_uv_map")
+def draw_object_menu(self, context):
+    self.layout.separator()
+    self.layout.operator(copying.FREEBOUND_OT_copy_layout.bl_idname, icon="UV_DATA")
+
+
+#: Functions that draw entries, by the name of the menu.
+MENUS = {
+    "IMAGE_MT_uvs": draw_menu,
+    "VIEW3D_MT_uv_map": draw_menu,
+    "VIEW3D_MT_make_links": draw_object_menu,
+}
 
 
 def add_menus():
-    for name in MENUS:
-        getattr(bpy.types, name).append(draw_menu)
+    for name, draw in MENUS.items():
+        getattr(bpy.types, name).append(draw)
 
 
 def remove_menus():
-    for name in MENUS:
-        getattr(bpy.types, name).remove(draw_menu)
+    for name, draw in MENUS.items():
+        getattr(bpy.types, name).remove(draw)
 
 
 CLASSES = (FREEBOUND_PT_panel,)

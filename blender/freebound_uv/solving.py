@@ -14,6 +14,10 @@ from .meshes import as_values, boxes_of, corner_after
 _SIDE = 1024
 
 
+#: Mean distance from which two surfaces lie apart, relative to the diagonal of their box.
+_APART = 0.05
+
+
 @dataclass
 class Sheet:
     """Picture that charts are packed into."""
@@ -167,6 +171,42 @@ def pack(task, selection, sheet, keeps_sizes):
         done.text += f", {len(held)} stayed"
     _tell_overlaps(task, selection, done, packed.planar)
     return done
+
+
+def copy_layout(task, source, selection, names, fit, marks_seams):
+    """Copies the layout of one object to each object of a selection."""
+    done = Done(np.empty_like(selection.uv), "")
+    of_source = (source.vertices, source.faces(), source.uv)
+    planar = 0
+    for name, (vertices, faces, corners) in zip(names, selection.meshes()):
+        copied = task.call(f"Copying to {name}", freebound.transfer, of_source, (vertices, faces), fit=fit)
+        # Blender keeps coordinates in 32 bits.
+        uv = copied.corner_uv.astype(np.float32).astype(np.float64)
+        done.corner_uv[corners] = uv
+        if task.call(f"Checking {name}", freebound.check, vertices, faces, uv)["planar"]:
+            planar += 1
+        else:
+            done.warn(f"The layout of {name} folds or overlaps: relax it")
+        report = copied.report["transfer"]
+        if report["by"] != "corners" and report["mean_distance"] > _APART * report["diagonal"]:
+            done.warn(f"{name} lies apart: use Fit, or move the objects to one place")
+    done.text = "Layout copied to 1 mesh" if len(names) == 1 else f"Layout copied to {len(names)} meshes"
+    done.text += ", no overlaps: proved" if planar == len(names) else ""
+    if marks_seams:
+        done.seams = cut_edges(selection.corners, selection.starts, done.corner_uv)
+    return done
+
+
+def cut_edges(corners, starts, uv):
+    """Edges with two faces whose coordinates differ there, by their vertices."""
+    here, after = np.arange(len(corners)), corner_after(starts)
+    is_turned = corners > corners[after]
+    first, second = np.where(is_turned, after, here), np.where(is_turned, here, after)
+    rows = np.column_stack([corners[first], corners[second], uv[first], uv[second]])
+    rows = rows[np.lexsort((corners[second], corners[first]))]
+    is_same_edge = (rows[1:, :2] == rows[:-1, :2]).all(axis=1)
+    differs = is_same_edge & (rows[1:, 2:] != rows[:-1, 2:]).any(axis=1)
+    return np.unique(rows[1:][differs, :2].astype(np.int64), axis=0)
 
 
 def _proved(selection):

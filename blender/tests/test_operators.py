@@ -422,11 +422,11 @@ def test_a_modal_run_tells_its_progress_and_ends_by_escape():
     first = (np.arange(399)[:, None] * 400 + np.arange(399)).ravel()
     faces = np.column_stack([first, first + 1, first + 401, first + 400])
     reports = []
-    run = operators._Run()
+    run = operators.Run()
     run.report = lambda kind, text: reports.append(text)
     run._workspace, run._timer = Fake(), object()
     job = freebound.start(vertices, faces, unwrap=True, distortion=4.0001)
-    run._task = operators._Run.running = Task(lambda task: task.run("Unwrapping", job))
+    run._task = operators.Run.running = Task(lambda task: task.run("Unwrapping", job))
     context = SimpleNamespace(window_manager=Timers())
     assert run.modal(context, SimpleNamespace(type="TIMER", value="NOTHING")) == {"PASS_THROUGH"}
     assert "Esc cancels" in run._workspace.said[-1]
@@ -438,7 +438,7 @@ def test_a_modal_run_tells_its_progress_and_ends_by_escape():
         assert run.modal(context, SimpleNamespace(type="TIMER", value="NOTHING")) == {"PASS_THROUGH"}
     assert run.modal(context, SimpleNamespace(type="TIMER", value="NOTHING")) == {"CANCELLED"}
     assert reports == ["Cancelled"] and run._workspace.said[-1] is None
-    assert Timers.removed == 1 and operators._Run.running is None
+    assert Timers.removed == 1 and operators.Run.running is None
 
 
 def test_a_picture_that_is_not_square_keeps_the_shapes_of_faces():
@@ -1327,3 +1327,68 @@ def test_the_judges_of_these_tests_see_flips_and_overlaps():
         if loop.vertex_index == 90:
             layer.uv[loop.index].vector.x += 0.3
     assert flips(item) > 0 and overlaps(item) > 0
+
+
+def copy_layout(source, *targets, **options):
+    """Copies the layout of an object to others, in object mode."""
+    in_object_mode()
+    bpy.ops.object.select_all(action="DESELECT")
+    for item in (source, *targets):
+        item.select_set(True)
+    bpy.context.view_layer.objects.active = source
+    return bpy.ops.object.freebound_copy_layout(**options)
+
+
+def ball(segments, rings, at=(0, 0, 0), size=1.0):
+    item = primitive("uv_sphere", segments=segments, ring_count=rings, location=at)
+    item.data.transform(item.matrix_world.Scale(size, 4))
+    return item
+
+
+def test_a_layout_is_copied_to_other_levels_of_detail_with_its_seams():
+    fine = ball(40, 24)
+    edit(fine)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    # Their own coordinates are compared, wherever the objects stand.
+    coarse, rough = ball(24, 14, at=(4, 0, 0)), ball(16, 9, at=(8, 0, 0))
+    coarse.data.uv_layers.remove(coarse.data.uv_layers.active)
+    assert copy_layout(fine, coarse, rough) == {"FINISHED"}
+    for item in (coarse, rough):
+        assert flips(item) == 0 and overlaps(item) == 0
+        in_object_mode()
+        assert any(edge.use_seam for edge in item.data.edges)
+    assert "proved" in bpy.context.window_manager.freebound_verdict
+    assert bpy.context.window_manager.freebound_is_fine
+
+
+def test_a_copy_onto_the_same_faces_keeps_every_coordinate():
+    source = mesh_of(*wavy())
+    edit(source)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    in_object_mode()
+    other = mesh_of(*wavy(), name="other")
+    assert copy_layout(source, other) == {"FINISHED"}
+    assert np.array_equal(uv_of(source), uv_of(other))
+
+
+def test_an_object_that_lies_apart_is_named_and_fitted_on_request():
+    fine = ball(40, 24)
+    edit(fine)
+    assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
+    in_object_mode()
+    small = ball(24, 14, size=0.1)
+    assert copy_layout(fine, small) == {"FINISHED"}
+    assert "lies apart" in bpy.context.window_manager.freebound_verdict
+    assert copy_layout(fine, small, fit=True) == {"FINISHED"}
+    assert bpy.context.window_manager.freebound_is_fine and flips(small) == 0
+
+
+def test_a_copy_needs_a_layout_and_another_object():
+    bare, other = mesh_of(*wavy(), name="bare"), mesh_of(*wavy(), name="other")
+    with pytest.raises(RuntimeError, match="bare has no UV map"):
+        copy_layout(bare, other)
+    assert not other.data.uv_layers
+    bpy.ops.object.select_all(action="DESELECT")
+    bare.select_set(True)
+    bpy.context.view_layer.objects.active = bare
+    assert not bpy.ops.object.freebound_copy_layout.poll()

@@ -18,8 +18,10 @@ from ._mesh import Mesh, read
 from ._pack import Packed, pack
 from ._plot import plot
 from ._run import Drag, Flattener, Job, Pack, equations, flatten, start, unwrap
+from ._transfer import Baked, Transferred, bake, transfer
 
 __all__ = [
+    "Baked",
     "Cancelled",
     "Drag",
     "Error",
@@ -34,8 +36,10 @@ __all__ = [
     "Pack",
     "Packed",
     "Step",
+    "Transferred",
     "Verdict",
     "__version__",
+    "bake",
     "charts",
     "check",
     "equations",
@@ -45,5 +49,6 @@ __all__ = [
     "plot",
     "read",
     "start",
+    "transfer",
     "unwrap",
 ]

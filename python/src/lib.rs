@@ -8,12 +8,14 @@
 //! | `errors`    | errors of the package                                    |
 //! | `job`       | a run on a thread of its own                             |
 //! | `layout`    | finished layouts                                         |
+//! | `copied`    | layouts and pictures of one mesh on another              |
 //! | `packed`    | new places for the charts of a given layout              |
 //! | `flattener` | a method step by step                                    |
 //! | `drag`      | dragged pins                                             |
 //! | `equations` | the matrices of the paper                                |
 
 mod arrays;
+mod copied;
 mod drag;
 mod equations;
 mod errors;
@@ -27,6 +29,8 @@ mod packed;
 /// Native module of the package `freebound`.
 #[pyo3::pymodule]
 mod _freebound {
+    #[pymodule_export]
+    use super::copied::{Baked, Transferred, bake, picture_of, read_picture, transfer};
     #[pymodule_export]
     use super::drag::Drag;
     #[pymodule_export]

@@ -87,7 +87,7 @@ impl Mesh {
 
     /// Path of the file, or None.
     #[getter]
-    fn path(&self) -> Option<&Path> {
+    pub(crate) fn path(&self) -> Option<&Path> {
         self.path.as_deref()
     }
 

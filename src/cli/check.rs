@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<CommandOutcome, CommandE
         };
     let found = verdict.judged_by(&arguments.ignore, &arguments.denied_codes());
     go_on()?;
-    let outcome = if found.passes { CommandOutcome::Fine } else { CommandOutcome::FallsShort };
+    let outcome = CommandOutcome::of(found.passes);
     let mesh = MeshReport { warnings: model.source.warnings.clone(), ..MeshReport::default() };
     let first = format!("{path}: texture coordinates: {}", found.summary());
     let lines = std::iter::once(first).chain(file_words(&mesh)).chain(found.findings.iter().map(finding_words));

@@ -57,6 +57,13 @@ pub enum CommandOutcome {
     Batch(u8),
 }
 
+impl CommandOutcome {
+    /// Outcome of a command whose result has to be planar and to meet its constraints.
+    pub fn of(is_fine: bool) -> Self {
+        if is_fine { Self::Fine } else { Self::FallsShort }
+    }
+}
+
 /// Error of a command that failed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

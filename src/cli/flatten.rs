@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::args::FlattenArguments;
+use super::args::{FlattenArguments, MeshOutputArguments};
 use super::awaited::await_report;
 use super::error::is_standard;
 use super::error::{CommandError, CommandOutcome};
@@ -116,6 +116,25 @@ pub(super) fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), Comm
     Ok(())
 }
 
+/// Rejects meshes that cannot be written as requested: formats without a writer, and a stream with files beside it.
+pub(super) fn refuse_unwritten_mesh(result: &MeshOutputArguments) -> Result<(), CommandError> {
+    refuse_unwritten_formats(result.output.as_deref())?;
+    refuse_files_beside_stream(result.output.as_deref(), [(result.copy_materials, "--copy-materials")])
+}
+
+/// Rejects options that write files beside the mesh if the mesh goes to standard output.
+fn refuse_files_beside_stream(
+    output: Option<&Path>,
+    options: impl IntoIterator<Item = (bool, &'static str)>,
+) -> Result<(), CommandError> {
+    match options.into_iter().find(|(given, _)| *given && output.is_some_and(is_standard)) {
+        Some((_, option)) => Err(CommandError::Usage(format!(
+            "standard output: {option} needs a folder for its files: name a file with -o"
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// Numbers of locked charts.
 fn locked(given: &[usize], model: &Model) -> Result<BTreeSet<usize>, CommandError> {
     let count = model.chart_count();
@@ -173,12 +192,7 @@ fn refuse_clashes(arguments: &FlattenArguments, places: &OutputPaths) -> Result<
         }
     }
     let beside = [(arguments.picture.is_some(), "--picture"), (arguments.copy_materials, "--copy-materials")];
-    match beside.into_iter().find(|(given, _)| *given && arguments.output.as_deref().is_some_and(is_standard)) {
-        Some((_, option)) => Err(CommandError::Usage(format!(
-            "standard output: {option} needs a folder for its files: name a file with -o"
-        ))),
-        None => Ok(()),
-    }
+    refuse_files_beside_stream(arguments.output.as_deref(), beside)
 }
 
 /// Flattens the built-in face and writes mesh, report and picture into the folder `freebound-example`.

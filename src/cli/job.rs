@@ -10,8 +10,7 @@ use super::error::{CommandError, CommandOutcome};
 use super::opened::disk_of;
 use super::pattern::PatternJob;
 use super::progress::{INTERRUPTED, ProgressLine, go_on};
-use super::report_file::put_report;
-use super::summary::{atlas_summary, deliver, ending_words, step_words, summary, warn_of};
+use super::summary::{atlas_summary, deliver_beside, ending_words, step_words, summary, warn_of};
 use freebound_core::pipeline::{Fit, PipelineOptions, Problem};
 use freebound_core::problem::{Control, Phase, SolveError};
 use freebound_core::verify::{Conflict, conflicts};
@@ -163,15 +162,10 @@ impl HeadlessJob<'_> {
         pattern: Option<&str>,
     ) -> Result<CommandOutcome, CommandError> {
         let report = &output.report;
-        if self.outputs.iter().any(|(_, path)| is_standard(path)) {
-            self.report.map_or(Ok(()), |path| put_report(report, path))?;
-        } else {
-            deliver(report, self.report, || {
-                words() + &pattern.map(|words| format!("\npattern: {words}")).unwrap_or_default()
-            })?;
-        }
-        let is_fine = output.is_planar() && report.meets_request();
-        Ok(if is_fine { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
+        let is_streamed = self.outputs.iter().any(|(_, path)| is_standard(path));
+        let words = || words() + &pattern.map(|words| format!("\npattern: {words}")).unwrap_or_default();
+        deliver_beside(is_streamed, report, self.report, words)?;
+        Ok(CommandOutcome::of(output.is_planar() && report.meets_request()))
     }
 }
 

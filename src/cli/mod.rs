@@ -92,8 +92,10 @@ pub fn run(command: &Subcommands, form: ProgressForm) -> ExitCode {
         Subcommands::Unwrap(arguments) => {
             (flatten::unwrap(&arguments.flatten), Some((&arguments.flatten.input.mesh, &arguments.flatten.report)))
         }
-        Subcommands::Pack(arguments) => (pack::run(arguments), Some((&arguments.mesh, &arguments.report))),
-        Subcommands::Transfer(arguments) => (transfer::run(arguments), Some((&arguments.mesh, &arguments.report))),
+        Subcommands::Pack(arguments) => (pack::run(arguments), Some((&arguments.mesh, &arguments.result.report))),
+        Subcommands::Transfer(arguments) => {
+            (transfer::run(arguments), Some((&arguments.mesh, &arguments.result.report)))
+        }
         Subcommands::Bake(arguments) => (transfer::run_bake(arguments), Some((&arguments.new, &arguments.report))),
         Subcommands::Compare(arguments) => (compare::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
         Subcommands::Check(arguments) => (check::run(arguments), Some((&arguments.mesh, &arguments.report))),

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::args::{
-    BakeArguments, CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments, PackArguments,
-    SolveArguments, StartOf, StudyArguments, TransferArguments,
+    BakeArguments, CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments, MeshOutputArguments,
+    PackArguments, SolveArguments, StartOf, StudyArguments, TransferArguments,
 };
 use super::error::CommandError;
 use super::error::is_standard;
@@ -33,46 +33,41 @@ impl OutputPaths {
         let library = library.map(PictureFile::library_beside);
         let asked = [("-o", output), ("--svg", svg), ("--png", png), ("--report", report), ("--picture", &library)];
         let asked = asked.into_iter().chain([("--pattern", &arguments.cutting.pattern)]);
-        let place = |(option, path): (_, &Option<PathBuf>)| Some(OutputPath { option, path: path.clone()? });
-        Self { files: asked.filter_map(place).collect(), steps: arguments.steps.clone() }
+        Self { steps: arguments.steps.clone(), ..Self::of(asked.map(|(option, path)| (option, path.as_deref()))) }
+    }
+
+    /// Files that options request.
+    fn of<'a>(asked: impl IntoIterator<Item = (&'static str, Option<&'a Path>)>) -> Self {
+        let place = |(option, path): (_, Option<&Path>)| Some(OutputPath { option, path: path?.to_owned() });
+        Self { files: asked.into_iter().filter_map(place).collect(), steps: None }
     }
 
     pub(super) fn of_compare(arguments: &CompareArguments) -> Self {
-        let report = arguments.report.as_deref().map(|path| ("--report", path));
-        let outputs = arguments.outputs().into_iter().map(|(_, option, path)| (option, path));
-        let files = outputs.chain(report).map(|(option, path)| OutputPath { option, path: path.to_owned() });
-        Self { files: files.collect(), steps: None }
+        let outputs = arguments.outputs().into_iter().map(|(_, option, path)| (option, Some(path)));
+        Self::of(outputs.chain([("--report", arguments.report.as_deref())]))
     }
 
     pub(super) fn of_pack(arguments: &PackArguments) -> Self {
-        let PackArguments { output, svg, report, .. } = arguments;
-        let asked = [("-o", output), ("--svg", svg), ("--report", report)];
-        let place = |(option, path): (_, &Option<PathBuf>)| Some(OutputPath { option, path: path.clone()? });
-        Self { files: asked.into_iter().filter_map(place).collect(), steps: None }
+        let MeshOutputArguments { output, report, .. } = &arguments.result;
+        let asked = [("-o", output), ("--svg", &arguments.svg), ("--report", report)];
+        Self::of(asked.map(|(option, path)| (option, path.as_deref())))
     }
 
     pub(super) fn of_transfer(arguments: &TransferArguments) -> Self {
-        let asked = [("-o", &arguments.output), ("--report", &arguments.report)];
-        let place = |(option, path): (_, &Option<PathBuf>)| Some(OutputPath { option, path: path.clone()? });
-        Self { files: asked.into_iter().filter_map(place).collect(), steps: None }
+        let MeshOutputArguments { output, report, .. } = &arguments.result;
+        Self::of([("-o", output.as_deref()), ("--report", report.as_deref())])
     }
 
     pub(super) fn of_bake(arguments: &BakeArguments) -> Self {
-        let report = arguments.report.iter().map(|path| ("--report", path));
-        let asked = std::iter::once(("-o", &arguments.output)).chain(report);
-        let place = |(option, path): (_, &PathBuf)| OutputPath { option, path: path.clone() };
-        Self { files: asked.map(place).collect(), steps: None }
+        Self::of([("-o", Some(arguments.output.as_path())), ("--report", arguments.report.as_deref())])
     }
 
     pub(super) fn of_check(arguments: &CheckArguments) -> Self {
-        let files = arguments.report.iter().map(|path| OutputPath { option: "--report", path: path.clone() });
-        Self { files: files.collect(), steps: None }
+        Self::of([("--report", arguments.report.as_deref())])
     }
 
     pub(super) fn of_study(arguments: &StudyArguments) -> Self {
-        let asked = [("--csv", &arguments.csv), ("--svg", &arguments.svg)];
-        let place = |(option, path): (_, &Option<PathBuf>)| Some(OutputPath { option, path: path.clone()? });
-        Self { files: asked.into_iter().filter_map(place).collect(), steps: None }
+        Self::of([("--csv", arguments.csv.as_deref()), ("--svg", arguments.svg.as_deref())])
     }
 
     /// Rejects two outputs with one path.
@@ -111,18 +106,19 @@ impl OutputPaths {
         self.spare_files(option, &copies)
     }
 
-    /// Rejects outputs that clash with copies of the mesh's materials.
+    /// Rejects outputs that would overwrite files named by the mesh's materials, or clash with copies of them.
     ///
     /// # Errors
     ///
-    /// [`CommandError`] if outputs clash with copies, or a file to be copied cannot be read.
-    pub(super) fn spare_copied_materials(
+    /// [`CommandError`] if outputs clash, or a file to be copied cannot be read.
+    pub(super) fn spare_materials_and_copies(
         &self,
-        output: Option<&Path>,
+        result: &MeshOutputArguments,
         source: &MeshFile,
         mesh: &Path,
     ) -> Result<(), CommandError> {
-        let Some(output) = output else { return Ok(()) };
+        self.spare_materials(source, mesh)?;
+        let Some(output) = result.output.as_deref().filter(|_| result.copy_materials) else { return Ok(()) };
         self.spare_files("--copy-materials", &copies_of_materials(source, mesh, output)?)
     }
 

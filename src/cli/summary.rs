@@ -132,6 +132,17 @@ pub(super) fn deliver(report: &Report, to: Option<&Path>, words: impl FnOnce() -
     to.map_or(Ok(()), |path| Ok(put_report(report, path)?))
 }
 
+/// Prints the summary, and writes the report if it is requested. If the result goes to standard output, the
+/// summary is omitted.
+pub(super) fn deliver_beside(
+    is_streamed: bool,
+    report: &Report,
+    to: Option<&Path>,
+    words: impl FnOnce() -> String,
+) -> Result<(), CommandError> {
+    if is_streamed { to.map_or(Ok(()), |path| Ok(put_report(report, path)?)) } else { deliver(report, to, words) }
+}
+
 /// Text for repairs and other treatment of the mesh.
 pub(super) fn mesh_words(mesh: &MeshReport) -> Option<String> {
     let some = |count: usize, one: &str, many: &str| (count > 0).then(|| counted(count, one, many));
@@ -261,7 +272,7 @@ pub(super) fn transfer_summary(report: &Report) -> String {
     lines.extend(file_words(&report.mesh));
     lines.extend(report.transfer.as_ref().map(|transfer| match *transfer {
         TransferReport::Corners => "transfer: the meshes have equal faces: matched corner by corner".to_owned(),
-        TransferReport::NearestPoints { largest_distance, mean_distance, diagonal } => {
+        TransferReport::NearestPoints { largest_distance, mean_distance, diagonal, .. } => {
             let [largest, mean] = [largest_distance, mean_distance].map(|distance| 100.0 * distance / diagonal);
             format!(
                 "transfer: matched by nearest points, {mean:.2} % of the size apart on average, {largest:.2} % at most"
@@ -278,7 +289,7 @@ pub(super) fn transfer_summary(report: &Report) -> String {
 }
 
 /// Warning about meshes that lie apart.
-const APART: &str = "the meshes lie apart: move and scale them to one place and size";
+const APART: &str = "the meshes lie apart: try --fit, or move and scale them to one place and size";
 
 /// Line of a finding, which begins with its severity and code.
 pub(super) fn finding_words(finding: &Finding) -> String {

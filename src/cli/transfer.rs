@@ -6,44 +6,37 @@ use std::time::Instant;
 use super::args::{BakeArguments, TransferArguments};
 use super::awaited::await_report;
 use super::error::{CommandError, CommandOutcome, is_standard, name_of_input};
-use super::flatten::refuse_unwritten_formats;
+use super::flatten::refuse_unwritten_mesh;
 use super::places::OutputPaths;
 use super::progress::{INTERRUPTED, ProgressLine, go_on};
-use super::report_file::put_report;
+use super::say::warn;
 use super::standard::read_typed;
-use super::summary::{bake_summary, deliver, transfer_summary};
+use super::summary::{bake_summary, deliver, deliver_beside, transfer_summary};
 use crate::session::Model;
 use freebound_core::pipeline::LayoutSurface;
 use freebound_core::problem::{Control, SolveError};
 use freebound_io::raster::write_png;
 use freebound_io::{
-    Materials, MeshReport, PaintedSurface, PictureFile, Report, Seconds, TextureMesh, TransferError, TransferredFile,
-    bake, material_picture, write_atomically,
+    MeshReport, PaintedSurface, PictureFile, Report, Seconds, TextureMesh, TransferError, TransferredFile, bake,
+    material_pictures, write_atomically,
 };
 
 pub(super) fn run(arguments: &TransferArguments) -> Result<CommandOutcome, CommandError> {
-    refuse_unwritten_formats(arguments.output.as_deref())?;
+    refuse_unwritten_mesh(&arguments.result)?;
     refuse_two_streams(&arguments.layout, &arguments.mesh)?;
-    if arguments.copy_materials && arguments.output.as_deref().is_some_and(is_standard) {
-        let text = "standard output: --copy-materials needs a folder for its files: name a file with -o";
-        return Err(CommandError::Usage(text.to_owned()));
-    }
     let places = OutputPaths::of_transfer(arguments);
     places.keep_apart()?;
     places.spare(&arguments.layout, "the layout")?;
     places.spare(&arguments.mesh, "the mesh")?;
-    await_report(arguments.report.as_deref());
+    await_report(arguments.result.report.as_deref());
     let progress = ProgressLine::default();
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
-        let layout = read_typed(&arguments.layout, arguments.reading)?;
-        let mesh = read_typed(&arguments.mesh, arguments.reading)?;
+        let layout = read_typed(&arguments.layout, arguments.result.reading)?;
+        let mesh = read_typed(&arguments.mesh, arguments.result.reading)?;
         places.spare_materials(&layout.source, &arguments.layout)?;
-        places.spare_materials(&mesh.source, &arguments.mesh)?;
-        if arguments.copy_materials {
-            places.spare_copied_materials(arguments.output.as_deref(), &mesh.source, &arguments.mesh)?;
-        }
+        places.spare_materials_and_copies(&arguments.result, &mesh.source, &arguments.mesh)?;
         let read = start.elapsed().as_secs_f64();
         go_on()?;
         progress.enter("copying");
@@ -70,12 +63,10 @@ fn transferred<'a>(
     mesh: &'a Model,
 ) -> Result<TransferredFile<'a>, CommandError> {
     let control = Control::new(&INTERRUPTED, &|_| {});
-    let file = TransferredFile::new(&layout.source, &mesh.source, arguments.kind(), arguments.precision, control);
-    let materials = if arguments.copy_materials { Materials::Copied } else { Materials::Stay };
-    match file {
+    match TransferredFile::new(&layout.source, &mesh.source, arguments.options(), control) {
         Ok(mut file) => {
             file.report.mesh.path = mesh.path_words();
-            (file.source_path, file.materials) = (mesh.path.as_deref(), materials);
+            (file.source_path, file.materials) = (mesh.path.as_deref(), arguments.result.materials());
             Ok(file)
         }
         Err(TransferError::Cancelled) => Err(SolveError::Cancelled.into()),
@@ -93,8 +84,8 @@ fn write(
 ) -> Result<(), CommandError> {
     progress.enter("writing");
     let before_writing = Instant::now();
-    if let Some(path) = arguments.output.as_deref() {
-        let kind = arguments.kind();
+    if let Some(path) = arguments.result.output.as_deref() {
+        let kind = arguments.result.kind();
         file.report.not_kept = file.not_kept_in(kind);
         if is_standard(path) {
             file.write_to_standard_output(kind)?;
@@ -109,13 +100,10 @@ fn write(
 
 /// Prints the summary and writes the report.
 fn conclude(arguments: &TransferArguments, file: &TransferredFile<'_>) -> Result<CommandOutcome, CommandError> {
-    let report = arguments.report.as_deref();
-    if arguments.output.as_deref().is_some_and(is_standard) {
-        report.map_or(Ok(()), |path| put_report(&file.report, path))?;
-    } else {
-        deliver(&file.report, report, || transfer_summary(&file.report))?;
-    }
-    Ok(if file.is_planar() { CommandOutcome::Fine } else { CommandOutcome::FallsShort })
+    let is_streamed = arguments.result.output.as_deref().is_some_and(is_standard);
+    let words = || transfer_summary(&file.report);
+    deliver_beside(is_streamed, &file.report, arguments.result.report.as_deref(), words)?;
+    Ok(CommandOutcome::of(file.is_planar()))
 }
 
 pub(super) fn run_bake(arguments: &BakeArguments) -> Result<CommandOutcome, CommandError> {
@@ -171,12 +159,21 @@ pub(super) fn run_bake(arguments: &BakeArguments) -> Result<CommandOutcome, Comm
 
 /// Picture of the old layout: the requested one, or that of the materials.
 fn picture_of(arguments: &BakeArguments, old: &Model) -> Result<PictureFile, CommandError> {
-    let of_materials = || material_picture(&old.source, &arguments.old);
-    let Some(path) = arguments.picture.clone().or_else(of_materials) else {
+    let is_stream = is_standard(&arguments.old);
+    let of_materials = || if is_stream { Vec::new() } else { material_pictures(&old.source, &arguments.old) };
+    let pictures = arguments.picture.clone().map_or_else(of_materials, |picture| vec![picture]);
+    if let [first, others @ ..] = pictures.as_slice()
+        && !others.is_empty()
+    {
+        let name = name_of_input(&arguments.old);
+        let count = pictures.len();
+        warn(format_args!("{name}: its materials show {count} pictures; drawn: {}", first.display()));
+    }
+    let Some(path) = pictures.first() else {
         let text = format!("{}: its materials name no picture: add --picture FILE", name_of_input(&arguments.old));
         return Err(CommandError::Usage(text));
     };
-    Ok(PictureFile::read(&path)?)
+    Ok(PictureFile::read(path)?)
 }
 
 /// Faces of a file that have texture coordinates.

@@ -10,7 +10,7 @@ use freebound_core::mesh::{VertexId, WeldDistance};
 use freebound_core::pipeline::Target;
 use freebound_core::problem::{NamedOption, PinKind};
 use freebound_core::verify::FindingCode;
-use freebound_io::{ConstraintFault, PatternOptions};
+use freebound_io::{BakeOptions, ConstraintFault, PatternOptions};
 
 /// Parser for named options, which lists all names with a description of each.
 pub(super) fn choice<C: NamedOption>() -> impl TypedValueParser<Value = C> {
@@ -47,13 +47,10 @@ pub(super) fn parse_pixels(text: &str) -> Result<UVec2, String> {
     parsed().ok_or_else(|| format!("write WIDTHxHEIGHT, for example 2048x1024, up to {}", PackingOptions::LONGEST_SIDE))
 }
 
-/// Longest side of a picture that is drawn, pixels.
-const LONGEST_DRAWN: u32 = 1 << 14;
-
 /// Parses the size of a picture that is drawn.
 pub(super) fn parse_drawn_pixels(text: &str) -> Result<UVec2, String> {
-    let size = parse_pixels(text).ok().filter(|size| size.max_element() <= LONGEST_DRAWN);
-    size.ok_or_else(|| format!("write WIDTHxHEIGHT, for example 2048x1024, up to {LONGEST_DRAWN}"))
+    let size = parse_pixels(text).ok().filter(|size| size.max_element() <= BakeOptions::LONGEST_SIDE);
+    size.ok_or_else(|| format!("write WIDTHxHEIGHT, for example 2048x1024, up to {}", BakeOptions::LONGEST_SIDE))
 }
 
 /// Parses an aspect ratio "width:height" and returns width over height.

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use super::{BakeRequest, Model, PatternRequest, SaveRequest, Written};
 use freebound_core::pipeline::{Fit, LayoutSurface};
-use freebound_core::problem::Control;
+use freebound_core::problem::{Control, SolveError};
 use freebound_io::raster::write_png;
 use freebound_io::{
-    BakeOptions, BakedPicture, MeshFile, Output, PaintedSurface, Pattern, PatternError, PatternFormat, PatternOptions,
-    TextureError, TexturedMesh, WriteError, bake, write_atomically,
+    BakedPicture, MeshFile, Output, PaintedSurface, Pattern, PatternError, PatternFormat, PatternOptions, TextureError,
+    TexturedMesh, WriteError, bake, write_atomically,
 };
 
 /// Export that the user requested.
@@ -41,8 +41,14 @@ impl Export {
         }
     }
 
-    /// Writes the finished map of a mesh.
-    pub(super) fn write(&self, mut output: Output<'_>, model: &Model) -> Result<Written, WriteError> {
+    /// Writes the finished map of a mesh. Fails by [`WriteError::cancelled`] if the caller cancels in time.
+    pub(super) fn write(
+        &self,
+        mut output: Output<'_>,
+        model: &Model,
+        control: Control<'_>,
+    ) -> Result<Written, WriteError> {
+        control.go_on().map_err(|_| WriteError::cancelled(self.path()))?;
         match self {
             Self::Result(request) => {
                 output.round_to(None, request.kind);
@@ -50,7 +56,7 @@ impl Export {
                 Ok(Written { files, about: Some(output.summary()) })
             }
             Self::Pattern(PatternRequest { path, options }) => write_pattern(&output, model, path, *options),
-            Self::Baked(BakeRequest { path, options }) => write_baked(&output, model, path, *options),
+            Self::Baked(request) => write_baked(&output, model, request, control),
         }
     }
 }
@@ -70,7 +76,12 @@ fn write_pattern(
 }
 
 /// Draws the picture of the file's layout for the finished map.
-fn write_baked(output: &Output<'_>, model: &Model, path: &Path, options: BakeOptions) -> Result<Written, WriteError> {
+fn write_baked(
+    output: &Output<'_>,
+    model: &Model,
+    BakeRequest { path, options }: &BakeRequest,
+    control: Control<'_>,
+) -> Result<Written, WriteError> {
     let fault = |error: TextureError| WriteError::writing(path, std::io::Error::other(error));
     let TexturedMesh { mesh, texture, .. } = output.textured();
     let new = MeshFile { texture: Some(texture), ..mesh.into_owned() };
@@ -79,9 +90,11 @@ fn write_baked(output: &Output<'_>, model: &Model, path: &Path, options: BakeOpt
     let [old, new] = [&old, &new].map(|layout| LayoutSurface { mesh: &layout.mesh, coordinates: &layout.embedding });
     let picture = output.picture.ok_or_else(|| fault(TextureError::None))?;
     let old = PaintedSurface { layout: old, picture: &picture.pixels };
-    let baked = bake(old, new, options, Control::unattended());
-    let BakedPicture { picture, report } =
-        baked.map_err(|error| WriteError::writing(path, std::io::Error::other(error)))?;
+    let baked = bake(old, new, *options, control);
+    let BakedPicture { picture, report } = baked.map_err(|error| match error {
+        SolveError::Cancelled => WriteError::cancelled(path),
+        error => WriteError::writing(path, std::io::Error::other(error)),
+    })?;
     write_atomically(path, |out| write_png(&picture, out))?;
     let mut about = format!("{} × {} pixels, {:.0} % covered", picture.width, picture.height, 100.0 * report.covered);
     if report.outside > 0 {

@@ -1,6 +1,7 @@
 //! Files of the session: files that are open, being read and being written.
 
 use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use super::action::UndoGroup;
@@ -373,7 +374,20 @@ impl Files {
 impl Files {
     /// Writes files that the user requested, in the background.
     pub(super) fn write(&mut self, work: impl FnOnce() -> Result<Written, WriteError> + Send + 'static) {
-        self.outputs.add((), move |_| work());
+        self.write_until(|_| work());
+    }
+
+    /// Writes files that the user requested, in the background. `work` may stop with an error once its flag is set.
+    pub(super) fn write_until(
+        &mut self,
+        work: impl FnOnce(&AtomicBool) -> Result<Written, WriteError> + Send + 'static,
+    ) {
+        self.outputs.add((), work);
+    }
+
+    /// Asks the writing of files that the user requested to stop. Files that are nearly done are still written.
+    pub(super) fn stop_writing(&mut self) {
+        self.outputs.interrupt();
     }
 
     /// Saves the project after the projects requested before.
@@ -387,6 +401,10 @@ impl Files {
         while let Some(((), written)) = self.outputs.poll() {
             match written {
                 Ok(Ok(written)) => messages.note("wrote", written),
+                Ok(Err(error)) if error.is_cancelled() => {
+                    let text = format!("{} was not written: cancelled", error.path.display());
+                    messages.say(Message::note(MessagePlace::Embedding, text));
+                }
                 Ok(Err(error)) => messages.fail(MessagePlace::Embedding, error.to_string(), None),
                 Err(failure) => messages.fail_background(MessagePlace::Embedding, "saving", &failure),
             }

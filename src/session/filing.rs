@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 use super::action::{BakeRequest, UndoGroup};
 use super::exports::Export;
@@ -12,7 +13,8 @@ use super::opened::{Opened, Origin};
 use super::stop::Goal;
 use super::{History, Message, MessagePlace, Model, Session, StopConditions, Written};
 use freebound_core::pipeline::Surface;
-use freebound_io::{EXTENSIONS, ProjectPins, write_atomically, write_constraints, write_durably};
+use freebound_core::problem::Control;
+use freebound_io::{EXTENSIONS, ProjectPins, WriteError, write_atomically, write_constraints, write_durably};
 
 /// Maximum number of faults that are reported separately if all of them can be repaired.
 const FAULTS_TOLD: usize = 2;
@@ -116,10 +118,10 @@ impl Session {
         }
         let records = self.timeline().records()[..=outcome.step.index].to_vec();
         let picture = self.document.picture.clone();
-        self.files.write(move || {
+        self.files.write_until(move |cancel| {
             let mut output = model.finished(&outcome, records, request.fit());
             output.picture = picture.as_deref();
-            request.write(output, &model)
+            request.write(output, &model, Control::new(cancel, &|_| {}))
         });
     }
 
@@ -155,11 +157,11 @@ impl Session {
             }
         };
         let picture = self.document.picture.clone();
-        self.files.write(move || {
+        self.files.write_until(move |cancel| {
             let mut output = solved.output();
             output.picture = picture.as_deref();
             output.svg_fit = request.fit();
-            request.write(output, &model)
+            request.write(output, &model, Control::new(cancel, &|_| {}))
         });
     }
 
@@ -258,8 +260,11 @@ impl Session {
         if paths.is_empty() || paths.iter().any(|path| self.refuses_to_replace(path, None)) {
             return;
         }
-        self.files.write(move || {
+        self.files.write_until(move |cancel| {
             for (place, path) in paths.iter().enumerate() {
+                if cancel.load(Ordering::Relaxed) {
+                    return Err(WriteError::cancelled(path));
+                }
                 write_atomically(path, |out| write(place, out))?;
             }
             Ok(Written { files: paths.into_iter().take(1).collect(), about: Some(about) })

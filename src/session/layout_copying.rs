@@ -54,17 +54,17 @@ impl Session {
             let text = "the layout was not copied: the mesh has changed meanwhile";
             return self.complain(text, Some("copy the layout again"));
         }
-        if copied.charts.is_empty() {
-            let message = Message::error(MessagePlace::Mesh, "no chart of the layout is planar on this mesh");
+        if copied.charts.is_empty() && copied.report.is_apart() {
+            let message = Message::error(MessagePlace::Mesh, "the layout belongs to another surface");
             let message = message.of_file(Some(path));
             self.messages.say(message.with_remedy("choose the layout of a mesh of the same surface"));
             return;
         }
-        let (missing, report) = (copied.missing(), copied.report);
+        let done = copied_words(&copied);
         let edits = self.edits_to_take(&copied);
         self.mesh.take_other(Arc::new(copied.reshaped.into_model()));
         self.edit(edits);
-        self.tell_copied(missing, report);
+        self.messages.say(done);
     }
 
     /// Edits that cut the mesh along the seams of a layout, and lay its charts as the layout does.
@@ -102,20 +102,32 @@ impl Session {
         let targets = held.map(target).collect();
         ChartEdits { targets, shaped: Some(ShapedMap(Arc::new(in_plane))), ..ChartEdits::default() }
     }
+}
 
-    fn tell_copied(&mut self, missing: usize, report: TransferReport) {
-        let by = match report {
-            TransferReport::Corners => "the layout was copied corner by corner".to_owned(),
-            TransferReport::NearestPoints { mean_distance, diagonal, .. } => {
-                format!("the layout was copied by nearest points, {:.2} % apart", 100.0 * mean_distance / diagonal)
-            }
-        };
-        let note = Message::note(MessagePlace::Embedding, by);
-        self.messages.say(match missing {
-            _ if report.is_apart() => note.with_remedy("move and scale both meshes to one place and size"),
-            0 => note,
-            1 => note.with_remedy("1 chart would fold or is mirrored, and was flattened anew"),
-            _ => note.with_remedy(format!("{missing} charts would fold or are mirrored, and were flattened anew")),
-        });
+/// Note on a copied layout: how its places were found, and the charts that differ from it.
+fn copied_words(copied: &LayoutOfOther) -> Message {
+    let by = match copied.report {
+        TransferReport::Corners => "the layout was copied corner by corner".to_owned(),
+        TransferReport::NearestPoints { mean_distance, diagonal, .. } => {
+            let moved = if copied.is_moved { "moved and scaled to this mesh, " } else { "" };
+            format!("the layout was copied by nearest points, {moved}{:.2} % apart", 100.0 * mean_distance / diagonal)
+        }
+    };
+    let note = Message::note(MessagePlace::Embedding, by);
+    if copied.report.is_apart() {
+        return note.with_remedy("move and scale both meshes to one place and size");
     }
+    let turned = copied.charts.iter().filter(|chart| chart.is_turned).count();
+    let turned = match turned {
+        0 => None,
+        1 => Some("1 chart is mirrored there, and was turned over".to_owned()),
+        _ => Some(format!("{turned} charts are mirrored there, and were turned over")),
+    };
+    let folded = match copied.missing() {
+        0 => None,
+        1 => Some("1 chart would fold, and was flattened anew".to_owned()),
+        missing => Some(format!("{missing} charts would fold, and were flattened anew")),
+    };
+    let words: Vec<String> = turned.into_iter().chain(folded).collect();
+    if words.is_empty() { note } else { note.with_remedy(words.join("; ")) }
 }

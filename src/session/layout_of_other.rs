@@ -3,12 +3,15 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use super::reshaping::Reshaped;
 use super::{Document, Model};
+use freebound_core::geom::Bounds;
 use freebound_core::mesh::{FaceId, Preparation, Seams, VertexId};
 use freebound_core::pipeline::Outcome;
 use freebound_core::problem::{Control, Embedding};
-use freebound_io::{ReadError, ReadOptions, TransferError, TransferReport, copied_texture};
+use freebound_io::{ReadError, ReadOptions, Registration, TransferError, TransferReport, copied_texture};
 
 /// Layout of another mesh file on the open mesh.
 pub(super) struct LayoutOfOther {
@@ -16,6 +19,8 @@ pub(super) struct LayoutOfOther {
     pub(super) reshaped: Reshaped,
     /// Charts that are planar in the layout.
     pub(super) charts: Vec<CopiedChart>,
+    /// True if the other mesh was moved and scaled to this one.
+    pub(super) is_moved: bool,
     /// Correspondence of the two meshes.
     pub(super) report: TransferReport,
 }
@@ -28,6 +33,8 @@ pub(super) struct CopiedChart {
     pub(super) first_face: Option<FaceId>,
     /// Texture coordinates of its vertices, v up.
     pub(super) coordinates: Arc<Embedding>,
+    /// True if the chart was mirrored in the layout, and turned over.
+    pub(super) is_turned: bool,
     /// Two vertices far from each other, if the mesh is a single chart.
     pub(super) held: Option<[VertexId; 2]>,
 }
@@ -52,30 +59,61 @@ impl LayoutOfOther {
         control: Control<'_>,
     ) -> Result<Self, LayoutOfOtherError> {
         let other = Model::read_formless(path, ReadOptions::default(), &|| control.go_on().is_err())?;
-        let (texture, report) = copied_texture(&other.source, &before.source, control)?;
+        let is_turned = before.prepared.form.faces_turned;
+        let source = if is_turned { Arc::new(other.source.turned()) } else { other.source };
+        let copied = |registration| copied_texture(&source, &before.source, registration, control);
+        let (mut texture, mut report) = copied(Registration::AsTheyAre)?;
+        let mut is_moved = false;
+        if report.is_apart() {
+            let by_box = copied(Registration::ByBox)?;
+            if !by_box.1.is_apart() {
+                ((texture, report), is_moved) = (by_box, true);
+            }
+        }
+        if is_turned {
+            // The layout as it is seen from the other side.
+            turn_over(&mut texture.coordinates);
+        }
         let seams = Seams::default().with(texture.seams(&before.source.polygons));
         let form = Preparation { seams, ..document.form.with_all_repairs() };
         let reshaped = Reshaped::new(before, form, control);
         let laid = reshaped.now().clone().with_layout(path.display().to_string(), texture);
         let charts = (0..laid.chart_count().max(1)).filter_map(|number| {
             let model = if laid.prepared.chart.is_some() { laid.of_chart(number) } else { laid.clone() };
-            let coordinates = model.layout().ok()?;
+            let given = model.layout().ok()?;
             let problem = document.problem_with(super::ChartEdits::default());
-            let in_plane = problem.in_plane(&coordinates);
+            let is_planar = |coordinates: &Embedding| {
+                let map = Outcome::of_saved_map(model.disk()?, problem.clone(), problem.in_plane(coordinates));
+                map.map(|_| coordinates.clone())
+            };
+            let upright = is_planar(&given);
+            let is_turned = upright.is_none();
+            let coordinates = upright.or_else(|| is_planar(&turned_over(&given)))?;
             let boundary = model.disk()?.boundary_loop().to_vec();
-            Outcome::of_saved_map(model.disk()?, problem, in_plane)?;
             let first_face = model.prepared.chart.as_ref().map(|of| of.charts.first_face(number));
             let held = if first_face.is_none() { farthest(&boundary, &coordinates) } else { None };
-            Some(CopiedChart { number, first_face, coordinates: Arc::new(coordinates), held })
+            Some(CopiedChart { number, first_face, coordinates: Arc::new(coordinates), is_turned, held })
         });
         let charts = charts.collect();
-        Ok(Self { reshaped, charts, report })
+        Ok(Self { reshaped, charts, is_moved, report })
     }
 
     /// Number of charts that are not planar in the layout.
     pub(super) fn missing(&self) -> usize {
         self.reshaped.now().chart_count().max(1) - self.charts.len()
     }
+}
+
+/// Mirrors coordinates within their box, from left to right.
+fn turn_over(coordinates: &mut [DVec2]) {
+    let Bounds { low, high } = Bounds::of(coordinates.iter().copied());
+    coordinates.iter_mut().for_each(|uv| uv.x = low.x + (high.x - uv.x));
+}
+
+fn turned_over(embedding: &Embedding) -> Embedding {
+    let mut coordinates = embedding.to_vec();
+    turn_over(&mut coordinates);
+    coordinates.into()
 }
 
 /// Two of these vertices that lie far from each other.

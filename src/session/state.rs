@@ -273,6 +273,7 @@ impl Session {
 
     fn cancel(&mut self) {
         self.files.cancel_loading();
+        self.files.stop_writing();
         self.drag.stop_following();
         self.give_up_brush();
         self.jobs.stop();

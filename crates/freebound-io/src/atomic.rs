@@ -33,6 +33,16 @@ impl WriteError {
         Self { is_of_input: true, ..Self::writing(path, source) }
     }
 
+    /// The user stopped the writing.
+    pub fn cancelled(path: impl Into<PathBuf>) -> Self {
+        Self::writing(path, io::ErrorKind::Interrupted)
+    }
+
+    /// True if the user stopped the writing.
+    pub fn is_cancelled(&self) -> bool {
+        self.source.kind() == io::ErrorKind::Interrupted
+    }
+
     /// True if a file could not be read; false if one could not be written.
     pub fn is_of_input(&self) -> bool {
         self.is_of_input

@@ -14,6 +14,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::Registration;
 use freebound_core::geom::{Bounds, Picture, double_area};
 use freebound_core::mesh::{FaceId, point_at};
 use freebound_core::pipeline::{LayoutSurface, SurfaceSearch};
@@ -28,18 +29,30 @@ const ROWS: usize = 16;
 /// Distance of two surfaces from which they lie apart, relative to the diagonal of their box.
 pub(crate) const FAR_APART: f64 = 0.05;
 
-/// Size and margin of a baked picture.
+/// Size and margin of a baked picture, and the place of the surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BakeOptions {
     /// Width and height, pixels.
     pub pixels: [u32; 2],
     /// Margin around the charts, pixels.
     pub margin: u32,
+    /// Place of the old surface beside the new one.
+    pub registration: Registration,
 }
 
 impl BakeOptions {
     /// Usual margin, pixels.
     pub const DEFAULT_MARGIN: u32 = 8;
+
+    /// Longest side of a baked picture, pixels.
+    pub const LONGEST_SIDE: u32 = 1 << 14;
+
+    /// Size of a picture, reduced so that no side is longer than [`LONGEST_SIDE`](Self::LONGEST_SIDE).
+    pub fn size_for(picture: &Picture) -> [u32; 2] {
+        let sides = [picture.width, picture.height].map(u64::from);
+        let [longest, limit] = [sides[0].max(sides[1]), u64::from(Self::LONGEST_SIDE)];
+        sides.map(|side| if longest > limit { (side * limit / longest).max(1) as u32 } else { side as u32 })
+    }
 }
 
 /// Surface with the picture that its layout shows.
@@ -93,10 +106,16 @@ pub fn bake(
     options: BakeOptions,
     control: Control<'_>,
 ) -> Result<BakedPicture, SolveError> {
-    let search = SurfaceSearch::new(old.layout.mesh);
+    let used = new.mesh.triangles.iter().flatten().map(|vertex| new.mesh.positions[vertex.index()]);
+    let surface = options.registration.applied(old.layout.mesh, used);
+    let search = SurfaceSearch::new(&surface);
     control.go_on()?;
     let [width, height] = options.pixels.map(|pixels| pixels as usize);
-    let drawing = Drawing { old, new, search, width, height };
+    let sense = search.sense(new.mesh.face_count(), |face| {
+        let face = FaceId::from_index(face);
+        (point_at(new.mesh.corners(face), [1.0 / 3.0; 3]), new.mesh.double_area_vector(face).normalize_or_zero())
+    });
+    let drawing = Drawing { old, new, search, sense, width, height };
     let triangles_of_bands = drawing.triangles_of_bands();
     let bands: Vec<Band> = triangles_of_bands
         .par_iter()
@@ -123,6 +142,8 @@ struct Drawing<'a> {
     old: PaintedSurface<'a>,
     new: LayoutSurface<'a>,
     search: SurfaceSearch<'a>,
+    /// -1 if the new surface is the old one inside out, else 1.
+    sense: f64,
     width: usize,
     height: usize,
 }
@@ -188,7 +209,7 @@ impl Drawing<'_> {
         let (mut near, mut largest_squared) = (None, 0.0_f64);
         for &triangle in triangles {
             let surface = self.new.mesh.corners(FaceId::new(triangle));
-            let direction = self.new.mesh.double_area_vector(FaceId::new(triangle));
+            let direction = self.sense * self.new.mesh.double_area_vector(FaceId::new(triangle));
             for (sample, weights) in self.samples(triangle, first..first + rows) {
                 let pixel = &mut pixels[sample.pixel - first * self.width];
                 if pixel.taken & sample.bit != 0 {
@@ -237,9 +258,7 @@ impl Drawing<'_> {
 
     /// Colour of the old picture at a point of the old surface.
     fn colour(&self, triangle: u32, weights: [f64; 3]) -> [u8; 4] {
-        let corners =
-            self.old.layout.mesh.triangles[triangle as usize].map(|vertex| self.old.layout.coordinates[vertex]);
-        let uv = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
+        let uv = self.old.layout.at(triangle, weights);
         let is_inside = uv.cmpge(DVec2::ZERO).all() && uv.cmple(DVec2::ONE).all();
         self.old.picture.sample_with_opacity(if is_inside { uv } else { uv - uv.floor() })
     }

@@ -77,6 +77,7 @@ mod precision;
 mod project;
 mod pts;
 pub mod raster;
+mod registration;
 mod repacked;
 mod report;
 mod rounding;
@@ -117,7 +118,7 @@ pub use mesh_file::{
     read_stream, read_stream_with,
 };
 pub use nearby::find_nearby;
-pub use obj::{Materials, copies_of_materials, material_files, material_picture, write_obj};
+pub use obj::{Materials, copies_of_materials, material_files, material_picture, material_pictures, write_obj};
 pub use output::{EXTENSIONS, Format, Output, OutputKind, ProvedEmbedding};
 pub use paths::{is_same_file, is_standard_input, would_replace};
 pub use pattern::{
@@ -132,6 +133,7 @@ pub use project::{
     RecoveryNote, SavedMap,
 };
 pub use pts::{IncompleteSet, PictureLandmark, PtsError, PtsFault, in_order_of_a_set, parse_pts, read_pts, write_pts};
+pub use registration::Registration;
 pub use repacked::{LayoutPacking, LayoutToPackError, RepackedFile};
 pub use report::{
     ChartReport, MeshReport, REPORT_SCHEMA, Report, SeamsReport, Seconds, ShapeReport, TransferReport,
@@ -143,6 +145,6 @@ pub use step_report::StepReport;
 pub use steps::StepsFolder;
 pub use study_plots::study_plots;
 pub use study_table::{read_study, write_study};
-pub use transferred::{TransferError, TransferredFile, copied_texture};
+pub use transferred::{FileForm, TransferError, TransferOptions, TransferredFile, copied_texture};
 pub use unfinished::discard_unfinished;
 pub use value_table::{ElementCounts, TableElement, TableError, ValueColumn, ValueTable};

@@ -1,5 +1,6 @@
 //! Pictures in: PNG and JPEG.
 
+use std::fs;
 use std::io::{BufRead, Cursor, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -7,6 +8,7 @@ use std::sync::Arc;
 use image::ImageReader;
 
 use super::FileStamp;
+use super::gltf::pictures::picture_in;
 use freebound_core::geom::Picture;
 
 /// Failure to read a picture.
@@ -33,22 +35,38 @@ pub struct PictureFile {
 }
 
 impl PictureFile {
-    /// Reads a PNG or JPEG file, whatever its extension.
+    /// Reads a PNG or JPEG file, whatever its extension, or the picture that most triangles of a glTF file show.
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, or is neither PNG nor JPEG.
+    /// If the file cannot be read, or is neither PNG nor JPEG, or a glTF file without such a picture.
     pub fn read(path: &Path) -> Result<Self, PictureError> {
-        let reader = ImageReader::open(path).map_err(|error| error.to_string());
-        let pixels = reader.and_then(decode).map_err(|reason| PictureError { path: path.to_owned(), reason })?;
+        let pixels = if is_gltf(path) {
+            let folder = path.parent().unwrap_or(Path::new(""));
+            let bytes = fs::read(path).map_err(|error| error.to_string());
+            bytes.and_then(|bytes| picture_in(bytes, folder)).and_then(|bytes| decode_picture(&bytes))
+        } else {
+            ImageReader::open(path).map_err(|error| error.to_string()).and_then(decode)
+        };
+        let pixels = pixels.map_err(|reason| PictureError { path: path.to_owned(), reason })?;
         let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
         Ok(Self { name, path: Some(path.to_owned()), stamp: FileStamp::read(path).ok(), pixels: Arc::new(pixels) })
+    }
+
+    /// File with this picture alone. `None` for the built-in picture, and for one within a glTF file.
+    pub(crate) fn own_file(&self) -> Option<&Path> {
+        self.path.as_deref().filter(|path| !is_gltf(path))
     }
 
     /// Width over height.
     pub fn aspect(&self) -> f64 {
         f64::from(self.pixels.width) / f64::from(self.pixels.height)
     }
+}
+
+fn is_gltf(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    ["glb", "gltf"].iter().any(|own| extension.eq_ignore_ascii_case(own))
 }
 
 /// Decodes the bytes of a PNG or JPEG file.

@@ -147,6 +147,12 @@ impl SeamsReport {
     }
 }
 
+/// Mean distance from which surfaces of different sizes lie apart, relative to the diagonal.
+const FAR_IF_SIZES_DIFFER: f64 = 0.01;
+
+/// Largest ratio of the diagonals of surfaces of one size.
+const ONE_SIZE: f64 = 1.25;
+
 /// Correspondence between the two meshes of a copied layout.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(tag = "by", rename_all = "kebab-case")]
@@ -161,15 +167,21 @@ pub enum TransferReport {
         mean_distance: f64,
         /// Diagonal of the box around the surface of the layout, mesh units.
         diagonal: f64,
+        /// Diagonal of the box around the mesh, mesh units.
+        mesh_diagonal: f64,
     },
 }
 
 impl TransferReport {
-    /// True if the two surfaces lie apart, on average by more than 5 % of the diagonal: in other places or sizes.
+    /// True if the two surfaces lie apart, in other places or sizes: on average by more than 5 % of the diagonal, or by
+    /// more than 1 % if their sizes differ by a quarter. A part of a surface is smaller than it, and lies on it.
     pub fn is_apart(&self) -> bool {
         match *self {
             Self::Corners => false,
-            Self::NearestPoints { mean_distance, diagonal, .. } => mean_distance > FAR_APART * diagonal,
+            Self::NearestPoints { mean_distance, diagonal, mesh_diagonal, .. } => {
+                let have_one_size = mesh_diagonal <= ONE_SIZE * diagonal && diagonal <= ONE_SIZE * mesh_diagonal;
+                mean_distance > if have_one_size { FAR_APART } else { FAR_IF_SIZES_DIFFER } * diagonal
+            }
         }
     }
 }

@@ -6,9 +6,10 @@ use std::time::Instant;
 use super::obj::Materials;
 use super::textured_file::TexturedFile;
 use super::{
-    FileData, JudgeError, LayoutError, MeshFile, MeshReport, OutputKind, Precision, Report, Seconds, Texture,
-    TextureError, TransferReport, WriteError,
+    FileData, JudgeError, LayoutError, MeshFile, MeshReport, OutputKind, Precision, Registration, Report, Seconds,
+    Texture, TextureError, TransferReport, WriteError,
 };
+use freebound_core::geom::SpaceBounds;
 use freebound_core::pipeline::{CopyLayoutError, LayoutSurface, copy_layout};
 use freebound_core::problem::Control;
 use freebound_core::verify::{LayoutOptions, LayoutVerdict, RoundingGrid};
@@ -24,6 +25,25 @@ pub struct TransferredFile<'a> {
     pub materials: Materials,
     /// Report of the run, with the verdict on the layout.
     pub report: Report,
+}
+
+/// Choices of a copied layout.
+#[derive(Clone, Copy, Debug)]
+pub struct TransferOptions {
+    /// Place of the surface with the layout beside the other mesh.
+    pub registration: Registration,
+    /// File that will be written.
+    pub form: FileForm,
+}
+
+/// Kind of a file and the precision of its coordinates.
+#[derive(Clone, Copy, Debug)]
+pub struct FileForm {
+    /// Kind of the file.
+    pub kind: OutputKind,
+    /// Precision of the coordinates. Default: the usual precision of the kind, or 64 bits if 32 bits fold the layout and
+    /// the kind has 64.
+    pub precision: Option<Precision>,
 }
 
 /// Reason why a layout cannot be copied from a file.
@@ -48,8 +68,7 @@ impl TransferredFile<'_> {
     /// Copies the layout of a file onto a mesh. The report has no name of the mesh.
     ///
     /// If both files have equal faces, coordinates are copied corner by corner. Otherwise nearest points are used.
-    /// Coordinates are rounded to the numbers that a file of this kind holds. Default: the usual precision of the kind, or
-    /// 64 bits if 32 bits fold the layout and the kind has 64.
+    /// Coordinates are rounded to the numbers that a file of the kind holds.
     ///
     /// # Errors
     ///
@@ -57,14 +76,31 @@ impl TransferredFile<'_> {
     pub fn new(
         layout: &MeshFile,
         mesh: &MeshFile,
-        kind: OutputKind,
-        precision: Option<Precision>,
+        TransferOptions { registration, form }: TransferOptions,
         control: Control<'_>,
     ) -> Result<Self, TransferError> {
         let start = Instant::now();
-        let (texture, transfer) = copied_texture(layout, mesh, control)?;
-        let exact = MeshFile { texture: Some(texture), ..mesh.clone() };
-        let (mesh, verdict, precision) = rounded(exact, kind, precision, control)?;
+        let (texture, transfer) = copied_texture(layout, mesh, registration, control)?;
+        let copy = MeshFile { texture: Some(texture), ..mesh.clone() };
+        let mut file = Self::of_copy(copy, transfer, form, control)?;
+        file.report.seconds.verify = start.elapsed().as_secs_f64();
+        Ok(file)
+    }
+
+    /// Judges a mesh that a layout was copied to, and rounds its coordinates to the numbers that a file of the kind
+    /// holds. The report has no name of the mesh.
+    ///
+    /// # Errors
+    ///
+    /// [`TransferError`] if the mesh has no layout, or if the caller cancels.
+    pub fn of_copy(
+        copy: MeshFile,
+        transfer: TransferReport,
+        FileForm { kind, precision }: FileForm,
+        control: Control<'_>,
+    ) -> Result<Self, TransferError> {
+        let start = Instant::now();
+        let (mesh, verdict, precision) = rounded(copy, kind, precision, control)?;
         let (vertices, faces) = (mesh.polygons.positions.len(), verdict.triangles);
         let described = MeshReport { vertices, faces, warnings: mesh.warnings.clone(), ..MeshReport::default() };
         let verify = start.elapsed().as_secs_f64();
@@ -126,6 +162,7 @@ impl TransferredFile<'_> {
 pub fn copied_texture(
     layout: &MeshFile,
     mesh: &MeshFile,
+    registration: Registration,
     control: Control<'_>,
 ) -> Result<(Texture, TransferReport), TransferError> {
     if mesh.polygons.face_count() == 0 {
@@ -141,7 +178,9 @@ pub fn copied_texture(
     }
     // Faces without coordinates are left out: other faces may lie near enough.
     let (surface, _) = layout.partial_texture_mesh()?;
-    let surface = LayoutSurface { mesh: &surface.mesh, coordinates: &surface.embedding };
+    let used = || mesh.polygons.corners.iter().map(|vertex| mesh.polygons.positions[vertex.index()]);
+    let fitted = registration.applied(&surface.mesh, used());
+    let surface = LayoutSurface { mesh: &fitted, coordinates: &surface.embedding };
     let copied = copy_layout(surface, &mesh.polygons, control).map_err(|error| match error {
         CopyLayoutError::Cancelled => TransferError::Cancelled,
         error => TransferError::Copy(error),
@@ -150,6 +189,7 @@ pub fn copied_texture(
         largest_distance: copied.largest_distance,
         mean_distance: copied.mean_distance,
         diagonal: copied.diagonal,
+        mesh_diagonal: SpaceBounds::of(used()).diagonal(),
     };
     Ok((Texture { coordinates: copied.coordinates, corners: copied.corners }, report))
 }

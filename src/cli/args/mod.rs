@@ -6,6 +6,7 @@
 //! | `batch`   | arguments of `batch`                          |
 //! | `check`   | arguments of `check`                          |
 //! | `mesh`    | arguments for the mesh and its preparation    |
+//! | `mesh_output` | arguments of commands that write a mesh      |
 //! | `solve`   | arguments for pins and settings of the solver |
 //! | `flatten` | arguments of `flatten`                        |
 //! | `pack`    | arguments of `pack`                           |
@@ -22,6 +23,7 @@ mod check;
 mod compare;
 mod flatten;
 mod mesh;
+mod mesh_output;
 mod pack;
 mod pattern;
 mod reading;
@@ -43,6 +45,7 @@ pub(super) use check::{CheckArguments, Denied};
 pub use compare::{CompareArguments, ComparisonFile};
 pub use flatten::{FlattenArguments, UnwrapArguments};
 pub use mesh::{Cut, MeshArguments};
+pub(super) use mesh_output::MeshOutputArguments;
 pub use pack::PackArguments;
 pub use pattern::PatternArguments;
 pub(super) use reading::ReadingArguments;

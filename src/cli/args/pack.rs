@@ -5,23 +5,18 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use glam::UVec2;
 
-use super::ReadingArguments;
+use super::MeshOutputArguments;
 use crate::cli::typed::{choice, parse_aspect, parse_density, parse_pixels};
 use freebound_core::geom::{PackingOptions, Rotations, Stacking};
 use freebound_core::pipeline::{ChartSizes, LockedCharts, RepackOptions};
 use freebound_core::problem::NamedOption as _;
-use freebound_io::{LayoutPacking, OutputKind, PictureFile, Precision};
+use freebound_io::{LayoutPacking, OutputKind, PictureFile};
 
 /// Arguments of `pack`.
 #[derive(Debug, Args)]
 pub struct PackArguments {
     /// Mesh with texture coordinates: an OBJ, PLY, GLB or glTF file, or standard input with `-`.
     pub mesh: PathBuf,
-    /// Write the mesh with its packed texture coordinates to this file, or to standard output with `-`.
-    ///
-    /// Names that end in .ply or .glb give PLY or GLB; all others give OBJ. Input files are never overwritten.
-    #[arg(short, long, value_name = "MESH|-")]
-    pub output: Option<PathBuf>,
     /// Size of the picture that the charts are packed into, in pixels. Default: 1024x1024.
     #[arg(long, value_name = "WxH", value_parser = parse_pixels)]
     pub pack: Option<UVec2>,
@@ -61,27 +56,12 @@ pub struct PackArguments {
     /// pixels per unit of length than these. If there is no room, they lie to the right of the picture.
     #[arg(long, value_name = "CHART,…", value_delimiter = ',')]
     pub lock: Vec<usize>,
-    /// Precision in which texture coordinates are proved and written. Default: 64 bits for OBJ, 32 bits for PLY and GLB.
-    ///
-    /// PLY files of 32 bits have the form that most programs read: `s` and `t` as float, and a copy of each vertex on a
-    /// seam. Those of 64 bits keep the vertices and list the coordinates of corners; a map that 32 bits would fold gets
-    /// them by default. GLB files always hold 32 bits.
-    #[arg(long, value_parser = choice::<Precision>())]
-    pub precision: Option<Precision>,
-    /// Copy the mesh's material libraries and their pictures beside the OBJ file.
-    ///
-    /// Default: the OBJ file refers to them in their present place.
-    #[arg(long, requires = "output")]
-    pub copy_materials: bool,
-    /// Write a report to this file (JSON), or to standard output with `-`.
-    #[arg(long, value_name = "FILE|-")]
-    pub report: Option<PathBuf>,
     /// Draw the layout into this file (SVG), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub svg: Option<PathBuf>,
-    /// Limits and choices of reading.
+    /// Files and their form.
     #[command(flatten)]
-    pub reading: ReadingArguments,
+    pub result: MeshOutputArguments,
 }
 
 impl PackArguments {
@@ -108,8 +88,7 @@ impl PackArguments {
     /// Files to write, apart from the report.
     pub fn outputs(&self) -> Vec<(OutputKind, &Path)> {
         // The mesh is written last, after the files that it names.
-        let mesh = self.output.as_deref().map_or(OutputKind::Obj, OutputKind::of_mesh);
-        let paths = [(OutputKind::Svg, &self.svg), (mesh, &self.output)].into_iter();
+        let paths = [(OutputKind::Svg, &self.svg), (self.result.kind(), &self.result.output)].into_iter();
         paths.filter_map(|(kind, path)| Some((kind, path.as_deref()?))).collect()
     }
 }

@@ -8,7 +8,7 @@ use crate::ui::dialogs::Dialogs;
 use crate::ui::state::{ExportOptions, PendingClose};
 use freebound_core::geom::Picture;
 use freebound_core::pipeline::Fit;
-use freebound_io::{BakeOptions, PatternOptions};
+use freebound_io::{BakeOptions, PatternOptions, Registration};
 
 /// File dialogs and files about to be written.
 #[derive(Debug, Default)]
@@ -47,8 +47,8 @@ impl Default for BakeChoice {
 impl BakeChoice {
     /// Options for a picture.
     pub fn options(self, picture: &Picture) -> BakeOptions {
-        let pixels = self.side.map_or([picture.width, picture.height], |side| [side; 2]);
-        BakeOptions { pixels, margin: self.margin }
+        let pixels = self.side.map_or_else(|| BakeOptions::size_for(picture), |side| [side; 2]);
+        BakeOptions { pixels, margin: self.margin, registration: Registration::AsTheyAre }
     }
 }
 

@@ -5,6 +5,7 @@ use eframe::egui::{self, DragValue};
 use super::menu::grouped;
 use crate::session::{Action, Model, Session};
 use crate::ui::{Control, Request, Typed, counted, five_digits, remark};
+use freebound_core::geom::SpaceBounds;
 use freebound_core::mesh::WeldDistance;
 
 /// Default distance as a share of the diagonal of the bounding box, then rounded down to a power of ten.
@@ -79,9 +80,6 @@ fn offer(ui: &mut egui::Ui, session: &Session, distance: WeldDistance, requests:
 /// Default distance.
 fn offered(model: &Model) -> f64 {
     let positions = &model.source.polygons.positions;
-    let finite = || positions.iter().filter(|place| place.is_finite());
-    let high = finite().copied().reduce(glam::DVec3::max).unwrap_or_default();
-    let low = finite().copied().reduce(glam::DVec3::min).unwrap_or_default();
-    let offered = (high.distance(low) * OFFERED).log10().floor();
+    let offered = (SpaceBounds::of(positions.iter().copied()).diagonal() * OFFERED).log10().floor();
     if offered.is_finite() { 10.0_f64.powf(offered) } else { 0.0 }
 }

@@ -4,7 +4,7 @@ use eframe::egui::{self, Pos2, Rect, Response, Shape, Stroke};
 use glam::DVec2;
 
 use crate::ui::{Editor, Pane, theme_of};
-use freebound_core::geom::winding_number;
+use freebound_core::geom::{Bounds, winding_number};
 
 /// Least distance between two points of a lasso, points.
 const LASSO_STEP: f32 = 3.0;
@@ -13,8 +13,8 @@ const LASSO_STEP: f32 = 3.0;
 pub(super) enum Region {
     /// Box.
     Box(Rect),
-    /// Inside of a closed curve.
-    Lasso(Vec<DVec2>),
+    /// Inside of a closed curve, with the box around the curve.
+    Lasso(Vec<DVec2>, Bounds),
 }
 
 impl Region {
@@ -22,12 +22,17 @@ impl Region {
     pub(super) fn contains(&self, at: Pos2) -> bool {
         match self {
             Self::Box(rect) => rect.contains(at),
-            Self::Lasso(curve) => {
-                let at = DVec2::new(f64::from(at.x), f64::from(at.y));
-                winding_number(curve, at).is_some_and(|turns| turns != 0)
+            Self::Lasso(curve, bounds) => {
+                let at = in_plane(at);
+                // Most points lie outside the box, and the curve is long.
+                bounds.contains(at) && winding_number(curve, at).is_some_and(|turns| turns != 0)
             }
         }
     }
+}
+
+fn in_plane(at: Pos2) -> DVec2 {
+    DVec2::new(f64::from(at.x), f64::from(at.y))
 }
 
 /// Follows a region while it is drawn. Returns it at the end of the drag.
@@ -44,8 +49,13 @@ pub(super) fn draw_region(ui: &egui::Ui, response: &Response, editor: &mut Edito
     let (first, last) = (*points.first()?, *points.last()?);
     if response.drag_stopped() {
         editor.pointer.end_region();
-        let curve = || points.iter().map(|at| DVec2::new(f64::from(at.x), f64::from(at.y))).collect();
-        return Some(if is_lasso { Region::Lasso(curve()) } else { Region::Box(Rect::from_two_pos(first, last)) });
+        return Some(if is_lasso {
+            let curve: Vec<DVec2> = points.into_iter().map(in_plane).collect();
+            let bounds = Bounds::of(curve.iter().copied());
+            Region::Lasso(curve, bounds)
+        } else {
+            Region::Box(Rect::from_two_pos(first, last))
+        });
     }
     let theme = theme_of(ui);
     let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("selection region"));

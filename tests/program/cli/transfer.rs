@@ -159,3 +159,64 @@ fn the_picture_of_the_materials_is_the_usual_one_and_its_lack_is_said() {
     program.run(&["bake", "painted.obj", "sheet.obj", "-o", "other.png"]).expect(3);
     assert!(!program.path("other.png").exists());
 }
+
+/// A ball of another size, at another place.
+fn moved_ball() -> PolygonMesh {
+    let mut mesh = ball(32, 20);
+    mesh.positions.iter_mut().for_each(|p| *p = 20.0 * *p + DVec3::new(40.0, 3.0, -7.0));
+    PolygonMesh::from(&mesh)
+}
+
+#[test]
+fn meshes_of_different_size_and_place_are_fitted_on_request_and_named_otherwise() {
+    let program = balls();
+    program.write("moved.obj", &obj_text(&moved_ball()));
+    program.run(&["unwrap", "moved.obj", "-o", "moved-uv.obj"]).expect(0);
+    let apart = program.run(&["transfer", "moved-uv.obj", "coarse.obj"]);
+    assert!(apart.stdout.contains("--fit"), "{}", apart.stdout);
+    let fitted = program.run(&["transfer", "moved-uv.obj", "coarse.obj", "--fit", "-o", "out.obj", "--report", "-"]);
+    let report = fitted.expect(0).json();
+    assert_eq!(report["layout"]["planar"], json!(true));
+    let [mean, diagonal, of_mesh] = ["mean_distance", "diagonal", "mesh_diagonal"]
+        .map(|field| report["transfer"][field].as_f64().expect("a number"));
+    assert!(mean < 0.01 * diagonal && (diagonal - of_mesh).abs() < 1e-9 * of_mesh, "{report}");
+}
+
+#[test]
+fn a_smaller_mesh_within_the_box_of_the_layout_lies_apart_and_a_part_of_it_does_not() {
+    let program = balls();
+    let shrunk = |by: f64| {
+        let positions = ball(18, 11).positions.iter().map(|p| by * *p).collect();
+        PolygonMesh { positions, ..PolygonMesh::from(&ball(18, 11)) }
+    };
+    // Apart by 3.5 % of the diagonal on average, less than surfaces of one size may be.
+    program.write("shrunk.obj", &obj_text(&shrunk(0.75)));
+    let warned = program.run(&["transfer", "fine-uv.obj", "shrunk.obj"]);
+    assert!(warned.stdout.contains("--fit"), "{}", warned.stdout);
+    let mut part = ball(18, 11);
+    part.triangles.truncate(60);
+    program.write("part.obj", &obj_text(&PolygonMesh::from(&part)));
+    let silent = program.run(&["transfer", "fine-uv.obj", "part.obj"]);
+    assert!(!silent.stdout.contains("--fit"), "{}", silent.stdout);
+}
+
+#[test]
+fn the_picture_of_a_glb_file_is_baked_and_others_are_named() {
+    let program = balls();
+    put_picture(&program, "red.png", &Picture { width: 2, height: 2, pixels: [200, 10, 20, 255].repeat(4) });
+    let with_library = |uses: &str| {
+        let text = fs::read_to_string(program.path("fine-uv.obj")).expect("the layout");
+        program.write("painted.obj", &format!("mtllib painted.mtl\n{}", text.replacen("\nf ", uses, 1)));
+    };
+    program.write("painted.mtl", "newmtl a\nmap_Kd red.png\nnewmtl b\nmap_Kd blue.png\n");
+    with_library("\nusemtl a\nf ");
+    program.run(&["pack", "painted.obj", "-o", "painted.glb"]).expect(0);
+    program.run(&["bake", "painted.glb", "fine-uv.obj", "-o", "baked.png", "--size", "32x32"]).expect(0);
+    let baked = PictureFile::read(&program.path("baked.png")).expect("a picture").pixels;
+    let shown = baked.pixels.chunks(4).filter(|pixel| pixel[3] > 0);
+    assert!(shown.clone().count() > 100 && shown.clone().all(|pixel| pixel == [200, 10, 20, 255]));
+    with_library("\nusemtl b\nf 1 2 3\nusemtl a\nf ");
+    let run = program.run(&["bake", "painted.obj", "fine-uv.obj", "-o", "baked.png", "--size", "32x32"]);
+    let said = run.expect(0).stderr;
+    assert!(said.contains("2 pictures") && said.contains("red.png"), "{said}");
+}

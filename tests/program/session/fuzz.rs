@@ -8,7 +8,7 @@ use freebound_core::geom::VAxis;
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Fit, Target};
 use freebound_core::problem::{Family, Method, NamedOption as _, PinKind, Settings, Treatment};
-use freebound_io::{BakeOptions, OutputKind, ProjectFile};
+use freebound_io::{BakeOptions, OutputKind, ProjectFile, Registration};
 use glam::DVec2;
 use tempfile::TempDir;
 
@@ -153,7 +153,7 @@ impl Fuzz {
             24 => Action::Recover(self.at("a.freebound")),
             25 => Action::CopyLayout(self.one_of(&["uv.obj", "dome.obj", "missing.obj"])),
             26 => {
-                let options = BakeOptions { pixels: [16, 16], margin: 2 };
+                let options = BakeOptions { pixels: [16, 16], margin: 2, registration: Registration::AsTheyAre };
                 Action::SaveBaked(BakeRequest { path: self.one_of(&["out.png", "missing/out.png"]), options })
             }
             _ if self.random.below(12) == 0 => Action::OpenExample(Example::Ell),

@@ -1,6 +1,6 @@
-//! Axis-aligned boxes in the plane.
+//! Axis-aligned boxes in the plane and in space.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// Closed axis-aligned box. An empty box meets no other box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +33,11 @@ impl Bounds {
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// True if a point lies in the box.
+    pub fn contains(self, at: DVec2) -> bool {
+        at.cmpge(self.low).all() && at.cmple(self.high).all()
     }
 
     /// True if two boxes have a point in common.
@@ -68,5 +73,38 @@ impl Bounds {
     /// Length of the diagonal.
     pub fn diameter(self) -> f64 {
         self.low.distance(self.high)
+    }
+}
+
+/// Closed axis-aligned box in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpaceBounds {
+    /// Corner with the lowest coordinates.
+    pub low: DVec3,
+    /// Corner with the highest coordinates.
+    pub high: DVec3,
+}
+
+impl SpaceBounds {
+    /// Smallest box around the finite points. Without any, the box is empty: `low` is above `high`.
+    pub fn of(points: impl IntoIterator<Item = DVec3>) -> Self {
+        let empty = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+        let with = |Self { low, high }: Self, p| Self { low: low.min(p), high: high.max(p) };
+        points.into_iter().filter(|p| p.is_finite()).fold(empty, with)
+    }
+
+    /// True if the box has no point.
+    pub fn is_empty(self) -> bool {
+        self.low.cmpgt(self.high).any()
+    }
+
+    /// Distance between the two corners; 0 if the box is empty.
+    pub fn diagonal(self) -> f64 {
+        if self.is_empty() { 0.0 } else { self.low.distance(self.high) }
+    }
+
+    /// Centre of the box.
+    pub fn middle(self) -> DVec3 {
+        self.low.midpoint(self.high)
     }
 }

@@ -40,7 +40,7 @@ mod similarity;
 mod triangulation;
 mod visibility_kernel;
 
-pub use bounds::Bounds;
+pub use bounds::{Bounds, SpaceBounds};
 pub use box_tree::{BoxTree, place_along_curve};
 pub use clip::{clip_polygon, clip_segment};
 pub use convex_polygon::{ConvexPolygon, PolygonFault};

@@ -42,6 +42,14 @@ pub struct LayoutSurface<'a> {
     pub coordinates: &'a Embedding,
 }
 
+impl LayoutSurface<'_> {
+    /// Texture coordinate in the plane of a triangle, for the barycentric weights of its corners.
+    pub fn at(&self, triangle: u32, weights: [f64; 3]) -> DVec2 {
+        let [a, b, c] = self.mesh.triangles[triangle as usize].map(|vertex| self.coordinates[vertex]);
+        a * weights[0] + b * weights[1] + c * weights[2]
+    }
+}
+
 /// Copied layout, with the distances between the two surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CopiedLayout {
@@ -89,7 +97,8 @@ pub fn copy_layout(
     let search = SurfaceSearch::new(layout.mesh);
     control.go_on()?;
     let across = triangles_across(layout.mesh);
-    let normals = control.each(mesh.face_count(), |face| normal_of(mesh, face))?;
+    let sense = search.sense(mesh.face_count(), |face| (centre_of(mesh, face), normal_of(mesh, face)));
+    let normals = control.each(mesh.face_count(), |face| sense * normal_of(mesh, face))?;
     let near_face = |face: usize| search.nearest(centre_of(mesh, face), normals[face], None);
     let of_faces = control.each(mesh.face_count(), near_face)?;
     if search.diagonal() == 0.0 || of_faces.iter().all(Option::is_none) {
@@ -123,10 +132,6 @@ fn triangles_across(mesh: &TriMesh) -> Vec<[u32; 3]> {
         }
     }
     across
-}
-
-fn weighted(corners: [DVec2; 3], weights: [f64; 3]) -> DVec2 {
-    corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2]
 }
 
 /// Corners at each vertex.
@@ -166,6 +171,7 @@ struct LayoutCopy<'a> {
     mesh: &'a PolygonMesh,
     search: SurfaceSearch<'a>,
     across: Vec<[u32; 3]>,
+    /// Normal of each face, towards the outside of the old surface.
     normals: Vec<DVec3>,
     /// Nearest point to the centre of each face.
     of_faces: Vec<Option<NearestPoint>>,
@@ -250,8 +256,7 @@ impl LayoutCopy<'_> {
 
     /// Texture coordinate of a point of the old surface.
     fn inside(&self, point: &NearestPoint) -> DVec2 {
-        let corners = self.layout.mesh.triangles[point.triangle as usize].map(|corner| self.layout.coordinates[corner]);
-        weighted(corners, point.weights)
+        self.layout.at(point.triangle, point.weights)
     }
 
     /// Texture coordinate of a vertex for its nearest point. Beyond the edge of the chart, the coordinate lies a little
@@ -268,8 +273,7 @@ impl LayoutCopy<'_> {
         let normal = (b - a).cross(c - a);
         let share = |area: DVec3| area.dot(normal) / normal.length_squared();
         let (of_b, of_c) = (share((vertex - a).cross(c - a)), share((b - a).cross(vertex - a)));
-        let corners = self.layout.mesh.triangles[triangle].map(|corner| self.layout.coordinates[corner]);
-        let beyond = inside.lerp(weighted(corners, [1.0 - of_b - of_c, of_b, of_c]), OVERSHOOT);
+        let beyond = inside.lerp(self.layout.at(point.triangle, [1.0 - of_b - of_c, of_b, of_c]), OVERSHOOT);
         if beyond.is_finite() { beyond } else { inside }
     }
 

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::geom::SpaceBounds;
 use crate::mesh::{FaceId, NearestPoint, TriMesh, TriangleTree, nearest_point};
 
 /// Additional distance up to which a triangle that faces the direction is preferred to a nearer one that does not,
@@ -10,6 +11,9 @@ const SLACK: f64 = 0.01;
 
 /// Distance beyond a known triangle up to which others are searched, relative to the diagonal. Covers rounding.
 const ROUNDING: f64 = 1e-9;
+
+/// Largest number of points that decide whether another surface is inside out.
+const JUDGES: usize = 4096;
 
 /// Search for nearest points of a surface.
 #[derive(Clone, Debug)]
@@ -27,10 +31,7 @@ impl<'a> SurfaceSearch<'a> {
     pub fn new(mesh: &'a TriMesh) -> Self {
         let faces = || (0..mesh.face_count()).map(FaceId::from_index);
         let corners: Vec<[DVec3; 3]> = faces().map(|face| mesh.corners(face)).collect();
-        let points = || corners.iter().flatten().filter(|point| point.is_finite());
-        let low = points().copied().fold(DVec3::INFINITY, DVec3::min);
-        let high = points().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let diagonal = if low.is_finite() { low.distance(high) } else { 0.0 };
+        let diagonal = SpaceBounds::of(corners.iter().flatten().copied()).diagonal();
         let normals = faces().map(|face| mesh.double_area_vector(face).normalize_or_zero()).collect();
         Self { mesh, tree: TriangleTree::new(&corners), normals, diagonal }
     }
@@ -43,6 +44,22 @@ impl<'a> SurfaceSearch<'a> {
     /// Positions of a triangle's corners.
     pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
         self.mesh.corners(FaceId::new(triangle))
+    }
+
+    /// 1 if another surface has its outside where this surface has it, or -1 if it is inside out.
+    ///
+    /// `oriented` gives a point of each face of the other surface, and a normal there. The mean over faces spread
+    /// evenly among the `count` faces decides. A surface whose normals cancel out counts as the right way out.
+    pub fn sense(&self, count: usize, oriented: impl Fn(usize) -> (DVec3, DVec3)) -> f64 {
+        let agreement = |face: usize| {
+            let (point, normal) = oriented(face);
+            let found = self.nearest(point, DVec3::ZERO, None)?;
+            let dot = self.normals[found.triangle as usize].dot(normal);
+            dot.is_finite().then_some(dot)
+        };
+        let step = count.div_ceil(JUDGES).max(1);
+        let total: f64 = (0..count).step_by(step).filter_map(agreement).sum();
+        if total < 0.0 { -1.0 } else { 1.0 }
     }
 
     /// Nearest point of the surface. `None` if the surface has no triangle, or the point is not finite.

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::{Ink, Page, colours};
 use crate::raster::{Colour, View};
-use freebound_core::geom::Bounds;
+use freebound_core::geom::{Bounds, SpaceBounds};
 use freebound_core::mesh::DiskMesh;
 
 /// Margin around the mesh, relative to the area.
@@ -34,9 +34,8 @@ impl SpaceDrawing {
     /// Draws the mesh into an area.
     pub(super) fn draw(&self, page: &mut Page, area: Bounds) {
         let seen = self.view.see(&self.mesh.mesh().positions);
-        let low = seen.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-        let high = seen.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let (centre, extent) = (low.midpoint(high), high - low);
+        let bounds = SpaceBounds::of(seen.iter().copied());
+        let (centre, extent) = (bounds.middle(), bounds.high - bounds.low);
         let scale = (area.size() / extent.truncate()).min_element() * (1.0 - 2.0 * MARGIN);
         let place = |p: DVec3| area.middle() + scale * DVec2::new(p.x - centre.x, centre.y - p.y);
         let depth = |corners: &[DVec3; 3]| corners.iter().map(|p| p.z).sum::<f64>();

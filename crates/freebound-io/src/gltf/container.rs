@@ -69,6 +69,16 @@ impl Chunks {
         let binary = if at + CHUNK_HEAD <= length { chunk(&bytes[..length], at, *BINARY)? } else { None };
         Ok(Self { json, binary })
     }
+
+    /// JSON and binary chunk of a file. The chunk is empty if there is none.
+    pub(super) fn split(mut bytes: Vec<u8>) -> Result<(Vec<u8>, Vec<u8>), ReadError> {
+        let Self { json, binary } = Self::of(&bytes)?;
+        let json = bytes[json].to_vec();
+        let Some(range) = binary else { return Ok((json, Vec::new())) };
+        bytes.truncate(range.end);
+        bytes.drain(..range.start);
+        Ok((json, bytes))
+    }
 }
 
 /// Content of the chunk at an offset; `None` if it has another type.
@@ -150,15 +160,21 @@ fn beside_fault(uri: &str, buffer: usize, source: Error) -> ReadError {
 
 fn of_uri(uri: &str, buffer: &Buffer, index: usize, folder: Option<&Path>) -> Result<Vec<u8>, ReadError> {
     let fault = |source: Error| beside_fault(uri, index, source);
-    if let Some(data) = uri.strip_prefix("data:") {
-        let text = data.split_once(";base64,").map(|(_, text)| text);
-        let text = text.ok_or_else(|| fault(Error::new(ErrorKind::InvalidData, "not base64")))?;
-        return BASE64.decode(text).map_err(|error| fault(Error::new(ErrorKind::InvalidData, error)));
+    if let Some(bytes) = embedded(uri) {
+        return bytes.map_err(fault);
     }
     let folder = folder.ok_or_else(|| fault(Error::new(ErrorKind::NotFound, "standard input has no folder")))?;
     let path =
         beside(uri, folder).ok_or_else(|| fault(Error::new(ErrorKind::NotFound, "not a file beside this one")))?;
     read_at_most(&path, buffer.byte_length).map_err(fault)
+}
+
+/// Bytes within an address; `None` for an address of a file.
+pub(super) fn embedded(uri: &str) -> Option<Result<Vec<u8>, Error>> {
+    let data = uri.strip_prefix("data:")?;
+    let text = data.split_once(";base64,").map(|(_, text)| text);
+    let text = text.ok_or_else(|| Error::new(ErrorKind::InvalidData, "not base64"));
+    Some(text.and_then(|text| BASE64.decode(text).map_err(|error| Error::new(ErrorKind::InvalidData, error))))
 }
 
 /// Path of the file at a relative address; `None` for an absolute one.

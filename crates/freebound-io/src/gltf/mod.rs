@@ -13,6 +13,7 @@
 //! | `grown`     | accessors with added elements                                                    |
 //! | `shading`   | materials of a new file                                                          |
 //! | `files`     | files that belong to a glTF file                                                 |
+//! | `pictures`  | pictures that its materials show                                                 |
 //! | `growing`   | a binary file under construction                                                 |
 //!
 //! Read are the meshes of all nodes of the file's scene, with their transforms; or of all nodes if the file names no
@@ -36,6 +37,7 @@ mod document;
 mod files;
 mod growing;
 mod grown;
+pub(crate) mod pictures;
 mod placed;
 mod read;
 mod scene;

@@ -20,21 +20,8 @@ use freebound_core::mesh::{PolygonMesh, VertexId};
 pub(super) const UNUSED: u32 = u32::MAX;
 
 /// Parses a file, as text or binary; files that belong to it are in `folder`.
-pub(crate) fn parse_gltf(
-    mut bytes: Vec<u8>,
-    folder: Option<&Path>,
-    instances: Instances,
-) -> Result<MeshFile, ReadError> {
-    let chunks = Chunks::of(&bytes)?;
-    let json = bytes[chunks.json].to_vec();
-    let binary = match chunks.binary {
-        Some(range) => {
-            bytes.truncate(range.end);
-            bytes.drain(..range.start);
-            bytes
-        }
-        None => Vec::new(),
-    };
+pub(crate) fn parse_gltf(bytes: Vec<u8>, folder: Option<&Path>, instances: Instances) -> Result<MeshFile, ReadError> {
+    let (json, binary) = Chunks::split(bytes)?;
     let document = Document::of(&json)?;
     let buffers = Buffers::of(&document, binary, folder)?;
     let shown = Shown::of(&document, &buffers, instances)?;

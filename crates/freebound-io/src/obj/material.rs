@@ -1,20 +1,31 @@
-//! Picture that a mesh's materials name.
+//! Pictures that a mesh's materials name.
 
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::gltf::files_beside;
+use crate::gltf::pictures::pictures_of;
 use crate::mesh_file::{MeshFile, Statement};
 
 /// Keywords of lines that name pictures, in addition to those that begin with `map_`.
 const PICTURE_KEYWORDS: [&str; 5] = ["bump", "decal", "disp", "norm", "refl"];
 
-/// Picture on most faces, according to the materials of an OBJ file at `path`. `None` if no material in use names a
-/// picture. The picture file itself may be missing.
+/// Picture on most faces, see [`material_pictures`].
+pub fn material_picture(mesh: &MeshFile, path: &Path) -> Option<PathBuf> {
+    material_pictures(mesh, path).into_iter().next()
+}
+
+/// Files of the pictures that the materials of an OBJ or glTF file at `path` show, the picture on most faces first. The
+/// files may be missing. A picture within a glTF file counts as that file.
 ///
 /// A missing or broken material library does not affect the others.
-pub fn material_picture(mesh: &MeshFile, path: &Path) -> Option<PathBuf> {
+pub fn material_pictures(mesh: &MeshFile, path: &Path) -> Vec<PathBuf> {
+    let within = pictures_of(mesh, path);
+    if !within.is_empty() {
+        return within;
+    }
     let looks = obj_materials(mesh, Some(path));
     let mut faces_with: BTreeMap<&Path, usize> = BTreeMap::new();
     for (material, faces) in faces_by_material(mesh) {
@@ -22,8 +33,10 @@ pub fn material_picture(mesh: &MeshFile, path: &Path) -> Option<PathBuf> {
             *faces_with.entry(picture).or_default() += faces;
         }
     }
+    let mut pictures: Vec<(&Path, usize)> = faces_with.into_iter().collect();
     // The picture with the first name wins a tie.
-    faces_with.into_iter().rev().max_by_key(|&(_, faces)| faces).map(|(picture, _)| picture.to_owned())
+    pictures.sort_by_key(|&(_, faces)| Reverse(faces));
+    pictures.into_iter().map(|(picture, _)| picture.to_owned()).collect()
 }
 
 /// Look of a material.

@@ -32,7 +32,7 @@ pub(crate) use libraries::{copy_materials, relocated};
 pub(crate) use line::{number, quoted, words};
 pub(crate) use lines::{Lines, split_mark};
 pub(crate) use material::obj_materials;
-pub use material::{material_files, material_picture};
+pub use material::{material_files, material_picture, material_pictures};
 pub(crate) use parse::parse;
 pub(crate) use values::corner_values;
 pub use write::write_obj;

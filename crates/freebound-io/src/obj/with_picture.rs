@@ -92,7 +92,7 @@ fn head_for(path: &Path) -> String {
 /// Puts a picture into the mesh's folder, unless it is there already, and returns its name.
 fn put_picture(picture: &PictureFile, beside: &mut Beside<'_>) -> Result<String, WriteError> {
     let mesh = beside.mesh;
-    let Some(source) = &picture.path else {
+    let Some(source) = picture.own_file() else {
         let name = format!("{}-{MATERIAL}.png", stem_of(mesh));
         let mut bytes = Vec::new();
         let failed = |source| WriteError::writing(mesh.with_file_name(&name), source);

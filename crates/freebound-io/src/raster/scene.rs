@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::{Canvas, Colour, RasterPaint, RasterShading, colours};
-use freebound_core::geom::Picture;
+use freebound_core::geom::{Picture, SpaceBounds};
 use freebound_core::mesh::VertexId;
 use freebound_core::problem::Embedding;
 
@@ -67,9 +67,7 @@ impl<'a> Scene<'a> {
     ) -> Self {
         let samples = canvas.samples.max(1) as usize;
         let (width, height) = (canvas.width as usize * samples, canvas.height as usize * samples);
-        let finite = || seen.iter().filter(|p| p.is_finite());
-        let low = finite().copied().fold(DVec3::INFINITY, DVec3::min);
-        let high = finite().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let SpaceBounds { low, high } = SpaceBounds::of(seen.iter().copied());
         let (centre, extent) = ((low + high) / 2.0, (high - low).max(DVec3::splat(f64::MIN_POSITIVE)));
         let room = f64::from(1.0 - 2.0 * MARGIN);
         let scale = (width as f64 * room / extent.x).min(height as f64 * room / extent.y);

@@ -4,7 +4,7 @@ use freebound_core::geom::Picture;
 use freebound_core::mesh::TriMesh;
 use freebound_core::pipeline::LayoutSurface;
 use freebound_core::problem::{Control, Embedding, SolveError};
-use freebound_io::{BakeOptions, BakedPicture, PaintedSurface, bake};
+use freebound_io::{BakeOptions, BakedPicture, PaintedSurface, Registration, bake};
 use freebound_testkit::{grid, shaped};
 use glam::{DVec2, DVec3};
 
@@ -38,7 +38,7 @@ fn every_pixel_shows_the_point_of_the_surface_that_lies_there() {
     // A quarter turn, smaller, on a picture that is not square.
     let place = |z: DVec2| DVec2::new(0.7 - 0.4 * z.y, 0.2 + 0.6 * z.x);
     let new = layout(&mesh, place);
-    let options = BakeOptions { pixels: [90, 160], margin: 0 };
+    let options = BakeOptions { pixels: [90, 160], margin: 0, registration: Registration::AsTheyAre };
     let BakedPicture { picture, report } = baked(&mesh, &old, &new, options);
     assert_eq!([picture.width, picture.height], options.pixels);
     let mut seen = 0;
@@ -65,7 +65,7 @@ fn charts_grow_by_the_margin_and_no_further() {
     let mesh = flat();
     let new = layout(&mesh, |z| 0.25 + 0.5 * z);
     for margin in [0, 1, 5] {
-        let options = BakeOptions { pixels: [64, 64], margin };
+        let options = BakeOptions { pixels: [64, 64], margin, registration: Registration::AsTheyAre };
         let BakedPicture { picture, .. } = baked(&mesh, &new, &new, options);
         for (x, y) in (0..64).flat_map(|x| (0..64).map(move |y| (x, y))) {
             let beyond = |pixel: u32| 16_u32.saturating_sub(pixel).max((pixel + 1).saturating_sub(48));
@@ -79,7 +79,7 @@ fn charts_grow_by_the_margin_and_no_further() {
 fn old_layouts_beyond_the_unit_square_repeat_their_picture() {
     let mesh = flat();
     let new = layout(&mesh, |z| 0.05 + 0.9 * z);
-    let options = BakeOptions { pixels: [50, 50], margin: 2 };
+    let options = BakeOptions { pixels: [50, 50], margin: 2, registration: Registration::AsTheyAre };
     let once = baked(&mesh, &layout(&mesh, |z| 0.1 + 0.8 * z), &new, options);
     let shifted = baked(&mesh, &layout(&mesh, |z| DVec2::new(3.0, -2.0) + 0.1 + 0.8 * z), &new, options);
     let pairs = once.picture.pixels.iter().zip(&shifted.picture.pixels);
@@ -91,7 +91,7 @@ fn faces_outside_the_picture_are_counted_and_overlaps_show_the_first_face() {
     let mesh = grid(2, 2);
     let old = layout(&mesh, |z| 0.25 * z);
     let whole = layout(&mesh, |z| 0.25 * z);
-    let options = BakeOptions { pixels: [32, 32], margin: 0 };
+    let options = BakeOptions { pixels: [32, 32], margin: 0, registration: Registration::AsTheyAre };
     assert_eq!(baked(&mesh, &old, &whole, options).report.outside, 0);
     let moved = layout(&mesh, |z| 0.25 * z + DVec2::new(0.75, 0.0));
     assert_eq!(baked(&mesh, &old, &moved, options).report.outside, 4);
@@ -104,7 +104,7 @@ fn faces_outside_the_picture_are_counted_and_overlaps_show_the_first_face() {
 fn a_picture_has_the_same_bytes_on_any_number_of_threads() {
     let mesh = flat();
     let (old, new) = (layout(&mesh, |z| z), layout(&mesh, |z| 0.1 + 0.7 * z));
-    let options = BakeOptions { pixels: [200, 120], margin: 4 };
+    let options = BakeOptions { pixels: [200, 120], margin: 4, registration: Registration::AsTheyAre };
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| baked(&mesh, &old, &new, options).picture)
@@ -120,7 +120,7 @@ fn a_surface_that_lies_apart_is_measured() {
     let old =
         PaintedSurface { layout: LayoutSurface { mesh: &mesh, coordinates: &coordinates }, picture: &gradient(16) };
     let new = LayoutSurface { mesh: &lifted, coordinates: &coordinates };
-    let options = BakeOptions { pixels: [16, 16], margin: 0 };
+    let options = BakeOptions { pixels: [16, 16], margin: 0, registration: Registration::AsTheyAre };
     let baked = bake(old, new, options, Control::unattended()).expect("nobody cancels");
     assert!((baked.report.largest_distance - 0.25).abs() < 1e-12, "{:?}", baked.report);
 }
@@ -131,7 +131,7 @@ fn a_cancelled_picture_says_so() {
     let coordinates = layout(&mesh, |z| z);
     let layout = LayoutSurface { mesh: &mesh, coordinates: &coordinates };
     let cancel = std::sync::atomic::AtomicBool::new(true);
-    let options = BakeOptions { pixels: [16, 16], margin: 0 };
+    let options = BakeOptions { pixels: [16, 16], margin: 0, registration: Registration::AsTheyAre };
     let old = PaintedSurface { layout, picture: &gradient(16) };
     let refused = bake(old, layout, options, Control::new(&cancel, &|_| {}));
     assert!(matches!(refused, Err(SolveError::Cancelled)));

@@ -8,6 +8,7 @@ mod corner_data;
 mod formats;
 mod full_disk;
 mod gltf_hostile;
+mod gltf_pictures;
 mod gltf_read;
 mod gltf_write;
 mod obj;

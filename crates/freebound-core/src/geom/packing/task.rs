@@ -232,8 +232,7 @@ impl<'a> Task<'a> {
         if largest <= 0.0 || self.density.is_some_and(|density| density > largest) {
             return None;
         }
-        let of_all = self.pixels() * tiles as f64 / MOST_CELLS;
-        let finest = scene.grid(cell_of((self.pixels() / FINEST_CELLS).max(of_all)), Cover::Touched);
+        let finest = scene.grid(self.finest_cell(tiles), Cover::Touched);
         let refiner = Refiner { scene: &scene, highest: self.density.unwrap_or(largest), is_cancelled };
         let shaped = if self.shapes.len() <= MANY { self.coarse_to_fine(&refiner, finest, largest) } else { None };
         let found = match shaped {
@@ -245,6 +244,12 @@ impl<'a> Task<'a> {
         is_enough.then(|| (found.scale, packed(&scene, &found, finest)))
     }
 
+    /// Side of the smallest cells that a number of tiles are divided into.
+    fn finest_cell(&self, tiles: usize) -> f64 {
+        let of_all = self.pixels() * tiles as f64 / MOST_CELLS;
+        cell_of((self.pixels() / FINEST_CELLS).max(of_all))
+    }
+
     /// True if the fixed shapes leave some of a tile free, whatever the gap is.
     pub(crate) fn has_room(&self) -> bool {
         if self.fixed.is_empty() {
@@ -252,8 +257,7 @@ impl<'a> Task<'a> {
         }
         let fixed = self.fixed.iter().map(|shape| shape.edges().collect()).collect();
         let scene = Scene { charts: Vec::new(), fixed, tiles: self.tiles, picture: self.page, gap: 0.0 };
-        let of_all = self.pixels() * self.tiles as f64 / MOST_CELLS;
-        let grid = scene.grid(cell_of((self.pixels() / FINEST_CELLS).max(of_all)), Cover::Sampled);
+        let grid = scene.grid(self.finest_cell(self.tiles), Cover::Sampled);
         scene.taken(grid).iter().any(|taken| taken.count() < grid.columns * grid.rows)
     }
 

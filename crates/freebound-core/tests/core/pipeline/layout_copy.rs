@@ -174,34 +174,40 @@ fn charts_of_a_closed_surface_are_copied_to_coarser_and_finer_meshes() {
     }
 }
 
+/// Two flat sheets, the lower one facing down, as the sides of a wall.
+fn wall(columns: u32, rows: u32, gap: f64) -> TriMesh {
+    let mut mesh = flat(columns, rows);
+    let count = u32::try_from(mesh.vertex_count()).expect("few");
+    let back: Vec<DVec3> = mesh.positions.iter().map(|p| *p - DVec3::Z * gap).collect();
+    mesh.positions.extend(back);
+    let turned = |t: &[VertexId; 3]| [t[0], t[2], t[1]].map(|v| VertexId::new(v.number() + count));
+    mesh.triangles.extend(mesh.triangles.iter().map(turned).collect::<Vec<_>>());
+    mesh
+}
+
+/// The mesh with all its faces turned over.
+fn inside_out(mesh: TriMesh) -> TriMesh {
+    TriMesh { triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(), ..mesh }
+}
+
 #[test]
 fn both_sides_of_a_thin_wall_keep_their_charts() {
-    let wall = |columns: u32, rows: u32, gap: f64| {
-        let mut mesh = flat(columns, rows);
-        let count = u32::try_from(mesh.vertex_count()).expect("few");
-        let back: Vec<DVec3> = mesh.positions.iter().map(|p| *p - DVec3::Z * gap).collect();
-        mesh.positions.extend(back);
-        let turned = |t: &[VertexId; 3]| [t[0], t[2], t[1]].map(|v| VertexId::new(v.number() + count));
-        mesh.triangles.extend(mesh.triangles.iter().map(turned).collect::<Vec<_>>());
-        mesh
-    };
     let place = |p: DVec3| DVec2::new(0.4 * p.x + if p.z < 0.0 { 0.5 } else { 0.0 }, p.y);
-    for gap in [1e-3, 1e-9] {
+    for (gap, is_turned) in [(1e-3, false), (1e-9, false), (1e-3, true), (1e-4, true)] {
         let layout = Layout::by_positions(wall(9, 9, gap), place);
-        let (copy, _) = layout.onto(&wall(4, 6, gap));
+        let new = wall(4, 6, gap);
+        let (copy, _) = layout.onto(&if is_turned { inside_out(new) } else { new });
         let verdict = copy.verdict();
-        assert!(verdict.charts == 2, "{verdict:?}");
+        assert!(verdict.charts == 2, "{gap} {is_turned}: {verdict:?}");
         let of_front = &copy.of_corner[..copy.of_corner.len() / 2];
-        assert!(of_front.iter().all(|uv| uv.x < 0.45), "the front lies on the back's chart");
+        assert!(of_front.iter().all(|uv| uv.x < 0.45), "{gap} {is_turned}: the front lies on the back's chart");
     }
 }
 
 #[test]
 fn an_inside_out_mesh_takes_the_nearest_side_not_the_far_one() {
     let layout = Layout::unwrapped(&ball(16, 10));
-    let mesh = ball(16, 10);
-    let turned = TriMesh { triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(), ..mesh };
-    let (copy, copied) = layout.onto(&turned);
+    let (copy, copied) = layout.onto(&inside_out(ball(16, 10)));
     assert_eq!(copied.largest_distance, 0.0);
     assert_eq!(copy.verdict().charts, layout.verdict().charts);
 }

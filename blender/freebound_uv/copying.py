@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Copy of the layout of one object to other objects of the same surface, such as other levels of detail."""
+
+import bpy
+from bpy.props import BoolProperty
+
+from . import meshes, operators, solving
+from .operators import Run
+
+
+class FREEBOUND_OT_copy_layout(Run, bpy.types.Operator):
+    """Copy the UV map of the active object to the other selected objects, and prove it there. Their meshes may differ"""
+
+    bl_idname = "object.freebound_copy_layout"
+    bl_label = "Freebound Copy Layout"
+
+    is_in_world: BoolProperty(
+        name="World Positions",
+        description="Compare the objects where they stand in the scene. Otherwise their own coordinates are compared",
+        default=False,
+    )
+    fit: BoolProperty(
+        name="Fit",
+        description="Move and scale the box around the active object to the box around each other object first",
+        default=False,
+    )
+    marks_seams: BoolProperty(
+        name="Mark Seams",
+        description="Mark the seams of the copied layout on the meshes",
+        default=True,
+    )
+
+    @classmethod
+    def poll(cls, context):
+        if operators.is_running():
+            cls.poll_message_set("A run of Freebound is under way")
+            return False
+        if context.mode == "OBJECT" and _targets(context):
+            return True
+        cls.poll_message_set("In object mode, select the other objects, then the object with the layout last")
+        return False
+
+    def draw(self, context):
+        for name in ("is_in_world", "fit", "marks_seams"):
+            self.layout.prop(self, name)
+
+    def _gather(self, context):
+        active = context.active_object
+        source = meshes.gather_objects(context, [active], f"{active.name} has no UV map", self.is_in_world, True)
+        self._source = source
+        return meshes.gather_objects(context, _targets(context), "the selected objects have no faces", self.is_in_world)
+
+    def _work_of(self):
+        source, fit, marks = self._source, self.fit, self.marks_seams
+        names = [part.object.name for part in self._selection.parts]
+        return lambda task, selection, _: solving.copy_layout(task, source, selection, names, fit, marks)
+
+
+def _targets(context):
+    """Objects that get the layout, each mesh once."""
+    active = context.active_object
+    if active is None or active.type != "MESH":
+        return []
+    others = {item.data: item for item in context.selected_objects if item.type == "MESH"}
+    others.pop(active.data, None)
+    return list(others.values())
+
+
+CLASSES = (FREEBOUND_OT_copy_layout,)
