@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use freebound_core::geom::Picture;
-use freebound_core::pipeline::LayoutSurface;
 use freebound_core::problem::Control;
 use freebound_io::raster::write_png;
 use freebound_io::{
@@ -38,8 +37,9 @@ impl Transferred {
     /// The layout as a file of a kind holds it.
     fn file(&self, kind: OutputKind, precision: Option<Precision>) -> Result<TransferredFile<'_>, TransferError> {
         let control = Control::unattended();
-        let file = TransferredFile::of_copy(self.copy.clone(), self.transfer, FileForm { kind, precision }, control)?;
-        Ok(TransferredFile { source_path: self.path.as_deref(), materials: Materials::Stay, ..file })
+        let mut file = TransferredFile::of_copy(self.copy.clone(), self.transfer, FileForm { kind, precision }, control)?;
+        (file.source_path, file.materials) = (self.path.as_deref(), Materials::Stay);
+        Ok(file)
     }
 }
 
@@ -219,12 +219,9 @@ pub(crate) fn bake(
     }
     let rules = BakeOptions { pixels: size, margin: options.margin, registration: registration(options.fit) };
     let [old, new] = [layout_of(py, &old.file)?, layout_of(py, &new.file)?];
-    let surface = |layout: &TextureMesh| -> LayoutSurface<'_> {
-        LayoutSurface { mesh: &layout.mesh, coordinates: &layout.embedding }
-    };
     let work = |control: Control<'_>| {
-        let painted = PaintedSurface { layout: surface(&old), picture: &picture };
-        freebound_io::bake(painted, surface(&new), rules, control)
+        let painted = PaintedSurface { layout: old.surface(), picture: &picture };
+        freebound_io::bake(painted, new.surface(), rules, control)
     };
     match interruptible(py, options.threads.map_or(0, usize::from), stop, work)? {
         Ok(baked) => Ok(Baked { baked }),

@@ -13,7 +13,6 @@ use super::say::warn;
 use super::standard::read_typed;
 use super::summary::{bake_summary, deliver, deliver_beside, transfer_summary};
 use crate::session::Model;
-use freebound_core::pipeline::LayoutSurface;
 use freebound_core::problem::{Control, SolveError};
 use freebound_io::raster::write_png;
 use freebound_io::{
@@ -137,9 +136,9 @@ pub(super) fn run_bake(arguments: &BakeArguments) -> Result<CommandOutcome, Comm
         let read = start.elapsed().as_secs_f64();
         go_on()?;
         progress.enter("drawing");
-        let painted = PaintedSurface { layout: surface_of(&old_layout), picture: &picture.pixels };
+        let painted = PaintedSurface { layout: old_layout.surface(), picture: &picture.pixels };
         let control = Control::new(&INTERRUPTED, &|_| {});
-        let baked = bake(painted, surface_of(&new_layout), arguments.options(&picture), control)?;
+        let baked = bake(painted, new_layout.surface(), arguments.options(&picture), control)?;
         let solve = start.elapsed().as_secs_f64() - read;
         progress.enter("writing");
         let before_writing = Instant::now();
@@ -182,8 +181,4 @@ fn layout_of(model: &Model) -> Result<TextureMesh, CommandError> {
         Ok((layout, _)) => Ok(layout),
         Err(error) => Err(CommandError::Transfer { path: model.path_words(), error: error.into() }),
     }
-}
-
-fn surface_of(layout: &TextureMesh) -> LayoutSurface<'_> {
-    LayoutSurface { mesh: &layout.mesh, coordinates: &layout.embedding }
 }

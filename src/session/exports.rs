@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{BakeRequest, Model, PatternRequest, SaveRequest, Written};
-use freebound_core::pipeline::{Fit, LayoutSurface};
+use freebound_core::pipeline::Fit;
 use freebound_core::problem::{Control, SolveError};
 use freebound_io::raster::write_png;
 use freebound_io::{
@@ -87,10 +87,9 @@ fn write_baked(
     let new = MeshFile { texture: Some(texture), ..mesh.into_owned() };
     let (old, _) = model.source.partial_texture_mesh().map_err(fault)?;
     let (new, _) = new.partial_texture_mesh().map_err(fault)?;
-    let [old, new] = [&old, &new].map(|layout| LayoutSurface { mesh: &layout.mesh, coordinates: &layout.embedding });
     let picture = output.picture.ok_or_else(|| fault(TextureError::None))?;
-    let old = PaintedSurface { layout: old, picture: &picture.pixels };
-    let baked = bake(old, new, *options, control);
+    let old = PaintedSurface { layout: old.surface(), picture: &picture.pixels };
+    let baked = bake(old, new.surface(), *options, control);
     let BakedPicture { picture, report } = baked.map_err(|error| match error {
         SolveError::Cancelled => WriteError::cancelled(path),
         error => WriteError::writing(path, std::io::Error::other(error)),

@@ -107,7 +107,9 @@ impl LayoutOfOther {
 /// Mirrors coordinates within their box, from left to right.
 fn turn_over(coordinates: &mut [DVec2]) {
     let Bounds { low, high } = Bounds::of(coordinates.iter().copied());
-    coordinates.iter_mut().for_each(|uv| uv.x = low.x + (high.x - uv.x));
+    for uv in coordinates {
+        uv.x = low.x + (high.x - uv.x);
+    }
 }
 
 fn turned_over(embedding: &Embedding) -> Embedding {

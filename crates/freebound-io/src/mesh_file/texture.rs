@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use super::{MeshFile, NO_TEXTURE, Texture, TextureError};
 use freebound_core::mesh::{TriMesh, VertexId};
+use freebound_core::pipeline::LayoutSurface;
 use freebound_core::problem::Embedding;
 
 /// Mesh over texture vertices, with the embedding in the file.
@@ -150,6 +151,11 @@ pub(crate) fn coordinate_key(coordinate: DVec2) -> [u64; 2] {
 }
 
 impl TextureMesh {
+    /// Layout and its surface.
+    pub fn surface(&self) -> LayoutSurface<'_> {
+        LayoutSurface { mesh: &self.mesh, coordinates: &self.embedding }
+    }
+
     /// Removes triangles with two corners at exactly one point, both in space and in the plane. Such triangles arise
     /// if a polygon names a point twice by different vertices. They have no area in space or in the plane.
     pub fn drop_collapsed_faces(&mut self) {
