@@ -37,7 +37,8 @@ impl Transferred {
     /// The layout as a file of a kind holds it.
     fn file(&self, kind: OutputKind, precision: Option<Precision>) -> Result<TransferredFile<'_>, TransferError> {
         let control = Control::unattended();
-        let mut file = TransferredFile::of_copy(self.copy.clone(), self.transfer, FileForm { kind, precision }, control)?;
+        let mut file =
+            TransferredFile::of_copy(self.copy.clone(), self.transfer, FileForm { kind, precision }, control)?;
         (file.source_path, file.materials) = (self.path.as_deref(), Materials::Stay);
         Ok(file)
     }

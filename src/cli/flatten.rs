@@ -57,7 +57,11 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
     if solve.start.is_some() && arguments.fit == Some(Fit::Unit) {
         return Err(CommandError::Usage("--start keeps the position of the layout: remove --fit unit".into()));
     }
-    refuse_unwritten_formats(arguments.output.as_deref())?;
+    refuse_unwritten_formats("-o", arguments.output.as_deref())?;
+    refuse_unwritten_formats("--flat-mesh", arguments.flat_mesh.as_deref())?;
+    if arguments.flat_mesh.as_deref().is_some_and(is_standard) {
+        return Err(CommandError::Usage("standard output: --flat-mesh writes a file: name one".to_owned()));
+    }
     let pattern = PatternJob::typed(&arguments.cutting)?;
     let places = OutputPaths::of_flatten(arguments);
     refuse_clashes(arguments, &places)?;
@@ -100,6 +104,7 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
             report: arguments.report.as_deref(),
             steps: arguments.steps.as_deref(),
             pattern,
+            flat_mesh: arguments.flat_mesh.as_deref(),
             locked,
         };
         job.run(&model, start, &progress)
@@ -107,10 +112,10 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
 }
 
 /// Rejects names of formats that can be read but not written.
-pub(super) fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), CommandError> {
+pub(super) fn refuse_unwritten_formats(option: &str, output: Option<&Path>) -> Result<(), CommandError> {
     let extension = output.and_then(Path::extension).unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     if matches!(extension.as_str(), "gltf" | "off" | "stl") {
-        let text = format!("-o: .{extension} files cannot be written: end the name in .obj, .ply or .glb");
+        let text = format!("{option}: .{extension} files cannot be written: end the name in .obj, .ply or .glb");
         return Err(CommandError::Usage(text));
     }
     Ok(())
@@ -118,7 +123,7 @@ pub(super) fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), Comm
 
 /// Rejects meshes that cannot be written as requested: formats without a writer, and a stream with files beside it.
 pub(super) fn refuse_unwritten_mesh(result: &MeshOutputArguments) -> Result<(), CommandError> {
-    refuse_unwritten_formats(result.output.as_deref())?;
+    refuse_unwritten_formats("-o", result.output.as_deref())?;
     refuse_files_beside_stream(result.output.as_deref(), [(result.copy_materials, "--copy-materials")])
 }
 
@@ -223,6 +228,7 @@ fn flatten_example() -> Result<CommandOutcome, CommandError> {
         report: Some(&report),
         steps: None,
         pattern: None,
+        flat_mesh: None,
         locked: BTreeSet::new(),
     };
     let progress = ProgressLine::default();

@@ -33,6 +33,8 @@ pub(super) struct HeadlessJob<'a> {
     pub(super) report: Option<&'a Path>,
     pub(super) steps: Option<&'a Path>,
     pub(super) pattern: Option<PatternJob<'a>>,
+    /// File for the flat mesh.
+    pub(super) flat_mesh: Option<&'a Path>,
     /// Numbers of the charts that stay where the layout to start from has them.
     pub(super) locked: BTreeSet<usize>,
 }
@@ -148,6 +150,10 @@ impl HeadlessJob<'_> {
             } else {
                 output.write(*kind, path)?;
             }
+        }
+        if let Some(path) = self.flat_mesh {
+            go_on()?;
+            output.write_flat_mesh(path)?;
         }
         output.report.seconds.write = before_writing.elapsed().as_secs_f64();
         output.report.seconds.total = start.elapsed().as_secs_f64();

@@ -32,7 +32,8 @@ impl OutputPaths {
         let library = output.as_deref().filter(|path| arguments.picture.is_some() && !is_standard(path));
         let library = library.map(PictureFile::library_beside);
         let asked = [("-o", output), ("--svg", svg), ("--png", png), ("--report", report), ("--picture", &library)];
-        let asked = asked.into_iter().chain([("--pattern", &arguments.cutting.pattern)]);
+        let asked =
+            asked.into_iter().chain([("--pattern", &arguments.cutting.pattern), ("--flat-mesh", &arguments.flat_mesh)]);
         Self { steps: arguments.steps.clone(), ..Self::of(asked.map(|(option, path)| (option, path.as_deref()))) }
     }
 

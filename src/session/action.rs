@@ -270,6 +270,8 @@ pub enum Action {
     SetStop(StopConditions),
     /// Writes a file.
     Save(SaveRequest),
+    /// Writes the layout as a flat mesh.
+    SaveFlatMesh(PathBuf),
     /// Writes a cutting pattern.
     SavePattern(PatternRequest),
     /// Writes the picture of the file's layout, drawn for the layout on the screen.

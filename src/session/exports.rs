@@ -16,6 +16,8 @@ use freebound_io::{
 pub(super) enum Export {
     /// File of the result.
     Result(SaveRequest),
+    /// Layout as a flat mesh.
+    FlatMesh(PathBuf),
     /// Cutting pattern.
     Pattern(PatternRequest),
     /// Picture of the file's layout, drawn for the layout on the screen.
@@ -27,6 +29,7 @@ impl Export {
     pub(super) fn path(&self) -> &PathBuf {
         match self {
             Self::Result(request) => &request.path,
+            Self::FlatMesh(path) => path,
             Self::Pattern(request) => &request.path,
             Self::Baked(request) => &request.path,
         }
@@ -36,8 +39,8 @@ impl Export {
     pub(super) fn fit(&self) -> Fit {
         match self {
             Self::Result(request) => request.fit,
-            // A pattern finds the true size of every chart by itself, and a picture shows the unit square.
-            Self::Pattern(_) | Self::Baked(_) => Fit::default(),
+            // A flat mesh and a pattern find the true size by themselves, and a picture shows the unit square.
+            Self::FlatMesh(_) | Self::Pattern(_) | Self::Baked(_) => Fit::default(),
         }
     }
 
@@ -54,6 +57,10 @@ impl Export {
                 output.round_to(None, request.kind);
                 let files = output.write(request.kind, &request.path)?;
                 Ok(Written { files, about: Some(output.summary()) })
+            }
+            Self::FlatMesh(path) => {
+                output.write_flat_mesh(path)?;
+                Ok(Written { about: Some(output.summary()), ..Written::file(path.clone()) })
             }
             Self::Pattern(PatternRequest { path, options }) => write_pattern(&output, model, path, *options),
             Self::Baked(request) => write_baked(&output, model, request, control),

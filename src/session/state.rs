@@ -107,6 +107,7 @@ impl Session {
             Action::DiscardRecovery(path) => self.files.autosave_mut().discard(&path),
             Action::ClearRecent => self.files.recent_mut().clear(),
             Action::Save(request) => self.save(Export::Result(request)),
+            Action::SaveFlatMesh(path) => self.save(Export::FlatMesh(path)),
             Action::SavePattern(request) => self.save(Export::Pattern(request)),
             Action::SaveBaked(request) => self.save_baked(request),
             Action::SaveProject(path) => self.save_project(path),

@@ -368,6 +368,7 @@ fn drawings_pictures_and_reports_are_exported() {
         ("Layout at true scale…", "sheet-flat.svg", b"<svg"),
         ("Mesh and layout side by side…", "sheet-flat.png", b"\x89PNG"),
         ("Report…", "sheet-report.json", b"{"),
+        ("Layout as a flat mesh…", "sheet-flat-mesh.obj", b"v "),
     ] {
         let mut window = window();
         window.menu(&["File", "Export", entry]);

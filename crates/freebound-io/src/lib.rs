@@ -59,6 +59,7 @@ mod file_layout;
 mod file_values;
 mod finished;
 mod finite;
+mod flat_mesh;
 mod gltf;
 mod landmark_sets;
 mod machine;

@@ -115,6 +115,11 @@ pub struct FlattenArguments {
     /// Draw the mesh and the layout side by side into this file (PNG); `-` for standard output.
     #[arg(long, value_name = "FILE|-")]
     pub png: Option<PathBuf>,
+    /// Write the layout as a flat mesh in the plane z = 0 to this file, in the units of the mesh.
+    ///
+    /// The mesh has one vertex per texture coordinate. Names that end in .ply or .glb give PLY or GLB; all others give OBJ.
+    #[arg(long, value_name = "MESH", hide_short_help = true)]
+    pub flat_mesh: Option<PathBuf>,
     /// Draw every step into this folder (SVG), with a table of numbers (steps.csv).
     ///
     /// Steps of an earlier run in the folder are replaced.

@@ -109,6 +109,7 @@ fn check_options(options: &[OsString]) -> Result<(), CommandError> {
         ("--svg", flatten.svg.is_some()),
         ("--png", flatten.png.is_some()),
         ("--steps", flatten.steps.is_some()),
+        ("--flat-mesh", flatten.flat_mesh.is_some()),
         ("--pattern", flatten.cutting.pattern.is_some()),
         ("--copy-materials", flatten.copy_materials),
         ("--picture", flatten.picture.is_some()),

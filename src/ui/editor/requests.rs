@@ -147,6 +147,7 @@ impl Editor {
                 self.keep_view();
                 self.act(Action::SaveProject(path));
             }
+            FileDialogKind::FlatMesh => self.act(Action::SaveFlatMesh(path)),
             FileDialogKind::Pattern => {
                 self.files.options_shown = None;
                 let options = self.files.pattern;

@@ -32,6 +32,8 @@ pub enum FileDialogKind {
     SaveProject,
     /// Export of the flattening in a format. Default size: the size chosen in the editor.
     Export(OutputKind, Option<Fit>),
+    /// Layout as a flat mesh.
+    FlatMesh,
     /// Cutting pattern.
     Pattern,
     /// Picture of the file's layout, drawn for the layout on the screen.
@@ -108,6 +110,9 @@ impl FileDialogKind {
             Self::Export(kind, _) => {
                 let format = kind.format();
                 (format.title, format.name, slice::from_ref(&format.extension), format.ending)
+            }
+            Self::FlatMesh => {
+                ("Export the flat mesh", "OBJ, PLY or GLB mesh", &["obj", "ply", "glb"], "-flat-mesh.obj")
             }
             Self::Pattern => {
                 ("Export the cutting pattern", "PDF, SVG or DXF drawing", PatternFormat::EXTENSIONS, "-pattern.pdf")
@@ -213,8 +218,8 @@ pub(in crate::ui) const COPY_COMMAND: [&str; 2] =
     ["Copy as command line", "Copy the command that makes this map, with comments on what it does not express"];
 
 /// All exports: dialog, menu entry and description.
-pub(in crate::ui) const EXPORTS: [(FileDialogKind, &str, &str); 14] = {
-    use FileDialogKind::{Curves, Export, LinearSystem, PanePicture, StepPictures};
+pub(in crate::ui) const EXPORTS: [(FileDialogKind, &str, &str); 15] = {
+    use FileDialogKind::{Curves, Export, FlatMesh, LinearSystem, PanePicture, StepPictures};
     use OutputKind::{Glb, Json, Obj, Ply, Png, Svg};
     let (unit, true_scale) = (Some(Fit::Unit), Some(Fit::True));
     let [table, svg, pdf] = CurvesExport::ALL;
@@ -228,6 +233,7 @@ pub(in crate::ui) const EXPORTS: [(FileDialogKind, &str, &str); 14] = {
         (Export(Glb, None), "Mesh as GLB…", "Binary glTF in 32 bits, with all data of an opened glTF file"),
         (Export(Svg, unit), "Layout in the unit square…", "SVG, positioned like texture coordinates"),
         (Export(Svg, true_scale), "Layout at true scale…", "SVG in the units of the mesh, for cutting out"),
+        (FlatMesh, "Layout as a flat mesh…", "OBJ, PLY or GLB in the plane z = 0, in the units of the mesh"),
         (PanePicture(Pane::Mesh), "Picture of the mesh's pane…", "PNG, as shown in the pane"),
         (PanePicture(Pane::Plane), "Picture of the embedding's pane…", "PNG, as shown in the pane"),
         (Export(Png, None), "Mesh and layout side by side…", "PNG, redrawn for the file"),

@@ -7,7 +7,7 @@ use freebound_core::geom::{Picture, VAxis};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Fit, Target};
 use freebound_core::problem::PinKind;
-use freebound_io::read_mesh;
+use freebound_io::{OutputKind, PictureFile, material_picture, read_mesh};
 use glam::{DVec2, DVec3};
 use tempfile::TempDir;
 
@@ -108,6 +108,36 @@ fn a_picture_that_the_material_names_comes_with_the_mesh() {
     settled(&mut session, Action::Open(path));
     assert_eq!(session.document().frame().aspect, 1.5);
     assert!(session.messages().is_empty() && !session.has_unsaved_work());
+}
+
+#[test]
+fn a_picture_within_a_glb_file_comes_with_the_mesh_into_projects_and_exports() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    write_dome(&at("dome.obj"), 4, 3);
+    write_picture(&at("skin.png"), 3, 2);
+    let mut first = session();
+    settled(&mut first, Action::Open(at("dome.obj")));
+    settled(&mut first, Action::OpenPicture(at("skin.png")));
+    settled(&mut first, Action::Save(SaveRequest { path: at("dome.glb"), kind: OutputKind::Glb, fit: Fit::Unit }));
+    let skin = PictureFile::read(&at("skin.png")).unwrap().pixels;
+    for name in ["dome.obj", "skin.png", "dome.mtl"] {
+        std::fs::remove_file(at(name)).ok();
+    }
+    let mut session = session();
+    settled(&mut session, Action::Open(at("dome.glb")));
+    let picture = session.document().picture.clone().expect("a picture");
+    assert_eq!((&*picture.pixels, picture.path.as_deref()), (&*skin, Some(at("dome.glb").as_path())));
+    settled(&mut session, Action::SaveProject(at("dome.freebound")));
+    let mut again = super::basics::session();
+    settled(&mut again, Action::Open(at("dome.freebound")));
+    assert_eq!(again.document().picture.as_ref().expect("a picture").pixels, skin);
+    assert!(again.messages().iter().all(|message| message.severity == Severity::Note), "{:?}", again.messages());
+    settled(&mut again, Action::Save(SaveRequest { path: at("out.obj"), kind: OutputKind::Obj, fit: Fit::Unit }));
+    let out = read_mesh(&at("out.obj")).unwrap();
+    let copied = material_picture(&out, &at("out.obj")).expect("a picture");
+    assert!(copied.extension().is_some_and(|extension| extension == "png"), "{copied:?}");
+    assert_eq!(PictureFile::read(&copied).unwrap().pixels, skin);
 }
 
 #[test]

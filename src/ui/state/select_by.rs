@@ -1,0 +1,54 @@
+//! Ways to select vertices by the mesh, by the map and by the selection.
+
+/// Ways to select vertices, or charts of the page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SelectBy {
+    /// All of them.
+    All,
+    /// Those that are not selected.
+    Invert,
+    /// The selection and its neighbours.
+    Grow,
+    /// The selection without its rim.
+    Shrink,
+    /// What is reached from the selection without crossing a sharp edge.
+    SharpEdges,
+    /// The boundary.
+    Boundary,
+    /// Pins, or charts with pins.
+    Pins,
+    /// The most distorted ones.
+    Distorted,
+}
+
+impl SelectBy {
+    /// All ways, in the order of the menu.
+    pub const ALL: [Self; 8] = [
+        Self::All,
+        Self::Invert,
+        Self::Grow,
+        Self::Shrink,
+        Self::SharpEdges,
+        Self::Boundary,
+        Self::Pins,
+        Self::Distorted,
+    ];
+
+    /// Entry of the menu, and its description.
+    pub(in crate::ui) const fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::All => ["Select all", "All vertices, or all charts of the page"],
+            Self::Invert => ["Invert the selection", "Vertices or charts that are not selected"],
+            Self::Grow => ["Grow the selection", "Adds the neighbours of the selected vertices"],
+            Self::Shrink => ["Shrink the selection", "Leaves vertices that have no neighbour outside"],
+            Self::SharpEdges => {
+                ["Select up to sharp edges", "Faces that are reached from the selection without crossing a sharp edge"]
+            }
+            Self::Boundary => ["Select the boundary", "Vertices of the boundary, and of holes that were filled"],
+            Self::Pins => ["Select the pins", "Vertices with pins, or charts with them"],
+            Self::Distorted => {
+                ["Select the most distorted", "The worst tenth of the area, or the charts with an energy above 4.1"]
+            }
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! Sets of vertices that follow from others: grown, shrunk, up to sharp edges, at the boundary, most distorted.
+
+use std::collections::BTreeSet;
+
+use glam::DVec3;
+
+use freebound_core::mesh::{EdgeTable, VertexId};
+
+/// Triangles with the positions of their corners.
+#[derive(Clone, Copy, Debug)]
+pub struct VertexSets<'a> {
+    /// Positions of all vertices.
+    pub positions: &'a [DVec3],
+    /// Triangles.
+    pub triangles: &'a [[VertexId; 3]],
+}
+
+impl VertexSets<'_> {
+    /// Corners of all triangles.
+    pub fn all(self) -> BTreeSet<VertexId> {
+        self.corners_of(|_| true)
+    }
+
+    /// The vertices, and those that share a triangle with one of them.
+    pub fn grown(self, vertices: &BTreeSet<VertexId>) -> BTreeSet<VertexId> {
+        let is_in = self.marked(vertices);
+        let grown = self.corners_of(|face| self.triangles[face].iter().any(|vertex| is_in[vertex.index()]));
+        &grown | vertices
+    }
+
+    /// The vertices that share triangles with these vertices only.
+    pub fn shrunk(self, vertices: &BTreeSet<VertexId>) -> BTreeSet<VertexId> {
+        let is_in = self.marked(vertices);
+        let others = self.corners_of(|face| !self.triangles[face].iter().all(|vertex| is_in[vertex.index()]));
+        vertices - &others
+    }
+
+    /// Corners of the triangles that are not among these vertices.
+    pub fn inverted(self, vertices: &BTreeSet<VertexId>) -> BTreeSet<VertexId> {
+        &self.all() - vertices
+    }
+
+    /// Ends of the edges with a single triangle.
+    pub fn boundary(self) -> BTreeSet<VertexId> {
+        let table = self.edges();
+        let single = table.edges().filter(|sides| sides.len() == 1);
+        single.flat_map(|sides| self.ends(sides[0])).collect()
+    }
+
+    /// Corners of the triangles that are reached from those at the vertices without crossing an edge whose faces meet at
+    /// this angle or more. The start is the triangles between the vertices; if there are none, those at the vertices.
+    pub fn up_to_sharp_edges(self, vertices: &BTreeSet<VertexId>, degrees: f64) -> BTreeSet<VertexId> {
+        let is_in = self.marked(vertices);
+        let count = |face: usize| self.triangles[face].iter().filter(|vertex| is_in[vertex.index()]).count();
+        let with = |least: usize| (0..self.triangles.len()).filter(|&face| count(face) >= least).collect::<Vec<_>>();
+        let mut pending = with(3);
+        if pending.is_empty() {
+            pending = with(1);
+        }
+        let mut across = vec![[None; 3]; self.triangles.len()];
+        for sides in self.edges().edges() {
+            if let &[a, b] = sides
+                && self.angle(a, b) < degrees
+            {
+                across[a as usize / 3][a as usize % 3] = Some(b as usize / 3);
+                across[b as usize / 3][b as usize % 3] = Some(a as usize / 3);
+            }
+        }
+        let mut is_reached = vec![false; self.triangles.len()];
+        pending.iter().for_each(|&face| is_reached[face] = true);
+        while let Some(face) = pending.pop() {
+            for next in across[face].into_iter().flatten() {
+                if !std::mem::replace(&mut is_reached[next], true) {
+                    pending.push(next);
+                }
+            }
+        }
+        self.corners_of(|face| is_reached[face])
+    }
+
+    /// Corners of the triangles with the greatest values that together have this share of the whole area, at least one
+    /// triangle.
+    pub fn greatest(self, value: impl Fn(usize) -> f64, share: f64) -> BTreeSet<VertexId> {
+        let area = |face: usize| self.normal(face).length();
+        let mut order: Vec<usize> = (0..self.triangles.len()).collect();
+        order.sort_by(|&a, &b| value(b).total_cmp(&value(a)).then(a.cmp(&b)));
+        let mut left = share * (0..self.triangles.len()).map(area).sum::<f64>();
+        let mut is_taken = vec![false; self.triangles.len()];
+        for face in order {
+            is_taken[face] = true;
+            left -= area(face);
+            if left <= 0.0 {
+                break;
+            }
+        }
+        self.corners_of(|face| is_taken[face])
+    }
+
+    fn corners_of(self, is_wanted: impl Fn(usize) -> bool) -> BTreeSet<VertexId> {
+        let mut is_in = vec![false; self.positions.len()];
+        for face in (0..self.triangles.len()).filter(|&face| is_wanted(face)) {
+            self.triangles[face].iter().for_each(|vertex| is_in[vertex.index()] = true);
+        }
+        (0..self.positions.len()).filter(|&vertex| is_in[vertex]).map(VertexId::from_index).collect()
+    }
+
+    fn marked(self, vertices: &BTreeSet<VertexId>) -> Vec<bool> {
+        let mut is_in = vec![false; self.positions.len()];
+        vertices.iter().filter_map(|vertex| is_in.get_mut(vertex.index())).for_each(|place| *place = true);
+        is_in
+    }
+
+    fn edges(self) -> EdgeTable {
+        EdgeTable::new(self.positions.len(), self.triangles)
+    }
+
+    fn ends(self, side: u32) -> [VertexId; 2] {
+        let (corners, corner) = (self.triangles[side as usize / 3], side as usize % 3);
+        [corners[corner], corners[(corner + 1) % 3]]
+    }
+
+    fn normal(self, face: usize) -> DVec3 {
+        let [a, b, c] = self.triangles[face].map(|vertex| self.positions[vertex.index()]);
+        (b - a).cross(c - a)
+    }
+
+    /// Angle between the normals of the triangles of two sides, degrees. 0 if one has no area.
+    fn angle(self, a: u32, b: u32) -> f64 {
+        let [a, b] = [a, b].map(|side| self.normal(side as usize / 3));
+        a.cross(b).length().atan2(a.dot(b)).to_degrees()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use freebound_core::mesh::TriMesh;
+    use freebound_testkit::{cubes, grid};
+
+    fn sets(mesh: &TriMesh) -> VertexSets<'_> {
+        VertexSets { positions: &mesh.positions, triangles: &mesh.triangles }
+    }
+
+    fn set(numbers: impl IntoIterator<Item = u32>) -> BTreeSet<VertexId> {
+        numbers.into_iter().map(VertexId::new).collect()
+    }
+
+    #[test]
+    fn growing_adds_the_neighbours_and_shrinking_takes_them_away() {
+        let mesh = grid(6, 6);
+        let sets = sets(&mesh);
+        let middle = set([24]);
+        let grown = sets.grown(&middle);
+        assert_eq!(grown.len(), 7, "the diagonals of the squares run one way");
+        assert_eq!(sets.shrunk(&grown), middle);
+        assert!(sets.shrunk(&middle).is_empty());
+        assert_eq!(sets.shrunk(&sets.all()), sets.all(), "nothing lies outside");
+        assert_eq!(sets.grown(&set([])), set([]));
+    }
+
+    #[test]
+    fn the_inverse_of_the_inverse_is_the_selection() {
+        let mesh = grid(4, 3);
+        let some = set([0, 3, 7, 19]);
+        assert_eq!(sets(&mesh).inverted(&sets(&mesh).inverted(&some)), some);
+        assert_eq!(sets(&mesh).inverted(&set([])), sets(&mesh).all());
+    }
+
+    #[test]
+    fn the_boundary_of_a_sheet_is_its_rim() {
+        let mesh = grid(4, 3);
+        let on_rim = |v: &VertexId| {
+            let p = mesh.positions[v.index()];
+            p.x == 0.0 || p.x == 4.0 || p.y == 0.0 || p.y == 3.0
+        };
+        assert_eq!(sets(&mesh).boundary(), sets(&mesh).all().into_iter().filter(on_rim).collect());
+    }
+
+    #[test]
+    fn a_side_of_a_cube_ends_at_its_edges() {
+        let mesh = TriMesh::from(&cubes::cube());
+        let corners = mesh.triangles[0].into_iter().collect::<BTreeSet<_>>();
+        let side = sets(&mesh).up_to_sharp_edges(&corners, 60.0);
+        let flat = |axis: usize, at: f64| side.iter().all(|v| mesh.positions[v.index()][axis] == at);
+        assert_eq!(side.len(), 4);
+        assert!((0..3).any(|axis| flat(axis, 0.0) || flat(axis, 1.0)));
+        assert_eq!(sets(&mesh).up_to_sharp_edges(&corners, 91.0), sets(&mesh).all());
+        // A single vertex starts at all of its faces.
+        assert_eq!(sets(&mesh).up_to_sharp_edges(&set([0]), 60.0).len(), 7);
+    }
+
+    #[test]
+    fn the_faces_with_the_greatest_values_are_taken_up_to_their_share_of_the_area() {
+        let mesh = grid(10, 10);
+        let value = |face: usize| mesh.positions[mesh.triangles[face][0].index()].x;
+        let found = sets(&mesh).greatest(value, 0.1);
+        assert!(found.iter().all(|v| mesh.positions[v.index()].x >= 9.0) && found.len() == 22);
+        assert_eq!(sets(&mesh).greatest(value, 0.0).len(), 3, "one face at least");
+        assert_eq!(sets(&mesh).greatest(value, 1.0), sets(&mesh).all());
+    }
+}
