@@ -3,7 +3,7 @@
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 
 use super::key_map::KeyMap;
-use super::state::{FileDialogKind, PageRequest, Request, ShadingMode, StepTarget, Tool};
+use super::state::{FileDialogKind, PageRequest, Request, SelectBy, ShadingMode, StepTarget, Tool};
 use crate::session::Action;
 
 /// Keyboard shortcut and its request.
@@ -50,8 +50,10 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::PageDown, "Next chart", || Request::StepChart(1)),
     bind(NONE, Key::L, "Lock the selected charts where they lie, or unlock them", || Request::ToggleLock),
     bind(NONE, Key::Y, "Show all charts on the page, or one chart alone", || Request::Page(PageRequest::Toggle)),
-    bind(CTRL, Key::A, "Select all charts of the page", || Request::Page(PageRequest::SelectAll)),
-    bind(CTRL, Key::I, "Select the charts that are not selected", || Request::Page(PageRequest::Invert)),
+    bind(CTRL, Key::A, "Select all vertices, or all charts of the page", || Request::SelectBy(SelectBy::All)),
+    bind(CTRL, Key::I, "Select what is not selected", || Request::SelectBy(SelectBy::Invert)),
+    bind(CTRL, Key::CloseBracket, "Grow the selection by its neighbours", || Request::SelectBy(SelectBy::Grow)),
+    bind(CTRL, Key::OpenBracket, "Shrink the selection by its rim", || Request::SelectBy(SelectBy::Shrink)),
     bind(SHIFT, Key::P, "Pack the selected charts around the others, or all", || Request::Page(PageRequest::Pack)),
     bind(SHIFT, Key::Space, "Run or pause", || Request::RunOrPause),
     bind(NONE, Key::Space, "Take one step", || Request::Do(Action::Step)),

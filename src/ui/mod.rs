@@ -57,7 +57,7 @@ pub(crate) use state::is_picture;
 pub use state::{
     Alignment, Axis, BrushChoice, CheckerRequest, CheckerStyle, ComparisonExport, CurveRequest, CurvesExport,
     GestureKind, Half, Help, HullStage, Intent, MorphRequest, PageRequest, Pane, Request, SeamClick, SeamRule,
-    ShadingMode, Snap, StepTarget, Tab, Tool, Tour, TourCard, Welcome,
+    SelectBy, ShadingMode, Snap, StepTarget, Tab, Tool, Tour, TourCard, Welcome,
 };
 use theme::{Theme, theme_of};
 use typed::Typed;

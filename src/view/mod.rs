@@ -6,6 +6,7 @@
 //! | file | content |
 //! |---|---|
 //! | `space.rs` | extents, and unit space |
+//! | `vertex_sets.rs` | sets of vertices that follow from others, such as grown ones |
 //! | `orbit.rs`, `plane.rs` | the cameras of the two panes |
 //! | `pick.rs`, `ray_hit.rs`, `kdtree.rs` | picking under the pointer, and its searches |
 //! | `draw.rs`, `picture.rs` | arrays for the graphics card, and normals; pictures with their smaller sizes |
@@ -38,6 +39,7 @@ mod plane;
 mod quantity;
 mod ray_hit;
 mod space;
+mod vertex_sets;
 
 pub use beside::{CellFrame, CellFrames};
 pub use colour::{Palette, Range, Scale, Srgb, Tick, nice_step_at_least};
@@ -53,3 +55,4 @@ pub use quantity::Quantity;
 #[cfg(feature = "gui")]
 pub(crate) use space::split_point;
 pub use space::{Sphere, UnitPlane, bounds_of, part_around};
+pub use vertex_sets::VertexSets;

@@ -106,7 +106,9 @@ impl VertexSets<'_> {
 
     fn marked(self, vertices: &BTreeSet<VertexId>) -> Vec<bool> {
         let mut is_in = vec![false; self.positions.len()];
-        vertices.iter().filter_map(|vertex| is_in.get_mut(vertex.index())).for_each(|place| *place = true);
+        for vertex in vertices.iter().filter(|vertex| vertex.index() < self.positions.len()) {
+            is_in[vertex.index()] = true;
+        }
         is_in
     }
 
@@ -135,7 +137,7 @@ impl VertexSets<'_> {
 mod tests {
     use super::*;
     use freebound_core::mesh::TriMesh;
-    use freebound_testkit::{cubes, grid};
+    use freebound_testkit::{grid, shaped};
 
     fn sets(mesh: &TriMesh) -> VertexSets<'_> {
         VertexSets { positions: &mesh.positions, triangles: &mesh.triangles }
@@ -177,16 +179,17 @@ mod tests {
     }
 
     #[test]
-    fn a_side_of_a_cube_ends_at_its_edges() {
-        let mesh = TriMesh::from(&cubes::cube());
-        let corners = mesh.triangles[0].into_iter().collect::<BTreeSet<_>>();
-        let side = sets(&mesh).up_to_sharp_edges(&corners, 60.0);
-        let flat = |axis: usize, at: f64| side.iter().all(|v| mesh.positions[v.index()][axis] == at);
-        assert_eq!(side.len(), 4);
-        assert!((0..3).any(|axis| flat(axis, 0.0) || flat(axis, 1.0)));
-        assert_eq!(sets(&mesh).up_to_sharp_edges(&corners, 91.0), sets(&mesh).all());
-        // A single vertex starts at all of its faces.
-        assert_eq!(sets(&mesh).up_to_sharp_edges(&set([0]), 60.0).len(), 7);
+    fn a_side_of_a_roof_ends_at_its_ridge() {
+        let mesh = shaped(8, 4, |x, y| DVec3::new(x, y, -(x - 4.0).abs()));
+        let side = sets(&mesh).up_to_sharp_edges(&set([20]), 60.0);
+        assert_eq!(side.len(), 25);
+        assert!(side.iter().all(|v| mesh.positions[v.index()].x <= 4.0));
+        assert_eq!(sets(&mesh).up_to_sharp_edges(&set([20]), 91.0), sets(&mesh).all());
+        // A vertex of the ridge starts at the faces of both sides, three vertices at the face between them alone.
+        assert_eq!(sets(&mesh).up_to_sharp_edges(&set([22]), 60.0), sets(&mesh).all());
+        let corners = mesh.triangles[6].into_iter().collect();
+        assert_eq!(sets(&mesh).up_to_sharp_edges(&corners, 60.0), side);
+        assert!(sets(&mesh).up_to_sharp_edges(&set([]), 60.0).is_empty());
     }
 
     #[test]

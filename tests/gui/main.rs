@@ -49,6 +49,7 @@ mod screens;
 mod seam_numbers;
 mod seam_rules;
 mod seams;
+mod select;
 mod shaders;
 mod shortcuts;
 mod start;

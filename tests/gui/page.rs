@@ -374,9 +374,7 @@ fn an_artist_stacks_moves_locks_and_packs_at_one_density_in_at_most_15_actions()
 fn requests_to_the_page_do_nothing_without_a_page() {
     let mut window = Window::with_mesh("one.obj", &crate::harness::sheet(5, 0.3));
     let before = window.editor().session.document().clone();
-    for request in
-        [PageRequest::SelectAll, PageRequest::Invert, PageRequest::Pack, PageRequest::Stack, PageRequest::Open(None)]
-    {
+    for request in [PageRequest::Pack, PageRequest::Stack, PageRequest::Open(None)] {
         window.editor_mut().handle(request.into());
         window.settle();
     }

@@ -5,7 +5,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::session::{Action, Document};
-use freebound::ui::{BINDINGS, BrushChoice, Pane, Request, SeamClick, ShadingMode, StepTarget, Tool};
+use freebound::ui::{BINDINGS, BrushChoice, Pane, Request, SeamClick, SelectBy, ShadingMode, StepTarget, Tool};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
 use freebound_core::problem::Stage;
@@ -112,6 +112,10 @@ fn shortcuts_do_what_the_table_says() {
             Request::SetTool(tool) => editor.tools.tool() == tool,
             Request::ResizeBrush { grows } => (editor.tools.brush.radius > BrushChoice::default().radius) == grows,
             Request::EndSeam => editor.tools.seam.last().is_none() && editor.tools.tool() == Tool::Seam,
+            Request::SelectBy(SelectBy::All) => editor.selection.vertices().len() == 81,
+            Request::SelectBy(SelectBy::Invert) => editor.selection.vertices().len() == 80,
+            Request::SelectBy(SelectBy::Grow) => editor.selection.vertices().len() == 7,
+            Request::SelectBy(SelectBy::Shrink) => editor.selection.vertices().is_empty(),
             Request::UnpinSelected => document(&window).targets.len() == pins - 1,
             Request::Frame => editor.mesh.pane.camera() != orbit,
             Request::AskGoTo => editor.layout.go_to.is_some(),

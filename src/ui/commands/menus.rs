@@ -7,8 +7,8 @@ use crate::examples::Example;
 use crate::session::{Action, LockState};
 use crate::ui::state::{
     Axis, BAKED, COPY_COMMAND, COPY_LAYOUT, CheckerRequest, CheckerStyle, EXPORTS, ExportOptions, FileDialogKind,
-    GestureKind, NO_LAYOUT_PICTURE, PATTERN, PageRequest, Pane, Request, SQUARES, SeamRule, ShadingMode, StepTarget,
-    Tab, Tool,
+    GestureKind, NO_LAYOUT_PICTURE, PATTERN, PageRequest, Pane, Request, SQUARES, SeamRule, SelectBy, ShadingMode,
+    StepTarget, Tab, Tool,
 };
 use freebound_core::pipeline::Fit;
 
@@ -110,6 +110,12 @@ fn edit_menu(menu: &mut MenuBuilder<'_>) {
         menu.separator();
         menu.item(ALWAYS, "Make the brush larger", Request::ResizeBrush { grows: true });
         menu.item(ALWAYS, "Make the brush smaller", Request::ResizeBrush { grows: false });
+    });
+    menu.part("Select", |menu| {
+        for by in SelectBy::ALL {
+            let allowed = when(editor.can_select_by(by), by.reason());
+            menu.explained(allowed, by.words(), Request::SelectBy(by));
+        }
     });
     menu.part("Seams", |menu| {
         let has_model = session.model().is_some();
@@ -231,8 +237,6 @@ fn page_menu(menu: &mut MenuBuilder<'_>) {
     let can_move = editor.shows_page() && !editor.movable_charts().is_empty();
     let has_selected = editor.shows_page() && !editor.plane.page.selected().is_empty();
     menu.part("Charts", |menu| {
-        menu.item(when(editor.shows_page(), NO_PAGE), "Select all", PageRequest::SelectAll);
-        menu.item(when(editor.shows_page(), NO_PAGE), "Invert the selection", PageRequest::Invert);
         menu.item(when(has_selected, NO_CHART), "Show one alone", PageRequest::Open(None));
         menu.separator();
         for kind in GestureKind::ALL {

@@ -69,6 +69,7 @@ mod seam_hover;
 pub(super) mod seam_intent;
 pub(super) mod seam_rules;
 pub(super) mod seam_tool;
+mod select_by;
 mod selection;
 mod shade;
 mod sides;

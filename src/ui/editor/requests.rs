@@ -68,6 +68,7 @@ impl Editor {
             Request::StepChart(by) => self.step_chart(by),
             Request::ToggleLock => self.toggle_lock(),
             Request::StepDefect(by) => self.step_defect(by),
+            Request::SelectBy(by) => self.select_by(by),
             Request::Select(vertices) => self.selection.select(vertices),
             Request::AddToSelection(vertices) => self.selection.add(vertices),
             Request::ToggleSelected(vertex) => self.selection.toggle(vertex),

@@ -7,7 +7,7 @@ use crate::ui::commands::matches_words;
 use crate::ui::key_map::{KeyMap, KeyPreset, shortcut_of_press};
 use crate::ui::keys::{BINDINGS, MOUSE};
 use crate::ui::state::{KeyClash, KeyList};
-use crate::ui::{Control, Editor, PageRequest, Request, Tool, accented, remark, theme_of};
+use crate::ui::{Control, Editor, Request, Tool, accented, remark, theme_of};
 
 /// Tasks that the list is grouped by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +49,7 @@ impl Group {
             | Request::Escape
             | Request::AskGoTo
             | Request::StepDefect(_)
-            | Request::Page(PageRequest::SelectAll | PageRequest::Invert) => Self::Select,
+            | Request::SelectBy(_) => Self::Select,
             Request::SetTool(Tool::Seam) | Request::EndSeam | Request::Do(Action::Unwrap(_)) => Self::Seams,
             Request::SetTool(Tool::Brush) | Request::ResizeBrush { .. } => Self::Brushes,
             Request::SetTool(_) | Request::UnpinSelected => Self::Pins,

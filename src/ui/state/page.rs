@@ -23,10 +23,6 @@ pub enum PageRequest {
     },
     /// Selects charts in addition to those that are selected.
     Add(Vec<usize>),
-    /// Selects all charts.
-    SelectAll,
-    /// Selects the charts that are not selected.
-    Invert,
     /// Shows a chart alone, to work on its vertices. Default: the first selected chart.
     Open(Option<usize>),
     /// Starts a gesture that follows the pointer.

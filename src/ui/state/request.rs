@@ -12,6 +12,7 @@ use super::inset_view::InsetPan;
 use super::page::PageRequest;
 use super::pane::{Pane, Tab};
 use super::seam::{SeamClick, SeamRule};
+use super::select_by::SelectBy;
 use super::shading_mode::ShadingMode;
 use super::timeline_view::CurveRequest;
 use super::tool::Tool;
@@ -120,6 +121,8 @@ pub enum Request {
     StepChart(isize),
     /// Locks the chart on the screen where it lies in the layout of all charts, or unlocks it.
     ToggleLock,
+    /// Selects vertices, or charts of the page, by the mesh, the map or the selection.
+    SelectBy(SelectBy),
     /// Selects exactly these vertices.
     Select(Vec<VertexId>),
     /// Adds vertices to the selection.

@@ -34,6 +34,17 @@ impl SelectBy {
         Self::Distorted,
     ];
 
+    /// Reason why the way does not apply.
+    pub(in crate::ui) const fn reason(self) -> &'static str {
+        match self {
+            Self::All | Self::Invert => "Open a mesh first",
+            Self::Grow | Self::Shrink | Self::SharpEdges => "Select vertices of the map first",
+            Self::Boundary => "Show one chart alone first",
+            Self::Pins => "There are no pins",
+            Self::Distorted => "There is no map yet",
+        }
+    }
+
     /// Entry of the menu, and its description.
     pub(in crate::ui) const fn words(self) -> [&'static str; 2] {
         match self {

@@ -152,9 +152,7 @@ impl Fuzz {
             23 => Action::Solve,
             24 => Action::Recover(self.at("a.freebound")),
             25 => Action::CopyLayout(self.one_of(&["uv.obj", "dome.obj", "missing.obj"])),
-            26 if self.random.below(2) == 0 => {
-                Action::SaveFlatMesh(self.one_of(&["flat.glb", "missing/flat.obj"]))
-            }
+            26 if self.random.below(2) == 0 => Action::SaveFlatMesh(self.one_of(&["flat.glb", "missing/flat.obj"])),
             26 => {
                 let options = BakeOptions { pixels: [16, 16], margin: 2, registration: Registration::AsTheyAre };
                 Action::SaveBaked(BakeRequest { path: self.one_of(&["out.png", "missing/out.png"]), options })

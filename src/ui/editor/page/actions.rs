@@ -35,12 +35,6 @@ impl Editor {
                 let charts: Vec<usize> = self.plane.page.selected().iter().copied().chain(charts).collect();
                 self.plane.page.select(charts);
             }
-            PageRequest::SelectAll => self.plane.page.select(0..self.chart_count()),
-            PageRequest::Invert => {
-                let others = (0..self.chart_count()).filter(|chart| !self.plane.page.selected().contains(chart));
-                let others: Vec<usize> = others.collect();
-                self.plane.page.select(others);
-            }
             PageRequest::Open(chart) => self.open_chart(chart),
             PageRequest::Begin(kind) => {
                 let from = self.pointer.in_embedding();
@@ -70,7 +64,7 @@ impl Editor {
         }
     }
 
-    fn chart_count(&self) -> usize {
+    pub(in crate::ui::editor) fn chart_count(&self) -> usize {
         self.session.charts().map_or(0, |charts| charts.count())
     }
 

@@ -1,0 +1,71 @@
+//! Selection of vertices and charts by the mesh, the map and the present selection.
+
+use freebound::session::Action;
+use freebound::ui::{Request, SelectBy};
+use freebound_core::mesh::VertexId;
+use freebound_testkit::shaped;
+use glam::DVec3;
+
+use crate::charts::with_sheets;
+use crate::harness::{Window, sheet};
+
+fn selected(window: &Window) -> usize {
+    window.editor().selection.vertices().len()
+}
+
+#[test]
+fn the_menu_selects_by_the_mesh_and_by_the_map() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
+    window.menu(&["Edit", "Select", "Select the boundary"]);
+    assert_eq!(selected(&window), 32);
+    window.menu(&["Edit", "Select", "Grow the selection"]);
+    assert_eq!(selected(&window), 56);
+    window.menu(&["Edit", "Select", "Shrink the selection"]);
+    assert_eq!(selected(&window), 32, "the rim has no neighbour outside");
+    window.menu(&["Edit", "Select", "Invert the selection"]);
+    assert_eq!(selected(&window), 49);
+    window.menu(&["Edit", "Select", "Select all"]);
+    assert_eq!(selected(&window), 81);
+    window.menu(&["Edit", "Select", "Select the most distorted"]);
+    assert!((3..60).contains(&selected(&window)), "{}", selected(&window));
+    window.editor_mut().session.handle(Action::Fix(vec![VertexId::new(3), VertexId::new(70)]));
+    window.settle();
+    window.menu(&["Edit", "Select", "Select the pins"]);
+    assert_eq!(selected(&window), 2);
+}
+
+#[test]
+fn a_side_of_a_roof_is_selected_up_to_its_ridge() {
+    let roof = shaped(8, 4, |x, y| DVec3::new(x, y, -(x - 4.0).abs()));
+    let mut window = Window::with_mesh("roof.obj", &roof);
+    window.editor_mut().selection.select([VertexId::new(20)]);
+    window.menu(&["Edit", "Select", "Select up to sharp edges"]);
+    assert_eq!(selected(&window), 25);
+}
+
+#[test]
+fn charts_of_the_page_are_selected_by_their_pins_and_their_distortion() {
+    let mut window = with_sheets();
+    let of_page = |window: &Window| window.editor().plane.page.selected().len();
+    window.menu(&["Edit", "Select", "Select all"]);
+    let count = of_page(&window);
+    assert!(count > 1, "{count}");
+    window.editor_mut().handle(Request::SelectBy(SelectBy::Pins));
+    assert_eq!(of_page(&window), 0);
+    window.editor_mut().handle(Request::SelectBy(SelectBy::Distorted));
+    assert!(of_page(&window) < count);
+    // Vertices cannot grow on the page.
+    window.editor_mut().handle(Request::SelectBy(SelectBy::All));
+    window.editor_mut().handle(Request::SelectBy(SelectBy::Grow));
+    assert_eq!(of_page(&window), count);
+}
+
+#[test]
+fn ways_that_need_a_selection_say_so() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
+    window.editor_mut().handle(Request::SelectBy(SelectBy::Grow));
+    window.editor_mut().handle(Request::SelectBy(SelectBy::SharpEdges));
+    window.settle();
+    assert_eq!(selected(&window), 0);
+    assert!(!window.editor().can_select_by(SelectBy::Grow) && window.editor().can_select_by(SelectBy::All));
+}
