@@ -7,7 +7,7 @@ use crate::session::MorphShortage;
 use freebound_core::mesh::{Diagnosis, Done, Repair, Repairs};
 use freebound_core::problem::{Cause, Method, NamedOption as _, SolveError};
 use freebound_io::{
-    ConstraintsError, EdgesError, LayoutError, LayoutToPackError, MemoryShortage, PatternError, PictureError,
+    ConstraintsError, EdgesError, LayoutError, LayoutToPackError, MemoryShortage, PatternError, PictureError, PtsError,
     ReadError, TextureError, TransferError, WriteError,
 };
 use freebound_run::{Model, RunError};
@@ -87,6 +87,9 @@ pub enum CommandError {
     /// The constraint file cannot be used.
     #[error("{0}")]
     Constraints(#[from] ConstraintsError),
+    /// The file of landmarks cannot be used.
+    #[error("{0}")]
+    Landmarks(#[from] PtsError),
     /// The file of edges cannot be used.
     #[error("{0}")]
     Edges(#[from] EdgesError),
@@ -274,6 +277,7 @@ impl CommandError {
             Self::Read { .. }
             | Self::Memory { .. }
             | Self::Constraints(_)
+            | Self::Landmarks(_)
             | Self::Edges(_)
             | Self::Picture(_)
             | Self::Texture { .. }

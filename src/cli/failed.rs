@@ -86,6 +86,7 @@ fn kind_of(failure: &CommandError) -> &'static str {
         },
         CommandError::Memory { .. } | CommandError::MorphMemory { .. } => "too-large-for-memory",
         CommandError::Constraints(_) => "constraints",
+        CommandError::Landmarks(_) => "landmarks",
         CommandError::Edges(_) => "edges",
         CommandError::Picture(_) => "picture",
         CommandError::Transfer { error: TransferError::NoFaces, .. } => "no-faces",

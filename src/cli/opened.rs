@@ -54,7 +54,7 @@ impl InputSpec<'_> {
         places.spare_materials(&model.source, &input.mesh)?;
         let picture = picture.map(PictureFile::read).transpose()?;
         disk_of(&model)?;
-        let targets = targets_on(&model, &input.mesh, solve)?;
+        let targets = targets_on(&model, &input.mesh, solve, picture.as_ref())?;
         let model = match &solve.start {
             Some(StartOf::File(layout)) => starting_from(model, layout, input)?,
             Some(StartOf::Uv) | None => model,

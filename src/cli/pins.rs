@@ -7,7 +7,7 @@ use super::error::CommandError;
 use super::error::name_of_input;
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Target, Targets};
-use freebound_io::Constraints;
+use freebound_io::{Constraints, PictureFile, read_pts};
 use freebound_run::Model;
 
 /// Targets of all pins, by the vertices of the mesh, also with several charts. `input` is the mesh file.
@@ -15,22 +15,46 @@ use freebound_run::Model;
 /// # Errors
 ///
 /// [`CommandError`] if a file cannot be used, pins clash, or a vertex cannot be pinned.
-pub(super) fn targets_on(model: &Model, input: &Path, arguments: &SolveArguments) -> Result<Targets, CommandError> {
-    let targets = gather(input, arguments, model.vertex_count_in_file())?;
+pub(super) fn targets_on(
+    model: &Model,
+    input: &Path,
+    arguments: &SolveArguments,
+    picture: Option<&PictureFile>,
+) -> Result<Targets, CommandError> {
+    let file = constraints(arguments, model.vertex_count_in_file(), picture)?;
+    let targets = gather(input, arguments, &file)?;
     model.check_targets(&targets).map_err(|error| CommandError::of_run(model, error.with_observer()))?;
     Ok(targets)
 }
 
-/// Targets of all pins, for a mesh with `vertex_count` vertices.
+/// Constraints of the file, at the landmarks of their names if there are any.
+fn constraints(
+    arguments: &SolveArguments,
+    vertex_count: usize,
+    picture: Option<&PictureFile>,
+) -> Result<Constraints, CommandError> {
+    let Some(path) = &arguments.constraints else { return Ok(Constraints::default()) };
+    let mut constraints = Constraints::read(path, vertex_count)?;
+    let Some(landmarks) = &arguments.landmarks else { return Ok(constraints) };
+    let Some(picture) = picture else {
+        let text = format!("{}: its points are pixels of a picture: add --picture", landmarks.display());
+        return Err(CommandError::Usage(text));
+    };
+    let landmarks = read_pts(landmarks, [picture.pixels.width, picture.pixels.height])?;
+    if constraints.move_to(&landmarks) == 0 {
+        let text =
+            format!("{}: no constraint has the name of a landmark: add \"# name\" to their lines", path.display());
+        return Err(CommandError::Usage(text));
+    }
+    Ok(constraints)
+}
+
+/// Targets of all pins.
 ///
 /// # Errors
 ///
-/// [`CommandError`] if a file cannot be used or pins clash. The message names the line of a clash with the file.
-fn gather(input: &Path, arguments: &SolveArguments, vertex_count: usize) -> Result<Targets, CommandError> {
-    let file = match &arguments.constraints {
-        Some(path) => Constraints::read(path, vertex_count)?,
-        None => Constraints::default(),
-    };
+/// [`CommandError`] if pins clash. The message names the line of a clash with the file.
+fn gather(input: &Path, arguments: &SolveArguments, file: &Constraints) -> Result<Targets, CommandError> {
     let place = arguments.constraints.as_deref().unwrap_or(Path::new(""));
     let mut targets = file.targets.clone();
     for (vertex, target) in &arguments.pins {

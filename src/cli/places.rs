@@ -154,6 +154,9 @@ impl OutputPaths {
         if let Some(constraints) = &solve.constraints {
             self.spare(constraints, "the constraints")?;
         }
+        if let Some(landmarks) = &solve.landmarks {
+            self.spare(landmarks, "the landmarks")?;
+        }
         if let Some(StartOf::File(layout)) = &solve.start {
             self.spare(layout, "the layout to start from")?;
         }

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec2;
 
 use super::finite::check_finite;
-use super::{PinName, PinNote, PinNotes};
+use super::{PictureLandmark, PinName, PinNote, PinNotes};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::{Target, Targets};
 use freebound_core::problem::{PinKind, TakenTargets};
@@ -24,6 +24,22 @@ pub struct Constraints {
     pub lines: BTreeMap<VertexId, u64>,
     /// Names of pins.
     pub notes: PinNotes,
+}
+
+impl Constraints {
+    /// Moves targets to the landmarks of their names. v points up. Returns the number of targets with such a name.
+    pub fn move_to(&mut self, landmarks: &[PictureLandmark]) -> usize {
+        let places: BTreeMap<String, DVec2> = landmarks.iter().map(|it| (it.name.key(), it.place)).collect();
+        let mut count = 0;
+        for (vertex, note) in &self.notes {
+            let place = note.name.as_ref().and_then(|name| places.get(&name.key()));
+            if let (Some(place), Some(target)) = (place, self.targets.get_mut(vertex)) {
+                target.uv = DVec2::new(place.x, 1.0 - place.y);
+                count += 1;
+            }
+        }
+        count
+    }
 }
 
 /// Failure to read a constraint file.

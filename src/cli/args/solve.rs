@@ -45,6 +45,11 @@ pub struct SolveArguments {
     /// Vertices are numbered from 0. A # starts a comment. A weight makes the pin soft.
     #[arg(long, value_name = "FILE")]
     pub constraints: Option<PathBuf>,
+    /// Move the constraints to the landmarks of their names in this file (.pts), in pixels of the picture.
+    ///
+    /// Constraints whose names have no landmark stay where they are.
+    #[arg(long, value_name = "FILE", requires = "constraints", hide_short_help = true)]
+    pub landmarks: Option<PathBuf>,
     /// Aspect ratio of the picture that u and v refer to, width to height. Default: 1:1.
     ///
     /// Angles are preserved on the picture.

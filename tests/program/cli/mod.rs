@@ -21,6 +21,7 @@ pub(crate) mod flatten;
 pub(crate) mod flatten_files;
 pub(crate) mod gltf_program;
 pub(crate) mod holes;
+mod landmarks;
 pub(crate) mod materials;
 pub(crate) mod memory;
 pub(crate) mod methods_odd;
