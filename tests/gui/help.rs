@@ -108,7 +108,7 @@ fn the_palette_has_every_entry_of_every_menu_and_every_key() {
     let mut seen = 0;
     for (menu, parts) in [
         ("File", &["Recent", "Examples", "Export", "Size in files"][..]),
-        ("Edit", &["Tools", "Seams"]),
+        ("Edit", &["Tools", "Select", "Seams"]),
         ("View", &["Shading of the mesh", "Shading of the embedding", "Checker and pixels", "Side panels", "Theme"]),
         ("Solve", &[]),
         ("Help", &[]),
@@ -132,7 +132,8 @@ fn the_palette_has_every_entry_of_every_menu_and_every_key() {
     for binding in BINDINGS {
         let request = (binding.request)();
         window.press(Modifiers::COMMAND, Key::P);
-        let keys = window.harness.ctx.format_shortcut(&binding.shortcut);
+        let named = window.harness.ctx.format_shortcut(&binding.shortcut);
+        let keys = named.replace("OpenBracket", "[").replace("CloseBracket", "]");
         let is_first = place_of(&request) == BINDINGS.iter().position(|b| b.shortcut == binding.shortcut).unwrap();
         let painted = || window.words().contains(&keys);
         let is_known = commands.iter().any(|name| name.ends_with(binding.about)) || painted();

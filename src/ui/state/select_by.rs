@@ -3,21 +3,21 @@
 /// Ways to select vertices, or charts of the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SelectBy {
-    /// All of them.
+    /// Selects everything.
     All,
-    /// Those that are not selected.
+    /// Inverts the selection.
     Invert,
-    /// The selection and its neighbours.
+    /// Adds the neighbours.
     Grow,
-    /// The selection without its rim.
+    /// Removes the rim.
     Shrink,
-    /// What is reached from the selection without crossing a sharp edge.
+    /// Adds faces until sharp edges.
     SharpEdges,
-    /// The boundary.
+    /// Selects the boundary.
     Boundary,
-    /// Pins, or charts with pins.
+    /// Selects the pins, or charts with pins.
     Pins,
-    /// The most distorted ones.
+    /// Selects what is most distorted.
     Distorted,
 }
 
