@@ -37,7 +37,7 @@ class FREEBOUND_OT_copy_layout(Run, bpy.types.Operator):
             return False
         if context.mode == "OBJECT" and _targets(context):
             return True
-        cls.poll_message_set("In object mode, select the other objects, then the object with the layout last")
+        cls.poll_message_set("In object mode, select other meshes of this file, and last the object with the layout")
         return False
 
     def draw(self, context):
@@ -61,7 +61,8 @@ def _targets(context):
     active = context.active_object
     if active is None or active.type != "MESH":
         return []
-    others = {item.data: item for item in context.selected_objects if item.type == "MESH"}
+    # Changes of meshes from a library would not be saved.
+    others = {item.data: item for item in context.selected_objects if item.type == "MESH" and item.data.library is None}
     others.pop(active.data, None)
     return list(others.values())
 

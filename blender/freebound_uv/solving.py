@@ -14,10 +14,6 @@ from .meshes import as_values, boxes_of, corner_after
 _SIDE = 1024
 
 
-#: Mean distance from which two surfaces lie apart, relative to the diagonal of their box.
-_APART = 0.05
-
-
 @dataclass
 class Sheet:
     """Picture that charts are packed into."""
@@ -187,8 +183,7 @@ def copy_layout(task, source, selection, names, fit, marks_seams):
             planar += 1
         else:
             done.warn(f"The layout of {name} folds or overlaps: relax it")
-        report = copied.report["transfer"]
-        if report["by"] != "corners" and report["mean_distance"] > _APART * report["diagonal"]:
+        if copied.apart:
             done.warn(f"{name} lies apart: use Fit, or move the objects to one place")
     done.text = "Layout copied to 1 mesh" if len(names) == 1 else f"Layout copied to {len(names)} meshes"
     done.text += ", no overlaps: proved" if planar == len(names) else ""

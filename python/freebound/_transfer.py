@@ -30,6 +30,11 @@ class Transferred:
         """True if the layout is one-to-one: no face is flipped, and no two faces overlap. Decided exactly."""
         return self._native.planar
 
+    @property
+    def apart(self) -> bool:
+        """True if the two surfaces lie apart, in other places or sizes: the copy is of little use. See ``fit``."""
+        return self._native.apart
+
     @cached_property
     def report(self) -> dict[str, Any]:
         """Report of the copy, as ``freebound transfer`` writes it."""
@@ -82,7 +87,7 @@ def transfer(
         InputError: the first mesh has no usable texture coordinates, or the second has no faces.
         Cancelled: ``stop`` returned True.
     """
-    options = json.dumps({"fit": fit, "threads": threads})
+    options = json.dumps({"fit": fit, "threads": threads}, default=_arrays._plain)
     return Transferred(_freebound.transfer(_mesh(layout, True), _mesh(mesh, False), options, stop))
 
 
@@ -137,7 +142,7 @@ def bake(
         picture: path of a picture, or an array of shape (height, width, 3) or (height, width, 4) of numbers from 0 to
             255. Default: the picture that the materials of ``old`` show on most faces.
         size: width and height of the new picture in pixels, or one number for both. Default: that of the old picture.
-        margin: margin that continues the colours around the charts, in pixels.
+        margin: margin that continues the colours around the charts, in pixels, up to 1024.
         fit: True to move and scale the old mesh into the box of the new one before nearest points are sought.
         threads: number of threads. Default: all cores.
         stop: function that is called about twenty times a second. The drawing ends if it returns True.
@@ -148,8 +153,9 @@ def bake(
         Cancelled: ``stop`` returned True.
     """
     old = _mesh(old, True)
-    shape = None if size is None else ([size, size] if isinstance(size, int) else list(size))
-    options = json.dumps({"size": shape, "margin": margin, "fit": fit, "threads": threads})
+    shape = None if size is None else ([size, size] if isinstance(size, (int, np.integer)) else list(size))
+    options = {"size": shape, "margin": margin, "fit": fit, "threads": threads}
+    options = json.dumps(options, default=_arrays._plain)
     return Baked(_freebound.bake(old, _mesh(new, True), _pixels(old, picture), options, stop))
 
 

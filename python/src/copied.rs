@@ -57,6 +57,12 @@ impl Transferred {
         self.planar
     }
 
+    /// True if the two surfaces lie apart.
+    #[getter]
+    fn apart(&self) -> bool {
+        self.transfer.is_apart()
+    }
+
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         errors::to_python(py, &self.report)
@@ -189,6 +195,9 @@ pub(crate) fn picture_of(mesh: &Mesh) -> Option<PathBuf> {
     path.and_then(|path| material_pictures(&mesh.file, path).into_iter().next())
 }
 
+/// Largest margin, pixels.
+const MOST_MARGIN: u32 = 1024;
+
 /// Options of a baked picture.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -212,6 +221,9 @@ pub(crate) fn bake(
     stop: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Baked> {
     let options: BakeChoice = of_json(py, options)?;
+    if options.margin > MOST_MARGIN {
+        return Err(errors::option_error(py, format!("margin: pass 0 to {MOST_MARGIN} pixels")));
+    }
     let picture = picture_from(py, &picture)?;
     let size = options.size.unwrap_or_else(|| BakeOptions::size_for(&picture));
     if !size.iter().all(|side| (1..=BakeOptions::LONGEST_SIDE).contains(side)) {

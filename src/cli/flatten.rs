@@ -49,19 +49,8 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
         let name = arguments.settings().method.name();
         return Err(CommandError::Usage(format!("--method {name} does not use {option}: {why}")));
     }
-    if arguments.fit == Some(Fit::True) && (solve.aspect.is_some() || arguments.picture.is_some()) {
-        return Err(CommandError::Usage(
-            "--fit true does not scale to a picture: remove --fit true, or --picture and --aspect".into(),
-        ));
-    }
-    if solve.start.is_some() && arguments.fit == Some(Fit::Unit) {
-        return Err(CommandError::Usage("--start keeps the position of the layout: remove --fit unit".into()));
-    }
-    refuse_unwritten_formats("-o", arguments.output.as_deref())?;
-    refuse_unwritten_formats("--flat-mesh", arguments.flat_mesh.as_deref())?;
-    if arguments.flat_mesh.as_deref().is_some_and(is_standard) {
-        return Err(CommandError::Usage("standard output: --flat-mesh writes a file: name one".to_owned()));
-    }
+    refuse_idle_fit(arguments)?;
+    refuse_unwritten_meshes(arguments)?;
     let pattern = PatternJob::typed(&arguments.cutting)?;
     let places = OutputPaths::of_flatten(arguments);
     refuse_clashes(arguments, &places)?;
@@ -109,6 +98,30 @@ fn run_with(arguments: &FlattenArguments, usual_rounds: Option<usize>) -> Result
         };
         job.run(&model, start, &progress)
     })
+}
+
+/// Rejects sizes that other options decide.
+fn refuse_idle_fit(arguments: &FlattenArguments) -> Result<(), CommandError> {
+    let solve = &arguments.solve;
+    if arguments.fit == Some(Fit::True) && (solve.aspect.is_some() || arguments.picture.is_some()) {
+        return Err(CommandError::Usage(
+            "--fit true does not scale to a picture: remove --fit true, or --picture and --aspect".into(),
+        ));
+    }
+    if solve.start.is_some() && arguments.fit == Some(Fit::Unit) {
+        return Err(CommandError::Usage("--start keeps the position of the layout: remove --fit unit".into()));
+    }
+    Ok(())
+}
+
+/// Rejects meshes that cannot be written as requested.
+fn refuse_unwritten_meshes(arguments: &FlattenArguments) -> Result<(), CommandError> {
+    refuse_unwritten_formats("-o", arguments.output.as_deref())?;
+    refuse_unwritten_formats("--flat-mesh", arguments.flat_mesh.as_deref())?;
+    if arguments.flat_mesh.as_deref().is_some_and(is_standard) {
+        return Err(CommandError::Usage("standard output: --flat-mesh writes a file: name one".to_owned()));
+    }
+    Ok(())
 }
 
 /// Rejects names of formats that can be read but not written.

@@ -166,7 +166,8 @@ fn picture_of(arguments: &BakeArguments, old: &Model) -> Result<PictureFile, Com
     {
         let name = name_of_input(&arguments.old);
         let count = pictures.len();
-        warn(format_args!("{name}: its materials show {count} pictures; drawn: {}", first.display()));
+        let drawn = first.display();
+        warn(format_args!("{name}: its materials show {count} pictures: choose one with --picture; drawn: {drawn}"));
     }
     let Some(path) = pictures.first() else {
         let text = format!("{}: its materials name no picture: add --picture FILE", name_of_input(&arguments.old));

@@ -69,7 +69,7 @@ impl Session {
             BackgroundJob::Picture { read: Ok(picture), .. } => self.set_picture(Some(Arc::new(picture))),
             BackgroundJob::Picture { path, read: Err(error) } => {
                 let message = Message::error(MessagePlace::Embedding, error.to_string()).of_file(Some(&path));
-                self.messages.say(message.with_remedy("choose a PNG or JPEG file"));
+                self.messages.say(message.with_remedy("choose a PNG or JPEG file, or a glTF file with a picture"));
             }
             BackgroundJob::Constraints { path, read: Ok(constraints) } => {
                 self.files.remember_constraints(path);

@@ -99,7 +99,7 @@ pub const BINDINGS: &[Binding] = &[
 /// Keys of a request, such as "Ctrl+Z", for tooltips and menus. Empty if it has none.
 pub(super) fn keys_of(context: &egui::Context, request: &Request) -> String {
     let shortcut = KeyMap::of(context).shortcut_of(request);
-    shortcut.map(|shortcut| shortcut_words(context, &shortcut)).unwrap_or_default()
+    shortcut.map(|shortcut| shortcut_words(context, shortcut)).unwrap_or_default()
 }
 
 /// Words that name usual keys between two other words, with the keys that the user has set.
@@ -134,6 +134,6 @@ pub(super) const MOUSE: &[(&str, &str)] = &[
 ];
 
 /// Keys of a shortcut for a person: keys of a character show the character.
-pub(in crate::ui) fn shortcut_words(context: &egui::Context, shortcut: &KeyboardShortcut) -> String {
-    context.format_shortcut(shortcut).replace("OpenBracket", "[").replace("CloseBracket", "]")
+pub(in crate::ui) fn shortcut_words(context: &egui::Context, shortcut: KeyboardShortcut) -> String {
+    context.format_shortcut(&shortcut).replace("OpenBracket", "[").replace("CloseBracket", "]")
 }

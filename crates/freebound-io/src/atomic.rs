@@ -13,39 +13,50 @@ const BUFFER: usize = 256 << 10;
 
 /// Failure to write a file. Nothing of the file is left behind.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: cannot be {}: {source}", path.display(), if *is_of_input { "read" } else { "written" })]
+#[error("{}: cannot be {}: {source}", path.display(), if *cause == WriteFailure::Input { "read" } else { "written" })]
 pub struct WriteError {
     /// File to be written, or the unreadable file to be copied.
     pub path: PathBuf,
     /// Error of the operating system.
     pub source: io::Error,
-    is_of_input: bool,
+    cause: WriteFailure,
+}
+
+/// Cause of a failure to write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum WriteFailure {
+    /// The file cannot be written.
+    Output,
+    /// A file that is to be copied cannot be read.
+    Input,
+    /// The user stopped the writing.
+    Cancelled,
 }
 
 impl WriteError {
     /// Failure to write a file.
     pub fn writing(path: impl Into<PathBuf>, source: impl Into<io::Error>) -> Self {
-        Self { path: path.into(), source: source.into(), is_of_input: false }
+        Self { path: path.into(), source: source.into(), cause: WriteFailure::Output }
     }
 
     /// Failure to read a file that is to be copied.
     pub(crate) fn reading(path: impl Into<PathBuf>, source: impl Into<io::Error>) -> Self {
-        Self { is_of_input: true, ..Self::writing(path, source) }
+        Self { cause: WriteFailure::Input, ..Self::writing(path, source) }
     }
 
     /// The user stopped the writing.
     pub fn cancelled(path: impl Into<PathBuf>) -> Self {
-        Self::writing(path, io::ErrorKind::Interrupted)
+        Self { cause: WriteFailure::Cancelled, ..Self::writing(path, io::ErrorKind::Interrupted) }
     }
 
     /// True if the user stopped the writing.
     pub fn is_cancelled(&self) -> bool {
-        self.source.kind() == io::ErrorKind::Interrupted
+        self.cause == WriteFailure::Cancelled
     }
 
     /// True if a file could not be read; false if one could not be written.
     pub fn is_of_input(&self) -> bool {
-        self.is_of_input
+        self.cause == WriteFailure::Input
     }
 }
 

@@ -113,7 +113,7 @@ pub fn bake(
     let [width, height] = options.pixels.map(|pixels| pixels as usize);
     let sense = search.sense(new.mesh.face_count(), |face| {
         let face = FaceId::from_index(face);
-        (point_at(new.mesh.corners(face), [1.0 / 3.0; 3]), new.mesh.double_area_vector(face).normalize_or_zero())
+        (point_at(new.mesh.corners(face), [1.0 / 3.0; 3]), new.mesh.double_area_vector(face))
     });
     let drawing = Drawing { old, new, search, sense, width, height };
     let triangles_of_bands = drawing.triangles_of_bands();
@@ -289,6 +289,9 @@ fn with_margin(
     let mut newest: Vec<usize> = if margin > 0 { (0..colours.len()).filter(is_at_edge).collect() } else { Vec::new() };
     for _ in 0..margin {
         control.go_on()?;
+        if newest.is_empty() {
+            break;
+        }
         let mut next: Vec<usize> =
             newest.iter().flat_map(|&pixel| neighbours(pixel)).filter(|&pixel| colours[pixel].is_none()).collect();
         next.sort_unstable();

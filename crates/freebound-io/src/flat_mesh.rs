@@ -17,6 +17,12 @@ impl Output<'_> {
     /// The layout as a mesh in the plane z = 0, with its texture coordinates. It has one vertex per texture coordinate,
     /// and the polygons of the file that are flattened. All charts together have the area of their surfaces.
     pub fn flat_mesh(&self) -> MeshFile {
+        let (polygons, texture) = self.flat_polygons();
+        MeshFile { texture: Some(texture), ..MeshFile::from(polygons) }
+    }
+
+    /// Polygons of the flat mesh, and its texture coordinates.
+    fn flat_polygons(&self) -> (PolygonMesh, Texture) {
         // Faces that are left out keep the coordinates of the file. Without these, they have none.
         let bare = MeshFile { texture: None, ..self.source.clone() };
         let TexturedMesh { mesh, texture, .. } = super::charts::textured(&self.charts, &bare, self.repaired);
@@ -34,11 +40,12 @@ impl Output<'_> {
             }
             flat.corners.extend(corners.iter().map(|&corner| VertexId::new(corner)));
             if let Some(starts) = &mut flat.starts {
-                starts.push(u32::try_from(flat.corners.len()).expect("fewer corners than in the file"));
+                // There are no more corners than in the file.
+                starts.push(u32::try_from(flat.corners.len()).unwrap_or(u32::MAX));
             }
         }
         let corners = flat.corners.iter().map(|vertex| vertex.number()).collect();
-        MeshFile { texture: Some(Texture { coordinates: texture.coordinates, corners }), ..MeshFile::from(flat) }
+        (flat, Texture { coordinates: texture.coordinates, corners })
     }
 
     /// Factor by which all charts together get the area of their surfaces.
@@ -62,8 +69,8 @@ impl Output<'_> {
     ///
     /// If the file cannot be written, or coordinates are not finite; the error names the file.
     pub fn write_flat_mesh(&self, path: &Path) -> Result<(), WriteError> {
-        let mesh = self.flat_mesh();
-        let texture = mesh.texture.as_ref().expect("it has the coordinates of the layout");
+        let (polygons, texture) = self.flat_polygons();
+        let (mesh, texture) = (MeshFile::from(polygons), &texture);
         check_finite(&texture.coordinates).map_err(|source| WriteError::writing(path, source))?;
         write_atomically(path, |out| match OutputKind::of_mesh(path) {
             OutputKind::Ply => write_ply(out, &mesh, texture, Precision::F64),

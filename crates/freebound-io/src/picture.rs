@@ -1,7 +1,7 @@
 //! Pictures in: PNG and JPEG.
 
 use std::fs;
-use std::io::{BufRead, Cursor, Seek};
+use std::io::{BufRead, Cursor, Read as _, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -10,6 +10,9 @@ use image::ImageReader;
 use super::FileStamp;
 use super::gltf::pictures::picture_in;
 use freebound_core::geom::Picture;
+
+/// Number of bytes that tell glTF from a picture.
+const HEAD: u64 = 64;
 
 /// Failure to read a picture.
 #[derive(Debug, thiserror::Error)]
@@ -64,9 +67,13 @@ impl PictureFile {
     }
 }
 
+/// True for a glTF file, by its first bytes, as meshes are recognised.
 fn is_gltf(path: &Path) -> bool {
-    let extension = path.extension().unwrap_or_default();
-    ["glb", "gltf"].iter().any(|own| extension.eq_ignore_ascii_case(own))
+    let mut head = Vec::new();
+    // Only regular files are opened: reading a pipe could block for ever.
+    let file = fs::File::open(path).ok().filter(|_| path.is_file());
+    let read = file.and_then(|file| file.take(HEAD).read_to_end(&mut head).ok());
+    read.is_some() && (head.starts_with(b"glTF") || head.trim_ascii_start().starts_with(b"{"))
 }
 
 /// Decodes the bytes of a PNG or JPEG file.

@@ -29,7 +29,7 @@ pub struct CompareArguments {
     /// Pins and settings.
     #[command(flatten)]
     pub solve: SolveArguments,
-    /// Picture that u and v refer to (PNG or JPEG). Only its aspect ratio is used.
+    /// Picture that u and v refer to (PNG, JPEG, or glTF with a picture). Only its aspect ratio is used.
     #[arg(long, value_name = "FILE")]
     pub picture: Option<PathBuf>,
     /// Column to sort the table by, ascending. Default: the order of the methods.

@@ -38,7 +38,7 @@ pub struct FlattenArguments {
     /// Pins and settings.
     #[command(flatten)]
     pub solve: SolveArguments,
-    /// Map this picture (PNG or JPEG) onto the mesh.
+    /// Map this picture (PNG, JPEG, or glTF with a picture) onto the mesh.
     ///
     /// The map uses the picture's aspect ratio. The picture is copied beside the OBJ file, with a material.
     #[arg(long, value_name = "FILE")]

@@ -20,7 +20,7 @@ pub struct PackArguments {
     /// Size of the picture that the charts are packed into, in pixels. Default: 1024x1024.
     #[arg(long, value_name = "WxH", value_parser = parse_pixels)]
     pub pack: Option<UVec2>,
-    /// Take the size in pixels from this picture (PNG or JPEG). The picture itself stays unchanged.
+    /// Take the size in pixels from this picture (PNG, JPEG, or glTF with a picture). The picture itself stays unchanged.
     #[arg(long, value_name = "FILE", conflicts_with = "pack")]
     pub picture: Option<PathBuf>,
     /// Shape of the picture of the given layout, for example `2:1`. Default: that of the new picture.

@@ -39,7 +39,7 @@ pub struct BakeArguments {
     pub old: PathBuf,
     /// Mesh with the new layout, at the place and size of the old one.
     pub new: PathBuf,
-    /// Picture of the old layout (PNG or JPEG). Default: the picture of the old mesh's materials.
+    /// Picture of the old layout (PNG, JPEG, or glTF with a picture). Default: the picture of the old mesh's materials.
     #[arg(long, value_name = "FILE")]
     pub picture: Option<PathBuf>,
     /// Write the picture of the new layout to this file (PNG).

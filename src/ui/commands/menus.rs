@@ -113,7 +113,7 @@ fn edit_menu(menu: &mut MenuBuilder<'_>) {
     });
     menu.part("Select", |menu| {
         for by in SelectBy::ALL {
-            let allowed = when(editor.can_select_by(by), by.reason());
+            let allowed = when(editor.can_select_by(by), by.reason(editor.shows_page()));
             menu.explained(allowed, by.words(), Request::SelectBy(by));
         }
     });

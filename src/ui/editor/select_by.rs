@@ -18,9 +18,15 @@ impl Editor {
     /// True if this way of selecting applies to what is shown.
     pub fn can_select_by(&self, by: SelectBy) -> bool {
         if self.shows_page() {
-            return matches!(by, SelectBy::All | SelectBy::Invert | SelectBy::Pins | SelectBy::Distorted);
+            return match by {
+                SelectBy::All | SelectBy::Invert => true,
+                SelectBy::Pins | SelectBy::Distorted => {
+                    (0..self.chart_count()).any(|chart| self.is_chart_selected_by(chart, by))
+                }
+                _ => false,
+            };
         }
-        let Some(scene) = self.mesh_scene() else { return false };
+        let Some(scene) = self.mesh_scene().filter(|scene| self.is_of_session(scene)) else { return false };
         match by {
             SelectBy::Grow | SelectBy::Shrink | SelectBy::SharpEdges => !self.selection.vertices().is_empty(),
             SelectBy::Pins => !self.session.document().targets.is_empty(),
@@ -46,7 +52,8 @@ impl Editor {
     }
 
     fn vertices_selected_by(&self, by: SelectBy) -> Option<BTreeSet<VertexId>> {
-        let scene = self.mesh_scene()?;
+        // Just after a change of chart, the scene has the vertices of the chart before.
+        let scene = self.mesh_scene().filter(|scene| self.is_of_session(scene))?;
         let sets = VertexSets { positions: &scene.mesh().positions, triangles: scene.mesh().real_triangles() };
         let selected = self.selection.vertices();
         Some(match by {

@@ -149,10 +149,10 @@ fn head(ui: &mut egui::Ui, list: &mut KeyList, map: &mut KeyMap) {
     });
     let Some(KeyClash { place, shortcut, owner }) = list.clash else { return };
     ui.horizontal_wrapped(|ui| {
-        let keys = shortcut_words(ui.ctx(), &shortcut);
+        let keys = shortcut_words(ui.ctx(), shortcut);
         let words = format!("{keys} belongs to “{}”.", BINDINGS[owner].about);
         ui.colored_label(theme_of(ui).stale, words);
-        let other = shortcut_words(ui.ctx(), &map.shortcut(place));
+        let other = shortcut_words(ui.ctx(), map.shortcut(place));
         let tip = format!("“{}” gets {other}", BINDINGS[owner].about);
         // The binding that ends gestures keeps its key.
         let can_swap = is_free(owner);
@@ -174,7 +174,7 @@ fn is_free(place: usize) -> bool {
 fn group_ui(ui: &mut egui::Ui, group: Group, list: &mut KeyList, map: &KeyMap) {
     let query = list.query.clone();
     let is_shown = |keys: &str, about: &str| matches_words(&format!("{keys} {about} {}", group.title()), &query);
-    let keys = |place: usize| shortcut_words(ui.ctx(), &map.shortcut(place));
+    let keys = |place: usize| shortcut_words(ui.ctx(), map.shortcut(place));
     let mut places: Vec<usize> =
         (0..BINDINGS.len()).filter(|&place| Group::of(&(BINDINGS[place].request)()) == group).collect();
     places.retain(|&place| is_shown(&keys(place), BINDINGS[place].about));
@@ -204,7 +204,7 @@ fn group_ui(ui: &mut egui::Ui, group: Group, list: &mut KeyList, map: &KeyMap) {
 fn row(ui: &mut egui::Ui, place: usize, list: &mut KeyList, map: &KeyMap) {
     let about = BINDINGS[place].about;
     let is_listening = list.listens_for == Some(place);
-    let written = shortcut_words(ui.ctx(), &map.shortcut(place));
+    let written = shortcut_words(ui.ctx(), map.shortcut(place));
     let keys = egui::RichText::new(&written).monospace();
     let accent = theme_of(ui).accent;
     ui.label(if map.is_changed(place) { keys.color(accent).strong() } else { keys });

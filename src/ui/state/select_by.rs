@@ -34,13 +34,14 @@ impl SelectBy {
         Self::Distorted,
     ];
 
-    /// Reason why the way does not apply.
-    pub(in crate::ui) const fn reason(self) -> &'static str {
+    /// Reason why the way does not apply to vertices, or to the charts of the page.
+    pub(in crate::ui) const fn reason(self, is_on_page: bool) -> &'static str {
         match self {
-            Self::All | Self::Invert => "Open a mesh first",
+            Self::Grow | Self::Shrink | Self::SharpEdges | Self::Boundary if is_on_page => "Show one chart alone first",
             Self::Grow | Self::Shrink | Self::SharpEdges => "Select vertices of the map first",
-            Self::Boundary => "Show one chart alone first",
+            Self::All | Self::Invert | Self::Boundary => "Open a mesh first",
             Self::Pins => "There are no pins",
+            Self::Distorted if is_on_page => "No chart has an energy above 4.1",
             Self::Distorted => "There is no map yet",
         }
     }
@@ -51,7 +52,7 @@ impl SelectBy {
             Self::All => ["Select all", "All vertices, or all charts of the page"],
             Self::Invert => ["Invert the selection", "Vertices or charts that are not selected"],
             Self::Grow => ["Grow the selection", "Adds the neighbours of the selected vertices"],
-            Self::Shrink => ["Shrink the selection", "Leaves vertices that have no neighbour outside"],
+            Self::Shrink => ["Shrink the selection", "Keeps only vertices whose neighbours are all selected"],
             Self::SharpEdges => {
                 ["Select up to sharp edges", "Faces that are reached from the selection without crossing a sharp edge"]
             }

@@ -2,8 +2,8 @@
 
 use freebound_core::mesh::PolygonMesh;
 use freebound_io::{MeshFile, read_mesh};
-use freebound_testkit::many_parts::ball;
 use freebound_testkit::cubes::cube;
+use freebound_testkit::many_parts::ball;
 use freebound_testkit::{Random, assert_message, quad_sheet};
 use glam::DVec3;
 
@@ -15,8 +15,7 @@ fn area(mesh: &PolygonMesh) -> f64 {
     let of_face = |face: usize| {
         let range = mesh.corner_range(face);
         let fan = range.start + 1..range.end - 1;
-        let doubled: DVec3 =
-            fan.map(|k| (at(k) - at(range.start)).cross(at(k + 1) - at(range.start))).sum();
+        let doubled: DVec3 = fan.map(|k| (at(k) - at(range.start)).cross(at(k + 1) - at(range.start))).sum();
         doubled.length() / 2.0
     };
     (0..mesh.face_count()).map(of_face).sum()

@@ -17,6 +17,7 @@ pub(crate) mod constrained;
 pub(crate) mod endless;
 pub(crate) mod failed_runs;
 pub(crate) mod figures;
+mod flat_mesh;
 pub(crate) mod flatten;
 pub(crate) mod flatten_files;
 pub(crate) mod gltf_program;

@@ -4,18 +4,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use freebound::examples::Example;
-use freebound::session::{Action, RecentFiles, SaveRequest, Session, Severity};
+use freebound::session::{Action, BakeRequest, RecentFiles, SaveRequest, Session, Severity};
 use freebound_core::flatten::Flattener;
 use freebound_core::geom::{Picture, PictureFrame};
 use freebound_core::mesh::{PolygonMesh, VertexId};
 use freebound_core::pipeline::{Fit, Outcome, Problem, hard_targets};
 use freebound_core::problem::{Control, Settings};
-use freebound_io::{EXTENSIONS, OutputKind};
+use freebound_io::{BakeOptions, EXTENSIONS, OutputKind, Registration};
 use glam::DVec2;
 use tempfile::TempDir;
 
 use super::basics::{session, settled};
-use super::documents::{errors, words_of, write_picture};
+use super::documents::{errors, with_dome, words_of, write_picture};
 use crate::cli::program::obj_text;
 use freebound_testkit::assert_message;
 
@@ -155,4 +155,39 @@ fn what_was_open_before_may_be_written_over() {
     let path = folder.path().join("dome.obj");
     settled(&mut session, Action::Save(SaveRequest { path, kind: OutputKind::Obj, fit: Fit::Unit }));
     assert!(errors(&session).is_empty(), "{:?}", session.messages());
+}
+
+/// Session with a sheet that has a layout and a picture, and a request for a large picture of that layout.
+fn with_large_export() -> (TempDir, Session, Action) {
+    let (folder, mut session) = with_dome();
+    let at = |name: &str| folder.path().join(name);
+    settled(&mut session, Action::Save(SaveRequest { path: at("uv.obj"), kind: OutputKind::Obj, fit: Fit::Unit }));
+    settled(&mut session, Action::Open(at("uv.obj")));
+    write_picture(&at("skin.png"), 3, 2);
+    settled(&mut session, Action::OpenPicture(at("skin.png")));
+    let options = BakeOptions { pixels: [8192, 8192], margin: 1000, registration: Registration::AsTheyAre };
+    let request = Action::SaveBaked(BakeRequest { path: at("large.png"), options });
+    (folder, session, request)
+}
+
+#[test]
+fn an_export_is_cancelled_and_leaves_nothing() {
+    let (folder, mut session, request) = with_large_export();
+    session.handle(request);
+    settled(&mut session, Action::Cancel);
+    assert!(!folder.path().join("large.png").exists());
+    let message = session.messages().last().expect("a note");
+    assert!(message.text.contains("large.png") && message.severity == Severity::Note, "{message:?}");
+}
+
+#[test]
+fn a_pause_of_a_run_does_not_end_an_export() {
+    let (folder, mut session, _) = with_large_export();
+    let path = folder.path().join("small.png");
+    let options = BakeOptions { pixels: [600, 600], margin: 2, registration: Registration::AsTheyAre };
+    session.handle(Action::SaveBaked(BakeRequest { path: path.clone(), options }));
+    session.handle(Action::Solve);
+    assert!(session.is_running());
+    settled(&mut session, Action::Cancel);
+    assert!(path.exists(), "{:?}", session.messages());
 }

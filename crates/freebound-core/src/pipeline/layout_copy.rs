@@ -97,7 +97,7 @@ pub fn copy_layout(
     let search = SurfaceSearch::new(layout.mesh);
     control.go_on()?;
     let across = triangles_across(layout.mesh);
-    let sense = search.sense(mesh.face_count(), |face| (centre_of(mesh, face), normal_of(mesh, face)));
+    let sense = search.sense(mesh.face_count(), |face| (centre_of(mesh, face), area_of(mesh, face)));
     let normals = control.each(mesh.face_count(), |face| sense * normal_of(mesh, face))?;
     let near_face = |face: usize| search.nearest(centre_of(mesh, face), normals[face], None);
     let of_faces = control.each(mesh.face_count(), near_face)?;
@@ -115,6 +115,13 @@ pub fn copy_layout(
 fn centre_of(mesh: &PolygonMesh, face: usize) -> DVec3 {
     let corners = mesh.face(face);
     corners.iter().map(|vertex| mesh.positions[vertex.index()]).sum::<DVec3>() / corners.len().max(1) as f64
+}
+
+/// Area vector of a polygon, twice its area long.
+fn area_of(mesh: &PolygonMesh, face: usize) -> DVec3 {
+    let corners = mesh.face(face);
+    let at = |corner: usize| mesh.positions[corners[corner].index()];
+    (1..corners.len().max(2) - 1).map(|k| (at(k) - at(0)).cross(at(k + 1) - at(0))).sum()
 }
 
 /// Normal of a polygon; zero if it has no area.

@@ -15,6 +15,9 @@ const ROUNDING: f64 = 1e-9;
 /// Largest number of points that decide whether another surface is inside out.
 const JUDGES: usize = 4096;
 
+/// Share of the area, agreeing taken from disagreeing, from which a surface counts as inside out.
+const CLEAR: f64 = 0.5;
+
 /// Search for nearest points of a surface.
 #[derive(Clone, Debug)]
 pub struct SurfaceSearch<'a> {
@@ -48,18 +51,22 @@ impl<'a> SurfaceSearch<'a> {
 
     /// 1 if another surface has its outside where this surface has it, or -1 if it is inside out.
     ///
-    /// `oriented` gives a point of each face of the other surface, and a normal there. The mean over faces spread
-    /// evenly among the `count` faces decides. A surface whose normals cancel out counts as the right way out.
+    /// `oriented` gives a point of each face of the other surface, and its area vector. The surface counts as inside out
+    /// only if most of the area of some faces, spread evenly among the `count` faces, disagrees with the nearest
+    /// triangles: near a thin wall, faces of another level of detail may lie nearer to its other side.
     pub fn sense(&self, count: usize, oriented: impl Fn(usize) -> (DVec3, DVec3)) -> f64 {
         let agreement = |face: usize| {
-            let (point, normal) = oriented(face);
+            let (point, area) = oriented(face);
             let found = self.nearest(point, DVec3::ZERO, None)?;
-            let dot = self.normals[found.triangle as usize].dot(normal);
+            let dot = self.normals[found.triangle as usize].dot(area);
             dot.is_finite().then_some(dot)
         };
         let step = count.div_ceil(JUDGES).max(1);
-        let total: f64 = (0..count).step_by(step).filter_map(agreement).sum();
-        if total < 0.0 { -1.0 } else { 1.0 }
+        let (mut total, mut whole) = (0.0, 0.0);
+        for dot in (0..count).step_by(step).filter_map(agreement) {
+            (total, whole) = (total + dot, whole + dot.abs());
+        }
+        if total < -CLEAR * whole { -1.0 } else { 1.0 }
     }
 
     /// Nearest point of the surface. `None` if the surface has no triangle, or the point is not finite.

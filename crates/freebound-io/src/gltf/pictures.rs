@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::POSITION;
-use super::container::{Buffers, Chunks, beside, embedded};
-use super::document::Document;
-use crate::mesh_file::{MeshFile, ReadError, SourceFormat};
+use super::container::{beside, embedded};
+use super::read::parse_gltf;
+use super::scene::Scene;
+use crate::mesh_file::{Instances, MeshFile, Source, SourceFormat};
 
 /// Extension that moves a picture on its faces.
 const MOVED: &str = "KHR_texture_transform";
@@ -24,48 +24,47 @@ pub(crate) fn pictures_of(mesh: &MeshFile, path: &Path) -> Vec<PathBuf> {
     let json: Value = serde_json::from_slice(&scene.json).unwrap_or_default();
     let folder = path.parent().unwrap_or(Path::new(""));
     let file = |image| json["images"][image]["uri"].as_str().and_then(|uri| beside(uri, folder));
-    shown_images(&json).into_iter().map(|image| file(image).unwrap_or_else(|| path.to_owned())).collect()
+    shown_images(&json, scene).into_iter().map(|image| file(image).unwrap_or_else(|| path.to_owned())).collect()
 }
 
 /// Bytes of the picture with the most triangles of a glTF file. Fails with the reason as text.
 pub(crate) fn picture_in(bytes: Vec<u8>, folder: &Path) -> Result<Vec<u8>, String> {
-    let words = |error: ReadError| error.to_string();
-    let (json, binary) = Chunks::split(bytes).map_err(words)?;
-    let document = Document::of(&json).map_err(words)?;
-    let value: Value = serde_json::from_slice(&json).unwrap_or_default();
-    let first = shown_images(&value).first().copied();
-    let image = &value["images"][first.ok_or("its materials show no picture")?];
+    let mesh = parse_gltf(bytes, Some(folder), Instances::default()).map_err(|error| error.to_string())?;
+    let none = "its materials show no picture";
+    let Some(Source { format: SourceFormat::Gltf(scene), bytes, .. }) = &mesh.source else { return Err(none.into()) };
+    let json: Value = serde_json::from_slice(&scene.json).unwrap_or_default();
+    let first = shown_images(&json, scene).first().copied();
+    let image = &json["images"][first.ok_or(none)?];
+    let missing = || "its picture is missing".to_owned();
     if let Some(uri) = image["uri"].as_str() {
         // Only regular files are opened: reading a pipe could block for ever.
         let file = || fs::read(beside(uri, folder).filter(|path| path.is_file())?).ok();
-        return embedded(uri).and_then(Result::ok).or_else(file).ok_or_else(|| "its picture is missing".to_owned());
+        return embedded(uri).and_then(Result::ok).or_else(file).ok_or_else(missing);
     }
-    let buffers = Buffers::of(&document, binary, Some(folder)).map_err(words)?;
     let of_view = || {
-        let view = document.buffer_views.get(usize::try_from(image["bufferView"].as_u64()?).ok()?)?;
-        let start = buffers.starts.get(view.buffer)?.checked_add(usize::try_from(view.byte_offset).ok()?)?;
-        buffers.bytes.get(start..start.checked_add(usize::try_from(view.byte_length).ok()?)?)
+        let number = |value: &Value| usize::try_from(value.as_u64()?).ok();
+        let view = json["bufferViews"].get(number(&image["bufferView"])?)?;
+        let offset = if view["byteOffset"].is_null() { 0 } else { number(&view["byteOffset"])? };
+        let start = scene.starts.get(number(&view["buffer"])?)?.checked_add(offset)?;
+        bytes.get(start..start.checked_add(number(&view["byteLength"])?)?)
     };
-    of_view().map(<[u8]>::to_vec).ok_or_else(|| "its picture is missing".to_owned())
+    of_view().map(<[u8]>::to_vec).ok_or_else(missing)
 }
 
-/// Images that materials show, the one with the most triangles first.
-fn shown_images(json: &Value) -> Vec<usize> {
-    let list = |name: &str| json[name].as_array().map(Vec::as_slice).unwrap_or_default();
-    let mut corners_of: BTreeMap<usize, u64> = BTreeMap::new();
-    for (number, mesh) in list("meshes").iter().enumerate() {
-        let is_of_mesh = |node: &&Value| node["mesh"].as_u64() == Some(number as u64);
-        let shows = if list("nodes").is_empty() { 1 } else { list("nodes").iter().filter(is_of_mesh).count() };
-        for primitive in mesh["primitives"].as_array().into_iter().flatten() {
-            let accessor = primitive["indices"].as_u64().or_else(|| primitive["attributes"][POSITION].as_u64());
-            let count = accessor.and_then(|at| json["accessors"].get(usize::try_from(at).ok()?)?["count"].as_u64());
-            if let Some(image) = image_of(json, &primitive["material"]).filter(|_| shows > 0) {
-                *corners_of.entry(image).or_default() += count.unwrap_or(0).saturating_mul(shows as u64);
-            }
+/// Images that the read parts of a file show, the one with the most triangles first.
+fn shown_images(json: &Value, scene: &Scene) -> Vec<usize> {
+    let mut faces_of: BTreeMap<usize, usize> = BTreeMap::new();
+    let parts = &scene.shown.parts;
+    for (number, part) in parts.iter().enumerate() {
+        let end = parts.get(number + 1).map_or(scene.corners.len() / 3, |next| next.first_face);
+        let mesh = scene.shown.instances[part.instance].mesh;
+        let material = &json["meshes"][mesh]["primitives"][part.primitive]["material"];
+        if let Some(image) = image_of(json, material) {
+            *faces_of.entry(image).or_default() += end.saturating_sub(part.first_face);
         }
     }
-    let mut images: Vec<(usize, u64)> = corners_of.into_iter().collect();
-    images.sort_by_key(|&(image, corners)| (std::cmp::Reverse(corners), image));
+    let mut images: Vec<(usize, usize)> = faces_of.into_iter().collect();
+    images.sort_by_key(|&(image, faces)| (std::cmp::Reverse(faces), image));
     images.into_iter().map(|(image, _)| image).collect()
 }
 

@@ -204,6 +204,35 @@ fn both_sides_of_a_thin_wall_keep_their_charts() {
     }
 }
 
+/// Closed shell: a ball of radius 1, and within it a ball that faces inwards.
+fn shell(outer: [u32; 2], inner: [u32; 2], thickness: f64) -> TriMesh {
+    let mut mesh = ball(outer[0], outer[1]);
+    let within = inside_out(ball(inner[0], inner[1]));
+    let count = u32::try_from(mesh.vertex_count()).expect("few");
+    mesh.positions.extend(within.positions.iter().map(|p| (1.0 - thickness) * *p));
+    mesh.triangles.extend(within.triangles.iter().map(|t| t.map(|v| VertexId::new(v.number() + count))));
+    mesh
+}
+
+#[test]
+fn both_sides_of_a_thin_shell_keep_their_charts_whatever_their_numbers_of_faces() {
+    // The inner side lies on the right half of the page.
+    let place = |thickness: f64| {
+        move |p: DVec3| DVec2::new(0.2 * p.x + if p.length() < 1.0 - 0.5 * thickness { 0.75 } else { 0.25 }, p.y)
+    };
+    for (outer, inner, thickness) in
+        [([24, 14], [12, 7], 0.005), ([20, 12], [12, 7], 0.005), ([24, 14], [12, 7], 0.01), ([12, 7], [24, 14], 0.005)]
+    {
+        let layout = Layout::by_positions(shell([40, 24], [40, 24], thickness), place(thickness));
+        let new = shell(outer, inner, thickness);
+        let outer_corners = 3 * ball(outer[0], outer[1]).face_count();
+        let (copy, _) = layout.onto(&new);
+        let (of_outer, of_inner) = copy.of_corner.split_at(outer_corners);
+        let wrong = of_outer.iter().filter(|uv| uv.x > 0.5).count() + of_inner.iter().filter(|uv| uv.x < 0.5).count();
+        assert!(wrong == 0, "{outer:?} {inner:?} {thickness}: {wrong} corners of the other side");
+    }
+}
+
 #[test]
 fn an_inside_out_mesh_takes_the_nearest_side_not_the_far_one() {
     let layout = Layout::unwrapped(&ball(16, 10));
