@@ -62,6 +62,13 @@ fn busy_window() -> Window {
     window
 }
 
+fn begin_seam(window: &mut Window) {
+    window.editor_mut().tools.take_up(Tool::Seam);
+    let click = SeamClick { vertex: VertexId::new(0), erases: false };
+    window.editor_mut().handle(Request::ClickSeam(click));
+    assert_eq!(window.editor().tools.seam.last(), Some(VertexId::new(0)));
+}
+
 /// Number of vertices of the sheet that are selected after one of them was.
 fn selected_by(by: SelectBy) -> usize {
     match by {
@@ -89,10 +96,7 @@ fn shortcuts_do_what_the_table_says() {
             window.editor_mut().tools.take_up(Tool::Select);
         }
         if request == Request::EndSeam {
-            window.editor_mut().tools.take_up(Tool::Seam);
-            let click = SeamClick { vertex: VertexId::new(0), erases: false };
-            window.editor_mut().handle(Request::ClickSeam(click));
-            assert_eq!(window.editor().tools.seam.last(), Some(VertexId::new(0)));
+            begin_seam(&mut window);
         }
         window.press(binding.shortcut.modifiers, binding.shortcut.logical_key);
         let editor = window.editor();
